@@ -1,0 +1,54 @@
+#include "scene/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/error.h"
+
+namespace splatcut {
+
+Camera look_at(const glm::vec3& position, const glm::vec3& target, const glm::vec3& up, float fov_y_rad,
+               int width_px, int height_px) {
+  const glm::vec3 forward = target - position;
+  if (!(glm::length(forward) > 0)) throw Error("camera", "position and target are the same point");
+  const glm::vec3 z = glm::normalize(forward);
+  const glm::vec3 right = glm::cross(z, up);
+  if (!(glm::length(right) > 1e-6f * glm::length(up)))
+    throw Error("camera", "the up direction is zero or parallel to the view direction", "Give another --camera-up");
+  const glm::vec3 x = glm::normalize(right);
+  const glm::vec3 y = glm::cross(z, x);
+  Camera camera;
+  camera.width_px = width_px;
+  camera.height_px = height_px;
+  camera.fy_px = 0.5f * static_cast<float>(height_px) / std::tan(0.5f * fov_y_rad);
+  camera.fx_px = camera.fy_px;
+  camera.cx_px = 0.5f * static_cast<float>(width_px);
+  camera.cy_px = 0.5f * static_cast<float>(height_px);
+  camera.camera_from_world_rotation = glm::transpose(glm::mat3(x, y, z));
+  camera.camera_from_world_translation = -(camera.camera_from_world_rotation * position);
+  return camera;
+}
+
+Camera resized(const Camera& camera, int width_px, int height_px) {
+  Camera out = camera;
+  const float sx = static_cast<float>(width_px) / static_cast<float>(camera.width_px);
+  const float sy = static_cast<float>(height_px) / static_cast<float>(camera.height_px);
+  const bool same_aspect = std::abs(static_cast<float>(camera.width_px) * sy - static_cast<float>(width_px)) <= 1.0f;
+  out.width_px = width_px;
+  out.height_px = height_px;
+  out.fy_px = camera.fy_px * sy;
+  out.fx_px = camera.fx_px * (same_aspect ? sx : sy);  // another aspect shows more or less, never stretches
+  out.cy_px = camera.cy_px * sy;
+  out.cx_px = same_aspect ? camera.cx_px * sx
+                          : 0.5f * static_cast<float>(width_px) +
+                                (camera.cx_px - 0.5f * static_cast<float>(camera.width_px)) * sy;
+  return out;
+}
+
+Camera limited_to_width(const Camera& camera, int max_width_px) {
+  if (camera.width_px <= max_width_px) return camera;
+  const double s = static_cast<double>(max_width_px) / camera.width_px;
+  return resized(camera, max_width_px, std::max(1, static_cast<int>(std::lround(camera.height_px * s))));
+}
+
+}  // namespace splatcut

@@ -1,0 +1,19 @@
+// The one error type of the project: trouble with the environment (a file, an option, a context),
+// worded for the person who uses the program. Thrown where the fact is known, caught in main (and in
+// Application::apply) only. Programmer mistakes are asserts; expected outcomes are values in reports.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace splatcut {
+
+class Error : public std::runtime_error {
+ public:
+  // where: the file, option or stage. what: the fact, with property, row or byte. remedy: what the
+  // user can do about it (may be empty). Message: "where: what. remedy."
+  Error(std::string_view where, std::string_view what, std::string_view remedy = {});
+};
+
+}  // namespace splatcut

@@ -1,0 +1,48 @@
+// The immutable scene: N anisotropic Gaussians as a structure of arrays, in Morton order.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <span>
+#include <vector>
+
+namespace splatcut {
+
+// SH coefficients per channel beyond the constant one: 0, 3, 8, 15 for degree 0..3.
+constexpr int sh_rest_coefficients(int degree) { return (degree + 1) * (degree + 1) - 1; }
+
+struct GaussianCloud {
+  std::vector<glm::vec3> position;   // world, scene units, finite
+  std::vector<glm::vec3> scale;      // standard deviations along the local axes, scene units, >= 0 (linear)
+  std::vector<glm::quat> rotation;   // world from local, unit length
+  std::vector<float> opacity;        // [0, 1]
+  std::vector<glm::vec3> f_dc;       // constant SH coefficient; base colour = 0.5 + 0.28209479 f_dc
+  std::vector<float> sh_rest;        // per Gaussian 3 * sh_rest_coefficients values, channel-major as in .ply:
+                                     // all of red, then green, then blue
+  int sh_degree = 0;                 // 0..3
+  std::vector<std::uint32_t> file_row;  // row of each Gaussian in the file it came from
+
+  std::size_t size() const { return position.size(); }
+  bool empty() const { return position.empty(); }
+  std::size_t sh_stride() const { return 3 * static_cast<std::size_t>(sh_rest_coefficients(sh_degree)); }
+  std::span<const float> sh_rest_of(std::size_t g) const {
+    return std::span(sh_rest).subspan(g * sh_stride(), sh_stride());
+  }
+  void resize(std::size_t n, int degree);
+};
+
+// The Gaussians order[0], order[1], ... of cloud, all attributes.
+GaussianCloud permuted(const GaussianCloud& cloud, std::span<const std::uint32_t> order);
+
+// Axis-aligned box that holds the fraction `inside` of the positions in each axis: outlier splats
+// cannot blow it up.
+struct Box {
+  glm::vec3 min{0}, max{0};
+  glm::vec3 centre() const { return 0.5f * (min + max); }
+  glm::vec3 extent() const { return max - min; }
+};
+Box robust_bounds(std::span<const glm::vec3> positions, double inside = 0.98);
+
+}  // namespace splatcut
