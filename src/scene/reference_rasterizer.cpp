@@ -56,7 +56,7 @@ RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camer
       float transmittance = 1, weighted_depth = 0;
       glm::vec3 colour(0);
       for (const DepthSplat& s : splats) {
-        const float alpha = alpha_at(s.splat, cloud.opacity[s.gaussian], {x + 0.5f, y + 0.5f});
+        const float alpha = alpha_at(s.splat, cloud.opacity[s.gaussian], {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
         if (!(alpha >= kAlphaMin)) continue;
         const float weight = alpha * transmittance;
         colour += weight * s.colour;

@@ -1,0 +1,22 @@
+# Sourced by run.sh and test.sh: installs what is missing of apt-packages.txt, then builds release.
+# Expects `root`, the project's folder.
+
+install_missing_packages() {
+  local missing=() package
+  while read -r package; do
+    dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+  done < <(grep -v '^#' "$root/third_party/apt-packages.txt")
+  [ ${#missing[@]} -eq 0 ] && return
+  echo "Installing with apt-get: ${missing[*]}"
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || { echo "These packages need root: run this as root or install sudo." >&2; exit 1; }
+    as_root=(sudo)
+  fi
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+build_release() {
+  (cd "$root" && cmake --preset release >/dev/null && cmake --build --preset release -- "$@")
+}
