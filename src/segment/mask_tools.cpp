@@ -1,0 +1,120 @@
+#include "segment/mask_tools.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "scene/rasterizer.h"
+#include "segment/cv_image.h"
+
+namespace splatcut {
+
+namespace {
+
+cv::Mat disc(int radius_px) {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius_px + 1, 2 * radius_px + 1});
+}
+
+Mask border_band(const Mask& mask) {
+  const double diagonal = std::hypot(mask.width(), mask.height());
+  const Image<float> depth = distance_inside(mask);
+  Mask band(mask.width(), mask.height());
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    band.pixels()[i] = mask.pixels()[i] && depth.pixels()[i] <= 0.02 * diagonal ? kMaskObject : 0;
+  return band;
+}
+
+}  // namespace
+
+std::size_t count(const Mask& mask) {
+  return static_cast<std::size_t>(std::ranges::count_if(mask.pixels(), [](std::uint8_t m) { return m != 0; }));
+}
+
+double iou(const Mask& a, const Mask& b) {
+  assert(a.width() == b.width() && a.height() == b.height());
+  std::size_t both = 0, either = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    both += a.pixels()[i] && b.pixels()[i];
+    either += a.pixels()[i] || b.pixels()[i];
+  }
+  return either ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
+}
+
+double pixel_accuracy(const Mask& a, const Mask& b) {
+  std::size_t equal = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) equal += !a.pixels()[i] == !b.pixels()[i];
+  return a.empty() ? 1.0 : static_cast<double>(equal) / static_cast<double>(a.size());
+}
+
+double boundary_iou(const Mask& a, const Mask& b) { return iou(border_band(a), border_band(b)); }
+
+Mask dilated(const Mask& mask, int radius_px) {
+  Mask out(mask.width(), mask.height());
+  cv::Mat to = as_mat(out);
+  cv::dilate(as_const_mat(mask), to, disc(radius_px));
+  return out;
+}
+
+Mask eroded(const Mask& mask, int radius_px) {
+  Mask out(mask.width(), mask.height());
+  cv::Mat to = as_mat(out);
+  cv::erode(as_const_mat(mask), to, disc(radius_px));
+  return out;
+}
+
+PixelRect bounds(const Mask& mask) {
+  PixelRect r{mask.width(), mask.height(), 0, 0};
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x)
+      if (mask.at(x, y)) r = {std::min(r.x0, x), std::min(r.y0, y), std::max(r.x1, x + 1), std::max(r.y1, y + 1)};
+  return r.empty() ? PixelRect{} : r;
+}
+
+PixelRect grown(const PixelRect& rect, int margin_px, int width, int height) {
+  return {std::max(0, rect.x0 - margin_px), std::max(0, rect.y0 - margin_px), std::min(width, rect.x1 + margin_px),
+          std::min(height, rect.y1 + margin_px)};
+}
+
+Image<float> distance_inside(const Mask& mask) {
+  cv::Mat framed, distance;
+  cv::copyMakeBorder(as_const_mat(mask), framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
+  cv::distanceTransform(framed, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  Image<float> out(mask.width(), mask.height());
+  distance(cv::Rect(1, 1, mask.width(), mask.height())).copyTo(as_mat(out));
+  return out;
+}
+
+Mask largest_region(const Mask& mask) {
+  cv::Mat region, statistics, centroids;
+  const int regions = cv::connectedComponentsWithStats(as_const_mat(mask), region, statistics, centroids, 8);
+  int best = 0;
+  for (int r = 1; r < regions; ++r)
+    if (best == 0 || statistics.at<int>(r, cv::CC_STAT_AREA) > statistics.at<int>(best, cv::CC_STAT_AREA)) best = r;
+  Mask out(mask.width(), mask.height());
+  if (best == 0) return out;
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x) out.at(x, y) = region.at<int>(y, x) == best ? kMaskObject : 0;
+  return out;
+}
+
+Image<float> render_labels(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> labels,
+                           const Job& job) {
+  std::vector<glm::vec3> white(cloud.size());
+  for (std::size_t g = 0; g < cloud.size(); ++g) white[g] = glm::vec3(labels[g] ? 1.0f : 0.0f);
+  RasterOptions options;
+  options.colour_override = white;
+  const RasterOutput picture = rasterize(cloud, camera, options, job);
+  Image<float> share(camera.width_px, camera.height_px);
+  std::ranges::transform(picture.colour.pixels(), share.pixels().begin(), [](const glm::vec3& c) { return c.r; });
+  return share;
+}
+
+Mask thresholded(const Image<float>& image, float threshold) {
+  Mask mask(image.width(), image.height());
+  std::ranges::transform(image.pixels(), mask.pixels().begin(),
+                         [&](float v) { return v >= threshold ? kMaskObject : std::uint8_t{0}; });
+  return mask;
+}
+
+}  // namespace splatcut

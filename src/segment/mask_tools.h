@@ -1,0 +1,38 @@
+// Measures and morphology of masks.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "scene/camera.h"
+#include "scene/gaussian_cloud.h"
+#include "scene/image.h"
+#include "scene/job.h"
+
+namespace splatcut {
+
+std::size_t count(const Mask& mask);
+double iou(const Mask& a, const Mask& b);             // 1 where both are empty
+double pixel_accuracy(const Mask& a, const Mask& b);  // share of equal pixels
+// IoU of the bands within 2 % of the diagonal of each mask's border (Cheng et al., Boundary IoU, 2021).
+double boundary_iou(const Mask& a, const Mask& b);
+
+Mask dilated(const Mask& mask, int radius_px);
+Mask eroded(const Mask& mask, int radius_px);
+PixelRect bounds(const Mask& mask);  // empty where the mask is
+PixelRect grown(const PixelRect& rect, int margin_px, int width, int height);  // clipped to the picture
+
+// Distance of each object pixel to the nearest other pixel or to the frame, px.
+Image<float> distance_inside(const Mask& mask);
+
+// The largest 8-connected region.
+Mask largest_region(const Mask& mask);
+
+// Object white, everything else black and occluding; the share of white, before a threshold.
+Image<float> render_labels(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> labels,
+                           const Job& job = {});
+Mask thresholded(const Image<float>& image, float threshold);
+
+}  // namespace splatcut
