@@ -1,0 +1,145 @@
+#include "segment/first_mask.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <queue>
+
+#include "scene/error.h"
+#include "segment/cv_image.h"
+#include "segment/mask_tools.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr float kFar = std::numeric_limits<float>::infinity();
+
+cv::Mat lab_of(const Image<Rgb8>& picture) {
+  cv::Mat scaled_rgb, lab;
+  as_const_mat(picture).convertTo(scaled_rgb, CV_32FC3, 1.0 / 255);
+  cv::cvtColor(scaled_rgb, lab, cv::COLOR_RGB2Lab);
+  cv::GaussianBlur(lab, lab, {3, 3}, 0.8);  // splat texture is noise to a geodesic
+  return lab;
+}
+
+struct GeodesicCost {
+  const cv::Mat& lab;
+  const Image<float>& depth;
+  const FirstMaskOptions& options;
+
+  float operator()(int x0, int y0, int x1, int y1) const {
+    const auto& a = lab.at<cv::Vec3f>(y0, x0);
+    const auto& b = lab.at<cv::Vec3f>(y1, x1);
+    const float colour = static_cast<float>(cv::norm(a - b));
+    const float z0 = depth.at(x0, y0), z1 = depth.at(x1, y1);
+    const float jump = std::min(1.0f, std::abs(z0 - z1) / std::max(1e-6f, std::min(z0, z1)));
+    const float length = x0 != x1 && y0 != y1 ? 1.4142136f : 1.0f;
+    return colour + options.depth_weight * jump + options.length_weight * length;
+  }
+};
+
+Image<float> geodesic_distance(const Image<float>& start, const GeodesicCost& cost) {
+  using Item = std::pair<float, int>;
+  Image<float> distance = start;
+  std::priority_queue<Item, std::vector<Item>, std::greater<>> open;
+  for (int i = 0; i < static_cast<int>(start.size()); ++i)
+    if (start.pixels()[i] < kFar) open.push({start.pixels()[i], i});
+  while (!open.empty()) {
+    const auto [d, i] = open.top();
+    open.pop();
+    if (d > distance.pixels()[i]) continue;
+    const int x = i % start.width(), y = i / start.width();
+    for (int ny = y - 1; ny <= y + 1; ++ny)
+      for (int nx = x - 1; nx <= x + 1; ++nx) {
+        if (!start.contains(nx, ny)) continue;
+        const float next = d + cost(x, y, nx, ny);
+        if (next >= distance.at(nx, ny)) continue;
+        distance.at(nx, ny) = next;
+        open.push({next, ny * start.width() + nx});
+      }
+  }
+  return distance;
+}
+
+Image<float> sources(const Image<std::uint8_t>& seeds, std::uint8_t label, bool with_frame) {
+  Image<float> start(seeds.width(), seeds.height(), kFar);
+  for (int y = 0; y < seeds.height(); ++y)
+    for (int x = 0; x < seeds.width(); ++x) {
+      const bool frame = x == 0 || y == 0 || x == seeds.width() - 1 || y == seeds.height() - 1;
+      if (seeds.at(x, y) == label || (with_frame && frame && seeds.at(x, y) == kNoSeed)) start.at(x, y) = 0;
+    }
+  return start;
+}
+
+Mask geodesic_prior(const Image<Rgb8>& picture, const Image<float>& depth, const Image<std::uint8_t>& seeds,
+                    const FirstMaskOptions& options) {
+  const cv::Mat lab = lab_of(picture);
+  const GeodesicCost cost{lab, depth, options};
+  const Image<float> to_object = geodesic_distance(sources(seeds, kObjectSeed, false), cost);
+  const Image<float> to_rest = geodesic_distance(sources(seeds, kRestSeed, true), cost);
+  Mask prior(seeds.width(), seeds.height());
+  for (std::size_t i = 0; i < prior.size(); ++i)
+    prior.pixels()[i] = to_object.pixels()[i] <= to_rest.pixels()[i] ? kMaskObject : 0;
+  return prior;
+}
+
+// Regions of the mask that hold an object stroke.
+Mask joined_to_strokes(const Mask& mask, const Image<std::uint8_t>& seeds) {
+  cv::Mat region;
+  const int regions = cv::connectedComponents(as_const_mat(mask), region, 8);
+  std::vector<std::uint8_t> keep(static_cast<std::size_t>(regions), 0);
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x)
+      if (mask.at(x, y) && seeds.at(x, y) == kObjectSeed) keep[region.at<int>(y, x)] = kMaskObject;
+  Mask out(mask.width(), mask.height());
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x) out.at(x, y) = mask.at(x, y) ? keep[region.at<int>(y, x)] : 0;
+  return out;
+}
+
+}  // namespace
+
+Mask refine_mask(const Image<Rgb8>& picture, const Mask& prior, int band_px, int iterations,
+                 const Image<std::uint8_t>& seeds) {
+  const PixelRect object = bounds(prior);
+  if (object.empty() || iterations == 0) return prior;
+  const PixelRect rect = grown(object, 2 * band_px + 4, prior.width(), prior.height());
+  Mask trimap(prior.width(), prior.height());
+  const Mask core = eroded(prior, band_px), reach = dilated(prior, band_px);
+  std::size_t object_pixels = 0, rest_pixels = 0;
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      std::uint8_t& t = trimap.at(x, y);
+      t = core.at(x, y) ? cv::GC_FGD : !reach.at(x, y) ? cv::GC_BGD : prior.at(x, y) ? cv::GC_PR_FGD : cv::GC_PR_BGD;
+      if (!seeds.empty() && seeds.at(x, y) != kNoSeed) t = seeds.at(x, y) == kObjectSeed ? cv::GC_FGD : cv::GC_BGD;
+      (t == cv::GC_FGD || t == cv::GC_PR_FGD ? object_pixels : rest_pixels)++;
+    }
+  constexpr std::size_t kMixtureComponents = 5;  // OpenCV's k-means asserts below this many samples
+  if (object_pixels < 2 * kMixtureComponents || rest_pixels < 2 * kMixtureComponents) return prior;
+  cv::Mat inside_picture = as_const_mat(picture)(as_rect(rect)), labels = as_mat(trimap)(as_rect(rect)).clone();
+  cv::Mat background_model, object_model;
+  cv::setRNGSeed(1);  // grabCut's k-means draws from a global generator
+  cv::grabCut(inside_picture, labels, {}, background_model, object_model, iterations, cv::GC_INIT_WITH_MASK);
+  Mask out(prior.width(), prior.height());
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x)
+      out.at(x, y) = labels.at<std::uint8_t>(y - rect.y0, x - rect.x0) & 1 ? kMaskObject : 0;  // FGD, PR_FGD are odd
+  return out;
+}
+
+Mask first_mask(const Image<Rgb8>& picture, const Image<float>& depth, const Strokes& strokes,
+                const FirstMaskOptions& options, const Job& job) {
+  const Image<std::uint8_t> seeds = draw_seeds(strokes, picture.width(), picture.height());
+  if (std::ranges::none_of(seeds.pixels(), [](std::uint8_t s) { return s == kObjectSeed; }))
+    throw Error("strokes", "none of them marks the object inside the picture", "Click the object at least once");
+  const Mask prior = geodesic_prior(picture, depth, seeds, options);
+  if (job.cancelled()) return prior;
+  const double size = std::sqrt(static_cast<double>(count(prior)));
+  const int band = std::max(2, static_cast<int>(0.06 * size));
+  return joined_to_strokes(refine_mask(picture, prior, band, options.grabcut_iterations, seeds), seeds);
+}
+
+}  // namespace splatcut
