@@ -1,0 +1,251 @@
+#include "segment/pipeline.h"
+
+#include <algorithm>
+
+#include "scene/error.h"
+#include "scene/png_file.h"
+#include "scene/rasterizer.h"
+#include "segment/knn_graph.h"
+#include "segment/likelihood.h"
+#include "segment/mask_tools.h"
+#include "segment/stage_clock.h"
+
+namespace splatcut {
+
+namespace {
+
+struct Picture {
+  Image<Rgb8> rgb;
+  Image<float> depth;
+};
+
+Picture render(const GaussianCloud& cloud, const Camera& camera, const Job& job) {
+  RasterOptions options;
+  options.depth = true;
+  const RasterOutput out = rasterize(cloud, camera, options, job);
+  return {rgb8_from_linear(out.colour), out.expected_depth};
+}
+
+void accumulate(const GaussianCloud& cloud, const Camera& camera, const Mask& mask, const Job& job, MaskedSums* sums) {
+  RasterOptions options;
+  options.colour = false;
+  options.sum_mask = &mask;
+  options.sums = sums;
+  rasterize(cloud, camera, options, job);
+}
+
+Mask resized_mask(const Mask& mask, int width, int height) {
+  Mask out(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      out.at(x, y) = mask.at(static_cast<int>((x + 0.5) * mask.width() / width), static_cast<int>((y + 0.5) * mask.height() / height));
+  return out;
+}
+
+// One run: what the stages share.
+class Run {
+ public:
+  Run(const GaussianCloud& cloud, const FlowGraph& graph, const PipelineOptions& options, const Job& job,
+      PipelineReport* report)
+      : cloud_(cloud), graph_(graph), options_(options), job_(job), report_(*report), clock_(&report->stages),
+        sums_(cloud.size()) {}
+
+  void reference_view(const Camera& full, const Strokes& strokes);
+  void other_views(const std::vector<Camera>& cameras);
+  void settle();
+
+ private:
+  void solve();
+  void add_view(const Camera& camera);
+  Mask labels_in(const Camera& camera);
+  double share_visible(const Camera& camera, const Mask& seen);
+  Mask with_feedback(const Camera& camera, const Picture& picture, const Mask& mask, const Strokes& strokes);
+  void use(ViewReport view);
+  void measure_agreement();
+
+  const GaussianCloud& cloud_;
+  const FlowGraph& graph_;
+  const PipelineOptions& options_;
+  const Job& job_;
+  PipelineReport& report_;
+  StageClock clock_;
+  MaskedSums sums_;
+  int used_views_ = 0;
+};
+
+void Run::solve() {
+  clock_.time("cut", [&] {
+    const Camera& view = report_.views.front().camera;
+    report_.cut = cut_object(cloud_, graph_, likelihood(sums_), used_views_,
+                             static_cast<double>(view.width_px) * view.height_px, {}, {}, options_.cut, job_);
+    report_.labels = report_.cut.labels;
+  });
+}
+
+Mask Run::labels_in(const Camera& camera) {
+  return clock_.time("labels in views", [&] { return thresholded(render_labels(cloud_, camera, report_.labels, job_), 0.5f); });
+}
+
+void Run::use(ViewReport view) {
+  view.used = true;
+  clock_.time("likelihood", [&] { accumulate(cloud_, view.camera, view.mask, job_, &sums_); });
+  ++used_views_;
+  report_.views.push_back(std::move(view));
+}
+
+Mask Run::with_feedback(const Camera& camera, const Picture& picture, const Mask& mask, const Strokes& strokes) {
+  ViewReport view{camera, mask, true, 0, {}};
+  use(view);
+  solve();
+  const Mask seen = labels_in(camera);
+  report_.views.clear();
+  sums_ = MaskedSums(cloud_.size());
+  used_views_ = 0;
+  constexpr double kSaneChange = 0.5;  // a cut that keeps less than this of the mask is no correction
+  if (iou(seen, mask) < kSaneChange) return mask;
+  const Image<std::uint8_t> seeds = draw_seeds(strokes, camera.width_px, camera.height_px);
+  return clock_.time("first mask", [&] { return refine_mask(picture.rgb, seen, 2, options_.refine_iterations, seeds); });
+}
+
+void Run::reference_view(const Camera& full, const Strokes& strokes) {
+  const Camera camera = limited_to_width(full, options_.work_width_px);
+  const Picture picture = clock_.time("view", [&] { return render(cloud_, camera, job_); });
+  Mask mask;
+  if (options_.given_first_mask) {
+    mask = resized_mask(*options_.given_first_mask, camera.width_px, camera.height_px);
+  } else {
+    const Strokes here = scaled(strokes, static_cast<float>(camera.width_px) / static_cast<float>(full.width_px));
+    mask = clock_.time("first mask", [&] { return first_mask(picture.rgb, picture.depth, here, options_.first_mask, job_); });
+    if (options_.feedback && count(mask) > 0 && !job_.cancelled()) mask = with_feedback(camera, picture, mask, here);
+  }
+  use({camera, mask, true, 0, {}});
+  if (count(mask) > 0) solve();
+}
+
+// The object's pixels that the scene leaves visible, as a share of what it would show alone.
+double Run::share_visible(const Camera& camera, const Mask& seen) {
+  const std::size_t alone = clock_.time("labels in views", [&] {
+    RasterOptions options;
+    options.colour = false;
+    options.shown = report_.labels;
+    return count(thresholded(rasterize(cloud_, camera, options, job_).alpha, 0.5f));
+  });
+  return alone ? static_cast<double>(count(seen)) / static_cast<double>(alone) : 0.0;
+}
+
+void Run::add_view(const Camera& full) {
+  const Camera camera = limited_to_width(full, options_.work_width_px);
+  ViewReport view{camera, Mask(camera.width_px, camera.height_px), false, 0, {}};
+  if (options_.given_masks) {
+    view.mask = options_.given_masks(camera);
+    return use(std::move(view));
+  }
+  const Mask seen = labels_in(camera);
+  constexpr double kHidden = 0.2;
+  if (share_visible(camera, seen) < kHidden) {
+    view.reason = "the object is hidden here";
+    report_.views.push_back(std::move(view));
+    return;
+  }
+  const Picture picture = clock_.time("view", [&] { return render(cloud_, camera, job_); });
+  constexpr int kBandPx = 2;  // the labels are right up to about two pixels of the border
+  view.mask = clock_.time("masks", [&] { return refine_mask(picture.rgb, seen, kBandPx, options_.refine_iterations); });
+  use(std::move(view));
+  solve();
+}
+
+void Run::other_views(const std::vector<Camera>& cameras) {
+  for (std::size_t i = 0; i < cameras.size() && !job_.cancelled(); ++i) {
+    job_.progress("views", static_cast<double>(i) / static_cast<double>(cameras.size()));
+    add_view(cameras[i]);
+  }
+}
+
+void Run::measure_agreement() {
+  for (ViewReport& view : report_.views)
+    if (view.used) view.confidence = iou(view.mask, labels_in(view.camera));
+}
+
+// Solves with all views, then once more without those that disagree, unless most do.
+void Run::settle() {
+  solve();
+  measure_agreement();
+  const auto disagrees = [&](const ViewReport& v) { return v.used && v.confidence < options_.view_agreement; };
+  const auto bad = std::ranges::count_if(report_.views, disagrees);
+  if (bad == 0 || 2 * bad >= used_views_) return;
+  sums_ = MaskedSums(cloud_.size());
+  used_views_ = 0;
+  for (ViewReport& view : report_.views) {
+    if (disagrees(view)) {
+      view.used = false;
+      view.reason = "its mask disagrees with the others";
+    }
+    if (!view.used) continue;
+    clock_.time("likelihood", [&] { accumulate(cloud_, view.camera, view.mask, job_, &sums_); });
+    ++used_views_;
+  }
+  solve();
+  measure_agreement();
+}
+
+}  // namespace
+
+PipelineOptions preset(const std::string& name) {
+  PipelineOptions options;
+  if (name == "default") return options;
+  if (name == "fast") {
+    options.orbit.views = 4;
+    options.work_width_px = 256;
+  } else if (name == "best") {
+    options.orbit.views = 20;
+    options.work_width_px = 512;
+  } else if (name == "paper") {
+    options.orbit.views = 40;
+    options.cut.energy = paper_energy();
+  } else {
+    throw Error("--preset " + name, "there is no such preset", "Take fast, default, best or paper");
+  }
+  return options;
+}
+
+PipelineReport cut_out(const GaussianCloud& cloud, const FlowGraph* graph, const Camera& reference,
+                       const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options, const Job& job) {
+  PipelineReport report;
+  FlowGraph built;
+  if (!graph) {
+    StageClock(&report.stages).time("graph", [&] { built = knn_graph(cloud, {options.neighbours}, job); });
+    graph = &built;
+  }
+  Run run(cloud, *graph, options, job, &report);
+  const auto cancelled = [&] {
+    if (job.cancelled()) report.outcome = Outcome::kCancelled;
+    return job.cancelled();
+  };
+  if (cancelled()) return report;
+  run.reference_view(reference, strokes);
+  if (cancelled()) return report;
+  if (std::ranges::none_of(report.labels, [](std::uint8_t l) { return l != 0; })) {
+    report.outcome = Outcome::kNothingFound;
+    report.reason = "the strokes mark nothing that stands out in this view; click on the object itself, or scribble";
+    report.labels.assign(cloud.size(), 0);
+    return report;
+  }
+  const std::vector<Camera> cameras =
+      options.view_cameras.empty() ? orbit_cameras(reference, up_world, object_extent(cloud, report.labels), options.orbit)
+                                   : options.view_cameras;
+  run.other_views(cameras);
+  if (cancelled()) return report;
+  run.settle();
+  cancelled();
+  return report;
+}
+
+Mask first_mask_of(const GaussianCloud& cloud, const FlowGraph& graph, const Camera& reference, const Strokes& strokes,
+                   const PipelineOptions& options, const Job& job) {
+  PipelineReport report;
+  Run run(cloud, graph, options, job, &report);
+  run.reference_view(reference, strokes);
+  return report.views.front().mask;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,80 @@
+// From a scene and strokes in one view to a label per Gaussian: the stages of ARCHITECTURE.md, 4 to 9.
+//
+// In: cloud, reference camera, strokes in the reference's pixels (or a mask of it).
+// Out: labels (1 = object), the views used with their masks, likelihood, energy, milliseconds per stage.
+// Source: Jain et al., GaussianCut, NeurIPS 2024; the propagator is ours: labels of a 3D cut rendered into
+// the next view are its prior, GrabCut settles the border.
+// Errors: Error for strokes that mark nothing. Expected outcomes (nothing found, cancelled) are in `outcome`.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/camera.h"
+#include "scene/gaussian_cloud.h"
+#include "scene/image.h"
+#include "scene/job.h"
+#include "segment/cut.h"
+#include "segment/first_mask.h"
+#include "segment/orbit.h"
+#include "segment/seeds.h"
+
+namespace splatcut {
+
+// Gives the mask of a view in place of the pipeline's own (truth in experiments, masks of other tools).
+using MaskSource = std::function<Mask(const Camera&)>;
+
+struct PipelineOptions {
+  int work_width_px = 400;           // views are rendered no wider than this
+  OrbitOptions orbit;
+  std::vector<Camera> view_cameras;  // empty: orbit
+  int neighbours = 10;               // k of the graph
+  FirstMaskOptions first_mask;
+  bool feedback = true;              // cut from the one view in 3D, rendered back, corrects the first mask
+  int refine_iterations = 1;         // GrabCut in orbit views; 0 takes the rendered labels as they are
+  double view_agreement = 0.6;       // views whose mask agrees less with the solution are left out
+  CutOptions cut;
+  std::optional<Mask> given_first_mask;  // size of the reference camera
+  MaskSource given_masks;                // of every orbit view
+};
+
+// Settings by name: fast (no orbit views), default, best, paper (GaussianCut's literal energy and counts).
+// Throws Error for any other name.
+PipelineOptions preset(const std::string& name);
+
+struct ViewReport {
+  Camera camera;
+  Mask mask;
+  bool used = false;
+  double confidence = 0;   // IoU of the mask and the final labels seen in this view
+  std::string reason;      // why it was left out
+};
+
+struct StageTime {
+  std::string name;
+  double ms = 0;
+};
+
+enum class Outcome { kDone, kNothingFound, kCancelled };
+
+struct PipelineReport {
+  Outcome outcome = Outcome::kDone;
+  std::string reason;                // for kNothingFound
+  std::vector<std::uint8_t> labels;  // per Gaussian of the cloud, 1 = object
+  CutReport cut;
+  std::vector<ViewReport> views;     // the reference first
+  std::vector<StageTime> stages;     // in order, same names added up
+};
+
+// `graph` may be null: it is then built here. up_world: which way is up, for the orbit.
+PipelineReport cut_out(const GaussianCloud& cloud, const FlowGraph* graph, const Camera& reference,
+                       const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options,
+                       const Job& job = {});
+
+// The first mask alone (after feedback), in the size of limited_to_width(reference, work_width_px).
+Mask first_mask_of(const GaussianCloud& cloud, const FlowGraph& graph, const Camera& reference, const Strokes& strokes,
+                   const PipelineOptions& options, const Job& job = {});
+
+}  // namespace splatcut
