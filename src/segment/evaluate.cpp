@@ -1,0 +1,132 @@
+#include "segment/evaluate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+#include "scene/error.h"
+#include "segment/mask_tools.h"
+#include "segment/robot_user.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr double kLeastTruthShare = 0.001;
+
+Mask picture_of(const GaussianCloud& cloud, const Camera& camera, const std::vector<std::uint8_t>& labels) {
+  return thresholded(render_labels(cloud, camera, labels), 0.5f);
+}
+
+double label_iou(const std::vector<std::uint8_t>& truth, const std::vector<std::uint8_t>& labels) {
+  std::size_t both = 0, either = 0;
+  for (std::size_t g = 0; g < truth.size(); ++g) {
+    both += truth[g] && labels[g];
+    either += truth[g] || labels[g];
+  }
+  return either ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
+}
+
+struct ImageScore {
+  double iou = 0, accuracy = 0, boundary = 0;
+};
+
+ImageScore score_images(const EvaluationCase& scene, const std::vector<std::uint8_t>& labels) {
+  ImageScore sum;
+  int views = 0;
+  for (std::size_t v = 0; v < scene.test_views.size(); ++v) {
+    const Mask& truth = scene.truth_masks[v];
+    if (static_cast<double>(count(truth)) < kLeastTruthShare * static_cast<double>(truth.size())) continue;
+    const Mask seen = picture_of(*scene.cloud, scene.test_views[v], labels);
+    sum.iou += iou(truth, seen);
+    sum.accuracy += pixel_accuracy(truth, seen);
+    sum.boundary += boundary_iou(truth, seen);
+    ++views;
+  }
+  if (views == 0) throw Error(scene.name, "the truth shows in none of its test views");
+  return {sum.iou / views, sum.accuracy / views, sum.boundary / views};
+}
+
+// The robot works on the mask's own picture size; strokes come back in the reference's pixels.
+struct RobotSession {
+  Strokes strokes;                       // in reference pixels, one more per step
+  std::vector<double> iou_after;         // of the mask after each click
+};
+
+RobotSession robot_session(const EvaluationCase& scene, const EvaluationOptions& options, int clicks, const Job& job) {
+  const Camera work = limited_to_width(scene.reference, options.pipeline.work_width_px);
+  const float to_reference = static_cast<float>(scene.reference.width_px) / static_cast<float>(work.width_px);
+  const Mask truth = picture_of(*scene.cloud, work, scene.truth_labels);
+  Mask mask(work.width_px, work.height_px);
+  RobotSession session;
+  for (int i = 0; i < clicks && !job.cancelled(); ++i) {
+    if (const auto next = robot_click(truth, mask)) {
+      const Strokes scaled_click = scaled({*next}, to_reference);
+      session.strokes.push_back(scaled_click.front());
+      mask = first_mask_of(*scene.cloud, *scene.graph, scene.reference, session.strokes, options.pipeline, job);
+    }
+    session.iou_after.push_back(iou(truth, mask));
+  }
+  return session;
+}
+
+int clicks_to(const std::vector<double>& iou_after, double goal) {
+  const auto reached = std::ranges::find_if(iou_after, [&](double v) { return v >= goal; });
+  return reached == iou_after.end() ? kClicksNotReached : static_cast<int>(reached - iou_after.begin()) + 1;
+}
+
+Strokes first_strokes(const Strokes& strokes, int n) {
+  return {strokes.begin(), strokes.begin() + std::min<std::ptrdiff_t>(n, std::ssize(strokes))};
+}
+
+PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& options, const Strokes& strokes, const Job& job) {
+  PipelineOptions pipeline = options.pipeline;
+  if (options.truth_first_mask) {
+    if (!scene.reference_truth) throw Error(scene.name, "--first-mask truth needs the truth of the reference view");
+    pipeline.given_first_mask = scene.reference_truth;
+  }
+  if (options.truth_masks) {
+    if (scene.truth_labels.empty()) throw Error(scene.name, "--masks truth needs truth labels");
+    pipeline.given_masks = [&scene](const Camera& camera) { return picture_of(*scene.cloud, camera, scene.truth_labels); };
+  }
+  return cut_out(*scene.cloud, scene.graph, scene.reference, scene.up_world, strokes, pipeline, job);
+}
+
+}  // namespace
+
+void render_truth(EvaluationCase* scene) {
+  scene->truth_masks.clear();
+  for (const Camera& view : scene->test_views) scene->truth_masks.push_back(picture_of(*scene->cloud, view, scene->truth_labels));
+  scene->reference_truth = picture_of(*scene->cloud, scene->reference, scene->truth_labels);
+}
+
+SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& options, const Job& job) {
+  SceneScore score;
+  score.name = scene.name;
+  Strokes strokes = scene.clicks;
+  if (strokes.empty() && !options.truth_first_mask) {
+    const RobotSession robot =
+        robot_session(scene, options, options.click_curve ? std::max(kRobotClicks, options.clicks) : options.clicks, job);
+    strokes = robot.strokes;
+    score.mask_iou_after_clicks = robot.iou_after;
+    if (options.click_curve) {
+      score.noc85 = clicks_to(robot.iou_after, 0.85);
+      score.noc90 = clicks_to(robot.iou_after, 0.90);
+    }
+  }
+  if (options.click_curve && !options.truth_first_mask)
+    for (const int n : {1, 3, 5})
+      score.image_iou_after_clicks[n] = score_images(scene, cut_with(scene, options, first_strokes(strokes, n), job).labels).iou;
+  const auto start = std::chrono::steady_clock::now();
+  const PipelineReport report = cut_with(scene, options, first_strokes(strokes, options.clicks), job);
+  score.total_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  score.stages = report.stages;
+  const ImageScore images = score_images(scene, report.labels);
+  score.image_iou = images.iou;
+  score.accuracy = images.accuracy;
+  score.boundary_iou = images.boundary;
+  if (!scene.truth_labels.empty()) score.gaussian_iou = label_iou(scene.truth_labels, report.labels);
+  return score;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,58 @@
+// How good is a cutout: the measures of one scene against its truth.
+//
+// Truth is labels per Gaussian or masks of the test views. Pictures of labels: object white, everything
+// else black and occluding, threshold 0.5 (the protocol of Jain et al., GaussianCut, 2024). A view in
+// which the truth covers less than 0.1 % of the pixels does not count.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "segment/pipeline.h"
+
+namespace splatcut {
+
+inline constexpr int kRobotClicks = 8;
+inline constexpr int kClicksNotReached = 20;  // NoC where kRobotClicks are not enough
+
+struct EvaluationCase {
+  std::string name;
+  const GaussianCloud* cloud = nullptr;
+  const FlowGraph* graph = nullptr;
+  std::vector<std::uint8_t> truth_labels;     // per Gaussian of the cloud, or empty
+  std::vector<Camera> test_views;
+  std::vector<Mask> truth_masks;              // per test view
+  Camera reference;
+  glm::vec3 up_world{0, -1, 0};
+  std::optional<Mask> reference_truth;        // needed by the robot
+  Strokes clicks;                             // where the truth of the reference is unknown
+};
+
+struct EvaluationOptions {
+  PipelineOptions pipeline;
+  int clicks = 3;                  // for the final cut
+  bool truth_first_mask = false;
+  bool truth_masks = false;        // in orbit views; needs truth_labels
+  bool click_curve = true;         // mask IoU after 1..8 clicks, image IoU after 1, 3, 5
+};
+
+struct SceneScore {
+  std::string name;
+  double image_iou = 0, accuracy = 0, boundary_iou = 0;
+  std::optional<double> gaussian_iou;
+  std::vector<double> mask_iou_after_clicks;        // 1..8, robot only
+  std::map<int, double> image_iou_after_clicks;     // 1, 3, 5
+  std::optional<int> noc85, noc90;
+  std::vector<StageTime> stages;
+  double total_ms = 0;
+};
+
+// Fills truth_masks and reference_truth from truth_labels.
+void render_truth(EvaluationCase* scene);
+
+SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& options, const Job& job = {});
+
+}  // namespace splatcut
