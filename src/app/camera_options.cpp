@@ -1,0 +1,101 @@
+#include "app/camera_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "scene/camera_file.h"
+#include "scene/error.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr int kDefaultWidth = 1008, kDefaultHeight = 756, kMaxSide = 16384;
+
+std::pair<int, int> parse_size(const std::string& text) {
+  int width = 0, height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
+    throw Error("--size " + text, "is not a picture size", fmt::format("Write it as WxH, each from 1 to {}", kMaxSide));
+  return {width, height};
+}
+
+// Stands back along +-z of the usual capture so that the robust bounds fill the picture.
+Camera framing_camera(const GaussianCloud& cloud, const glm::vec3& up, float fov_y_rad, int width, int height) {
+  const Box box = robust_bounds(cloud.position, 0.9);
+  const float radius = std::max(1e-6f, 0.5f * glm::length(box.extent()));
+  const glm::vec3 sideways = std::abs(up.z) < 0.9f ? glm::vec3(0, 0, -1) : glm::vec3(0, -1, 0);
+  const glm::vec3 back = glm::normalize(sideways - glm::dot(sideways, up) * up + 0.35f * up);
+  return look_at(box.centre() + back * (radius / std::sin(0.5f * fov_y_rad)), box.centre(), up, fov_y_rad, width, height);
+}
+
+}  // namespace
+
+void CameraOptions::add_to(CLI::App& command) {
+  command.add_option("--cameras", cameras, "cameras.json, transforms.json or a COLMAP folder");
+  command.add_option("--camera", camera, "Which of the cameras: its name, or its number from 0");
+  command.add_option("--camera-pos", position, "Camera position x,y,z");
+  command.add_option("--camera-target", target, "Point in the middle of the picture x,y,z");
+  command.add_option("--camera-up", up, "Up direction x,y,z (default 0,-1,0)");
+  command.add_option("--camera-fov", fov_y_deg, "Vertical field of view, degrees")->check(CLI::Range(1.0, 170.0));
+  command.add_option("--size", size, "Picture size WxH");
+}
+
+glm::vec3 parse_vec3(const std::string& text, const std::string& where) {
+  glm::vec3 v;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%f,%f,%f%c", &v.x, &v.y, &v.z, &rest) != 3 || !std::isfinite(v.x + v.y + v.z))
+    throw Error(where + " " + text, "is not a point", "Write it as x,y,z");
+  return v;
+}
+
+glm::vec3 common_up(const std::vector<Camera>& cameras) {
+  // Photographs may all lie on their side: the direction their horizontal axes and view axes avoid is up.
+  // A circle of level cameras has all right vectors in the ground plane; so has a rolled one its down vectors.
+  glm::vec3 down(0), right(0);
+  for (const Camera& c : cameras) {
+    down += c.down_world();
+    right += glm::transpose(c.camera_from_world_rotation)[0];
+  }
+  const glm::vec3 up = glm::length(down) >= glm::length(right) ? -down : right;
+  return glm::length(up) > 1e-6f ? glm::normalize(up) : glm::vec3(0, -1, 0);
+}
+
+const Camera& find_camera(const std::vector<Camera>& cameras, const std::string& name, const std::string& where) {
+  const auto named = std::ranges::find(cameras, name, &Camera::name);
+  if (named != cameras.end()) return *named;
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
+  if (error == std::errc{} && end == name.data() + name.size() && index < cameras.size()) return cameras[index];
+  throw Error(where, fmt::format("has no camera \"{}\"", name), fmt::format("It has {}, the first is \"{}\"", cameras.size(), cameras.front().name));
+}
+
+ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cloud) {
+  ChosenCamera chosen;
+  if (!options.cameras.empty()) {
+    chosen.given = load_cameras(options.cameras);
+    if (chosen.given.empty()) throw Error(options.cameras.string(), "holds no camera");
+    chosen.up_world = common_up(chosen.given);
+  }
+  if (!options.up.empty()) chosen.up_world = parse_vec3(options.up, "--camera-up");
+  const float fov_y_rad = glm::radians(options.fov_y_deg);
+  const auto [width, height] = options.size.empty() ? std::pair(kDefaultWidth, kDefaultHeight) : parse_size(options.size);
+  if (!options.position.empty() || !options.target.empty()) {
+    if (options.position.empty() || options.target.empty())
+      throw Error("camera", "--camera-pos and --camera-target belong together", "Give both");
+    chosen.camera = look_at(parse_vec3(options.position, "--camera-pos"), parse_vec3(options.target, "--camera-target"),
+                            chosen.up_world, fov_y_rad, width, height);
+  } else if (!chosen.given.empty()) {
+    chosen.camera = find_camera(chosen.given, options.camera.empty() ? "0" : options.camera, options.cameras.string());
+    if (!options.size.empty()) chosen.camera = resized(chosen.camera, width, height);
+  } else {
+    chosen.camera = framing_camera(cloud, glm::normalize(chosen.up_world), fov_y_rad, width, height);
+  }
+  return chosen;
+}
+
+}  // namespace splatcut

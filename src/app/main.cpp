@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <cstdio>
+#include <new>
+#include <optional>
+
+#include "app/commands.h"
+#include "app/console.h"
+#include "scene/error.h"
+
+namespace {
+
+constexpr int kCouldNot = 1, kWrongUsage = 2;
+
+int run(int argc, char** argv) {
+  using namespace splatcut;
+  CLI::App program{"Click an object in a 3D Gaussian Splatting scene, hold a clean cutout"};
+  program.footer("Example: splatcut cut scene.ply --click 512,384 -o cutout");
+  program.set_version_flag("--version", "splatcut " SPLATCUT_VERSION);
+  program.require_subcommand(1);
+  program.fallthrough();
+  CommonOptions common;
+  program.add_option("--threads", common.threads, "Worker threads (0: all cores); results do not depend on it")->check(CLI::NonNegativeNumber);
+  program.add_flag("--quiet", common.quiet, "Print errors only");
+  std::optional<tbb::global_control> limit;
+  program.parse_complete_callback([&] {
+    if (common.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
+  });
+  add_info_command(program, common);
+  add_render_command(program, common);
+  add_cut_command(program, common);
+  add_convert_command(program, common);
+  add_make_scene_command(program, common);
+  add_eval_command(program, common);
+  try {
+    program.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : kWrongUsage;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    splatcut::end_progress();
+    fmt::print(stderr, "splatcut: not enough memory for this scene. Try fewer views or a smaller scene.\n");
+  } catch (const std::exception& error) {
+    splatcut::end_progress();
+    fmt::print(stderr, "splatcut: {}\n", error.what());
+  }
+  return kCouldNot;
+}

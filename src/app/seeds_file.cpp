@@ -1,0 +1,60 @@
+#include "app/seeds_file.h"
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "scene/error.h"
+
+namespace splatcut {
+
+namespace {
+
+SeedLabel label_from(const std::string& text, const std::string& where) {
+  if (text == "object") return SeedLabel::kObject;
+  if (text == "rest") return SeedLabel::kRest;
+  throw Error(where, "the label \"" + text + "\" is unknown", "Use object or rest");
+}
+
+}  // namespace
+
+Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where) {
+  Strokes strokes;
+  try {
+    if (seeds.contains("clicks") && seeds.at("clicks").is_array())
+      for (const auto& c : seeds.at("clicks"))
+        strokes.push_back(click({c.at("x").get<float>(), c.at("y").get<float>()}, label_from(c.value("label", "object"), where)));
+    if (seeds.contains("scribbles"))
+      for (const auto& s : seeds.at("scribbles")) {
+        Stroke stroke{label_from(s.at("label"), where), s.value("radius_px", 3.0f), {}};
+        for (const auto& p : s.at("points")) stroke.points_px.emplace_back(p.at(0).get<float>(), p.at(1).get<float>());
+        strokes.push_back(std::move(stroke));
+      }
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(where, std::string("the seeds do not have the expected form (") + error.what() + ")");
+  }
+  return strokes;
+}
+
+Strokes load_seeds(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  if (!in) throw Error(path.string(), "cannot be opened");
+  const nlohmann::json seeds = nlohmann::json::parse(in, nullptr, false);
+  if (seeds.is_discarded()) throw Error(path.string(), "is not JSON");
+  const Strokes strokes = strokes_from_json(seeds, path.string());
+  if (strokes.empty()) throw Error(path.string(), "holds neither clicks nor scribbles");
+  return strokes;
+}
+
+Stroke parse_click(const std::string& text) {
+  float x = 0, y = 0;
+  int used = 0;
+  const std::string where = "--click " + text;
+  if (std::sscanf(text.c_str(), "%f,%f%n", &x, &y, &used) != 2) throw Error(where, "is not a pixel", "Write it as x,y or x,y:rest");
+  const std::string tail = text.substr(static_cast<std::size_t>(used));
+  if (tail.empty()) return click({x, y}, SeedLabel::kObject);
+  if (tail[0] != ':') throw Error(where, "is not a pixel", "Write it as x,y or x,y:rest");
+  return click({x, y}, label_from(tail.substr(1), where));
+}
+
+}  // namespace splatcut

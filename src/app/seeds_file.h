@@ -1,0 +1,20 @@
+// Clicks and scribbles from a file or from the command line.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "segment/seeds.h"
+
+namespace splatcut {
+
+// {"clicks": [{"x","y","label":"object"|"rest"}], "scribbles": [{"label","radius_px","points":[[x,y],...]}]}
+Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where);
+Strokes load_seeds(const std::filesystem::path& path);
+
+// "x,y", "x,y:object" or "x,y:rest".
+Stroke parse_click(const std::string& text);
+
+}  // namespace splatcut
