@@ -1,0 +1,118 @@
+// splatcut eval: the measures of a suite, as a table and as JSON.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/console.h"
+#include "app/eval_suite.h"
+#include "app/output_folder.h"
+#include "scene/atomic_file.h"
+
+namespace splatcut {
+
+namespace {
+
+struct EvalArguments {
+  std::filesystem::path suite, output;
+  std::string preset = "default", first_mask, masks;
+  int clicks = 3;
+  bool curve = true, json = false, overwrite = false;
+};
+
+nlohmann::json score_json(const SceneScore& s) {
+  nlohmann::json j = {{"name", s.name}, {"image_iou", s.image_iou}, {"accuracy", s.accuracy}, {"boundary_iou", s.boundary_iou},
+                      {"mask_iou_after_clicks", s.mask_iou_after_clicks}, {"total_ms", s.total_ms}, {"ms", nlohmann::json::object()}};
+  j["gaussian_iou"] = s.gaussian_iou ? nlohmann::json(*s.gaussian_iou) : nullptr;
+  j["noc85"] = s.noc85 ? nlohmann::json(*s.noc85) : nullptr;
+  j["noc90"] = s.noc90 ? nlohmann::json(*s.noc90) : nullptr;
+  j["image_iou_after_clicks"] = nlohmann::json::object();
+  for (const auto& [n, value] : s.image_iou_after_clicks) j["image_iou_after_clicks"][std::to_string(n)] = value;
+  for (const StageTime& stage : s.stages) j["ms"][stage.name] = stage.ms;
+  return j;
+}
+
+// The mean over the scenes of each number; scenes that lack one do not count in its mean.
+nlohmann::json mean_json(const std::vector<nlohmann::json>& scores) {
+  const auto mean_of = [&scores](const nlohmann::json::json_pointer& at) -> nlohmann::json {
+    double sum = 0;
+    int n = 0;
+    for (const auto& s : scores)
+      if (s.contains(at) && s.at(at).is_number()) {
+        sum += s.at(at).get<double>();
+        ++n;
+      }
+    return n ? nlohmann::json(sum / n) : nullptr;
+  };
+  nlohmann::json mean = {{"name", "mean"}};
+  for (const auto& s : scores)
+    for (const auto& [at, value] : s.flatten().items())
+      if (value.is_number()) mean[nlohmann::json::json_pointer(at)] = mean_of(nlohmann::json::json_pointer(at));
+  return mean;
+}
+
+void print_row(const nlohmann::json& s) {
+  const auto number = [&s](const char* key, const char* form) {
+    return s.contains(key) && s.at(key).is_number() ? fmt::format(fmt::runtime(form), s.at(key).get<double>()) : std::string("-");
+  };
+  const auto after = [&s](const char* n) {
+    const auto& curve = s.value("image_iou_after_clicks", nlohmann::json::object());
+    return curve.contains(n) ? fmt::format("{:.3f}", curve.at(n).get<double>()) : std::string("-");
+  };
+  fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>8}\n", s.value("name", ""), number("image_iou", "{:.3f}"),
+             number("accuracy", "{:.4f}"), number("boundary_iou", "{:.3f}"), number("gaussian_iou", "{:.3f}"), after("1"),
+             after("3"), after("5"), number("noc90", "{:.1f}"), number("total_ms", "{:.0f}"));
+}
+
+void run_eval(const EvalArguments& args, const CommonOptions& common) {
+  OutputFolder folder(args.output, args.overwrite);
+  const Job job = console_job(common.quiet);
+  EvaluationOptions options;
+  options.pipeline = preset(args.preset);
+  options.clicks = args.clicks;
+  options.truth_first_mask = args.first_mask == "truth";
+  options.truth_masks = args.masks == "truth";
+  options.click_curve = args.curve;
+  std::vector<nlohmann::json> scores;
+  if (!args.json)
+    fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>8}\n", "scene", "img IoU", "acc", "bnd IoU", "gau IoU",
+               "1 click", "3", "5", "NoC90", "ms");
+  for (const nlohmann::json& entry : read_suite(args.suite)) {
+    const auto loaded = load_case(entry, args.suite.parent_path(), options.pipeline.neighbours, job);
+    if (job.cancelled()) throw Error("splatcut eval", "cancelled, nothing was written");
+    SceneScore score = evaluate(loaded->test, options, job);
+    score.stages.insert(score.stages.begin(), {{"load", loaded->load_ms}, {"graph", loaded->graph_ms}});
+    scores.push_back(score_json(score));
+    end_progress();
+    if (!args.json) print_row(scores.back());
+    std::fflush(stdout);
+  }
+  const nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"clicks", args.clicks},
+                                 {"scenes", scores}, {"mean", mean_json(scores)}};
+  write_text_file(folder.file("eval.json"), result.dump(2) + "\n");
+  folder.commit();
+  if (args.json)
+    fmt::print("{}\n", result.dump(2));
+  else
+    print_row(result["mean"]);
+}
+
+}  // namespace
+
+void add_eval_command(CLI::App& program, const CommonOptions& common) {
+  auto args = std::make_shared<EvalArguments>();
+  CLI::App& command = *program.add_subcommand("eval", "Measure cutouts against truth on a suite of scenes");
+  command.add_option("suite", args->suite, "suite.json")->required();
+  command.add_option("-o,--output", args->output, "Folder for eval.json")->required();
+  command.add_option("--preset", args->preset, "fast, default, best or paper");
+  command.add_option("--clicks", args->clicks, "Clicks for the final cut")->check(CLI::Range(1, 8));
+  command.add_option("--first-mask", args->first_mask, "truth: the true mask in the reference view")->check(CLI::IsMember({"truth"}));
+  command.add_option("--masks", args->masks, "truth: the true masks in all orbit views")->check(CLI::IsMember({"truth"}));
+  command.add_flag("!--no-curve", args->curve, "Leave out the figures after 1..8 clicks");
+  command.add_flag("--json", args->json, "Print JSON");
+  command.add_flag("--overwrite", args->overwrite, "Replace existing output");
+  command.callback([args, &common] { run_eval(*args, common); });
+}
+
+}  // namespace splatcut

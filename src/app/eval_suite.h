@@ -1,0 +1,32 @@
+// Reads a suite of scenes with truth, as `splatcut eval` takes it.
+//
+// {"scenes": [{"name", "scene", "cameras"?, "truth": {"labels": FILE} | {"masks": FOLDER}, "reference":
+// {"position","target","up","fov_y_deg","size"} | {"camera": NAME}, "clicks": "robot" | [...],
+// "scribbles": [...], "test_views": [...]}]}, paths relative to the suite's folder.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "scene/scene_file.h"
+#include "segment/evaluate.h"
+
+namespace splatcut {
+
+// A case and what it points into.
+struct LoadedCase {
+  Scene scene;
+  FlowGraph graph;
+  double load_ms = 0, graph_ms = 0;
+  EvaluationCase test;
+};
+
+// The entries of the suite, checked for their form. Throws Error naming file and entry.
+std::vector<nlohmann::json> read_suite(const std::filesystem::path& path);
+
+// Scene, graph, cameras and truth of one entry.
+std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder, int neighbours, const Job& job);
+
+}  // namespace splatcut

@@ -1,0 +1,152 @@
+// splatcut info, render, convert.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/camera_options.h"
+#include "app/commands.h"
+#include "app/console.h"
+#include "app/output_folder.h"
+#include "scene/error.h"
+#include "scene/png_file.h"
+#include "scene/rasterizer.h"
+#include "scene/scene_file.h"
+
+namespace splatcut {
+
+namespace {
+
+struct SceneArguments {
+  std::filesystem::path scene, output, labels;
+  CameraOptions camera;
+  std::string what = "colour", background = "0,0,0";
+  bool json = false, overwrite = false;
+};
+
+nlohmann::json info_json(const Scene& scene) {
+  const Box box = robust_bounds(scene.cloud.position);
+  const auto list = [](const glm::vec3& v) { return nlohmann::json{v.x, v.y, v.z}; };
+  return {{"file", scene.path.string()}, {"format", name_of(scene.format)}, {"file_bytes", scene.file_bytes},
+          {"file_rows", scene.file_rows}, {"gaussians", scene.cloud.size()}, {"dropped", scene.dropped},
+          {"sh_degree", scene.cloud.sh_degree}, {"bounds_98", {{"min", list(box.min)}, {"max", list(box.max)}}}};
+}
+
+void run_info(const SceneArguments& args, const CommonOptions& common) {
+  const Scene scene = load_scene(args.scene, console_job(common.quiet));
+  end_progress();
+  const nlohmann::json info = info_json(scene);
+  if (args.json) {
+    fmt::print("{}\n", info.dump(2));
+    return;
+  }
+  for (const auto& [key, value] : info.items()) fmt::print("{:<10} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+// Labels in file order, as `cut` writes them, for the Gaussians of the cloud.
+std::vector<std::uint8_t> load_labels(const std::filesystem::path& path, const Scene& scene) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error(path.string(), "cannot be opened");
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+  if (bytes.size() != scene.file_rows)
+    throw Error(path.string(), fmt::format("holds {} labels, the scene {} rows", bytes.size(), scene.file_rows));
+  std::vector<std::uint8_t> labels(scene.cloud.size());
+  for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = bytes[scene.cloud.file_row[g]] != 0;
+  return labels;
+}
+
+void write_depth(const std::filesystem::path& path, const Image<float>& depth) {
+  // Near white, far black, over what is there; 16 bits.
+  float nearest = 1e30f, farthest = 0;
+  for (const float z : depth.pixels())
+    if (z > 0) {
+      nearest = std::min(nearest, z);
+      farthest = std::max(farthest, z);
+    }
+  Image<std::uint16_t> grey(depth.width(), depth.height());
+  const float range = std::max(1e-12f, farthest - nearest);
+  std::ranges::transform(depth.pixels(), grey.pixels().begin(), [&](float z) {
+    return z > 0 ? static_cast<std::uint16_t>(65535 - 60000 * (z - nearest) / range) : std::uint16_t{0};
+  });
+  write_png(path, grey);
+}
+
+void run_render(const SceneArguments& args, const CommonOptions& common) {
+  refuse_existing(args.output, args.overwrite);
+  const Job job = console_job(common.quiet);
+  const Scene scene = load_scene(args.scene, job);
+  const ChosenCamera chosen = choose_camera(args.camera, scene.cloud);
+  RasterOptions options;
+  options.background = parse_vec3(args.background, "--background");
+  options.depth = args.what == "depth";
+  std::vector<glm::vec3> colours;
+  if (args.what == "labels") {
+    if (args.labels.empty()) throw Error("splatcut render", "--what labels needs --labels FILE");
+    for (const std::uint8_t l : load_labels(args.labels, scene)) colours.emplace_back(l ? 1.0f : 0.0f);
+    options.colour_override = colours;
+  }
+  const RasterOutput out = rasterize(scene.cloud, chosen.camera, options, job);
+  end_progress();
+  if (job.cancelled()) throw Error("splatcut render", "cancelled, nothing was written");
+  if (args.what == "depth") {
+    write_depth(args.output, out.expected_depth);
+  } else if (args.what == "alpha") {
+    Image<std::uint8_t> grey(out.alpha.width(), out.alpha.height());
+    std::ranges::transform(out.alpha.pixels(), grey.pixels().begin(), [](float a) { return static_cast<std::uint8_t>(a * 255 + 0.5f); });
+    write_png(args.output, grey);
+  } else {
+    write_png(args.output, rgb8_from_linear(out.colour));
+  }
+  if (!common.quiet) fmt::print("{}\n", args.output.string());
+}
+
+void run_convert(const SceneArguments& args, const CommonOptions& common) {
+  refuse_existing(args.output, args.overwrite);
+  const SceneFormat format = format_from_name(args.output);
+  const Job job = console_job(common.quiet);
+  const Scene scene = load_scene(args.scene, job);
+  end_progress();
+  if (job.cancelled()) throw Error("splatcut convert", "cancelled, nothing was written");
+  const SaveReport report = save_scene(args.output, scene, {}, format);
+  if (common.quiet) return;
+  fmt::print("{}: {} Gaussians, {} bytes\n", args.output.string(), report.gaussians, report.bytes);
+  if (!report.loss.empty()) fmt::print("Lost: {}\n", report.loss);
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& program, const CommonOptions& common) {
+  auto args = std::make_shared<SceneArguments>();
+  CLI::App& command = *program.add_subcommand("info", "Say what a scene file holds");
+  command.add_option("scene", args->scene, "Scene file")->required();
+  command.add_flag("--json", args->json, "Print JSON");
+  command.callback([args, &common] { run_info(*args, common); });
+}
+
+void add_render_command(CLI::App& program, const CommonOptions& common) {
+  auto args = std::make_shared<SceneArguments>();
+  CLI::App& command = *program.add_subcommand("render", "Draw a view of a scene as PNG");
+  command.footer("Example: splatcut render scene.ply --camera-pos 0,-1,-4 --camera-target 0,0,0 -o view.png");
+  command.add_option("scene", args->scene, "Scene file")->required();
+  args->camera.add_to(command);
+  command.add_option("--what", args->what, "colour, depth, alpha or labels")->check(CLI::IsMember({"colour", "depth", "alpha", "labels"}));
+  command.add_option("--labels", args->labels, "labels.u8 of a cut, for --what labels");
+  command.add_option("--background", args->background, "r,g,b from 0 to 1");
+  command.add_option("-o,--output", args->output, "PNG to write")->required();
+  command.add_flag("--overwrite", args->overwrite, "Replace an existing file");
+  command.callback([args, &common] { run_render(*args, common); });
+}
+
+void add_convert_command(CLI::App& program, const CommonOptions& common) {
+  auto args = std::make_shared<SceneArguments>();
+  CLI::App& command = *program.add_subcommand("convert", "Write a scene in another format (.ply, .compressed.ply, .splat, .spz)");
+  command.add_option("scene", args->scene, "Scene file")->required();
+  command.add_option("-o,--output", args->output, "File to write; its ending names the format")->required();
+  command.add_flag("--overwrite", args->overwrite, "Replace an existing file");
+  command.callback([args, &common] { run_convert(*args, common); });
+}
+
+}  // namespace splatcut
