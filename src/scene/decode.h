@@ -1,0 +1,68 @@
+// The loading loop that all scene formats share: rows of a file, in any encoding, become a GaussianCloud
+// in Morton order. Internal to src/scene.
+#pragma once
+
+#include <tbb/parallel_for.h>
+#include <tbb/blocked_range.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "scene/morton.h"
+#include "scene/scene_file.h"
+
+namespace splatcut {
+
+inline float sigmoid(float logit) { return 1.0f / (1.0f + std::exp(-logit)); }
+
+inline bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// Takes the memory of the cloud in large pages where the system has them: the first touch of 4 kB pages
+// costs more than decoding into them.
+void resize_for_decode(GaussianCloud& cloud, std::size_t n, int degree);
+
+// Source: `glm::vec3 position(row) const`, NaN for a row to drop, and `void decode(row, cloud, g) const`,
+// which fills all attributes of Gaussian g but position and file_row. Both are called from many threads.
+template <class Source>
+void decode_rows(const Source& source, std::size_t rows, int degree, Scene& scene, const Job& job) {
+  constexpr std::size_t kGrain = 4096;
+  using Range = tbb::blocked_range<std::size_t>;
+  job.progress("reading positions", 0.0);
+  std::vector<glm::vec3> positions(rows);
+  tbb::parallel_for(Range(0, rows, kGrain), [&](const Range& range) {
+    if (job.cancelled()) return;
+    for (std::size_t row = range.begin(); row < range.end(); ++row) positions[row] = source.position(row);
+  });
+  if (job.cancelled()) return;
+  std::vector<std::uint32_t> row_of;
+  row_of.reserve(rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (!is_finite(positions[row])) continue;
+    positions[row_of.size()] = positions[row];
+    row_of.push_back(static_cast<std::uint32_t>(row));
+  }
+  positions.resize(row_of.size());
+  scene.file_rows = rows;
+  scene.dropped = rows - row_of.size();
+
+  job.progress("sorting along the Morton curve", 0.3);
+  const std::vector<std::uint32_t> order = morton_order(positions);
+  if (job.cancelled()) return;
+  job.progress("decoding Gaussians", 0.5);
+  GaussianCloud& cloud = scene.cloud;
+  resize_for_decode(cloud, order.size(), degree);
+  tbb::parallel_for(Range(0, order.size(), kGrain), [&](const Range& range) {
+    if (job.cancelled()) return;
+    for (std::size_t g = range.begin(); g < range.end(); ++g) {
+      cloud.position[g] = positions[order[g]];
+      cloud.file_row[g] = row_of[order[g]];
+      source.decode(row_of[order[g]], cloud, g);
+    }
+  });
+  job.progress("decoding Gaussians", 1.0);
+}
+
+inline constexpr glm::vec3 kDroppedRow{std::numeric_limits<float>::quiet_NaN()};
+
+}  // namespace splatcut

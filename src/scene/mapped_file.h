@@ -1,0 +1,30 @@
+// A file seen as memory, read only.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace splatcut {
+
+class MappedFile {
+ public:
+  // Throws Error for what is missing, unreadable, no regular file (a directory) or empty.
+  explicit MappedFile(std::filesystem::path path);
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+  ~MappedFile();
+
+  std::span<const std::byte> bytes() const { return {static_cast<const std::byte*>(data_), size_}; }
+  const std::filesystem::path& path() const { return path_; }
+  std::int64_t modified_ns() const { return modified_ns_; }
+
+ private:
+  std::filesystem::path path_;
+  void* data_ = nullptr;
+  std::size_t size_ = 0;
+  std::int64_t modified_ns_ = 0;
+};
+
+}  // namespace splatcut

@@ -1,0 +1,169 @@
+// 3DGS .ply as Kerbl et al. (2023) write it: properties by name, in any order; opacity as logit, scale as
+// logarithm, rotation w,x,y,z, f_rest channel-major.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "scene/decode.h"
+#include "scene/error.h"
+#include "scene/ply_header.h"
+#include "scene/scene_formats.h"
+
+namespace splatcut {
+
+static_assert(std::endian::native == std::endian::little, "binary_little_endian files are read in place");
+
+namespace {
+
+constexpr std::array<const char*, 14> kNames{"x",     "y",     "z",     "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0",
+                                             "scale_1", "scale_2", "rot_0", "rot_1",  "rot_2",  "rot_3"};
+enum Field : std::size_t { kX = 0, kDc = 3, kOpacity = 6, kScale = 7, kRotation = 10, kRest = 14 };
+constexpr std::size_t kMaxFields = kRest + 45;
+
+template <class T>
+float load_as_float(const std::byte* at) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  return static_cast<float>(value);
+}
+
+float load_as_float(const std::byte* at, PlyType type) {
+  switch (type) {
+    case PlyType::kInt8: return load_as_float<std::int8_t>(at);
+    case PlyType::kUint8: return load_as_float<std::uint8_t>(at);
+    case PlyType::kInt16: return load_as_float<std::int16_t>(at);
+    case PlyType::kUint16: return load_as_float<std::uint16_t>(at);
+    case PlyType::kInt32: return load_as_float<std::int32_t>(at);
+    case PlyType::kUint32: return load_as_float<std::uint32_t>(at);
+    case PlyType::kFloat32: return load_as_float<float>(at);
+    case PlyType::kFloat64: return load_as_float<double>(at);
+  }
+  return 0;
+}
+
+// Rows of a file whose fields may have any type and order; kFloats: all are float.
+template <bool kFloats>
+struct PlyRows {
+  const std::byte* data = nullptr;
+  std::size_t row_bytes = 0;
+  std::size_t fields = kRest;
+  std::array<std::size_t, kMaxFields> offset{};
+  std::array<PlyType, kMaxFields> type{};
+  bool rest_in_sequence = false;  // f_rest_0, f_rest_1, ... stand side by side as floats
+
+  float value(const std::byte* row, std::size_t field) const {
+    if constexpr (kFloats) return load_as_float<float>(row + offset[field]);
+    return load_as_float(row + offset[field], type[field]);
+  }
+  glm::vec3 vec3(const std::byte* row, std::size_t field) const {
+    return {value(row, field), value(row, field + 1), value(row, field + 2)};
+  }
+  glm::quat rotation(const std::byte* row) const {
+    return {value(row, kRotation), value(row, kRotation + 1), value(row, kRotation + 2), value(row, kRotation + 3)};
+  }
+  bool rest_is_finite(const std::byte* row) const {
+    // A sum of zeros: 0 * v is NaN for NaN and for infinite v, and the loop has no branch.
+    float zero = 0;
+    for (std::size_t f = kRest; f < fields; ++f) zero += 0.0f * value(row, f);
+    return zero == 0.0f;
+  }
+
+  glm::vec3 position(std::size_t index) const {
+    const std::byte* row = data + index * row_bytes;
+    constexpr float kMaxLogScale = 80.0f;  // exp() beyond it overflows a variance
+    const glm::quat q = rotation(row);
+    const float norm_squared = glm::dot(q, q);
+    const glm::vec3 log_scale = vec3(row, kScale);
+    const bool good = norm_squared > 0 && std::isfinite(norm_squared) && !std::isnan(value(row, kOpacity)) &&
+                      log_scale.x < kMaxLogScale && log_scale.y < kMaxLogScale && log_scale.z < kMaxLogScale &&
+                      is_finite(vec3(row, kDc)) && rest_is_finite(row);
+    return good ? vec3(row, kX) : kDroppedRow;
+  }
+  void decode(std::size_t index, GaussianCloud& cloud, std::size_t g) const {
+    const std::byte* row = data + index * row_bytes;
+    cloud.f_dc[g] = vec3(row, kDc);
+    cloud.opacity[g] = sigmoid(value(row, kOpacity));
+    cloud.scale[g] = glm::exp(vec3(row, kScale));
+    cloud.rotation[g] = glm::normalize(rotation(row));
+    float* rest = cloud.sh_rest.data() + g * (fields - kRest);
+    if (rest_in_sequence) {
+      std::memcpy(rest, row + offset[kRest], (fields - kRest) * sizeof(float));
+    } else {
+      for (std::size_t f = kRest; f < fields; ++f) *rest++ = value(row, f);
+    }
+  }
+};
+
+int degree_from_rest(const std::filesystem::path& path, std::size_t count) {
+  for (int degree = 0; degree <= 3; ++degree)
+    if (count == 3 * static_cast<std::size_t>(sh_rest_coefficients(degree))) return degree;
+  throw Error(path.string(), fmt::format("{} f_rest properties found; 0, 9, 24 or 45 are possible", count));
+}
+
+// Ends with an Error for what is a .ply but not a 3DGS scene, in the words a user can act on.
+void refuse_other_ply(const std::filesystem::path& path, const PlyElement& vertex) {
+  const bool has_splat_fields = vertex.find("f_dc_0") || vertex.find("opacity") || vertex.find("scale_0");
+  if (!has_splat_fields && vertex.find("x"))
+    throw Error(path.string(),
+                "is an ordinary point cloud or mesh: it has points but no opacity, scale or rotation of Gaussians",
+                "Give the trained scene, often point_cloud/iteration_30000/point_cloud.ply");
+  if (vertex.find("scale_1") && !vertex.find("scale_2"))
+    throw Error(path.string(), "is a 2D Gaussian Splatting file: the property \"scale_2\" is missing",
+                "Only 3D Gaussians are supported");
+}
+
+template <bool kFloats>
+PlyRows<kFloats> bind(const std::filesystem::path& path, const PlyElement& vertex) {
+  PlyRows<kFloats> rows;
+  rows.row_bytes = vertex.row_bytes;
+  const auto add = [&](std::size_t field, const std::string& name) {
+    const PlyProperty& property = required_property(path, vertex, name);
+    rows.offset[field] = property.offset;
+    rows.type[field] = property.type;
+  };
+  for (std::size_t f = 0; f < kRest; ++f) add(f, kNames[f]);
+  std::size_t rest = 0;
+  for (const PlyProperty& property : vertex.properties) rest += property.name.starts_with("f_rest_");
+  degree_from_rest(path, rest);
+  rows.fields = kRest + rest;
+  rows.rest_in_sequence = true;
+  for (std::size_t i = 0; i < rest; ++i) {
+    add(kRest + i, fmt::format("f_rest_{}", i));
+    rows.rest_in_sequence = rows.rest_in_sequence && rows.type[kRest + i] == PlyType::kFloat32 &&
+                            rows.offset[kRest + i] == rows.offset[kRest] + i * sizeof(float);
+  }
+  return rows;
+}
+
+const PlyElement& vertex_of(const std::filesystem::path& path, const PlyHeader& header) {
+  if (const PlyElement* vertex = header.find("vertex")) return *vertex;
+  throw Error(path.string(), "the header has no element \"vertex\"");
+}
+
+template <bool kFloats>
+void read_rows(const MappedFile& file, const PlyElement& vertex, Scene& scene, const Job& job) {
+  PlyRows<kFloats> rows = bind<kFloats>(file.path(), vertex);
+  rows.data = element_bytes(file.path(), file.bytes(), vertex).data();
+  decode_rows(rows, vertex.count, degree_from_rest(file.path(), rows.fields - kRest), scene, job);
+}
+
+}  // namespace
+
+void read_ply(const MappedFile& file, Scene& scene, const Job& job) {
+  const PlyHeader header = parse_ply_header(file.path(), file.bytes());
+  const PlyElement& vertex = vertex_of(file.path(), header);
+  refuse_other_ply(file.path(), vertex);
+  if (vertex.count > std::numeric_limits<std::uint32_t>::max())
+    throw Error(file.path().string(), fmt::format("{} Gaussians are more than can be handled", vertex.count));
+  const bool floats =
+      std::ranges::all_of(vertex.properties, [](const PlyProperty& p) { return p.type == PlyType::kFloat32; });
+  if (floats)
+    read_rows<true>(file, vertex, scene, job);
+  else
+    read_rows<false>(file, vertex, scene, job);
+}
+
+}  // namespace splatcut

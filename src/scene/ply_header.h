@@ -1,0 +1,56 @@
+// The text at the start of a .ply file: its elements and their properties. Internal to src/scene.
+// Reads format binary_little_endian 1.0 only; other formats, unknown types and headers without an end
+// are an Error. List properties are known, but an element that has one has no fixed row size.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace splatcut {
+
+enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+std::size_t size_of(PlyType type);
+const char* name_of(PlyType type);
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::kFloat32;
+  std::size_t offset = 0;  // bytes from the start of the row
+};
+
+struct PlyElement {
+  std::string name;
+  std::size_t count = 0;
+  std::size_t row_bytes = 0;
+  bool has_list = false;  // row_bytes and offsets are then meaningless
+  std::vector<PlyProperty> properties;
+  std::size_t data_begin = 0;  // byte in the file; 0 when an element with a list stands before
+
+  const PlyProperty* find(std::string_view property) const;
+};
+
+struct PlyHeader {
+  std::size_t bytes = 0;  // up to and including the line end after end_header
+  std::vector<PlyElement> elements;
+
+  const PlyElement* find(std::string_view element) const;
+};
+
+// The words of a header line, without blanks and line end.
+std::vector<std::string_view> words_of(std::string_view line);
+
+PlyHeader parse_ply_header(const std::filesystem::path& path, std::span<const std::byte> file);
+
+// The element's bytes. Throws Error when it is absent, has lists, or the file ends before its last row.
+std::span<const std::byte> element_bytes(const std::filesystem::path& path, std::span<const std::byte> file,
+                                         const PlyElement& element);
+
+// The property. Throws Error that lists the properties found when it is absent.
+const PlyProperty& required_property(const std::filesystem::path& path, const PlyElement& element,
+                                     std::string_view property);
+
+}  // namespace splatcut

@@ -1,0 +1,104 @@
+// Writing of .ply: rows copied from the source, or encoded from the cloud in the layout of Kerbl et al.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/error.h"
+#include "scene/ply_header.h"
+#include "scene/scene_formats.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr std::size_t kBufferBytes = 1 << 20;
+
+// The header text of the source with another vertex count; all other lines stay as they are.
+std::string header_with_count(std::string_view header, std::size_t count) {
+  std::string out;
+  for (std::size_t begin = 0; begin < header.size();) {
+    const std::size_t end = header.find('\n', begin) + 1;
+    const std::string_view line = header.substr(begin, end - begin);
+    const std::vector<std::string_view> words = words_of(line);
+    if (words.size() == 3 && words[0] == "element" && words[1] == "vertex") {
+      out += fmt::format("element vertex {}{}", count, line.ends_with("\r\n") ? "\r\n" : "\n");
+    } else {
+      out += line;
+    }
+    begin = end;
+  }
+  return out;
+}
+
+// A logit that every viewer can read: 8-bit sources have opacities of exactly 0 and 1.
+float logit(float opacity) {
+  constexpr float kNearest = 1e-7f;
+  const float p = std::clamp(opacity, kNearest, 1.0f - kNearest);
+  return std::log(p / (1.0f - p));
+}
+
+float log_scale(float scale) {
+  constexpr float kSmallest = 1e-20f;  // a flat Gaussian has 0, whose logarithm some readers refuse
+  return std::log(std::max(scale, kSmallest));
+}
+
+std::string header_for(std::size_t count, std::size_t rest) {
+  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", count);
+  const auto add = [&](const std::string& name) { header += "property float " + name + "\n"; };
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"}) add(name);
+  for (std::size_t i = 0; i < rest; ++i) add(fmt::format("f_rest_{}", i));
+  for (const char* name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"}) add(name);
+  return header + "end_header\n";
+}
+
+}  // namespace
+
+void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians) {
+  const MappedFile source(scene.path);
+  if (source.bytes().size() != scene.file_bytes || source.modified_ns() != scene.modified_ns)
+    throw Error(scene.path.string(), "the file changed since it was loaded", "Load it again");
+  const PlyHeader header = parse_ply_header(scene.path, source.bytes());
+  const PlyElement* vertex = header.find("vertex");
+  if (!vertex) throw Error(scene.path.string(), "the header has no element \"vertex\"");
+  const std::span<const std::byte> rows = element_bytes(scene.path, source.bytes(), *vertex);
+  const std::string text = header_with_count(
+      {reinterpret_cast<const char*>(source.bytes().data()), header.bytes}, gaussians.size());
+  out.write(std::as_bytes(std::span(text)));
+  out.write(source.bytes().subspan(header.bytes, vertex->data_begin - header.bytes));
+  const std::size_t row_bytes = vertex->row_bytes;
+  std::vector<std::byte> buffer;
+  buffer.reserve(kBufferBytes + row_bytes);
+  for (const std::uint32_t g : gaussians) {
+    const auto row = rows.subspan(scene.cloud.file_row[g] * row_bytes, row_bytes);
+    buffer.insert(buffer.end(), row.begin(), row.end());
+    if (buffer.size() < kBufferBytes) continue;
+    out.write(buffer);
+    buffer.clear();
+  }
+  out.write(buffer);
+  out.write(source.bytes().subspan(vertex->data_begin + rows.size()));  // elements after the Gaussians
+}
+
+std::string write_ply(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
+  const std::string header = header_for(gaussians.size(), cloud.sh_stride());
+  out.write(std::as_bytes(std::span(header)));
+  std::vector<float> buffer;
+  buffer.reserve(kBufferBytes / sizeof(float) + 17 + cloud.sh_stride());
+  const auto add = [&](auto... values) { (buffer.push_back(values), ...); };
+  for (const std::uint32_t g : gaussians) {
+    const glm::vec3 &p = cloud.position[g], &dc = cloud.f_dc[g], &s = cloud.scale[g];
+    const glm::quat& q = cloud.rotation[g];
+    const std::span<const float> rest = cloud.sh_rest_of(g);
+    add(p.x, p.y, p.z, 0.0f, 0.0f, 0.0f, dc.x, dc.y, dc.z);
+    buffer.insert(buffer.end(), rest.begin(), rest.end());
+    add(logit(cloud.opacity[g]), log_scale(s.x), log_scale(s.y), log_scale(s.z), q.w, q.x, q.y, q.z);
+    if (buffer.size() * sizeof(float) < kBufferBytes) continue;
+    out.write(std::as_bytes(std::span(buffer)));
+    buffer.clear();
+  }
+  out.write(std::as_bytes(std::span(buffer)));
+  return {};
+}
+
+}  // namespace splatcut

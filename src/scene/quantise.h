@@ -1,0 +1,46 @@
+// Small fixed-point helpers that the compact scene formats share. Internal to src/scene.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace splatcut {
+
+constexpr float kShC0 = 0.28209479f;  // constant SH basis function, 1 / (2 sqrt(pi))
+
+inline glm::vec3 f_dc_from_colour(const glm::vec3& colour) { return (colour - 0.5f) / kShC0; }
+inline glm::vec3 colour_from_f_dc(const glm::vec3& f_dc) { return 0.5f + kShC0 * f_dc; }
+
+// The nearest step of 0..2^bits-1 that stands for value in [0, 1]; NaN becomes 0.
+inline std::uint32_t to_steps(float value, int bits) {
+  const float max = static_cast<float>((1u << bits) - 1);
+  return value > 0 ? static_cast<std::uint32_t>(std::min(value, 1.0f) * max + 0.5f) : 0u;
+}
+inline float from_steps(std::uint32_t steps, int bits) {
+  const std::uint32_t max = (1u << bits) - 1;
+  return static_cast<float>(steps & max) / static_cast<float>(max);
+}
+inline std::uint8_t to_byte(float value) {  // nearest integer, clamped to 0..255
+  return static_cast<std::uint8_t>(std::clamp(std::round(value), 0.0f, 255.0f));
+}
+inline float byte_at(const std::byte* at) { return static_cast<float>(std::to_integer<int>(*at)); }
+
+// Index of the component of largest magnitude.
+inline std::uint32_t largest_of(const std::array<float, 4>& v) {
+  return static_cast<std::uint32_t>(
+      std::max_element(v.begin(), v.end(), [](float a, float b) { return std::abs(a) < std::abs(b); }) - v.begin());
+}
+
+template <class T>
+T load(const std::byte* at) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  return value;
+}
+
+}  // namespace splatcut
