@@ -111,7 +111,7 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("-o,--output", args->output, "Folder to write")->required();
   command.add_option("--preset", args->preset, "fast, default, best or paper");
   command.add_option("--views", args->views, "Orbit views beside the reference")->check(CLI::Range(0, 400));
-  command.add_option("--smoothness", args->lambda, "Weight of the neighbour term")->check(CLI::Range(0.0, 1000.0));
+  command.add_option("--smoothness", args->lambda, "Weight of the neighbour term")->check(CLI::Range(0.0, 500.0));
   command.add_flag("--coarse", args->coarse, "Threshold the likelihood instead of the cut");
   command.add_flag("--json", args->json, "Print the report as JSON");
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");

@@ -70,14 +70,16 @@ class Run {
   PipelineReport& report_;
   StageClock clock_;
   MaskedSums sums_;
+  std::vector<std::int32_t> capacity_;  // does not change within a run
   int used_views_ = 0;
 };
 
 void Run::solve() {
   clock_.time("cut", [&] {
     const Camera& view = report_.views.front().camera;
-    report_.cut = cut_object(cloud_, graph_, likelihood(sums_), used_views_,
-                             static_cast<double>(view.width_px) * view.height_px, {}, {}, options_.cut, job_);
+    if (capacity_.empty() && !options_.cut.coarse) capacity_ = arc_capacities(cloud_, graph_, options_.cut.energy);
+    report_.cut = cut_object(cloud_, graph_, capacity_, likelihood(sums_), used_views_,
+                             static_cast<double>(view.width_px) * view.height_px, options_.cut, job_);
     report_.labels = report_.cut.labels;
   });
 }

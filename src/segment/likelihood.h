@@ -1,0 +1,18 @@
+// What the masks say of each Gaussian: w_g = M_g / A_g and how much of it was ever seen.
+// Source: Jain et al., GaussianCut, NeurIPS 2024, eq. 1-2.
+#pragma once
+
+#include <vector>
+
+#include "scene/rasterizer.h"
+
+namespace splatcut {
+
+struct Likelihood {
+  std::vector<float> w;        // [0, 1]; 0 where nothing was seen
+  std::vector<float> seen_px;  // A_g over all views, pixels
+};
+
+Likelihood likelihood(const MaskedSums& sums);
+
+}  // namespace splatcut
