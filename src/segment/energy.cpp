@@ -115,7 +115,7 @@ std::vector<std::int32_t> arc_capacities(const GaussianCloud& cloud, const FlowG
                                          options.gamma_colour * colour2)
                               : std::exp(-options.gamma_position * distance2(cloud.position[g], cloud.position[h])) +
                                     options.lambda_n * std::exp(-options.gamma_colour * colour2);
-        const double units = options.lambda * static_cast<double>(std::isfinite(psi) ? psi : 0.0f) * kCapacityScale;
+        const double units = static_cast<double>(options.lambda) * static_cast<double>(std::isfinite(psi) ? psi : 0.0f) * kCapacityScale;
         capacity[arc] = capacity[graph.reverse_arc[arc]] = static_cast<std::int32_t>(std::llround(units));
       }
   });
