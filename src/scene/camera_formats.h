@@ -1,0 +1,21 @@
+// Readers of one camera format each; camera_file.cpp chooses. Internal to src/scene.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "scene/camera_file.h"
+
+namespace splatcut {
+
+// folder holds cameras and images, both .bin or both .txt (.bin is preferred).
+std::vector<Camera> load_colmap_cameras(const std::filesystem::path& folder);
+bool has_colmap_cameras(const std::filesystem::path& folder);
+
+// The pose from the camera's axes and centre in the world; the axes are made unit length. False when
+// they are no rotation.
+bool set_pose(Camera& camera, const glm::dmat3& world_from_camera, const glm::dvec3& centre_world);
+
+// Throws Error for a picture size or focal length that is not positive and finite.
+void check_lens(const std::filesystem::path& path, std::string_view entry, const Camera& camera);
+
+}  // namespace splatcut
