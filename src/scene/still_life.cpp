@@ -170,7 +170,7 @@ void shuffle_rows(LabelledScene& scene, std::uint64_t seed) {
 }
 
 std::vector<Camera> circle_of_cameras() {
-  constexpr float kDistance = 2.75f, kFovY = 0.72f;
+  constexpr float kDistance = 2.85f, kFovY = 0.72f;
   constexpr std::array<float, 2> kElevation{0.40f, 0.68f};  // radians above the table
   const glm::vec3 target = at(0, 0.24f, 0);
   std::vector<Camera> cameras;

@@ -64,12 +64,12 @@ void add_box(Model& model, std::uint8_t label, float detail, const glm::vec3& ba
     shape.cells_u = shape.cells_v = 1;
     if (m) model.patches.push_back({std::move(shape), m, label, detail});
   };
-  face(low + up + z, x, -z, faces.top);      // cross(x, -z) points to -y: up
-  face(low, x, z, faces.bottom);
-  face(low + x, -x, up, faces.front);        // towards -z
-  face(low + z, x, up, faces.back);
-  face(low, z, up, faces.left);
-  face(low + x + z, -z, up, faces.right);
+  face(low + up, x, z, faces.top);  // cross(x, z) points to -y: up
+  face(low + z, x, -z, faces.bottom);
+  face(low, x, up, faces.front);  // towards -z
+  face(low + x + z, -x, up, faces.back);
+  face(low + z, -z, up, faces.left);
+  face(low + x, z, up, faces.right);
 }
 
 void add_room(Model& model, const StillLifeOptions& options) {
@@ -83,6 +83,7 @@ void add_room(Model& model, const StillLifeOptions& options) {
   add_box(model, 0, 1.0f, at(0, -kTableThickness, 0), {2 * kTableHalfX, kTableThickness, 2 * kTableHalfZ}, 0,
           {wood, {}, side, side, side, side});
   model.patches.front().shape.stretch = 2.2f;  // splats along the grain
+  for (std::size_t i = 1; i < model.patches.size(); ++i) model.patches[i].detail = 3;  // the narrow edges
 
   for (const float x : {-1.0f, 1.0f})
     for (const float z : {-1.0f, 1.0f}) {
@@ -99,7 +100,7 @@ void add_room(Model& model, const StillLifeOptions& options) {
     const glm::vec3 sage = glm::mix(glm::vec3(0.50f, 0.59f, 0.56f), glm::vec3(0.74f, 0.79f, 0.75f), rise);
     return Material{sage * (1 + 0.07f * mottle), 0.02f, 0.97f, 0};
   };
-  PatchShape wall{.surface = revolution(at(0, 0, 0), {{kRoomRadius, kWallTop}, {kRoomRadius, kFloorHeight}})};
+  PatchShape wall{.surface = revolution(at(0, 0, 0), {{kRoomRadius, kWallTop}, {kRoomRadius, kFloorHeight}}), .overlap = 0.95f};
   model.patches.push_back({std::move(wall), plaster, 0, 0.030f});
 
   const MaterialFn boards = [](const SurfaceSample& s) {
@@ -114,7 +115,7 @@ void add_room(Model& model, const StillLifeOptions& options) {
     return Material{glm::vec3(0.50f, 0.40f, 0.31f) * (0.9f + 0.2f * lattice(static_cast<int>(board), 1, 1)), 0.05f,
                     0.97f, 0};
   };
-  PatchShape floor{.surface = revolution(at(0, kFloorHeight, 0), {{kRoomRadius, 0}, {0.0f, 0.0f}})};
+  PatchShape floor{.surface = revolution(at(0, kFloorHeight, 0), {{kRoomRadius, 0}, {0.0f, 0.0f}}), .overlap = 0.85f};
   floor.face_up = true;
   model.patches.push_back({std::move(floor), boards, 0, 0.06f});
 }
@@ -128,10 +129,10 @@ void add_occluder(Model& model, const StillLifeOptions& options) {
     return Material{colour, 0.03f, 0.96f, 0};
   };
   const MaterialFn card = plain({0.88f, 0.85f, 0.79f}, 0.03f);
-  add_box(model, label, 3.0f, at(-0.14f, 0, -0.78f), {0.50f, 0.42f, 0.025f}, 0.12f,
+  add_box(model, label, 3.0f, at(-0.04f, 0, -0.78f), {0.50f, 0.42f, 0.025f}, 0.12f,
           {card, {}, paint, card, card, card});
   for (int i = 0; i < 4; ++i)
-    model.proxies.push_back({at(-0.32f + 0.12f * static_cast<float>(i), 0.08f, -0.78f), 0.07f, label});
+    model.proxies.push_back({at(-0.22f + 0.12f * static_cast<float>(i), 0.08f, -0.78f), 0.07f, label});
 }
 
 }  // namespace splatcut::still_life

@@ -102,7 +102,7 @@ std::vector<LabelledScene::SeedClick> seed_clicks(const LabelledScene& scene) {
     const auto largest = std::max_element(seen[o].begin(), seen[o].end(), smaller);
     if (largest == seen[o].end() || largest->area == 0) continue;
     // The first camera is the one on screen: good enough there beats best elsewhere.
-    const auto chosen = 2 * seen[o].front().area >= largest->area ? seen[o].begin() : largest;
+    const auto chosen = 3 * seen[o].front().area >= largest->area ? seen[o].begin() : largest;
     clicks.push_back({scene.label_name[o], static_cast<int>(chosen - seen[o].begin()), chosen->pixel});
   }
   return clicks;

@@ -145,8 +145,8 @@ void add_lamp(Model& model, const StillLifeOptions& options) {
   PatchShape outside{.surface = revolution(base, {{0.25f, kShadeLow}, {0.155f, kShadeHigh}})};
   PatchShape inside{.surface = revolution(base, {{0.151f, kShadeHigh}, {0.246f, kShadeLow}})};
   outside.limit_u = inside.limit_u = 0.05f;
-  model.patches.push_back({std::move(outside), linen(0.72f), label, 1.8f});
-  model.patches.push_back({std::move(inside), linen(0.95f), label, 1.2f});
+  model.patches.push_back({std::move(outside), linen(0.72f), label, 3.5f});
+  model.patches.push_back({std::move(inside), linen(0.95f), label, 1.6f});
   add_cable(model, label, options.thin_width_scale);
   model.proxies.push_back({base + at(0, 0.83f, 0), 0.17f, label});
   for (int i = 0; i < 6; ++i) {

@@ -12,8 +12,7 @@ namespace {
 
 constexpr float kTau = 6.28318530718f;
 constexpr double kGolden = 0.61803398874989485;
-constexpr float kSigmaPerSpacing = 0.60f;  // neighbours at one spacing overlap to more than 0.9 opacity
-constexpr float kJitter = 0.42f;           // of the lattice spacing: hides the lattice, opens no holes
+constexpr float kJitter = 0.30f;           // of the lattice spacing: hides the lattice, opens no holes
 constexpr float kDifference = 1e-3f;       // step of the finite differences in u and v
 
 struct Derivatives {
@@ -132,7 +131,7 @@ std::vector<SurfaceSample> sample_patch(const PatchShape& shape, std::size_t n, 
     s.position = shape.surface(s.uv.x, s.uv.y);
     const Derivatives d = derivatives_at(shape.surface, s.uv.x, s.uv.y);
     orient(s, d, shape.face_up);
-    const float size = kSigmaPerSpacing * spacing;
+    const float size = shape.overlap * spacing;
     const float floor_size = 0.05f * size;  // at poles the local width is 0: keep the splat visible
     s.sigma_u = std::clamp(size * root * rng.between(0.75f, 1.3f), 0.0f,
                            std::max(floor_size, shape.limit_u * glm::length(d.du)));

@@ -6,7 +6,7 @@
 // thin leaf is covered as evenly as a square table.
 //
 // SurfaceSample: position and unit frame (tangent_u, tangent_v, normal), world; sigma_u, sigma_v in scene
-// units from the sample density: spacing = sqrt(area / n), sigma about 0.6 spacing, limited to a fraction
+// units from the sample density: spacing = sqrt(area / n), sigma about overlap * spacing, limited to a fraction
 // of the patch's own local width so that a splat does not hang over the edge of a thin strip.
 // Normal direction: cross(dP/du, dP/dv). Cost: linear in the samples.
 #pragma once
@@ -30,6 +30,7 @@ struct SurfaceSample {
 
 struct PatchShape {
   SurfaceFn surface;
+  float overlap = 0.62f;               // sigma as a part of the spacing
   float stretch = 1;                   // sigma_u / sigma_v wanted on average
   bool turn_randomly = true;           // false: discs stay aligned with u and v (grain, leaves)
   float limit_u = 0.22f, limit_v = 0.22f;  // largest sigma as a fraction of the local extent in u, v
