@@ -112,7 +112,7 @@ void put_straddling(Writer& out, const Model& model, std::size_t n, std::uint64_
 void put_interior(Writer& out, const Model& model, std::size_t n, std::uint64_t seed) {
   CounterRng rng(seed, kExtraStream + 2);
   for (std::size_t k = 0; k < n; ++k) {
-    const Proxy& ball = model.proxies[rng.below(model.proxies.size())];
+    const Proxy& ball = model.interiors[rng.below(model.interiors.size())];
     const glm::vec3 position = ball.centre + 0.85f * ball.radius * rng.in_ball();
     const glm::vec3 scale = 0.12f * ball.radius * glm::vec3(rng.between(0.3f, 1), rng.between(0.3f, 1), rng.between(0.3f, 1));
     const glm::vec3 colour{rng.between(0.05f, 0.8f), rng.between(0.05f, 0.8f), rng.between(0.05f, 0.8f)};

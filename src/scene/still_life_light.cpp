@@ -41,7 +41,7 @@ Exposure exposure_at(const Model& model, const glm::vec3& p, const glm::vec3& n,
   Exposure e;
   for (const Proxy& ball : model.proxies) {
     if (ball.label == label) continue;
-    e.sky *= 1 - 0.62f * std::min(1.0f, occlusion(ball, p, n));
+    e.sky *= 1 - 0.80f * std::min(1.0f, occlusion(ball, p, n));
     e.key = std::min(e.key, shadow(ball, p, kToWindow));
   }
   return e;

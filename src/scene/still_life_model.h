@@ -45,7 +45,8 @@ struct Contact {
 
 struct Model {
   std::vector<Patch> patches;
-  std::vector<Proxy> proxies;
+  std::vector<Proxy> proxies;    // cast shade; may stick out a little
+  std::vector<Proxy> interiors;  // lie well inside their objects
   std::vector<Contact> contacts;
   std::vector<std::string> label_name;
 

@@ -74,6 +74,7 @@ void add_apple(Model& model, const StillLifeOptions& options, const Place& place
   model.patches.push_back({std::move(body), skin, label, 4.5f});
   add_stem(model, label, base + at(0, 0.225f, 0), 0.075f, 0.006f * options.thin_width_scale);
   model.proxies.push_back({base + at(0, 0.14f, 0), kAppleRadius * 0.97f, label});
+  model.interiors.push_back({base + at(0, 0.13f, 0), 0.115f, label});
   model.contacts.push_back({base, 0.06f, label, 0, {0.6f, 0.3f, 0.2f}});
 }
 
@@ -99,6 +100,7 @@ void add_orange(Model& model, const StillLifeOptions& options, const Place& plac
   model.patches.push_back({std::move(calyx), plain({0.38f, 0.47f, 0.20f}, 0.02f), label, 14});
   add_stem(model, label, top, 0.022f, 0.006f * options.thin_width_scale);
   model.proxies.push_back({base + at(0, 0.135f, 0), kOrangeRadius * 0.97f, label});
+  model.interiors.push_back({base + at(0, 0.135f, 0), 0.115f, label});
   model.contacts.push_back({base, 0.06f, label, 0, {0.8f, 0.5f, 0.25f}});
 }
 
@@ -158,6 +160,7 @@ void add_mug(Model& model, const StillLifeOptions& options) {
   const glm::vec3 tone = options.low_contrast ? kTableTone : glm::vec3(0.92f, 0.885f, 0.815f);
   model.patches.push_back({std::move(handle), plain(tone, 0.17f), label, 9});
   for (const float height : {0.10f, 0.19f, 0.27f}) model.proxies.push_back({base + at(0, height, 0), 0.145f, label});
+  for (const float height : {0.11f, 0.17f}) model.interiors.push_back({base + at(0, height, 0), 0.10f, label});
   model.contacts.push_back({base, r - 0.02f, label, 0, {0.7f, 0.55f, 0.42f}});
 }
 
@@ -223,6 +226,7 @@ void add_books(Model& model, const StillLifeOptions&) {
       }
     height += book.size.y + 0.001f;
   }
+  for (const float x : {-0.42f, -0.30f, -0.18f}) model.interiors.push_back({at(x, 0.115f, 0.24f), 0.085f, label});
   model.contacts.push_back({at(-0.30f, 0, 0.24f), 0.24f, label, 0, {0.35f, 0.38f, 0.34f}});
 }
 

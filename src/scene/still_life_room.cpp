@@ -95,10 +95,9 @@ void add_room(Model& model, const StillLifeOptions& options) {
 
   const MaterialFn plaster = [](const SurfaceSample& s) {
     const float h = -s.position.y, mottle = fractal_noise(2.2f * s.position) - 0.5f;
-    if (h < kFloorHeight + 0.14f) return Material{glm::vec3(0.86f, 0.84f, 0.79f), 0.02f, 0.97f, 0};  // skirting
     const float rise = glm::smoothstep(-1.0f, 2.0f, h);
-    const glm::vec3 sage = glm::mix(glm::vec3(0.50f, 0.59f, 0.56f), glm::vec3(0.74f, 0.79f, 0.75f), rise);
-    return Material{sage * (1 + 0.07f * mottle), 0.02f, 0.97f, 0};
+    const glm::vec3 sage = glm::mix(glm::vec3(0.56f, 0.64f, 0.60f), glm::vec3(0.80f, 0.84f, 0.79f), rise);
+    return Material{sage * (1 + 0.07f * mottle), 0.0f, 0.97f, 0.45f};
   };
   PatchShape wall{.surface = revolution(at(0, 0, 0), {{kRoomRadius, kWallTop}, {kRoomRadius, kFloorHeight}}), .overlap = 0.95f};
   model.patches.push_back({std::move(wall), plaster, 0, 0.030f});

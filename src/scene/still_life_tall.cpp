@@ -114,6 +114,7 @@ void add_plant(Model& model, const StillLifeOptions& options) {
   };
   model.patches.push_back({std::move(soil), earth, pot, 2.0f});
   for (const float height : {0.11f, 0.19f, 0.25f}) model.proxies.push_back({base + at(0, height, 0), 0.16f, pot});
+  for (const float height : {0.12f, 0.16f}) model.interiors.push_back({base + at(0, height, 0), 0.11f, pot});
   for (int i = 0; i < kLeaves; ++i) add_leaf(model, plant, i, options.thin_width_scale);
   for (int i = 0; i < 9; ++i) {  // the crown as a loose cluster: dappled shade
     const float a = kTau * static_cast<float>(i) / 9;
@@ -145,7 +146,7 @@ void add_lamp(Model& model, const StillLifeOptions& options) {
   PatchShape outside{.surface = revolution(base, {{0.25f, kShadeLow}, {0.155f, kShadeHigh}})};
   PatchShape inside{.surface = revolution(base, {{0.151f, kShadeHigh}, {0.246f, kShadeLow}})};
   outside.limit_u = inside.limit_u = 0.05f;
-  model.patches.push_back({std::move(outside), linen(0.72f), label, 3.5f});
+  model.patches.push_back({std::move(outside), linen(0.86f), label, 3.5f});
   model.patches.push_back({std::move(inside), linen(0.95f), label, 1.6f});
   add_cable(model, label, options.thin_width_scale);
   model.proxies.push_back({base + at(0, 0.83f, 0), 0.17f, label});
