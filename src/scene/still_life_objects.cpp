@@ -1,7 +1,6 @@
 // Mug, apple, orange and books.
 #include <cmath>
 
-#include "scene/counter_rng.h"
 #include "scene/still_life_model.h"
 
 namespace splatcut::still_life {
@@ -60,10 +59,12 @@ void add_apple(Model& model, const StillLifeOptions& options, const Place& place
     const float angle = 2 * kPi * s.uv.x, h = -s.position.y / (2 * kAppleRadius);
     const glm::vec3 local = s.position - base;
     const float streak = value_noise({13 * std::cos(angle), 2.5f * h, 13 * std::sin(angle)});
-    const float blush = glm::smoothstep(0.25f, 0.80f, fractal_noise(5.0f * local + 3.0f) + 0.30f * (streak - 0.4f) +
-                                                          0.12f * std::cos(angle - 0.6f));
+    const float blush = glm::smoothstep(
+        0.25f, 0.80f,
+        fractal_noise(5.0f * local + 3.0f) + 0.30f * (streak - 0.4f) + 0.12f * std::cos(angle - 0.6f));
     const float pole = glm::smoothstep(0.055f, 0.01f, glm::length(glm::vec2(local.x, local.z)));
-    glm::vec3 colour = glm::mix(glm::vec3(0.78f, 0.13f, 0.12f), glm::vec3(0.93f, 0.66f, 0.28f), 0.75f * blush);
+    glm::vec3 colour =
+        glm::mix(glm::vec3(0.78f, 0.13f, 0.12f), glm::vec3(0.93f, 0.66f, 0.28f), 0.75f * blush);
     colour = glm::mix(colour, glm::vec3(0.72f, 0.66f, 0.28f), pole);
     if (quiet) colour = kTableTone * (0.94f + 0.10f * streak);
     return Material{colour, 0.20f, 0.97f, 0};
@@ -113,7 +114,8 @@ MaterialFn glaze(const StillLifeOptions& options) {
     const bool line = h > 0.222f + wobble && h < 0.234f + wobble;
     const float speck = value_noise(60.0f * s.position) > 0.88f ? 0.88f : 1.0f;
     glm::vec3 colour = glm::vec3(0.92f, 0.885f, 0.815f) * speck;
-    if (stripe || line) colour = glm::vec3(0.17f, 0.33f, 0.48f) * (0.93f + 0.14f * value_noise(25.0f * s.position));
+    if (stripe || line)
+      colour = glm::vec3(0.17f, 0.33f, 0.48f) * (0.93f + 0.14f * value_noise(25.0f * s.position));
     if (h < 0.022f) colour = {0.66f, 0.50f, 0.38f};  // the unglazed foot
     if (quiet) colour = kTableTone * (stripe || line ? 0.93f : 1.02f);
     return Material{colour, 0.17f, 0.97f, 0};
@@ -126,10 +128,18 @@ void add_mug(Model& model, const StillLifeOptions& options) {
   const std::uint8_t label = model.add_label("mug");
   const glm::vec3 base = at(kMugX, 0, kMugZ);
   const float r = kMugRadius, h = kMugHeight, inner = r - 0.018f;
-  PatchShape body{.surface = revolution(base, {{0.0f, 0.004f}, {r - 0.03f, 0.004f}, {r - 0.022f, 0.0f},
-                                               {r - 0.012f, 0.008f}, {r - 0.003f, 0.03f}, {r, 0.06f}, {r, h - 0.01f},
-                                               {r - 0.003f, h - 0.003f}, {r - 0.009f, h}, {r - 0.015f, h - 0.003f},
-                                               {inner, h - 0.01f}, {inner, kCoffeeHeight - 0.01f}})};
+  PatchShape body{.surface = revolution(base, {{0.0f, 0.004f},
+                                               {r - 0.03f, 0.004f},
+                                               {r - 0.022f, 0.0f},
+                                               {r - 0.012f, 0.008f},
+                                               {r - 0.003f, 0.03f},
+                                               {r, 0.06f},
+                                               {r, h - 0.01f},
+                                               {r - 0.003f, h - 0.003f},
+                                               {r - 0.009f, h},
+                                               {r - 0.015f, h - 0.003f},
+                                               {inner, h - 0.01f},
+                                               {inner, kCoffeeHeight - 0.01f}})};
   body.limit_u = 0.05f;
   body.limit_v = 0.008f;
   body.cells_v = 96;
@@ -140,7 +150,8 @@ void add_mug(Model& model, const StillLifeOptions& options) {
   const MaterialFn brew = [base](const SurfaceSample& s) {
     const float froth = glm::length(glm::vec2(s.position.x - base.x, s.position.z - base.z));
     const float rim = glm::smoothstep(0.10f, 0.15f, froth + 0.03f * value_noise(40.0f * s.position));
-    return Material{glm::mix(glm::vec3(0.26f, 0.15f, 0.09f), glm::vec3(0.58f, 0.40f, 0.25f), rim), 0.06f, 0.97f, 0};
+    return Material{glm::mix(glm::vec3(0.26f, 0.15f, 0.09f), glm::vec3(0.58f, 0.40f, 0.25f), rim), 0.06f,
+                    0.97f, 0};
   };
   model.patches.push_back({std::move(coffee), brew, label, 3.0f});
 
@@ -159,8 +170,10 @@ void add_mug(Model& model, const StillLifeOptions& options) {
   handle.turn_randomly = false;
   const glm::vec3 tone = options.low_contrast ? kTableTone : glm::vec3(0.92f, 0.885f, 0.815f);
   model.patches.push_back({std::move(handle), plain(tone, 0.17f), label, 9});
-  for (const float height : {0.10f, 0.19f, 0.27f}) model.proxies.push_back({base + at(0, height, 0), 0.145f, label});
-  for (const float height : {0.11f, 0.17f}) model.interiors.push_back({base + at(0, height, 0), 0.10f, label});
+  for (const float height : {0.10f, 0.19f, 0.27f})
+    model.proxies.push_back({base + at(0, height, 0), 0.145f, label});
+  for (const float height : {0.11f, 0.17f})
+    model.interiors.push_back({base + at(0, height, 0), 0.10f, label});
   model.contacts.push_back({base, r - 0.02f, label, 0, {0.7f, 0.55f, 0.42f}});
 }
 
@@ -226,7 +239,8 @@ void add_books(Model& model, const StillLifeOptions&) {
       }
     height += book.size.y + 0.001f;
   }
-  for (const float x : {-0.42f, -0.30f, -0.18f}) model.interiors.push_back({at(x, 0.115f, 0.24f), 0.085f, label});
+  for (const float x : {-0.42f, -0.30f, -0.18f})
+    model.interiors.push_back({at(x, 0.115f, 0.24f), 0.085f, label});
   model.contacts.push_back({at(-0.30f, 0, 0.24f), 0.24f, label, 0, {0.35f, 0.38f, 0.34f}});
 }
 

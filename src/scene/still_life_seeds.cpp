@@ -10,11 +10,11 @@
 namespace splatcut::still_life {
 namespace {
 
-constexpr int kReduction = 4;                    // label picture: 252 x 189
-constexpr std::size_t kMostSplats = 150000;      // enough to close the surfaces at that size
-constexpr int kLargestRadius = 4;                // of a splat in the label picture, pixels
-constexpr float kFrontSigmas = 1.6f;             // radius of a splat's disc
-constexpr float kSolid = 0.8f;                   // fainter splats are haze, not surface
+constexpr int kReduction = 4;                // label picture: 252 x 189
+constexpr std::size_t kMostSplats = 150000;  // enough to close the surfaces at that size
+constexpr int kLargestRadius = 4;            // of a splat in the label picture, pixels
+constexpr float kFrontSigmas = 1.6f;         // radius of a splat's disc
+constexpr float kSolid = 0.8f;               // fainter splats are haze, not surface
 constexpr std::uint8_t kNothing = 255;
 
 struct LabelPicture {
