@@ -18,9 +18,10 @@ constexpr float kTau = 6.28318531f;
 constexpr float kShC0 = 0.28209479f;
 constexpr float kThinness = 0.10f;  // normal axis of a disc, as a part of its smaller tangent axis
 // Parts of the count that the options take from the surfaces.
-constexpr double kFloaterPart = 0.012, kStraddlingPart = 0.006, kInteriorPart = 0.05;
+constexpr double kFloaterPart = 0.003, kStraddlingPart = 0.006, kInteriorPart = 0.05;
 // Streams of random numbers beyond the patches' own, which start at 0.
-constexpr std::uint64_t kAppearanceStream = 1ull << 32, kExtraStream = 2ull << 32, kShuffleStream = 3ull << 32;
+constexpr std::uint64_t kAppearanceStream = 1ull << 32, kExtraStream = 2ull << 32,
+                        kShuffleStream = 3ull << 32;
 constexpr int kCameras = 24;
 
 struct Writer {
@@ -44,8 +45,10 @@ struct Writer {
 // The SH basis of degree 1 and 2 with the signs of 3DGS (Kerbl et al. 2023).
 std::array<float, 8> sh_basis(const glm::vec3& d) {
   const float x = d.x, y = d.y, z = d.z;
-  return {-0.48860251f * y, 0.48860251f * z, -0.48860251f * x, 1.0925485f * x * y, -1.0925485f * y * z,
-          0.31539157f * (2 * z * z - x * x - y * y), -1.0925485f * x * z, 0.54627422f * (x * x - y * y)};
+  return {-0.48860251f * y,    0.48860251f * z,
+          -0.48860251f * x,    1.0925485f * x * y,
+          -1.0925485f * y * z, 0.31539157f * (2 * z * z - x * x - y * y),
+          -1.0925485f * x * z, 0.54627422f * (x * x - y * y)};
 }
 
 // A lobe around the direction from which the highlight is seen. Sum over m of basis(a) basis(b) is
@@ -86,7 +89,8 @@ void put_floaters(Writer& out, std::size_t n, std::uint64_t seed) {
   for (std::size_t k = 0; k < n; ++k) {
     const glm::vec3 position = at(0, 0.9f, 0) + glm::vec3(1.9f, 0.8f, 1.9f) * rng.in_ball();
     const float size = 0.02f + 0.08f * rng.unit() * rng.unit();
-    const glm::vec3 scale = size * glm::vec3(rng.between(0.4f, 1.6f), rng.between(0.4f, 1.6f), rng.between(0.2f, 0.6f));
+    const glm::vec3 scale =
+        size * glm::vec3(rng.between(0.4f, 1.6f), rng.between(0.4f, 1.6f), rng.between(0.2f, 0.6f));
     const glm::vec3 colour = glm::vec3(rng.between(0.55f, 0.8f)) * glm::vec3(0.98f, 1.0f, 0.99f);
     out.put(position, scale, random_rotation(rng), rng.between(0.02f, 0.25f), colour, 0);
   }
@@ -99,7 +103,8 @@ void put_straddling(Writer& out, const Model& model, std::size_t n, std::uint64_
     const Contact& contact = model.contacts[rng.below(model.contacts.size())];
     const float angle = rng.between(0, kTau);
     const glm::vec3 out_dir{std::cos(angle), 0, std::sin(angle)};
-    const glm::vec3 position = contact.centre + contact.radius * out_dir + at(0, rng.between(0.0f, 0.012f), 0);
+    const glm::vec3 position =
+        contact.centre + contact.radius * out_dir + at(0, rng.between(0.0f, 0.012f), 0);
     const glm::vec3 scale{rng.between(0.03f, 0.06f), rng.between(0.012f, 0.03f), 0.006f};
     const std::uint8_t label = k % 2 == 0 ? contact.label : contact.other;
     const glm::quat rotation = glm::angleAxis(-angle, glm::vec3(0, 1, 0)) *
@@ -112,9 +117,10 @@ void put_straddling(Writer& out, const Model& model, std::size_t n, std::uint64_
 void put_interior(Writer& out, const Model& model, std::size_t n, std::uint64_t seed) {
   CounterRng rng(seed, kExtraStream + 2);
   for (std::size_t k = 0; k < n; ++k) {
-    const Proxy& ball = model.proxies[rng.below(model.proxies.size())];
+    const Proxy& ball = model.interiors[rng.below(model.interiors.size())];
     const glm::vec3 position = ball.centre + 0.85f * ball.radius * rng.in_ball();
-    const glm::vec3 scale = 0.12f * ball.radius * glm::vec3(rng.between(0.3f, 1), rng.between(0.3f, 1), rng.between(0.3f, 1));
+    const glm::vec3 scale =
+        0.12f * ball.radius * glm::vec3(rng.between(0.3f, 1), rng.between(0.3f, 1), rng.between(0.3f, 1));
     const glm::vec3 colour{rng.between(0.05f, 0.8f), rng.between(0.05f, 0.8f), rng.between(0.05f, 0.8f)};
     out.put(position, scale, random_rotation(rng), rng.between(0.05f, 0.9f), colour, ball.label);
   }
@@ -170,7 +176,7 @@ void shuffle_rows(LabelledScene& scene, std::uint64_t seed) {
 }
 
 std::vector<Camera> circle_of_cameras() {
-  constexpr float kDistance = 2.75f, kFovY = 0.72f;
+  constexpr float kDistance = 2.85f, kFovY = 0.72f;
   constexpr std::array<float, 2> kElevation{0.40f, 0.68f};  // radians above the table
   const glm::vec3 target = at(0, 0.24f, 0);
   std::vector<Camera> cameras;

@@ -26,7 +26,7 @@ struct StillLifeOptions {
   std::uint64_t seed = 1;          // sampling, variation and row order
   bool straddling = false;         // adds large splats across the lines where objects meet
   bool floaters = false;           // adds faint blobs in the air, labelled background
-  bool unseen_interior = false;    // adds splats of arbitrary colour inside the objects, labelled as those
+  bool unseen_interior = false;    // adds splats of arbitrary colour inside mug, fruit, pot and books
   bool twins = false;              // adds an identical apple with a label of its own, "apple twin"
   bool occluder = false;           // adds a standing picture board in front of the mug, label "board"
   bool low_contrast = false;       // mug, apple and pot take the colour of the table

@@ -28,10 +28,9 @@ float shadow(const Proxy& ball, const glm::vec3& p, const glm::vec3& to_light) {
   const float b = glm::dot(oc, to_light);
   if (b > 0) return 1;  // the ball is behind the point
   const float h = b * b - glm::dot(oc, oc) + ball.radius * ball.radius;
-  const float gap = ball.radius - std::sqrt(std::max(0.0f, ball.radius * ball.radius - h));
-  const float res = h > 0 ? -1.0f : gap / std::max(1e-4f, -b) * 1.0f;
-  if (res < 0) return 0;
-  return glm::smoothstep(0.0f, 1.0f, res * kShadowSharpness);
+  if (h > 0) return 0;  // the ray to the light meets the ball
+  const float gap = std::sqrt(ball.radius * ball.radius - h) - ball.radius;
+  return glm::smoothstep(0.0f, 1.0f, gap / std::max(1e-4f, -b) * kShadowSharpness);
 }
 
 struct Exposure {
@@ -42,7 +41,7 @@ Exposure exposure_at(const Model& model, const glm::vec3& p, const glm::vec3& n,
   Exposure e;
   for (const Proxy& ball : model.proxies) {
     if (ball.label == label) continue;
-    e.sky *= 1 - 0.62f * std::min(1.0f, occlusion(ball, p, n));
+    e.sky *= 1 - 0.80f * std::min(1.0f, occlusion(ball, p, n));
     e.key = std::min(e.key, shadow(ball, p, kToWindow));
   }
   return e;

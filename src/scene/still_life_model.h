@@ -16,9 +16,9 @@ namespace splatcut::still_life {
 // Display-referred colour: the same space the rasteriser writes.
 struct Material {
   glm::vec3 colour{0.5f};
-  float gloss = 0.05f;   // strength of the view-dependent lobe
+  float gloss = 0.05f;  // strength of the view-dependent lobe
   float opacity = 0.96f;
-  float glow = 0;        // 0: lit by the room; 1: shows its own colour unshaded
+  float glow = 0;  // 0: lit by the room; 1: shows its own colour unshaded
 };
 using MaterialFn = std::function<Material(const SurfaceSample&)>;
 
@@ -45,7 +45,8 @@ struct Contact {
 
 struct Model {
   std::vector<Patch> patches;
-  std::vector<Proxy> proxies;
+  std::vector<Proxy> proxies;    // cast shade; may stick out a little
+  std::vector<Proxy> interiors;  // lie well inside their objects
   std::vector<Contact> contacts;
   std::vector<std::string> label_name;
 
@@ -56,7 +57,9 @@ struct Model {
 };
 
 // Metre-like frame with height h upwards: the world's up is -y.
-inline glm::vec3 at(float x, float h, float z) { return {x, -h, z}; }
+inline glm::vec3 at(float x, float h, float z) {
+  return {x, -h, z};
+}
 
 // Smooth noise in [0, 1]; features of size 1.
 float value_noise(const glm::vec3& p);
@@ -68,7 +71,8 @@ MaterialFn plain(const glm::vec3& colour, float gloss, float variation = 0.04f);
 struct BoxFaces {  // materials of the six faces of a box
   MaterialFn top, bottom, front, back, left, right;
 };
-// Box with its bottom centre at base, size = (width x, height, depth z), turned about the vertical by yaw_rad.
+// Box with its bottom centre at base, size = (width x, height, depth z), turned about the vertical by
+// yaw_rad.
 void add_box(Model& model, std::uint8_t label, float detail, const glm::vec3& base, const glm::vec3& size,
              float yaw_rad, const BoxFaces& faces);
 
@@ -85,8 +89,8 @@ void add_occluder(Model& model, const StillLifeOptions& options);
 inline const glm::vec3 kLampBulb = at(-0.86f, 0.74f, 0.30f);
 
 struct Lit {
-  glm::vec3 colour{0};   // what a camera along the normal sees
-  glm::vec3 mirror{0};   // unit direction in which the highlight leaves
+  glm::vec3 colour{0};  // what a camera along the normal sees
+  glm::vec3 mirror{0};  // unit direction in which the highlight leaves
 };
 Lit lit(const Model& model, const SurfaceSample& sample, const Material& material, std::uint8_t label);
 

@@ -1,7 +1,6 @@
 // Mug, apple, orange and books.
 #include <cmath>
 
-#include "scene/counter_rng.h"
 #include "scene/still_life_model.h"
 
 namespace splatcut::still_life {
@@ -9,7 +8,7 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 constexpr glm::vec3 kTableTone{0.70f, 0.50f, 0.33f};  // what low contrast is low against
-constexpr float kMugX = -0.10f, kMugZ = -0.34f, kMugRadius = 0.165f, kMugHeight = 0.36f;
+constexpr float kMugX = 0.0f, kMugZ = -0.34f, kMugRadius = 0.165f, kMugHeight = 0.36f;
 constexpr float kAppleRadius = 0.15f, kOrangeRadius = 0.142f;
 constexpr float kCoffeeHeight = 0.30f;
 
@@ -37,7 +36,7 @@ struct FruitPlaces {
 };
 
 FruitPlaces fruit_places(bool contact) {
-  if (!contact) return {{0.35f, -0.46f}, {0.70f, -0.24f}};
+  if (!contact) return {{0.40f, -0.48f}, {0.74f, -0.26f}};
   const float reach = kMugRadius + kAppleRadius * 0.985f, angle = 0.35f;
   const Place apple{kMugX + reach * std::cos(angle), kMugZ - reach * std::sin(angle)};
   const float next = kAppleRadius + kOrangeRadius;
@@ -60,10 +59,12 @@ void add_apple(Model& model, const StillLifeOptions& options, const Place& place
     const float angle = 2 * kPi * s.uv.x, h = -s.position.y / (2 * kAppleRadius);
     const glm::vec3 local = s.position - base;
     const float streak = value_noise({13 * std::cos(angle), 2.5f * h, 13 * std::sin(angle)});
-    const float blush = glm::smoothstep(0.25f, 0.80f, fractal_noise(5.0f * local + 3.0f) + 0.30f * (streak - 0.4f) +
-                                                          0.12f * std::cos(angle - 0.6f));
+    const float blush = glm::smoothstep(
+        0.25f, 0.80f,
+        fractal_noise(5.0f * local + 3.0f) + 0.30f * (streak - 0.4f) + 0.12f * std::cos(angle - 0.6f));
     const float pole = glm::smoothstep(0.055f, 0.01f, glm::length(glm::vec2(local.x, local.z)));
-    glm::vec3 colour = glm::mix(glm::vec3(0.78f, 0.13f, 0.12f), glm::vec3(0.93f, 0.66f, 0.28f), 0.75f * blush);
+    glm::vec3 colour =
+        glm::mix(glm::vec3(0.78f, 0.13f, 0.12f), glm::vec3(0.93f, 0.66f, 0.28f), 0.75f * blush);
     colour = glm::mix(colour, glm::vec3(0.72f, 0.66f, 0.28f), pole);
     if (quiet) colour = kTableTone * (0.94f + 0.10f * streak);
     return Material{colour, 0.20f, 0.97f, 0};
@@ -71,9 +72,10 @@ void add_apple(Model& model, const StillLifeOptions& options, const Place& place
   PatchShape body{.surface = revolution(base, fruit_profile(kAppleRadius, 0.92f, 0.20f, 0.12f))};
   body.limit_u = 0.05f;
   body.cells_v = 64;
-  model.patches.push_back({std::move(body), skin, label, 3.2f});
+  model.patches.push_back({std::move(body), skin, label, 4.5f});
   add_stem(model, label, base + at(0, 0.225f, 0), 0.075f, 0.006f * options.thin_width_scale);
   model.proxies.push_back({base + at(0, 0.14f, 0), kAppleRadius * 0.97f, label});
+  model.interiors.push_back({base + at(0, 0.13f, 0), 0.115f, label});
   model.contacts.push_back({base, 0.06f, label, 0, {0.6f, 0.3f, 0.2f}});
 }
 
@@ -89,7 +91,7 @@ void add_orange(Model& model, const StillLifeOptions& options, const Place& plac
   PatchShape body{.surface = revolution(base, fruit_profile(kOrangeRadius, 0.95f, 0.06f, 0.0f))};
   body.limit_u = 0.05f;
   body.cells_v = 64;
-  model.patches.push_back({std::move(body), peel, label, 3.2f});
+  model.patches.push_back({std::move(body), peel, label, 4.5f});
   const glm::vec3 top = base + at(0, 0.262f, 0);
   PatchShape calyx{.surface = [top](float u, float v) {
     const float star = 0.020f * (1 + 0.35f * std::cos(10 * kPi * u));
@@ -99,6 +101,7 @@ void add_orange(Model& model, const StillLifeOptions& options, const Place& plac
   model.patches.push_back({std::move(calyx), plain({0.38f, 0.47f, 0.20f}, 0.02f), label, 14});
   add_stem(model, label, top, 0.022f, 0.006f * options.thin_width_scale);
   model.proxies.push_back({base + at(0, 0.135f, 0), kOrangeRadius * 0.97f, label});
+  model.interiors.push_back({base + at(0, 0.135f, 0), 0.115f, label});
   model.contacts.push_back({base, 0.06f, label, 0, {0.8f, 0.5f, 0.25f}});
 }
 
@@ -111,7 +114,8 @@ MaterialFn glaze(const StillLifeOptions& options) {
     const bool line = h > 0.222f + wobble && h < 0.234f + wobble;
     const float speck = value_noise(60.0f * s.position) > 0.88f ? 0.88f : 1.0f;
     glm::vec3 colour = glm::vec3(0.92f, 0.885f, 0.815f) * speck;
-    if (stripe || line) colour = glm::vec3(0.17f, 0.33f, 0.48f) * (0.93f + 0.14f * value_noise(25.0f * s.position));
+    if (stripe || line)
+      colour = glm::vec3(0.17f, 0.33f, 0.48f) * (0.93f + 0.14f * value_noise(25.0f * s.position));
     if (h < 0.022f) colour = {0.66f, 0.50f, 0.38f};  // the unglazed foot
     if (quiet) colour = kTableTone * (stripe || line ? 0.93f : 1.02f);
     return Material{colour, 0.17f, 0.97f, 0};
@@ -123,22 +127,31 @@ MaterialFn glaze(const StillLifeOptions& options) {
 void add_mug(Model& model, const StillLifeOptions& options) {
   const std::uint8_t label = model.add_label("mug");
   const glm::vec3 base = at(kMugX, 0, kMugZ);
-  const float r = kMugRadius, h = kMugHeight, inner = r - 0.014f;
-  PatchShape body{.surface = revolution(base, {{0.0f, 0.004f}, {r - 0.03f, 0.004f}, {r - 0.022f, 0.0f},
-                                               {r - 0.012f, 0.008f}, {r - 0.003f, 0.03f}, {r, 0.06f}, {r, h - 0.01f},
-                                               {r - 0.002f, h - 0.003f}, {r - 0.007f, h}, {r - 0.012f, h - 0.003f},
-                                               {inner, h - 0.01f}, {inner, kCoffeeHeight - 0.01f}})};
+  const float r = kMugRadius, h = kMugHeight, inner = r - 0.018f;
+  PatchShape body{.surface = revolution(base, {{0.0f, 0.004f},
+                                               {r - 0.03f, 0.004f},
+                                               {r - 0.022f, 0.0f},
+                                               {r - 0.012f, 0.008f},
+                                               {r - 0.003f, 0.03f},
+                                               {r, 0.06f},
+                                               {r, h - 0.01f},
+                                               {r - 0.003f, h - 0.003f},
+                                               {r - 0.009f, h},
+                                               {r - 0.015f, h - 0.003f},
+                                               {inner, h - 0.01f},
+                                               {inner, kCoffeeHeight - 0.01f}})};
   body.limit_u = 0.05f;
-  body.limit_v = 0.03f;
+  body.limit_v = 0.008f;
   body.cells_v = 96;
-  model.patches.push_back({std::move(body), glaze(options), label, 3.4f});
+  model.patches.push_back({std::move(body), glaze(options), label, 6.5f});
 
   PatchShape coffee{.surface = revolution(base, {{inner, kCoffeeHeight}, {0.0f, kCoffeeHeight}})};
   coffee.face_up = true;
   const MaterialFn brew = [base](const SurfaceSample& s) {
     const float froth = glm::length(glm::vec2(s.position.x - base.x, s.position.z - base.z));
     const float rim = glm::smoothstep(0.10f, 0.15f, froth + 0.03f * value_noise(40.0f * s.position));
-    return Material{glm::mix(glm::vec3(0.26f, 0.15f, 0.09f), glm::vec3(0.58f, 0.40f, 0.25f), rim), 0.18f, 0.97f, 0};
+    return Material{glm::mix(glm::vec3(0.26f, 0.15f, 0.09f), glm::vec3(0.58f, 0.40f, 0.25f), rim), 0.06f,
+                    0.97f, 0};
   };
   model.patches.push_back({std::move(coffee), brew, label, 3.0f});
 
@@ -157,7 +170,10 @@ void add_mug(Model& model, const StillLifeOptions& options) {
   handle.turn_randomly = false;
   const glm::vec3 tone = options.low_contrast ? kTableTone : glm::vec3(0.92f, 0.885f, 0.815f);
   model.patches.push_back({std::move(handle), plain(tone, 0.17f), label, 9});
-  for (const float height : {0.10f, 0.19f, 0.27f}) model.proxies.push_back({base + at(0, height, 0), 0.145f, label});
+  for (const float height : {0.10f, 0.19f, 0.27f})
+    model.proxies.push_back({base + at(0, height, 0), 0.145f, label});
+  for (const float height : {0.11f, 0.17f})
+    model.interiors.push_back({base + at(0, height, 0), 0.10f, label});
   model.contacts.push_back({base, r - 0.02f, label, 0, {0.7f, 0.55f, 0.42f}});
 }
 
@@ -181,9 +197,10 @@ void add_books(Model& model, const StillLifeOptions&) {
     glm::vec3 size, cover;
     float x, z, yaw;
   };
-  const Book books[] = {{{0.60f, 0.075f, 0.43f}, {0.20f, 0.34f, 0.36f}, -0.36f, 0.26f, 0.10f},
-                        {{0.54f, 0.058f, 0.39f}, {0.72f, 0.36f, 0.25f}, -0.34f, 0.27f, -0.12f},
-                        {{0.46f, 0.066f, 0.34f}, {0.86f, 0.72f, 0.42f}, -0.37f, 0.26f, 0.24f}};
+  const Book books[] = {{{0.62f, 0.090f, 0.44f}, {0.20f, 0.36f, 0.39f}, -0.30f, 0.24f, 0.12f},
+                        {{0.55f, 0.066f, 0.40f}, {0.74f, 0.35f, 0.25f}, -0.28f, 0.25f, -0.14f},
+                        {{0.50f, 0.078f, 0.36f}, {0.90f, 0.75f, 0.42f}, -0.31f, 0.24f, 0.28f},
+                        {{0.40f, 0.046f, 0.29f}, {0.42f, 0.31f, 0.42f}, -0.29f, 0.25f, 0.02f}};
   float height = 0;
   for (const Book& book : books) {
     constexpr float kBoard = 0.008f, kOverhang = 0.012f;
@@ -222,7 +239,9 @@ void add_books(Model& model, const StillLifeOptions&) {
       }
     height += book.size.y + 0.001f;
   }
-  model.contacts.push_back({at(-0.36f, 0, 0.26f), 0.24f, label, 0, {0.35f, 0.38f, 0.34f}});
+  for (const float x : {-0.42f, -0.30f, -0.18f})
+    model.interiors.push_back({at(x, 0.115f, 0.24f), 0.085f, label});
+  model.contacts.push_back({at(-0.30f, 0, 0.24f), 0.24f, label, 0, {0.35f, 0.38f, 0.34f}});
 }
 
 }  // namespace splatcut::still_life

@@ -13,7 +13,8 @@ constexpr int kPlanks = 7;
 
 float lattice(int x, int y, int z) {
   const auto bits = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
-  const std::uint64_t key = bits(x) * 0x9e3779b1ull ^ bits(y) * 0x85ebca77c2b2ae63ull ^ bits(z) * 0xc2b2ae3d27d4eb4full;
+  const std::uint64_t key =
+      bits(x) * 0x9e3779b1ull ^ bits(y) * 0x85ebca77c2b2ae63ull ^ bits(z) * 0xc2b2ae3d27d4eb4full;
   return static_cast<float>(mixed_bits(key) >> 40) * 0x1p-24f;
 }
 
@@ -26,7 +27,8 @@ Material oak(const glm::vec3& p, float grain_contrast) {
   const float wave = fractal_noise(q);
   const float rings = 0.5f + 0.5f * std::sin(38.0f * wave + p.z * 30.0f);
   const float fibre = value_noise({p.x * 9.0f, plank, p.z * 160.0f});
-  const float shade = 1 + grain_contrast * (0.20f * (tone - 0.5f) - 0.17f * rings * rings + 0.13f * (fibre - 0.5f));
+  const float shade =
+      1 + grain_contrast * (0.20f * (tone - 0.5f) - 0.17f * rings * rings + 0.13f * (fibre - 0.5f));
   const float edge = std::min(inside, 1 - inside);
   const float joint = edge < 0.014f ? 0.72f : 1.0f;
   return {glm::vec3(0.74f, 0.535f, 0.35f) * (shade * joint), 0.10f, 0.97f, 0};
@@ -40,11 +42,13 @@ float value_noise(const glm::vec3& p) {
   t = t * t * (3.0f - 2.0f * t);
   const int x = static_cast<int>(cell.x), y = static_cast<int>(cell.y), z = static_cast<int>(cell.z);
   const auto row = [&](int j, int k) { return glm::mix(lattice(x, j, k), lattice(x + 1, j, k), t.x); };
-  return glm::mix(glm::mix(row(y, z), row(y + 1, z), t.y), glm::mix(row(y, z + 1), row(y + 1, z + 1), t.y), t.z);
+  return glm::mix(glm::mix(row(y, z), row(y + 1, z), t.y), glm::mix(row(y, z + 1), row(y + 1, z + 1), t.y),
+                  t.z);
 }
 
 float fractal_noise(const glm::vec3& p) {
-  return 0.57f * value_noise(p) + 0.28f * value_noise(2.03f * p + 17.0f) + 0.15f * value_noise(4.1f * p + 31.0f);
+  return 0.57f * value_noise(p) + 0.28f * value_noise(2.03f * p + 17.0f) +
+         0.15f * value_noise(4.1f * p + 31.0f);
 }
 
 MaterialFn plain(const glm::vec3& colour, float gloss, float variation) {
@@ -59,17 +63,18 @@ void add_box(Model& model, std::uint8_t label, float detail, const glm::vec3& ba
   const glm::vec3 z = size.z * glm::vec3(-std::sin(yaw_rad), 0, std::cos(yaw_rad));
   const glm::vec3 up{0, -size.y, 0};
   const glm::vec3 low = base - 0.5f * (x + z);
-  const auto face = [&](const glm::vec3& origin, const glm::vec3& u, const glm::vec3& v, const MaterialFn& m) {
+  const auto face = [&](const glm::vec3& origin, const glm::vec3& u, const glm::vec3& v,
+                        const MaterialFn& m) {
     PatchShape shape{.surface = parallelogram(origin, u, v), .stretch = 1.5f, .turn_randomly = false};
     shape.cells_u = shape.cells_v = 1;
     if (m) model.patches.push_back({std::move(shape), m, label, detail});
   };
-  face(low + up + z, x, -z, faces.top);      // cross(x, -z) points to -y: up
-  face(low, x, z, faces.bottom);
-  face(low + x, -x, up, faces.front);        // towards -z
-  face(low + z, x, up, faces.back);
-  face(low, z, up, faces.left);
-  face(low + x + z, -z, up, faces.right);
+  face(low + up, x, z, faces.top);  // cross(x, z) points to -y: up
+  face(low + z, x, -z, faces.bottom);
+  face(low, x, up, faces.front);  // towards -z
+  face(low + x + z, -x, up, faces.back);
+  face(low + z, -z, up, faces.left);
+  face(low + x, z, up, faces.right);
 }
 
 void add_room(Model& model, const StillLifeOptions& options) {
@@ -83,6 +88,7 @@ void add_room(Model& model, const StillLifeOptions& options) {
   add_box(model, 0, 1.0f, at(0, -kTableThickness, 0), {2 * kTableHalfX, kTableThickness, 2 * kTableHalfZ}, 0,
           {wood, {}, side, side, side, side});
   model.patches.front().shape.stretch = 2.2f;  // splats along the grain
+  for (std::size_t i = 1; i < model.patches.size(); ++i) model.patches[i].detail = 3;  // the narrow edges
 
   for (const float x : {-1.0f, 1.0f})
     for (const float z : {-1.0f, 1.0f}) {
@@ -94,12 +100,12 @@ void add_room(Model& model, const StillLifeOptions& options) {
 
   const MaterialFn plaster = [](const SurfaceSample& s) {
     const float h = -s.position.y, mottle = fractal_noise(2.2f * s.position) - 0.5f;
-    if (h < kFloorHeight + 0.14f) return Material{glm::vec3(0.86f, 0.84f, 0.79f), 0.02f, 0.97f, 0};  // skirting
     const float rise = glm::smoothstep(-1.0f, 2.0f, h);
-    const glm::vec3 sage = glm::mix(glm::vec3(0.50f, 0.59f, 0.56f), glm::vec3(0.74f, 0.79f, 0.75f), rise);
-    return Material{sage * (1 + 0.07f * mottle), 0.02f, 0.97f, 0};
+    const glm::vec3 sage = glm::mix(glm::vec3(0.56f, 0.64f, 0.60f), glm::vec3(0.80f, 0.84f, 0.79f), rise);
+    return Material{sage * (1 + 0.07f * mottle), 0.0f, 0.97f, 0.45f};
   };
-  PatchShape wall{.surface = revolution(at(0, 0, 0), {{kRoomRadius, kWallTop}, {kRoomRadius, kFloorHeight}})};
+  PatchShape wall{.surface = revolution(at(0, 0, 0), {{kRoomRadius, kWallTop}, {kRoomRadius, kFloorHeight}}),
+                  .overlap = 0.95f};
   model.patches.push_back({std::move(wall), plaster, 0, 0.030f});
 
   const MaterialFn boards = [](const SurfaceSample& s) {
@@ -111,10 +117,11 @@ void add_room(Model& model, const StillLifeOptions& options) {
       return Material{wool * (1 + 0.10f * weave), 0.0f, 0.97f, 0};
     }
     const float board = std::floor(p.x * 4.0f);
-    return Material{glm::vec3(0.50f, 0.40f, 0.31f) * (0.9f + 0.2f * lattice(static_cast<int>(board), 1, 1)), 0.05f,
-                    0.97f, 0};
+    return Material{glm::vec3(0.50f, 0.40f, 0.31f) * (0.9f + 0.2f * lattice(static_cast<int>(board), 1, 1)),
+                    0.05f, 0.97f, 0};
   };
-  PatchShape floor{.surface = revolution(at(0, kFloorHeight, 0), {{kRoomRadius, 0}, {0.0f, 0.0f}})};
+  PatchShape floor{.surface = revolution(at(0, kFloorHeight, 0), {{kRoomRadius, 0}, {0.0f, 0.0f}}),
+                   .overlap = 0.85f};
   floor.face_up = true;
   model.patches.push_back({std::move(floor), boards, 0, 0.06f});
 }
@@ -128,10 +135,10 @@ void add_occluder(Model& model, const StillLifeOptions& options) {
     return Material{colour, 0.03f, 0.96f, 0};
   };
   const MaterialFn card = plain({0.88f, 0.85f, 0.79f}, 0.03f);
-  add_box(model, label, 3.0f, at(-0.14f, 0, -0.78f), {0.50f, 0.42f, 0.025f}, 0.12f,
+  add_box(model, label, 3.0f, at(-0.04f, 0, -0.78f), {0.50f, 0.42f, 0.025f}, 0.12f,
           {card, {}, paint, card, card, card});
   for (int i = 0; i < 4; ++i)
-    model.proxies.push_back({at(-0.32f + 0.12f * static_cast<float>(i), 0.08f, -0.78f), 0.07f, label});
+    model.proxies.push_back({at(-0.22f + 0.12f * static_cast<float>(i), 0.08f, -0.78f), 0.07f, label});
 }
 
 }  // namespace splatcut::still_life

@@ -10,11 +10,11 @@
 namespace splatcut::still_life {
 namespace {
 
-constexpr int kReduction = 4;                    // label picture: 252 x 189
-constexpr std::size_t kMostSplats = 150000;      // enough to close the surfaces at that size
-constexpr int kLargestRadius = 4;                // of a splat in the label picture, pixels
-constexpr float kFrontSigmas = 1.6f;             // radius of a splat's disc
-constexpr float kSolid = 0.8f;                   // fainter splats are haze, not surface
+constexpr int kReduction = 4;                // label picture: 252 x 189
+constexpr std::size_t kMostSplats = 150000;  // enough to close the surfaces at that size
+constexpr int kLargestRadius = 4;            // of a splat in the label picture, pixels
+constexpr float kFrontSigmas = 1.6f;         // radius of a splat's disc
+constexpr float kSolid = 0.8f;               // fainter splats are haze, not surface
 constexpr std::uint8_t kNothing = 255;
 
 struct LabelPicture {
@@ -102,7 +102,7 @@ std::vector<LabelledScene::SeedClick> seed_clicks(const LabelledScene& scene) {
     const auto largest = std::max_element(seen[o].begin(), seen[o].end(), smaller);
     if (largest == seen[o].end() || largest->area == 0) continue;
     // The first camera is the one on screen: good enough there beats best elsewhere.
-    const auto chosen = 2 * seen[o].front().area >= largest->area ? seen[o].begin() : largest;
+    const auto chosen = 3 * seen[o].front().area >= largest->area ? seen[o].begin() : largest;
     clicks.push_back({scene.label_name[o], static_cast<int>(chosen - seen[o].begin()), chosen->pixel});
   }
   return clicks;

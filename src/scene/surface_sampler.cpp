@@ -12,9 +12,8 @@ namespace {
 
 constexpr float kTau = 6.28318530718f;
 constexpr double kGolden = 0.61803398874989485;
-constexpr float kSigmaPerSpacing = 0.60f;  // neighbours at one spacing overlap to more than 0.9 opacity
-constexpr float kJitter = 0.42f;           // of the lattice spacing: hides the lattice, opens no holes
-constexpr float kDifference = 1e-3f;       // step of the finite differences in u and v
+constexpr float kJitter = 0.30f;      // of the lattice spacing: hides the lattice, opens no holes
+constexpr float kDifference = 1e-3f;  // step of the finite differences in u and v
 
 struct Derivatives {
   glm::vec3 du, dv;
@@ -37,8 +36,8 @@ struct AreaTable {
 void normalise(std::span<float> cumulative) {
   const float total = cumulative.back();
   for (std::size_t i = 0; i < cumulative.size(); ++i)
-    cumulative[i] = total > 0 ? cumulative[i] / total
-                              : static_cast<float>(i) / static_cast<float>(cumulative.size() - 1);
+    cumulative[i] =
+        total > 0 ? cumulative[i] / total : static_cast<float>(i) / static_cast<float>(cumulative.size() - 1);
 }
 
 AreaTable area_table(const PatchShape& shape) {
@@ -108,7 +107,9 @@ void turn(SurfaceSample& s, float angle) {
 
 }  // namespace
 
-float patch_area(const PatchShape& shape) { return area_table(shape).area; }
+float patch_area(const PatchShape& shape) {
+  return area_table(shape).area;
+}
 
 std::vector<SurfaceSample> sample_patch(const PatchShape& shape, std::size_t n, std::uint64_t seed,
                                         std::uint64_t stream) {
@@ -132,7 +133,7 @@ std::vector<SurfaceSample> sample_patch(const PatchShape& shape, std::size_t n, 
     s.position = shape.surface(s.uv.x, s.uv.y);
     const Derivatives d = derivatives_at(shape.surface, s.uv.x, s.uv.y);
     orient(s, d, shape.face_up);
-    const float size = kSigmaPerSpacing * spacing;
+    const float size = shape.overlap * spacing;
     const float floor_size = 0.05f * size;  // at poles the local width is 0: keep the splat visible
     s.sigma_u = std::clamp(size * root * rng.between(0.75f, 1.3f), 0.0f,
                            std::max(floor_size, shape.limit_u * glm::length(d.du)));
@@ -184,7 +185,8 @@ SurfaceFn revolution(const glm::vec3& base, std::vector<glm::vec2> profile) {
   };
 }
 
-SurfaceFn tube(std::function<glm::vec3(float)> path, std::function<float(float)> radius, const glm::vec3& side) {
+SurfaceFn tube(std::function<glm::vec3(float)> path, std::function<float(float)> radius,
+               const glm::vec3& side) {
   return [=](float u, float v) {
     const glm::vec3 centre = path(v);
     const glm::vec3 along = glm::normalize(path(v + kDifference) - path(v - kDifference));

@@ -6,9 +6,9 @@
 // thin leaf is covered as evenly as a square table.
 //
 // SurfaceSample: position and unit frame (tangent_u, tangent_v, normal), world; sigma_u, sigma_v in scene
-// units from the sample density: spacing = sqrt(area / n), sigma about 0.6 spacing, limited to a fraction
-// of the patch's own local width so that a splat does not hang over the edge of a thin strip.
-// Normal direction: cross(dP/du, dP/dv). Cost: linear in the samples.
+// units from the sample density: spacing = sqrt(area / n), sigma about overlap * spacing, limited to a
+// fraction of the patch's own local width so that a splat does not hang over the edge of a thin strip. Normal
+// direction: cross(dP/du, dP/dv). Cost: linear in the samples.
 #pragma once
 
 #include <cstddef>
@@ -30,11 +30,12 @@ struct SurfaceSample {
 
 struct PatchShape {
   SurfaceFn surface;
-  float stretch = 1;                   // sigma_u / sigma_v wanted on average
-  bool turn_randomly = true;           // false: discs stay aligned with u and v (grain, leaves)
+  float overlap = 0.62f;                   // sigma as a part of the spacing
+  float stretch = 1;                       // sigma_u / sigma_v wanted on average
+  bool turn_randomly = true;               // false: discs stay aligned with u and v (grain, leaves)
   float limit_u = 0.22f, limit_v = 0.22f;  // largest sigma as a fraction of the local extent in u, v
-  bool face_up = false;                // turn the normal to the upper side (-y): two-sided sheets
-  int cells_u = 24, cells_v = 24;      // resolution of the area grid, >= 1
+  bool face_up = false;                    // turn the normal to the upper side (-y): two-sided sheets
+  int cells_u = 24, cells_v = 24;          // resolution of the area grid, >= 1
 };
 
 // Surface area in square scene units, by the grid.
@@ -54,6 +55,7 @@ SurfaceFn parallelogram(const glm::vec3& origin, const glm::vec3& edge_u, const 
 // by nothing, so give them points. Outward normals where the profile walks upwards on the outside.
 SurfaceFn revolution(const glm::vec3& base, std::vector<glm::vec2> profile);
 // Tube of the given radius along path(v). `side` must not be parallel to the path anywhere.
-SurfaceFn tube(std::function<glm::vec3(float)> path, std::function<float(float)> radius, const glm::vec3& side);
+SurfaceFn tube(std::function<glm::vec3(float)> path, std::function<float(float)> radius,
+               const glm::vec3& side);
 
 }  // namespace splatcut
