@@ -46,9 +46,11 @@ nlohmann::json mean_json(const std::vector<nlohmann::json>& scores) {
     return n ? nlohmann::json(sum / n) : nullptr;
   };
   nlohmann::json mean = {{"name", "mean"}};
-  for (const auto& s : scores)
-    for (const auto& [at, value] : s.flatten().items())
+  for (const auto& s : scores) {
+    const nlohmann::json flat = s.flatten();  // named: items() only refers to it
+    for (const auto& [at, value] : flat.items())
       if (value.is_number()) mean[nlohmann::json::json_pointer(at)] = mean_of(nlohmann::json::json_pointer(at));
+  }
   return mean;
 }
 

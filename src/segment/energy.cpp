@@ -136,7 +136,7 @@ Terminals terminals(const GaussianCloud& cloud, const Likelihood& likelihood, in
     rest_clusters = clusters_of(cloud, rest, options.rest_clusters);
   }
   constexpr double kPixelsAt400 = 400.0 * 300.0;
-  const double v0 = options.v0_px_per_view_at_400 * std::max(1, views) * pixels_per_view / kPixelsAt400;
+  const double v0 = static_cast<double>(options.v0_px_per_view_at_400) * static_cast<double>(std::max(1, views)) * pixels_per_view / kPixelsAt400;
   Terminals out;
   out.net.resize(cloud.size());
   for (std::size_t g = 0; g < cloud.size(); ++g) {

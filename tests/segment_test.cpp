@@ -1,0 +1,158 @@
+// Graph, energy, likelihood, seeds, masks and the robot, each against an answer known by other means.
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "segment/energy.h"
+#include "segment/knn_graph.h"
+#include "segment/likelihood.h"
+#include "segment/mask_tools.h"
+#include "segment/pipeline.h"
+#include "segment/robot_user.h"
+#include "synthetic_cloud.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("k-NN graph: the edges of brute force, each once, the same on 1, 2, 3 threads") {
+  const GaussianCloud cloud = random_cloud(600, 2);
+  constexpr int kNeighbours = 6;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> expected;
+  for (std::uint32_t g = 0; g < cloud.size(); ++g) {
+    std::vector<std::uint32_t> others;
+    for (std::uint32_t h = 0; h < cloud.size(); ++h)
+      if (h != g) others.push_back(h);
+    std::ranges::sort(others, {}, [&](std::uint32_t h) { return glm::distance(cloud.position[g], cloud.position[h]); });
+    for (int i = 0; i < kNeighbours; ++i) expected.insert(std::minmax(g, others[static_cast<std::size_t>(i)]));
+  }
+  const FlowGraph graph = knn_graph(cloud, {kNeighbours});
+  std::set<std::pair<std::uint32_t, std::uint32_t>> found;
+  for (std::uint32_t g = 0; g < graph.nodes(); ++g)
+    for (std::uint32_t arc = graph.first_arc[g]; arc < graph.first_arc[g + 1]; ++arc) {
+      CHECK(graph.head[graph.reverse_arc[arc]] == g);
+      found.insert(std::minmax(g, graph.head[arc]));
+    }
+  CHECK(found == expected);
+  CHECK(graph.arcs() == 2 * expected.size());
+  for (const int threads : {1, 2, 3})
+    tbb::task_arena(threads).execute([&] { CHECK(knn_graph(cloud, {kNeighbours}).head == graph.head); });
+}
+
+TEST_CASE("overlap distance of two equal spheres is d^2 / (4 s^2), at any scene scale") {
+  for (const float scale : {0.01f, 1.0f, 100.0f}) {
+    GaussianCloud pair;
+    pair.resize(2, 0);
+    pair.scale = {glm::vec3(0.5f * scale), glm::vec3(0.5f * scale)};
+    pair.position = {glm::vec3(0), glm::vec3(2 * scale, 0, 0)};
+    // The ridge adds 0.3 % to the variance.
+    CHECK(overlap_distance(pair, 0, 1) == doctest::Approx(0.25 * 4 / (0.25 * 1.003)).epsilon(1e-4));
+    CHECK(overlap_distance(pair, 0, 0) == doctest::Approx(0).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("overlap distance of concentric spheres of variance 1 and 4: 3 ln(2.5 / 2)") {
+  GaussianCloud pair;
+  pair.resize(2, 0);
+  pair.scale = {glm::vec3(1), glm::vec3(2)};
+  CHECK(overlap_distance(pair, 0, 1) == doctest::Approx(3 * std::log(1.25)).epsilon(5e-3));
+}
+
+TEST_CASE("terminals: w weighs source against sink, visibility scales both, unseen says nothing") {
+  const GaussianCloud cloud = random_cloud(3, 1);
+  const Likelihood seen{{1.0f, 0.25f, 0.0f}, {1000, 4, 0}};
+  const Terminals t = terminals(cloud, seen, 12, 400.0 * 300.0, {});  // v0 = 9.6 px
+  CHECK(t.net[0] == std::llround(kCapacityScale));
+  CHECK(t.net[1] == doctest::Approx((0.25 - 0.75) * 4 / 9.6 * kCapacityScale).epsilon(1e-5));
+  CHECK(t.net[2] == 0);
+}
+
+TEST_CASE("paper weights: psi = exp(-gamma_p |dmu|^2) + exp(-gamma_c |dbeta|^2), times lambda") {
+  GaussianCloud pair;
+  pair.resize(2, 0);
+  pair.position[1] = {1, 2, 2};
+  pair.f_dc[1] = {0, 1, 0};
+  const FlowGraph graph = graph_from_edges(2, std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}});
+  const auto capacity = arc_capacities(pair, graph, paper_energy());
+  const double psi = std::exp(-0.1 * 9) + std::exp(-1.0);
+  CHECK(capacity[0] == doctest::Approx(0.5 * psi * kCapacityScale).epsilon(1e-5));
+  CHECK(capacity[1] == capacity[0]);
+}
+
+TEST_CASE("likelihood is the share of the weight inside the mask") {
+  MaskedSums sums(2);
+  sums.total = {4 * 65536, 0};
+  sums.inside = {65536, 0};
+  const Likelihood l = likelihood(sums);
+  CHECK(l.w == std::vector<float>{0.25f, 0.0f});
+  CHECK(l.seen_px == std::vector<float>{4.0f, 0.0f});
+}
+
+TEST_CASE("IoU, accuracy and bounds of two overlapping rectangles") {
+  Mask a(20, 10), b(20, 10);
+  for (int y = 2; y < 8; ++y)
+    for (int x = 2; x < 10; ++x) {
+      a.at(x, y) = kMaskObject;
+      b.at(x + 4, y) = kMaskObject;
+    }
+  CHECK(iou(a, b) == doctest::Approx(24.0 / 72));
+  CHECK(pixel_accuracy(a, b) == doctest::Approx(1 - 48.0 / 200));
+  CHECK(bounds(b) == PixelRect{6, 2, 14, 8});
+  CHECK(iou(Mask(4, 4), Mask(4, 4)) == 1);
+}
+
+TEST_CASE("the robot clicks the middle of the truth, then the middle of the largest error, then stops") {
+  Mask truth(60, 40), mask(60, 40);
+  for (int y = 10; y < 31; ++y)
+    for (int x = 10; x < 31; ++x) truth.at(x, y) = kMaskObject;
+  const auto first = robot_click(truth, mask);
+  REQUIRE(first);
+  CHECK(first->points_px[0] == glm::vec2(20.5f, 20.5f));
+  mask = truth;
+  for (int y = 15; y < 24; ++y)
+    for (int x = 40; x < 49; ++x) mask.at(x, y) = kMaskObject;
+  const auto second = robot_click(truth, mask);
+  REQUIRE(second);
+  CHECK(second->label == SeedLabel::kRest);
+  CHECK(second->points_px[0] == glm::vec2(44.5f, 19.5f));
+  CHECK_FALSE(robot_click(truth, truth));
+}
+
+TEST_CASE("pipeline: one click cuts a ball off its floor, the same on 1 and 2 threads") {
+  // A red ball of radius 0.5 standing on a grey floor (y down).
+  GaussianCloud cloud;
+  constexpr std::size_t kBall = 3000, kFloor = 6000;
+  cloud.resize(kBall + kFloor, 0);
+  std::vector<std::uint8_t> truth(cloud.size(), 0);
+  for (std::size_t g = 0; g < cloud.size(); ++g) {
+    const double t = (static_cast<double>(g % kBall) + 0.5) / kBall, turn = std::fmod(static_cast<double>(g) * 0.6180339887, 1.0);
+    if (g < kBall) {
+      const double z = 1 - 2 * t, r = std::sqrt(1 - z * z), angle = 2 * std::numbers::pi * turn;
+      cloud.position[g] = glm::vec3(0.5 * r * std::cos(angle), -0.52 + 0.5 * z, 0.5 * r * std::sin(angle));
+      cloud.scale[g] = glm::vec3(0.025f);
+      cloud.f_dc[g] = {1.4f, -1.2f, -1.2f};
+      truth[g] = 1;
+    } else {
+      const double f = (static_cast<double>(g - kBall) + 0.5) / kFloor;
+      cloud.position[g] = glm::vec3(4 * f - 2, 0, 4 * turn - 2);
+      cloud.scale[g] = {0.05f, 0.005f, 0.05f};
+      cloud.f_dc[g] = {0.3f, 0.35f, 0.4f};
+    }
+    cloud.opacity[g] = 0.95f;
+    cloud.file_row[g] = static_cast<std::uint32_t>(g);
+  }
+  const Camera camera = look_at({0, -1.2f, -3}, {0, -0.4f, 0}, {0, -1, 0}, 0.8f, 320, 240);
+  const glm::vec3 ball_camera = camera.camera_from_world({0, -0.52f, 0});
+  const Strokes strokes = {click(camera.pixel_from_camera(ball_camera), SeedLabel::kObject)};
+  const PipelineReport report = cut_out(cloud, nullptr, camera, {0, -1, 0}, strokes, preset("fast"));
+  REQUIRE(report.outcome == Outcome::kDone);
+  std::size_t wrong = 0;
+  for (std::size_t g = 0; g < cloud.size(); ++g) wrong += report.labels[g] != truth[g];
+  CHECK(wrong < cloud.size() / 100);
+  tbb::task_arena(1).execute([&] {
+    CHECK(cut_out(cloud, nullptr, camera, {0, -1, 0}, strokes, preset("fast")).labels == report.labels);
+  });
+}
