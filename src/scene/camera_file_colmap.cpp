@@ -79,7 +79,8 @@ class Cameras {
     Camera camera = lens->second;
     camera.name = fs::path(pose.name).stem().string();
     const glm::dmat3 world_from_camera = glm::transpose(glm::mat3_cast(glm::normalize(pose.camera_from_world)));
-    if (!set_pose(camera, world_from_camera, -(world_from_camera * pose.translation)))
+    if (!(glm::length(pose.camera_from_world) > 0) ||
+        !set_pose(camera, world_from_camera, -(world_from_camera * pose.translation)))
       throw Error(path_.string(), fmt::format("image \"{}\" has no usable pose", pose.name));
     cameras_.push_back(std::move(camera));
   }

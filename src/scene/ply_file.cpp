@@ -147,6 +147,8 @@ template <bool kFloats>
 void read_rows(const MappedFile& file, const PlyElement& vertex, Scene& scene, const Job& job) {
   PlyRows<kFloats> rows = bind<kFloats>(file.path(), vertex);
   rows.data = element_bytes(file.path(), file.bytes(), vertex).data();
+  if (vertex.count > std::numeric_limits<std::uint32_t>::max())
+    throw Error(file.path().string(), fmt::format("{} Gaussians are more than can be handled", vertex.count));
   decode_rows(rows, vertex.count, degree_from_rest(file.path(), rows.fields - kRest), scene, job);
 }
 
@@ -156,8 +158,6 @@ void read_ply(const MappedFile& file, Scene& scene, const Job& job) {
   const PlyHeader header = parse_ply_header(file.path(), file.bytes());
   const PlyElement& vertex = vertex_of(file.path(), header);
   refuse_other_ply(file.path(), vertex);
-  if (vertex.count > std::numeric_limits<std::uint32_t>::max())
-    throw Error(file.path().string(), fmt::format("{} Gaussians are more than can be handled", vertex.count));
   const bool floats =
       std::ranges::all_of(vertex.properties, [](const PlyProperty& p) { return p.type == PlyType::kFloat32; });
   if (floats)
