@@ -20,14 +20,18 @@ struct Folder {
   fs::path operator/(const std::string& name) const { return path / name; }
 };
 
-void write(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+void write(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
 
 template <class T>
 std::string bytes_of(const T& value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-bool near(const glm::vec3& a, const glm::vec3& b) { return glm::length(a - b) < 1e-5f; }
+bool near(const glm::vec3& a, const glm::vec3& b) {
+  return glm::length(a - b) < 1e-5f;
+}
 
 std::string refusal(const fs::path& path) {
   try {
@@ -53,7 +57,8 @@ void check_camera(const Camera& camera) {
   CHECK(near(camera.camera_from_world({11, 3, 5}), {1, 2, 10}));
 }
 
-// world->camera of that camera: rows x = (0, 1, 0), y = (0, 0, 1), z = (1, 0, 0): a third of a turn about (1, 1, 1).
+// world->camera of that camera: rows x = (0, 1, 0), y = (0, 0, 1), z = (1, 0, 0): a third of a turn about (1,
+// 1, 1).
 const char* const kColmapPose = "0.5 -0.5 -0.5 -0.5 -2 -3 -1";
 
 }  // namespace
@@ -80,7 +85,8 @@ TEST_CASE("Inria cameras.json: read, written, read again") {
 
 TEST_CASE("COLMAP text: comments, an image without points, the folder or one of its files") {
   const Folder folder;
-  write(folder / "cameras.txt", "# lenses\n1 PINHOLE 640 480 500 510 320 240\n2 SIMPLE_RADIAL 640 480 500 320 240 0.1\n");
+  write(folder / "cameras.txt",
+        "# lenses\n1 PINHOLE 640 480 500 510 320 240\n2 SIMPLE_RADIAL 640 480 500 320 240 0.1\n");
   write(folder / "images.txt", std::string("# poses\n7 ") + kColmapPose + " 2 b c.jpg\n\n3 " + kColmapPose +
                                    " 1 a.png\n1.5 2.5 -1 3 4 5\n");
   for (const fs::path& path : {folder.path, folder / "images.txt"}) {
@@ -96,8 +102,8 @@ TEST_CASE("COLMAP text: comments, an image without points, the folder or one of 
 TEST_CASE("COLMAP binary, below sparse/0, and cut short") {
   const Folder folder;
   fs::create_directories(folder / "sparse/0");
-  std::string lenses = bytes_of(std::uint64_t{1}) + bytes_of(4u) + bytes_of(1) + bytes_of(std::uint64_t{640}) +
-                       bytes_of(std::uint64_t{480});
+  std::string lenses = bytes_of(std::uint64_t{1}) + bytes_of(4u) + bytes_of(1) +
+                       bytes_of(std::uint64_t{640}) + bytes_of(std::uint64_t{480});
   for (const double v : {500.0, 510.0, 320.0, 240.0}) lenses += bytes_of(v);
   std::string images = bytes_of(std::uint64_t{1}) + bytes_of(9u);
   for (const double v : {0.5, -0.5, -0.5, -0.5, -2.0, -3.0, -1.0}) images += bytes_of(v);
@@ -117,15 +123,18 @@ TEST_CASE("COLMAP binary, below sparse/0, and cut short") {
 TEST_CASE("transforms.json: OpenGL axes, lens by frame, by file or by angle") {
   const Folder folder;
   // columns: x right = (0, 1, 0), y up = (0, 0, -1), z back = (-1, 0, 0)
-  const std::string matrix = R"("transform_matrix": [[0, 0, -1, 1], [1, 0, 0, 2], [0, -1, 0, 3], [0, 0, 0, 1]])";
-  write(folder / "transforms.json", R"({"w": 640, "h": 480, "fl_x": 500, "fl_y": 510, "frames": [{"file_path": "images/a.png", )" +
-                                        matrix + R"(}, {"file_path": "b.png", "fl_x": 700, )" + matrix + "}]}");
+  const std::string matrix =
+      R"("transform_matrix": [[0, 0, -1, 1], [1, 0, 0, 2], [0, -1, 0, 3], [0, 0, 0, 1]])";
+  write(folder / "transforms.json",
+        R"({"w": 640, "h": 480, "fl_x": 500, "fl_y": 510, "frames": [{"file_path": "images/a.png", )" +
+            matrix + R"(}, {"file_path": "b.png", "fl_x": 700, )" + matrix + "}]}");
   const std::vector<Camera> cameras = load_cameras(folder.path);
   REQUIRE(cameras.size() == 2);
   CHECK(cameras[0].name == "a");
   check_camera(cameras[0]);
   CHECK(cameras[1].fx_px == 700);
-  write(folder / "angle.json", R"({"camera_angle_x": 1.5707963267948966, "w": 640, "h": 480, "frames": [{)" + matrix + "}]}");
+  write(folder / "angle.json",
+        R"({"camera_angle_x": 1.5707963267948966, "w": 640, "h": 480, "frames": [{)" + matrix + "}]}");
   CHECK(load_cameras(folder / "angle.json")[0].fy_px == doctest::Approx(320));
 }
 
@@ -149,7 +158,8 @@ TEST_CASE("bad cameras are refused with file and entry") {
   check("size.json", "[{\"width\": -4, \"height\": 4, \"fx\": 1, \"fy\": 1, " + pose + "}]", "-4 x 4");
   check("focal.json", "[{\"width\": 4, \"height\": 4, \"fx\": 0, \"fy\": 1, " + pose + "}]", "focal");
   check("flat.json", R"([{"width": 4, "height": 4, "fx": 1, "fy": 1, "position": [0, 0, 0],
-                         "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 0]]}])", "pose");
+                         "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 0]]}])",
+        "pose");
   check("images.txt", "1 1 0 0 0 0 0 0 5 a.png\n\n", "cameras and images");
   write(folder / "cameras.txt", "1 PINHOLE 640 480 500 510 320 240\n");
   check("images.txt", "1 1 0 0 0 0 0 0 5 a.png\n\n", "camera 5");

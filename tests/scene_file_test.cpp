@@ -34,7 +34,9 @@ std::string text_of(const fs::path& path) {
   out << in.rdbuf();
   return out.str();
 }
-void write(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+void write(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
 
 template <class T>
 std::string bytes_of(const T& value) {
@@ -95,10 +97,13 @@ void check_same(const GaussianCloud& expected, const Scene& got, const Tolerance
   Tolerance worst{};
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const std::uint32_t row = got.cloud.file_row[i];
-    const auto largest = [](const glm::vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
+    const auto largest = [](const glm::vec3& v) {
+      return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    };
     worst.position = std::max(worst.position, largest(got.cloud.position[i] - expected.position[row]));
     worst.log_scale = std::max(worst.log_scale, largest(glm::log(got.cloud.scale[i] / expected.scale[row])));
-    worst.rotation = std::max(worst.rotation, 1 - std::abs(glm::dot(got.cloud.rotation[i], expected.rotation[row])));
+    worst.rotation =
+        std::max(worst.rotation, 1 - std::abs(glm::dot(got.cloud.rotation[i], expected.rotation[row])));
     worst.opacity = std::max(worst.opacity, std::abs(got.cloud.opacity[i] - expected.opacity[row]));
     worst.f_dc = std::max(worst.f_dc, largest(got.cloud.f_dc[i] - expected.f_dc[row]));
     if (got.cloud.sh_degree != expected.sh_degree) continue;
@@ -151,15 +156,20 @@ TEST_CASE("ply: known values, properties in any order and of any type, with and 
   const Folder folder;
   // rot before x, a double position, uchar and double properties nobody asked for.
   std::string text =
-      "ply\r\nformat binary_little_endian 1.0\r\nelement vertex 1\r\nproperty uchar label\r\nproperty float rot_0\r\n"
-      "property float rot_1\r\nproperty float rot_2\r\nproperty float rot_3\r\nproperty double x\r\nproperty double y\r\n"
-      "property double z\r\nproperty double weight\r\nproperty float opacity\r\nproperty float scale_2\r\nproperty float "
-      "scale_1\r\nproperty float scale_0\r\nproperty float f_dc_0\r\nproperty float f_dc_1\r\nproperty float f_dc_2\r\n"
+      "ply\r\nformat binary_little_endian 1.0\r\nelement vertex 1\r\nproperty uchar label\r\nproperty float "
+      "rot_0\r\n"
+      "property float rot_1\r\nproperty float rot_2\r\nproperty float rot_3\r\nproperty double x\r\nproperty "
+      "double y\r\n"
+      "property double z\r\nproperty double weight\r\nproperty float opacity\r\nproperty float "
+      "scale_2\r\nproperty float "
+      "scale_1\r\nproperty float scale_0\r\nproperty float f_dc_0\r\nproperty float f_dc_1\r\nproperty float "
+      "f_dc_2\r\n"
       "end_header\r\n";
   text += '\x05';
   for (const float v : {0.0f, 0.0f, 0.0f, -2.0f}) text += bytes_of(v);
   for (const double v : {1.5, -2.5, 3.25, 9.0}) text += bytes_of(v);
-  for (const float v : {std::log(3.0f), std::log(0.3f), std::log(0.2f), std::log(0.1f), 0.25f, 0.5f, 0.75f}) text += bytes_of(v);
+  for (const float v : {std::log(3.0f), std::log(0.3f), std::log(0.2f), std::log(0.1f), 0.25f, 0.5f, 0.75f})
+    text += bytes_of(v);
   write(folder / "odd.ply", text);
   const Scene scene = load_scene(folder / "odd.ply");
   REQUIRE(scene.cloud.size() == 1);
@@ -241,7 +251,8 @@ TEST_CASE("round trip through every format and degree") {
     CHECK(!save_scene(folder / "a.spz", scene, {}, SceneFormat::kSpz).loss.empty());
     const Scene spz = load_scene(folder / "a.spz");
     CHECK(spz.cloud.sh_degree == degree);
-    check_same(scene.cloud, spz, {1.0f / 8192, 1.01f / 32, 1e-5f, 0.51f / 255, 0.51f / 255 / 0.15f, 0.51f / 128});
+    check_same(scene.cloud, spz,
+               {1.0f / 8192, 1.01f / 32, 1e-5f, 0.51f / 255, 0.51f / 255 / 0.15f, 0.51f / 128});
 
     const SaveReport splat = save_scene(folder / "a.splat", scene, {}, SceneFormat::kSplat);
     CHECK(mentions(splat.loss, {"rounded"}));
@@ -259,14 +270,16 @@ TEST_CASE("compressed ply: values within the steps of a chunk") {
     const Scene got = load_scene(folder / "a.compressed.ply");
     CHECK(got.format == SceneFormat::kCompressedPly);
     // The writer keeps the cloud's order, so rows are indices: half a step of 10 bits over the range
-    check_same(scene.cloud, got, {10 * 0.51f / 1023, 2 * 0.51f / 1023, 1e-5f, 0.51f / 255, 2 * 0.51f / 255, 0.51f * 8 / 256});
+    check_same(scene.cloud, got,
+               {10 * 0.51f / 1023, 2 * 0.51f / 1023, 1e-5f, 0.51f / 255, 2 * 0.51f / 255, 0.51f * 8 / 256});
   }
 }
 
 TEST_CASE("spz: versions 1 and 2 by hand, axes turned to x right, y down, z forward") {
   const Folder folder;
   const auto file = [](std::uint32_t version, const std::string& position, const std::string& rotation) {
-    std::string text = "NGSP" + bytes_of(version) + bytes_of(std::uint32_t{1}) + std::string("\x01\x08\x00\x00", 4);
+    std::string text =
+        "NGSP" + bytes_of(version) + bytes_of(std::uint32_t{1}) + std::string("\x01\x08\x00\x00", 4);
     text += position + "\xff" + std::string("\x80\x00\xff", 3) + std::string("\xa0\x90\x00", 3) + rotation;
     return gzip(text + "\xc0\x80\x80\xc0\x80\x80\xc0\x80\x80");  // red of y, z, x: 0.5
   };
@@ -293,7 +306,8 @@ TEST_CASE("bad files are refused with a clear sentence") {
   const Folder folder;
   const std::vector<std::string> names = splat_names(0);
   const std::string good = numbered_ply(names, 10);
-  const auto check = [&](const std::string& name, const std::string& bytes, std::initializer_list<const char*> parts) {
+  const auto check = [&](const std::string& name, const std::string& bytes,
+                         std::initializer_list<const char*> parts) {
     write(folder / name, bytes);
     const std::string message = refusal(folder / name);
     CHECK(mentions(message, parts));
@@ -316,8 +330,10 @@ TEST_CASE("bad files are refused with a clear sentence") {
   check("text.ply", "hello", {"not a .ply"});
   check("cut.ply", good.substr(0, good.size() - 70), {"truncated", "row 8", "byte"});
   check("head.ply", good.substr(0, 200), {"header is truncated"});
-  check("ascii.ply", "ply\nformat ascii 1.0\nelement vertex 1\nend_header\n", {"ascii", "binary_little_endian"});
-  check("type.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty half x\nend_header\n", {"half"});
+  check("ascii.ply", "ply\nformat ascii 1.0\nelement vertex 1\nend_header\n",
+        {"ascii", "binary_little_endian"});
+  check("type.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty half x\nend_header\n",
+        {"half"});
   check("huge.ply", with_count("4000000000000000000"), {"truncated", "4000000000000000000"});
   check("overflow.ply", with_count("18446744073709551615"), {"truncated"});
   check("too_long.ply", with_count("99999999999999999999999"), {"bad count"});
@@ -331,7 +347,8 @@ TEST_CASE("bad files are refused with a clear sentence") {
   check("zero.splat", std::string(64, '\x80'), {"none of the 2"});
   check("text.spz", "hello, this is no scene of any kind", {"NGSP"});
   check("short.spz", "NGSP", {"truncated"});
-  const std::string spz_header = "NGSP" + bytes_of(3u) + bytes_of(4000000000u) + std::string("\x03\x0c\x00\x00", 4);
+  const std::string spz_header =
+      "NGSP" + bytes_of(3u) + bytes_of(4000000000u) + std::string("\x03\x0c\x00\x00", 4);
   check("huge.spz", gzip(spz_header), {"truncated"});
   check("nine.spz", gzip("NGSP" + bytes_of(9u) + bytes_of(1u) + bytes_of(0u)), {"version 9"});
   Scene scene;
@@ -350,7 +367,8 @@ TEST_CASE("saving: an empty selection and a changed source are refused, nothing 
   const std::vector<std::uint8_t> nothing(10, 0);
   CHECK_THROWS_AS(save_scene(folder / "b.ply", scene, nothing, SceneFormat::kPly), Error);
   write(folder / "a.ply", numbered_ply(splat_names(0), 11));
-  CHECK_THROWS_WITH_AS(save_scene(folder / "b.ply", scene, {}, SceneFormat::kPly), doctest::Contains("changed"), Error);
+  CHECK_THROWS_WITH_AS(save_scene(folder / "b.ply", scene, {}, SceneFormat::kPly),
+                       doctest::Contains("changed"), Error);
   CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
 }
 
