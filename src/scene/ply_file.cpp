@@ -99,7 +99,7 @@ struct PlyRows {
     cloud.scale[g] = glm::exp(vec3(row, kScale));
     cloud.rotation[g] = glm::normalize(rotation(row));
     float* rest = cloud.sh_rest.data() + g * (fields - kRest);
-    if (rest_in_sequence) {
+    if (fields > kRest && rest_in_sequence) {
       std::memcpy(rest, row + offset[kRest], (fields - kRest) * sizeof(float));
     } else {
       for (std::size_t f = kRest; f < fields; ++f) *rest++ = value(row, f);
