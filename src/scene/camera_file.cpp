@@ -57,7 +57,8 @@ Camera inria_camera(const json& entry) {
 glm::ivec2 png_size(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   unsigned char b[24] = {};
-  if (!file.read(reinterpret_cast<char*>(b), sizeof b) || b[1] != 'P' || b[2] != 'N' || b[3] != 'G') return {0, 0};
+  if (!file.read(reinterpret_cast<char*>(b), sizeof b) || b[1] != 'P' || b[2] != 'N' || b[3] != 'G')
+    return {0, 0};
   const auto number = [&](int at) { return b[at] << 24 | b[at + 1] << 16 | b[at + 2] << 8 | b[at + 3]; };
   return {number(16), number(20)};
 }
@@ -73,16 +74,19 @@ Camera transforms_camera(const fs::path& path, const json& file, const json& fra
   camera.name = picture.stem().string();
   camera.width_px = static_cast<int>(lens_value(frame, file, "w", 0));
   camera.height_px = static_cast<int>(lens_value(frame, file, "h", 0));
-  if (camera.width_px == 0 || camera.height_px == 0) {  // NeRF's synthetic scenes leave the size to the pictures
+  if (camera.width_px == 0 ||
+      camera.height_px == 0) {  // NeRF's synthetic scenes leave the size to the pictures
     fs::path png = path.parent_path() / picture;
     if (!png.has_extension()) png += ".png";
     const glm::ivec2 size = png_size(png);
-    if (size.x <= 0) throw std::domain_error("\"w\" and \"h\" are missing and " + png.string() + " is no PNG");
+    if (size.x <= 0)
+      throw std::domain_error("\"w\" and \"h\" are missing and " + png.string() + " is no PNG");
     camera.width_px = size.x;
     camera.height_px = size.y;
   }
   const auto width = static_cast<float>(camera.width_px), height = static_cast<float>(camera.height_px);
-  const float angle_x = lens_value(frame, file, "camera_angle_x", 0), angle_y = lens_value(frame, file, "camera_angle_y", 0);
+  const float angle_x = lens_value(frame, file, "camera_angle_x", 0),
+              angle_y = lens_value(frame, file, "camera_angle_y", 0);
   const float from_angle = angle_x > 0 ? 0.5f * width / std::tan(0.5f * angle_x) : 0.0f;
   camera.fx_px = lens_value(frame, file, "fl_x", from_angle);
   const float fy_otherwise = angle_y > 0 ? 0.5f * height / std::tan(0.5f * angle_y) : camera.fx_px;
@@ -146,11 +150,13 @@ void check_lens(const fs::path& path, std::string_view entry, const Camera& came
   const bool size = camera.width_px > 0 && camera.height_px > 0 && camera.width_px <= kLargestSide &&
                     camera.height_px <= kLargestSide;
   if (!size)
-    throw Error(path.string(), fmt::format("{}: a picture of {} x {} pixels", entry, camera.width_px, camera.height_px));
-  const bool focal = camera.fx_px > 0 && camera.fy_px > 0 && std::isfinite(camera.fx_px) && std::isfinite(camera.fy_px);
+    throw Error(path.string(),
+                fmt::format("{}: a picture of {} x {} pixels", entry, camera.width_px, camera.height_px));
+  const bool focal =
+      camera.fx_px > 0 && camera.fy_px > 0 && std::isfinite(camera.fx_px) && std::isfinite(camera.fy_px);
   if (!focal || !std::isfinite(camera.cx_px) || !std::isfinite(camera.cy_px))
-    throw Error(path.string(), fmt::format("{}: focal lengths {} and {}, principal point {}, {}", entry, camera.fx_px,
-                                           camera.fy_px, camera.cx_px, camera.cy_px));
+    throw Error(path.string(), fmt::format("{}: focal lengths {} and {}, principal point {}, {}", entry,
+                                           camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px));
 }
 
 std::vector<Camera> load_cameras(const fs::path& path) {
@@ -161,14 +167,16 @@ std::vector<Camera> load_cameras(const fs::path& path) {
       if (has_colmap_cameras(folder)) return load_colmap_cameras(folder);
     for (const char* name : {"cameras.json", "transforms.json"})
       if (fs::exists(path / name, ignored)) return load_json_cameras(path / name);
-    throw Error(path.string(), "the folder has no cameras: cameras.bin, cameras.txt, cameras.json and transforms.json "
-                               "are looked for");
+    throw Error(path.string(),
+                "the folder has no cameras: cameras.bin, cameras.txt, cameras.json and transforms.json "
+                "are looked for");
   }
   const bool colmap = path.extension() == ".bin" || path.extension() == ".txt";
   if (!colmap) return load_json_cameras(path);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!has_colmap_cameras(folder))
-    throw Error(path.string(), "cameras and images of COLMAP are wanted beside each other, both .bin or both .txt");
+    throw Error(path.string(),
+                "cameras and images of COLMAP are wanted beside each other, both .bin or both .txt");
   return load_colmap_cameras(folder);
 }
 
@@ -179,9 +187,10 @@ void save_inria_cameras(const fs::path& path, const std::vector<Camera>& cameras
     const glm::vec3 centre = camera.centre_world();
     json rows = json::array();
     for (int i = 0; i < 3; ++i) rows.push_back({r[i].x, r[i].y, r[i].z});
-    json entry = {{"id", list.size()},          {"img_name", camera.name}, {"width", camera.width_px},
-                  {"height", camera.height_px}, {"fx", camera.fx_px},      {"fy", camera.fy_px},
-                  {"rotation", rows},           {"position", {centre.x, centre.y, centre.z}}};
+    json entry = {{"id", list.size()},        {"img_name", camera.name},
+                  {"width", camera.width_px}, {"height", camera.height_px},
+                  {"fx", camera.fx_px},       {"fy", camera.fy_px},
+                  {"rotation", rows},         {"position", {centre.x, centre.y, centre.z}}};
     // Inria's own files put the principal point in the middle and do not name it.
     if (camera.cx_px != 0.5f * static_cast<float>(camera.width_px)) entry["cx"] = camera.cx_px;
     if (camera.cy_px != 0.5f * static_cast<float>(camera.height_px)) entry["cy"] = camera.cy_px;

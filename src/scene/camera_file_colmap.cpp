@@ -44,10 +44,12 @@ struct Pose {
   std::string name;
 };
 
-const Model& pinhole_like(const fs::path& path, const Model* model, std::uint32_t id, std::string_view named) {
+const Model& pinhole_like(const fs::path& path, const Model* model, std::uint32_t id,
+                          std::string_view named) {
   if (!model) throw Error(path.string(), fmt::format("camera {}: unknown model {}", id, named));
   if (model->fisheye)
-    throw Error(path.string(), fmt::format("camera {}: the model {} is not close to a pinhole", id, model->name),
+    throw Error(path.string(),
+                fmt::format("camera {}: the model {} is not close to a pinhole", id, model->name),
                 "Undistort the pictures first (colmap image_undistorter)");
   return *model;
 }
@@ -75,11 +77,14 @@ class Cameras {
   void add(const Pose& pose) {
     const auto lens = lenses_.find(pose.lens);
     if (lens == lenses_.end())
-      throw Error(path_.string(), fmt::format("image \"{}\" names camera {}, which is missing", pose.name, pose.lens));
+      throw Error(path_.string(),
+                  fmt::format("image \"{}\" names camera {}, which is missing", pose.name, pose.lens));
     Camera camera = lens->second;
     camera.name = fs::path(pose.name).stem().string();
-    const glm::dmat3 world_from_camera = glm::transpose(glm::mat3_cast(glm::normalize(pose.camera_from_world)));
-    if (!set_pose(camera, world_from_camera, -(world_from_camera * pose.translation)))
+    const glm::dmat3 world_from_camera =
+        glm::transpose(glm::mat3_cast(glm::normalize(pose.camera_from_world)));
+    if (!(glm::length(pose.camera_from_world) > 0) ||
+        !set_pose(camera, world_from_camera, -(world_from_camera * pose.translation)))
       throw Error(path_.string(), fmt::format("image \"{}\" has no usable pose", pose.name));
     cameras_.push_back(std::move(camera));
   }
@@ -150,8 +155,9 @@ std::vector<Camera> read_images_bin(const fs::path& path, Lenses lenses) {
   for (std::uint64_t i = 0; i < count; ++i) {
     Pose pose;
     in.skip(sizeof(std::uint32_t));  // image id
-    for (double* v : {&pose.camera_from_world.w, &pose.camera_from_world.x, &pose.camera_from_world.y,
-                      &pose.camera_from_world.z, &pose.translation.x, &pose.translation.y, &pose.translation.z})
+    for (double* v :
+         {&pose.camera_from_world.w, &pose.camera_from_world.x, &pose.camera_from_world.y,
+          &pose.camera_from_world.z, &pose.translation.x, &pose.translation.y, &pose.translation.z})
       *v = in.read<double>();
     pose.lens = in.read<std::uint32_t>();
     pose.name = in.text();
@@ -183,12 +189,16 @@ Lenses read_lenses_txt(const fs::path& path) {
     std::string name;
     double width = 0, height = 0;
     words >> id >> name >> width >> height;
-    if (!words) throw Error(path.string(), fmt::format("line {} is not \"id model width height parameters\"", number));
-    const auto* known = std::ranges::find(kModels, name, [](const Model& m) { return std::string_view(m.name); });
+    if (!words)
+      throw Error(path.string(), fmt::format("line {} is not \"id model width height parameters\"", number));
+    const auto* known =
+        std::ranges::find(kModels, name, [](const Model& m) { return std::string_view(m.name); });
     const Model& model = pinhole_like(path, known == kModels.end() ? nullptr : known, id, name);
     std::vector<double> params(model.params);
     for (double& p : params) words >> p;
-    if (!words) throw Error(path.string(), fmt::format("line {}: the model {} has {} parameters", number, name, model.params));
+    if (!words)
+      throw Error(path.string(),
+                  fmt::format("line {}: the model {} has {} parameters", number, name, model.params));
     lenses[id] = lens_from(path, id, model, width, height, params);
   }
   return lenses;
@@ -209,7 +219,8 @@ std::vector<Camera> read_images_txt(const fs::path& path, Lenses lenses) {
     std::getline(words, pose.name);
     if (pose.name.ends_with('\r')) pose.name.pop_back();
     if (!words || pose.name.empty())
-      throw Error(path.string(), fmt::format("line {} is not \"id qw qx qy qz tx ty tz camera name\"", number));
+      throw Error(path.string(),
+                  fmt::format("line {} is not \"id qw qx qy qz tx ty tz camera name\"", number));
     cameras.add(pose);
     std::getline(in, line);  // the image's points, which may be none: an empty line
     ++number;
@@ -225,10 +236,13 @@ bool has_pair(const fs::path& folder, const char* extension) {
 
 }  // namespace
 
-bool has_colmap_cameras(const fs::path& folder) { return has_pair(folder, ".bin") || has_pair(folder, ".txt"); }
+bool has_colmap_cameras(const fs::path& folder) {
+  return has_pair(folder, ".bin") || has_pair(folder, ".txt");
+}
 
 std::vector<Camera> load_colmap_cameras(const fs::path& folder) {
-  if (has_pair(folder, ".bin")) return read_images_bin(folder / "images.bin", read_lenses_bin(folder / "cameras.bin"));
+  if (has_pair(folder, ".bin"))
+    return read_images_bin(folder / "images.bin", read_lenses_bin(folder / "cameras.bin"));
   return read_images_txt(folder / "images.txt", read_lenses_txt(folder / "cameras.txt"));
 }
 

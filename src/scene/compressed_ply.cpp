@@ -19,17 +19,21 @@ namespace {
 
 constexpr std::size_t kChunkRows = 256;
 constexpr std::array<const char*, 18> kBounds{
-    "min_x",       "min_y",       "min_z",       "max_x", "max_y", "max_z", "min_scale_x", "min_scale_y", "min_scale_z",
-    "max_scale_x", "max_scale_y", "max_scale_z", "min_r", "min_g", "min_b", "max_r",       "max_g",       "max_b"};
+    "min_x",       "min_y",       "min_z",       "max_x",       "max_y",       "max_z",
+    "min_scale_x", "min_scale_y", "min_scale_z", "max_scale_x", "max_scale_y", "max_scale_z",
+    "min_r",       "min_g",       "min_b",       "max_r",       "max_g",       "max_b"};
 constexpr std::size_t kBoundsWithoutColour = 12;
-constexpr std::array<const char*, 4> kPacked{"packed_position", "packed_rotation", "packed_scale", "packed_color"};
+constexpr std::array<const char*, 4> kPacked{"packed_position", "packed_rotation", "packed_scale",
+                                             "packed_color"};
 constexpr float kShRange = 8.0f;  // bytes cover -4 .. 4
 
 struct Bounds {
   glm::vec3 min{std::numeric_limits<float>::infinity()}, max{-std::numeric_limits<float>::infinity()};
   void add(const glm::vec3& v) { min = glm::min(min, v), max = glm::max(max, v); }
   glm::vec3 at(const glm::vec3& fraction) const { return min + fraction * (max - min); }
-  glm::vec3 fraction_of(const glm::vec3& v) const { return (v - min) / glm::max(max - min, glm::vec3(1e-20f)); }
+  glm::vec3 fraction_of(const glm::vec3& v) const {
+    return (v - min) / glm::max(max - min, glm::vec3(1e-20f));
+  }
 };
 struct Chunk {
   Bounds position, log_scale, colour;
@@ -84,7 +88,8 @@ struct PackedRows {
   }
   glm::vec3 colour(std::size_t row) const {
     const std::uint32_t v = word(row, 3);
-    return chunks[row / kChunkRows].colour.at({from_steps(v >> 24, 8), from_steps(v >> 16, 8), from_steps(v >> 8, 8)});
+    return chunks[row / kChunkRows].colour.at(
+        {from_steps(v >> 24, 8), from_steps(v >> 16, 8), from_steps(v >> 8, 8)});
   }
   glm::vec3 position(std::size_t row) const {
     if (!is_finite(glm::exp(log_scale(row))) || !is_finite(colour(row))) return kDroppedRow;
@@ -101,12 +106,12 @@ struct PackedRows {
   }
 };
 
-const PlyProperty& typed_property(const std::filesystem::path& path, const PlyElement& element, const char* name,
-                                  PlyType type) {
+const PlyProperty& typed_property(const std::filesystem::path& path, const PlyElement& element,
+                                  const char* name, PlyType type) {
   const PlyProperty& property = required_property(path, element, name);
   if (property.type == type) return property;
-  throw Error(path.string(), fmt::format("the property \"{}\" of the element \"{}\" is {} instead of {}", name,
-                                         element.name, name_of(property.type), name_of(type)));
+  throw Error(path.string(), fmt::format("the property \"{}\" of the element \"{}\" is {} instead of {}",
+                                         name, element.name, name_of(property.type), name_of(type)));
 }
 
 std::vector<Chunk> read_chunks(const MappedFile& file, const PlyElement& element) {
@@ -120,7 +125,8 @@ std::vector<Chunk> read_chunks(const MappedFile& file, const PlyElement& element
   for (std::size_t c = 0; c < chunks.size(); ++c) {
     const std::byte* row = bytes.data() + c * element.row_bytes;
     const auto vec3 = [&](std::size_t f) {
-      return glm::vec3(load<float>(row + offset[f]), load<float>(row + offset[f + 1]), load<float>(row + offset[f + 2]));
+      return glm::vec3(load<float>(row + offset[f]), load<float>(row + offset[f + 1]),
+                       load<float>(row + offset[f + 2]));
     };
     chunks[c] = {{vec3(0), vec3(3)}, {vec3(6), vec3(9)}, {glm::vec3(0), glm::vec3(1)}};
     if (has_colour) chunks[c].colour = {vec3(12), vec3(15)};
@@ -131,12 +137,15 @@ std::vector<Chunk> read_chunks(const MappedFile& file, const PlyElement& element
 // Binds the element "sh"; returns the degree.
 int bind_sh(const MappedFile& file, const PlyElement& sh, std::size_t rows, PackedRows& packed) {
   int degree = 0;
-  while (degree <= 3 && 3 * static_cast<std::size_t>(sh_rest_coefficients(degree)) != sh.properties.size()) ++degree;
+  while (degree <= 3 && 3 * static_cast<std::size_t>(sh_rest_coefficients(degree)) != sh.properties.size())
+    ++degree;
   if (degree > 3)
-    throw Error(file.path().string(), fmt::format("the element \"sh\" has {} properties; 9, 24 or 45 are possible",
-                                                  sh.properties.size()));
+    throw Error(
+        file.path().string(),
+        fmt::format("the element \"sh\" has {} properties; 9, 24 or 45 are possible", sh.properties.size()));
   if (sh.count != rows)
-    throw Error(file.path().string(), fmt::format("the element \"sh\" has {} rows for {} Gaussians", sh.count, rows));
+    throw Error(file.path().string(),
+                fmt::format("the element \"sh\" has {} rows for {} Gaussians", sh.count, rows));
   packed.sh = element_bytes(file.path(), file.bytes(), sh).data();
   packed.sh_bytes = sh.row_bytes;
   for (std::size_t i = 0; i < sh.properties.size(); ++i)
@@ -190,15 +199,18 @@ void read_compressed_ply(const MappedFile& file, Scene& scene, const Job& job) {
   const PlyHeader header = parse_ply_header(file.path(), file.bytes());
   const PlyElement *chunk = header.find("chunk"), *vertex = header.find("vertex");
   if (!chunk || !vertex)
-    throw Error(file.path().string(), "is not a compressed .ply: the elements \"chunk\" and \"vertex\" are wanted");
+    throw Error(file.path().string(),
+                "is not a compressed .ply: the elements \"chunk\" and \"vertex\" are wanted");
   PackedRows rows;
   for (std::size_t f = 0; f < kPacked.size(); ++f)
     rows.offset[f] = typed_property(file.path(), *vertex, kPacked[f], PlyType::kUint32).offset;
   rows.chunks = read_chunks(file, *chunk);
   rows.vertex = element_bytes(file.path(), file.bytes(), *vertex).data();
   rows.vertex_bytes = vertex->row_bytes;
-  if (vertex->count > std::numeric_limits<std::uint32_t>::max() || (vertex->count - 1) / kChunkRows >= chunk->count)
-    throw Error(file.path().string(), fmt::format("{} chunks cannot hold {} Gaussians", chunk->count, vertex->count));
+  if (vertex->count > std::numeric_limits<std::uint32_t>::max() ||
+      (vertex->count - 1) / kChunkRows >= chunk->count)
+    throw Error(file.path().string(),
+                fmt::format("{} chunks cannot hold {} Gaussians", chunk->count, vertex->count));
   const PlyElement* sh = header.find("sh");
   const int degree = sh ? bind_sh(file, *sh, vertex->count, rows) : 0;
   decode_rows(rows, vertex->count, degree, scene, job);
@@ -211,17 +223,20 @@ std::string write_compressed_ply(AtomicFile& out, const GaussianCloud& cloud,
   std::ranges::sort(order);
   std::vector<Chunk> chunks;
   for (std::size_t begin = 0; begin < order.size(); begin += kChunkRows)
-    chunks.push_back(chunk_of(cloud, std::span(order).subspan(begin, std::min(kChunkRows, order.size() - begin))));
+    chunks.push_back(
+        chunk_of(cloud, std::span(order).subspan(begin, std::min(kChunkRows, order.size() - begin))));
   const std::string header = header_for(order.size(), chunks.size(), cloud.sh_stride());
   out.write(std::as_bytes(std::span(header)));
-  static_assert(sizeof(Chunk) == sizeof(float) * kBounds.size());  // its members stand in the order of kBounds
+  static_assert(sizeof(Chunk) ==
+                sizeof(float) * kBounds.size());  // its members stand in the order of kBounds
   out.write(std::as_bytes(std::span(chunks)));
   std::vector<std::array<std::uint32_t, 4>> packed(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) packed[i] = pack(cloud, order[i], chunks[i / kChunkRows]);
   out.write(std::as_bytes(std::span(packed)));
   std::vector<std::uint8_t> sh;
   for (const std::uint32_t g : order) {
-    for (const float v : cloud.sh_rest_of(g)) sh.push_back(to_byte(std::floor((v / kShRange + 0.5f) * 256.0f)));
+    for (const float v : cloud.sh_rest_of(g))
+      sh.push_back(to_byte(std::floor((v / kShRange + 0.5f) * 256.0f)));
   }
   out.write(std::as_bytes(std::span(sh)));
   return "values are rounded to 8 to 11 bits within groups of 256 Gaussians, and their order changes";

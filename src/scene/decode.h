@@ -2,8 +2,8 @@
 // in Morton order. Internal to src/scene.
 #pragma once
 
-#include <tbb/parallel_for.h>
 #include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <limits>
@@ -14,9 +14,13 @@
 
 namespace splatcut {
 
-inline float sigmoid(float logit) { return 1.0f / (1.0f + std::exp(-logit)); }
+inline float sigmoid(float logit) {
+  return 1.0f / (1.0f + std::exp(-logit));
+}
 
-inline bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+inline bool is_finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 // Takes the memory of the cloud in large pages where the system has them: the first touch of 4 kB pages
 // costs more than decoding into them.
@@ -52,12 +56,17 @@ void decode_rows(const Source& source, std::size_t rows, int degree, Scene& scen
   job.progress("decoding Gaussians", 0.5);
   GaussianCloud& cloud = scene.cloud;
   resize_for_decode(cloud, order.size(), degree);
+  // Rows are read in file order and written to their places, not the other way round: the cloud lies in large
+  // pages, the mapped file in small ones, whose address look-ups cost more than the decoding.
+  std::vector<std::uint32_t> place(order.size());
+  for (std::size_t g = 0; g < order.size(); ++g) place[order[g]] = static_cast<std::uint32_t>(g);
   tbb::parallel_for(Range(0, order.size(), kGrain), [&](const Range& range) {
     if (job.cancelled()) return;
-    for (std::size_t g = range.begin(); g < range.end(); ++g) {
-      cloud.position[g] = positions[order[g]];
-      cloud.file_row[g] = row_of[order[g]];
-      source.decode(row_of[order[g]], cloud, g);
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const std::size_t g = place[i];
+      cloud.position[g] = positions[i];
+      cloud.file_row[g] = row_of[i];
+      source.decode(row_of[i], cloud, g);
     }
   });
   job.progress("decoding Gaussians", 1.0);

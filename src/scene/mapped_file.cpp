@@ -44,6 +44,8 @@ MappedFile::MappedFile(std::filesystem::path path) : path_(std::move(path)) {
   ::madvise(data_, size_, MADV_WILLNEED);
 }
 
-MappedFile::~MappedFile() { ::munmap(data_, size_); }
+MappedFile::~MappedFile() {
+  ::munmap(data_, size_);
+}
 
 }  // namespace splatcut

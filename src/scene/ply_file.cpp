@@ -18,8 +18,9 @@ static_assert(std::endian::native == std::endian::little, "binary_little_endian 
 
 namespace {
 
-constexpr std::array<const char*, 14> kNames{"x",     "y",     "z",     "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0",
-                                             "scale_1", "scale_2", "rot_0", "rot_1",  "rot_2",  "rot_3"};
+constexpr std::array<const char*, 14> kNames{"x",      "y",       "z",       "f_dc_0",  "f_dc_1",
+                                             "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2",
+                                             "rot_0",  "rot_1",   "rot_2",   "rot_3"};
 enum Field : std::size_t { kX = 0, kDc = 3, kOpacity = 6, kScale = 7, kRotation = 10, kRest = 14 };
 constexpr std::size_t kMaxFields = kRest + 45;
 
@@ -32,14 +33,22 @@ float load_as_float(const std::byte* at) {
 
 float load_as_float(const std::byte* at, PlyType type) {
   switch (type) {
-    case PlyType::kInt8: return load_as_float<std::int8_t>(at);
-    case PlyType::kUint8: return load_as_float<std::uint8_t>(at);
-    case PlyType::kInt16: return load_as_float<std::int16_t>(at);
-    case PlyType::kUint16: return load_as_float<std::uint16_t>(at);
-    case PlyType::kInt32: return load_as_float<std::int32_t>(at);
-    case PlyType::kUint32: return load_as_float<std::uint32_t>(at);
-    case PlyType::kFloat32: return load_as_float<float>(at);
-    case PlyType::kFloat64: return load_as_float<double>(at);
+    case PlyType::kInt8:
+      return load_as_float<std::int8_t>(at);
+    case PlyType::kUint8:
+      return load_as_float<std::uint8_t>(at);
+    case PlyType::kInt16:
+      return load_as_float<std::int16_t>(at);
+    case PlyType::kUint16:
+      return load_as_float<std::uint16_t>(at);
+    case PlyType::kInt32:
+      return load_as_float<std::int32_t>(at);
+    case PlyType::kUint32:
+      return load_as_float<std::uint32_t>(at);
+    case PlyType::kFloat32:
+      return load_as_float<float>(at);
+    case PlyType::kFloat64:
+      return load_as_float<double>(at);
   }
   return 0;
 }
@@ -62,7 +71,8 @@ struct PlyRows {
     return {value(row, field), value(row, field + 1), value(row, field + 2)};
   }
   glm::quat rotation(const std::byte* row) const {
-    return {value(row, kRotation), value(row, kRotation + 1), value(row, kRotation + 2), value(row, kRotation + 3)};
+    return {value(row, kRotation), value(row, kRotation + 1), value(row, kRotation + 2),
+            value(row, kRotation + 3)};
   }
   bool rest_is_finite(const std::byte* row) const {
     // A sum of zeros: 0 * v is NaN for NaN and for infinite v, and the loop has no branch.
@@ -78,8 +88,8 @@ struct PlyRows {
     const float norm_squared = glm::dot(q, q);
     const glm::vec3 log_scale = vec3(row, kScale);
     const bool good = norm_squared > 0 && std::isfinite(norm_squared) && !std::isnan(value(row, kOpacity)) &&
-                      log_scale.x < kMaxLogScale && log_scale.y < kMaxLogScale && log_scale.z < kMaxLogScale &&
-                      is_finite(vec3(row, kDc)) && rest_is_finite(row);
+                      log_scale.x < kMaxLogScale && log_scale.y < kMaxLogScale &&
+                      log_scale.z < kMaxLogScale && is_finite(vec3(row, kDc)) && rest_is_finite(row);
     return good ? vec3(row, kX) : kDroppedRow;
   }
   void decode(std::size_t index, GaussianCloud& cloud, std::size_t g) const {
@@ -89,7 +99,7 @@ struct PlyRows {
     cloud.scale[g] = glm::exp(vec3(row, kScale));
     cloud.rotation[g] = glm::normalize(rotation(row));
     float* rest = cloud.sh_rest.data() + g * (fields - kRest);
-    if (rest_in_sequence) {
+    if (fields > kRest && rest_in_sequence) {
       std::memcpy(rest, row + offset[kRest], (fields - kRest) * sizeof(float));
     } else {
       for (std::size_t f = kRest; f < fields; ++f) *rest++ = value(row, f);
@@ -107,9 +117,10 @@ int degree_from_rest(const std::filesystem::path& path, std::size_t count) {
 void refuse_other_ply(const std::filesystem::path& path, const PlyElement& vertex) {
   const bool has_splat_fields = vertex.find("f_dc_0") || vertex.find("opacity") || vertex.find("scale_0");
   if (!has_splat_fields && vertex.find("x"))
-    throw Error(path.string(),
-                "is an ordinary point cloud or mesh: it has points but no opacity, scale or rotation of Gaussians",
-                "Give the trained scene, often point_cloud/iteration_30000/point_cloud.ply");
+    throw Error(
+        path.string(),
+        "is an ordinary point cloud or mesh: it has points but no opacity, scale or rotation of Gaussians",
+        "Give the trained scene, often point_cloud/iteration_30000/point_cloud.ply");
   if (vertex.find("scale_1") && !vertex.find("scale_2"))
     throw Error(path.string(), "is a 2D Gaussian Splatting file: the property \"scale_2\" is missing",
                 "Only 3D Gaussians are supported");
@@ -147,6 +158,8 @@ template <bool kFloats>
 void read_rows(const MappedFile& file, const PlyElement& vertex, Scene& scene, const Job& job) {
   PlyRows<kFloats> rows = bind<kFloats>(file.path(), vertex);
   rows.data = element_bytes(file.path(), file.bytes(), vertex).data();
+  if (vertex.count > std::numeric_limits<std::uint32_t>::max())
+    throw Error(file.path().string(), fmt::format("{} Gaussians are more than can be handled", vertex.count));
   decode_rows(rows, vertex.count, degree_from_rest(file.path(), rows.fields - kRest), scene, job);
 }
 
@@ -156,10 +169,8 @@ void read_ply(const MappedFile& file, Scene& scene, const Job& job) {
   const PlyHeader header = parse_ply_header(file.path(), file.bytes());
   const PlyElement& vertex = vertex_of(file.path(), header);
   refuse_other_ply(file.path(), vertex);
-  if (vertex.count > std::numeric_limits<std::uint32_t>::max())
-    throw Error(file.path().string(), fmt::format("{} Gaussians are more than can be handled", vertex.count));
-  const bool floats =
-      std::ranges::all_of(vertex.properties, [](const PlyProperty& p) { return p.type == PlyType::kFloat32; });
+  const bool floats = std::ranges::all_of(vertex.properties,
+                                          [](const PlyProperty& p) { return p.type == PlyType::kFloat32; });
   if (floats)
     read_rows<true>(file, vertex, scene, job);
   else

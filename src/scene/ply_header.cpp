@@ -56,7 +56,8 @@ void parse_property(const std::filesystem::path& path, std::span<const std::stri
   }
   if (words.size() != 3) throw Error(path.string(), fmt::format("bad header line \"{}\"", line));
   const PlyType type = type_from_name(path, words[1], line);
-  if (element.find(words[2])) throw Error(path.string(), fmt::format("property \"{}\" appears twice", words[2]));
+  if (element.find(words[2]))
+    throw Error(path.string(), fmt::format("property \"{}\" appears twice", words[2]));
   element.properties.push_back({std::string(words[2]), type, element.row_bytes});
   element.row_bytes += size_of(type);
 }
@@ -86,8 +87,12 @@ std::vector<std::string_view> words_of(std::string_view line) {
   return words;
 }
 
-std::size_t size_of(PlyType type) { return kTypes[static_cast<std::size_t>(type)].bytes; }
-const char* name_of(PlyType type) { return kTypes[static_cast<std::size_t>(type)].name; }
+std::size_t size_of(PlyType type) {
+  return kTypes[static_cast<std::size_t>(type)].bytes;
+}
+const char* name_of(PlyType type) {
+  return kTypes[static_cast<std::size_t>(type)].name;
+}
 
 const PlyProperty* PlyElement::find(std::string_view property) const {
   const auto it = std::ranges::find(properties, property, &PlyProperty::name);
@@ -100,7 +105,8 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
 }
 
 PlyHeader parse_ply_header(const std::filesystem::path& path, std::span<const std::byte> file) {
-  const std::string_view text(reinterpret_cast<const char*>(file.data()), std::min(file.size(), kMaxHeaderBytes));
+  const std::string_view text(reinterpret_cast<const char*>(file.data()),
+                              std::min(file.size(), kMaxHeaderBytes));
   if (!text.starts_with("ply\n") && !text.starts_with("ply\r\n"))
     throw Error(path.string(), "is not a .ply file: it does not begin with \"ply\"");
   PlyHeader header;
@@ -108,7 +114,8 @@ PlyHeader parse_ply_header(const std::filesystem::path& path, std::span<const st
   for (std::size_t begin = text.find('\n') + 1;;) {
     const std::size_t end = text.find('\n', begin);
     if (end == text.npos)
-      throw Error(path.string(), fmt::format("the header is truncated: no end_header in the first {} bytes", text.size()));
+      throw Error(path.string(),
+                  fmt::format("the header is truncated: no end_header in the first {} bytes", text.size()));
     std::string_view line = text.substr(begin, end - begin);
     if (line.ends_with('\r')) line.remove_suffix(1);
     begin = end + 1;
@@ -139,13 +146,17 @@ PlyHeader parse_ply_header(const std::filesystem::path& path, std::span<const st
 std::span<const std::byte> element_bytes(const std::filesystem::path& path, std::span<const std::byte> file,
                                          const PlyElement& element) {
   if (element.has_list || element.data_begin == 0)
-    throw Error(path.string(), fmt::format("list properties in or before the element \"{}\" are not supported", element.name));
+    throw Error(
+        path.string(),
+        fmt::format("list properties in or before the element \"{}\" are not supported", element.name));
   if (element.count == 0 || element.row_bytes == 0)
     throw Error(path.string(), fmt::format("the element \"{}\" is empty", element.name));
-  const std::size_t rows_present = (file.size() - std::min(file.size(), element.data_begin)) / element.row_bytes;
+  const std::size_t rows_present =
+      (file.size() - std::min(file.size(), element.data_begin)) / element.row_bytes;
   if (rows_present < element.count)
     throw Error(path.string(),
-                fmt::format("truncated: the header promises {} rows of {} bytes in the element \"{}\", row {} is cut at byte {}",
+                fmt::format("truncated: the header promises {} rows of {} bytes in the element \"{}\", row "
+                            "{} is cut at byte {}",
                             element.count, element.row_bytes, element.name, rows_present, file.size()));
   return file.subspan(element.data_begin, element.count * element.row_bytes);
 }
@@ -155,8 +166,8 @@ const PlyProperty& required_property(const std::filesystem::path& path, const Pl
   if (const PlyProperty* found = element.find(property)) return *found;
   std::vector<std::string_view> names;
   for (const PlyProperty& p : element.properties) names.push_back(p.name);
-  throw Error(path.string(), fmt::format("the property \"{}\" is missing from the element \"{}\" (found: {})", property,
-                                         element.name, fmt::join(names, " ")));
+  throw Error(path.string(), fmt::format("the property \"{}\" is missing from the element \"{}\" (found: {})",
+                                         property, element.name, fmt::join(names, " ")));
 }
 
 }  // namespace splatcut

@@ -48,7 +48,8 @@ std::string header_for(std::size_t count, std::size_t rest) {
   const auto add = [&](const std::string& name) { header += "property float " + name + "\n"; };
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"}) add(name);
   for (std::size_t i = 0; i < rest; ++i) add(fmt::format("f_rest_{}", i));
-  for (const char* name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"}) add(name);
+  for (const char* name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
+    add(name);
   return header + "end_header\n";
 }
 

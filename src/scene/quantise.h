@@ -13,8 +13,12 @@ namespace splatcut {
 
 constexpr float kShC0 = 0.28209479f;  // constant SH basis function, 1 / (2 sqrt(pi))
 
-inline glm::vec3 f_dc_from_colour(const glm::vec3& colour) { return (colour - 0.5f) / kShC0; }
-inline glm::vec3 colour_from_f_dc(const glm::vec3& f_dc) { return 0.5f + kShC0 * f_dc; }
+inline glm::vec3 f_dc_from_colour(const glm::vec3& colour) {
+  return (colour - 0.5f) / kShC0;
+}
+inline glm::vec3 colour_from_f_dc(const glm::vec3& f_dc) {
+  return 0.5f + kShC0 * f_dc;
+}
 
 // The nearest step of 0..2^bits-1 that stands for value in [0, 1]; NaN becomes 0.
 inline std::uint32_t to_steps(float value, int bits) {
@@ -28,12 +32,15 @@ inline float from_steps(std::uint32_t steps, int bits) {
 inline std::uint8_t to_byte(float value) {  // nearest integer, clamped to 0..255
   return static_cast<std::uint8_t>(std::clamp(std::round(value), 0.0f, 255.0f));
 }
-inline float byte_at(const std::byte* at) { return static_cast<float>(std::to_integer<int>(*at)); }
+inline float byte_at(const std::byte* at) {
+  return static_cast<float>(std::to_integer<int>(*at));
+}
 
 // Index of the component of largest magnitude.
 inline std::uint32_t largest_of(const std::array<float, 4>& v) {
   return static_cast<std::uint32_t>(
-      std::max_element(v.begin(), v.end(), [](float a, float b) { return std::abs(a) < std::abs(b); }) - v.begin());
+      std::max_element(v.begin(), v.end(), [](float a, float b) { return std::abs(a) < std::abs(b); }) -
+      v.begin());
 }
 
 template <class T>

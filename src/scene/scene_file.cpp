@@ -26,7 +26,8 @@ SceneFormat format_of(const MappedFile& file) {
   return format_from_name(file.path());
 }
 
-std::vector<std::uint32_t> kept_in_file_order(const GaussianCloud& cloud, std::span<const std::uint8_t> keep) {
+std::vector<std::uint32_t> kept_in_file_order(const GaussianCloud& cloud,
+                                              std::span<const std::uint8_t> keep) {
   assert(keep.empty() || keep.size() == cloud.size());
   std::vector<std::uint32_t> kept;
   for (std::size_t g = 0; g < cloud.size(); ++g)
@@ -42,9 +43,12 @@ std::string write_scene(AtomicFile& out, const Scene& scene, std::span<const std
       if (scene.format != SceneFormat::kPly || scene.path.empty()) return write_ply(out, scene.cloud, kept);
       write_ply_subset(out, scene, kept);
       return {};
-    case SceneFormat::kCompressedPly: return write_compressed_ply(out, scene.cloud, kept);
-    case SceneFormat::kSplat: return write_splat(out, scene.cloud, kept);
-    case SceneFormat::kSpz: return write_spz(out, scene.cloud, kept);
+    case SceneFormat::kCompressedPly:
+      return write_compressed_ply(out, scene.cloud, kept);
+    case SceneFormat::kSplat:
+      return write_splat(out, scene.cloud, kept);
+    case SceneFormat::kSpz:
+      return write_spz(out, scene.cloud, kept);
   }
   return {};
 }
@@ -53,10 +57,14 @@ std::string write_scene(AtomicFile& out, const Scene& scene, std::span<const std
 
 const char* name_of(SceneFormat format) {
   switch (format) {
-    case SceneFormat::kPly: return "ply";
-    case SceneFormat::kCompressedPly: return "compressed.ply";
-    case SceneFormat::kSplat: return "splat";
-    case SceneFormat::kSpz: return "spz";
+    case SceneFormat::kPly:
+      return "ply";
+    case SceneFormat::kCompressedPly:
+      return "compressed.ply";
+    case SceneFormat::kSplat:
+      return "splat";
+    case SceneFormat::kSpz:
+      return "spz";
   }
   return "unknown";
 }
@@ -79,21 +87,31 @@ Scene load_scene(const std::filesystem::path& path, const Job& job) {
   scene.file_bytes = file.bytes().size();
   scene.modified_ns = file.modified_ns();
   switch (scene.format) {
-    case SceneFormat::kPly: read_ply(file, scene, job); break;
-    case SceneFormat::kCompressedPly: read_compressed_ply(file, scene, job); break;
-    case SceneFormat::kSplat: read_splat(file, scene, job); break;
-    case SceneFormat::kSpz: read_spz(file, scene, job); break;
+    case SceneFormat::kPly:
+      read_ply(file, scene, job);
+      break;
+    case SceneFormat::kCompressedPly:
+      read_compressed_ply(file, scene, job);
+      break;
+    case SceneFormat::kSplat:
+      read_splat(file, scene, job);
+      break;
+    case SceneFormat::kSpz:
+      read_spz(file, scene, job);
+      break;
   }
   if (!job.cancelled() && scene.cloud.empty())
-    throw Error(path.string(), fmt::format("none of the {} Gaussians is usable: each has NaN or a zero rotation",
-                                           scene.file_rows));
+    throw Error(
+        path.string(),
+        fmt::format("none of the {} Gaussians is usable: each has NaN or a zero rotation", scene.file_rows));
   return scene;
 }
 
-SaveReport save_scene(const std::filesystem::path& path, const Scene& scene, std::span<const std::uint8_t> keep,
-                      SceneFormat format) {
+SaveReport save_scene(const std::filesystem::path& path, const Scene& scene,
+                      std::span<const std::uint8_t> keep, SceneFormat format) {
   const std::vector<std::uint32_t> kept = kept_in_file_order(scene.cloud, keep);
-  if (kept.empty()) throw Error(path.string(), "nothing is selected: a scene without Gaussians is not written");
+  if (kept.empty())
+    throw Error(path.string(), "nothing is selected: a scene without Gaussians is not written");
   AtomicFile out(path);
   SaveReport report;
   report.gaussians = kept.size();

@@ -27,7 +27,8 @@ void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::
 std::string write_ply(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians);
 std::string write_compressed_ply(AtomicFile& out, const GaussianCloud& cloud,
                                  std::span<const std::uint32_t> gaussians);
-std::string write_splat(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians);
+std::string write_splat(AtomicFile& out, const GaussianCloud& cloud,
+                        std::span<const std::uint32_t> gaussians);
 std::string write_spz(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians);
 
 }  // namespace splatcut

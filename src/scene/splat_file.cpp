@@ -19,7 +19,9 @@ constexpr std::size_t kScaleAt = 12, kColourAt = 24, kRotationAt = 28;
 struct SplatRows {
   const std::byte* data = nullptr;
 
-  static glm::vec3 vec3(const std::byte* at) { return {load<float>(at), load<float>(at + 4), load<float>(at + 8)}; }
+  static glm::vec3 vec3(const std::byte* at) {
+    return {load<float>(at), load<float>(at + 4), load<float>(at + 8)};
+  }
   static glm::quat rotation(const std::byte* row) {
     const auto component = [&](std::size_t i) { return (byte_at(row + kRotationAt + i) - 128.0f) / 128.0f; };
     return {component(0), component(1), component(2), component(3)};
@@ -36,7 +38,8 @@ struct SplatRows {
     const std::byte* colour = row + kColourAt;
     cloud.scale[g] = vec3(row + kScaleAt);
     cloud.rotation[g] = glm::normalize(rotation(row));
-    cloud.f_dc[g] = f_dc_from_colour(glm::vec3(byte_at(colour), byte_at(colour + 1), byte_at(colour + 2)) / 255.0f);
+    cloud.f_dc[g] =
+        f_dc_from_colour(glm::vec3(byte_at(colour), byte_at(colour + 1), byte_at(colour + 2)) / 255.0f);
     cloud.opacity[g] = byte_at(colour + 3) / 255.0f;
   }
 };
@@ -53,14 +56,15 @@ void read_splat(const MappedFile& file, Scene& scene, const Job& job) {
   const std::size_t size = file.bytes().size();
   const std::size_t rows = size / kRowBytes;
   if (size % kRowBytes != 0)
-    throw Error(file.path().string(), fmt::format("truncated: row {} is cut at byte {} (a row has {} bytes)", rows, size,
-                                                  kRowBytes));
+    throw Error(file.path().string(), fmt::format("truncated: row {} is cut at byte {} (a row has {} bytes)",
+                                                  rows, size, kRowBytes));
   if (rows > std::numeric_limits<std::uint32_t>::max())
     throw Error(file.path().string(), fmt::format("{} Gaussians are more than can be handled", rows));
   decode_rows(SplatRows{file.bytes().data()}, rows, 0, scene, job);
 }
 
-std::string write_splat(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
+std::string write_splat(AtomicFile& out, const GaussianCloud& cloud,
+                        std::span<const std::uint32_t> gaussians) {
   std::vector<SplatRow> rows(gaussians.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::uint32_t g = gaussians[i];
@@ -73,8 +77,9 @@ std::string write_splat(AtomicFile& out, const GaussianCloud& cloud, std::span<c
   }
   out.write(std::as_bytes(std::span(rows)));
   if (cloud.sh_degree == 0) return "colours, opacities and rotations are rounded to 8 bits";
-  return fmt::format("spherical harmonics of degree {} are dropped; colours, opacities and rotations are rounded to 8 bits",
-                     cloud.sh_degree);
+  return fmt::format(
+      "spherical harmonics of degree {} are dropped; colours, opacities and rotations are rounded to 8 bits",
+      cloud.sh_degree);
 }
 
 }  // namespace splatcut

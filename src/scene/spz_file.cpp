@@ -35,7 +35,8 @@ class GzipReader {
  public:
   explicit GzipReader(const MappedFile& file) : file_(file), in_(file.bytes()) {
     constexpr int kGzipOnly = 16 + MAX_WBITS;
-    if (inflateInit2(&stream_, kGzipOnly) != Z_OK) throw Error(file.path().string(), "the gzip reader failed to start");
+    if (inflateInit2(&stream_, kGzipOnly) != Z_OK)
+      throw Error(file.path().string(), "the gzip reader failed to start");
   }
   GzipReader(const GzipReader&) = delete;
   GzipReader& operator=(const GzipReader&) = delete;
@@ -65,8 +66,8 @@ class GzipReader {
     if (written > 0) return written;
     const std::size_t at = file_.bytes().size() - in_.size();
     if (result == Z_OK || result == Z_STREAM_END || result == Z_BUF_ERROR)
-      throw Error(file_.path().string(), fmt::format("truncated: the gzip data ends at byte {} after {} unpacked bytes",
-                                                     at, done));
+      throw Error(file_.path().string(),
+                  fmt::format("truncated: the gzip data ends at byte {} after {} unpacked bytes", at, done));
     throw Error(file_.path().string(), fmt::format("the gzip data is damaged at byte {}", at));
   }
 
@@ -75,8 +76,10 @@ class GzipReader {
   z_stream stream_{};
 };
 
-Bytes unpack_zstd(const MappedFile& file, std::span<const std::byte> packed, std::size_t size, std::size_t index) {
-  const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(), ZSTD_freeDStream);
+Bytes unpack_zstd(const MappedFile& file, std::span<const std::byte> packed, std::size_t size,
+                  std::size_t index) {
+  const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(),
+                                                                             ZSTD_freeDStream);
   ZSTD_inBuffer in{packed.data(), packed.size(), 0};
   Bytes bytes;
   for (std::size_t done = 0; done < size;) {
@@ -84,9 +87,11 @@ Bytes unpack_zstd(const MappedFile& file, std::span<const std::byte> packed, std
     ZSTD_outBuffer out{bytes.data(), bytes.size(), done};
     const std::size_t result = ZSTD_decompressStream(stream.get(), &out, &in);
     if (ZSTD_isError(result))
-      throw Error(file.path().string(), fmt::format("stream {} is damaged ({})", index, ZSTD_getErrorName(result)));
+      throw Error(file.path().string(),
+                  fmt::format("stream {} is damaged ({})", index, ZSTD_getErrorName(result)));
     if (out.pos == done && in.pos == in.size)
-      throw Error(file.path().string(), fmt::format("stream {} ends after {} of {} bytes", index, done, size));
+      throw Error(file.path().string(),
+                  fmt::format("stream {} ends after {} of {} bytes", index, done, size));
     done = out.pos;
   }
   return bytes;
@@ -166,7 +171,8 @@ void check_header(const MappedFile& file, const spz::Header& header) {
   const auto refuse = [&](const std::string& what) { throw Error(file.path().string(), what); };
   constexpr int kMaxFractionalBits = 24;
   if (header.magic != spz::kMagic) refuse("is not a .spz file: the mark \"NGSP\" is missing");
-  if (header.version < 1 || header.version > 4) refuse(fmt::format("version {} of .spz is not supported", header.version));
+  if (header.version < 1 || header.version > 4)
+    refuse(fmt::format("version {} of .spz is not supported", header.version));
   if (header.sh_degree > (header.version == 4 ? kMaxFileDegree : 3))
     refuse(fmt::format("spherical harmonics of degree {} are not supported", header.sh_degree));
   if (header.fractional_bits > kMaxFractionalBits)
@@ -186,7 +192,8 @@ void read_gzip(const MappedFile& file, Scene& scene, const Job& job) {
   GzipReader reader(file);
   const auto header = load<spz::Header>(reader.read(sizeof(spz::Header)).data());
   check_header(file, header);
-  if (header.version > 3) throw Error(file.path().string(), fmt::format("version {} inside gzip data", header.version));
+  if (header.version > 3)
+    throw Error(file.path().string(), fmt::format("version {} inside gzip data", header.version));
   SpzRows rows = rows_for(header);
   const auto row_bytes = spz::attribute_bytes(header.version, header.sh_degree);
   std::size_t total = 0;
@@ -212,11 +219,13 @@ void read_streams(const MappedFile& file, Scene& scene, const Job& job) {
   if (all.size() < kV4HeaderBytes) truncated("the header");
   const auto header = load<spz::Header>(all.data());
   check_header(file, header);
-  if (header.version != 4) throw Error(file.path().string(), fmt::format("version {} outside gzip data", header.version));
+  if (header.version != 4)
+    throw Error(file.path().string(), fmt::format("version {} outside gzip data", header.version));
   const auto row_bytes = spz::attribute_bytes(header.version, header.sh_degree);
   const std::size_t streams = header.sh_degree > 0 ? 6 : 5;
   if (header.streams < streams)
-    throw Error(file.path().string(), fmt::format("{} streams found, {} are wanted", header.streams, streams));
+    throw Error(file.path().string(),
+                fmt::format("{} streams found, {} are wanted", header.streams, streams));
   const std::size_t table = load<std::uint32_t>(all.data() + kStreamTableAt);
   std::size_t begin = table + header.streams * sizeof(StreamEntry);
   if (table < kV4HeaderBytes || begin > all.size()) truncated("the table of streams");
@@ -225,8 +234,8 @@ void read_streams(const MappedFile& file, Scene& scene, const Job& job) {
     const auto entry = load<StreamEntry>(all.data() + table + s * sizeof(StreamEntry));
     if (entry.packed_bytes > all.size() - begin) truncated(fmt::format("stream {}", s));
     if (entry.bytes != row_bytes[s] * header.points)
-      throw Error(file.path().string(), fmt::format("stream {} has {} bytes for {} Gaussians of {} bytes", s, entry.bytes,
-                                                    header.points, row_bytes[s]));
+      throw Error(file.path().string(), fmt::format("stream {} has {} bytes for {} Gaussians of {} bytes", s,
+                                                    entry.bytes, header.points, row_bytes[s]));
     packed[s] = all.subspan(begin, entry.packed_bytes);
     begin += entry.packed_bytes;
   }

@@ -3,8 +3,8 @@
 // Attributes stand apart, in this order: positions, opacities, colours, scales, rotations, SH.
 //   position   v1: 3 half floats; v2+: 3 x 24-bit fixed point with fractional_bits
 //   opacity    u8 / 255;   colour  f_dc = (u8 / 255 - 0.5) / 0.15;   scale  logarithm = u8 / 16 - 10
-//   rotation   v1, v2: x y z as u8 / 127.5 - 1 with w >= 0; v3+: smallest three of x y z w, 2 + 3 x (sign + 9) bits
-//   SH         (u8 - 128) / 128, coefficient by coefficient, red green blue together
+//   rotation   v1, v2: x y z as u8 / 127.5 - 1 with w >= 0; v3+: smallest three of x y z w, 2 + 3 x (sign +
+//   9) bits SH         (u8 - 128) / 128, coefficient by coefficient, red green blue together
 // v1-v3 are one gzip stream that begins with SpzHeader; v4 is SpzHeader, SpzStreams and zstd streams.
 // Axes are x right, y up, z back (RUB); ours are x right, y down, z forward: y and z change sign.
 #pragma once
@@ -32,7 +32,11 @@ constexpr int kAttributes = 6;
 
 // Bytes per Gaussian of each attribute.
 constexpr std::array<std::size_t, kAttributes> attribute_bytes(std::uint32_t version, int sh_degree) {
-  return {version == 1 ? 6u : 9u, 1, 3, 3, version >= 3 ? 4u : 3u,
+  return {version == 1 ? 6u : 9u,
+          1,
+          3,
+          3,
+          version >= 3 ? 4u : 3u,
           3 * static_cast<std::size_t>(sh_rest_coefficients(sh_degree))};
 }
 

@@ -66,7 +66,8 @@ Buffer packed(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussia
   for (const std::uint32_t g : gaussians) add_position(out, cloud.position[g], header.fractional_bits);
   for (const std::uint32_t g : gaussians) out.push_back(to_byte(255.0f * cloud.opacity[g]));
   for (const std::uint32_t g : gaussians)
-    for (int c = 0; c < 3; ++c) out.push_back(to_byte(255.0f * (cloud.f_dc[g][c] * spz::kColourScale + 0.5f)));
+    for (int c = 0; c < 3; ++c)
+      out.push_back(to_byte(255.0f * (cloud.f_dc[g][c] * spz::kColourScale + 0.5f)));
   for (const std::uint32_t g : gaussians)
     for (int c = 0; c < 3; ++c)
       out.push_back(to_byte((std::log(cloud.scale[g][c]) - spz::kLogScaleMin) * spz::kLogScaleSteps));
@@ -81,7 +82,8 @@ std::string write_spz(AtomicFile& out, const GaussianCloud& cloud, std::span<con
   const Buffer data = packed(cloud, gaussians);
   z_stream stream{};
   constexpr int kGzip = 16 + MAX_WBITS, kMemoryLevel = 8;
-  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY) !=
+      Z_OK)
     throw Error("spz", "the gzip writer failed to start");
   const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, deflateEnd);
   constexpr std::size_t kPiece = 1 << 20;

@@ -1,0 +1,391 @@
+#include "scene/scene_file.h"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include "scene/error.h"
+
+using namespace splatcut;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("splatcut_scene_file_test_" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  fs::path operator/(const std::string& name) const { return path / name; }
+};
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+void write(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+template <class T>
+std::string bytes_of(const T& value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+std::vector<std::string> splat_names(int rest) {
+  std::vector<std::string> names{"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"};
+  for (int i = 0; i < rest; ++i) names.push_back("f_rest_" + std::to_string(i));
+  for (const char* name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
+    names.push_back(name);
+  return names;
+}
+
+std::string header(const std::vector<std::string>& names, std::size_t count) {
+  std::string text = "ply\nformat binary_little_endian 1.0\ncomment made by hand\nelement vertex " +
+                     std::to_string(count) + "\n";
+  for (const std::string& name : names) text += "property float " + name + "\n";
+  return text + "end_header\n";
+}
+
+// Rows whose every value says which row and field it is.
+std::string numbered_ply(const std::vector<std::string>& names, int count) {
+  std::string text = header(names, static_cast<std::size_t>(count));
+  for (int row = 0; row < count; ++row) {
+    for (std::size_t f = 0; f < names.size(); ++f) {
+      float value = 0.001f * static_cast<float>(f) + 0.01f * static_cast<float>(row);
+      if (names[f] == "x") value = static_cast<float>((row * 7919) % count);
+      text += bytes_of(value);
+    }
+  }
+  return text;
+}
+
+GaussianCloud random_cloud(std::size_t n, int degree) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  GaussianCloud cloud;
+  cloud.resize(n, degree);
+  for (std::size_t g = 0; g < n; ++g) {
+    cloud.position[g] = {5 * unit(random), 5 * unit(random), 5 * unit(random)};
+    cloud.scale[g] = glm::exp(glm::vec3(unit(random), unit(random), unit(random)) - 4.0f);
+    cloud.rotation[g] = glm::normalize(glm::quat(unit(random), unit(random), unit(random), unit(random)));
+    cloud.opacity[g] = 0.5f + 0.49f * unit(random);
+    cloud.f_dc[g] = {unit(random), unit(random), unit(random)};
+    cloud.file_row[g] = static_cast<std::uint32_t>(g);
+  }
+  for (float& v : cloud.sh_rest) v = 0.9f * unit(random);
+  return cloud;
+}
+
+struct Tolerance {
+  float position, log_scale, rotation, opacity, f_dc, sh;
+};
+
+void check_same(const GaussianCloud& expected, const Scene& got, const Tolerance& limit) {
+  REQUIRE(got.cloud.size() == expected.size());
+  Tolerance worst{};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const std::uint32_t row = got.cloud.file_row[i];
+    const auto largest = [](const glm::vec3& v) {
+      return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    };
+    worst.position = std::max(worst.position, largest(got.cloud.position[i] - expected.position[row]));
+    worst.log_scale = std::max(worst.log_scale, largest(glm::log(got.cloud.scale[i] / expected.scale[row])));
+    worst.rotation =
+        std::max(worst.rotation, 1 - std::abs(glm::dot(got.cloud.rotation[i], expected.rotation[row])));
+    worst.opacity = std::max(worst.opacity, std::abs(got.cloud.opacity[i] - expected.opacity[row]));
+    worst.f_dc = std::max(worst.f_dc, largest(got.cloud.f_dc[i] - expected.f_dc[row]));
+    if (got.cloud.sh_degree != expected.sh_degree) continue;
+    for (std::size_t k = 0; k < expected.sh_stride(); ++k)
+      worst.sh = std::max(worst.sh, std::abs(got.cloud.sh_rest_of(i)[k] - expected.sh_rest_of(row)[k]));
+  }
+  CHECK(worst.position <= limit.position);
+  CHECK(worst.log_scale <= limit.log_scale);
+  CHECK(worst.rotation <= limit.rotation);
+  CHECK(worst.opacity <= limit.opacity);
+  CHECK(worst.f_dc <= limit.f_dc);
+  CHECK(worst.sh <= limit.sh);
+}
+
+// The message of the Error that loading the file throws.
+std::string refusal(const fs::path& path) {
+  try {
+    load_scene(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+bool mentions(const std::string& text, std::initializer_list<const char*> parts) {
+  for (const char* part : parts) {
+    if (text.find(part) != text.npos) continue;
+    MESSAGE(text, " lacks ", std::string(part));
+    return false;
+  }
+  return true;
+}
+
+std::string gzip(const std::string& data) {
+  z_stream stream{};
+  deflateInit2(&stream, 6, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
+  std::string out(data.size() + 1000, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));
+  stream.avail_in = static_cast<uInt>(data.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  deflate(&stream, Z_FINISH);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("ply: known values, properties in any order and of any type, with and without normals") {
+  const Folder folder;
+  // rot before x, a double position, uchar and double properties nobody asked for.
+  std::string text =
+      "ply\r\nformat binary_little_endian 1.0\r\nelement vertex 1\r\nproperty uchar label\r\nproperty float "
+      "rot_0\r\n"
+      "property float rot_1\r\nproperty float rot_2\r\nproperty float rot_3\r\nproperty double x\r\nproperty "
+      "double y\r\n"
+      "property double z\r\nproperty double weight\r\nproperty float opacity\r\nproperty float "
+      "scale_2\r\nproperty float "
+      "scale_1\r\nproperty float scale_0\r\nproperty float f_dc_0\r\nproperty float f_dc_1\r\nproperty float "
+      "f_dc_2\r\n"
+      "end_header\r\n";
+  text += '\x05';
+  for (const float v : {0.0f, 0.0f, 0.0f, -2.0f}) text += bytes_of(v);
+  for (const double v : {1.5, -2.5, 3.25, 9.0}) text += bytes_of(v);
+  for (const float v : {std::log(3.0f), std::log(0.3f), std::log(0.2f), std::log(0.1f), 0.25f, 0.5f, 0.75f})
+    text += bytes_of(v);
+  write(folder / "odd.ply", text);
+  const Scene scene = load_scene(folder / "odd.ply");
+  REQUIRE(scene.cloud.size() == 1);
+  CHECK(scene.cloud.sh_degree == 0);
+  CHECK(scene.cloud.position[0] == glm::vec3(1.5f, -2.5f, 3.25f));
+  CHECK(scene.cloud.opacity[0] == doctest::Approx(0.75));
+  CHECK(scene.cloud.scale[0].x == doctest::Approx(0.1));
+  CHECK(scene.cloud.scale[0].z == doctest::Approx(0.3));
+  CHECK(scene.cloud.rotation[0].z == doctest::Approx(-1));
+  CHECK(scene.cloud.f_dc[0] == glm::vec3(0.25f, 0.5f, 0.75f));
+  save_scene(folder / "copy.ply", scene, {}, SceneFormat::kPly);
+  CHECK(text_of(folder / "copy.ply") == text);
+}
+
+TEST_CASE("ply: infinite opacity and flat scale are legal; NaN and zero rotations are dropped and counted") {
+  const Folder folder;
+  const std::vector<std::string> names = splat_names(9);
+  std::string text = header(names, 5);
+  for (int row = 0; row < 5; ++row) {
+    for (const std::string& name : names) {
+      float value = name == "rot_0" && row != 2 ? 1.0f : 0.0f;  // row 2: zero rotation
+      if (name == "x") value = static_cast<float>(row);
+      if (name == "opacity" && row == 0) value = kInfinity;
+      if (name == "scale_1" && row == 0) value = -kInfinity;
+      if (name == "f_rest_8" && row == 1) value = kNan;
+      if (name == "z" && row == 3) value = kInfinity;
+      text += bytes_of(value);
+    }
+  }
+  write(folder / "nan.ply", text);
+  const Scene scene = load_scene(folder / "nan.ply");
+  CHECK(scene.file_rows == 5);
+  CHECK(scene.dropped == 3);
+  REQUIRE(scene.cloud.size() == 2);
+  const std::size_t first = scene.cloud.file_row[0] == 0 ? 0 : 1;
+  CHECK(scene.cloud.file_row[1 - first] == 4);
+  CHECK(scene.cloud.opacity[first] == 1.0f);
+  CHECK(scene.cloud.scale[first] == glm::vec3(1, 0, 1));
+}
+
+TEST_CASE("ply: a subset has the rows of the file, byte for byte and in its order, for all degrees") {
+  const Folder folder;
+  for (const int rest : {0, 9, 24, 45}) {
+    const std::vector<std::string> names = splat_names(rest);
+    constexpr int kCount = 1000;
+    const std::string text = numbered_ply(names, kCount);
+    write(folder / "full.ply", text);
+    const Scene scene = load_scene(folder / "full.ply");
+    REQUIRE(scene.cloud.size() == kCount);
+    CHECK(3 * sh_rest_coefficients(scene.cloud.sh_degree) == rest);
+    std::vector<std::uint8_t> keep(kCount);
+    std::string expected = header(names, 334);
+    const std::size_t row_bytes = 4 * names.size();
+    for (std::size_t row = 0; row < kCount; row += 3)
+      expected += text.substr(header(names, kCount).size() + row * row_bytes, row_bytes);
+    for (std::size_t g = 0; g < kCount; ++g) {
+      const std::uint32_t row = scene.cloud.file_row[g];
+      keep[g] = row % 3 == 0;
+      REQUIRE(scene.cloud.position[g].x == static_cast<float>((row * 7919) % kCount));
+      if (rest > 0) REQUIRE(scene.cloud.sh_rest_of(g)[1] == 0.001f * 10 + 0.01f * static_cast<float>(row));
+    }
+    const SaveReport report = save_scene(folder / "subset.ply", scene, keep, SceneFormat::kPly);
+    CHECK(report.gaussians == 334);
+    CHECK(report.bytes == expected.size());
+    CHECK(report.loss.empty());
+    CHECK(text_of(folder / "subset.ply") == expected);
+  }
+}
+
+TEST_CASE("round trip through every format and degree") {
+  const Folder folder;
+  for (int degree = 0; degree <= 3; ++degree) {
+    Scene scene;
+    scene.cloud = random_cloud(3000, degree);
+    CHECK(save_scene(folder / "a.ply", scene, {}, SceneFormat::kPly).loss.empty());
+    check_same(scene.cloud, load_scene(folder / "a.ply"), {0, 1e-5f, 1e-6f, 1e-6f, 0, 0});
+
+    // 24-bit positions of 12 fractional bits, 9-bit rotations, 1/16 steps of log scale, bytes
+    CHECK(!save_scene(folder / "a.spz", scene, {}, SceneFormat::kSpz).loss.empty());
+    const Scene spz = load_scene(folder / "a.spz");
+    CHECK(spz.cloud.sh_degree == degree);
+    check_same(scene.cloud, spz,
+               {1.0f / 8192, 1.01f / 32, 1e-5f, 0.51f / 255, 0.51f / 255 / 0.15f, 0.51f / 128});
+
+    const SaveReport splat = save_scene(folder / "a.splat", scene, {}, SceneFormat::kSplat);
+    CHECK(mentions(splat.loss, {"rounded"}));
+    CHECK((splat.loss.find("spherical harmonics") != splat.loss.npos) == (degree > 0));
+    check_same(scene.cloud, load_scene(folder / "a.splat"), {0, 1e-6f, 1e-4f, 0.51f / 255, 1, 0});
+  }
+}
+
+TEST_CASE("compressed ply: values within the steps of a chunk") {
+  const Folder folder;
+  for (int degree = 0; degree <= 3; ++degree) {
+    Scene scene;
+    scene.cloud = random_cloud(700, degree);
+    save_scene(folder / "a.compressed.ply", scene, {}, SceneFormat::kCompressedPly);
+    const Scene got = load_scene(folder / "a.compressed.ply");
+    CHECK(got.format == SceneFormat::kCompressedPly);
+    // The writer keeps the cloud's order, so rows are indices: half a step of 10 bits over the range
+    check_same(scene.cloud, got,
+               {10 * 0.51f / 1023, 2 * 0.51f / 1023, 1e-5f, 0.51f / 255, 2 * 0.51f / 255, 0.51f * 8 / 256});
+  }
+}
+
+TEST_CASE("spz: versions 1 and 2 by hand, axes turned to x right, y down, z forward") {
+  const Folder folder;
+  const auto file = [](std::uint32_t version, const std::string& position, const std::string& rotation) {
+    std::string text =
+        "NGSP" + bytes_of(version) + bytes_of(std::uint32_t{1}) + std::string("\x01\x08\x00\x00", 4);
+    text += position + "\xff" + std::string("\x80\x00\xff", 3) + std::string("\xa0\x90\x00", 3) + rotation;
+    return gzip(text + "\xc0\x80\x80\xc0\x80\x80\xc0\x80\x80");  // red of y, z, x: 0.5
+  };
+  // half floats 1, 2, -0.5; 24-bit numbers 1, 2, -0.5 with 8 fractional bits
+  write(folder / "1.spz", file(1, std::string("\x00\x3c\x00\x40\x00\xb8", 6), "\xff\x80\x80"));
+  write(folder / "2.spz", file(2, std::string("\x00\x01\x00\x00\x02\x00\x80\xff\xff", 9), "\x80\xff\x80"));
+  for (const char* name : {"1.spz", "2.spz"}) {
+    const Scene scene = load_scene(folder / name);
+    REQUIRE(scene.cloud.size() == 1);
+    CHECK(scene.cloud.position[0] == glm::vec3(1, -2, 0.5f));
+    CHECK(scene.cloud.opacity[0] == 1.0f);
+    CHECK(scene.cloud.scale[0].x == doctest::Approx(1.0));
+    CHECK(scene.cloud.scale[0].y == doctest::Approx(std::exp(-1.0)));
+    CHECK(scene.cloud.f_dc[0].z == doctest::Approx(0.5 / 0.15));
+    CHECK(scene.cloud.sh_rest_of(0)[0] == -0.5f);  // y
+    CHECK(scene.cloud.sh_rest_of(0)[1] == -0.5f);  // z
+    CHECK(scene.cloud.sh_rest_of(0)[2] == 0.5f);   // x
+  }
+  CHECK(load_scene(folder / "1.spz").cloud.rotation[0].x == doctest::Approx(1).epsilon(0.01));
+  CHECK(load_scene(folder / "2.spz").cloud.rotation[0].y == doctest::Approx(-1).epsilon(0.01));
+}
+
+TEST_CASE("bad files are refused with a clear sentence") {
+  const Folder folder;
+  const std::vector<std::string> names = splat_names(0);
+  const std::string good = numbered_ply(names, 10);
+  const auto check = [&](const std::string& name, const std::string& bytes,
+                         std::initializer_list<const char*> parts) {
+    write(folder / name, bytes);
+    const std::string message = refusal(folder / name);
+    CHECK(mentions(message, parts));
+    CHECK(mentions(message, {name.c_str()}));
+  };
+  const auto without = [&](const std::string& name) {
+    std::vector<std::string> fewer;
+    for (const std::string& n : names)
+      if (n != name) fewer.push_back(n);
+    return numbered_ply(fewer, 10);
+  };
+  const auto with_count = [&](const std::string& count) {
+    std::string text = good;
+    return text.replace(text.find("vertex 10"), 9, "vertex " + count);
+  };
+  CHECK(mentions(refusal(folder / "none.ply"), {"none.ply", "No such file"}));
+  CHECK(mentions(refusal(folder.path), {"is a directory"}));
+  check("empty.ply", "", {"empty"});
+  check("scene.obj", "v 0 0 0", {"extension", ".splat"});
+  check("text.ply", "hello", {"not a .ply"});
+  check("cut.ply", good.substr(0, good.size() - 70), {"truncated", "row 8", "byte"});
+  check("head.ply", good.substr(0, 200), {"header is truncated"});
+  check("ascii.ply", "ply\nformat ascii 1.0\nelement vertex 1\nend_header\n",
+        {"ascii", "binary_little_endian"});
+  check("type.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty half x\nend_header\n",
+        {"half"});
+  check("huge.ply", with_count("4000000000000000000"), {"truncated", "4000000000000000000"});
+  check("overflow.ply", with_count("18446744073709551615"), {"truncated"});
+  check("too_long.ply", with_count("99999999999999999999999"), {"bad count"});
+  check("minus.ply", with_count("-5"), {"bad count"});
+  check("zero.ply", with_count("0"), {"vertex", "empty"});
+  check("no_opacity.ply", without("opacity"), {"opacity", "missing", "f_dc_0"});
+  check("2dgs.ply", without("scale_2"), {"2D Gaussian", "scale_2"});
+  check("odd_rest.ply", numbered_ply(splat_names(12), 10), {"12 f_rest", "45"});
+  check("points.ply", numbered_ply({"x", "y", "z", "red", "green", "blue"}, 10), {"ordinary point cloud"});
+  check("cut.splat", std::string(70, 'a'), {"truncated", "row 2", "byte 70"});
+  check("zero.splat", std::string(64, '\x80'), {"none of the 2"});
+  check("text.spz", "hello, this is no scene of any kind", {"NGSP"});
+  check("short.spz", "NGSP", {"truncated"});
+  const std::string spz_header =
+      "NGSP" + bytes_of(3u) + bytes_of(4000000000u) + std::string("\x03\x0c\x00\x00", 4);
+  check("huge.spz", gzip(spz_header), {"truncated"});
+  check("nine.spz", gzip("NGSP" + bytes_of(9u) + bytes_of(1u) + bytes_of(0u)), {"version 9"});
+  Scene scene;
+  scene.cloud = random_cloud(500, 1);
+  for (const char* name : {"full.spz", "full.compressed.ply"}) {
+    save_scene(folder / name, scene, {}, format_from_name(name));
+    const std::string bytes = text_of(folder / name);
+    check("half_" + std::string(name), bytes.substr(0, bytes.size() / 2), {"truncated"});
+  }
+}
+
+TEST_CASE("saving: an empty selection and a changed source are refused, nothing is left behind") {
+  const Folder folder;
+  write(folder / "a.ply", numbered_ply(splat_names(0), 10));
+  const Scene scene = load_scene(folder / "a.ply");
+  const std::vector<std::uint8_t> nothing(10, 0);
+  CHECK_THROWS_AS(save_scene(folder / "b.ply", scene, nothing, SceneFormat::kPly), Error);
+  write(folder / "a.ply", numbered_ply(splat_names(0), 11));
+  CHECK_THROWS_WITH_AS(save_scene(folder / "b.ply", scene, {}, SceneFormat::kPly),
+                       doctest::Contains("changed"), Error);
+  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
+}
+
+TEST_CASE("real files: the same object as compressed .ply and as .spz version 4") {
+  const fs::path scenes = fs::path(SPLATCUT_SOURCE_DIR) / ".." / "shared" / "scenes";
+  if (!fs::exists(scenes / "formats")) {
+    MESSAGE("skipped: no scenes");
+    return;
+  }
+  const Scene ply = load_scene(scenes / "formats" / "biker.compressed.ply");
+  const Scene spz = load_scene(scenes / "formats" / "biker.spz");
+  REQUIRE(ply.cloud.size() == 152746);
+  REQUIRE(spz.cloud.size() == 152746);
+  CHECK(spz.dropped == 0);
+  const Box a = robust_bounds(ply.cloud.position), b = robust_bounds(spz.cloud.position);
+  CHECK(glm::length(a.min - b.min) < 0.01f * glm::length(a.extent()));
+  CHECK(glm::length(a.max - b.max) < 0.01f * glm::length(a.extent()));
+  CHECK(load_scene(scenes / "formats" / "plant.splat").cloud.size() == 14007);
+  CHECK(load_scene(scenes / "flowers.ply").cloud.sh_degree == 2);
+}
