@@ -22,7 +22,8 @@ bool header(const std::filesystem::path& path) { return path.extension() == ".h"
 TEST_CASE("no layer includes a layer above it") {
   const std::filesystem::path src = std::filesystem::path(SPLATCUT_SOURCE_DIR) / "src";
   int files = 0;
-  for (const auto& [layer, forbidden] : kForbidden)
+  for (const auto& [layer, forbidden] : kForbidden) {
+    if (!std::filesystem::exists(src / layer)) continue;  // a layer that has no code yet
     for (const auto& entry : std::filesystem::recursive_directory_iterator(src / layer)) {
       if (!entry.is_regular_file()) continue;
       ++files;
@@ -39,5 +40,6 @@ TEST_CASE("no layer includes a layer above it") {
         }
       }
     }
+  }
   CHECK(files > 20);
 }

@@ -69,7 +69,7 @@ TEST_CASE("min_cut finds the least energy, and its smallest source set, of all c
   std::mt19937 random(5);
   for (int trial = 0; trial < 1000; ++trial) {
     CAPTURE(trial);
-    const std::uint32_t nodes = 2 + random() % 11;
+    const auto nodes = static_cast<std::uint32_t>(2 + random() % 11);
     const Problem p = random_problem(random, nodes, random() % (3 * nodes), 1 + static_cast<int>(random() % 12));
     std::int64_t best = std::numeric_limits<std::int64_t>::max();
     std::uint32_t smallest = 0;

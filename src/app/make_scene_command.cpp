@@ -9,6 +9,7 @@
 #include "app/output_folder.h"
 #include "scene/atomic_file.h"
 #include "scene/camera_file.h"
+#include "scene/morton.h"
 #include "scene/scene_file.h"
 #include "scene/still_life.h"
 
@@ -33,15 +34,22 @@ nlohmann::json seeds_json(const LabelledScene& made) {
 
 void run_make_scene(const MakeSceneArguments& args, const CommonOptions& common) {
   OutputFolder folder(args.output, args.overwrite);
-  LabelledScene made = make_still_life(args.options);
+  const LabelledScene made = make_still_life(args.options);
   Scene scene;
   scene.file_rows = made.cloud.size();
   scene.format = SceneFormat::kSplat;  // no file behind it: every row is written from the cloud
-  scene.cloud = std::move(made.cloud);
+  // Rows along a Morton curve: compressed .ply wants neighbours together, and the labels follow.
+  const std::vector<std::uint32_t> order = morton_order(made.cloud.position);
+  scene.cloud = permuted(made.cloud, order);
+  std::vector<std::uint8_t> label(order.size());
+  for (std::uint32_t row = 0; row < order.size(); ++row) {
+    scene.cloud.file_row[row] = row;
+    label[row] = made.label[order[row]];
+  }
   const std::string file = args.name + "." + args.format;
   save_scene(folder.file(file), scene, {}, format_from_name(file));
   AtomicFile labels(folder.file(args.name + ".labels.u8"));
-  labels.write(std::as_bytes(std::span(made.label)));
+  labels.write(std::as_bytes(std::span(label)));
   labels.commit();
   save_inria_cameras(folder.file("cameras.json"), made.cameras);
   write_text_file(folder.file("seeds.json"), seeds_json(made).dump(1) + "\n");
