@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and cuts the sample's mug (or shows SCENE).
+# Installs what is missing, builds, and cuts the sample's apple (or shows SCENE).
 set -euo pipefail
 root=$(cd "$(dirname "$0")" && pwd)
 source "$root/third_party/setup.sh"
@@ -14,6 +14,6 @@ if [ $# -gt 0 ]; then
   echo "Look at $picture, then: $program cut $1 --click X,Y -o cutout"
 else
   "$program" cut "$root/assets/sample/sample.compressed.ply" --cameras "$root/assets/sample/cameras.json" --camera 0 \
-    --click 498,450 -o "$PWD/cutout" --overwrite
+    --click 670,490 -o "$PWD/cutout" --overwrite
   echo "Look at $PWD/cutout/tint.png and object.png; object.ply opens in any splat viewer."
 fi

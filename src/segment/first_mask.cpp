@@ -16,6 +16,7 @@ namespace splatcut {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr float kContrastCap = 20;  // Lab units: an edge is an edge, however strong
 
 cv::Mat lab_of(const Image<Rgb8>& picture) {
   cv::Mat scaled_rgb, lab;
@@ -74,15 +75,54 @@ Image<float> sources(const Image<std::uint8_t>& seeds, std::uint8_t label, bool 
   return start;
 }
 
+// Mean contrast across the border of the pixels within `reach`, frame pixels counting as no contrast.
+double border_contrast(const Image<float>& distance, float reach, const GeodesicCost& cost) {
+  double contrast = 0;
+  std::size_t pairs = 0;
+  for (int y = 0; y < distance.height(); ++y)
+    for (int x = 0; x < distance.width(); ++x) {
+      if (distance.at(x, y) > reach) continue;
+      for (const auto [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        const bool inside = distance.contains(x + dx, y + dy);
+        if (inside && distance.at(x + dx, y + dy) <= reach) continue;
+        if (inside) contrast += std::min(kContrastCap, cost(x, y, x + dx, y + dy));
+        ++pairs;
+      }
+    }
+  return pairs ? contrast / static_cast<double>(pairs) : 0.0;
+}
+
+// Of the level sets of the distance, the one whose border lies best on edges of colour and depth.
+float best_reach(const Image<float>& distance, const GeodesicCost& cost) {
+  constexpr double kLeastArea = 0.002, kLargestArea = 0.4, kAreaStep = 1.12;
+  std::vector<float> sorted(distance.pixels().begin(), distance.pixels().end());
+  std::ranges::sort(sorted);
+  const double pixels = static_cast<double>(sorted.size());
+  float best = sorted[static_cast<std::size_t>(kLeastArea * pixels)];
+  double most = 0;
+  for (double area = kLeastArea; area < kLargestArea; area *= kAreaStep) {
+    const float reach = sorted[static_cast<std::size_t>(area * pixels)];
+    const double contrast = border_contrast(distance, reach, cost);
+    if (contrast > most) {
+      most = contrast;
+      best = reach;
+    }
+  }
+  return best;
+}
+
 Mask geodesic_prior(const Image<Rgb8>& picture, const Image<float>& depth, const Image<std::uint8_t>& seeds,
                     const FirstMaskOptions& options) {
   const cv::Mat lab = lab_of(picture);
   const GeodesicCost cost{lab, depth, options};
-  const Image<float> to_object = geodesic_distance(sources(seeds, kObjectSeed, false), cost);
+  Image<float> to_object = geodesic_distance(sources(seeds, kObjectSeed, false), cost);
   const Image<float> to_rest = geodesic_distance(sources(seeds, kRestSeed, true), cost);
+  for (std::size_t i = 0; i < to_object.size(); ++i)
+    if (to_object.pixels()[i] > to_rest.pixels()[i]) to_object.pixels()[i] = kFar;
+  const float reach = best_reach(to_object, cost);
   Mask prior(seeds.width(), seeds.height());
   for (std::size_t i = 0; i < prior.size(); ++i)
-    prior.pixels()[i] = to_object.pixels()[i] <= to_rest.pixels()[i] ? kMaskObject : 0;
+    prior.pixels()[i] = to_object.pixels()[i] < kFar && to_object.pixels()[i] <= reach ? kMaskObject : 0;
   return prior;
 }
 

@@ -3,7 +3,7 @@
 // In: the view's picture and depth, strokes in its pixels. Out: mask of the same size.
 // The geodesic distance (Dijkstra over the 8-grid, step cost |dLab| + relative depth jump + a little
 // length) of each pixel to the object strokes is compared with that to the rest strokes and to the picture's
-// frame; the nearer side is the prior. GrabCut (Rother et al., 2004; OpenCV) settles colour inside the
+// frame. Of the level sets nearer to the object, the one whose border has the most contrast is the prior. GrabCut (Rother et al., 2004; OpenCV) settles colour inside the
 // object's rectangle. Parts not joined to an object stroke are dropped.
 // Cost: about 100 ms at 400 px wide. Does not handle objects that leave the frame on all sides.
 #pragma once
@@ -16,7 +16,7 @@ namespace splatcut {
 
 struct FirstMaskOptions {
   float depth_weight = 40;   // Lab units per relative depth jump of 1 %: 0.4
-  float length_weight = 0.6f;  // Lab units per pixel: keeps flat regions from costing nothing
+  float length_weight = 0.2f;  // Lab units per pixel: keeps flat regions from costing nothing
   int grabcut_iterations = 2;
 };
 
