@@ -106,7 +106,7 @@ Mask Run::with_feedback(const Camera& camera, const Picture& picture, const Mask
   constexpr double kSaneChange = 0.5;  // a cut that keeps less than this of the mask is no correction
   if (iou(seen, mask) < kSaneChange) return mask;
   const Image<std::uint8_t> seeds = draw_seeds(strokes, camera.width_px, camera.height_px);
-  return clock_.time("first mask", [&] { return refine_mask(picture.rgb, seen, 2, options_.refine_iterations, seeds); });
+  return clock_.time("first mask", [&] { return refine_mask(picture.rgb, seen, 2, options_.first_mask.grabcut_iterations, seeds); });
 }
 
 void Run::reference_view(const Camera& full, const Strokes& strokes) {

@@ -3,7 +3,7 @@
 // In: cloud, reference camera, strokes in the reference's pixels (or a mask of it).
 // Out: labels (1 = object), the views used with their masks, likelihood, energy, milliseconds per stage.
 // Source: Jain et al., GaussianCut, NeurIPS 2024; the propagator is ours: labels of a 3D cut rendered into
-// the next view are its prior, GrabCut settles the border.
+// the next view are its mask (refine_iterations > 0 lets GrabCut settle the border, which thin parts suffer from).
 // Errors: Error for strokes that mark nothing. Expected outcomes (nothing found, cancelled) are in `outcome`.
 #pragma once
 
@@ -33,7 +33,7 @@ struct PipelineOptions {
   int neighbours = 10;               // k of the graph
   FirstMaskOptions first_mask;
   bool feedback = true;              // cut from the one view in 3D, rendered back, corrects the first mask
-  int refine_iterations = 1;         // GrabCut in orbit views; 0 takes the rendered labels as they are
+  int refine_iterations = 0;         // GrabCut in orbit views; 0 takes the rendered labels as they are
   double view_agreement = 0.6;       // views whose mask agrees less with the solution are left out
   CutOptions cut;
   std::optional<Mask> given_first_mask;  // size of the reference camera
