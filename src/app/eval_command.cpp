@@ -18,7 +18,7 @@ struct EvalArguments {
   std::filesystem::path suite, output;
   std::string preset = "default", first_mask, masks;
   int clicks = 3;
-  bool curve = true, json = false, overwrite = false;
+  bool curve = true, parts_only = false, json = false, overwrite = false;
 };
 
 nlohmann::json score_json(const SceneScore& s) {
@@ -76,6 +76,9 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
   options.truth_first_mask = args.first_mask == "truth";
   options.truth_masks = args.masks == "truth";
   options.click_curve = args.curve;
+  if (args.first_mask == "pixels") options.pipeline.first_mask_from = FirstMaskFrom::kPixels;
+  if (args.first_mask == "parts") options.pipeline.first_mask_from = FirstMaskFrom::kParts;
+  options.pipeline.cut_parts = !args.parts_only;
   std::vector<nlohmann::json> scores;
   if (!args.json)
     fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>8}\n", "scene", "img IoU", "acc", "bnd IoU", "gau IoU",
@@ -84,7 +87,8 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
     const auto loaded = load_case(entry, args.suite.parent_path(), options.pipeline.neighbours, job);
     if (job.cancelled()) throw Error("splatcut eval", "cancelled, nothing was written");
     SceneScore score = evaluate(loaded->test, options, job);
-    score.stages.insert(score.stages.begin(), {{"load", loaded->load_ms}, {"graph", loaded->graph_ms}});
+    score.stages.insert(score.stages.begin(), loaded->prepared.stages.begin(), loaded->prepared.stages.end());
+    score.stages.insert(score.stages.begin(), {"load", loaded->load_ms});
     scores.push_back(score_json(score));
     end_progress();
     if (!args.json) print_row(scores.back());
@@ -109,7 +113,9 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("-o,--output", args->output, "Folder for eval.json")->required();
   command.add_option("--preset", args->preset, "fast, default, best or paper");
   command.add_option("--clicks", args->clicks, "Clicks for the final cut")->check(CLI::Range(1, 8));
-  command.add_option("--first-mask", args->first_mask, "truth: the true mask in the reference view")->check(CLI::IsMember({"truth"}));
+  command.add_option("--first-mask", args->first_mask, "parts: the hierarchy of parts; pixels: GrabCut in the one picture; truth: the true mask")
+      ->check(CLI::IsMember({"parts", "pixels", "truth"}));
+  command.add_flag("--parts-only", args->parts_only, "The parts are the answer: no orbit views, no graph cut");
   command.add_option("--masks", args->masks, "truth: the true masks in all orbit views")->check(CLI::IsMember({"truth"}));
   command.add_flag("!--no-curve", args->curve, "Leave out the figures after 1..8 clicks");
   command.add_flag("--json", args->json, "Print JSON");

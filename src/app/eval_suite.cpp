@@ -11,7 +11,6 @@
 #include "scene/camera_file.h"
 #include "scene/error.h"
 #include "scene/png_file.h"
-#include "segment/knn_graph.h"
 
 namespace splatcut {
 
@@ -47,11 +46,12 @@ void load_mask_truth(const std::filesystem::path& folder, const std::vector<Came
   if (test->test_views.empty()) throw Error(folder.string(), "holds no mask named after a camera");
 }
 
-void fill_case(const nlohmann::json& entry, const std::filesystem::path& folder, LoadedCase* loaded) {
+// Returns the given cameras.
+std::vector<Camera> fill_case(const nlohmann::json& entry, const std::filesystem::path& folder, LoadedCase* loaded) {
   EvaluationCase& test = loaded->test;
   test.name = entry.at("name");
   test.cloud = &loaded->scene.cloud;
-  test.graph = &loaded->graph;
+  test.prepared = &loaded->prepared;
   std::vector<Camera> cameras;
   if (entry.contains("cameras")) cameras = load_cameras(folder / entry.at("cameras").get<std::string>());
   const auto& reference = entry.at("reference");
@@ -74,6 +74,7 @@ void fill_case(const nlohmann::json& entry, const std::filesystem::path& folder,
     test.clicks = strokes_from_json({{"clicks", entry.at("clicks")}}, test.name);
   else if (test.truth_labels.empty())
     throw Error(test.name, "robot clicks need truth labels");
+  return cameras;
 }
 
 }  // namespace
@@ -94,10 +95,12 @@ std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::fi
     const auto start = std::chrono::steady_clock::now();
     loaded->scene = load_scene(folder / entry.at("scene").get<std::string>(), job);
     const auto loaded_at = std::chrono::steady_clock::now();
-    loaded->graph = knn_graph(loaded->scene.cloud, {neighbours}, job);
     loaded->load_ms = ms(start, loaded_at);
-    loaded->graph_ms = ms(loaded_at, std::chrono::steady_clock::now());
-    if (!job.cancelled()) fill_case(entry, folder, loaded.get());
+    if (job.cancelled()) return loaded;
+    const std::vector<Camera> cameras = fill_case(entry, folder, loaded.get());
+    PrepareOptions prepare;
+    prepare.graph.neighbours = neighbours;
+    loaded->prepared = prepare_scene(loaded->scene.cloud, loaded->test.reference, loaded->test.up_world, cameras, prepare, job);
   } catch (const nlohmann::json::exception& error) {
     throw Error("suite", "the entry " + entry.value("name", "?") + " lacks something (" + error.what() + ")");
   }

@@ -18,15 +18,15 @@ namespace splatcut {
 // A case and what it points into.
 struct LoadedCase {
   Scene scene;
-  FlowGraph graph;
-  double load_ms = 0, graph_ms = 0;
+  PreparedScene prepared;
+  double load_ms = 0;
   EvaluationCase test;
 };
 
 // The entries of the suite, checked for their form. Throws Error naming file and entry.
 std::vector<nlohmann::json> read_suite(const std::filesystem::path& path);
 
-// Scene, graph, cameras and truth of one entry.
+// Scene, graph, parts, cameras and truth of one entry.
 std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder, int neighbours, const Job& job);
 
 }  // namespace splatcut

@@ -63,7 +63,7 @@ RobotSession robot_session(const EvaluationCase& scene, const EvaluationOptions&
     if (const auto next = robot_click(truth, mask)) {
       const Strokes scaled_click = scaled({*next}, to_reference);
       session.strokes.push_back(scaled_click.front());
-      mask = first_mask_of(*scene.cloud, *scene.graph, scene.reference, session.strokes, options.pipeline, job);
+      mask = first_mask_of(*scene.cloud, *scene.prepared, scene.reference, session.strokes, options.pipeline, job);
     }
     session.iou_after.push_back(iou(truth, mask));
   }
@@ -89,7 +89,7 @@ PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& op
     if (scene.truth_labels.empty()) throw Error(scene.name, "--masks truth needs truth labels");
     pipeline.given_masks = [&scene](const Camera& camera) { return picture_of(*scene.cloud, camera, scene.truth_labels); };
   }
-  return cut_out(*scene.cloud, scene.graph, scene.reference, scene.up_world, strokes, pipeline, job);
+  return cut_out(*scene.cloud, scene.prepared, scene.reference, scene.up_world, strokes, pipeline, job);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ inline constexpr int kClicksNotReached = 20;  // NoC where kRobotClicks are not 
 struct EvaluationCase {
   std::string name;
   const GaussianCloud* cloud = nullptr;
-  const FlowGraph* graph = nullptr;
+  const PreparedScene* prepared = nullptr;
   std::vector<std::uint8_t> truth_labels;     // per Gaussian of the cloud, or empty
   std::vector<Camera> test_views;
   std::vector<Mask> truth_masks;              // per test view

@@ -45,11 +45,12 @@ Mask resized_mask(const Mask& mask, int width, int height) {
 // One run: what the stages share.
 class Run {
  public:
-  Run(const GaussianCloud& cloud, const FlowGraph& graph, const PipelineOptions& options, const Job& job,
+  Run(const GaussianCloud& cloud, const PreparedScene& prepared, const PipelineOptions& options, const Job& job,
       PipelineReport* report)
-      : cloud_(cloud), graph_(graph), options_(options), job_(job), report_(*report), clock_(&report->stages),
+      : cloud_(cloud), graph_(prepared.graph), parts_(prepared.parts), options_(options), job_(job), report_(*report), clock_(&report->stages),
         sums_(cloud.size()) {}
 
+  bool answered_by_parts() const { return labels_are_parts_ && !options_.cut_parts; }
   void reference_view(const Camera& full, const Strokes& strokes);
   void other_views(const std::vector<Camera>& cameras);
   void settle();
@@ -59,12 +60,15 @@ class Run {
   void add_view(const Camera& camera);
   Mask labels_in(const Camera& camera);
   double share_visible(const Camera& camera, const Mask& seen);
+  void pick(const Camera& camera, const Strokes& strokes);
+  Mask mask_from_pixels(const Camera& camera, const Strokes& strokes);
   Mask with_feedback(const Camera& camera, const Picture& picture, const Mask& mask, const Strokes& strokes);
   void use(ViewReport view);
   void measure_agreement();
 
   const GaussianCloud& cloud_;
   const FlowGraph& graph_;
+  const PartHierarchy& parts_;
   const PipelineOptions& options_;
   const Job& job_;
   PipelineReport& report_;
@@ -72,6 +76,7 @@ class Run {
   MaskedSums sums_;
   std::vector<std::int32_t> capacity_;  // does not change within a run
   int used_views_ = 0;
+  bool labels_are_parts_ = false;  // they hold in all views at once: no solving from view to view
 };
 
 void Run::solve() {
@@ -109,19 +114,45 @@ Mask Run::with_feedback(const Camera& camera, const Picture& picture, const Mask
   return clock_.time("first mask", [&] { return refine_mask(picture.rgb, seen, 2, options_.first_mask.grabcut_iterations, seeds); });
 }
 
+// What the strokes mean as parts becomes the labels.
+void Run::pick(const Camera& camera, const Strokes& strokes) {
+  clock_.time("first mask", [&] {
+    RasterOptions raster;
+    raster.colour = false;
+    raster.depth = true;
+    const PartView view = view_parts(parts_, rasterize(cloud_, camera, raster, job_).first_hit);
+    if (job_.cancelled()) return;
+    Pick picked = pick_parts(parts_, view, strokes, options_.pick);
+    report_.labels = labels_of(parts_, picked.leaves);
+    report_.first_chain = std::move(picked.first_chain);
+    report_.first_chosen = picked.first_chosen;
+  });
+}
+
+Mask Run::mask_from_pixels(const Camera& camera, const Strokes& strokes) {
+  const Picture picture = clock_.time("view", [&] { return render(cloud_, camera, job_); });
+  Mask mask = clock_.time("first mask", [&] { return first_mask(picture.rgb, picture.depth, strokes, options_.first_mask, job_); });
+  if (options_.feedback && count(mask) > 0 && !job_.cancelled()) mask = with_feedback(camera, picture, mask, strokes);
+  return mask;
+}
+
 void Run::reference_view(const Camera& full, const Strokes& strokes) {
   const Camera camera = limited_to_width(full, options_.work_width_px);
-  const Picture picture = clock_.time("view", [&] { return render(cloud_, camera, job_); });
+  const Strokes here = scaled(strokes, static_cast<float>(camera.width_px) / static_cast<float>(full.width_px));
   Mask mask;
   if (options_.given_first_mask) {
     mask = resized_mask(*options_.given_first_mask, camera.width_px, camera.height_px);
+  } else if (options_.first_mask_from == FirstMaskFrom::kParts) {
+    pick(camera, here);
+    if (job_.cancelled()) return;
+    labels_are_parts_ = true;
+    mask = labels_in(camera);
   } else {
-    const Strokes here = scaled(strokes, static_cast<float>(camera.width_px) / static_cast<float>(full.width_px));
-    mask = clock_.time("first mask", [&] { return first_mask(picture.rgb, picture.depth, here, options_.first_mask, job_); });
-    if (options_.feedback && count(mask) > 0 && !job_.cancelled()) mask = with_feedback(camera, picture, mask, here);
+    mask = mask_from_pixels(camera, here);
   }
-  use({camera, mask, true, 0, {}});
-  if (count(mask) > 0) solve();
+  const bool anything = count(mask) > 0;
+  use({camera, std::move(mask), true, 0, {}});
+  if (anything && !labels_are_parts_) solve();
 }
 
 // The object's pixels that the scene leaves visible, as a share of what it would show alone.
@@ -153,7 +184,7 @@ void Run::add_view(const Camera& full) {
   constexpr int kBandPx = 2;  // the labels are right up to about two pixels of the border
   view.mask = clock_.time("masks", [&] { return refine_mask(picture.rgb, seen, kBandPx, options_.refine_iterations); });
   use(std::move(view));
-  solve();
+  if (!labels_are_parts_) solve();
 }
 
 void Run::other_views(const std::vector<Camera>& cameras) {
@@ -203,6 +234,7 @@ PipelineOptions preset(const std::string& name) {
     options.work_width_px = 512;
   } else if (name == "paper") {
     options.orbit.views = 40;
+    options.first_mask_from = FirstMaskFrom::kPixels;
     options.cut.energy = paper_energy();
   } else {
     throw Error("--preset " + name, "there is no such preset", "Take fast, default, best or paper");
@@ -210,15 +242,18 @@ PipelineOptions preset(const std::string& name) {
   return options;
 }
 
-PipelineReport cut_out(const GaussianCloud& cloud, const FlowGraph* graph, const Camera& reference,
+PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,
                        const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options, const Job& job) {
   PipelineReport report;
-  FlowGraph built;
-  if (!graph) {
-    StageClock(&report.stages).time("graph", [&] { built = knn_graph(cloud, {options.neighbours}, job); });
-    graph = &built;
+  PreparedScene made;
+  if (!prepared) {
+    PrepareOptions prepare;
+    prepare.graph.neighbours = options.neighbours;
+    made = prepare_scene(cloud, reference, up_world, options.view_cameras, prepare, job);
+    report.stages = made.stages;
+    prepared = &made;
   }
-  Run run(cloud, *graph, options, job, &report);
+  Run run(cloud, *prepared, options, job, &report);
   const auto cancelled = [&] {
     if (job.cancelled()) report.outcome = Outcome::kCancelled;
     return job.cancelled();
@@ -226,12 +261,13 @@ PipelineReport cut_out(const GaussianCloud& cloud, const FlowGraph* graph, const
   if (cancelled()) return report;
   run.reference_view(reference, strokes);
   if (cancelled()) return report;
-  if (std::ranges::none_of(report.labels, [](std::uint8_t l) { return l != 0; })) {
+  if (report.labels.empty() || std::ranges::none_of(report.labels, [](std::uint8_t l) { return l != 0; })) {
     report.outcome = Outcome::kNothingFound;
     report.reason = "the strokes mark nothing that stands out in this view; click on the object itself, or scribble";
     report.labels.assign(cloud.size(), 0);
     return report;
   }
+  if (run.answered_by_parts()) return report;
   const std::vector<Camera> cameras =
       options.view_cameras.empty() ? orbit_cameras(reference, up_world, object_extent(cloud, report.labels), options.orbit)
                                    : options.view_cameras;
@@ -242,10 +278,10 @@ PipelineReport cut_out(const GaussianCloud& cloud, const FlowGraph* graph, const
   return report;
 }
 
-Mask first_mask_of(const GaussianCloud& cloud, const FlowGraph& graph, const Camera& reference, const Strokes& strokes,
+Mask first_mask_of(const GaussianCloud& cloud, const PreparedScene& prepared, const Camera& reference, const Strokes& strokes,
                    const PipelineOptions& options, const Job& job) {
   PipelineReport report;
-  Run run(cloud, graph, options, job, &report);
+  Run run(cloud, prepared, options, job, &report);
   run.reference_view(reference, strokes);
   return report.views.front().mask;
 }

@@ -19,6 +19,8 @@
 #include "segment/cut.h"
 #include "segment/first_mask.h"
 #include "segment/orbit.h"
+#include "segment/part_picker.h"
+#include "segment/prepared_scene.h"
 #include "segment/seeds.h"
 
 namespace splatcut {
@@ -26,13 +28,22 @@ namespace splatcut {
 // Gives the mask of a view in place of the pipeline's own (truth in experiments, masks of other tools).
 using MaskSource = std::function<Mask(const Camera&)>;
 
+// Where the mask of the reference view comes from.
+enum class FirstMaskFrom {
+  kParts,   // the hierarchy of parts: all views at once
+  kPixels,  // geodesic distance and GrabCut in the one picture, corrected by a first cut in 3D
+};
+
 struct PipelineOptions {
   int work_width_px = 400;           // views are rendered no wider than this
   OrbitOptions orbit;
   std::vector<Camera> view_cameras;  // empty: orbit
   int neighbours = 10;               // k of the graph
-  FirstMaskOptions first_mask;
-  bool feedback = true;              // cut from the one view in 3D, rendered back, corrects the first mask
+  FirstMaskFrom first_mask_from = FirstMaskFrom::kParts;
+  PickOptions pick;                  // kParts
+  FirstMaskOptions first_mask;       // kPixels
+  bool feedback = true;              // kPixels: cut from the one view in 3D, rendered back, corrects the mask
+  bool cut_parts = true;             // kParts: the graph cut settles what the parts say; false: they are the answer
   int refine_iterations = 0;         // GrabCut in orbit views; 0 takes the rendered labels as they are
   double view_agreement = 0.6;       // views whose mask agrees less with the solution are left out
   CutOptions cut;
@@ -52,11 +63,6 @@ struct ViewReport {
   std::string reason;      // why it was left out
 };
 
-struct StageTime {
-  std::string name;
-  double ms = 0;
-};
-
 enum class Outcome { kDone, kNothingFound, kCancelled };
 
 struct PipelineReport {
@@ -64,17 +70,19 @@ struct PipelineReport {
   std::string reason;                // for kNothingFound
   std::vector<std::uint8_t> labels;  // per Gaussian of the cloud, 1 = object
   CutReport cut;
+  std::vector<std::uint32_t> first_chain;  // kParts: what the first click can mean, from small to large
+  std::size_t first_chosen = 0;            // index into first_chain
   std::vector<ViewReport> views;     // the reference first
   std::vector<StageTime> stages;     // in order, same names added up
 };
 
-// `graph` may be null: it is then built here. up_world: which way is up, for the orbit.
-PipelineReport cut_out(const GaussianCloud& cloud, const FlowGraph* graph, const Camera& reference,
+// `prepared` may be null: it is then made here. up_world: which way is up, for the orbit.
+PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,
                        const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options,
                        const Job& job = {});
 
 // The first mask alone (after feedback), in the size of limited_to_width(reference, work_width_px).
-Mask first_mask_of(const GaussianCloud& cloud, const FlowGraph& graph, const Camera& reference, const Strokes& strokes,
+Mask first_mask_of(const GaussianCloud& cloud, const PreparedScene& prepared, const Camera& reference, const Strokes& strokes,
                    const PipelineOptions& options, const Job& job = {});
 
 }  // namespace splatcut

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "segment/pipeline.h"
+#include "segment/prepared_scene.h"
 
 namespace splatcut {
 

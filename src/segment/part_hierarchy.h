@@ -1,0 +1,68 @@
+// A training-free hierarchy of parts over the Gaussians: what a click can mean.
+//
+// In: cloud. Out: a binary forest whose leaves are superpoints (some 40 Gaussians of one surface) and whose
+// inner nodes are unions of two neighbouring parts, least different first. Every Gaussian belongs to one leaf.
+//   superpoints: Felzenszwalb and Huttenlocher, Efficient Graph-Based Image Segmentation, IJCV 2004, over k-NN
+//     edges with w = |dc| / 0.1 + 0.6 (1 - n.n') + max(0, concavity) + 0.3 min(3, 0.3 gap) + 0.1 d / spacing
+//   merging: cost = difference (least area / median leaf area)^0.3 / (shared border / lesser perimeter)^0.3
+//   concavity = (n - n').(mu' - mu) / |mu' - mu|; gap: Mahalanobis distance of two Gaussians in their mean covariance
+// Built once per scene; depends on the scene and on the observing views alone. Same input, same bits.
+// Cost: about 2 s per 300,000 Gaussians on two cores.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "segment/surface_features.h"
+
+namespace splatcut {
+
+struct SuperpointOptions {
+  float k = 3.2f;           // larger: larger superpoints
+  std::uint32_t cap = 40;  // most core Gaussians in one
+  std::uint32_t least = 2; // smaller ones join their likest neighbour
+};
+
+struct MergingOptions {
+  float base = 0.04f;
+  float border_colour = 5;
+  float region_colour = 3.9f;
+  float concavity = 2;
+  float convexity = 0.3f;
+  float normal = 0.3f;
+  float gap = 0.14f;
+  float area_power = 0.3f;
+  float border_power = 0.33f;
+  float cut_scale = 0.23f;
+};
+
+struct PartOptions {
+  SurfaceOptions surface;
+  SuperpointOptions superpoints;
+  MergingOptions merging;
+  int votes = 10;  // neighbours that vote where a Gaussian outside of the core belongs
+};
+
+inline constexpr std::uint32_t kNoPart = 0xffffffffu;
+
+struct PartHierarchy {
+  std::uint32_t leaves = 0;
+  std::vector<std::uint32_t> leaf_of;                  // per Gaussian of the cloud; kNoPart in a scene without core
+  // Per node; leaves are 0..leaves-1, a parent comes after its children.
+  std::vector<std::uint32_t> parent;                   // kNoPart at a root
+  std::vector<std::array<std::uint32_t, 2>> children;  // kNoPart twice at a leaf
+  std::vector<float> area;                             // scene units squared
+  std::vector<float> cut;                              // length of the border, likeness-weighted, scene units
+  std::vector<float> merge_cost;                       // of the children; 0 at a leaf
+  std::size_t nodes() const { return parent.size(); }
+};
+
+PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, std::span<const Camera> observing, const PartOptions& options = {},
+                                   const Job& job = {});
+
+// The same from features that are known.
+PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeatures& features, const PartOptions& options = {}, const Job& job = {});
+
+}  // namespace splatcut
