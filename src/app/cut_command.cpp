@@ -23,9 +23,10 @@ struct CutArguments {
   std::vector<std::string> clicks;
   std::string preset = "default";
   CameraOptions camera;
-  int views = -1;
+  int views = -1, scale = 0;
+  std::string first_mask;
   float lambda = -1;
-  bool coarse = false, json = false, overwrite = false;
+  bool coarse = false, parts_only = false, json = false, overwrite = false;
 };
 
 Strokes strokes_of(const CutArguments& args) {
@@ -42,6 +43,9 @@ PipelineOptions pipeline_of(const CutArguments& args, const ChosenCamera& chosen
   if (args.views >= 0) options.orbit.views = args.views;
   if (args.lambda >= 0) options.cut.energy.lambda = args.lambda;
   options.cut.coarse = args.coarse;
+  options.pick.scale_steps = args.scale;
+  if (!args.first_mask.empty()) options.first_mask_from = args.first_mask == "pixels" ? FirstMaskFrom::kPixels : FirstMaskFrom::kParts;
+  options.cut_parts = !args.parts_only;
   if (args.mask.empty()) return options;
   Mask mask = read_png_grey(args.mask);
   if (mask.width() != chosen.camera.width_px || mask.height() != chosen.camera.height_px)
@@ -67,6 +71,12 @@ void print_summary(const CutArguments& args, const Scene& scene, const nlohmann:
   fmt::print("{}: object.ply rest.ply labels.u8 object.png rest.png tint.png masks.png report.json\n", args.output.string());
 }
 
+// A first click that could mean several sizes says so.
+void say_other_sizes(const PipelineReport& report) {
+  if (report.ambiguous)
+    fmt::print(stderr, "the first click could mean a part of another size: this is {} of {}, see --scale\n", report.first_size + 1, report.first_sizes);
+}
+
 void run_cut(const CutArguments& args, const CommonOptions& common) {
   const Strokes strokes = strokes_of(args);
   OutputFolder folder(args.output, args.overwrite);
@@ -83,9 +93,11 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   end_progress();
   if (report.outcome == Outcome::kCancelled) throw Error("splatcut cut", "cancelled, nothing was written");
   if (report.outcome == Outcome::kNothingFound) throw Error("splatcut cut", "no object was found: " + report.reason);
+  if (!common.quiet) say_other_sizes(report);
   report.stages.insert(report.stages.begin(), {"load", load_ms});
   const nlohmann::json settings = {{"preset", args.preset}, {"views", options.orbit.views}, {"work_width_px", options.work_width_px},
-                                   {"neighbours", options.neighbours}, {"lambda", options.cut.energy.lambda}, {"coarse", args.coarse}};
+                                   {"neighbours", options.neighbours}, {"lambda", options.cut.energy.lambda}, {"coarse", args.coarse},
+                                   {"first_mask", options.first_mask_from == FirstMaskFrom::kPixels ? "pixels" : "parts"}, {"scale", args.scale}, {"parts_only", args.parts_only}};
   const nlohmann::json json = report_json(scene, report, settings, ms_since_start());
   write_cutout_scenes(folder, scene, report.labels);
   write_cutout_pictures(folder, scene.cloud, chosen.camera, report);
@@ -112,6 +124,10 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--preset", args->preset, "fast, default, best or paper");
   command.add_option("--views", args->views, "Orbit views beside the reference")->check(CLI::Range(0, 400));
   command.add_option("--smoothness", args->lambda, "Weight of the neighbour term")->check(CLI::Range(0.0, 500.0));
+  command.add_option("--scale", args->scale, "Next larger (+1, +2, ...) or smaller (-1, ...) part for the first click")->check(CLI::Range(-100, 100));
+  command.add_option("--first-mask", args->first_mask, "parts: the hierarchy of parts; pixels: GrabCut in the one picture")
+      ->check(CLI::IsMember({"parts", "pixels"}));
+  command.add_flag("--parts-only", args->parts_only, "The parts are the answer: no orbit views, no graph cut");
   command.add_flag("--coarse", args->coarse, "Threshold the likelihood instead of the cut");
   command.add_flag("--json", args->json, "Print the report as JSON");
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");

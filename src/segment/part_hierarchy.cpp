@@ -5,12 +5,27 @@
 #include <queue>
 #include <unordered_map>
 
+#include <tbb/parallel_for.h>
+
+#include "scene/counter_rng.h"
 #include "segment/k_nearest.h"
 #include "segment/superpoints.h"
 
 namespace splatcut {
 
 namespace {
+
+constexpr std::uint64_t kTreeSeed = 20241;
+
+// A number of mean 0 and variance 1.
+float spread(CounterRng& rng) { return rng.between(-1.7320508f, 1.7320508f); }
+
+MergingOptions jittered(MergingOptions options, float jitter, CounterRng rng) {
+  for (float* weight : {&options.base, &options.border_colour, &options.region_colour, &options.concavity, &options.convexity,
+                        &options.normal, &options.gap, &options.area_power, &options.border_power})
+    *weight *= std::exp(jitter * spread(rng));
+  return options;
+}
 
 // Sums over the edges between two parts, each weighted with its length.
 struct Link {
@@ -50,22 +65,26 @@ struct Candidate {
 
 class Merging {
  public:
-  Merging(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges, const Superpoints& leaves, const MergingOptions& options);
-  void run(PartHierarchy* out, const Job& job);
+  Merging(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges, const Superpoints& leaves, const MergingOptions& options,
+          float noise, std::uint64_t tree);
+  PartTree run(const Job& job);
 
  private:
   float difference(const Part& a, const Part& b, const Link& l) const;
-  float cost(const Part& a, const Part& b, const Link& l) const;
+  float cost(std::uint32_t a, std::uint32_t b, const Link& l) const;
   float cut_of(const Part& part) const;
   std::uint32_t merge(std::uint32_t a, std::uint32_t b);
 
-  const MergingOptions& options_;
+  const MergingOptions options_;
+  const float noise_;
+  const std::uint64_t tree_;
   std::vector<Part> parts_;
   float median_area_ = 1;
 };
 
-Merging::Merging(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges, const Superpoints& leaves, const MergingOptions& options)
-    : options_(options), parts_(leaves.count) {
+Merging::Merging(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges, const Superpoints& leaves, const MergingOptions& options, float noise,
+                 std::uint64_t tree)
+    : options_(options), noise_(noise), tree_(tree), parts_(leaves.count) {
   for (std::size_t i = 0; i < f.core.size(); ++i) {
     Part& part = parts_[leaves.of[i]];
     const float area = f.spacing[i] * f.spacing[i];
@@ -96,10 +115,14 @@ float Merging::difference(const Part& a, const Part& b, const Link& l) const {
          options_.normal * l.normal / length + options_.gap * l.gap / length;
 }
 
-float Merging::cost(const Part& a, const Part& b, const Link& l) const {
+float Merging::cost(std::uint32_t ia, std::uint32_t ib, const Link& l) const {
+  const Part &a = parts_[ia], &b = parts_[ib];
   const float area = std::max(std::min(a.area, b.area) / median_area_, 1e-6f);
   const float shared = std::clamp(l.length / std::max(std::min(a.perimeter, b.perimeter), 1e-30f), 1e-6f, 1.0f);
-  return difference(a, b, l) * std::pow(area, options_.area_power) / std::pow(shared, options_.border_power);
+  const float cost = difference(a, b, l) * std::pow(area, options_.area_power) / std::pow(shared, options_.border_power);
+  if (noise_ == 0) return cost;
+  CounterRng rng(kTreeSeed + tree_, (std::uint64_t{std::min(ia, ib)} << 32) + std::max(ia, ib));
+  return cost * std::exp(noise_ * spread(rng));
 }
 
 // Border towards everything around, little where that is unlike.
@@ -132,23 +155,24 @@ std::uint32_t Merging::merge(std::uint32_t a, std::uint32_t b) {
   return c;
 }
 
-void Merging::run(PartHierarchy* out, const Job& job) {
+PartTree Merging::run(const Job& job) {
+  PartTree out;
   std::priority_queue<Candidate> queue;
   parts_.reserve(2 * parts_.size());
   const auto offer = [&](std::uint32_t a, std::uint32_t b, const Link& l) {
-    queue.push({cost(parts_[a], parts_[b], l), std::min(a, b), std::max(a, b)});
+    queue.push({cost(a, b, l), std::min(a, b), std::max(a, b)});
   };
-  out->leaves = static_cast<std::uint32_t>(parts_.size());
+  const auto leaves = static_cast<std::uint32_t>(parts_.size());
   const auto add_node = [&](std::uint32_t p, std::array<std::uint32_t, 2> children, float merge_cost) {
-    out->parent.push_back(kNoPart);
-    out->children.push_back(children);
-    out->area.push_back(parts_[p].area);
-    out->cut.push_back(cut_of(parts_[p]));
-    out->merge_cost.push_back(merge_cost);
+    out.parent.push_back(kNoPart);
+    out.children.push_back(children);
+    out.area.push_back(parts_[p].area);
+    out.cut.push_back(cut_of(parts_[p]));
+    out.merge_cost.push_back(merge_cost);
     for (const std::uint32_t child : children)
-      if (child != kNoPart) out->parent[child] = p;
+      if (child != kNoPart) out.parent[child] = p;
   };
-  for (std::uint32_t p = 0; p < out->leaves; ++p) {
+  for (std::uint32_t p = 0; p < leaves; ++p) {
     add_node(p, {kNoPart, kNoPart}, 0);
     for (const auto& [other, link] : parts_[p].links)
       if (p < other) offer(p, other, link);
@@ -161,6 +185,7 @@ void Merging::run(PartHierarchy* out, const Job& job) {
     add_node(c, {best.a, best.b}, best.cost);
     for (const auto& [other, link] : parts_[c].links) offer(other, c, link);
   }
+  return out;
 }
 
 // Gaussians outside of the core go with most of their nearest core Gaussians; ties to the nearest.
@@ -200,7 +225,12 @@ PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeat
   const std::vector<SurfaceEdge> edges = surface_edges(cloud, features);
   const Superpoints leaves = superpoints(features, edges, options.superpoints);
   job.progress("parts", 0.6);
-  Merging(features, edges, leaves, options.merging).run(&out, job);
+  out.leaves = leaves.count;
+  out.trees.resize(static_cast<std::size_t>(std::max(1, options.trees)));
+  tbb::parallel_for(std::size_t{0}, out.trees.size(), [&](std::size_t t) {
+    const MergingOptions merging = t ? jittered(options.merging, options.jitter, CounterRng(kTreeSeed, t)) : options.merging;
+    out.trees[t] = Merging(features, edges, leaves, merging, t ? options.noise : 0, t).run(job);
+  });
   job.progress("parts", 0.9);
   attach_others(cloud, features, leaves, options.votes, job, &out);
   job.progress("parts", 1);

@@ -2,6 +2,8 @@
 //
 // In: cloud. Out: a binary forest whose leaves are superpoints (some 40 Gaussians of one surface) and whose
 // inner nodes are unions of two neighbouring parts, least different first. Every Gaussian belongs to one leaf.
+// Which unions appear hangs on weights that nobody knows exactly; so there are several trees over the same
+// leaves, merged with slightly different weights: a part that most of them hold is an object more likely.
 //   superpoints: Felzenszwalb and Huttenlocher, Efficient Graph-Based Image Segmentation, IJCV 2004, over k-NN
 //     edges with w = |dc| / 0.1 + 0.6 (1 - n.n') + max(0, concavity) + 0.3 min(3, 0.3 gap) + 0.1 d / spacing
 //   merging: cost = difference (least area / median leaf area)^0.3 / (shared border / lesser perimeter)^0.3
@@ -42,21 +44,28 @@ struct PartOptions {
   SurfaceOptions surface;
   SuperpointOptions superpoints;
   MergingOptions merging;
+  int trees = 5;
+  float jitter = 0.3f;  // spread of the logarithms of the weights from tree to tree; the first has none
+  float noise = 0.1f;   // of the logarithm of each cost, in all trees but the first
   int votes = 10;  // neighbours that vote where a Gaussian outside of the core belongs
 };
 
 inline constexpr std::uint32_t kNoPart = 0xffffffffu;
 
-struct PartHierarchy {
-  std::uint32_t leaves = 0;
-  std::vector<std::uint32_t> leaf_of;                  // per Gaussian of the cloud; kNoPart in a scene without core
-  // Per node; leaves are 0..leaves-1, a parent comes after its children.
+// Per node; leaves are 0..leaves-1, a parent comes after its children.
+struct PartTree {
   std::vector<std::uint32_t> parent;                   // kNoPart at a root
   std::vector<std::array<std::uint32_t, 2>> children;  // kNoPart twice at a leaf
   std::vector<float> area;                             // scene units squared
   std::vector<float> cut;                              // length of the border, likeness-weighted, scene units
   std::vector<float> merge_cost;                       // of the children; 0 at a leaf
   std::size_t nodes() const { return parent.size(); }
+};
+
+struct PartHierarchy {
+  std::uint32_t leaves = 0;
+  std::vector<std::uint32_t> leaf_of;  // per Gaussian of the cloud; kNoPart in a scene without core
+  std::vector<PartTree> trees;         // over the same leaves
 };
 
 PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, std::span<const Camera> observing, const PartOptions& options = {},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "segment/mask_tools.h"
 
@@ -10,10 +11,22 @@ namespace splatcut {
 
 namespace {
 
-std::vector<std::uint32_t> ancestors(const PartHierarchy& parts, std::uint32_t leaf) {
+std::vector<std::uint32_t> ancestors(const PartTree& tree, std::uint32_t leaf) {
   std::vector<std::uint32_t> chain;
-  for (std::uint32_t node = leaf; node != kNoPart; node = parts.parent[node]) chain.push_back(node);
+  for (std::uint32_t node = leaf; node != kNoPart; node = tree.parent[node]) chain.push_back(node);
   return chain;
+}
+
+constexpr std::uint32_t kNoLevel = 0xffffffffu;
+
+// Per leaf: the index in `chain` from which on the chain's nodes hold it; kNoLevel for none.
+std::vector<std::uint32_t> levels(const PartTree& tree, std::size_t leaves, std::span<const std::uint32_t> chain) {
+  std::vector<std::uint32_t> level(tree.nodes(), kNoLevel);
+  for (std::size_t i = 0; i < chain.size(); ++i) level[chain[i]] = static_cast<std::uint32_t>(i);
+  for (std::size_t node = tree.nodes(); node-- > 0;)  // parents before their children
+    if (level[node] == kNoLevel && tree.parent[node] != kNoPart) level[node] = level[tree.parent[node]];
+  level.resize(leaves);
+  return level;
 }
 
 std::uint32_t leaf_near(const PartView& view, const glm::vec2& pixel, int radius_px) {
@@ -32,53 +45,72 @@ std::uint32_t leaf_near(const PartView& view, const glm::vec2& pixel, int radius
   return best;
 }
 
+// One tree's answers to a click.
+struct Proposals {
+  std::vector<std::uint32_t> chain;  // candidates, from small to large
+  std::vector<std::uint32_t> level;  // per leaf
+  std::vector<float> changed_px;     // per candidate
+  std::vector<float> stability;      // per candidate: mean over the other trees of the best IoU there
+};
+
+struct Candidate {
+  std::size_t tree = 0, index = 0;  // into that tree's chain
+  float odd = 0;                    // less is more likely meant
+};
+
 class Picker {
  public:
-  Picker(const PartHierarchy& parts, const PartView& view, const PickOptions& options)
-      : parts_(parts), view_(view), options_(options), clicked_{std::vector<std::uint8_t>(parts.nodes(), 0), std::vector<std::uint8_t>(parts.nodes(), 0)} {
+  Picker(const PartHierarchy& parts, const PartView& view, const PickOptions& options) : parts_(parts), view_(view), options_(options) {
     pick_.leaves.assign(parts.leaves, 0);
+    for (auto& clicked : clicked_) clicked.resize(parts.trees.size());
+    for (std::size_t t = 0; t < parts.trees.size(); ++t)
+      for (auto& clicked : clicked_) clicked[t].assign(parts.trees[t].nodes(), 0);
   }
 
   void apply(const glm::vec2& pixel, SeedLabel label);
   Pick take() { return std::move(pick_); }
 
  private:
-  float log_cut(std::uint32_t node) const;
-  float odd_look(std::uint32_t node) const;
-  float odd_size(std::uint32_t node) const;
+  std::vector<Proposals> proposals(std::uint32_t leaf, bool object) const;
+  std::size_t note_first(const std::vector<Proposals>& all, std::span<const Candidate> candidates, const Candidate& best);
+  void measure_stability(bool object, std::vector<Proposals>* all) const;
+  float log_cut(const PartTree& tree, std::uint32_t node) const;
+  float odd_look(std::size_t tree, std::uint32_t node) const;
+  float odd_size(float pixels) const;
   float odd_change(float changed_px, float radius_px, float selected_px) const;
-  std::vector<float> pixels_on_side(bool selected) const;
+  std::vector<float> pixels_on_side(std::size_t tree, bool selected) const;
   float selected_pixels() const;
   float distance_to_border(const glm::vec2& pixel, bool selected) const;
-  void assign(std::uint32_t node, std::uint8_t value);
 
   const PartHierarchy& parts_;
   const PartView& view_;
   const PickOptions& options_;
-  std::vector<std::uint8_t> clicked_[2];  // per sign and node: holds a click of that sign
+  std::vector<std::vector<std::uint8_t>> clicked_[2];  // per sign, tree and node: holds a click of that sign
   bool any_ = false;
   Pick pick_;
 };
 
 // The border's length over the part's size, scale free; a part that touches nothing has the least.
-float Picker::log_cut(std::uint32_t node) const {
-  const float size = std::sqrt(std::max(parts_.area[node], 1e-30f));
-  return std::max(std::log(std::max(parts_.cut[node], 1e-30f) / size), options_.least_log_cut);
+float Picker::log_cut(const PartTree& tree, std::uint32_t node) const {
+  const float size = std::sqrt(std::max(tree.area[node], 1e-30f));
+  return std::max(std::log(std::max(tree.cut[node], 1e-30f) / size), options_.least_log_cut);
 }
 
 // Less is more like an object.
-float Picker::odd_look(std::uint32_t node) const {
-  const float own = log_cut(node);
-  const std::uint32_t up = parts_.parent[node];
-  const float rise = up == kNoPart ? 0 : std::clamp(log_cut(up) - own, 0.0f, 10.0f);
-  const float jump = up == kNoPart ? 0 : std::clamp(std::log(std::max(parts_.merge_cost[up], 1e-6f) / std::max(parts_.merge_cost[node], 0.1f)), 0.0f, 2.0f);
+float Picker::odd_look(std::size_t t, std::uint32_t node) const {
+  const PartTree& tree = parts_.trees[t];
+  const float own = log_cut(tree, node);
+  const std::uint32_t up = tree.parent[node];
+  const float rise = up == kNoPart ? 0 : std::clamp(log_cut(tree, up) - own, 0.0f, 10.0f);
+  const float jump =
+      up == kNoPart ? 0 : std::clamp(std::log(std::max(tree.merge_cost[up], 1e-6f) / std::max(tree.merge_cost[node], 0.1f)), 0.0f, 2.0f);
   float look = options_.cut_weight * own - options_.rise_bonus * rise - options_.jump_bonus * jump;
   if (up == kNoPart) look += options_.root_penalty;
-  return look + options_.frame_penalty * view_.frame_pixels[node] / std::sqrt(std::max(view_.pixels[node], 1.0f));
+  return look + options_.frame_penalty * view_.trees[t].frame_pixels[node] / std::sqrt(std::max(view_.trees[t].pixels[node], 1.0f));
 }
 
-float Picker::odd_size(std::uint32_t node) const {
-  const float share = std::max(view_.pixels[node], 1.0f) / static_cast<float>(view_.leaf.size());
+float Picker::odd_size(float pixels) const {
+  const float share = std::max(pixels, 1.0f) / static_cast<float>(view_.leaf.size());
   return options_.small_penalty * std::max(0.0f, std::log(options_.small_share / share)) +
          options_.large_penalty * std::max(0.0f, std::log(share / options_.large_share));
 }
@@ -91,18 +123,19 @@ float Picker::odd_change(float changed_px, float radius_px, float selected_px) c
          options_.growth_penalty * std::max(0.0f, growth - options_.growth_slack);
 }
 
-std::vector<float> Picker::pixels_on_side(bool selected) const {
-  std::vector<float> pixels(parts_.nodes(), 0);
-  for (std::uint32_t node = 0; node < parts_.nodes(); ++node) {
-    if (node < parts_.leaves && pick_.leaves[node] == selected) pixels[node] = view_.pixels[node];
-    if (parts_.parent[node] != kNoPart) pixels[parts_.parent[node]] += pixels[node];
+std::vector<float> Picker::pixels_on_side(std::size_t t, bool selected) const {
+  const PartTree& tree = parts_.trees[t];
+  std::vector<float> pixels(tree.nodes(), 0);
+  for (std::uint32_t node = 0; node < tree.nodes(); ++node) {
+    if (node < parts_.leaves && pick_.leaves[node] == selected) pixels[node] = view_.trees[t].pixels[node];
+    if (tree.parent[node] != kNoPart) pixels[tree.parent[node]] += pixels[node];
   }
   return pixels;
 }
 
 float Picker::selected_pixels() const {
   float pixels = 0;
-  for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf) pixels += pick_.leaves[leaf] ? view_.pixels[leaf] : 0;
+  for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf) pixels += pick_.leaves[leaf] ? view_.trees[0].pixels[leaf] : 0;
   return pixels;
 }
 
@@ -117,17 +150,46 @@ float Picker::distance_to_border(const glm::vec2& pixel, bool selected) const {
   return std::max(inside.at(x, y), 1.0f);
 }
 
-void Picker::assign(std::uint32_t node, std::uint8_t value) {
-  std::vector<std::uint32_t> open{node};
-  while (!open.empty()) {
-    const std::uint32_t at = open.back();
-    open.pop_back();
-    if (at < parts_.leaves) {
-      pick_.leaves[at] = value;
-      continue;
+std::vector<Proposals> Picker::proposals(std::uint32_t leaf, bool object) const {
+  std::vector<Proposals> all(parts_.trees.size());
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    const PartTree& tree = parts_.trees[t];
+    const std::vector<float> changed = pixels_on_side(t, !object);
+    for (const std::uint32_t node : ancestors(tree, leaf)) {
+      if (node != leaf && clicked_[!object][t][node]) break;
+      all[t].chain.push_back(node);
+      all[t].changed_px.push_back(changed[node]);
     }
-    open.insert(open.end(), parts_.children[at].begin(), parts_.children[at].end());
+    all[t].level = levels(tree, parts_.leaves, all[t].chain);
   }
+  measure_stability(object, &all);
+  return all;
+}
+
+// IoU in pixels that would change, of every two candidates of every two trees by one histogram of levels.
+void Picker::measure_stability(bool object, std::vector<Proposals>* all) const {
+  for (Proposals& p : *all) p.stability.assign(p.chain.size(), all->size() > 1 ? 0.0f : 1.0f);
+  const std::vector<float>& pixels = view_.trees[0].pixels;  // leaves are the same in all trees
+  for (std::size_t t = 0; t < all->size(); ++t)
+    for (std::size_t u = 0; u < all->size(); ++u) {
+      if (u == t) continue;
+      Proposals& a = (*all)[t];
+      const Proposals& b = (*all)[u];
+      const std::size_t rows = a.chain.size(), columns = b.chain.size();
+      std::vector<float> both(rows * columns, 0);
+      for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf)
+        if (pick_.leaves[leaf] != object && pixels[leaf] > 0 && a.level[leaf] != kNoLevel && b.level[leaf] != kNoLevel)
+          both[a.level[leaf] * columns + b.level[leaf]] += pixels[leaf];
+      for (std::size_t i = 0; i < rows; ++i) {
+        float row = 0, best = 0;
+        for (std::size_t j = 0; j < columns; ++j) {
+          row += both[i * columns + j];
+          both[i * columns + j] = row + (i ? both[(i - 1) * columns + j] : 0);
+          best = std::max(best, both[i * columns + j] / std::max(a.changed_px[i] + b.changed_px[j] - both[i * columns + j], 1.0f));
+        }
+        a.stability[i] += best / static_cast<float>(all->size() - 1);
+      }
+    }
 }
 
 void Picker::apply(const glm::vec2& pixel, SeedLabel label) {
@@ -135,50 +197,73 @@ void Picker::apply(const glm::vec2& pixel, SeedLabel label) {
   const std::uint32_t leaf = leaf_near(view_, pixel, kReachPx);
   if (leaf == kNoPart) return;
   const bool object = label == SeedLabel::kObject;
-  const std::vector<std::uint32_t> chain = ancestors(parts_, leaf);
-  for (const std::uint32_t node : chain) clicked_[object][node] = 1;
+  for (std::size_t t = 0; t < parts_.trees.size(); ++t)
+    for (const std::uint32_t node : ancestors(parts_.trees[t], leaf)) clicked_[object][t][node] = 1;
   if (pick_.leaves[leaf] == object) return;  // already on that side
   const float radius = any_ ? distance_to_border(pixel, !object) : 0;
-  const std::vector<float> changed = pixels_on_side(!object);
+  if (any_ && view_.trees[0].pixels[leaf] > options_.change_most * 3.14159265f * (radius + 1) * (radius + 1)) return;
   const float selected_px = object && any_ ? selected_pixels() : std::numeric_limits<float>::max();
-  if (any_ && changed[leaf] > options_.change_most * 3.14159265f * (radius + 1) * (radius + 1)) return;
-  std::size_t best = 0;
-  float least = std::numeric_limits<float>::max();
-  for (std::size_t i = 0; i < chain.size(); ++i) {
-    if (clicked_[!object][chain[i]]) break;
-    const float odd = odd_look(chain[i]) + (any_ ? odd_change(changed[chain[i]], radius, selected_px) : odd_size(chain[i]));
-    if (odd < least) {
-      least = odd;
-      best = i;
+  const std::vector<Proposals> all = proposals(leaf, object);
+  std::vector<Candidate> candidates;
+  for (std::size_t t = 0; t < all.size(); ++t)
+    for (std::size_t i = 0; i < all[t].chain.size(); ++i) {
+      const float size = any_ ? odd_change(all[t].changed_px[i], radius, selected_px) : odd_size(all[t].changed_px[i]);
+      const float rare = -std::log(std::max(all[t].stability[i], 0.01f));
+      candidates.push_back({t, i, odd_look(t, all[t].chain[i]) + size + options_.stability_weight * rare});
     }
-  }
-  if (!any_) {
-    pick_.first_chain = chain;
-    pick_.first_chosen = best;
-  }
+  Candidate best = *std::ranges::min_element(candidates, {}, &Candidate::odd);
+  if (!any_) best.index = note_first(all, candidates, best);
   any_ = true;
-  assign(chain[best], object);
+  for (std::uint32_t l = 0; l < parts_.leaves; ++l)
+    if (all[best.tree].level[l] != kNoLevel && all[best.tree].level[l] <= best.index) pick_.leaves[l] = object;
+}
+
+// Keeps the sizes that the first click could mean; returns the index of the one that is wanted.
+std::size_t Picker::note_first(const std::vector<Proposals>& all, std::span<const Candidate> candidates, const Candidate& best) {
+  constexpr float kNextSize = 1.15f;  // in pixels; less is not told apart
+  const Proposals& own = all[best.tree];
+  const float chosen_px = own.changed_px[best.index];
+  std::vector<std::size_t> distinct{best.index};
+  for (std::size_t i = best.index; i-- > 0;)
+    if (own.changed_px[i] * kNextSize <= own.changed_px[distinct.front()]) distinct.insert(distinct.begin(), i);
+  const std::size_t chosen = distinct.size() - 1;
+  for (std::size_t i = best.index + 1; i < own.chain.size(); ++i)
+    if (own.changed_px[i] >= kNextSize * own.changed_px[distinct.back()]) distinct.push_back(i);
+  for (const std::size_t i : distinct) pick_.first_chain.push_back({best.tree, own.chain[i]});
+  const auto wanted = static_cast<std::ptrdiff_t>(chosen) + options_.scale_steps;
+  pick_.first_chosen = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(wanted, 0, std::ssize(distinct) - 1));
+  constexpr float kAlike = 1.5f;
+  pick_.ambiguous = std::ranges::any_of(candidates, [&](const Candidate& c) {
+    const float folds = std::max(all[c.tree].changed_px[c.index], 1.0f) / std::max(chosen_px, 1.0f);
+    return c.odd < best.odd + options_.doubt && (folds > kAlike || folds < 1 / kAlike);
+  });
+  return distinct[pick_.first_chosen];
 }
 
 }  // namespace
 
 PartView view_parts(const PartHierarchy& parts, const Image<std::int32_t>& first_hit) {
-  PartView view{Image<std::uint32_t>(first_hit.width(), first_hit.height(), kNoPart), std::vector<float>(parts.nodes(), 0),
-                std::vector<float>(parts.nodes(), 0)};
+  PartView view{Image<std::uint32_t>(first_hit.width(), first_hit.height(), kNoPart), {}};
+  PartView::Tree leaves{std::vector<float>(parts.leaves, 0), std::vector<float>(parts.leaves, 0)};
   for (int y = 0; y < first_hit.height(); ++y)
     for (int x = 0; x < first_hit.width(); ++x) {
       if (first_hit.at(x, y) < 0) continue;
       const std::uint32_t leaf = parts.leaf_of[static_cast<std::size_t>(first_hit.at(x, y))];
       view.leaf.at(x, y) = leaf;
       if (leaf == kNoPart) continue;
-      view.pixels[leaf] += 1;
-      if (x == 0 || y == 0 || x == first_hit.width() - 1 || y == first_hit.height() - 1) view.frame_pixels[leaf] += 1;
+      leaves.pixels[leaf] += 1;
+      if (x == 0 || y == 0 || x == first_hit.width() - 1 || y == first_hit.height() - 1) leaves.frame_pixels[leaf] += 1;
     }
-  for (std::size_t node = 0; node < parts.nodes(); ++node)
-    if (const std::uint32_t up = parts.parent[node]; up != kNoPart) {  // children come before their parents
-      view.pixels[up] += view.pixels[node];
-      view.frame_pixels[up] += view.frame_pixels[node];
-    }
+  for (const PartTree& tree : parts.trees) {
+    PartView::Tree& of = view.trees.emplace_back(leaves);
+    of.pixels.resize(tree.nodes(), 0);
+    of.frame_pixels.resize(tree.nodes(), 0);
+    for (std::size_t node = 0; node < tree.nodes(); ++node)
+      if (const std::uint32_t up = tree.parent[node]; up != kNoPart) {  // children come before their parents
+        of.pixels[up] += of.pixels[node];
+        of.frame_pixels[up] += of.frame_pixels[node];
+      }
+  }
   return view;
 }
 

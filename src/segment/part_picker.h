@@ -1,11 +1,11 @@
 // What clicks and strokes mean: a selection of parts.
 //
 // In: the hierarchy, one view of it, strokes in that view's pixels. Out: per leaf whether it is selected.
-// A click lands on a leaf and climbs to the ancestor that looks most like an object:
-//   least  ln(cut / sqrt(area)) - rise_bonus max(0, rise of that towards the parent) + penalties
-// with penalties for touching the picture's frame and for an odd size in the picture. An ancestor that
-// holds a click of the other sign is no candidate. Object clicks only add, rest clicks only remove; after the
-// first, sizes near the click's distance to the present border are preferred.
+// A click lands on a leaf; the leaf's ancestors in all trees are what it can mean. Taken is the one that looks
+// most like an object: little border towards its like, not touching the picture's frame, of no odd size, and
+// held by the other trees, too. An ancestor that holds a click of the other sign is no candidate. Object clicks
+// only add, rest clicks only remove; after the first, changes are no larger than the click's distance to the
+// present border makes likely.
 // Cost: the ancestors of the clicked leaves; below a millisecond once the view is known.
 #pragma once
 
@@ -20,29 +20,42 @@ namespace splatcut {
 
 // What one view shows of the parts.
 struct PartView {
-  Image<std::uint32_t> leaf;         // kNoPart where nothing is
-  std::vector<float> pixels;         // per node
-  std::vector<float> frame_pixels;   // per node: pixels at the picture's frame
+  struct Tree {
+    std::vector<float> pixels;        // per node
+    std::vector<float> frame_pixels;  // per node: pixels at the picture's frame
+  };
+  Image<std::uint32_t> leaf;  // kNoPart where nothing is
+  std::vector<Tree> trees;
 };
 
 // first_hit: RasterOutput::first_hit of the view.
 PartView view_parts(const PartHierarchy& parts, const Image<std::int32_t>& first_hit);
 
 struct PickOptions {
-  float rise_bonus = 0.013f;
-  float cut_weight = 0.2f, jump_bonus = 0.53f, root_penalty = 1.6f;
-  float frame_penalty = 2.9f;
+  int scale_steps = 0;  // along first_chain from what looks most likely: -1 the next smaller part, +1 the next larger
+  float doubt = 0.25f;  // how much more likely the first click's part must be than others to count as clear
+  float stability_weight = 3;
+
+  float rise_bonus = 0.0095f;
+  float cut_weight = 0.094f, jump_bonus = 0.17f, root_penalty = 0.011f;
+  float frame_penalty = 1.9f;
   float small_share = 0.01f, large_share = 0.35f;  // of the picture's pixels
-  float small_penalty = 0.3f, large_penalty = 2.2f;
+  float small_penalty = 2, large_penalty = 0.55f;
   float least_log_cut = -16;
-  float growth_penalty = 0, growth_slack = 0.7f;  // of additions larger than what is selected
-  float change_large = 2.8f, change_small = 1.3f, change_slack = 3.4f, change_most = 5.2f;  // of later clicks
+  float growth_penalty = 0.01f, growth_slack = 0.5f;  // of additions larger than what is selected
+  float change_large = 3.4f, change_small = 0, change_slack = 3.25f, change_most = 2.7f;  // of later clicks
+};
+
+struct PartNode {
+  std::size_t tree = 0;
+  std::uint32_t node = 0;
 };
 
 struct Pick {
-  std::vector<std::uint8_t> leaves;         // per leaf, 1 = selected
-  std::vector<std::uint32_t> first_chain;   // ancestors of the first click's leaf, from small to large
-  std::size_t first_chosen = 0;             // index into first_chain
+  std::vector<std::uint8_t> leaves;   // per leaf, 1 = selected
+  std::vector<PartNode> first_chain;  // what the first click can mean: one tree's parts, small to large, told apart
+  std::size_t first_chosen = 0;       // index into first_chain
+  bool ambiguous = false;             // a part of another size looked nearly as likely
 };
 
 // Strokes in order, later ones correct earlier ones. Strokes that hit nothing do nothing.

@@ -122,10 +122,11 @@ void Run::pick(const Camera& camera, const Strokes& strokes) {
     raster.depth = true;
     const PartView view = view_parts(parts_, rasterize(cloud_, camera, raster, job_).first_hit);
     if (job_.cancelled()) return;
-    Pick picked = pick_parts(parts_, view, strokes, options_.pick);
+    const Pick picked = pick_parts(parts_, view, strokes, options_.pick);
     report_.labels = labels_of(parts_, picked.leaves);
-    report_.first_chain = std::move(picked.first_chain);
-    report_.first_chosen = picked.first_chosen;
+    report_.first_sizes = picked.first_chain.size();
+    report_.first_size = picked.first_chosen;
+    report_.ambiguous = picked.ambiguous;
   });
 }
 

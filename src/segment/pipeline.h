@@ -70,8 +70,8 @@ struct PipelineReport {
   std::string reason;                // for kNothingFound
   std::vector<std::uint8_t> labels;  // per Gaussian of the cloud, 1 = object
   CutReport cut;
-  std::vector<std::uint32_t> first_chain;  // kParts: what the first click can mean, from small to large
-  std::size_t first_chosen = 0;            // index into first_chain
+  std::size_t first_sizes = 0, first_size = 0;  // kParts: sizes that the first click can mean; the one taken
+  bool ambiguous = false;            // kParts: another size was nearly as likely
   std::vector<ViewReport> views;     // the reference first
   std::vector<StageTime> stages;     // in order, same names added up
 };
