@@ -1,6 +1,6 @@
 #include "scene/decode.h"
 
-#include <sys/mman.h>
+#include "scene/large_array.h"
 
 namespace splatcut {
 
@@ -9,13 +9,7 @@ namespace {
 template <class T>
 void reserve_in_large_pages(std::vector<T>& values, std::size_t n) {
   values.reserve(n);
-  constexpr std::uintptr_t kLargePage = 1 << 21;
-  const std::uintptr_t begin =
-      (reinterpret_cast<std::uintptr_t>(values.data()) + kLargePage - 1) & ~(kLargePage - 1);
-  const std::uintptr_t end =
-      (reinterpret_cast<std::uintptr_t>(values.data()) + n * sizeof(T)) & ~(kLargePage - 1);
-  // Only advice: without large pages everything works, slower.
-  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  advise_large_pages(values.data(), n * sizeof(T));
 }
 
 }  // namespace

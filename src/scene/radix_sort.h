@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -16,10 +15,9 @@ struct KeyValue {
 };
 
 // Sorts by the low `key_bits` bits of key, ascending, equal keys in their given order. A digit in which
-// all keys agree costs one counting pass only. `scratch` is resized as needed.
-template <class Key>
+// all keys agree costs one counting pass only. `scratch` is resized as needed. Few items want few bits per digit.
+template <int kDigitBits = 11, class Key>
 void radix_sort(std::vector<KeyValue<Key>>& items, std::vector<KeyValue<Key>>& scratch, int key_bits) {
-  constexpr int kDigitBits = 11;
   constexpr std::uint32_t kBuckets = 1u << kDigitBits;
   scratch.resize(items.size());
   for (int shift = 0; shift < key_bits; shift += kDigitBits) {

@@ -14,6 +14,8 @@ constexpr float kShC2[] = {1.0925484305920792f, -1.0925484305920792f, 0.31539156
 constexpr float kShC3[] = {-0.5900435899266435f, 2.890611442640554f, -0.4570457994644658f, 0.3731763325901154f,
                            -0.4570457994644658f, 1.445305721320277f, -0.5900435899266435f};
 
+}  // namespace
+
 int sh_rest_basis(int degree, const glm::vec3& d, float basis[15]) {
   if (degree < 1) return 0;
   const float x = d.x, y = d.y, z = d.z;
@@ -37,8 +39,6 @@ int sh_rest_basis(int degree, const glm::vec3& d, float basis[15]) {
   basis[14] = kShC3[6] * x * (xx - 3 * yy);
   return 15;
 }
-
-}  // namespace
 
 glm::mat3 covariance_world(const glm::vec3& scale, const glm::quat& rotation) {
   glm::mat3 m = glm::mat3_cast(rotation);

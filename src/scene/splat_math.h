@@ -40,6 +40,10 @@ Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, c
 // False where the Gaussian is before the near plane, too faint (opacity < 1/255) or degenerate.
 bool project(const GaussianCloud& cloud, std::size_t g, const Camera& camera, float near_plane, Splat* splat);
 
+// The SH basis functions beyond the constant one in a unit direction, with the signs of 3DGS files: the first
+// sh_rest_coefficients(degree) of `basis` are written. Returns that number.
+int sh_rest_basis(int degree, const glm::vec3& direction_world, float basis[15]);
+
 // Colour in [0, inf) of SH coefficients seen along `direction_world` (unit, from camera to Gaussian).
 glm::vec3 sh_colour(const glm::vec3& f_dc, std::span<const float> rest, int degree, const glm::vec3& direction_world);
 

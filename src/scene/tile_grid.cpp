@@ -3,144 +3,137 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
 
-#include "scene/radix_sort.h"
-#include "scene/splat_math.h"
+#include "scene/splat_projection.h"
 
 namespace splatcut {
 
 namespace {
 
-constexpr std::size_t kChunk = 8192;  // fixed, so that no result depends on the number of threads
-constexpr float kLog2E = 1.4426950408889634f;
-
 struct TileSpan {
   int x0, x1, y0, y1;
+
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+  bool is_line() const { return x1 - x0 == 1 || y1 - y0 == 1; }
 };
 
-TileSpan tiles_of(const BlendSplat& s, const TileGrid& grid) {
-  const auto tile = [](float px, int first, int count) {
-    return std::clamp(static_cast<int>(std::floor(px / kTilePx)) - first, 0, count);
-  };
-  return {tile(s.x_px - s.half_width_px, grid.first_tile_x, grid.tiles_x),
-          std::min(tile(s.x_px + s.half_width_px, grid.first_tile_x, grid.tiles_x) + 1, grid.tiles_x),
-          tile(s.y_px - s.half_height_px, grid.first_tile_y, grid.tiles_y),
-          std::min(tile(s.y_px + s.half_height_px, grid.first_tile_y, grid.tiles_y) + 1, grid.tiles_y)};
+// The tile of the grid that holds a pixel position, in one direction; below 0 and above count are clamped.
+int tile_at(float px, int first, int count) {
+  const float tile = px * (1.0f / kTilePx) - static_cast<float>(first);
+  return static_cast<int>(std::clamp(tile, 0.0f, static_cast<float>(count)));
 }
 
-// Largest exponent q (<= 0) that the splat reaches inside the tile [x0, x1] x [y0, y1] of pixel centres:
-// at the mean if inside, else on the border, where each edge is a parabola.
-float largest_exponent(const BlendSplat& s, float x0, float y0, float x1, float y1) {
-  const float dx0 = x0 - s.x_px, dx1 = x1 - s.x_px, dy0 = y0 - s.y_px, dy1 = y1 - s.y_px;
-  if (dx0 <= 0 && dx1 >= 0 && dy0 <= 0 && dy1 >= 0) return 0;
-  const auto at = [&](float dx, float dy) { return s.qa * dx * dx + s.qb * dx * dy + s.qc * dy * dy; };
-  float best = -1e30f;
-  for (const float dx : {dx0, dx1}) best = std::max(best, at(dx, std::clamp(-0.5f * s.qb * dx / s.qc, dy0, dy1)));
-  for (const float dy : {dy0, dy1}) best = std::max(best, at(std::clamp(-0.5f * s.qb * dy / s.qa, dx0, dx1), dy));
-  return best;
+// Pixel centres lie half a pixel inside their tile; a little is left for rounding.
+constexpr float kCentreInset = 0.45f;
+
+// Tiles with pixel centres from low_px to high_px, as a half-open range of the grid.
+std::pair<int, int> tile_range(float low_px, float high_px, int first, int count) {
+  const float low = low_px + kCentreInset, high = high_px - kCentreInset;
+  return {tile_at(low, first, count), high < static_cast<float>(first * kTilePx) ? 0 : std::min(tile_at(high, first, count) + 1, count)};
 }
 
-constexpr float kLog2AlphaMin = -7.994353436858858f;
-
-bool touches_tile(const BlendSplat& s, const TileGrid& grid, int tx, int ty) {
-  constexpr float kRoundingSlack = 1e-2f;  // never drop a tile for rounding; the pixel test decides
-  const float x0 = static_cast<float>((tx + grid.first_tile_x) * kTilePx) + 0.5f;
-  const float y0 = static_cast<float>((ty + grid.first_tile_y) * kTilePx) + 0.5f;
-  return s.log2_opacity + largest_exponent(s, x0, y0, x0 + kTilePx - 1, y0 + kTilePx - 1) >=
-         kLog2AlphaMin - kRoundingSlack;
+TileSpan span_of(const SplatBatch& b, int i, const TileGrid& grid) {
+  const auto [x0, x1] = tile_range(b.x_px[i] - b.half_width_px[i], b.x_px[i] + b.half_width_px[i], grid.first_tile_x, grid.tiles_x);
+  const auto [y0, y1] = tile_range(b.y_px[i] - b.half_height_px[i], b.y_px[i] + b.half_height_px[i], grid.first_tile_y, grid.tiles_y);
+  return {x0, x1, y0, y1};
 }
+
+// The ellipse alpha >= 1/255 of a splat: at height dy above its mean it reaches from
+// tilt dy - sqrt(width2 - slope dy^2) to tilt dy + sqrt(width2 - slope dy^2), and farthest at dy = +-tip.
+struct Ellipse {
+  float tilt, width2, slope, tip;
+
+  explicit Ellipse(const SplatBatch& b, int i)
+      : tilt(-0.5f * b.qb[i] / b.qa[i]),
+        width2((b.log2_opacity[i] - kLog2AlphaMin + kLog2AlphaSlack) / -b.qa[i]),
+        slope(b.qc[i] / b.qa[i] - tilt * tilt),
+        tip(tilt * std::sqrt(width2 / std::max(slope * (slope + tilt * tilt), std::numeric_limits<float>::min()))) {}
+
+  float half_width(float dy) const { return std::sqrt(std::max(0.0f, width2 - slope * dy * dy)); }
+  // Farthest to the right and, by symmetry, to the left between two heights.
+  float right(float dy0, float dy1) const {
+    const float dy = std::clamp(tip, dy0, dy1);
+    return tilt * dy + half_width(dy);
+  }
+  float left(float dy0, float dy1) const { return -right(-dy1, -dy0); }
+};
 
 template <class Visit>
-void visit_tiles(const BlendSplat& s, const TileGrid& grid, const Visit& visit) {
-  const TileSpan span = tiles_of(s, grid);
-  if (span.x1 - span.x0 <= 1 && span.y1 - span.y0 <= 1) {
-    if (span.x0 < span.x1 && span.y0 < span.y1) visit(span.y0 * grid.tiles_x + span.x0);
+void visit_tiles(const SplatBatch& b, int i, const TileGrid& grid, const Visit& visit) {
+  const TileSpan span = span_of(b, i, grid);
+  if (span.empty()) return;
+  if (span.is_line()) {  // the box is tight: its only row or column of tiles is touched all along
+    for (int ty = span.y0; ty < span.y1; ++ty)
+      for (int tx = span.x0; tx < span.x1; ++tx) visit(ty * grid.tiles_x + tx);
     return;
   }
-  for (int ty = span.y0; ty < span.y1; ++ty)
-    for (int tx = span.x0; tx < span.x1; ++tx)
-      if (touches_tile(s, grid, tx, ty)) visit(ty * grid.tiles_x + tx);
-}
-
-bool blend_splat(const GaussianCloud& cloud, std::uint32_t g, const Camera& camera, const RasterOptions& options,
-                 const glm::vec3& eye_world, const PixelRect& region, BlendSplat* out) {
-  Splat s;
-  if (!project(cloud, g, camera, options.near_plane, &s)) return false;
-  if (s.mean_px.x + s.extent_px.x < static_cast<float>(region.x0) || s.mean_px.x - s.extent_px.x > static_cast<float>(region.x1) ||
-      s.mean_px.y + s.extent_px.y < static_cast<float>(region.y0) || s.mean_px.y - s.extent_px.y > static_cast<float>(region.y1))
-    return false;
-  glm::vec3 colour(0);
-  if (!options.colour_override.empty())
-    colour = options.colour_override[g];
-  else if (options.colour)
-    colour = sh_colour(cloud.f_dc[g], cloud.sh_rest_of(g), cloud.sh_degree, glm::normalize(cloud.position[g] - eye_world));
-  *out = {s.mean_px.x, s.mean_px.y, -0.5f * kLog2E * s.conic.a, -kLog2E * s.conic.b, -0.5f * kLog2E * s.conic.c,
-          std::log2(cloud.opacity[g]), s.extent_px.x, s.extent_px.y, colour.r, colour.g, colour.b, s.depth, g};
-  return true;
-}
-
-void project_all(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
-                 const PixelRect& region, const Job& job, TileGrid* grid) {
-  const std::size_t chunks = (cloud.size() + kChunk - 1) / kChunk;
-  std::vector<std::vector<BlendSplat>> found(chunks);
-  const glm::vec3 eye_world = camera.centre_world();
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    if (job.cancelled()) return;
-    BlendSplat s;
-    const auto end = static_cast<std::uint32_t>(std::min(cloud.size(), (c + 1) * kChunk));
-    for (auto g = static_cast<std::uint32_t>(c * kChunk); g < end; ++g) {
-      if (!options.shown.empty() && !options.shown[g]) continue;
-      if (blend_splat(cloud, g, camera, options, eye_world, region, &s)) found[c].push_back(s);
-    }
-  });
-  std::size_t total = 0;
-  for (const auto& f : found) total += f.size();
-  grid->splats.reserve(total);
-  for (const auto& f : found) grid->splats.insert(grid->splats.end(), f.begin(), f.end());
-}
-
-// Positive floats order like their bits.
-std::vector<std::uint32_t> order_by_depth(const std::vector<BlendSplat>& splats) {
-  std::vector<KeyValue<std::uint32_t>> items(splats.size()), scratch;
-  for (std::size_t i = 0; i < splats.size(); ++i)
-    items[i] = {std::bit_cast<std::uint32_t>(splats[i].depth), static_cast<std::uint32_t>(i)};
-  radix_sort(items, scratch, 32);
-  std::vector<std::uint32_t> order(items.size());
-  std::transform(items.begin(), items.end(), order.begin(), [](const auto& item) { return item.value; });
-  return order;
-}
-
-// Counting sort by tile of the depth order: chunks count, a scan gives each chunk its places, chunks fill.
-void fill_tiles(const std::vector<std::uint32_t>& order, const Job& job, TileGrid* grid) {
-  const std::size_t tiles = static_cast<std::size_t>(grid->tiles_x) * grid->tiles_y;
-  constexpr std::size_t kBinChunk = 65536;
-  const std::size_t chunks = (order.size() + kBinChunk - 1) / kBinChunk;
-  std::vector<std::vector<std::uint32_t>> hits(chunks);   // (tile) per pair, in depth order
-  std::vector<std::vector<std::uint32_t>> owner(chunks);  // the splat of each pair
-  std::vector<std::vector<std::uint32_t>> place(chunks, std::vector<std::uint32_t>(tiles, 0));
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    if (job.cancelled()) return;
-    for (std::size_t i = c * kBinChunk; i < std::min(order.size(), (c + 1) * kBinChunk); ++i)
-      visit_tiles(grid->splats[order[i]], *grid, [&](int tile) {
-        hits[c].push_back(static_cast<std::uint32_t>(tile));
-        owner[c].push_back(order[i]);
-        ++place[c][static_cast<std::size_t>(tile)];
-      });
-  });
-  grid->first_entry.assign(tiles + 1, 0);
-  std::uint32_t sum = 0;
-  for (std::size_t t = 0; t < tiles; ++t) {
-    grid->first_entry[t] = sum;
-    for (std::size_t c = 0; c < chunks; ++c) sum += std::exchange(place[c][t], sum);
+  const Ellipse ellipse(b, i);
+  for (int ty = span.y0; ty < span.y1; ++ty) {
+    const float border = static_cast<float>((ty + grid.first_tile_y) * kTilePx) - b.y_px[i];
+    const float top = border + kCentreInset, bottom = border + kTilePx - kCentreInset;
+    const auto [x0, x1] = tile_range(b.x_px[i] + ellipse.left(top, bottom), b.x_px[i] + ellipse.right(top, bottom),
+                                     grid.first_tile_x, grid.tiles_x);
+    for (int tx = std::max(x0, span.x0); tx < std::min(x1, span.x1); ++tx) visit(ty * grid.tiles_x + tx);
   }
-  grid->first_entry[tiles] = sum;
-  grid->entries.resize(sum);
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    for (std::size_t i = 0; i < hits[c].size(); ++i) grid->entries[place[c][hits[c][i]]++] = owner[c][i];
-  });
+}
+
+// Gaussians per run: the same for any number of threads, and few enough runs that their counts per tile stay small.
+std::size_t run_size(std::size_t gaussians) {
+  constexpr std::size_t kSmallest = 32 * SplatBatch::kGaussians, kMostRuns = 256;
+  const std::size_t batches = (gaussians / kMostRuns + SplatBatch::kGaussians) / SplatBatch::kGaussians;
+  return std::max(kSmallest, batches * SplatBatch::kGaussians);
+}
+
+// One run of Gaussians on its way into the grid.
+struct Run {
+  std::size_t visible = 0;
+  std::vector<std::uint32_t> place;  // per tile: pairs of this run, then the entry where the next one goes
+};
+
+// Lists the splats of the Gaussians begin <= g < end with their tiles, which stand in SplatTile::entry for now.
+void project_run(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options, const PixelRect& region,
+                 std::size_t begin, std::size_t end, TileGrid* grid, Run* run, std::vector<SplatTile>* pairs) {
+  run->place.assign(static_cast<std::size_t>(grid->tiles()), 0);
+  pairs->reserve(2 * (end - begin));
+  SplatBatch batch;
+  for (std::size_t g = begin; g < end; g += SplatBatch::kGaussians) {
+    const std::size_t last = std::min(end, g + SplatBatch::kGaussians);
+    project_batch(cloud, static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(last), camera, options, region, &batch);
+    run->visible += static_cast<std::size_t>(batch.size);
+    for (int i = 0; i < batch.size; ++i) {
+      const std::uint32_t gaussian = batch.gaussian[i];
+      grid->splats[gaussian] = {batch.x_px[i], batch.y_px[i],  batch.qa[i],    batch.qb[i],   batch.qc[i], batch.log2_opacity[i],
+                                batch.red[i],  batch.green[i], batch.blue[i], batch.depth[i]};
+      visit_tiles(batch, i, *grid, [&](int tile) {
+        pairs->push_back({gaussian, static_cast<std::uint32_t>(tile)});
+        ++run->place[static_cast<std::size_t>(tile)];
+      });
+    }
+  }
+}
+
+// Turns the counts of all runs into places: tile by tile, and within a tile run by run.
+void assign_places(std::vector<Run>* runs, TileGrid* grid) {
+  const auto tiles = static_cast<std::size_t>(grid->tiles());
+  std::vector<std::uint32_t>& next = grid->first_entry;
+  next.assign(tiles + 1, 0);
+  for (const Run& run : *runs)
+    for (std::size_t t = 0; t < tiles; ++t) next[t + 1] += run.place[t];
+  for (std::size_t t = 0; t < tiles; ++t) next[t + 1] += next[t];
+  std::vector<std::uint32_t> place(next.begin(), next.end() - 1);
+  for (Run& run : *runs)
+    for (std::size_t t = 0; t < tiles; ++t) place[t] += std::exchange(run.place[t], place[t]);
+}
+
+// Gives every pair its entry in place of its tile.
+void fill_entries(Run* run, std::vector<SplatTile>* pairs, TileGrid* grid) {
+  for (SplatTile& pair : *pairs) {
+    pair.entry = run->place[pair.entry]++;
+    grid->entries[pair.entry] = {grid->splats[pair.gaussian].depth, pair.gaussian};
+  }
 }
 
 }  // namespace
@@ -152,8 +145,20 @@ TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const Rast
   grid.first_tile_y = roi.y0 / kTilePx;
   grid.tiles_x = (roi.x1 + kTilePx - 1) / kTilePx - grid.first_tile_x;
   grid.tiles_y = (roi.y1 + kTilePx - 1) / kTilePx - grid.first_tile_y;
-  project_all(cloud, camera, options, roi, job, &grid);
-  fill_tiles(order_by_depth(grid.splats), job, &grid);
+  grid.splats = LargeArray<BlendSplat>(cloud.size());
+  const std::size_t step = run_size(cloud.size()), count = (cloud.size() + step - 1) / step;
+  std::vector<Run> runs(count);
+  grid.runs.resize(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t r) {
+    if (job.cancelled()) return;
+    project_run(cloud, camera, options, roi, r * step, std::min(cloud.size(), (r + 1) * step), &grid, &runs[r], &grid.runs[r]);
+  });
+  grid.first_entry.assign(static_cast<std::size_t>(grid.tiles()) + 1, 0);
+  if (job.cancelled()) return grid;
+  for (const Run& run : runs) grid.visible += run.visible;
+  assign_places(&runs, &grid);
+  grid.entries = LargeArray<TileEntry>(grid.first_entry.back());
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t r) { fill_entries(&runs[r], &grid.runs[r], &grid); });
   return grid;
 }
 
