@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "scene/splat_math.h"
+#include "scene/splat_projection.h"
 #include "synthetic_cloud.h"
 
 using namespace splatcut;
@@ -95,11 +97,72 @@ TEST_CASE("tile rasteriser agrees with the scalar reference") {
     CHECK(off == 0);
     for (std::size_t g = 0; g < cloud.size(); ++g) {
       CAPTURE(g);
-      CHECK(std::abs(fast.total[g] - slow.total[g]) < 0.02 * 65536 + 0.001 * static_cast<double>(slow.total[g]));
-      CHECK(std::abs(fast.inside[g] - slow.inside[g]) < 0.02 * 65536 + 0.001 * static_cast<double>(slow.inside[g]));
+      CHECK(std::abs(fast.total[g] - slow.total[g]) <
+            0.02 * 65536 + 0.001 * static_cast<double>(slow.total[g]));
+      CHECK(std::abs(fast.inside[g] - slow.inside[g]) <
+            0.02 * 65536 + 0.001 * static_cast<double>(slow.inside[g]));
       CHECK(fast.inside[g] <= fast.total[g]);
     }
   }
+}
+
+TEST_CASE("a batch of projected Gaussians agrees with project() and sh_colour() one by one") {
+  for (const int degree : {0, 1, 2, 3}) {
+    CAPTURE(degree);
+    GaussianCloud cloud = random_cloud(253, 17, degree, 0.1f);  // no whole number of vectors
+    cloud.position[7] = {0, 0, -4};                             // behind the camera
+    cloud.opacity[9] = 0.5f / 255;                              // never seen
+    const Camera camera = front_camera();
+    const PixelRect everywhere{-100000, -100000, 100000, 100000};
+    SplatBatch batch;
+    project_batch(cloud, 0, static_cast<std::uint32_t>(cloud.size()), camera, {}, everywhere, &batch);
+    int next = 0;
+    for (std::uint32_t g = 0; g < cloud.size(); ++g) {
+      CAPTURE(g);
+      Splat s;
+      if (!project(cloud, g, camera, RasterOptions{}.near_plane, &s)) continue;
+      REQUIRE(next < batch.size);
+      const int i = next++;
+      REQUIRE(batch.gaussian[i] == g);
+      const double log2_e = 1.4426950408889634;
+      CHECK(batch.x_px[i] == doctest::Approx(s.mean_px.x).epsilon(1e-5));
+      CHECK(batch.y_px[i] == doctest::Approx(s.mean_px.y).epsilon(1e-5));
+      CHECK(batch.depth[i] == doctest::Approx(s.depth).epsilon(1e-6));
+      CHECK(batch.qa[i] == doctest::Approx(-0.5 * log2_e * s.conic.a).epsilon(1e-3));
+      CHECK(batch.qb[i] == doctest::Approx(-log2_e * s.conic.b).epsilon(1e-3));
+      CHECK(batch.qc[i] == doctest::Approx(-0.5 * log2_e * s.conic.c).epsilon(1e-3));
+      CHECK(batch.log2_opacity[i] == doctest::Approx(std::log2(cloud.opacity[g])).epsilon(1e-6));
+      CHECK(batch.half_width_px[i] == doctest::Approx(s.extent_px.x).epsilon(1e-4));
+      CHECK(batch.half_height_px[i] == doctest::Approx(s.extent_px.y).epsilon(1e-4));
+      const glm::vec3 ray = glm::normalize(cloud.position[g] - camera.centre_world());
+      const glm::vec3 colour = sh_colour(cloud.f_dc[g], cloud.sh_rest_of(g), degree, ray);
+      CHECK(batch.red[i] == doctest::Approx(colour.r).epsilon(1e-5));
+      CHECK(batch.green[i] == doctest::Approx(colour.g).epsilon(1e-5));
+      CHECK(batch.blue[i] == doctest::Approx(colour.b).epsilon(1e-5));
+    }
+    CHECK(next == batch.size);
+    CHECK(next < 253);
+  }
+}
+
+TEST_CASE("needles that cross many tiles agree with the scalar reference, alone and behind an opaque wall") {
+  GaussianCloud cloud = random_cloud(200, 23, 0, 0.02f);
+  for (std::size_t g = 0; g < cloud.size(); ++g) cloud.scale[g] = {g % 2 ? 3.0f : 0.4f, 1e-3f, 1e-4f};
+  const Camera camera = front_camera();
+  const auto worst = [&] {
+    const RasterOutput fast = rasterize(cloud, camera), slow = rasterize_reference(cloud, camera);
+    float difference = 0;
+    for (std::size_t i = 0; i < fast.alpha.size(); ++i)
+      difference = std::max(difference, std::abs(fast.alpha.pixels()[i] - slow.alpha.pixels()[i]));
+    return difference;
+  };
+  CHECK(worst() < 1e-3f);
+  // More opaque splats in front than are blended at a time: tiles end early, and must end alike.
+  const GaussianCloud needles = cloud;
+  cloud = random_cloud(2000, 29, 0, 0.4f);
+  for (std::size_t g = 0; g < cloud.size(); ++g) cloud.position[g].z = -1.5f, cloud.opacity[g] = 0.6f;
+  std::copy(needles.position.begin(), needles.position.end(), cloud.position.begin());
+  CHECK(worst() < 1e-3f);
 }
 
 TEST_CASE("weights plus remaining transmittance sum to 1") {
@@ -112,7 +175,8 @@ TEST_CASE("weights plus remaining transmittance sum to 1") {
   options.sums = &sums;
   const RasterOutput out = rasterize(cloud, camera, options);
   double weights = 0, opaque = 0;
-  for (const std::int64_t units : sums.total) weights += static_cast<double>(units) / MaskedSums::kUnitsPerPixel;
+  for (const std::int64_t units : sums.total)
+    weights += static_cast<double>(units) / MaskedSums::kUnitsPerPixel;
   for (const float alpha : out.alpha.pixels()) opaque += alpha;
   CHECK(weights == doctest::Approx(opaque).epsilon(1e-5));
   CHECK(sums.inside == sums.total);
@@ -168,7 +232,8 @@ TEST_CASE("a region of interest holds the same bits as the whole picture, and co
       opaque += whole.alpha.at(x, y);
     }
   CHECK(same);
-  const double weights = static_cast<double>(std::accumulate(sums.total.begin(), sums.total.end(), std::int64_t{0}));
+  const double weights =
+      static_cast<double>(std::accumulate(sums.total.begin(), sums.total.end(), std::int64_t{0}));
   CHECK(weights / MaskedSums::kUnitsPerPixel == doctest::Approx(opaque).epsilon(1e-5));
 }
 

@@ -15,7 +15,8 @@ struct KeyValue {
 };
 
 // Sorts by the low `key_bits` bits of key, ascending, equal keys in their given order. A digit in which
-// all keys agree costs one counting pass only. `scratch` is resized as needed. Few items want few bits per digit.
+// all keys agree costs one counting pass only. `scratch` is resized as needed. Few items want few bits per
+// digit.
 template <int kDigitBits = 11, class Key>
 void radix_sort(std::vector<KeyValue<Key>>& items, std::vector<KeyValue<Key>>& scratch, int key_bits) {
   constexpr std::uint32_t kBuckets = 1u << kDigitBits;

@@ -35,11 +35,13 @@ void add_sums(const TileGrid& grid, const LargeArray<PairSums>& pair_sums, Maske
 
 }  // namespace
 
-RasterOutput rasterize(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options, const Job& job) {
+RasterOutput rasterize(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
+                       const Job& job) {
   assert(options.colour_override.empty() || options.colour_override.size() == cloud.size());
   assert(options.shown.empty() || options.shown.size() == cloud.size());
-  assert(!options.sums || (options.sum_mask && options.sums->total.size() == cloud.size() &&
-                           options.sum_mask->width() == camera.width_px && options.sum_mask->height() == camera.height_px));
+  assert(!options.sums ||
+         (options.sum_mask && options.sums->total.size() == cloud.size() &&
+          options.sum_mask->width() == camera.width_px && options.sum_mask->height() == camera.height_px));
   const PixelRect roi = options.roi.value_or(PixelRect{0, 0, camera.width_px, camera.height_px});
   assert(roi.x0 >= 0 && roi.y0 >= 0 && roi.x1 <= camera.width_px && roi.y1 <= camera.height_px);
   RasterOutput out = empty_output(options, roi.width(), roi.height());
@@ -55,6 +57,8 @@ RasterOutput rasterize(const GaussianCloud& cloud, const Camera& camera, const R
   return out;
 }
 
-const char* rasterizer_simd_target() { return blend_simd_target(); }
+const char* rasterizer_simd_target() {
+  return blend_simd_target();
+}
 
 }  // namespace splatcut

@@ -37,8 +37,8 @@ struct RasterOptions {
   bool colour = true;
   bool depth = false;  // expected depth, median depth and first-hit id
   glm::vec3 background{0};
-  float near_plane = 0.2f;                    // scene units; Gaussians with camera z below are skipped
-  std::optional<PixelRect> roi;               // draw these pixels only; outputs have the size of the rectangle
+  float near_plane = 0.2f;       // scene units; Gaussians with camera z below are skipped
+  std::optional<PixelRect> roi;  // draw these pixels only; outputs have the size of the rectangle
   std::span<const glm::vec3> colour_override;  // size of the cloud: replaces SH colour, >= 0
   std::span<const std::uint8_t> shown;         // size of the cloud: 0 leaves the Gaussian out
   const Mask* sum_mask = nullptr;              // with `sums`: size of the camera's picture, non-zero = object
@@ -46,13 +46,13 @@ struct RasterOptions {
 };
 
 struct RasterOutput {
-  Image<glm::vec3> colour;       // over the background, >= 0, not clamped above
-  Image<float> alpha;            // 1 - T
-  Image<float> expected_depth;   // sum(weight z) / sum(weight), camera z in scene units; 0 where nothing is
-  Image<float> median_depth;     // camera z of the Gaussian at which T falls below 0.5; 0 where none does
-  Image<std::int32_t> first_hit; // that Gaussian's index in the cloud, or -1
-  std::size_t visible = 0;       // Gaussians that touch the picture
-  std::size_t pairs = 0;         // (Gaussian, tile) pairs
+  Image<glm::vec3> colour;        // over the background, >= 0, not clamped above
+  Image<float> alpha;             // 1 - T
+  Image<float> expected_depth;    // sum(weight z) / sum(weight), camera z in scene units; 0 where nothing is
+  Image<float> median_depth;      // camera z of the Gaussian at which T falls below 0.5; 0 where none does
+  Image<std::int32_t> first_hit;  // that Gaussian's index in the cloud, or -1
+  std::size_t visible = 0;        // Gaussians that touch the picture
+  std::size_t pairs = 0;          // (Gaussian, tile) pairs
 };
 
 RasterOutput rasterize(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options = {},

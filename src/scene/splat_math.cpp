@@ -9,10 +9,11 @@ namespace {
 
 // Real spherical harmonics constants in the sign convention of 3DGS files.
 constexpr float kShC1 = 0.4886025119029199f;
-constexpr float kShC2[] = {1.0925484305920792f, -1.0925484305920792f, 0.31539156525252005f, -1.0925484305920792f,
-                           0.5462742152960396f};
-constexpr float kShC3[] = {-0.5900435899266435f, 2.890611442640554f, -0.4570457994644658f, 0.3731763325901154f,
-                           -0.4570457994644658f, 1.445305721320277f, -0.5900435899266435f};
+constexpr float kShC2[] = {1.0925484305920792f, -1.0925484305920792f, 0.31539156525252005f,
+                           -1.0925484305920792f, 0.5462742152960396f};
+constexpr float kShC3[] = {-0.5900435899266435f, 2.890611442640554f,   -0.4570457994644658f,
+                           0.3731763325901154f,  -0.4570457994644658f, 1.445305721320277f,
+                           -0.5900435899266435f};
 
 }  // namespace
 
@@ -60,7 +61,8 @@ Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, c
   return {glm::dot(u, sigma_u) + kLowPassPx2, glm::dot(u, sigma_v), glm::dot(v, sigma_v) + kLowPassPx2};
 }
 
-bool project(const GaussianCloud& cloud, std::size_t g, const Camera& camera, float near_plane, Splat* splat) {
+bool project(const GaussianCloud& cloud, std::size_t g, const Camera& camera, float near_plane,
+             Splat* splat) {
   const float opacity = cloud.opacity[g];
   if (opacity < kAlphaMin) return false;
   const glm::vec3 point_camera = camera.camera_from_world(cloud.position[g]);
@@ -78,13 +80,15 @@ bool project(const GaussianCloud& cloud, std::size_t g, const Camera& camera, fl
   return true;
 }
 
-glm::vec3 sh_colour(const glm::vec3& f_dc, std::span<const float> rest, int degree, const glm::vec3& direction_world) {
+glm::vec3 sh_colour(const glm::vec3& f_dc, std::span<const float> rest, int degree,
+                    const glm::vec3& direction_world) {
   float basis[15];
   const int used = sh_rest_basis(degree, direction_world, basis);
   const std::size_t stride = rest.size() / 3;
   glm::vec3 colour = 0.5f + kShC0 * f_dc;
   for (int channel = 0; channel < 3; ++channel)
-    for (int k = 0; k < used; ++k) colour[channel] += basis[k] * rest[static_cast<std::size_t>(channel) * stride + k];
+    for (int k = 0; k < used; ++k)
+      colour[channel] += basis[k] * rest[static_cast<std::size_t>(channel) * stride + k];
   return glm::max(colour, 0.0f);
 }
 

@@ -10,11 +10,11 @@
 
 namespace splatcut {
 
-inline constexpr float kLowPassPx2 = 0.3f;        // added to Sigma2's diagonal: no splat thinner than a pixel
-inline constexpr float kAlphaMax = 0.99f;         // keeps T positive, as 3DGS is trained
+inline constexpr float kLowPassPx2 = 0.3f;  // added to Sigma2's diagonal: no splat thinner than a pixel
+inline constexpr float kAlphaMax = 0.99f;   // keeps T positive, as 3DGS is trained
 inline constexpr float kAlphaMin = 1.0f / 255.0f;  // below an 8-bit step a contribution is skipped
 inline constexpr float kTransmittanceStop = 1e-4f;
-inline constexpr float kFrustumSlack = 1.3f;      // x/z, y/z are clamped to this many half fields of view in J
+inline constexpr float kFrustumSlack = 1.3f;  // x/z, y/z are clamped to this many half fields of view in J
 inline constexpr float kShC0 = 0.28209479177387814f;
 
 // Symmetric 2x2 matrix [a b; b c].
@@ -45,6 +45,7 @@ bool project(const GaussianCloud& cloud, std::size_t g, const Camera& camera, fl
 int sh_rest_basis(int degree, const glm::vec3& direction_world, float basis[15]);
 
 // Colour in [0, inf) of SH coefficients seen along `direction_world` (unit, from camera to Gaussian).
-glm::vec3 sh_colour(const glm::vec3& f_dc, std::span<const float> rest, int degree, const glm::vec3& direction_world);
+glm::vec3 sh_colour(const glm::vec3& f_dc, std::span<const float> rest, int degree,
+                    const glm::vec3& direction_world);
 
 }  // namespace splatcut

@@ -33,13 +33,21 @@ struct V3 {
   V x, y, z;
 };
 
-HWY_INLINE V set(float value) { return hn::Set(kF, value); }
-HWY_INLINE V3 set(const glm::vec3& v) { return {set(v.x), set(v.y), set(v.z)}; }
-HWY_INLINE V sum3(V a, V b, V c) { return hn::Add(hn::Add(a, b), c); }
+HWY_INLINE V set(float value) {
+  return hn::Set(kF, value);
+}
+HWY_INLINE V3 set(const glm::vec3& v) {
+  return {set(v.x), set(v.y), set(v.z)};
+}
+HWY_INLINE V sum3(V a, V b, V c) {
+  return hn::Add(hn::Add(a, b), c);
+}
 HWY_INLINE V dot(const V3& a, const V3& b) {
   return sum3(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z));
 }
-HWY_INLINE V clamp(V v, float low, float high) { return hn::Min(hn::Max(v, set(low)), set(high)); }
+HWY_INLINE V clamp(V v, float low, float high) {
+  return hn::Min(hn::Max(v, set(low)), set(high));
+}
 
 // log2(v) for normal v > 0, absolute error below 2e-7: v = 2^e m with m in [sqrt(1/2), sqrt(2)), and
 // ln m = 2 atanh((m - 1) / (m + 1)) by its series.
@@ -47,11 +55,13 @@ HWY_INLINE V log2_of(V v) {
   constexpr std::int32_t kSqrtHalfBits = 0x3f3504f3, kMantissaBits = 23, kMantissaMask = 0x007fffff;
   const auto shifted = hn::Sub(hn::BitCast(kI, v), hn::Set(kI, kSqrtHalfBits));
   const V exponent = hn::ConvertTo(kF, hn::ShiftRight<kMantissaBits>(shifted));
-  const V m = hn::BitCast(kF, hn::Add(hn::And(shifted, hn::Set(kI, kMantissaMask)), hn::Set(kI, kSqrtHalfBits)));
+  const V m =
+      hn::BitCast(kF, hn::Add(hn::And(shifted, hn::Set(kI, kMantissaMask)), hn::Set(kI, kSqrtHalfBits)));
   const V s = hn::Div(hn::Sub(m, set(1)), hn::Add(m, set(1)));
   const V s2 = hn::Mul(s, s);
   V series = set(2 * kLog2E / 9);
-  for (const float odd : {7.0f, 5.0f, 3.0f, 1.0f}) series = hn::Add(hn::Mul(series, s2), set(2 * kLog2E / odd));
+  for (const float odd : {7.0f, 5.0f, 3.0f, 1.0f})
+    series = hn::Add(hn::Mul(series, s2), set(2 * kLog2E / odd));
   return hn::Add(exponent, hn::Mul(series, s));
 }
 
@@ -64,7 +74,8 @@ struct Attributes {
 
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && sizeof(glm::quat) == 4 * sizeof(float));
 
-HWY_INLINE Attributes load(const glm::vec3* position, const glm::vec3* scale, const glm::quat* rotation, const float* opacity) {
+HWY_INLINE Attributes load(const glm::vec3* position, const glm::vec3* scale, const glm::quat* rotation,
+                           const float* opacity) {
   Attributes a;
   hn::LoadInterleaved3(kF, &position->x, a.position.x, a.position.y, a.position.z);
   hn::LoadInterleaved3(kF, &scale->x, a.scale.x, a.scale.y, a.scale.z);
@@ -95,7 +106,8 @@ HWY_INLINE V3 scaled_to_local(const Attributes& a, const V3& v) {
   const V3 axis_x{hn::Sub(one, hn::Add(yy, zz)), hn::Add(xy, wz), hn::Sub(xz, wy)};
   const V3 axis_y{hn::Sub(xy, wz), hn::Sub(one, hn::Add(xx, zz)), hn::Add(yz, wx)};
   const V3 axis_z{hn::Add(xz, wy), hn::Sub(yz, wx), hn::Sub(one, hn::Add(xx, yy))};
-  return {hn::Mul(a.scale.x, dot(axis_x, v)), hn::Mul(a.scale.y, dot(axis_y, v)), hn::Mul(a.scale.z, dot(axis_z, v))};
+  return {hn::Mul(a.scale.x, dot(axis_x, v)), hn::Mul(a.scale.y, dot(axis_y, v)),
+          hn::Mul(a.scale.z, dot(axis_z, v))};
 }
 
 // What one view means for all Gaussians.
@@ -127,12 +139,14 @@ HWY_INLINE M overlaps(V centre, V half, int low, int high) {
 }
 
 // Projects kWidth Gaussians, of which `wanted` count, and appends those that touch the region.
-HWY_INLINE void project_vector(const Attributes& a, M wanted, std::uint32_t first, const Frame& frame, SplatBatch* batch) {
+HWY_INLINE void project_vector(const Attributes& a, M wanted, std::uint32_t first, const Frame& frame,
+                               SplatBatch* batch) {
   const Camera& camera = frame.camera;
   const glm::vec3& t = camera.camera_from_world_translation;
   const V3 right = set(frame.right), down = set(frame.down), forward = set(frame.forward);
   const V z = hn::Add(dot(forward, a.position), set(t.z));
-  const M before = hn::And(wanted, hn::And(hn::Ge(z, set(frame.near_plane)), hn::Ge(a.opacity, set(kAlphaMin))));
+  const M before =
+      hn::And(wanted, hn::And(hn::Ge(z, set(frame.near_plane)), hn::Ge(a.opacity, set(kAlphaMin))));
   if (hn::AllFalse(kF, before)) return;
   const V inverse_z = hn::Div(set(1), z);
   const V slope_x = hn::Mul(hn::Add(dot(right, a.position), set(t.x)), inverse_z);
@@ -140,12 +154,16 @@ HWY_INLINE void project_vector(const Attributes& a, M wanted, std::uint32_t firs
 
   // Rows of J W in the world frame; Sigma2 = (J W) R diag(s^2) R^T (J W)^T.
   const V pixels_x = hn::Mul(set(camera.fx_px), inverse_z), pixels_y = hn::Mul(set(camera.fy_px), inverse_z);
-  const V bend_x = clamp(slope_x, -frame.limit_x, frame.limit_x), bend_y = clamp(slope_y, -frame.limit_y, frame.limit_y);
+  const V bend_x = clamp(slope_x, -frame.limit_x, frame.limit_x),
+          bend_y = clamp(slope_y, -frame.limit_y, frame.limit_y);
   const auto row = [&](V pixels, const V3& axis, V bend) {
-    const auto component = [&](V along, V ahead) { return hn::Mul(pixels, hn::Sub(along, hn::Mul(bend, ahead))); };
+    const auto component = [&](V along, V ahead) {
+      return hn::Mul(pixels, hn::Sub(along, hn::Mul(bend, ahead)));
+    };
     return V3{component(axis.x, forward.x), component(axis.y, forward.y), component(axis.z, forward.z)};
   };
-  const V3 u = scaled_to_local(a, row(pixels_x, right, bend_x)), v = scaled_to_local(a, row(pixels_y, down, bend_y));
+  const V3 u = scaled_to_local(a, row(pixels_x, right, bend_x)),
+           v = scaled_to_local(a, row(pixels_y, down, bend_y));
   const V sigma_xx = hn::Add(dot(u, u), set(kLowPassPx2)), sigma_yy = hn::Add(dot(v, v), set(kLowPassPx2));
   const V sigma_xy = dot(u, v);
   const V det = hn::Sub(hn::Mul(sigma_xx, sigma_yy), hn::Mul(sigma_xy, sigma_xy));
@@ -153,15 +171,19 @@ HWY_INLINE void project_vector(const Attributes& a, M wanted, std::uint32_t firs
   const V x = hn::Add(hn::Mul(set(camera.fx_px), slope_x), set(camera.cx_px));
   const V y = hn::Add(hn::Mul(set(camera.fy_px), slope_y), set(camera.cy_px));
   const V log2_opacity = log2_of(a.opacity);
-  const V mahalanobis2 = hn::Mul(set(2 * kLn2), hn::Max(hn::Add(log2_opacity, set(kLog2Of255)), hn::Zero(kF)));
-  const V half_width = hn::Sqrt(hn::Mul(mahalanobis2, sigma_xx)), half_height = hn::Sqrt(hn::Mul(mahalanobis2, sigma_yy));
-  const M regular = hn::And(hn::Gt(det, hn::Zero(kF)), hn::Lt(det, set(std::numeric_limits<float>::infinity())));
+  const V mahalanobis2 =
+      hn::Mul(set(2 * kLn2), hn::Max(hn::Add(log2_opacity, set(kLog2Of255)), hn::Zero(kF)));
+  const V half_width = hn::Sqrt(hn::Mul(mahalanobis2, sigma_xx)),
+          half_height = hn::Sqrt(hn::Mul(mahalanobis2, sigma_yy));
+  const M regular =
+      hn::And(hn::Gt(det, hn::Zero(kF)), hn::Lt(det, set(std::numeric_limits<float>::infinity())));
   const M inside = hn::And(overlaps(x, half_width, frame.region.x0, frame.region.x1),
                            overlaps(y, half_height, frame.region.y0, frame.region.y1));
   const M drawn = hn::And(before, hn::And(regular, inside));
 
   const V scale = hn::Div(set(kLog2E), det);
-  const V3 ray = {hn::Sub(a.position.x, set(frame.eye_world.x)), hn::Sub(a.position.y, set(frame.eye_world.y)),
+  const V3 ray = {hn::Sub(a.position.x, set(frame.eye_world.x)),
+                  hn::Sub(a.position.y, set(frame.eye_world.y)),
                   hn::Sub(a.position.z, set(frame.eye_world.z))};
   const V inverse_length = hn::Div(set(1), hn::Sqrt(dot(ray, ray)));
   const int at = batch->size;
@@ -218,7 +240,8 @@ void set_colours(const GaussianCloud& cloud, const RasterOptions& options, Splat
   if (!options.colour) return;
   for (int i = 0; i < batch->size; ++i) {
     const glm::vec3& dc = cloud.f_dc[batch->gaussian[i]];
-    batch->red[i] = 0.5f + kShC0 * dc.r, batch->green[i] = 0.5f + kShC0 * dc.g, batch->blue[i] = 0.5f + kShC0 * dc.b;
+    batch->red[i] = 0.5f + kShC0 * dc.r, batch->green[i] = 0.5f + kShC0 * dc.g,
+    batch->blue[i] = 0.5f + kShC0 * dc.b;
   }
   if (cloud.sh_degree == 1) add_sh<1>(cloud, batch);
   if (cloud.sh_degree == 2) add_sh<2>(cloud, batch);
@@ -244,8 +267,9 @@ void project_batch(const GaussianCloud& cloud, std::uint32_t begin, std::uint32_
     const M wanted = shown_lanes(options, g, count);
     if (hn::AllFalse(kF, wanted)) continue;
     const bool whole = g + kWidth <= cloud.size();
-    const Attributes a = whole ? load(&cloud.position[g], &cloud.scale[g], &cloud.rotation[g], &cloud.opacity[g])
-                               : load_tail(cloud, g, count);
+    const Attributes a =
+        whole ? load(&cloud.position[g], &cloud.scale[g], &cloud.rotation[g], &cloud.opacity[g])
+              : load_tail(cloud, g, count);
     project_vector(a, wanted, g, frame, batch);
   }
   set_colours(cloud, options, batch);

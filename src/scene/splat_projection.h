@@ -14,7 +14,7 @@
 namespace splatcut {
 
 struct SplatBatch {
-  static constexpr std::size_t kGaussians = 256;           // that project_batch() takes at most
+  static constexpr std::size_t kGaussians = 256;             // that project_batch() takes at most
   static constexpr std::size_t kCapacity = kGaussians + 16;  // room for the last whole vector
 
   int size = 0;

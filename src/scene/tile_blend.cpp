@@ -62,11 +62,15 @@ HWY_INLINE V fma(V a, V b, V c) {
 #endif
 }
 
+// Added to a float below 2^22 in size, leaves it rounded to a whole number in the low bits.
+constexpr float kRoundShift = 12582912.0f;  // 1.5 * 2^23
+constexpr std::int32_t kRoundShiftBits = 0x4b400000;
+
 // 2^p for p <= 0, relative error below 3e-7: integer part into the exponent, Taylor series of degree 6.
 HWY_INLINE V exp2_of(V p) {
   p = hn::Max(p, hn::Set(kF, -126.0f));
-  const V whole = hn::Round(p);
-  const V f = hn::Sub(p, whole);
+  const V shifted = hn::Add(p, hn::Set(kF, kRoundShift));
+  const V f = hn::Sub(p, hn::Sub(shifted, hn::Set(kF, kRoundShift)));
   V r = hn::Set(kF, 1.5403530e-4f);
   r = fma(r, f, hn::Set(kF, 1.3333558e-3f));
   r = fma(r, f, hn::Set(kF, 9.6181291e-3f));
@@ -74,11 +78,12 @@ HWY_INLINE V exp2_of(V p) {
   r = fma(r, f, hn::Set(kF, 2.4022651e-1f));
   r = fma(r, f, hn::Set(kF, 6.9314718e-1f));
   r = fma(r, f, hn::Set(kF, 1.0f));
-  const auto exponent = hn::ShiftLeft<23>(hn::ConvertTo(kI, whole));
+  const auto exponent = hn::ShiftLeft<23>(hn::BitCast(kI, shifted));
   return hn::BitCast(kF, hn::Add(hn::BitCast(kI, r), exponent));
 }
 
-// The splats of a tile that are being blended. The arrays hold whole vectors; what pads them touches no block.
+// The splats of a tile that are being blended. The arrays hold whole vectors; what pads them touches no
+// block.
 struct Chunk {
   static constexpr int kCapacity = kChunk + kBlockPixels;
   int size = 0;
@@ -131,9 +136,11 @@ void sort_front_to_back(const TileEntry* entries, std::size_t count, Workspace* 
 
 void derive_ellipses(Chunk* chunk) {
   // On entry width2, slope and tip hold log2_opacity, qc and qb, and tilt holds qa.
-  const V faintest = hn::Set(kF, kLog2AlphaMin - kLog2AlphaSlack), tiny = hn::Set(kF, std::numeric_limits<float>::min());
+  const V faintest = hn::Set(kF, kLog2AlphaMin - kLog2AlphaSlack),
+          tiny = hn::Set(kF, std::numeric_limits<float>::min());
   for (int i = 0; i < chunk->size; i += kWidth) {
-    const V qa = hn::Load(kF, &chunk->tilt[i]), qb = hn::Load(kF, &chunk->tip[i]), qc = hn::Load(kF, &chunk->slope[i]);
+    const V qa = hn::Load(kF, &chunk->tilt[i]), qb = hn::Load(kF, &chunk->tip[i]),
+            qc = hn::Load(kF, &chunk->slope[i]);
     const V tilt = hn::Div(hn::Mul(hn::Set(kF, -0.5f), qb), qa);
     const V width2 = hn::Div(hn::Sub(faintest, hn::Load(kF, &chunk->width2[i])), qa);
     const V ratio = hn::Div(qc, qa);
@@ -146,7 +153,8 @@ void derive_ellipses(Chunk* chunk) {
   }
 }
 
-void gather(const TileGrid& grid, const TileEntry* entries, const KeyValue<std::uint32_t>* order, int count, bool sums, Chunk* chunk) {
+void gather(const TileGrid& grid, const TileEntry* entries, const KeyValue<std::uint32_t>* order, int count,
+            bool sums, Chunk* chunk) {
   constexpr int kAhead = 16;  // splats lie apart in memory: asked for early
   const auto gaussian_of = [&](int i) { return entries[order[i].value].gaussian; };
   chunk->size = count;
@@ -199,15 +207,16 @@ void list_row(const Chunk& chunk, float x0, float y0, std::uint32_t alive, Block
       const float corner = x0 + static_cast<float>(b * kBlockPx);
       const auto touches = hn::And(reached, hn::And(hn::Ge(right, hn::Set(kF, corner + kFirst - kSlackPx)),
                                                     hn::Le(left, hn::Set(kF, corner + kLast + kSlackPx))));
-      lists->count[b] += static_cast<int>(
-          hn::CompressStore(index, hn::RebindMask(kI, touches), kI, lists->splat[b].data() + lists->count[b]));
+      lists->count[b] += static_cast<int>(hn::CompressStore(index, hn::RebindMask(kI, touches), kI,
+                                                            lists->splat[b].data() + lists->count[b]));
     }
   }
 }
 
 void start_pixels(const View& view, int tile_x, int tile_y, TilePixels* pixels) {
   pixels->alive = 0;
-  for (auto* values : {&pixels->red, &pixels->green, &pixels->blue, &pixels->depth, &pixels->median}) values->fill(0);
+  for (auto* values : {&pixels->red, &pixels->green, &pixels->blue, &pixels->depth, &pixels->median})
+    values->fill(0);
   pixels->hit.fill(-1);
   pixels->object_pixels.fill(0);
   for (int i = 0; i < kTilePixels; ++i) {
@@ -215,7 +224,8 @@ void start_pixels(const View& view, int tile_x, int tile_y, TilePixels* pixels) 
     const int x = tile_x + block % kBlocksAcross * kBlockPx + p % kBlockPx;
     const int y = tile_y + block / kBlocksAcross * kBlockPx + p / kBlockPx;
     const bool drawn = x >= view.roi.x0 && x < view.roi.x1 && y >= view.roi.y0 && y < view.roi.y1;
-    pixels->transmittance[i] = drawn ? 1.0f : 0.0f;  // pixels outside are opaque from the start: they do not count
+    pixels->transmittance[i] =
+        drawn ? 1.0f : 0.0f;  // pixels outside are opaque from the start: they do not count
     if (drawn) pixels->alive |= 1u << block;
     if (!view.pair_sums) continue;
     const bool object = drawn && view.options.sum_mask->at(x, y);
@@ -224,12 +234,15 @@ void start_pixels(const View& view, int tile_x, int tile_y, TilePixels* pixels) 
   }
 }
 
-// Blends the listed splats of a chunk into the block with the corner (x0, y0). True when no pixel of it can change any more.
+// Blends the listed splats of a chunk into the block with the corner (x0, y0). True when no pixel of it can
+// change any more.
 template <bool kColour, bool kDepth, bool kSums>
-bool blend_block(float x0, float y0, int block, const std::int32_t* list, int count, TilePixels* pixels, Chunk* chunk) {
+bool blend_block(float x0, float y0, int block, const std::int32_t* list, int count, TilePixels* pixels,
+                 Chunk* chunk) {
   const int begin = block * kBlockPixels;
   const bool some_object = kSums && pixels->object_pixels[block] != 0;
-  V px[kVectors], py[kVectors], transmittance[kVectors], red[kVectors], green[kVectors], blue[kVectors], depth[kVectors], median[kVectors];
+  V px[kVectors], py[kVectors], transmittance[kVectors], red[kVectors], green[kVectors], blue[kVectors],
+      depth[kVectors], median[kVectors];
   hn::Vec<IntLanes> hit[kVectors], object[kVectors];
   for (int v = 0; v < kVectors; ++v) {
     const int at = begin + v * kWidth;
@@ -248,7 +261,8 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
     }
     if constexpr (kSums) object[v] = hn::Load(kI, &pixels->object[at]);
   }
-  const V stop = hn::Set(kF, kTransmittanceStop), alpha_min = hn::Set(kF, kAlphaMin), alpha_max = hn::Set(kF, kAlphaMax);
+  const V stop = hn::Set(kF, kTransmittanceStop), alpha_min = hn::Set(kF, kAlphaMin),
+          alpha_max = hn::Set(kF, kAlphaMax);
   const V half = hn::Set(kF, 0.5f);
   bool opaque = false;
   for (int k = 0; k < count && !opaque; ++k) {
@@ -279,16 +293,21 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
         depth[v] = fma(weight, hn::Set(kF, s.depth), depth[v]);
         const auto crosses = hn::And(hn::Ge(before, half), hn::Lt(after, half));
         median[v] = hn::IfThenElse(crosses, hn::Set(kF, s.depth), median[v]);
-        hit[v] = hn::IfThenElse(hn::RebindMask(kI, crosses), hn::Set(kI, static_cast<std::int32_t>(gaussian)), hit[v]);
+        hit[v] = hn::IfThenElse(hn::RebindMask(kI, crosses), hn::Set(kI, static_cast<std::int32_t>(gaussian)),
+                                hit[v]);
       }
       if constexpr (kSums) {
-        const auto u = hn::NearestInt(hn::Mul(weight, hn::Set(kF, static_cast<float>(MaskedSums::kUnitsPerPixel))));
+        const V shifted = fma(weight, hn::Set(kF, static_cast<float>(MaskedSums::kUnitsPerPixel)),
+                              hn::Set(kF, kRoundShift));
+        const auto u = hn::Sub(hn::BitCast(kI, shifted), hn::Set(kI, kRoundShiftBits));
         units = hn::Add(units, u);
-        units_inside = hn::Add(units_inside, hn::And(u, object[v]));
+        if (some_object) units_inside = hn::Add(units_inside, hn::And(u, object[v]));
       }
     }
     if constexpr (kSums) {
-      const auto add = [&](std::int32_t* sum, hn::Vec<IntLanes> more) { hn::Store(hn::Add(hn::Load(kI, sum), more), kI, sum); };
+      const auto add = [&](std::int32_t* sum, hn::Vec<IntLanes> more) {
+        hn::Store(hn::Add(hn::Load(kI, sum), more), kI, sum);
+      };
       add(&chunk->total[i * kWidth], units);
       if (some_object) add(&chunk->inside[i * kWidth], units_inside);
     }
@@ -324,8 +343,9 @@ void blend_chunk(int tile_x, int tile_y, Workspace* work) {
     for (int b = 0; b < kBlocksAcross; ++b) {
       if (!(alive >> b & 1)) continue;
       const int block = row * kBlocksAcross + b;
-      if (blend_block<kColour, kDepth, kSums>(x0 + static_cast<float>(b * kBlockPx), y0, block, work->lists.splat[b].data(),
-                                              work->lists.count[b], &pixels, &work->chunk))
+      if (blend_block<kColour, kDepth, kSums>(x0 + static_cast<float>(b * kBlockPx), y0, block,
+                                              work->lists.splat[b].data(), work->lists.count[b], &pixels,
+                                              &work->chunk))
         pixels.alive &= ~(1u << block);
     }
   }
@@ -350,7 +370,8 @@ void store_pixels(const View& view, int tile_x, int tile_y, const TilePixels& pi
     const float transmittance = pixels.transmittance[i];
     out.alpha.at(x, y) = 1 - transmittance;
     if constexpr (kColour)
-      out.colour.at(x, y) = glm::vec3(pixels.red[i], pixels.green[i], pixels.blue[i]) + transmittance * view.options.background;
+      out.colour.at(x, y) =
+          glm::vec3(pixels.red[i], pixels.green[i], pixels.blue[i]) + transmittance * view.options.background;
     if constexpr (kDepth) {
       out.expected_depth.at(x, y) = transmittance < 1 ? pixels.depth[i] / (1 - transmittance) : 0;
       out.median_depth.at(x, y) = pixels.median[i];
@@ -387,8 +408,10 @@ using DrawTile = void (*)(const View&, int);
 void blend_tiles(const TileGrid& grid, const RasterOptions& options, const PixelRect& roi, const Job& job,
                  PairSums* pair_sums, RasterOutput* out) {
   static constexpr DrawTile kDraw[2][2][2] = {
-      {{draw_tile<false, false, false>, draw_tile<false, false, true>}, {draw_tile<false, true, false>, draw_tile<false, true, true>}},
-      {{draw_tile<true, false, false>, draw_tile<true, false, true>}, {draw_tile<true, true, false>, draw_tile<true, true, true>}}};
+      {{draw_tile<false, false, false>, draw_tile<false, false, true>},
+       {draw_tile<false, true, false>, draw_tile<false, true, true>}},
+      {{draw_tile<true, false, false>, draw_tile<true, false, true>},
+       {draw_tile<true, true, false>, draw_tile<true, true, true>}}};
   const DrawTile draw = kDraw[options.colour][options.depth][pair_sums != nullptr];
   const View view{grid, options, roi, pair_sums, out};
   tbb::parallel_for(0, grid.tiles(), [&](int tile) {
@@ -396,7 +419,9 @@ void blend_tiles(const TileGrid& grid, const RasterOptions& options, const Pixel
   });
 }
 
-const char* target_name() { return hwy::TargetName(HWY_TARGET); }
+const char* target_name() {
+  return hwy::TargetName(HWY_TARGET);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace splatcut
@@ -413,7 +438,9 @@ void blend_tiles(const TileGrid& grid, const RasterOptions& options, const Pixel
   HWY_DYNAMIC_DISPATCH(blend_tiles)(grid, options, roi, job, pair_sums, out);
 }
 
-const char* blend_simd_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
+const char* blend_simd_target() {
+  return HWY_DYNAMIC_DISPATCH(target_name)();
+}
 
 }  // namespace splatcut
 #endif

@@ -12,9 +12,9 @@ struct PairSums {
   std::uint32_t total, inside;
 };
 
-// Draws the tiles of the grid into `out`, whose images have the size of roi. pair_sums: null, or an element for
-// each entry of the grid, which is set. Same bits on every SIMD target and any number of threads: pixels are
-// independent lanes, FMA is explicit, sums are integers.
+// Draws the tiles of the grid into `out`, whose images have the size of roi. pair_sums: null, or an element
+// for each entry of the grid, which is set. Same bits on every SIMD target and any number of threads: pixels
+// are independent lanes, FMA is explicit, sums are integers.
 void blend_tiles(const TileGrid& grid, const RasterOptions& options, const PixelRect& roi, const Job& job,
                  PairSums* pair_sums, RasterOutput* out);
 

@@ -32,12 +32,15 @@ constexpr float kCentreInset = 0.45f;
 // Tiles with pixel centres from low_px to high_px, as a half-open range of the grid.
 std::pair<int, int> tile_range(float low_px, float high_px, int first, int count) {
   const float low = low_px + kCentreInset, high = high_px - kCentreInset;
-  return {tile_at(low, first, count), high < static_cast<float>(first * kTilePx) ? 0 : std::min(tile_at(high, first, count) + 1, count)};
+  return {tile_at(low, first, count),
+          high < static_cast<float>(first * kTilePx) ? 0 : std::min(tile_at(high, first, count) + 1, count)};
 }
 
 TileSpan span_of(const SplatBatch& b, int i, const TileGrid& grid) {
-  const auto [x0, x1] = tile_range(b.x_px[i] - b.half_width_px[i], b.x_px[i] + b.half_width_px[i], grid.first_tile_x, grid.tiles_x);
-  const auto [y0, y1] = tile_range(b.y_px[i] - b.half_height_px[i], b.y_px[i] + b.half_height_px[i], grid.first_tile_y, grid.tiles_y);
+  const auto [x0, x1] = tile_range(b.x_px[i] - b.half_width_px[i], b.x_px[i] + b.half_width_px[i],
+                                   grid.first_tile_x, grid.tiles_x);
+  const auto [y0, y1] = tile_range(b.y_px[i] - b.half_height_px[i], b.y_px[i] + b.half_height_px[i],
+                                   grid.first_tile_y, grid.tiles_y);
   return {x0, x1, y0, y1};
 }
 
@@ -50,7 +53,8 @@ struct Ellipse {
       : tilt(-0.5f * b.qb[i] / b.qa[i]),
         width2((b.log2_opacity[i] - kLog2AlphaMin + kLog2AlphaSlack) / -b.qa[i]),
         slope(b.qc[i] / b.qa[i] - tilt * tilt),
-        tip(tilt * std::sqrt(width2 / std::max(slope * (slope + tilt * tilt), std::numeric_limits<float>::min()))) {}
+        tip(tilt *
+            std::sqrt(width2 / std::max(slope * (slope + tilt * tilt), std::numeric_limits<float>::min()))) {}
 
   float half_width(float dy) const { return std::sqrt(std::max(0.0f, width2 - slope * dy * dy)); }
   // Farthest to the right and, by symmetry, to the left between two heights.
@@ -74,13 +78,14 @@ void visit_tiles(const SplatBatch& b, int i, const TileGrid& grid, const Visit& 
   for (int ty = span.y0; ty < span.y1; ++ty) {
     const float border = static_cast<float>((ty + grid.first_tile_y) * kTilePx) - b.y_px[i];
     const float top = border + kCentreInset, bottom = border + kTilePx - kCentreInset;
-    const auto [x0, x1] = tile_range(b.x_px[i] + ellipse.left(top, bottom), b.x_px[i] + ellipse.right(top, bottom),
-                                     grid.first_tile_x, grid.tiles_x);
+    const auto [x0, x1] = tile_range(b.x_px[i] + ellipse.left(top, bottom),
+                                     b.x_px[i] + ellipse.right(top, bottom), grid.first_tile_x, grid.tiles_x);
     for (int tx = std::max(x0, span.x0); tx < std::min(x1, span.x1); ++tx) visit(ty * grid.tiles_x + tx);
   }
 }
 
-// Gaussians per run: the same for any number of threads, and few enough runs that their counts per tile stay small.
+// Gaussians per run: the same for any number of threads, and few enough runs that their counts per tile stay
+// small.
 std::size_t run_size(std::size_t gaussians) {
   constexpr std::size_t kSmallest = 32 * SplatBatch::kGaussians, kMostRuns = 256;
   const std::size_t batches = (gaussians / kMostRuns + SplatBatch::kGaussians) / SplatBatch::kGaussians;
@@ -93,20 +98,24 @@ struct Run {
   std::vector<std::uint32_t> place;  // per tile: pairs of this run, then the entry where the next one goes
 };
 
-// Lists the splats of the Gaussians begin <= g < end with their tiles, which stand in SplatTile::entry for now.
-void project_run(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options, const PixelRect& region,
-                 std::size_t begin, std::size_t end, TileGrid* grid, Run* run, std::vector<SplatTile>* pairs) {
+// Lists the splats of the Gaussians begin <= g < end with their tiles, which stand in SplatTile::entry for
+// now.
+void project_run(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
+                 const PixelRect& region, std::size_t begin, std::size_t end, TileGrid* grid, Run* run,
+                 std::vector<SplatTile>* pairs) {
   run->place.assign(static_cast<std::size_t>(grid->tiles()), 0);
   pairs->reserve(2 * (end - begin));
   SplatBatch batch;
   for (std::size_t g = begin; g < end; g += SplatBatch::kGaussians) {
     const std::size_t last = std::min(end, g + SplatBatch::kGaussians);
-    project_batch(cloud, static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(last), camera, options, region, &batch);
+    project_batch(cloud, static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(last), camera, options,
+                  region, &batch);
     run->visible += static_cast<std::size_t>(batch.size);
     for (int i = 0; i < batch.size; ++i) {
       const std::uint32_t gaussian = batch.gaussian[i];
-      grid->splats[gaussian] = {batch.x_px[i], batch.y_px[i],  batch.qa[i],    batch.qb[i],   batch.qc[i], batch.log2_opacity[i],
-                                batch.red[i],  batch.green[i], batch.blue[i], batch.depth[i]};
+      grid->splats[gaussian] = {batch.x_px[i], batch.y_px[i],         batch.qa[i],  batch.qb[i],
+                                batch.qc[i],   batch.log2_opacity[i], batch.red[i], batch.green[i],
+                                batch.blue[i], batch.depth[i]};
       visit_tiles(batch, i, *grid, [&](int tile) {
         pairs->push_back({gaussian, static_cast<std::uint32_t>(tile)});
         ++run->place[static_cast<std::size_t>(tile)];
@@ -138,7 +147,8 @@ void fill_entries(Run* run, std::vector<SplatTile>* pairs, TileGrid* grid) {
 
 }  // namespace
 
-TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options, const Job& job) {
+TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
+                    const Job& job) {
   const PixelRect roi = options.roi.value_or(PixelRect{0, 0, camera.width_px, camera.height_px});
   TileGrid grid;
   grid.first_tile_x = roi.x0 / kTilePx;
@@ -151,14 +161,16 @@ TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const Rast
   grid.runs.resize(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t r) {
     if (job.cancelled()) return;
-    project_run(cloud, camera, options, roi, r * step, std::min(cloud.size(), (r + 1) * step), &grid, &runs[r], &grid.runs[r]);
+    project_run(cloud, camera, options, roi, r * step, std::min(cloud.size(), (r + 1) * step), &grid,
+                &runs[r], &grid.runs[r]);
   });
   grid.first_entry.assign(static_cast<std::size_t>(grid.tiles()) + 1, 0);
   if (job.cancelled()) return grid;
   for (const Run& run : runs) grid.visible += run.visible;
   assign_places(&runs, &grid);
   grid.entries = LargeArray<TileEntry>(grid.first_entry.back());
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t r) { fill_entries(&runs[r], &grid.runs[r], &grid); });
+  tbb::parallel_for(std::size_t{0}, count,
+                    [&](std::size_t r) { fill_entries(&runs[r], &grid.runs[r], &grid); });
   return grid;
 }
 

@@ -11,7 +11,8 @@ namespace splatcut {
 
 inline constexpr int kTilePx = 16;
 inline constexpr float kLog2AlphaMin = -7.994353436858858f;  // log2(1/255)
-// Added to log2(alpha) where splats are left out for being too faint: rounding must not decide, the pixel does.
+// Added to log2(alpha) where splats are left out for being too faint: rounding must not decide, the pixel
+// does.
 inline constexpr float kLog2AlphaSlack = 1e-2f;
 
 // What blending needs of one splat. alpha = min(0.99, 2^(log2_opacity + qa dx^2 + qb dx dy + qc dy^2)).
@@ -48,6 +49,7 @@ struct TileGrid {
   int tiles() const { return tiles_x * tiles_y; }
 };
 
-TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options, const Job& job);
+TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
+                    const Job& job);
 
 }  // namespace splatcut
