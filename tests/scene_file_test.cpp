@@ -1,17 +1,21 @@
 #include "scene/scene_file.h"
 
 #include <doctest/doctest.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <sstream>
 
 #include "scene/error.h"
+#include "scene/morton.h"
 
 using namespace splatcut;
 namespace fs = std::filesystem;
@@ -358,6 +362,58 @@ TEST_CASE("bad files are refused with a clear sentence") {
     const std::string bytes = text_of(folder / name);
     check("half_" + std::string(name), bytes.substr(0, bytes.size() / 2), {"truncated"});
   }
+}
+
+TEST_CASE("loading stops at every stage when asked to, without an error and without a scene") {
+  const Folder folder;
+  Scene scene;
+  scene.cloud = random_cloud(5000, 2);
+  for (const char* name : {"a.ply", "a.compressed.ply", "a.splat", "a.spz"}) {
+    CAPTURE(name);
+    save_scene(folder / name, scene, {}, format_from_name(name));
+    int stages = 0;
+    Job counting;
+    counting.on_progress = [&](std::string_view, double) { ++stages; };
+    REQUIRE(load_scene(folder / name, counting).cloud.size() == 5000);
+    REQUIRE(stages >= 3);
+    for (int stop_at = 1; stop_at < stages; ++stop_at) {
+      CAPTURE(stop_at);
+      std::stop_source source;
+      Job job;
+      job.stop = source.get_token();
+      int stage = 0;
+      job.on_progress = [&](std::string_view, double) {
+        if (++stage == stop_at) source.request_stop();
+      };
+      CHECK_NOTHROW(load_scene(folder / name, job));
+      CHECK(stage <= stop_at + 1);  // the stage at hand ends early and no other begins
+    }
+  }
+}
+
+TEST_CASE("Morton order: sorted by interleaved bits, ties by index, the same on any number of threads") {
+  std::vector<glm::vec3> points;
+  std::mt19937 random(3);
+  for (int i = 0; i < 200000; ++i) {
+    const auto coordinate = [&] { return static_cast<float>(random() % 64); };
+    points.emplace_back(coordinate(), coordinate(), coordinate());
+  }
+  REQUIRE(robust_bounds(points).min == glm::vec3(0));
+  REQUIRE(robust_bounds(points).max == glm::vec3(63));
+  const auto code = [&](std::uint32_t i) {
+    std::uint64_t bits = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float cell = std::min(points[i][axis] * (2097152.0f / 63.0f), 2097151.0f);
+      for (int b = 0; b < 21; ++b) bits |= (static_cast<std::uint64_t>(cell) >> b & 1) << (3 * b + axis);
+    }
+    return bits;
+  };
+  std::vector<std::uint32_t> expected(points.size());
+  std::iota(expected.begin(), expected.end(), 0u);
+  std::ranges::stable_sort(expected, {}, code);
+  for (const int threads : {1, 2, 3})
+    tbb::task_arena(threads).execute([&] { CHECK(morton_order(points) == expected); });
+  CHECK(morton_order({}).empty());
 }
 
 TEST_CASE("saving: an empty selection and a changed source are refused, nothing is left behind") {

@@ -10,6 +10,7 @@ template <class T>
 void reserve_in_large_pages(std::vector<T>& values, std::size_t n) {
   values.reserve(n);
   advise_large_pages(values.data(), n * sizeof(T));
+  touch_large_pages(values.data(), n * sizeof(T));  // the zeros of resize() would do it on one thread
 }
 
 }  // namespace

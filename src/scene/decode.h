@@ -51,7 +51,7 @@ void decode_rows(const Source& source, std::size_t rows, int degree, Scene& scen
   scene.dropped = rows - row_of.size();
 
   job.progress("sorting along the Morton curve", 0.3);
-  const std::vector<std::uint32_t> order = morton_order(positions);
+  const std::vector<std::uint32_t> order = morton_order(positions, job);
   if (job.cancelled()) return;
   job.progress("decoding Gaussians", 0.5);
   GaussianCloud& cloud = scene.cloud;

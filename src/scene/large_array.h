@@ -14,6 +14,10 @@ inline constexpr std::size_t kLargePageBytes = std::size_t{1} << 21;
 // Asks for large pages in [data, data + bytes). Only advice: without them everything works, slower.
 void advise_large_pages(void* data, std::size_t bytes);
 
+// Takes the memory of [data, data + bytes) from the system now, on all threads, in place of one by one at the
+// first write. The bytes may be overwritten with zeros. For memory that advise_large_pages() was called for.
+void touch_large_pages(void* data, std::size_t bytes);
+
 template <class T>
 class LargeArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);

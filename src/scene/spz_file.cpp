@@ -24,6 +24,9 @@ constexpr std::size_t kV4HeaderBytes = 32;
 // Memory is taken as data arrives, so that a small file that promises much is refused at little cost.
 constexpr std::size_t kFirstBuffer = 1 << 22;
 
+// Unpacked between two looks at the stop token: some 10 ms.
+constexpr std::size_t kPiece = 1 << 22;
+
 using Bytes = std::vector<std::byte>;
 
 void grow(Bytes& bytes, std::size_t wanted) {
@@ -42,9 +45,10 @@ class GzipReader {
   GzipReader& operator=(const GzipReader&) = delete;
   ~GzipReader() { inflateEnd(&stream_); }
 
-  Bytes read(std::size_t count) {
+  // Fewer bytes when cancelled.
+  Bytes read(std::size_t count, const Job& job) {
     Bytes out;
-    for (std::size_t done = 0; done < count;) {
+    for (std::size_t done = 0; done < count && !job.cancelled();) {
       if (done == out.size()) grow(out, count);
       done += read_some(std::span(out).subspan(done), done);
     }
@@ -53,7 +57,6 @@ class GzipReader {
 
  private:
   std::size_t read_some(std::span<std::byte> out, std::size_t done) {
-    constexpr std::size_t kPiece = 1 << 30;  // zlib counts in 32 bits
     const auto in = in_.first(std::min(in_.size(), kPiece));
     stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(in.data()));
     stream_.avail_in = static_cast<uInt>(in.size());
@@ -76,15 +79,16 @@ class GzipReader {
   z_stream stream_{};
 };
 
+// Incomplete when cancelled.
 Bytes unpack_zstd(const MappedFile& file, std::span<const std::byte> packed, std::size_t size,
-                  std::size_t index) {
+                  std::size_t index, const Job& job) {
   const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(),
                                                                              ZSTD_freeDStream);
   ZSTD_inBuffer in{packed.data(), packed.size(), 0};
   Bytes bytes;
-  for (std::size_t done = 0; done < size;) {
+  for (std::size_t done = 0; done < size && !job.cancelled();) {
     if (done == bytes.size()) grow(bytes, size);
-    ZSTD_outBuffer out{bytes.data(), bytes.size(), done};
+    ZSTD_outBuffer out{bytes.data(), std::min(bytes.size(), done + kPiece), done};
     const std::size_t result = ZSTD_decompressStream(stream.get(), &out, &in);
     if (ZSTD_isError(result))
       throw Error(file.path().string(),
@@ -190,7 +194,9 @@ SpzRows rows_for(const spz::Header& header) {
 
 void read_gzip(const MappedFile& file, Scene& scene, const Job& job) {
   GzipReader reader(file);
-  const auto header = load<spz::Header>(reader.read(sizeof(spz::Header)).data());
+  const Bytes begin_of_data = reader.read(sizeof(spz::Header), job);
+  if (job.cancelled()) return;
+  const auto header = load<spz::Header>(begin_of_data.data());
   check_header(file, header);
   if (header.version > 3)
     throw Error(file.path().string(), fmt::format("version {} inside gzip data", header.version));
@@ -198,7 +204,9 @@ void read_gzip(const MappedFile& file, Scene& scene, const Job& job) {
   const auto row_bytes = spz::attribute_bytes(header.version, header.sh_degree);
   std::size_t total = 0;
   for (const std::size_t bytes : row_bytes) total += bytes * header.points;
-  const Bytes data = reader.read(total);
+  job.progress("unpacking", 0.0);
+  const Bytes data = reader.read(total, job);
+  if (job.cancelled()) return;
   std::size_t begin = 0;
   for (std::size_t a = 0; a < row_bytes.size(); ++a) {
     rows.attributes[a] = std::span(data).subspan(begin, row_bytes[a] * header.points);
@@ -239,10 +247,12 @@ void read_streams(const MappedFile& file, Scene& scene, const Job& job) {
     packed[s] = all.subspan(begin, entry.packed_bytes);
     begin += entry.packed_bytes;
   }
+  job.progress("unpacking", 0.0);
   std::array<Bytes, spz::kAttributes> data;
   tbb::parallel_for(std::size_t{0}, streams, [&](std::size_t s) {
-    data[s] = unpack_zstd(file, packed[s], row_bytes[s] * header.points, s);
+    data[s] = unpack_zstd(file, packed[s], row_bytes[s] * header.points, s, job);
   });
+  if (job.cancelled()) return;
   SpzRows rows = rows_for(header);
   for (std::size_t s = 0; s < streams; ++s) rows.attributes[s] = data[s];
   decode_rows(rows, header.points, rows.degree, scene, job);

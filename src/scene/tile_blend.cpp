@@ -129,9 +129,10 @@ struct View {
 // The entries of a tile by depth, ties in cloud order. Positive floats order like their bits.
 void sort_front_to_back(const TileEntry* entries, std::size_t count, Workspace* work) {
   work->order.resize(count);
+  work->scratch.resize(count);
   for (std::size_t i = 0; i < count; ++i)
     work->order[i] = {std::bit_cast<std::uint32_t>(entries[i].depth), static_cast<std::uint32_t>(i)};
-  radix_sort<8>(work->order, work->scratch, 32);
+  radix_sort<8>(std::span(work->order), std::span(work->scratch), 0, 32);
 }
 
 void derive_ellipses(Chunk* chunk) {
