@@ -1,49 +1,74 @@
-// Frames of a synthetic cloud at 1280x720: Gaussians x threads x masked sums.
+// Frames at 1280x720: scene x thousand Gaussians x threads x masked sums.
+#include "rasterizer_bench.h"
+
 #include <benchmark/benchmark.h>
-#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
-#include "scene/morton.h"
+#include <cstdlib>
+
+#include "bench_scenes.h"
 #include "scene/rasterizer.h"
-#include "synthetic_cloud.h"
 
-using namespace splatcut;
+namespace splatcut::bench {
 
 namespace {
 
-const GaussianCloud& cloud_of(std::size_t n) {
-  static std::map<std::size_t, GaussianCloud> clouds;
-  auto [it, fresh] = clouds.try_emplace(n);
-  if (fresh) {
-    // Splat size falls with the count, as in a trained scene: the same surface, described more finely.
-    const GaussianCloud cloud = testing::random_cloud(n, 1, 1, 0.05f * std::pow(1e5f / static_cast<float>(n), 0.45f));
-    it->second = permuted(cloud, morton_order(cloud.position));
-  }
-  return it->second;
+// The middle ninth of the picture.
+Mask middle_of(const Camera& camera) {
+  Mask mask(camera.width_px, camera.height_px);
+  for (int y = mask.height() / 3; y < 2 * mask.height() / 3; ++y)
+    for (int x = mask.width() / 3; x < 2 * mask.width() / 3; ++x) mask.at(x, y) = kMaskObject;
+  return mask;
 }
 
-void rasterize_frame(benchmark::State& state) {
-  const GaussianCloud& cloud = cloud_of(static_cast<std::size_t>(state.range(0)) * 1000);
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(1)));
-  const Camera camera = testing::front_camera(1280, 720);
-  Mask mask(camera.width_px, camera.height_px);
-  for (int y = 200; y < 500; ++y)
-    for (int x = 400; x < 800; ++x) mask.at(x, y) = kMaskObject;
-  MaskedSums sums(cloud.size());
+void draw(benchmark::State& state, const BenchScene& scene, int threads, bool with_sums) {
+  const Mask mask = middle_of(scene.view);
+  MaskedSums sums(scene.cloud.size());
   RasterOptions options;
-  if (state.range(2)) {
+  if (with_sums) {
     options.sum_mask = &mask;
     options.sums = &sums;
   }
-  for (auto _ : state) benchmark::DoNotOptimize(rasterize(cloud, camera, options).alpha.data());
+  RasterOutput out;
+  tbb::task_arena arena(threads);
+  for (auto _ : state) arena.execute([&] { out = rasterize(scene.cloud, scene.view, options); });
+  state.counters["visible"] = static_cast<double>(out.visible);
+  state.counters["pairs"] = static_cast<double>(out.pairs);
 }
+
+void rasterize_still_life(benchmark::State& state) {
+  draw(state, still_life(static_cast<std::size_t>(state.range(0)) * 1000), state.range(1),
+       state.range(2) != 0);
+}
+
+void rasterize_volume(benchmark::State& state) {
+  draw(state, volume(static_cast<std::size_t>(state.range(0)) * 1000), static_cast<int>(state.range(1)),
+       state.range(2) != 0);
+}
+
+void rasterize_file(benchmark::State& state) {
+  draw(state, scene_from_file(std::getenv("SPLATCUT_BENCH_SCENE")), static_cast<int>(state.range(0)),
+       state.range(1) != 0);
+}
+
+benchmark::internal::Benchmark* measured(benchmark::internal::Benchmark* bench) {
+  return bench->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+}
+
+void sizes(benchmark::internal::Benchmark* bench) {
+  measured(bench)->ArgNames({"thousand", "threads", "sums"})->ArgsProduct({{100, 500, 1000}, {1, 2}, {0, 1}});
+}
+
+BENCHMARK(rasterize_still_life)->Apply(sizes);
+BENCHMARK(rasterize_volume)->Apply(sizes);
 
 }  // namespace
 
-BENCHMARK(rasterize_frame)
-    ->ArgNames({"thousand", "threads", "sums"})
-    ->ArgsProduct({{100, 500, 1000}, {1, 2}, {0, 1}})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+void register_file_benchmark() {
+  if (!std::getenv("SPLATCUT_BENCH_SCENE")) return;
+  measured(benchmark::RegisterBenchmark("rasterize_file", rasterize_file))
+      ->ArgNames({"threads", "sums"})
+      ->ArgsProduct({{1, 2}, {0, 1}});
+}
 
-BENCHMARK_MAIN();
+}  // namespace splatcut::bench

@@ -1,0 +1,67 @@
+#include "bench_scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "scene/morton.h"
+#include "scene/scene_file.h"
+#include "scene/still_life.h"
+#include "synthetic_cloud.h"
+
+namespace splatcut::bench {
+
+namespace {
+
+constexpr int kWidth = 1280, kHeight = 720;
+
+BenchScene make_still_life_scene(std::size_t gaussians) {
+  StillLifeOptions options;
+  options.gaussians = gaussians;
+  const LabelledScene made = make_still_life(options);
+  const std::vector<std::uint32_t> order = morton_order(made.cloud.position);
+  const auto mug = std::ranges::find(made.label_name, "mug") - made.label_name.begin();
+  BenchScene scene{permuted(made.cloud, order), resized(made.cameras.front(), kWidth, kHeight), {}, {}};
+  for (const Camera& camera : made.cameras) scene.cameras.push_back(limited_to_width(camera, 400));
+  for (const std::uint32_t g : order) scene.mug.push_back(made.label[g] == mug);
+  return scene;
+}
+
+BenchScene make_volume(std::size_t gaussians) {
+  // Splats shrink as their number grows, as in a trained scene: the same things, described more finely.
+  const float size = 0.05f * std::pow(1e5f / static_cast<float>(gaussians), 0.45f);
+  const GaussianCloud cloud = testing::random_cloud(gaussians, 1, 1, size);
+  return {permuted(cloud, morton_order(cloud.position)), testing::front_camera(kWidth, kHeight), {}, {}};
+}
+
+BenchScene load(const std::filesystem::path& path) {
+  constexpr float kFovY = 0.87f;
+  BenchScene scene{load_scene(path).cloud, {}, {}, {}};
+  const Box box = robust_bounds(scene.cloud.position, 0.5);
+  const float distance = 0.5f * glm::length(box.extent()) / std::sin(0.5f * kFovY);
+  scene.view = look_at(box.centre() - glm::vec3(0, 0.35f, 0.94f) * distance, box.centre(), {0, -1, 0}, kFovY,
+                       kWidth, kHeight);
+  return scene;
+}
+
+}  // namespace
+
+const BenchScene& still_life(std::size_t gaussians) {
+  static std::map<std::size_t, BenchScene> scenes;
+  const auto it = scenes.find(gaussians);
+  return it != scenes.end() ? it->second : scenes[gaussians] = make_still_life_scene(gaussians);
+}
+
+const BenchScene& volume(std::size_t gaussians) {
+  static std::map<std::size_t, BenchScene> scenes;
+  const auto it = scenes.find(gaussians);
+  return it != scenes.end() ? it->second : scenes[gaussians] = make_volume(gaussians);
+}
+
+const BenchScene& scene_from_file(const std::filesystem::path& path) {
+  static std::map<std::filesystem::path, BenchScene> scenes;
+  const auto it = scenes.find(path);
+  return it != scenes.end() ? it->second : scenes[path] = load(path);
+}
+
+}  // namespace splatcut::bench

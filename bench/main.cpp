@@ -1,0 +1,14 @@
+// Runs the benchmarks; docs/benchmarks.md has the commands. SPLATCUT_BENCH_SCENE=FILE adds the rasteriser on
+// that file.
+#include <benchmark/benchmark.h>
+
+#include "rasterizer_bench.h"
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  splatcut::bench::register_file_benchmark();
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}
