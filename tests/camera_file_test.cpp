@@ -73,7 +73,7 @@ TEST_CASE("Inria cameras.json: read, written, read again") {
   CHECK(cameras[0].name == "a");
   check_camera(cameras[0]);
   cameras.push_back(cameras[0]);
-  cameras[1].name = "b";
+  cameras[1].name = 'b';
   cameras[1].cx_px = 300;
   save_inria_cameras(folder / "again.json", cameras);
   const std::vector<Camera> again = load_cameras(folder / "again.json");
@@ -136,6 +136,27 @@ TEST_CASE("transforms.json: OpenGL axes, lens by frame, by file or by angle") {
   write(folder / "angle.json",
         R"({"camera_angle_x": 1.5707963267948966, "w": 640, "h": 480, "frames": [{)" + matrix + "}]}");
   CHECK(load_cameras(folder / "angle.json")[0].fy_px == doctest::Approx(320));
+}
+
+TEST_CASE("lens distortion is left out with a warning that says how much it is") {
+  const Folder folder;
+  const std::string pose = R"(, "transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])";
+  const std::string lens = R"({"w": 600, "h": 800, "fl_x": 500, "fl_y": 500, )";
+  write(folder / "plain.json", lens + R"("frames": [{"file_path": "a")" + pose + "}]}");
+  std::string warning = "from before";
+  load_cameras(folder / "plain.json", &warning);
+  CHECK(warning.empty());
+  // The corner is 500 px from the middle, r = 1: k1 = 0.01 moves it by 5 px.
+  write(folder / "bent.json", lens + R"("k1": 0.01, "frames": [{"file_path": "a")" + pose + "}]}");
+  load_cameras(folder / "bent.json", &warning);
+  CHECK_MESSAGE(warning.find("5.0 pixels") != warning.npos, warning);
+  CHECK(warning.find("bent.json") != warning.npos);
+  write(folder / "images.txt", "1 1 0 0 0 0 0 0 1 a.png\n\n");
+  for (const char* camera : {"1 RADIAL 600 800 500 300 400 0.015 -0.005\n", "1 OPENCV 600 800 500 500 300 400 0 0.01 0 0\n"}) {
+    write(folder / "cameras.txt", camera);
+    CHECK(load_cameras(folder.path, &warning).size() == 1);
+    CHECK_MESSAGE(warning.find("5.0 pixels") != warning.npos, warning);
+  }
 }
 
 TEST_CASE("bad cameras are refused with file and entry") {

@@ -1,160 +1,14 @@
 #include "scene/scene_file.h"
 
-#include <doctest/doctest.h>
 #include <tbb/task_arena.h>
-#include <unistd.h>
-#include <zlib.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <fstream>
-#include <limits>
 #include <numeric>
-#include <random>
-#include <sstream>
 
-#include "scene/error.h"
 #include "scene/morton.h"
+#include "scene_file_helpers.h"
 
 using namespace splatcut;
-namespace fs = std::filesystem;
-
-namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("splatcut_scene_file_test_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  fs::path operator/(const std::string& name) const { return path / name; }
-};
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-void write(const fs::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
-
-template <class T>
-std::string bytes_of(const T& value) {
-  return {reinterpret_cast<const char*>(&value), sizeof value};
-}
-
-std::vector<std::string> splat_names(int rest) {
-  std::vector<std::string> names{"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"};
-  for (int i = 0; i < rest; ++i) names.push_back("f_rest_" + std::to_string(i));
-  for (const char* name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
-    names.push_back(name);
-  return names;
-}
-
-std::string header(const std::vector<std::string>& names, std::size_t count) {
-  std::string text = "ply\nformat binary_little_endian 1.0\ncomment made by hand\nelement vertex " +
-                     std::to_string(count) + "\n";
-  for (const std::string& name : names) text += "property float " + name + "\n";
-  return text + "end_header\n";
-}
-
-// Rows whose every value says which row and field it is.
-std::string numbered_ply(const std::vector<std::string>& names, int count) {
-  std::string text = header(names, static_cast<std::size_t>(count));
-  for (int row = 0; row < count; ++row) {
-    for (std::size_t f = 0; f < names.size(); ++f) {
-      float value = 0.001f * static_cast<float>(f) + 0.01f * static_cast<float>(row);
-      if (names[f] == "x") value = static_cast<float>((row * 7919) % count);
-      text += bytes_of(value);
-    }
-  }
-  return text;
-}
-
-GaussianCloud random_cloud(std::size_t n, int degree) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<float> unit(-1, 1);
-  GaussianCloud cloud;
-  cloud.resize(n, degree);
-  for (std::size_t g = 0; g < n; ++g) {
-    cloud.position[g] = {5 * unit(random), 5 * unit(random), 5 * unit(random)};
-    cloud.scale[g] = glm::exp(glm::vec3(unit(random), unit(random), unit(random)) - 4.0f);
-    cloud.rotation[g] = glm::normalize(glm::quat(unit(random), unit(random), unit(random), unit(random)));
-    cloud.opacity[g] = 0.5f + 0.49f * unit(random);
-    cloud.f_dc[g] = {unit(random), unit(random), unit(random)};
-    cloud.file_row[g] = static_cast<std::uint32_t>(g);
-  }
-  for (float& v : cloud.sh_rest) v = 0.9f * unit(random);
-  return cloud;
-}
-
-struct Tolerance {
-  float position, log_scale, rotation, opacity, f_dc, sh;
-};
-
-void check_same(const GaussianCloud& expected, const Scene& got, const Tolerance& limit) {
-  REQUIRE(got.cloud.size() == expected.size());
-  Tolerance worst{};
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    const std::uint32_t row = got.cloud.file_row[i];
-    const auto largest = [](const glm::vec3& v) {
-      return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    };
-    worst.position = std::max(worst.position, largest(got.cloud.position[i] - expected.position[row]));
-    worst.log_scale = std::max(worst.log_scale, largest(glm::log(got.cloud.scale[i] / expected.scale[row])));
-    worst.rotation =
-        std::max(worst.rotation, 1 - std::abs(glm::dot(got.cloud.rotation[i], expected.rotation[row])));
-    worst.opacity = std::max(worst.opacity, std::abs(got.cloud.opacity[i] - expected.opacity[row]));
-    worst.f_dc = std::max(worst.f_dc, largest(got.cloud.f_dc[i] - expected.f_dc[row]));
-    if (got.cloud.sh_degree != expected.sh_degree) continue;
-    for (std::size_t k = 0; k < expected.sh_stride(); ++k)
-      worst.sh = std::max(worst.sh, std::abs(got.cloud.sh_rest_of(i)[k] - expected.sh_rest_of(row)[k]));
-  }
-  CHECK(worst.position <= limit.position);
-  CHECK(worst.log_scale <= limit.log_scale);
-  CHECK(worst.rotation <= limit.rotation);
-  CHECK(worst.opacity <= limit.opacity);
-  CHECK(worst.f_dc <= limit.f_dc);
-  CHECK(worst.sh <= limit.sh);
-}
-
-// The message of the Error that loading the file throws.
-std::string refusal(const fs::path& path) {
-  try {
-    load_scene(path);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-bool mentions(const std::string& text, std::initializer_list<const char*> parts) {
-  for (const char* part : parts) {
-    if (text.find(part) != text.npos) continue;
-    MESSAGE(text, " lacks ", std::string(part));
-    return false;
-  }
-  return true;
-}
-
-std::string gzip(const std::string& data) {
-  z_stream stream{};
-  deflateInit2(&stream, 6, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
-  std::string out(data.size() + 1000, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));
-  stream.avail_in = static_cast<uInt>(data.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  deflate(&stream, Z_FINISH);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
-}
-
-}  // namespace
+using namespace splatcut::testing;
 
 TEST_CASE("ply: known values, properties in any order and of any type, with and without normals") {
   const Folder folder;
@@ -247,7 +101,7 @@ TEST_CASE("round trip through every format and degree") {
   const Folder folder;
   for (int degree = 0; degree <= 3; ++degree) {
     Scene scene;
-    scene.cloud = random_cloud(3000, degree);
+    scene.cloud = varied_cloud(3000, degree);
     CHECK(save_scene(folder / "a.ply", scene, {}, SceneFormat::kPly).loss.empty());
     check_same(scene.cloud, load_scene(folder / "a.ply"), {0, 1e-5f, 1e-6f, 1e-6f, 0, 0});
 
@@ -263,47 +117,6 @@ TEST_CASE("round trip through every format and degree") {
     CHECK((splat.loss.find("spherical harmonics") != splat.loss.npos) == (degree > 0));
     check_same(scene.cloud, load_scene(folder / "a.splat"), {0, 1e-6f, 1e-4f, 0.51f / 255, 1, 0});
   }
-}
-
-TEST_CASE("compressed ply: values within the steps of a chunk") {
-  const Folder folder;
-  for (int degree = 0; degree <= 3; ++degree) {
-    Scene scene;
-    scene.cloud = random_cloud(700, degree);
-    save_scene(folder / "a.compressed.ply", scene, {}, SceneFormat::kCompressedPly);
-    const Scene got = load_scene(folder / "a.compressed.ply");
-    CHECK(got.format == SceneFormat::kCompressedPly);
-    // The writer keeps the cloud's order, so rows are indices: half a step of 10 bits over the range
-    check_same(scene.cloud, got,
-               {10 * 0.51f / 1023, 2 * 0.51f / 1023, 1e-5f, 0.51f / 255, 2 * 0.51f / 255, 0.51f * 8 / 256});
-  }
-}
-
-TEST_CASE("spz: versions 1 and 2 by hand, axes turned to x right, y down, z forward") {
-  const Folder folder;
-  const auto file = [](std::uint32_t version, const std::string& position, const std::string& rotation) {
-    std::string text =
-        "NGSP" + bytes_of(version) + bytes_of(std::uint32_t{1}) + std::string("\x01\x08\x00\x00", 4);
-    text += position + "\xff" + std::string("\x80\x00\xff", 3) + std::string("\xa0\x90\x00", 3) + rotation;
-    return gzip(text + "\xc0\x80\x80\xc0\x80\x80\xc0\x80\x80");  // red of y, z, x: 0.5
-  };
-  // half floats 1, 2, -0.5; 24-bit numbers 1, 2, -0.5 with 8 fractional bits
-  write(folder / "1.spz", file(1, std::string("\x00\x3c\x00\x40\x00\xb8", 6), "\xff\x80\x80"));
-  write(folder / "2.spz", file(2, std::string("\x00\x01\x00\x00\x02\x00\x80\xff\xff", 9), "\x80\xff\x80"));
-  for (const char* name : {"1.spz", "2.spz"}) {
-    const Scene scene = load_scene(folder / name);
-    REQUIRE(scene.cloud.size() == 1);
-    CHECK(scene.cloud.position[0] == glm::vec3(1, -2, 0.5f));
-    CHECK(scene.cloud.opacity[0] == 1.0f);
-    CHECK(scene.cloud.scale[0].x == doctest::Approx(1.0));
-    CHECK(scene.cloud.scale[0].y == doctest::Approx(std::exp(-1.0)));
-    CHECK(scene.cloud.f_dc[0].z == doctest::Approx(0.5 / 0.15));
-    CHECK(scene.cloud.sh_rest_of(0)[0] == -0.5f);  // y
-    CHECK(scene.cloud.sh_rest_of(0)[1] == -0.5f);  // z
-    CHECK(scene.cloud.sh_rest_of(0)[2] == 0.5f);   // x
-  }
-  CHECK(load_scene(folder / "1.spz").cloud.rotation[0].x == doctest::Approx(1).epsilon(0.01));
-  CHECK(load_scene(folder / "2.spz").cloud.rotation[0].y == doctest::Approx(-1).epsilon(0.01));
 }
 
 TEST_CASE("bad files are refused with a clear sentence") {
@@ -356,7 +169,7 @@ TEST_CASE("bad files are refused with a clear sentence") {
   check("huge.spz", gzip(spz_header), {"truncated"});
   check("nine.spz", gzip("NGSP" + bytes_of(9u) + bytes_of(1u) + bytes_of(0u)), {"version 9"});
   Scene scene;
-  scene.cloud = random_cloud(500, 1);
+  scene.cloud = varied_cloud(500, 1);
   for (const char* name : {"full.spz", "full.compressed.ply"}) {
     save_scene(folder / name, scene, {}, format_from_name(name));
     const std::string bytes = text_of(folder / name);
@@ -367,7 +180,7 @@ TEST_CASE("bad files are refused with a clear sentence") {
 TEST_CASE("loading stops at every stage when asked to, without an error and without a scene") {
   const Folder folder;
   Scene scene;
-  scene.cloud = random_cloud(5000, 2);
+  scene.cloud = varied_cloud(5000, 2);
   for (const char* name : {"a.ply", "a.compressed.ply", "a.splat", "a.spz"}) {
     CAPTURE(name);
     save_scene(folder / name, scene, {}, format_from_name(name));

@@ -77,7 +77,7 @@ const Camera& find_camera(const std::vector<Camera>& cameras, const std::string&
 ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cloud) {
   ChosenCamera chosen;
   if (!options.cameras.empty()) {
-    chosen.given = load_cameras(options.cameras);
+    chosen.given = load_cameras(options.cameras, &chosen.warning);
     if (chosen.given.empty()) throw Error(options.cameras.string(), "holds no camera");
     chosen.up_world = common_up(chosen.given);
   }

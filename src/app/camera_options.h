@@ -26,6 +26,7 @@ struct ChosenCamera {
   Camera camera;
   glm::vec3 up_world{0, -1, 0};
   std::vector<Camera> given;  // all cameras of --cameras, if any
+  std::string warning;        // a sentence about those cameras, or empty
 };
 
 // Throws Error for a camera that cannot be made.

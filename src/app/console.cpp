@@ -55,6 +55,12 @@ Job console_job(bool quiet) {
   return job;
 }
 
+void warn(const std::string& sentence, bool quiet) {
+  if (quiet || sentence.empty()) return;
+  end_progress();
+  fmt::print(stderr, "splatcut: warning: {}.\n", sentence);
+}
+
 void end_progress() {
   if (g_bar_drawn) fmt::print(stderr, "\r{:60}\r", "");
   g_bar_drawn = false;

@@ -87,6 +87,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
   const double load_ms = ms_since_start();
   const ChosenCamera chosen = choose_camera(args.camera, scene.cloud);
+  warn(chosen.warning, common.quiet);
   check_inside(strokes, chosen.camera);
   const PipelineOptions options = pipeline_of(args, chosen);
   PipelineReport report = cut_out(scene.cloud, nullptr, chosen.camera, chosen.up_world, strokes, options, job);

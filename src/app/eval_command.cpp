@@ -86,6 +86,7 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
   for (const nlohmann::json& entry : read_suite(args.suite)) {
     const auto loaded = load_case(entry, args.suite.parent_path(), options.pipeline.neighbours, job);
     if (job.cancelled()) throw Error("splatcut eval", "cancelled, nothing was written");
+    warn(loaded->warning, common.quiet);
     SceneScore score = evaluate(loaded->test, options, job);
     score.stages.insert(score.stages.begin(), loaded->prepared.stages.begin(), loaded->prepared.stages.end());
     score.stages.insert(score.stages.begin(), {"load", loaded->load_ms});

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "scene/scene_file.h"
@@ -20,6 +21,7 @@ struct LoadedCase {
   Scene scene;
   PreparedScene prepared;
   double load_ms = 0;
+  std::string warning;  // a sentence about its cameras, or empty
   EvaluationCase test;
 };
 

@@ -79,6 +79,7 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
   const Job job = console_job(common.quiet);
   const Scene scene = load_scene(args.scene, job);
   const ChosenCamera chosen = choose_camera(args.camera, scene.cloud);
+  warn(chosen.warning, common.quiet);
   RasterOptions options;
   options.background = parse_vec3(args.background, "--background");
   options.depth = args.what == "depth";

@@ -1,9 +1,9 @@
-// Cameras from JSON: the list that Inria's training writes, and NeRF's transforms.json. Lens distortion is
-// left out: everything here is drawn through a pinhole.
+// Cameras from JSON: the list that Inria's training writes, and NeRF's transforms.json.
 #include "scene/camera_file.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -122,12 +122,23 @@ std::vector<Camera> each_entry(const fs::path& path, const json& list, const cha
   return cameras;
 }
 
-std::vector<Camera> load_json_cameras(const fs::path& path) {
+// The frame's or the file's k1 k2 p1 p2 k3.
+Distortion distortion_of(const json& frame, const json& file) {
+  const auto value = [&](const char* name) { return frame.value(name, file.value(name, 0.0)); };
+  return {value("k1"), value("k2"), value("p1"), value("p2"), value("k3")};
+}
+
+std::vector<Camera> load_json_cameras(const fs::path& path, double& largest_shift_px) {
   const json file = parse_json(path);
   if (file.is_array()) return each_entry(path, file, "camera", inria_camera);
   if (file.is_object() && file.contains("frames") && file["frames"].is_array())
     return each_entry(path, file["frames"], "frame",
-                      [&](const json& frame) { return transforms_camera(path, file, frame); });
+                      [&](const json& frame) {
+                        const Camera camera = transforms_camera(path, file, frame);
+                        const double shift_px = corner_shift_px(camera, distortion_of(frame, file));
+                        largest_shift_px = std::max(largest_shift_px, shift_px);
+                        return camera;
+                      });
   throw Error(path.string(), "is neither a list of cameras (Inria) nor an object with \"frames\" (NeRF)");
 }
 
@@ -159,25 +170,57 @@ void check_lens(const fs::path& path, std::string_view entry, const Camera& came
                                            camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px));
 }
 
-std::vector<Camera> load_cameras(const fs::path& path) {
+double corner_shift_px(const Camera& camera, const Distortion& d) {
+  double farthest = 0;
+  for (const int u : {0, camera.width_px})
+    for (const int v : {0, camera.height_px}) {
+      const double x = (static_cast<float>(u) - camera.cx_px) / camera.fx_px;
+      const double y = (static_cast<float>(v) - camera.cy_px) / camera.fy_px;
+      const double r2 = x * x + y * y, radial = r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
+      const double dx = x * radial + 2 * d.p1 * x * y + d.p2 * (r2 + 2 * x * x);
+      const double dy = y * radial + d.p1 * (r2 + 2 * y * y) + 2 * d.p2 * x * y;
+      farthest = std::max(farthest, std::hypot(dx * camera.fx_px, dy * camera.fy_px));
+    }
+  return farthest;
+}
+
+namespace {
+
+std::vector<Camera> load_any_cameras(const fs::path& path, double& largest_shift_px) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) throw Error(path.string(), "there is no such file or folder");
   if (fs::is_directory(path, ignored)) {
     for (const fs::path& folder : {path, path / "sparse" / "0", path / "sparse"})
-      if (has_colmap_cameras(folder)) return load_colmap_cameras(folder);
+      if (has_colmap_cameras(folder)) return load_colmap_cameras(folder, largest_shift_px);
     for (const char* name : {"cameras.json", "transforms.json"})
-      if (fs::exists(path / name, ignored)) return load_json_cameras(path / name);
+      if (fs::exists(path / name, ignored)) return load_json_cameras(path / name, largest_shift_px);
     throw Error(path.string(),
                 "the folder has no cameras: cameras.bin, cameras.txt, cameras.json and transforms.json "
                 "are looked for");
   }
   const bool colmap = path.extension() == ".bin" || path.extension() == ".txt";
-  if (!colmap) return load_json_cameras(path);
+  if (!colmap) return load_json_cameras(path, largest_shift_px);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!has_colmap_cameras(folder))
     throw Error(path.string(),
                 "cameras and images of COLMAP are wanted beside each other, both .bin or both .txt");
-  return load_colmap_cameras(folder);
+  return load_colmap_cameras(folder, largest_shift_px);
+}
+
+}  // namespace
+
+std::vector<Camera> load_cameras(const fs::path& path, std::string* warning) {
+  double largest_shift_px = 0;
+  std::vector<Camera> cameras = load_any_cameras(path, largest_shift_px);
+  if (!warning) return cameras;
+  warning->clear();
+  constexpr double kVisiblePx = 0.1;
+  if (largest_shift_px >= kVisiblePx)
+    *warning = fmt::format(
+        "{}: the lens distortion, up to {:.1f} pixels in the corners, is left out; masks and clicks on the "
+        "photographs themselves are off by as much (colmap image_undistorter makes pictures without it)",
+        path.string(), largest_shift_px);
+  return cameras;
 }
 
 void save_inria_cameras(const fs::path& path, const std::vector<Camera>& cameras) {

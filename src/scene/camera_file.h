@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "scene/camera.h"
@@ -10,7 +11,9 @@
 namespace splatcut {
 
 // By name and content. Throws Error naming file and entry.
-std::vector<Camera> load_cameras(const std::filesystem::path& path);
+// warning, if given: a sentence where the lenses are distorted, which is left out here (everything is drawn
+// through a pinhole); empty otherwise.
+std::vector<Camera> load_cameras(const std::filesystem::path& path, std::string* warning = nullptr);
 
 void save_inria_cameras(const std::filesystem::path& path, const std::vector<Camera>& cameras);
 

@@ -22,6 +22,7 @@ struct Model {
   const char* name;
   std::size_t params;
   bool one_focal, fisheye;
+  std::size_t centre() const { return one_focal ? 1 : 2; }  // index of cx among the parameters
 };
 constexpr std::array<Model, 11> kModels{{{"SIMPLE_PINHOLE", 3, true, false},
                                          {"PINHOLE", 4, false, false},
@@ -60,13 +61,22 @@ Camera lens_from(const fs::path& path, std::uint32_t id, const Model& model, dou
   Camera lens;
   lens.width_px = static_cast<int>(std::clamp(width, 0.0, kLargestSide + 1));
   lens.height_px = static_cast<int>(std::clamp(height, 0.0, kLargestSide + 1));
-  const std::size_t centre = model.one_focal ? 1 : 2;
+  const std::size_t centre = model.centre();
   lens.fx_px = static_cast<float>(params[0]);
   lens.fy_px = static_cast<float>(params[centre - 1]);
   lens.cx_px = static_cast<float>(params[centre]);
   lens.cy_px = static_cast<float>(params[centre + 1]);
   check_lens(path, fmt::format("camera {}", id), lens);
   return lens;
+}
+
+// Radial models have k after the principal point, the OpenCV models k1 k2 p1 p2 [k3 ...].
+Distortion distortion_from(const Model& model, std::span<const double> params) {
+  const auto after_centre = [&](std::size_t i) {
+    const std::size_t at = model.centre() + 2 + i;
+    return at < params.size() ? params[at] : 0.0;
+  };
+  return {after_centre(0), after_centre(1), after_centre(2), after_centre(3), after_centre(4)};
 }
 
 // A camera per image, by name: the order in the file is that of a hash table.
@@ -129,7 +139,7 @@ class BinaryReader {
   std::span<const std::byte> left_;
 };
 
-Lenses read_lenses_bin(const fs::path& path) {
+Lenses read_lenses_bin(const fs::path& path, double& largest_shift_px) {
   BinaryReader in(path);
   Lenses lenses;
   const auto count = in.read<std::uint64_t>();
@@ -143,6 +153,7 @@ Lenses read_lenses_bin(const fs::path& path) {
     std::vector<double> params;
     for (std::size_t p = 0; p < model.params; ++p) params.push_back(in.read<double>());
     lenses[id] = lens_from(path, id, model, width, height, params);
+    largest_shift_px = std::max(largest_shift_px, corner_shift_px(lenses[id], distortion_from(model, params)));
   }
   return lenses;
 }
@@ -178,7 +189,7 @@ bool is_blank_or_comment(const std::string& line) {
   return first == line.npos || line[first] == '#';
 }
 
-Lenses read_lenses_txt(const fs::path& path) {
+Lenses read_lenses_txt(const fs::path& path, double& largest_shift_px) {
   std::istringstream in(text_of(path));
   Lenses lenses;
   std::string line;
@@ -200,6 +211,7 @@ Lenses read_lenses_txt(const fs::path& path) {
       throw Error(path.string(),
                   fmt::format("line {}: the model {} has {} parameters", number, name, model.params));
     lenses[id] = lens_from(path, id, model, width, height, params);
+    largest_shift_px = std::max(largest_shift_px, corner_shift_px(lenses[id], distortion_from(model, params)));
   }
   return lenses;
 }
@@ -240,10 +252,11 @@ bool has_colmap_cameras(const fs::path& folder) {
   return has_pair(folder, ".bin") || has_pair(folder, ".txt");
 }
 
-std::vector<Camera> load_colmap_cameras(const fs::path& folder) {
+std::vector<Camera> load_colmap_cameras(const fs::path& folder, double& largest_shift_px) {
   if (has_pair(folder, ".bin"))
-    return read_images_bin(folder / "images.bin", read_lenses_bin(folder / "cameras.bin"));
-  return read_images_txt(folder / "images.txt", read_lenses_txt(folder / "cameras.txt"));
+    return read_images_bin(folder / "images.bin",
+                           read_lenses_bin(folder / "cameras.bin", largest_shift_px));
+  return read_images_txt(folder / "images.txt", read_lenses_txt(folder / "cameras.txt", largest_shift_px));
 }
 
 }  // namespace splatcut

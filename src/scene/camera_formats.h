@@ -7,8 +7,17 @@
 
 namespace splatcut {
 
-// folder holds cameras and images, both .bin or both .txt (.bin is preferred).
-std::vector<Camera> load_colmap_cameras(const std::filesystem::path& folder);
+// Lens distortion after Brown (1971), OpenCV's names: radial k, tangential p.
+struct Distortion {
+  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
+};
+
+// How far the distortion moves the corner of the picture that it moves farthest, pixels.
+double corner_shift_px(const Camera& camera, const Distortion& distortion);
+
+// folder holds cameras and images, both .bin or both .txt (.bin is preferred). largest_shift_px: raised to the
+// largest corner shift of its lenses.
+std::vector<Camera> load_colmap_cameras(const std::filesystem::path& folder, double& largest_shift_px);
 bool has_colmap_cameras(const std::filesystem::path& folder);
 
 // The pose from the camera's axes and centre in the world; the axes are made unit length. False when

@@ -38,7 +38,8 @@ struct SaveReport {
   std::string loss;  // empty, or a sentence: "spherical harmonics of degree 2 are dropped"
 };
 
-// Writes the Gaussians with keep[g] != 0 (empty: all), in file order. From .ply to .ply the rows are
+// Writes the Gaussians with keep[g] != 0 (empty: all), in file order; compressed .ply in Morton order, because
+// neighbours must share a chunk for its bounds to be narrow. From .ply to .ply the rows are
 // copied byte for byte from scene.path (Error if that file changed since it was loaded).
 SaveReport save_scene(const std::filesystem::path& path, const Scene& scene, std::span<const std::uint8_t> keep,
                       SceneFormat format);

@@ -82,7 +82,7 @@ double border_contrast(const Image<float>& distance, float reach, const Geodesic
   for (int y = 0; y < distance.height(); ++y)
     for (int x = 0; x < distance.width(); ++x) {
       if (distance.at(x, y) > reach) continue;
-      for (const auto [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
         const bool inside = distance.contains(x + dx, y + dy);
         if (inside && distance.at(x + dx, y + dy) <= reach) continue;
         if (inside) contrast += std::min(kContrastCap, cost(x, y, x + dx, y + dy));

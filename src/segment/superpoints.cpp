@@ -60,9 +60,9 @@ class UnionFind {
 };
 
 std::vector<KeyValue<std::uint32_t>> by_weight(std::span<const SurfaceEdge> edges) {
-  std::vector<KeyValue<std::uint32_t>> order(edges.size()), scratch;
+  std::vector<KeyValue<std::uint32_t>> order(edges.size()), scratch(edges.size());
   for (std::uint32_t i = 0; i < edges.size(); ++i) order[i] = {std::bit_cast<std::uint32_t>(weight(edges[i])), i};  // weights >= 0 sort as bits
-  radix_sort(order, scratch, 32);
+  radix_sort<11>(std::span(order), std::span(scratch), 0, 32);
   return order;
 }
 

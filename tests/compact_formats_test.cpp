@@ -1,0 +1,130 @@
+// .spz and compressed .ply, written by hand and by our own writers.
+#include "scene_file_helpers.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("compressed ply: values within the steps of a chunk") {
+  const Folder folder;
+  for (int degree = 0; degree <= 3; ++degree) {
+    Scene scene;
+    scene.cloud = varied_cloud(700, degree);
+    save_scene(folder / "a.compressed.ply", scene, {}, SceneFormat::kCompressedPly);
+    const Scene got = load_scene(folder / "a.compressed.ply");
+    CHECK(got.format == SceneFormat::kCompressedPly);
+    // The writer keeps the cloud's order, so rows are indices: half a step of 10 bits over the range
+    check_same(scene.cloud, got,
+               {10 * 0.51f / 1023, 2 * 0.51f / 1023, 1e-5f, 0.51f / 255, 2 * 0.51f / 255, 0.51f * 8 / 256});
+  }
+}
+
+TEST_CASE("spz: versions 1 and 2 by hand, axes turned to x right, y down, z forward") {
+  const Folder folder;
+  const auto file = [](std::uint32_t version, const std::string& position, const std::string& rotation) {
+    std::string text =
+        "NGSP" + bytes_of(version) + bytes_of(std::uint32_t{1}) + std::string("\x01\x08\x00\x00", 4);
+    text += position + "\xff" + std::string("\x80\x00\xff", 3) + std::string("\xa0\x90\x00", 3) + rotation;
+    return gzip(text + "\xc0\x80\x80\xc0\x80\x80\xc0\x80\x80");  // red of y, z, x: 0.5
+  };
+  // half floats 1, 2, -0.5; 24-bit numbers 1, 2, -0.5 with 8 fractional bits
+  write(folder / "1.spz", file(1, std::string("\x00\x3c\x00\x40\x00\xb8", 6), "\xff\x80\x80"));
+  write(folder / "2.spz", file(2, std::string("\x00\x01\x00\x00\x02\x00\x80\xff\xff", 9), "\x80\xff\x80"));
+  for (const char* name : {"1.spz", "2.spz"}) {
+    const Scene scene = load_scene(folder / name);
+    REQUIRE(scene.cloud.size() == 1);
+    CHECK(scene.cloud.position[0] == glm::vec3(1, -2, 0.5f));
+    CHECK(scene.cloud.opacity[0] == 1.0f);
+    CHECK(scene.cloud.scale[0].x == doctest::Approx(1.0));
+    CHECK(scene.cloud.scale[0].y == doctest::Approx(std::exp(-1.0)));
+    CHECK(scene.cloud.f_dc[0].z == doctest::Approx(0.5 / 0.15));
+    CHECK(scene.cloud.sh_rest_of(0)[0] == -0.5f);  // y
+    CHECK(scene.cloud.sh_rest_of(0)[1] == -0.5f);  // z
+    CHECK(scene.cloud.sh_rest_of(0)[2] == 0.5f);   // x
+  }
+  CHECK(load_scene(folder / "1.spz").cloud.rotation[0].x == doctest::Approx(1).epsilon(0.01));
+  CHECK(load_scene(folder / "2.spz").cloud.rotation[0].y == doctest::Approx(-1).epsilon(0.01));
+}
+
+TEST_CASE("spz: version 4, zstd streams, holds what version 3 of the same cloud holds, at every degree") {
+  const Folder folder;
+  for (int degree = 0; degree <= 3; ++degree) {
+    CAPTURE(degree);
+    Scene scene;
+    scene.cloud = varied_cloud(500, degree);
+    save_scene(folder / "3.spz", scene, {}, SceneFormat::kSpz);
+    const std::string v3 = gunzip(text_of(folder / "3.spz"));
+    const std::size_t rest = 3 * static_cast<std::size_t>(sh_rest_coefficients(degree));
+    std::string table, streams;
+    std::size_t begin = 16;
+    for (const std::size_t bytes : {std::size_t{9}, std::size_t{1}, std::size_t{3}, std::size_t{3}, std::size_t{4}, rest}) {
+      if (bytes == 0) continue;
+      const std::string packed = zstd(v3.substr(begin, 500 * bytes));
+      table += bytes_of(std::uint64_t{packed.size()}) + bytes_of(std::uint64_t{500 * bytes});
+      streams += packed;
+      begin += 500 * bytes;
+    }
+    REQUIRE(begin == v3.size());
+    std::string header = "NGSP" + bytes_of(4u) + v3.substr(8, 7);
+    header += static_cast<char>(table.size() / 16);
+    header += bytes_of(32u) + std::string(12, '\0');
+    const std::string v4 = header + table + streams;
+    write(folder / "4.spz", v4);
+    const Scene a = load_scene(folder / "3.spz"), b = load_scene(folder / "4.spz");
+    CHECK(b.cloud.sh_degree == degree);
+    CHECK(a.cloud.file_row == b.cloud.file_row);
+    CHECK(a.cloud.position == b.cloud.position);
+    CHECK(a.cloud.rotation == b.cloud.rotation);
+    CHECK(a.cloud.scale == b.cloud.scale);
+    CHECK(a.cloud.opacity == b.cloud.opacity);
+    CHECK(a.cloud.f_dc == b.cloud.f_dc);
+    CHECK(a.cloud.sh_rest == b.cloud.sh_rest);
+    write(folder / "cut.spz", v4.substr(0, v4.size() - 9));
+    CHECK(mentions(refusal(folder / "cut.spz"), {"truncated", "stream"}));
+    std::string damaged = v4;
+    damaged[32 + table.size()] ^= 0x5a;
+    write(folder / "damaged.spz", damaged);
+    CHECK(mentions(refusal(folder / "damaged.spz"), {"damaged", "stream 0"}));
+  }
+}
+
+TEST_CASE("compressed ply by hand: old chunks of 12 numbers have colours in 0..1, newer ones of 18 their own range") {
+  const Folder folder;
+  const auto file = [](bool with_colour) {
+    std::string text = "ply\nformat binary_little_endian 1.0\nelement chunk 1\n";
+    for (const char* bound : {"min_x", "min_y", "min_z", "max_x", "max_y", "max_z", "min_scale_x", "min_scale_y",
+                              "min_scale_z", "max_scale_x", "max_scale_y", "max_scale_z"})
+      text += "property float " + std::string(bound) + "\n";
+    if (with_colour)
+      for (const char* bound : {"min_r", "min_g", "min_b", "max_r", "max_g", "max_b"})
+        text += "property float " + std::string(bound) + "\n";
+    text += "element vertex 2\n";
+    for (const char* field : {"position", "rotation", "scale", "color"}) text += "property uint packed_" + std::string(field) + "\n";
+    text += "end_header\n";
+    for (const float v : {-1.0f, 0.0f, 2.0f, 3.0f, 4.0f, 6.0f, -5.0f, -5.0f, -5.0f, -1.0f, -3.0f, -2.0f}) text += bytes_of(v);
+    if (with_colour)
+      for (const float v : {-0.5f, 0.0f, 0.0f, 1.5f, 1.0f, 2.0f}) text += bytes_of(v);
+    // The least of every range, no rotation (w the largest: 512 of 1023 in the rest), black, opacity 0x33 / 255.
+    const std::uint32_t none = 512u << 20 | 512u << 10 | 512u;
+    for (const std::uint32_t v : {0u, none, 0u, 0x33u}) text += bytes_of(v);
+    // The most of every range.
+    for (const std::uint32_t v : {0xffffffffu, none, 0xffffffffu, 0xffffffffu}) text += bytes_of(v);
+    return text;
+  };
+  for (const bool with_colour : {false, true}) {
+    CAPTURE(with_colour);
+    write(folder / "a.compressed.ply", file(with_colour));
+    const Scene scene = load_scene(folder / "a.compressed.ply");
+    REQUIRE(scene.cloud.size() == 2);
+    const std::size_t low = scene.cloud.file_row[0] == 0 ? 0 : 1, high = 1 - low;
+    CHECK(scene.cloud.position[low] == glm::vec3(-1, 0, 2));
+    CHECK(scene.cloud.position[high] == glm::vec3(3, 4, 6));
+    CHECK(scene.cloud.scale[low].z == doctest::Approx(std::exp(-5.0)));
+    CHECK(scene.cloud.scale[high].y == doctest::Approx(std::exp(-3.0)));
+    CHECK(scene.cloud.rotation[low].w == doctest::Approx(1).epsilon(1e-5));
+    CHECK(scene.cloud.opacity[low] == doctest::Approx(0.2));
+    const auto colour = [&](std::size_t g) { return 0.5f + 0.28209479f * scene.cloud.f_dc[g]; };
+    CHECK(colour(low).r == doctest::Approx(with_colour ? -0.5 : 0));
+    CHECK(colour(high).r == doctest::Approx(with_colour ? 1.5 : 1));
+    CHECK(colour(high).b == doctest::Approx(with_colour ? 2 : 1));
+  }
+}
