@@ -103,6 +103,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   write_cutout_scenes(folder, scene, report.labels);
   write_cutout_pictures(folder, scene.cloud, chosen.camera, report);
   write_text_file(folder.file("report.json"), json.dump(2) + "\n");
+  if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
   folder.commit();
   if (args.json)
     fmt::print("{}\n", json.dump(2));

@@ -45,7 +45,9 @@ nlohmann::json mean_json(const std::vector<nlohmann::json>& scores) {
       }
     return n ? nlohmann::json(sum / n) : nullptr;
   };
-  nlohmann::json mean = {{"name", "mean"}};
+  // The first score is the mould: a pointer into nothing would make an array of the keys "1", "3", "5".
+  nlohmann::json mean = scores.empty() ? nlohmann::json::object() : scores.front();
+  mean["name"] = "mean";
   for (const auto& s : scores) {
     const nlohmann::json flat = s.flatten();  // named: items() only refers to it
     for (const auto& [at, value] : flat.items())
@@ -88,6 +90,7 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
     if (job.cancelled()) throw Error("splatcut eval", "cancelled, nothing was written");
     warn(loaded->warning, common.quiet);
     SceneScore score = evaluate(loaded->test, options, job);
+    if (job.cancelled()) throw Error("splatcut eval", "cancelled, nothing was written");
     score.stages.insert(score.stages.begin(), loaded->prepared.stages.begin(), loaded->prepared.stages.end());
     score.stages.insert(score.stages.begin(), {"load", loaded->load_ms});
     scores.push_back(score_json(score));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/console.h"
 #include "app/output_folder.h"
 #include "scene/atomic_file.h"
 #include "scene/camera_file.h"
@@ -33,8 +34,11 @@ nlohmann::json seeds_json(const LabelledScene& made) {
 }
 
 void run_make_scene(const MakeSceneArguments& args, const CommonOptions& common) {
-  OutputFolder folder(args.output, args.overwrite);
+  refuse_existing(args.output, args.overwrite);
+  const Job job = console_job(common.quiet);
   const LabelledScene made = make_still_life(args.options);
+  if (job.cancelled()) throw Error("splatcut make-scene", "cancelled, nothing was written");
+  OutputFolder folder(args.output, args.overwrite);
   Scene scene;
   scene.file_rows = made.cloud.size();
   scene.format = SceneFormat::kSplat;  // no file behind it: every row is written from the cloud
@@ -53,6 +57,7 @@ void run_make_scene(const MakeSceneArguments& args, const CommonOptions& common)
   labels.commit();
   save_inria_cameras(folder.file("cameras.json"), made.cameras);
   write_text_file(folder.file("seeds.json"), seeds_json(made).dump(1) + "\n");
+  if (job.cancelled()) throw Error("splatcut make-scene", "cancelled, nothing was written");
   folder.commit();
   if (!common.quiet) fmt::print("{}: {} Gaussians in {}, labels, cameras.json, seeds.json\n", args.output.string(), scene.cloud.size(), file);
 }

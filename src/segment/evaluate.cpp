@@ -115,12 +115,16 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
     }
   }
   if (options.click_curve && !options.truth_first_mask)
-    for (const int n : {1, 3, 5})
-      score.image_iou_after_clicks[n] = score_images(scene, cut_with(scene, options, first_strokes(strokes, n), job).labels).iou;
+    for (const int n : {1, 3, 5}) {
+      const PipelineReport report = cut_with(scene, options, first_strokes(strokes, n), job);
+      if (job.cancelled()) return score;
+      score.image_iou_after_clicks[n] = score_images(scene, report.labels).iou;
+    }
   const auto start = std::chrono::steady_clock::now();
   const PipelineReport report = cut_with(scene, options, first_strokes(strokes, options.clicks), job);
   score.total_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   score.stages = report.stages;
+  if (job.cancelled()) return score;
   const ImageScore images = score_images(scene, report.labels);
   score.image_iou = images.iou;
   score.accuracy = images.accuracy;

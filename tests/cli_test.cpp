@@ -1,0 +1,246 @@
+// The program itself, run in folders of its own: exit codes, sentences, files, bytes.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "program_runner.h"
+
+using namespace splatcut::testing;
+using nlohmann::json;
+
+namespace {
+
+// A still life of 20,000 Gaussians, made once by the program, with a click on its apple.
+struct StillLife {
+  Workplace place;
+  std::string scene = (place / "made/small.ply").string();
+  std::string camera = "--cameras " + (place / "made/cameras.json").string() + " --camera 0";
+  std::string click;
+  StillLife() {
+    REQUIRE(place.run("make-scene small -o made --gaussians 20000").code == 0);
+    const json seeds = json::parse(place.text("made/seeds.json"));
+    for (const json& object : seeds["objects"])
+      if (object["object"] == "apple") {
+        const json& at = object["clicks"][0];
+        click = std::to_string(at["x"].get<int>()) + "," + std::to_string(at["y"].get<int>());
+      }
+    REQUIRE_FALSE(click.empty());
+  }
+  std::string cut(const std::string& rest) const { return "cut " + scene + " " + camera + " --preset fast " + rest; }
+};
+
+StillLife& still_life() {
+  static StillLife made;
+  return made;
+}
+
+bool has_keys(const json& object, std::initializer_list<const char*> keys) {
+  for (const char* key : keys)
+    if (!object.contains(key)) {
+      MESSAGE("lacks ", std::string(key));
+      return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a sentence on stderr") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  CHECK(place.run("--version").code == 0);
+  CHECK(place.run("cut --help").code == 0);
+  for (const char* usage : {"", "fly", "cut", "info", "render a.ply", "cut a.ply -o b --no-such-option", "info a.ply --threads -1"})
+    CHECK_MESSAGE(place.run(usage).code == 2, usage);
+  place.write("points.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n" + std::string(12, 'a'));
+  place.write("short.ply", place.text("made/small.ply").substr(0, 100000));
+  place.write("bad.json", "{");
+  place.write("empty.ply", "");
+  const auto refused = [&](const std::string& arguments, std::initializer_list<const char*> parts) {
+    const Result result = place.run(arguments);
+    CAPTURE(arguments);
+    CAPTURE(result.err);
+    CHECK(result.code == 1);
+    CHECK(result.err.starts_with("splatcut: "));
+    CHECK(result.err.ends_with(".\n"));
+    for (const char* part : parts) CHECK(result.err.find(part) != std::string::npos);
+  };
+  refused("info none.ply", {"none.ply", "No such file"});
+  refused("info made", {"made", "directory"});
+  refused("info empty.ply", {"empty.ply", "empty"});
+  refused("info points.ply", {"points.ply", "ordinary point cloud"});
+  refused("info short.ply", {"short.ply", "truncated", "row", "byte"});
+  refused("convert " + life.scene + " -o a.obj", {"a.obj", "extension"});
+  refused("render " + life.scene + " -o a.png --size 0x7", {"--size 0x7"});
+  refused("render " + life.scene + " -o a.png --camera-pos 1,2", {"--camera-pos"});
+  refused("render " + life.scene + " -o a.png --cameras none.json", {"none.json"});
+  refused("render " + life.scene + " -o a.png --cameras bad.json", {"bad.json", "JSON"});
+  refused("render " + life.scene + " -o a.png --cameras made/cameras.json --camera 99", {"camera \"99\""});
+  refused("render " + life.scene + " -o nowhere/a.png", {"nowhere/a.png"});
+  refused(life.cut("-o cut"), {"--click"});
+  refused(life.cut("-o cut --click 1"), {"--click 1", "x,y"});
+  refused(life.cut("-o cut --click 1,2:sky"), {"sky", "object or rest"});
+  refused(life.cut("-o cut --click 5000,2"), {"5000", "outside"});
+  refused(life.cut("-o cut --seeds bad.json"), {"bad.json", "JSON"});
+  refused(life.cut("-o cut --mask none.png"), {"none.png"});
+  refused("cut " + life.scene + " -o cut --click 1,1 --preset slow", {"slow", "default"});
+  refused("eval bad.json -o cut", {"bad.json", "suite"});
+  place.write("no_truth.json", R"({"scenes": [{"name": "a", "scene": "made/small.ply"}]})");
+  refused("eval no_truth.json -o cut", {"entry a", "reference"});
+  CHECK_FALSE(place.exists("cut"));
+  CHECK_FALSE(place.exists("a.png"));
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("cut writes every file of a cutout, by click, by seeds and by mask, and a complete report") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  REQUIRE(place.run(life.cut("--click " + life.click + " -o by_click")).code == 0);
+  const std::set<std::string> files = {"labels.u8", "masks.png", "object.ply", "object.png", "report.json", "rest.ply", "rest.png", "tint.png"};
+  CHECK(place.files_in("by_click") == files);
+
+  const json report = json::parse(place.text("by_click/report.json"));
+  CHECK(has_keys(report, {"version", "settings", "scene", "object", "views", "cut", "stages", "total_ms", "peak_rss_mb"}));
+  CHECK(report["scene"]["gaussians"] == 20000);
+  CHECK(has_keys(report["cut"], {"nodes", "arcs", "energy", "flow"}));
+  CHECK(report["cut"]["energy"].get<double>() == report["cut"]["flow"].get<double>());
+  REQUIRE(report["views"].size() > 1);
+  for (const json& view : report["views"]) CHECK(has_keys(view, {"used", "confidence", "mask_px"}));
+  for (const json& stage : report["stages"]) CHECK(has_keys(stage, {"name", "ms"}));
+
+  // Labels, objects and rest agree in their numbers, and the apple is what was cut.
+  const std::string labels = place.text("by_click/labels.u8"), truth = place.text("made/small.labels.u8");
+  REQUIRE(labels.size() == 20000);
+  const auto ones = static_cast<std::size_t>(std::count(labels.begin(), labels.end(), '\1'));
+  CHECK(report["object"]["gaussians"] == ones);
+  CHECK(json::parse(place.run("info by_click/object.ply --json").out)["gaussians"] == ones);
+  CHECK(json::parse(place.run("info by_click/rest.ply --json").out)["gaussians"] == 20000 - ones);
+  const json names = json::parse(place.text("made/seeds.json"))["labels"];
+  const auto apple = static_cast<char>(std::find(names.begin(), names.end(), "apple") - names.begin());
+  std::size_t both = 0, either = 0;
+  for (std::size_t row = 0; row < labels.size(); ++row) {
+    both += labels[row] == '\1' && truth[row] == apple;
+    either += labels[row] == '\1' || truth[row] == apple;
+  }
+  CHECK(static_cast<double>(both) > 0.7 * static_cast<double>(either));
+
+  const auto comma = life.click.find(',');
+  place.write("seeds.json", R"({"clicks": [{"x": )" + life.click.substr(0, comma) + R"(, "y": )" + life.click.substr(comma + 1) + "}]}");
+  REQUIRE(place.run(life.cut("--seeds seeds.json -o by_seeds")).code == 0);
+  CHECK(place.text("by_seeds/labels.u8") == labels);
+
+  REQUIRE(place.run("render " + life.scene + " " + life.camera + " --what labels --labels by_click/labels.u8 -o mask.png").code == 0);
+  const Result by_mask = place.run(life.cut("--mask mask.png -o by_mask --json"));
+  REQUIRE(by_mask.code == 0);
+  CHECK(json::parse(by_mask.out)["object"]["gaussians"].get<double>() == doctest::Approx(static_cast<double>(ones)).epsilon(0.2));
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("existing output is refused without --overwrite, and nothing in it changes") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  place.make_folder("there");
+  place.write("there/object.ply", "precious");
+  place.write("there/notes.txt", "mine");
+  place.write("view.png", "precious");
+  place.write("copy.splat", "precious");
+  const std::string cut = life.cut("--click " + life.click + " -o there");
+  for (const std::string& arguments : {cut, "render " + life.scene + " -o view.png", "convert " + life.scene + " -o copy.splat"}) {
+    const Result result = place.run(arguments);
+    CHECK(result.code == 1);
+    CHECK_MESSAGE(result.err.find("--overwrite") != std::string::npos, result.err);
+  }
+  CHECK(place.text("there/object.ply") == "precious");
+  CHECK(place.text("view.png") == "precious");
+  CHECK(place.text("copy.splat") == "precious");
+  REQUIRE(place.run(cut + " --overwrite").code == 0);
+  CHECK(place.text("there/object.ply").starts_with("ply"));
+  CHECK(place.text("there/notes.txt") == "mine");
+}
+
+TEST_CASE("the bytes of a cutout do not depend on --threads") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  for (const char* threads : {"1", "2", "3"})
+    REQUIRE(place.run(life.cut("--click " + life.click + " --threads " + threads + " -o on_" + threads)).code == 0);
+  for (const char* file : {"object.ply", "rest.ply", "labels.u8", "object.png", "rest.png", "tint.png", "masks.png"}) {
+    CAPTURE(file);
+    const std::string one = place.text(std::string("on_1/") + file);
+    CHECK(place.text(std::string("on_2/") + file) == one);
+    CHECK(place.text(std::string("on_3/") + file) == one);
+  }
+}
+
+TEST_CASE("convert goes through every format and back, and says what is lost") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  REQUIRE(place.run("make-scene lit -o lit --gaussians 5000 --sh-degree 3").code == 0);
+  std::string from = "lit/lit.ply";
+  for (const std::string name : {"a.ply", "a.spz", "a.compressed.ply", "a.splat"}) {
+    CAPTURE(name);
+    const Result result = place.run("convert " + from + " -o " + name);
+    REQUIRE_MESSAGE(result.code == 0, result.err);
+    CHECK((result.out.find("Lost:") != std::string::npos) == (name != "a.ply"));
+    const json info = json::parse(place.run("info " + name + " --json").out);
+    CHECK(info["gaussians"] == 5000);
+    CHECK(info["sh_degree"] == (name == "a.splat" ? 0 : 3));
+    REQUIRE(place.run("convert " + name + " -o back_" + name + ".ply").code == 0);
+    CHECK(json::parse(place.run("info back_" + name + ".ply --json").out)["gaussians"] == 5000);
+    from = name;
+  }
+  CHECK(place.text("a.ply") == place.text("lit/lit.ply"));
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("eval reports every measure of a suite with truth labels") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  const std::string truth = place.text("made/small.labels.u8");
+  const json names = json::parse(place.text("made/seeds.json"))["labels"];
+  const auto apple = static_cast<char>(std::find(names.begin(), names.end(), "apple") - names.begin());
+  std::string apple_only = truth;
+  for (char& label : apple_only) label = label == apple ? '\1' : '\0';
+  place.write("made/apple.labels.u8", apple_only);
+  const json view = {{"position", {0.3, -1.2, -2.4}}, {"target", {0.3, -0.2, 0}}, {"up", {0, -1, 0}}, {"fov_y_deg", 45}, {"size", {240, 180}}};
+  json entry = {{"name", "apple"}, {"scene", "small.ply"}, {"cameras", "cameras.json"}, {"truth", {{"labels", "apple.labels.u8"}}},
+                {"reference", {{"camera", "view_00"}}}, {"clicks", "robot"}, {"test_views", {view}}};
+  place.write("made/suite.json", json{{"scenes", {entry}}}.dump());
+  const Result result = place.run("eval made/suite.json --preset fast -o measured");
+  REQUIRE_MESSAGE(result.code == 0, result.err);
+  CHECK(result.out.find("apple") != std::string::npos);
+  const json measured = json::parse(place.text("measured/eval.json"));
+  REQUIRE(measured["scenes"].size() == 1);
+  const json& scene = measured["scenes"][0];
+  for (const json& scores : {scene, measured["mean"]}) {
+    CHECK(has_keys(scores, {"name", "image_iou", "accuracy", "boundary_iou", "gaussian_iou", "mask_iou_after_clicks",
+                            "image_iou_after_clicks", "noc85", "noc90", "ms", "total_ms"}));
+    CHECK(has_keys(scores["image_iou_after_clicks"], {"1", "3", "5"}));
+    CHECK(scores["mask_iou_after_clicks"].size() == 8);
+  }
+  CHECK(scene["image_iou"].get<double>() > 0.7);
+  CHECK(scene["image_iou"].get<double>() <= 1.0);
+  CHECK(scene["ms"].contains("cut"));
+  CHECK(place.run("eval made/suite.json --preset fast -o measured").code == 1);
+}
+
+TEST_CASE("Ctrl+C ends a run with 1 and leaves nothing half written") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  REQUIRE(place.run("make-scene large -o large --gaussians 300000 --format ply").code == 0);
+  place.write("large/suite.json", R"({"scenes": [{"name": "a", "scene": "large.ply", "cameras": "cameras.json",
+      "truth": {"labels": "large.labels.u8"}, "reference": {"camera": "view_00"}, "clicks": "robot", "test_views": []}]})");
+  for (const std::string& arguments :
+       {"cut large/large.ply --cameras large/cameras.json --camera 0 --preset best --click " + life.click,
+        std::string("eval large/suite.json --preset best"), std::string("make-scene more --gaussians 3000000")})
+    for (const int after_ms : {5, 60, 300, 700}) {
+      CAPTURE(arguments);
+      CAPTURE(after_ms);
+      const Result result = place.run_interrupted(arguments + " -o stopped", after_ms);
+      // A signal before the program has set its handler ends it by that signal.
+      CHECK_MESSAGE((result.code == 1 || result.signal == SIGINT), result.code);
+      if (result.code == 1) CHECK_MESSAGE(result.err.find("cancelled") != std::string::npos, result.err);
+      CHECK_FALSE(place.exists("stopped"));
+      CHECK(place.leftovers().empty());
+    }
+}

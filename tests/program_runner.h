@@ -1,0 +1,112 @@
+// Runs the built program in a folder of its own and looks at what it leaves there.
+#pragma once
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace splatcut::testing {
+
+struct Result {
+  int code = -1;   // exit code, -1 where a signal ended the program
+  int signal = 0;
+  std::string out, err;
+};
+
+class Workplace {
+ public:
+  Workplace() {
+    std::string name = (std::filesystem::temp_directory_path() / "splatcut_cli_test_XXXXXX").string();
+    REQUIRE(::mkdtemp(name.data()));
+    folder_ = name;
+  }
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+  ~Workplace() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+  void make_folder(const std::string& name) const { std::filesystem::create_directories(folder_ / name); }
+  void write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+  }
+  std::string text(const std::string& name) const {
+    std::ifstream in(folder_ / name, std::ios::binary);
+    REQUIRE_MESSAGE(in, name);
+    std::ostringstream out;
+    out << in.rdbuf();
+    return out.str();
+  }
+  std::set<std::string> files_in(const std::string& name) const {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / name)) names.insert(entry.path().filename());
+    return names;
+  }
+  // Temporary files and folders that nobody renamed or removed.
+  std::set<std::string> leftovers() const {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
+      if (entry.path().extension() == ".part") names.insert(entry.path().filename());
+    return names;
+  }
+
+  // arguments: separated by blanks, no quoting. The program's current folder is this one.
+  Result run(const std::string& arguments) const { return finish(start(arguments)); }
+
+  Result run_interrupted(const std::string& arguments, int after_ms) const {
+    const pid_t child = start(arguments);
+    std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
+    ::kill(child, SIGINT);
+    return finish(child);
+  }
+
+ private:
+  pid_t start(const std::string& arguments) const {
+    std::istringstream in(arguments);
+    std::vector<std::string> words = {SPLATCUT_PROGRAM};
+    for (std::string word; in >> word;) words.push_back(word);
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const std::string out = (folder_ / "stdout.txt").string(), err = (folder_ / "stderr.txt").string();
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_addchdir_np(&actions, folder_.c_str());
+    constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC, kMode = 0600;
+    ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), kFlags, kMode);
+    ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), kFlags, kMode);
+    pid_t child = 0;
+    const int failed = ::posix_spawn(&child, SPLATCUT_PROGRAM, &actions, nullptr, argv.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    REQUIRE(failed == 0);
+    return child;
+  }
+
+  Result finish(pid_t child) const {
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    Result result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
+                  text("stdout.txt"), text("stderr.txt")};
+    return result;
+  }
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace splatcut::testing
