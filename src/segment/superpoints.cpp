@@ -90,7 +90,7 @@ std::vector<SurfaceEdge> surface_edges(const GaussianCloud& cloud, const Surface
 Superpoints superpoints(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges, const SuperpointOptions& options) {
   const std::size_t n = f.core.size();
   UnionFind sets(n);
-  std::vector<float> internal(n, 0);  // largest weight inside a superpoint
+  std::vector<float> internal(n);  // largest weight inside a superpoint
   const auto order = by_weight(edges);
   for (const auto& [key, i] : order) {
     const std::uint32_t a = sets.find(edges[i].a), b = sets.find(edges[i].b);
