@@ -245,6 +245,40 @@ TEST_CASE("parts: clicks on four stripes, worked out by hand") {
   CHECK(count(mask_of(view, pick.leaves)) == 200);
 }
 
+TEST_CASE("parts: a mask of one side completes to whole nodes, by hand") {
+  const PartHierarchy parts = four_leaves();
+  Image<std::int32_t> hit = four_stripes();
+  for (auto& h : hit.pixels())
+    if (h == 1) h = 0;  // leaf 1 is hidden
+  const PartView view = view_parts(parts, hit);
+  Mask mask(40, 10);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 20; ++x) mask.at(x, y) = kMaskObject;
+  CHECK(parts_of_mask(parts, view, mask) == std::vector<std::uint8_t>{1, 1, 0, 0});
+  // Five of the next leaf's hundred pixels more do not take it in, half of the pair's less do not keep it.
+  for (int x = 20; x < 25; ++x) mask.at(x, 0) = kMaskObject;
+  CHECK(parts_of_mask(parts, view, mask) == std::vector<std::uint8_t>{1, 1, 0, 0});
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 15; ++x) mask.at(x, y) = 0;
+  CHECK(parts_of_mask(parts, view, mask) == std::vector<std::uint8_t>{0, 0, 0, 0});
+}
+
+TEST_CASE("parts: the true mask of one view selects the whole object of the still life") {
+  const Table& t = table();
+  for (const std::string object : {"apple", "pot", "books"}) {
+    const Target on = target(t, object);
+    const auto index = std::ranges::find(t.scene.label_name, object) - t.scene.label_name.begin();
+    const std::vector<std::uint8_t> labels = labels_of(t.prepared.parts, parts_of_mask(t.prepared.parts, on.view, on.truth));
+    double both = 0, either = 0;
+    for (std::size_t g = 0; g < labels.size(); ++g) {
+      both += labels[g] && t.label[g] == index;
+      either += labels[g] || t.label[g] == index;
+    }
+    MESSAGE(object, " ", both / either);
+    CHECK(both / either > 0.8);
+  }
+}
+
 TEST_CASE("parts: object clicks only add, rest clicks only remove, wherever they go") {
   const Table& t = table();
   const Target on = target(t, "mug");

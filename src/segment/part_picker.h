@@ -61,6 +61,16 @@ struct Pick {
 // Strokes in order, later ones correct earlier ones. Strokes that hit nothing do nothing.
 Pick pick_parts(const PartHierarchy& parts, const PartView& view, const Strokes& strokes, const PickOptions& options = {});
 
+// The leaves that a mask of the view means: per tree the nodes that agree best with it in pixels, whole nodes
+// rather than their children where that loses little, so that the side turned away belongs to it as well;
+// leaves that most trees choose. mask: same size as the view.
+struct MaskToPartsOptions {
+  float tolerance = 0.15f;      // pixels that a whole node may lose against its children, share of its own
+  float least_visible = 0.05f;  // share of a node's area in leaves that the view shows
+};
+std::vector<std::uint8_t> parts_of_mask(const PartHierarchy& parts, const PartView& view, const Mask& mask,
+                                        const MaskToPartsOptions& options = {});
+
 // Labels per Gaussian of a selection of leaves.
 std::vector<std::uint8_t> labels_of(const PartHierarchy& parts, const std::vector<std::uint8_t>& leaves);
 

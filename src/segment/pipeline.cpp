@@ -50,17 +50,20 @@ class Run {
       : cloud_(cloud), graph_(prepared.graph), parts_(prepared.parts), options_(options), job_(job), report_(*report), clock_(&report->stages),
         sums_(cloud.size()) {}
 
-  bool answered_by_parts() const { return labels_are_parts_ && !options_.cut_parts; }
+  bool answered_by_parts() const { return !prior_.empty() && !options_.cut_parts; }
   void reference_view(const Camera& full, const Strokes& strokes);
   void other_views(const std::vector<Camera>& cameras);
   void settle();
 
  private:
   void solve();
+  Likelihood with_prior(Likelihood seen) const;
   void add_view(const Camera& camera);
   Mask labels_in(const Camera& camera);
   double share_visible(const Camera& camera, const Mask& seen);
+  PartView parts_in(const Camera& camera);
   void pick(const Camera& camera, const Strokes& strokes);
+  void complete(const Camera& camera, const Mask& mask);
   Mask mask_from_pixels(const Camera& camera, const Strokes& strokes);
   Mask with_feedback(const Camera& camera, const Picture& picture, const Mask& mask, const Strokes& strokes);
   void use(ViewReport view);
@@ -76,14 +79,26 @@ class Run {
   MaskedSums sums_;
   std::vector<std::int32_t> capacity_;  // does not change within a run
   int used_views_ = 0;
-  bool labels_are_parts_ = false;  // they hold in all views at once: no solving from view to view
+  std::vector<std::uint8_t> prior_;  // what the parts say, per Gaussian; empty without parts
 };
+
+// What the parts say counts like prior_px_per_view more pixels of each Gaussian in each view.
+Likelihood Run::with_prior(Likelihood seen) const {
+  if (prior_.empty()) return seen;
+  const float px = options_.prior_px_per_view * static_cast<float>(used_views_);
+  for (std::size_t g = 0; g < prior_.size(); ++g) {
+    const float all = seen.seen_px[g] + px;
+    seen.w[g] = (seen.w[g] * seen.seen_px[g] + (prior_[g] ? px : 0)) / all;
+    seen.seen_px[g] = all;
+  }
+  return seen;
+}
 
 void Run::solve() {
   clock_.time("cut", [&] {
     const Camera& view = report_.views.front().camera;
     if (capacity_.empty() && !options_.cut.coarse) capacity_ = arc_capacities(cloud_, graph_, options_.cut.energy);
-    report_.cut = cut_object(cloud_, graph_, capacity_, likelihood(sums_), used_views_,
+    report_.cut = cut_object(cloud_, graph_, capacity_, with_prior(likelihood(sums_)), used_views_,
                              static_cast<double>(view.width_px) * view.height_px, options_.cut, job_);
     report_.labels = report_.cut.labels;
   });
@@ -114,19 +129,31 @@ Mask Run::with_feedback(const Camera& camera, const Picture& picture, const Mask
   return clock_.time("first mask", [&] { return refine_mask(picture.rgb, seen, 2, options_.first_mask.grabcut_iterations, seeds); });
 }
 
+PartView Run::parts_in(const Camera& camera) {
+  RasterOptions raster;
+  raster.colour = false;
+  raster.depth = true;
+  return view_parts(parts_, rasterize(cloud_, camera, raster, job_).first_hit);
+}
+
 // What the strokes mean as parts becomes the labels.
 void Run::pick(const Camera& camera, const Strokes& strokes) {
   clock_.time("first mask", [&] {
-    RasterOptions raster;
-    raster.colour = false;
-    raster.depth = true;
-    const PartView view = view_parts(parts_, rasterize(cloud_, camera, raster, job_).first_hit);
+    const PartView view = parts_in(camera);
     if (job_.cancelled()) return;
     const Pick picked = pick_parts(parts_, view, strokes, options_.pick);
     report_.labels = labels_of(parts_, picked.leaves);
     report_.first_sizes = picked.first_chain.size();
     report_.first_size = picked.first_chosen;
     report_.ambiguous = picked.ambiguous;
+  });
+}
+
+// What the mask means as parts becomes the labels.
+void Run::complete(const Camera& camera, const Mask& mask) {
+  clock_.time("first mask", [&] {
+    const PartView view = parts_in(camera);
+    if (!job_.cancelled()) report_.labels = labels_of(parts_, parts_of_mask(parts_, view, mask));
   });
 }
 
@@ -143,17 +170,21 @@ void Run::reference_view(const Camera& full, const Strokes& strokes) {
   Mask mask;
   if (options_.given_first_mask) {
     mask = resized_mask(*options_.given_first_mask, camera.width_px, camera.height_px);
+    if (options_.first_mask_from == FirstMaskFrom::kParts && count(mask) > 0) {
+      complete(camera, mask);
+      prior_ = report_.labels;
+    }
   } else if (options_.first_mask_from == FirstMaskFrom::kParts) {
     pick(camera, here);
     if (job_.cancelled()) return;
-    labels_are_parts_ = true;
+    prior_ = report_.labels;
     mask = labels_in(camera);
   } else {
     mask = mask_from_pixels(camera, here);
   }
   const bool anything = count(mask) > 0;
   use({camera, std::move(mask), true, 0, {}});
-  if (anything && !labels_are_parts_) solve();
+  if (anything && !answered_by_parts()) solve();
 }
 
 // The object's pixels that the scene leaves visible, as a share of what it would show alone.
@@ -185,7 +216,7 @@ void Run::add_view(const Camera& full) {
   constexpr int kBandPx = 2;  // the labels are right up to about two pixels of the border
   view.mask = clock_.time("masks", [&] { return refine_mask(picture.rgb, seen, kBandPx, options_.refine_iterations); });
   use(std::move(view));
-  if (!labels_are_parts_) solve();
+  solve();
 }
 
 void Run::other_views(const std::vector<Camera>& cameras) {

@@ -43,6 +43,7 @@ struct PipelineOptions {
   PickOptions pick;                  // kParts
   FirstMaskOptions first_mask;       // kPixels
   bool feedback = true;              // kPixels: cut from the one view in 3D, rendered back, corrects the mask
+  float prior_px_per_view = 0.1f;    // kParts: what the parts say counts as that many pixels of each Gaussian
   bool cut_parts = true;             // kParts: the graph cut settles what the parts say; false: they are the answer
   int refine_iterations = 0;         // GrabCut in orbit views; 0 takes the rendered labels as they are
   double view_agreement = 0.6;       // views whose mask agrees less with the solution are left out
