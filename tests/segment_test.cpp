@@ -13,6 +13,7 @@
 #include "segment/mask_tools.h"
 #include "segment/pipeline.h"
 #include "segment/robot_user.h"
+#include "segment/trim.h"
 #include "synthetic_cloud.h"
 
 using namespace splatcut;
@@ -155,4 +156,23 @@ TEST_CASE("pipeline: one click cuts a ball off its floor, the same on 1 and 2 th
   tbb::task_arena(1).execute([&] {
     CHECK(cut_out(cloud, nullptr, camera, {0, -1, 0}, strokes, preset("fast")).labels == report.labels);
   });
+}
+
+TEST_CASE("trim: a faint splat that sticks out leaves the object, one behind something nearer and one unseen stay") {
+  // Depth 4: the object, solid (0); haze beside it in the open (1), haze beside it behind a nearer solid (2, 3);
+  // outside of the picture (4).
+  GaussianCloud cloud;
+  cloud.resize(5, 0);
+  cloud.position = {{0, 0, 4}, {1.2f, 0, 4}, {-1.2f, 0, 4}, {-0.6f, 0, 2}, {50, 0, 4}};
+  for (std::size_t g = 0; g < cloud.size(); ++g) {
+    const bool solid = g == 0 || g == 3;
+    cloud.scale[g] = glm::vec3(solid ? 0.15f : 0.1f);
+    cloud.opacity[g] = solid ? 0.99f : 0.3f;
+  }
+  const Camera camera = look_at({0, 0, 0}, {0, 0, 4}, {0, -1, 0}, 1.0f, 160, 120);
+  std::vector<std::uint8_t> labels = {1, 1, 1, 0, 1};
+  const Mask mask = thresholded(render_labels(cloud, camera, labels), 0.5f);
+  const TrimView view{camera, &mask};
+  CHECK(trim(cloud, {&view, 1}, {}, &labels) == 1);
+  CHECK(labels == std::vector<std::uint8_t>{1, 0, 1, 0, 1});
 }

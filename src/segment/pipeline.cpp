@@ -9,6 +9,7 @@
 #include "segment/likelihood.h"
 #include "segment/mask_tools.h"
 #include "segment/stage_clock.h"
+#include "segment/trim.h"
 
 namespace splatcut {
 
@@ -54,12 +55,14 @@ class Run {
   void reference_view(const Camera& full, const Strokes& strokes);
   void other_views(const std::vector<Camera>& cameras);
   void settle();
+  void trim_labels();
 
  private:
   void solve();
   Likelihood with_prior(Likelihood seen) const;
   void add_view(const Camera& camera);
   Mask labels_in(const Camera& camera);
+  Mask refined(const Camera& camera, const Mask& seen);
   double share_visible(const Camera& camera, const Mask& seen);
   PartView parts_in(const Camera& camera);
   void pick(const Camera& camera, const Strokes& strokes);
@@ -198,6 +201,12 @@ double Run::share_visible(const Camera& camera, const Mask& seen) {
   return alone ? static_cast<double>(count(seen)) / static_cast<double>(alone) : 0.0;
 }
 
+Mask Run::refined(const Camera& camera, const Mask& seen) {
+  const Picture picture = clock_.time("view", [&] { return render(cloud_, camera, job_); });
+  constexpr int kBandPx = 2;  // the labels are right up to about two pixels of the border
+  return clock_.time("masks", [&] { return refine_mask(picture.rgb, seen, kBandPx, options_.refine_iterations); });
+}
+
 void Run::add_view(const Camera& full) {
   const Camera camera = limited_to_width(full, options_.work_width_px);
   ViewReport view{camera, Mask(camera.width_px, camera.height_px), false, 0, {}};
@@ -212,9 +221,7 @@ void Run::add_view(const Camera& full) {
     report_.views.push_back(std::move(view));
     return;
   }
-  const Picture picture = clock_.time("view", [&] { return render(cloud_, camera, job_); });
-  constexpr int kBandPx = 2;  // the labels are right up to about two pixels of the border
-  view.mask = clock_.time("masks", [&] { return refine_mask(picture.rgb, seen, kBandPx, options_.refine_iterations); });
+  view.mask = options_.refine_iterations > 0 ? refined(camera, seen) : seen;
   use(std::move(view));
   solve();
 }
@@ -253,6 +260,13 @@ void Run::settle() {
   measure_agreement();
 }
 
+void Run::trim_labels() {
+  std::vector<TrimView> views;
+  for (const ViewReport& view : report_.views)
+    if (view.used) views.push_back({view.camera, &view.mask});
+  clock_.time("trim", [&] { report_.trimmed = trim(cloud_, views, options_.trim_options, &report_.labels, job_); });
+}
+
 }  // namespace
 
 PipelineOptions preset(const std::string& name) {
@@ -268,6 +282,7 @@ PipelineOptions preset(const std::string& name) {
     options.orbit.views = 40;
     options.first_mask_from = FirstMaskFrom::kPixels;
     options.cut.energy = paper_energy();
+    options.trim = false;
   } else {
     throw Error("--preset " + name, "there is no such preset", "Take fast, default, best or paper");
   }
@@ -306,6 +321,7 @@ PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared
   run.other_views(cameras);
   if (cancelled()) return report;
   run.settle();
+  if (options.trim && !job.cancelled()) run.trim_labels();
   cancelled();
   return report;
 }

@@ -22,6 +22,7 @@
 #include "segment/part_picker.h"
 #include "segment/prepared_scene.h"
 #include "segment/seeds.h"
+#include "segment/trim.h"
 
 namespace splatcut {
 
@@ -48,6 +49,8 @@ struct PipelineOptions {
   int refine_iterations = 0;         // GrabCut in orbit views; 0 takes the rendered labels as they are
   double view_agreement = 0.6;       // views whose mask agrees less with the solution are left out
   CutOptions cut;
+  bool trim = true;                  // see trim.h
+  TrimOptions trim_options;
   std::optional<Mask> given_first_mask;  // size of the reference camera
   MaskSource given_masks;                // of every orbit view
 };
@@ -73,6 +76,7 @@ struct PipelineReport {
   CutReport cut;
   std::size_t first_sizes = 0, first_size = 0;  // kParts: sizes that the first click can mean; the one taken
   bool ambiguous = false;            // kParts: another size was nearly as likely
+  std::size_t trimmed = 0;           // Gaussians that left the object after the cut
   std::vector<ViewReport> views;     // the reference first
   std::vector<StageTime> stages;     // in order, same names added up
 };

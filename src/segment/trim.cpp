@@ -1,0 +1,57 @@
+#include "segment/trim.h"
+
+#include <algorithm>
+
+#include "scene/rasterizer.h"
+#include "segment/mask_tools.h"
+
+namespace splatcut {
+
+namespace {
+
+// Where the object may be: its mask, and where something nearer hides it.
+Mask allowed_in(const GaussianCloud& cloud, const TrimView& view, const TrimOptions& options, const std::vector<std::uint8_t>& labels,
+                const Job& job) {
+  RasterOptions raster;
+  raster.colour = false;
+  raster.depth = true;
+  const RasterOutput scene = rasterize(cloud, view.camera, raster, job);
+  raster.shown = labels;
+  const RasterOutput alone = rasterize(cloud, view.camera, raster, job);
+  Mask allowed = dilated(*view.mask, options.margin_px);
+  constexpr float kNearer = 0.99f;
+  for (std::size_t i = 0; i < allowed.size(); ++i) {
+    const float depth = scene.median_depth.pixels()[i];
+    if (depth > 0 && depth < kNearer * alone.expected_depth.pixels()[i]) allowed.pixels()[i] = kMaskObject;
+  }
+  return allowed;
+}
+
+}  // namespace
+
+std::size_t trim(const GaussianCloud& cloud, std::span<const TrimView> views, const TrimOptions& options,
+                 std::vector<std::uint8_t>* labels, const Job& job) {
+  MaskedSums sums(cloud.size());
+  const std::size_t n = std::min(views.size(), static_cast<std::size_t>(options.most_views));
+  for (std::size_t i = 0; i < n; ++i) {
+    const TrimView& view = views[i * views.size() / n];
+    if (job.cancelled()) return 0;
+    const Mask allowed = allowed_in(cloud, view, options, *labels, job);
+    RasterOptions raster;
+    raster.colour = false;
+    raster.shown = *labels;
+    raster.sum_mask = &allowed;
+    raster.sums = &sums;
+    rasterize(cloud, view.camera, raster, job);
+  }
+  std::size_t left = 0;
+  for (std::size_t g = 0; g < labels->size(); ++g) {
+    if (!(*labels)[g] || sums.total[g] == 0) continue;
+    if (static_cast<double>(sums.inside[g]) >= options.least_inside * static_cast<double>(sums.total[g])) continue;
+    (*labels)[g] = 0;
+    ++left;
+  }
+  return left;
+}
+
+}  // namespace splatcut
