@@ -1,0 +1,29 @@
+#version 330 core
+// From the float target to a picture: background, tint of the selection, its outline.
+uniform sampler2D picture;
+uniform sampler2D selected;
+uniform vec3 background;
+uniform float tint_strength;     // [0, 1]
+uniform float outline_strength;  // [0, 1]
+
+out vec4 pixel;
+
+float strength(ivec2 p) {
+  vec3 s = texelFetch(selected, clamp(p, ivec2(0), textureSize(selected, 0) - 1), 0).rgb;
+  return max(s.r, max(s.g, s.b));
+}
+
+void main() {
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  vec4 premultiplied = texelFetch(picture, p, 0);
+  vec3 colour = premultiplied.rgb + (1.0 - premultiplied.a) * background;
+  vec3 selection = texelFetch(selected, p, 0).rgb;
+  float here = strength(p);
+  vec3 hue = here > 0.0 ? selection / here : vec3(1.0);
+  colour = mix(colour, hue, tint_strength * clamp(here, 0.0, 1.0));
+  float inside = step(0.5, here), border = 0.0;
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) border = max(border, abs(inside - step(0.5, strength(p + ivec2(x, y)))));
+  vec3 line = here >= 0.5 ? hue : vec3(0.0);
+  pixel = vec4(mix(colour, line, outline_strength * border), 1.0);
+}
