@@ -58,6 +58,9 @@ class Run {
   void trim_labels();
 
  private:
+  void snapshot() const {
+    if (options_.on_snapshot && !job_.cancelled()) options_.on_snapshot(report_);
+  }
   void solve();
   Likelihood with_prior(Likelihood seen) const;
   void add_view(const Camera& camera);
@@ -105,6 +108,7 @@ void Run::solve() {
                              static_cast<double>(view.width_px) * view.height_px, options_.cut, job_);
     report_.labels = report_.cut.labels;
   });
+  snapshot();
 }
 
 Mask Run::labels_in(const Camera& camera) {
@@ -187,6 +191,7 @@ void Run::reference_view(const Camera& full, const Strokes& strokes) {
   }
   const bool anything = count(mask) > 0;
   use({camera, std::move(mask), true, 0, {}});
+  snapshot();
   if (anything && !answered_by_parts()) solve();
 }
 

@@ -35,6 +35,8 @@ enum class FirstMaskFrom {
   kPixels,  // geodesic distance and GrabCut in the one picture, corrected by a first cut in 3D
 };
 
+struct PipelineReport;
+
 struct PipelineOptions {
   int work_width_px = 400;           // views are rendered no wider than this
   OrbitOptions orbit;
@@ -53,6 +55,8 @@ struct PipelineOptions {
   TrimOptions trim_options;
   std::optional<Mask> given_first_mask;  // size of the reference camera
   MaskSource given_masks;                // of every orbit view
+  // Called on the running thread when a mask was found and after each cut; the report is as far as it has come.
+  std::function<void(const PipelineReport&)> on_snapshot;
 };
 
 // Settings by name: fast (no orbit views), default, best, paper (GaussianCut's literal energy and counts).

@@ -1,0 +1,184 @@
+#include "app/studio/camera_controller.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace splatcut {
+
+namespace {
+
+constexpr float kTransitionSeconds = 0.25f;
+constexpr float kOrbitRadPerPx = 0.006f;
+constexpr float kZoomPerStep = 0.88f;
+constexpr float kFramesPerRadius = 1.15f;    // a little air around what is framed
+constexpr float kFlySizesPerSecond = 0.35f;  // scene diagonals
+constexpr float kPoleRad = 0.02f;            // the view axis never meets the up axis
+
+glm::mat3 world_from_camera(const CameraPose& pose) {
+  return glm::transpose(glm::mat3_cast(pose.camera_from_world));
+}
+
+// Upright rotation that looks along `forward`.
+glm::quat looking(const glm::vec3& forward, const glm::vec3& up, const glm::vec3& right_if_parallel) {
+  const glm::vec3 z = glm::normalize(forward);
+  glm::vec3 x = glm::cross(z, up);
+  x = glm::length(x) > 1e-4f ? glm::normalize(x) : glm::normalize(right_if_parallel);
+  const glm::vec3 y = glm::cross(z, x);
+  return glm::normalize(glm::quat_cast(glm::transpose(glm::mat3(x, y, z))));
+}
+
+}  // namespace
+
+void CameraController::reset(const Box& scene, const glm::vec3& up_world) {
+  scene_ = scene;
+  scene_size_ = std::max(1e-6f, glm::length(scene.extent()));
+  up_world_ = glm::normalize(up_world);
+  target_.reset();
+  const glm::vec3 sideways = std::abs(up_world_.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+  const glm::vec3 forward = sideways - glm::dot(sideways, up_world_) * up_world_ - 0.35f * up_world_;
+  pose_ = CameraPose{};
+  pose_.camera_from_world = looking(forward, up_world_, {1, 0, 0});
+  frame_scene();
+  finish_transition();
+}
+
+glm::vec3 CameraController::pivot_world() const {
+  return pose_.position_world + pose_.distance * world_from_camera(pose_)[2];
+}
+
+void CameraController::set_pose(const CameraPose& pose) {
+  target_.reset();
+  pose_ = pose;
+}
+
+void CameraController::orbit(const glm::vec2& delta_px) {
+  finish_transition();
+  const glm::vec3 pivot = pivot_world();
+  const glm::mat3 axes = world_from_camera(pose_);
+  const glm::quat around = glm::angleAxis(-delta_px.x * kOrbitRadPerPx, up_world_);
+  // Tilt stops short of the poles, where left and right would swap.
+  const float elevation = std::asin(std::clamp(glm::dot(axes[2], up_world_), -1.0f, 1.0f));
+  const bool upright = glm::dot(-axes[1], up_world_) >= 0;
+  float tilt = delta_px.y * kOrbitRadPerPx * (upright ? 1.0f : -1.0f);
+  const float limit = glm::half_pi<float>() - kPoleRad;
+  tilt = std::clamp(elevation - tilt, -limit, limit) - elevation;
+  const glm::quat over = glm::angleAxis(upright ? tilt : -tilt, axes[0]);
+  const glm::quat turn = glm::normalize(around * over);
+  pose_.camera_from_world = glm::normalize(pose_.camera_from_world * glm::conjugate(turn));
+  pose_.position_world = pivot - pose_.distance * world_from_camera(pose_)[2];
+}
+
+void CameraController::pan(const glm::vec2& delta_px, float viewport_height_px) {
+  finish_transition();
+  const float per_px = 2 * pose_.distance * std::tan(0.5f * pose_.fov_y_rad) / viewport_height_px;
+  const glm::mat3 axes = world_from_camera(pose_);
+  pose_.position_world -= per_px * (delta_px.x * axes[0] + delta_px.y * axes[1]);
+}
+
+void CameraController::zoom(float steps) {
+  finish_transition();
+  const glm::vec3 pivot = pivot_world();
+  pose_.distance =
+      std::clamp(pose_.distance * std::pow(kZoomPerStep, steps), 1e-4f * scene_size_, 1e3f * scene_size_);
+  pose_.position_world = pivot - pose_.distance * world_from_camera(pose_)[2];
+}
+
+void CameraController::fly(const Flight& flight, float seconds) {
+  finish_transition();
+  const glm::mat3 axes = world_from_camera(pose_);
+  const glm::vec3 step = static_cast<float>(flight.right) * axes[0] -
+                         static_cast<float>(flight.down) * up_world_ +
+                         static_cast<float>(flight.forward) * axes[2];
+  pose_.position_world += flight.speed * kFlySizesPerSecond * scene_size_ * seconds * step;
+}
+
+void CameraController::focus(const glm::vec3& point_world) {
+  CameraPose target = pose_;
+  target.distance = std::max(1e-4f * scene_size_, glm::length(point_world - pose_.position_world));
+  target.position_world = point_world - target.distance * world_from_camera(pose_)[2];
+  start(target);
+}
+
+void CameraController::frame(const Box& box) {
+  CameraPose target = pose_;
+  const float radius = std::max(1e-6f * scene_size_, 0.5f * glm::length(box.extent()));
+  target.distance = kFramesPerRadius * radius / std::sin(0.5f * pose_.fov_y_rad);
+  target.position_world = box.centre() - target.distance * world_from_camera(pose_)[2];
+  start(target);
+}
+
+void CameraController::go_to(const Camera& camera) {
+  CameraPose target = pose_;
+  target.camera_from_world = glm::normalize(glm::quat_cast(camera.camera_from_world_rotation));
+  target.position_world = camera.centre_world();
+  target.fov_y_rad = 2 * std::atan(0.5f * static_cast<float>(camera.height_px) / camera.fy_px);
+  // The pivot is what the camera looks at: the scene's middle, where it lies ahead.
+  const float ahead = glm::dot(scene_.centre() - target.position_world, camera.forward_world());
+  if (ahead > 1e-3f * scene_size_) target.distance = ahead;
+  start(target);
+}
+
+void CameraController::look_along(const glm::vec3& direction_world) {
+  CameraPose target = pose_;
+  const glm::vec3 pivot = pivot_world();
+  target.camera_from_world = looking(direction_world, up_world_, world_from_camera(pose_)[0]);
+  target.position_world = pivot - target.distance * world_from_camera(target)[2];
+  start(target);
+}
+
+void CameraController::set_up(const glm::vec3& up_world) {
+  const glm::vec3 pivot = pivot_world();
+  up_world_ = glm::normalize(up_world);
+  CameraPose target = pose_;
+  const glm::mat3 axes = world_from_camera(pose_);
+  target.camera_from_world = looking(axes[2], up_world_, axes[0]);
+  target.position_world = pivot - target.distance * world_from_camera(target)[2];
+  start(target);
+}
+
+void CameraController::set_fov_y(float fov_y_rad) {
+  finish_transition();
+  pose_.fov_y_rad = std::clamp(fov_y_rad, glm::radians(5.0f), glm::radians(140.0f));
+}
+
+void CameraController::start(const CameraPose& target) {
+  from_ = pose_;
+  target_ = target;
+  progress_ = 0;
+}
+
+bool CameraController::advance(float seconds) {
+  if (!target_) return false;
+  progress_ += seconds / kTransitionSeconds;
+  if (progress_ >= 1) {
+    finish_transition();
+    return true;
+  }
+  const float t = progress_ * progress_ * (3 - 2 * progress_);
+  pose_.camera_from_world = glm::slerp(from_.camera_from_world, target_->camera_from_world, t);
+  pose_.position_world = glm::mix(from_.position_world, target_->position_world, t);
+  pose_.distance = glm::mix(from_.distance, target_->distance, t);
+  pose_.fov_y_rad = glm::mix(from_.fov_y_rad, target_->fov_y_rad, t);
+  return true;
+}
+
+void CameraController::finish_transition() {
+  if (target_) pose_ = *target_;
+  target_.reset();
+}
+
+Camera CameraController::camera(int width_px, int height_px) const {
+  Camera camera;
+  camera.width_px = width_px;
+  camera.height_px = height_px;
+  camera.fy_px = 0.5f * static_cast<float>(height_px) / std::tan(0.5f * pose_.fov_y_rad);
+  camera.fx_px = camera.fy_px;
+  camera.cx_px = 0.5f * static_cast<float>(width_px);
+  camera.cy_px = 0.5f * static_cast<float>(height_px);
+  camera.camera_from_world_rotation = glm::mat3_cast(pose_.camera_from_world);
+  camera.camera_from_world_translation = -(camera.camera_from_world_rotation * pose_.position_world);
+  return camera;
+}
+
+}  // namespace splatcut

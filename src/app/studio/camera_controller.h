@@ -1,0 +1,71 @@
+// Where the user looks from: orbit, pan, zoom, fly, focus, frame, given cameras. Never part of undo.
+//
+// State: a camera pose (COLMAP axes), a pivot at `distance` along the view axis, a vertical field of view.
+// Moves are in logical pixels of the viewport; lengths in scene units. Transitions take kTransitionSeconds of
+// advance().
+#pragma once
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <span>
+
+#include "scene/camera.h"
+#include "scene/gaussian_cloud.h"
+
+namespace splatcut {
+
+struct CameraPose {
+  glm::quat camera_from_world{1, 0, 0, 0};
+  glm::vec3 position_world{0};
+  float distance = 4;  // to the pivot, scene units
+  float fov_y_rad = 0.87f;
+};
+
+// Steps of a flight: each -1, 0 or 1 along the camera's axes.
+struct Flight {
+  int right = 0, down = 0, forward = 0;
+  float speed = 1;  // of the usual speed
+  bool moving() const { return right != 0 || down != 0 || forward != 0; }
+};
+
+class CameraController {
+ public:
+  // scene: what is framed by frame_scene(); outlier Gaussians do not count in it.
+  void reset(const Box& scene, const glm::vec3& up_world);
+
+  void orbit(const glm::vec2& delta_px);
+  void pan(const glm::vec2& delta_px, float viewport_height_px);
+  void zoom(float steps);  // wheel notches; positive goes nearer
+  void fly(const Flight& flight, float seconds);
+  void focus(const glm::vec3& point_world);  // pivot there, same direction
+  void frame(const Box& box);                // the box fills the picture, same direction
+  void frame_scene() { frame(scene_); }
+  void go_to(const Camera& camera);                   // the exact pose; the pivot stays at its distance
+  void look_along(const glm::vec3& direction_world);  // at the pivot
+  void set_up(const glm::vec3& up_world);             // turns the view upright
+  void set_fov_y(float fov_y_rad);
+
+  // Moves a running transition on. True while the picture changes.
+  bool advance(float seconds);
+  void finish_transition();
+
+  const CameraPose& pose() const { return pose_; }
+  void set_pose(const CameraPose& pose);
+  const glm::vec3& up_world() const { return up_world_; }
+  glm::vec3 pivot_world() const;
+  Camera camera(int width_px, int height_px) const;
+  float scene_size() const { return scene_size_; }  // diagonal of the framed box, scene units
+
+ private:
+  void start(const CameraPose& target);
+
+  Box scene_;
+  float scene_size_ = 1;
+  glm::vec3 up_world_{0, -1, 0};
+  CameraPose pose_, from_;
+  std::optional<CameraPose> target_;
+  float progress_ = 0;
+};
+
+}  // namespace splatcut

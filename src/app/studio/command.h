@@ -1,0 +1,161 @@
+// Everything the user can ask for. Keys, menus, buttons, the pointer, files and tests send the same commands
+// to Studio::apply(), so they cannot disagree.
+#pragma once
+
+#include <filesystem>
+#include <variant>
+
+#include "app/studio/document.h"
+#include "app/studio/export_plan.h"
+#include "app/studio/view_state.h"
+
+namespace splatcut {
+
+// Strokes and selections; they make an object where none is active.
+struct AddStroke {
+  Camera camera;
+  Stroke stroke;  // in the camera's pixels
+};
+struct AddBox {
+  Camera camera;
+  glm::vec2 a_px, b_px;  // opposite corners
+};
+struct SelectRegion {
+  Camera camera;
+  Mask region;  // in the camera's size
+  SetOperation operation = SetOperation::kAdd;
+};
+struct SelectSphere {
+  glm::vec3 centre_world;
+  float radius;
+  SetOperation operation = SetOperation::kAdd;
+};
+struct SelectColour {
+  glm::vec3 colour;
+  float tolerance;
+  SetOperation operation = SetOperation::kAdd;
+};
+struct SelectRange {
+  Property property;
+  float low, high;
+  SetOperation operation = SetOperation::kAdd;
+};
+enum class SelectionEdit { kAll, kNone, kInvert, kGrow, kShrink, kLargestPart, kRemoveFloaters };
+struct EditSelection {
+  SelectionEdit edit;
+};
+struct ShowFloaters {
+  bool shown;  // a preview; EditSelection{kRemoveFloaters} removes them
+};
+struct StepScale {
+  int steps;  // after a click: to larger (+) or smaller (-) parts
+};
+struct ClearStrokes {};
+
+// Objects.
+struct NewObject {
+  ObjectId within = 0;
+};
+struct RemoveObject {
+  ObjectId object;
+};
+struct RenameObject {
+  ObjectId object;
+  std::string name;
+};
+struct RecolourObject {
+  ObjectId object;
+  Rgb8 colour;
+};
+struct ShowObject {
+  ObjectId object;
+  bool visible;
+};
+struct LockObject {
+  ObjectId object;
+  bool locked;
+};
+struct ActivateObject {
+  ObjectId object;
+};
+struct MergeObjects {
+  ObjectId into, from;
+};
+struct SplitObject {
+  ObjectId object;
+};
+struct DuplicateObject {
+  ObjectId object;
+};
+struct SeparateObject {
+  ObjectId object;
+};
+struct DeleteSelected {};
+struct RestoreDeleted {};
+struct LeaveOutView {
+  ObjectId object;
+  int view;
+  bool left_out;
+};
+
+// Settings that change the result.
+struct SetSmoothness {
+  ObjectId object;
+  float smoothness;
+};
+struct SetPreset {
+  std::string preset;
+};
+struct SetBackground {
+  glm::vec3 colour;
+};
+struct SetUp {
+  glm::vec3 up_world;
+};
+
+// Work.
+struct Undo {};
+struct Redo {};
+struct JumpHistory {
+  std::size_t entry;
+};
+struct Cancel {};
+struct Recompute {};
+
+// Looking: never undone.
+struct SetView {
+  ViewState view;
+};
+struct GoToCamera {
+  Camera camera;
+};
+
+// Files.
+struct OpenScene {
+  std::filesystem::path path;  // a scene or a work file
+};
+struct SaveWork {
+  std::filesystem::path path;
+};
+struct RestoreAutosave {};
+struct Export {
+  ExportRequest request;
+};
+struct SaveSnapshot {
+  std::filesystem::path path;
+  bool transparent = true;
+};
+struct SaveTurntable {
+  std::filesystem::path folder;
+  int frames = 72;
+};
+
+using Command =
+    std::variant<AddStroke, AddBox, SelectRegion, SelectSphere, SelectColour, SelectRange, EditSelection,
+                 ShowFloaters, StepScale, ClearStrokes, NewObject, RemoveObject, RenameObject, RecolourObject,
+                 ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject, DuplicateObject,
+                 SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness, SetPreset,
+                 SetBackground, SetUp, Undo, Redo, JumpHistory, Cancel, Recompute, SetView, GoToCamera,
+                 OpenScene, SaveWork, RestoreAutosave, Export, SaveSnapshot, SaveTurntable>;
+
+}  // namespace splatcut

@@ -1,0 +1,104 @@
+#include "app/studio/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace splatcut {
+
+namespace {
+
+// Warm and cool in turn, apart for people who see fewer colours (after Okabe and Ito, 2008, brightened).
+constexpr std::array<Rgb8, 8> kObjectColours = {Rgb8{255, 145, 40},  Rgb8{70, 180, 255}, Rgb8{40, 205, 145},
+                                                Rgb8{240, 110, 190}, Rgb8{250, 225, 70}, Rgb8{150, 130, 255},
+                                                Rgb8{255, 95, 80},   Rgb8{120, 220, 235}};
+
+void append_flags(std::string* bytes, const Flags& flags) {
+  if (flags && std::ranges::any_of(*flags, [](std::uint8_t f) { return f != 0; }))
+    bytes->append(flags->begin(), flags->end());
+  bytes->push_back('|');
+}
+
+}  // namespace
+
+Flags make_flags(std::vector<std::uint8_t> values) {
+  return std::make_shared<const std::vector<std::uint8_t>>(std::move(values));
+}
+
+const ObjectItem* Document::find(ObjectId id) const {
+  const auto found = std::ranges::find(objects, id, &ObjectItem::id);
+  return id != 0 && found != objects.end() ? &*found : nullptr;
+}
+
+ObjectItem* Document::find(ObjectId id) {
+  return const_cast<ObjectItem*>(std::as_const(*this).find(id));
+}
+
+ObjectCutInput cut_input(const Document& document, const ObjectItem& object) {
+  return {object.views, document.up_world, document.preset, object.smoothness, object.left_out};
+}
+
+bool is_stale(const Document& document, const ObjectItem& object) {
+  const bool marks =
+      std::ranges::any_of(object.views, [](const StrokedView& v) { return !v.strokes.empty(); });
+  if (!marks) return object.cut != nullptr && !object.cut_key.empty();
+  return object.cut_key != key_of(cut_input(document, object));
+}
+
+std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& object,
+                                    std::size_t gaussians) {
+  std::vector<std::uint8_t> labels(gaussians, 0);
+  if (object.cut) labels = *object.cut;
+  assert(labels.size() == gaussians);
+  if (object.hand)
+    for (std::size_t g = 0; g < gaussians; ++g)
+      if ((*object.hand)[g] != kFollowCut) labels[g] = (*object.hand)[g] == kHandObject;
+  if (document.deleted)
+    for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && !(*document.deleted)[g];
+  if (const ObjectItem* whole = document.find(object.within); whole && whole->id != object.id) {
+    const std::vector<std::uint8_t> limit = labels_of(document, *whole, gaussians);
+    for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && limit[g];
+  }
+  return labels;
+}
+
+void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels) {
+  const std::vector<std::uint8_t> before = labels_of(*document, *object, labels.size());
+  std::vector<std::uint8_t> hand(labels.size(), kFollowCut);
+  if (object->hand) hand = *object->hand;
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    if ((labels[g] != 0) != (before[g] != 0)) hand[g] = labels[g] ? kHandObject : kHandRest;
+  object->hand = make_flags(std::move(hand));
+}
+
+ObjectItem& add_object(Document* document, std::string name) {
+  ObjectItem object;
+  object.id = document->next_id++;
+  object.name = name.empty() ? fmt::format("Object {}", object.id) : std::move(name);
+  object.colour = kObjectColours[(object.id - 1) % kObjectColours.size()];
+  document->active = object.id;
+  return document->objects.emplace_back(std::move(object));
+}
+
+std::size_t count_flags(std::span<const std::uint8_t> flags) {
+  return static_cast<std::size_t>(std::ranges::count_if(flags, [](std::uint8_t f) { return f != 0; }));
+}
+
+std::string bytes_of(const Document& document) {
+  std::string bytes = fmt::format("{},{},{},{},{},{},{},{};", document.active, document.next_id,
+                                  document.preset, document.up_world.x, document.up_world.y,
+                                  document.up_world.z, document.background.r, document.background.g);
+  append_flags(&bytes, document.deleted);
+  for (const ObjectItem& o : document.objects) {
+    bytes += fmt::format("{},{},{},{},{},{},{},{};", o.id, o.name, o.colour[0], o.colour[1], o.colour[2],
+                         o.visible, o.locked, o.within);
+    bytes += key_of(cut_input(document, o)) + o.cut_key;
+    append_flags(&bytes, o.cut);
+    append_flags(&bytes, o.hand);
+  }
+  return bytes;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,77 @@
+// What the user makes: objects with their strokes and labels, and the settings that change them. A value:
+// copies share their large arrays, so that keeping one per undo step is cheap and undo is exact.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/image.h"
+#include "segment/object_cut.h"
+
+namespace splatcut {
+
+// One byte per Gaussian of the cloud, immutable; null means all zero.
+using Flags = std::shared_ptr<const std::vector<std::uint8_t>>;
+Flags make_flags(std::vector<std::uint8_t> values);
+
+using ObjectId = std::uint32_t;  // never used twice in a document; 0 is none
+
+// What the hand says of a Gaussian, over what the cut says.
+enum HandMark : std::uint8_t { kFollowCut = 0, kHandObject = 1, kHandRest = 2 };
+
+struct ObjectItem {
+  ObjectId id = 0;
+  std::string name;
+  Rgb8 colour{255, 140, 30};
+  bool visible = true;
+  bool locked = false;
+  ObjectId within = 0;  // part of that object: labels outside of it do not count
+  std::vector<StrokedView> views;
+  std::vector<int> left_out;        // orbit views that do not count, see ObjectCutInput
+  std::optional<float> smoothness;  // the preset's own where not given
+  Flags cut;                        // labels from the strokes, 1 = object
+  std::string cut_key;              // key_of() the input they were computed from; empty: none yet
+  Flags hand;                       // HandMark
+};
+
+struct Document {
+  std::vector<ObjectItem> objects;
+  ObjectId active = 0;
+  ObjectId next_id = 1;
+  glm::vec3 up_world{0, -1, 0};
+  std::string preset = "default";
+  glm::vec3 background{0.11f, 0.115f, 0.125f};
+  Flags deleted;  // Gaussians taken out of the scene: neither drawn nor exported
+
+  const ObjectItem* find(ObjectId id) const;
+  ObjectItem* find(ObjectId id);
+  const ObjectItem* active_object() const { return find(active); }
+};
+
+// Strokes and settings of an object, as the cut wants them.
+ObjectCutInput cut_input(const Document& document, const ObjectItem& object);
+
+// True where the strokes say something else than `cut` was computed from.
+bool is_stale(const Document& document, const ObjectItem& object);
+
+// Final labels (1 = object): cut, hand marks, `within` and deleted together. Size: `gaussians`.
+std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& object,
+                                    std::size_t gaussians);
+
+// The final labels become `labels`: what differs from the cut is marked by hand.
+void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels);
+
+// A new object, active, with a name and a colour of its own.
+ObjectItem& add_object(Document* document, std::string name = {});
+
+std::size_t count_flags(std::span<const std::uint8_t> flags);
+
+// Everything in the document as bytes: equal documents, equal bytes. Tests compare these.
+std::string bytes_of(const Document& document);
+
+}  // namespace splatcut

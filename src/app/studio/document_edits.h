@@ -1,0 +1,50 @@
+// The commands that change objects, as functions from a document to the next one. No threads, no window.
+// Each returns what the message strip says. Expected refusals (a locked object, nothing selected) are Errors
+// worded for the user; the document is then unchanged because the caller drops its copy.
+#pragma once
+
+#include <string>
+
+#include "app/studio/command.h"
+#include "scene/gaussian_cloud.h"
+#include "segment/max_flow.h"
+
+namespace splatcut {
+
+// What edits may look at.
+struct EditContext {
+  const GaussianCloud& cloud;
+  const FlowGraph* graph = nullptr;  // null while it is being built
+};
+
+std::string edit(Document* document, const AddStroke& command, const EditContext& context);
+std::string edit(Document* document, const AddBox& command, const EditContext& context);
+std::string edit(Document* document, const EditSelection& command, const EditContext& context);
+std::string edit(Document* document, const ClearStrokes& command, const EditContext& context);
+std::string edit(Document* document, const NewObject& command, const EditContext& context);
+std::string edit(Document* document, const RemoveObject& command, const EditContext& context);
+std::string edit(Document* document, const RenameObject& command, const EditContext& context);
+std::string edit(Document* document, const RecolourObject& command, const EditContext& context);
+std::string edit(Document* document, const ShowObject& command, const EditContext& context);
+std::string edit(Document* document, const LockObject& command, const EditContext& context);
+std::string edit(Document* document, const ActivateObject& command, const EditContext& context);
+std::string edit(Document* document, const MergeObjects& command, const EditContext& context);
+std::string edit(Document* document, const SplitObject& command, const EditContext& context);
+std::string edit(Document* document, const DuplicateObject& command, const EditContext& context);
+std::string edit(Document* document, const SeparateObject& command, const EditContext& context);
+std::string edit(Document* document, const DeleteSelected& command, const EditContext& context);
+std::string edit(Document* document, const RestoreDeleted& command, const EditContext& context);
+std::string edit(Document* document, const LeaveOutView& command, const EditContext& context);
+std::string edit(Document* document, const SetSmoothness& command, const EditContext& context);
+std::string edit(Document* document, const SetPreset& command, const EditContext& context);
+std::string edit(Document* document, const SetBackground& command, const EditContext& context);
+std::string edit(Document* document, const SetUp& command, const EditContext& context);
+
+// The active object's labels, combined with a selection found by any tool.
+std::string edit_selection(Document* document, const Selection& region, SetOperation operation,
+                           const EditContext& context);
+
+// Strokes of a box: its border is rest, its middle is object.
+Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px);
+
+}  // namespace splatcut

@@ -1,0 +1,48 @@
+// What an export writes, what it keeps and loses, and how large it gets, before it is done.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/studio/document.h"
+#include "scene/scene_file.h"
+
+namespace splatcut {
+
+enum class ExportWhat { kObject, kRest, kAllObjects };  // kAllObjects: one file each, named after the object
+
+struct ExportRequest {
+  ExportWhat what = ExportWhat::kObject;
+  SceneFormat format = SceneFormat::kPly;
+  std::filesystem::path path;  // a file; for kAllObjects a folder
+  bool overwrite = false;
+};
+
+struct ExportPlan {
+  std::size_t gaussians = 0;
+  std::uint64_t bytes = 0;
+  bool about = false;      // compressed: the size is an estimate
+  std::string kept, lost;  // sentences; lost is empty where nothing is
+};
+ExportPlan plan_export(const Scene& scene, std::size_t gaussians, SceneFormat format);
+
+const char* extension_of(SceneFormat format);  // ".ply"
+
+// The name with the format's extension in place of any other scene extension.
+std::filesystem::path with_extension(const std::filesystem::path& path, SceneFormat format);
+
+struct ExportReport {
+  std::size_t gaussians = 0, files = 0;
+  std::uint64_t bytes = 0;
+  std::string loss;
+};
+
+// Throws Error: nothing to export, the file exists and overwriting was not asked for, the disk is full.
+ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
+                        const ExportRequest& request);
+
+std::string human_bytes(std::uint64_t bytes);  // "4.4 MB"
+
+}  // namespace splatcut

@@ -1,0 +1,125 @@
+#include "app/studio/frame_thread.h"
+
+#include <chrono>
+
+#include "scene/rasterizer.h"
+
+namespace splatcut {
+
+namespace {
+
+double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool same_views(const FrameRequest& a, const FrameRequest& b) {
+  if (a.scene != b.scene || a.panes.size() != b.panes.size() || a.near_plane != b.near_plane) return false;
+  for (std::size_t i = 0; i < a.panes.size(); ++i)
+    if (!same_camera(a.panes[i].camera, b.panes[i].camera) || a.panes[i].shown != b.panes[i].shown)
+      return false;
+  return true;
+}
+
+}  // namespace
+
+bool same_camera(const Camera& a, const Camera& b) {
+  return a.width_px == b.width_px && a.height_px == b.height_px && a.fx_px == b.fx_px && a.fy_px == b.fy_px &&
+         a.cx_px == b.cx_px && a.cy_px == b.cy_px &&
+         a.camera_from_world_rotation == b.camera_from_world_rotation &&
+         a.camera_from_world_translation == b.camera_from_world_translation;
+}
+
+std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
+                                          const Flags& shown, float near_plane, const Job& job) {
+  const auto start = std::chrono::steady_clock::now();
+  RasterOptions options;
+  options.depth = true;
+  options.near_plane = near_plane;
+  if (shown) options.shown = *shown;
+  RasterOutput out = rasterize(cloud, camera, options, job);
+  auto frame = std::make_shared<Frame>();
+  frame->camera = camera;
+  frame->colour = std::move(out.colour);
+  frame->alpha = std::move(out.alpha);
+  frame->depth = std::move(out.median_depth);
+  frame->first_hit = std::move(out.first_hit);
+  frame->raster_ms = ms_since(start);
+  return frame;
+}
+
+FrameThread::FrameThread(std::function<void()> wake)
+    : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+FrameThread::~FrameThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    wanted_.reset();
+    drawing_stop_.request_stop();
+  }
+  thread_.request_stop();
+  thread_.join();
+}
+
+void FrameThread::request(FrameRequest request) {
+  {
+    const std::lock_guard lock(mutex_);
+    const bool superseded = drawing_ && drawing_->full && !same_views(*drawing_, request);
+    if (superseded) drawing_stop_.request_stop();
+    wanted_ = std::move(request);
+  }
+  changed_.notify_one();
+}
+
+std::optional<FrameResult> FrameThread::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(done_, std::nullopt);
+}
+
+bool FrameThread::idle() const {
+  const std::lock_guard lock(mutex_);
+  return !wanted_ && !drawing_ && !done_;
+}
+
+std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const std::stop_token& stop) {
+  const auto start = std::chrono::steady_clock::now();
+  Job job;
+  job.stop = stop;
+  kept_.resize(request.panes.size());
+  FrameResult result{request.scene, {}, {}, request.full, 0};
+  for (std::size_t i = 0; i < request.panes.size(); ++i) {
+    const PaneRequest& pane = request.panes[i];
+    Kept& kept = kept_[i];
+    const bool reusable = kept.frame && kept.scene == request.scene && kept.shown == pane.shown &&
+                          kept.near_plane == request.near_plane &&
+                          same_camera(kept.frame->camera, pane.camera);
+    if (!reusable) {
+      auto frame = raster_frame(*request.cloud, pane.camera, pane.shown, request.near_plane, job);
+      if (job.cancelled()) return std::nullopt;
+      kept = {request.scene, pane.shown, request.near_plane, std::move(frame)};
+    }
+    result.frames.push_back(kept.frame);
+    result.pictures.push_back(shaded(*kept.frame, pane.style));
+  }
+  result.ms = ms_since(start);
+  return result;
+}
+
+void FrameThread::run(const std::stop_token& stop) {
+  while (true) {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait(lock, stop, [&] { return wanted_.has_value(); })) return;
+    const FrameRequest request = *std::exchange(wanted_, std::nullopt);
+    drawing_ = request;
+    drawing_stop_ = std::stop_source();
+    const std::stop_token token = drawing_stop_.get_token();
+    lock.unlock();
+    auto result = draw(request, token);
+    lock.lock();
+    drawing_.reset();
+    if (result) done_ = std::move(result);
+    lock.unlock();
+    if (wake_) wake_();
+  }
+}
+
+}  // namespace splatcut

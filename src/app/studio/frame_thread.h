@@ -1,0 +1,81 @@
+// Draws the viewport on a thread of its own: the window never waits for a picture.
+//
+// The latest request wins. A request that asks for another view while a full picture is being drawn stops it;
+// one for a reduced picture lets the reduced picture before it finish, so that something moves. Requests that
+// differ in style only are shaded again, not rasterised.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "app/studio/frame_shading.h"
+#include "scene/gaussian_cloud.h"
+
+namespace splatcut {
+
+// One pane of the viewport: the whole, or one half of side by side.
+struct PaneRequest {
+  Camera camera;
+  Flags shown;  // 0 leaves the Gaussian out; null: all
+  FrameStyle style;
+};
+
+struct FrameRequest {
+  std::uint64_t scene = 0;  // changes with the cloud
+  std::shared_ptr<const GaussianCloud> cloud;
+  std::vector<PaneRequest> panes;  // 1 or 2, left to right
+  float near_plane = 0.2f;
+  bool full = true;  // full resolution; may be stopped by the next request
+};
+
+struct FrameResult {
+  std::uint64_t scene = 0;
+  std::vector<std::shared_ptr<const Frame>> frames;  // per pane
+  std::vector<Image<Rgba8>> pictures;
+  bool full = true;
+  double ms = 0;  // rasterising and shading
+};
+
+class FrameThread {
+ public:
+  explicit FrameThread(std::function<void()> wake = {});
+  ~FrameThread();
+
+  void request(FrameRequest request);
+  std::optional<FrameResult> take();  // the newest finished picture, once
+  bool idle() const;
+
+ private:
+  void run(const std::stop_token& stop);
+  std::optional<FrameResult> draw(const FrameRequest& request, const std::stop_token& stop);
+
+  std::function<void()> wake_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::optional<FrameRequest> wanted_;
+  std::optional<FrameResult> done_;
+  std::optional<FrameRequest> drawing_;  // what is being drawn
+  std::stop_source drawing_stop_;
+  // The drawing thread's own: what it rasterised last, per pane.
+  struct Kept {
+    std::uint64_t scene = 0;
+    Flags shown;
+    float near_plane = 0;
+    std::shared_ptr<const Frame> frame;
+  };
+  std::vector<Kept> kept_;
+  std::jthread thread_;  // last: ends before the rest goes
+};
+
+// The same on the calling thread, without reuse: for captures and tests.
+std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
+                                          const Flags& shown, float near_plane, const Job& job = {});
+
+bool same_camera(const Camera& a, const Camera& b);  // names apart
+
+}  // namespace splatcut

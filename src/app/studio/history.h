@@ -1,0 +1,50 @@
+// Undo and redo by keeping every state of the document; large arrays are shared between states, so a step
+// costs what it changed. The state at the cursor is the document; nothing else writes it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/studio/document.h"
+
+namespace splatcut {
+
+class History {
+ public:
+  struct Entry {
+    std::string title;      // what was done, for the list
+    std::string merge_key;  // consecutive steps with the same non-empty key become one (a slider as it moves)
+    Document document;      // after it was done
+  };
+
+  History() { reset({}, "Open"); }
+  void reset(Document document, std::string title);
+
+  const Document& now() const { return entries_[cursor_].document; }
+  const std::vector<Entry>& entries() const { return entries_; }
+  std::size_t cursor() const { return cursor_; }
+  bool can_undo() const { return cursor_ > 0; }
+  bool can_redo() const { return cursor_ + 1 < entries_.size(); }
+
+  void push(std::string title, Document after, std::string merge_key = {});
+  void undo();
+  void redo();
+  void jump(std::size_t entry);
+
+  // The next push starts a step of its own, whatever its merge key.
+  void end_merge() { merging_ = false; }
+
+  // The result of a cut reaches every state that has exactly its inputs: undo and redo find it, too.
+  void set_cut(ObjectId object, const std::string& cut_key, const Flags& labels);
+
+ private:
+  void forget_oldest();
+
+  std::vector<Entry> entries_;
+  std::size_t cursor_ = 0;
+  bool merging_ = false;
+};
+
+}  // namespace splatcut

@@ -1,0 +1,232 @@
+#include "app/studio/pointer_tools.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace splatcut {
+
+namespace {
+
+constexpr float kDragPoints = 4;        // less is a click
+constexpr float kPathStepPoints = 2;    // points of a path are no closer
+constexpr float kCloseClickPoints = 9;  // a click this near to the first corner closes the polygon
+constexpr float kScaleLeavePoints = 12;
+
+bool drags_navigate(Tool tool) {
+  return tool == Tool::kNavigate || tool == Tool::kClick || tool == Tool::kGround || tool == Tool::kPolygon;
+}
+
+}  // namespace
+
+SetOperation PointerTools::operation(const ViewState& view, const Modifiers& m) const {
+  if (m.alt || (m.shift && m.ctrl)) return SetOperation::kIntersect;
+  if (m.shift) return SetOperation::kAdd;
+  if (m.ctrl) return SetOperation::kRemove;
+  return view.operation;
+}
+
+void PointerTools::start_shape(const glm::vec2& pixel) {
+  drag_ = Drag::kShape;
+  path_.assign(1, pixel);
+}
+
+std::vector<Command> PointerTools::press(const glm::vec2& pixel, PointerButton button,
+                                         const Modifiers& modifiers, const ToolContext& context) {
+  if (button_) return {};  // one drag at a time
+  button_ = button;
+  modifiers_ = modifiers;
+  pressed_ = last_ = pixel;
+  const Tool tool = context.view.tool;
+  if (button == PointerButton::kMiddle) {
+    drag_ = modifiers.shift ? Drag::kPan : Drag::kOrbit;
+  } else if (drags_navigate(tool)) {
+    drag_ = Drag::kMaybeClick;
+  } else if (button == PointerButton::kLeft || tool == Tool::kScribble) {
+    start_shape(pixel);
+  } else {
+    drag_ = Drag::kMaybeClick;
+  }
+  return {};
+}
+
+std::vector<Command> PointerTools::move(const glm::vec2& pixel, const Modifiers& modifiers,
+                                        const ToolContext& context) {
+  const glm::vec2 delta = pixel - last_;
+  last_ = pixel;
+  if (glm::length(pixel - scale_at_) > kScaleLeavePoints * context.pixels_per_point) scale_armed_ = false;
+  if (!button_) return {};
+  modifiers_ = modifiers;
+  if (drag_ == Drag::kMaybeClick && glm::length(pixel - pressed_) > kDragPoints * context.pixels_per_point)
+    drag_ = button_ == PointerButton::kRight ? Drag::kPan : Drag::kOrbit;
+  if (drag_ == Drag::kOrbit) context.camera.orbit(delta / context.pixels_per_point);
+  if (drag_ == Drag::kPan) context.camera.pan(delta, static_cast<float>(context.pane_camera.height_px));
+  if (drag_ != Drag::kShape) return {};
+  const Tool tool = context.view.tool;
+  if (tool == Tool::kBox || tool == Tool::kRectangle || tool == Tool::kSphere) {
+    path_.resize(1);
+    path_.push_back(pixel);
+  } else if (glm::length(pixel - path_.back()) >= kPathStepPoints * context.pixels_per_point) {
+    path_.push_back(pixel);
+  }
+  return {};
+}
+
+std::vector<Command> PointerTools::release(const glm::vec2& pixel, PointerButton button,
+                                           const Modifiers& modifiers, const ToolContext& context) {
+  if (button_ != button) return {};
+  std::vector<Command> commands = move(pixel, modifiers, context);
+  const Drag drag = drag_;
+  drag_ = Drag::kNone;
+  if (drag == Drag::kShape) commands = finish_shape(context);
+  if (drag == Drag::kMaybeClick) commands = click(context);
+  button_.reset();
+  return commands;
+}
+
+std::vector<Command> PointerTools::click(const ToolContext& context) {
+  const bool right = button_ == PointerButton::kRight;
+  switch (context.view.tool) {
+    case Tool::kClick: {
+      Stroke stroke =
+          splatcut::click(pressed_, right || modifiers_.ctrl ? SeedLabel::kRest : SeedLabel::kObject);
+      stroke.radius_px *= context.pixels_per_point;
+      scale_armed_ = stroke.label == SeedLabel::kObject;
+      scale_at_ = pressed_;
+      return {AddStroke{context.pane_camera, std::move(stroke)}};
+    }
+    case Tool::kPolygon:
+      if (right) return confirm(context);
+      if (corners_.size() >= 3 &&
+          glm::length(pressed_ - corners_.front()) < kCloseClickPoints * context.pixels_per_point)
+        return confirm(context);
+      corners_.push_back(pressed_);
+      return {};
+    case Tool::kGround: {
+      if (right) {
+        ground_.clear();
+        return {};
+      }
+      if (const auto point = context.pick(pressed_)) ground_.push_back(point->position_world);
+      if (ground_.size() < 3) return {};
+      glm::vec3 up = glm::cross(ground_[1] - ground_[0], ground_[2] - ground_[0]);
+      // The ground is seen from above.
+      if (glm::dot(up, context.pane_camera.centre_world() - ground_[0]) < 0) up = -up;
+      ground_.clear();
+      return {SetUp{up}};
+    }
+    default:
+      return {};
+  }
+}
+
+std::vector<Command> PointerTools::finish_shape(const ToolContext& context) {
+  const std::vector<glm::vec2> path = std::exchange(path_, {});
+  const Camera& camera = context.pane_camera;
+  const float radius = context.view.brush_px * context.pixels_per_point;
+  const SetOperation set = operation(context.view, modifiers_);
+  const auto region = [&](Mask mask) {
+    return std::vector<Command>{SelectRegion{camera, std::move(mask), set}};
+  };
+  switch (context.view.tool) {
+    case Tool::kScribble: {
+      const bool rest = button_ == PointerButton::kRight || modifiers_.ctrl;
+      return {AddStroke{camera, Stroke{rest ? SeedLabel::kRest : SeedLabel::kObject, 0.5f * radius, path}}};
+    }
+    case Tool::kBox:
+      return path.size() == 2 ? std::vector<Command>{AddBox{camera, path[0], path[1]}}
+                              : std::vector<Command>{};
+    case Tool::kBrush:
+      return region(brush_region(path, radius, camera.width_px, camera.height_px));
+    case Tool::kLasso:
+      return region(polygon_region(path, camera.width_px, camera.height_px));
+    case Tool::kRectangle:
+      return path.size() == 2 ? region(rectangle_region(path[0], path[1], camera.width_px, camera.height_px))
+                              : std::vector<Command>{};
+    case Tool::kSphere: {
+      const auto centre = context.pick(path.front());
+      if (!centre || path.size() < 2) return {};
+      const float depth = camera.camera_from_world(centre->position_world).z;
+      return {
+          SelectSphere{centre->position_world, glm::length(path[1] - path[0]) * depth / camera.fy_px, set}};
+    }
+    default:
+      return {};
+  }
+}
+
+std::vector<Command> PointerTools::confirm(const ToolContext& context) {
+  const std::vector<glm::vec2> corners = std::exchange(corners_, {});
+  if (corners.size() < 3) return {};
+  const Camera& camera = context.pane_camera;
+  return {SelectRegion{camera, polygon_region(corners, camera.width_px, camera.height_px),
+                       operation(context.view, modifiers_)}};
+}
+
+bool PointerTools::abandon() {
+  const bool any = at_work() || !ground_.empty();
+  path_.clear();
+  corners_.clear();
+  ground_.clear();
+  scale_armed_ = false;
+  if (drag_ == Drag::kShape) drag_ = Drag::kNone;
+  return any;
+}
+
+std::vector<Command> PointerTools::double_click(const glm::vec2& pixel, const ToolContext& context) {
+  if (context.view.tool == Tool::kPolygon) return confirm(context);
+  if (context.view.tool != Tool::kNavigate) return {};
+  if (const auto point = context.pick(pixel)) context.camera.focus(point->position_world);
+  return {};
+}
+
+std::vector<Command> PointerTools::wheel(float steps, const Modifiers& modifiers,
+                                         const ToolContext& context) {
+  constexpr float kBrushStep = 1.15f;
+  if (modifiers.alt) {
+    ViewState view = context.view;
+    view.brush_px = std::clamp(view.brush_px * std::pow(kBrushStep, steps), 1.0f, 400.0f);
+    return {SetView{view}};
+  }
+  if (scale_armed_ && steps != 0) return {StepScale{steps > 0 ? 1 : -1}};
+  context.camera.zoom(steps);
+  return {};
+}
+
+ToolOverlay PointerTools::overlay(const ViewState& view, float pixels_per_point) const {
+  ToolOverlay out;
+  out.radius_px = view.brush_px * pixels_per_point;
+  out.operation = operation(view, modifiers_);
+  out.rest = button_ == PointerButton::kRight || modifiers_.ctrl;
+  out.cuts = is_stroke_tool(view.tool);
+  out.points_px = path_;
+  switch (view.tool) {
+    case Tool::kScribble:
+      out.radius_px *= 0.5f;
+      [[fallthrough]];
+    case Tool::kBrush:
+      out.shape = ToolOverlay::Shape::kPath;
+      break;
+    case Tool::kLasso:
+      out.shape = ToolOverlay::Shape::kPolygon;
+      break;
+    case Tool::kBox:
+    case Tool::kRectangle:
+      out.shape = ToolOverlay::Shape::kRectangle;
+      break;
+    case Tool::kSphere:
+      out.shape = ToolOverlay::Shape::kCircle;
+      if (path_.size() == 2) out.radius_px = glm::length(path_[1] - path_[0]);
+      break;
+    case Tool::kPolygon:
+      out.shape = ToolOverlay::Shape::kPolygon;
+      out.points_px = corners_;
+      if (!corners_.empty()) out.points_px.push_back(last_);
+      break;
+    default:
+      break;
+  }
+  if (out.points_px.empty()) out.shape = ToolOverlay::Shape::kNone;
+  return out;
+}
+
+}  // namespace splatcut

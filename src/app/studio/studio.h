@@ -1,0 +1,259 @@
+// The application without its window: document, history, camera, tools, worker threads, pictures.
+//
+// One thread (the main one) calls everything here. Commands come in by apply() or by events; what the
+// interface shows is read through the const members. Events of a test and of the window run the very same
+// code. Nothing here blocks: files, cuts and pictures are made on threads and arrive in update(). Errors:
+// every Error ends in apply() or update() and becomes a message.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/studio/actions.h"
+#include "app/studio/camera_controller.h"
+#include "app/studio/command.h"
+#include "app/studio/frame_thread.h"
+#include "app/studio/history.h"
+#include "app/studio/pointer_tools.h"
+#include "app/studio/task_thread.h"
+#include "scene/scene_file.h"
+
+namespace splatcut {
+
+struct EditContext;
+
+struct StudioOptions {
+  std::function<void()> wake;          // called from any thread when update() has something to do
+  bool inline_tasks = false;           // for tests: tasks run inside apply()
+  std::filesystem::path state_folder;  // for the autosave; empty: none is written
+};
+
+struct OpenedScene {
+  std::uint64_t serial = 0;  // differs for every scene opened
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const GaussianCloud> cloud;  // of the scene
+  std::vector<Camera> cameras;                 // of the capture, found beside the file; may be empty
+  std::uint64_t hash = 0;                      // of the file
+  Box bounds;                                  // robust: outliers do not count
+};
+
+struct Message {
+  enum class Kind { kInfo, kDone, kRefused, kError };
+  Kind kind = Kind::kInfo;
+  std::string text;
+  double time_s = 0;  // Studio's clock
+};
+
+// A view that the cut used, as the thumbnail strip shows it.
+struct ViewCard {
+  Camera camera;
+  bool used = true;
+  double confidence = 0;
+  std::string reason;  // why it does not count
+  std::shared_ptr<const Image<Rgba8>> picture;
+  std::uint64_t serial = 0;  // changes with the picture
+};
+
+// The last cut of an object, or the one that runs.
+struct CutRun {
+  bool running = false;
+  std::string key;  // key_of() its input
+  std::vector<StageTime> stages;
+  std::vector<ViewCard> views;
+  Flags preview;  // labels so far
+  Outcome outcome = Outcome::kDone;
+  std::string reason;
+  double started_s = 0, first_mask_ms = 0, total_ms = 0;
+  std::shared_ptr<const std::vector<float>> likelihood;  // of `key`; null until asked for
+};
+
+// What only the interface can do.
+enum class UiRequest {
+  kOpenDialog,
+  kSaveDialog,
+  kExportDialog,
+  kHelp,
+  kTheme,
+  kHistory,
+  kQuit,
+  kSnapshotDialog
+};
+
+class Studio {
+ public:
+  explicit Studio(StudioOptions options);
+  ~Studio();
+
+  // Commands and events. Positions are viewport pixels.
+  void apply(const Command& command);
+  void run(Action action);
+  std::string why_not(Action action) const;  // empty where it is allowed
+  void set_viewport(int width_px, int height_px, float pixels_per_point);
+  void pointer_pressed(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers);
+  void pointer_moved(const glm::vec2& pixel, const Modifiers& modifiers);
+  void pointer_released(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers);
+  void pointer_double_clicked(const glm::vec2& pixel);
+  void wheel(float steps, const Modifiers& modifiers);
+  void key_pressed(int key, const Modifiers& modifiers);
+  void key_released(int key);
+  void release_keys();  // the window lost the focus
+
+  // Once a frame: results, transitions, requests. True while something moves or waits.
+  bool update(double seconds);
+
+  // What the interface shows.
+  const Document& document() const { return history_.now(); }
+  const History& history() const { return history_; }
+  const ViewState& view() const { return view_; }
+  const OpenedScene* scene() const { return scene_.get(); }
+  const PreparedScene* prepared() const { return prepared_.get(); }
+  const CutRun* cut_run(ObjectId object) const;
+  bool loading() const { return tasks_.busy(TaskKind::kLoad); }
+  bool cutting() const { return tasks_.busy(TaskKind::kCut); }
+  TaskThread::Progress progress() const { return tasks_.progress(); }
+  bool idle() const;  // no task, no picture on its way, the last picture is full and current
+  const std::deque<Message>& messages() const { return messages_; }
+  double clock_s() const { return clock_s_; }
+  const FrameResult* picture() const { return picture_ ? &*picture_ : nullptr; }
+  std::uint64_t picture_serial() const { return picture_serial_; }
+  ToolOverlay overlay() const { return tools_.overlay(view_, pixels_per_point_); }
+  const PointerTools& tools() const { return tools_; }
+  CameraController& camera() { return camera_; }
+  const CameraController& camera() const { return camera_; }
+  Camera viewport_camera() const;  // of the first pane
+  int panes() const { return view_.display == DisplayMode::kSideBySide && scene_ ? 2 : 1; }
+  std::vector<std::uint8_t> labels(ObjectId object) const;
+  std::size_t gaussians_of(ObjectId object) const;  // cached: free to ask every frame
+  bool floaters_shown() const { return highlight_floaters_; }
+  std::size_t floater_count() const { return floater_count_; }
+  float moving_scale() const { return moving_scale_; }
+  double moving_ms() const { return moving_ms_; }
+  double still_ms() const { return still_ms_; }
+  bool autosave_found() const { return autosave_found_; }
+  std::vector<UiRequest> take_ui_requests() { return std::exchange(ui_requests_, {}); }
+  std::optional<PickedPoint> pick(const glm::vec2& pixel) const;
+  float near_plane() const;
+  std::uint64_t document_serial() const { return document_serial_; }
+  const std::filesystem::path& work_path() const { return work_path_; }
+
+  // A GPU draws the splats: pictures are then made for picking only, when nothing moves.
+  void set_gpu_view(bool gpu) { gpu_view_ = gpu; }
+  // Per Gaussian, what the display mode of a pane shows and whose it is.
+  Flags shown(int pane) const;
+  FrameStyle style(int pane) const;
+
+  // For tests: waits until idle(); runs update() with steps of 1/60 s. False after `most_seconds`.
+  bool settle(double most_seconds);
+
+ private:
+  // studio_edit.cpp
+  void perform(const AddStroke& c);
+  void perform(const AddBox& c);
+  void perform(const SelectRegion& c);
+  void perform(const SelectSphere& c);
+  void perform(const SelectColour& c);
+  void perform(const SelectRange& c);
+  void perform(const ShowFloaters& c);
+  void perform(const StepScale& c);
+  void perform(const Undo&);
+  void perform(const Redo&);
+  void perform(const JumpHistory& c);
+  void perform(const Cancel&);
+  void perform(const Recompute&);
+  void perform(const SetView& c);
+  void perform(const GoToCamera& c);
+  // studio_files.cpp
+  void perform(const OpenScene& c);
+  void perform(const SaveWork& c);
+  void perform(const RestoreAutosave&);
+  void perform(const Export& c);
+  void perform(const SaveSnapshot& c);
+  void perform(const SaveTurntable& c);
+  template <class DocumentCommand>
+  void perform(const DocumentCommand& c);
+
+  EditContext context() const;
+  void require_scene() const;
+  void push(std::string title, Document after, std::string merge_key, const std::string& message);
+  void apply_selection(const Selection& region, SetOperation operation, const std::string& title);
+  void document_changed();
+  void say(Message::Kind kind, std::string text);
+  void run_all(const std::vector<Command>& commands);
+
+  // studio_jobs.cpp
+  void opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> document,
+              const std::filesystem::path& work_path);
+  void schedule_cut();
+  void start_cut(const ObjectItem& object);
+  void request_likelihood();
+  std::shared_ptr<ObjectCutter> cutter_for(ObjectId object);
+  void autosave(double seconds);
+
+  // studio_view.cpp
+  void refresh_style();
+  void request_picture();
+  void take_picture();
+  Flight flight() const;
+  ToolContext tool_context(const glm::vec2& pixel);
+  glm::vec2 in_pane(const glm::vec2& pixel) const;
+  Camera pane_camera() const;
+
+  StudioOptions options_;
+  History history_;
+  ViewState view_;
+  CameraController camera_;
+  PointerTools tools_;
+  std::shared_ptr<const OpenedScene> scene_;
+  std::shared_ptr<const PreparedScene> prepared_;
+  std::map<ObjectId, CutRun> runs_;
+  std::vector<std::pair<ObjectId, std::shared_ptr<ObjectCutter>>> cutters_;  // most recent last
+  ObjectId cutting_object_ = 0;
+  std::string cutting_key_;
+  std::set<std::string> given_up_;  // keys that were cancelled or failed: not tried again by themselves
+  std::deque<Message> messages_;
+  std::vector<UiRequest> ui_requests_;
+  std::set<int> held_keys_;
+  Modifiers held_modifiers_;
+  double clock_s_ = 0;
+
+  int width_px_ = 0, height_px_ = 0;
+  float pixels_per_point_ = 1;
+  bool gpu_view_ = false;
+  std::uint64_t document_serial_ = 1, style_serial_ = 0, view_serial_ = 1, styled_view_serial_ = 0;
+  Flags shown_[2];
+  FrameStyle style_[2];
+  std::uint64_t style_version_ = 0, requested_style_ = 0;
+  mutable std::map<ObjectId, std::size_t> counts_;
+  bool highlight_floaters_ = false;
+  std::size_t floater_count_ = 0;
+  std::optional<FrameResult> picture_;
+  std::uint64_t picture_serial_ = 0, picture_style_ = 0;
+  std::optional<Camera> requested_camera_;
+  bool requested_full_ = false;
+  double last_move_s_ = -1e9;
+  float moving_scale_ = 0.5f;
+  double moving_ms_ = 0, still_ms_ = 0;
+
+  std::filesystem::path work_path_;
+  bool autosave_found_ = false;
+  std::uint64_t autosaved_serial_ = 1;
+  double autosave_wait_s_ = 0;
+  std::uint64_t next_scene_serial_ = 1, next_card_serial_ = 1;
+
+  // Last, in this order: threads end before what they may wake.
+  FrameThread frames_;
+  TaskThread tasks_;
+};
+
+// Capture cameras beside a scene: cameras.json, transforms.json or a COLMAP folder in its folder or the two
+// above.
+std::vector<Camera> cameras_near(const std::filesystem::path& scene);
+
+// Up of a capture: what its cameras agree on; (0,-1,0) without any.
+glm::vec3 up_of(const std::vector<Camera>& cameras);
+
+}  // namespace splatcut

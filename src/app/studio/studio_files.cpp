@@ -1,0 +1,118 @@
+// Files out: work, exports, pictures.
+#include <fmt/format.h>
+
+#include <glm/gtc/constants.hpp>
+
+#include "app/output_folder.h"
+#include "app/studio/studio.h"
+#include "app/studio/work_file.h"
+#include "scene/error.h"
+#include "scene/png_file.h"
+#include "scene/rasterizer.h"
+#include "segment/orbit.h"
+
+namespace splatcut {
+
+namespace {
+
+// Straight alpha over nothing, or colour over the background.
+Image<Rgba8> capture(const GaussianCloud& cloud, const Camera& camera, const Flags& shown, float near_plane,
+                     const glm::vec3& background, bool transparent, const Job& job) {
+  RasterOptions options;
+  options.near_plane = near_plane;
+  if (shown) options.shown = *shown;
+  const RasterOutput out = rasterize(cloud, camera, options, job);
+  Image<Rgba8> picture(camera.width_px, camera.height_px);
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    const float alpha = out.alpha.pixels()[i];
+    const glm::vec3 premultiplied = out.colour.pixels()[i];
+    const glm::vec3 c = transparent ? (alpha > 0 ? premultiplied / alpha : glm::vec3(0))
+                                    : premultiplied + (1 - alpha) * background;
+    const glm::vec3 b = glm::clamp(c, 0.0f, 1.0f) * 255.0f + 0.5f;
+    picture.pixels()[i] = {static_cast<std::uint8_t>(b.r), static_cast<std::uint8_t>(b.g),
+                           static_cast<std::uint8_t>(b.b),
+                           transparent ? static_cast<std::uint8_t>(alpha * 255 + 0.5f) : std::uint8_t{255}};
+  }
+  return picture;
+}
+
+}  // namespace
+
+void Studio::perform(const SaveWork& c) {
+  require_scene();
+  std::filesystem::path path = c.path;
+  if (!is_work_file(path)) path += ".splatcut.json";
+  write_work_file(path, *scene_->scene, scene_->hash, document());
+  work_path_ = path;
+  say(Message::Kind::kDone, "Work saved to " + path.string());
+}
+
+void Studio::perform(const RestoreAutosave&) {
+  if (!autosave_found_) throw Error("restore", "there is no autosaved work");
+  autosave_found_ = false;
+  perform(OpenScene{options_.state_folder / "autosave.splatcut.json"});
+}
+
+void Studio::perform(const Export& c) {
+  require_scene();
+  tasks_.submit(TaskKind::kExport, [this, request = c.request, document = document(),
+                                    object = document().active, scene = scene_](const Job& job) {
+    job.progress("exporting", 0);
+    const ExportReport report = run_export(*scene->scene, document, object, request);
+    std::string text = fmt::format("{} Gaussians, {} saved to {}", report.gaussians,
+                                   human_bytes(report.bytes), request.path.string());
+    if (!report.loss.empty()) text += ". Lost: " + report.loss;
+    tasks_.post([this, text] { say(Message::Kind::kDone, text); });
+  });
+  if (options_.inline_tasks) tasks_.deliver();
+}
+
+void Studio::perform(const SaveSnapshot& c) {
+  require_scene();
+  const Camera camera = viewport_camera();
+  tasks_.submit(TaskKind::kExport, [this, c, camera, visible = shown(0), near = near_plane(),
+                                    background = document().background, scene = scene_](const Job& job) {
+    job.progress("drawing", 0);
+    const Image<Rgba8> picture =
+        capture(*scene->cloud, camera, visible, near, background, c.transparent, job);
+    if (job.cancelled()) return;
+    write_png(c.path, picture);
+    tasks_.post([this, c] { say(Message::Kind::kDone, "Picture saved to " + c.path.string()); });
+  });
+  if (options_.inline_tasks) tasks_.deliver();
+}
+
+void Studio::perform(const SaveTurntable& c) {
+  require_scene();
+  if (c.frames < 2) throw Error("turntable", "it needs at least two frames");
+  const ObjectItem* object = document().active_object();
+  if (!object || gaussians_of(object->id) == 0)
+    throw Error("turntable", "there is no object to turn", "Click an object first");
+  const std::vector<std::uint8_t> own = labels(object->id);
+  const ObjectExtent extent = object_extent(*scene_->cloud, own);
+  const Camera front = viewport_camera();
+  tasks_.submit(TaskKind::kExport, [this, c, extent, front, visible = make_flags(own), near = near_plane(),
+                                    up = document().up_world, scene = scene_](const Job& job) {
+    OutputFolder folder(c.folder, true);
+    // The camera goes round at its own elevation, from where the user stands.
+    const glm::vec3 back = front.centre_world() - extent.centre_world;
+    const glm::vec3 offset = glm::normalize(back) * (extent.radius * 2 * OrbitOptions{}.distance_sizes);
+    const float fov_y = 2 * std::atan(0.5f * static_cast<float>(front.height_px) / front.fy_px);
+    for (int i = 0; i < c.frames && !job.cancelled(); ++i) {
+      job.progress("turntable", static_cast<double>(i) / c.frames);
+      const float angle = glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(c.frames);
+      const Camera camera = look_at(extent.centre_world + glm::angleAxis(angle, up) * offset,
+                                    extent.centre_world, up, fov_y, front.width_px, front.height_px);
+      write_png(folder.file(fmt::format("frame_{:04}.png", i)),
+                capture(*scene->cloud, camera, visible, near, glm::vec3(0), true, job));
+    }
+    if (job.cancelled()) return;
+    folder.commit();
+    tasks_.post([this, c] {
+      say(Message::Kind::kDone, fmt::format("{} frames saved to {}", c.frames, c.folder.string()));
+    });
+  });
+  if (options_.inline_tasks) tasks_.deliver();
+}
+
+}  // namespace splatcut

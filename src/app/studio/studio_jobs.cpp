@@ -1,0 +1,327 @@
+// Loading, preparing, cutting, autosave: what the worker does for the document.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/camera_options.h"
+#include "app/studio/studio.h"
+#include "app/studio/work_file.h"
+#include "scene/camera_file.h"
+#include "scene/error.h"
+#include "scene/rasterizer.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr int kThumbnailWidth = 160;
+constexpr std::size_t kCuttersKept = 3;  // each remembers its first cut: about 20 bytes a Gaussian
+constexpr double kAutosaveAfterSeconds = 2;
+
+// The view's picture with its mask in the object's colour; dark where the view does not count.
+Image<Rgba8> thumbnail(const GaussianCloud& cloud, const ViewReport& view, const Rgb8& colour,
+                       const Job& job) {
+  const Camera camera = limited_to_width(view.camera, kThumbnailWidth);
+  const RasterOutput drawn = rasterize(cloud, camera, {}, job);
+  Image<Rgba8> out(camera.width_px, camera.height_px);
+  const glm::vec3 hue = glm::vec3(colour[0], colour[1], colour[2]) / 255.0f;
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x) {
+      const int u = x * view.mask.width() / out.width(), v = y * view.mask.height() / out.height();
+      glm::vec3 c = drawn.colour.at(x, y);
+      c = view.mask.at(u, v) ? glm::mix(c, hue, 0.55f) : 0.75f * c;
+      if (!view.used) c *= 0.35f;
+      const glm::vec3 b = glm::clamp(c, 0.0f, 1.0f) * 255.0f;
+      out.at(x, y) = {static_cast<std::uint8_t>(b.r), static_cast<std::uint8_t>(b.g),
+                      static_cast<std::uint8_t>(b.b), 255};
+    }
+  return out;
+}
+
+// Before there is time for pictures: the mask alone.
+Image<Rgba8> mask_card(const ViewReport& view, const Rgb8& colour) {
+  const Camera camera = limited_to_width(view.camera, kThumbnailWidth);
+  Image<Rgba8> out(camera.width_px, camera.height_px, Rgba8{38, 40, 44, 255});
+  for (int y = 0; y < out.height(); ++y)
+    for (int x = 0; x < out.width(); ++x)
+      if (view.mask.at(x * view.mask.width() / out.width(), y * view.mask.height() / out.height()))
+        out.at(x, y) = {colour[0], colour[1], colour[2], 255};
+  return out;
+}
+
+ViewCard card_of(const ViewReport& view, Image<Rgba8> picture) {
+  return {view.camera,
+          view.used,
+          view.confidence,
+          view.reason,
+          std::make_shared<const Image<Rgba8>>(std::move(picture)),
+          0};
+}
+
+}  // namespace
+
+std::vector<Camera> cameras_near(const std::filesystem::path& scene) {
+  std::filesystem::path folder = std::filesystem::absolute(scene).parent_path();
+  for (int level = 0; level < 3; ++level) {
+    for (const char* name : {"cameras.json", "transforms.json", "sparse/0"}) {
+      if (!std::filesystem::exists(folder / name)) continue;
+      try {
+        return load_cameras(folder / name);
+      } catch (const Error&) {
+        // A file of that name that holds something else is no reason not to open the scene.
+      }
+    }
+    if (!folder.has_parent_path() || folder == folder.parent_path()) break;
+    folder = folder.parent_path();
+  }
+  return {};
+}
+
+glm::vec3 up_of(const std::vector<Camera>& cameras) {
+  return cameras.empty() ? glm::vec3(0, -1, 0) : common_up(cameras);
+}
+
+void Studio::perform(const OpenScene& c) {
+  const std::uint64_t serial = next_scene_serial_++;
+  say(Message::Kind::kInfo, "Opening " + c.path.filename().string());
+  tasks_.cancel(TaskKind::kCut);
+  tasks_.submit(TaskKind::kLoad, [this, path = c.path, serial](const Job& job) {
+    const bool work = is_work_file(path);
+    const std::filesystem::path file = work ? read_work_header(path).scene : path;
+    auto opened_scene = std::make_shared<OpenedScene>();
+    auto scene = std::make_shared<Scene>(load_scene(file, job));
+    if (job.cancelled()) return;
+    opened_scene->serial = serial;
+    opened_scene->cloud = std::shared_ptr<const GaussianCloud>(scene, &scene->cloud);
+    opened_scene->bounds = robust_bounds(scene->cloud.position, 0.9);
+    opened_scene->hash = hash_of_file(file);
+    opened_scene->cameras = cameras_near(file);
+    std::optional<Document> document;
+    if (work) document = read_work_file(path, *scene, opened_scene->hash).document;
+    opened_scene->scene = std::move(scene);
+    tasks_.post([this, opened_scene, document, work_path = work ? path : std::filesystem::path()] {
+      opened(opened_scene, document, work_path);
+    });
+  });
+  if (options_.inline_tasks) tasks_.deliver();
+}
+
+void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> document,
+                    const std::filesystem::path& work_path) {
+  tasks_.cancel(TaskKind::kPrepare);
+  prepared_ = nullptr;
+  runs_.clear();
+  cutters_.clear();
+  given_up_.clear();
+  cutting_object_ = 0;
+  picture_.reset();
+  tools_.abandon();
+  view_.display = DisplayMode::kWhole;
+  view_.heat = false;
+  highlight_floaters_ = false;
+  scene_ = scene;
+  work_path_ = is_work_file(work_path) && work_path.parent_path() != options_.state_folder
+                   ? work_path
+                   : std::filesystem::path();
+  Document start;
+  start.up_world = up_of(scene->cameras);
+  history_.reset(document ? *document : start, document ? "Open work" : "Open scene");
+  camera_.reset(scene->bounds, history_.now().up_world);
+  if (!scene->cameras.empty()) {
+    camera_.go_to(scene->cameras.front());
+    camera_.finish_transition();
+  }
+  document_changed();
+  autosaved_serial_ = document_serial_;
+  ++view_serial_;
+  const Scene& s = *scene->scene;
+  std::string text = fmt::format("{}: {} Gaussians, SH degree {}", s.path.filename().string(), s.cloud.size(),
+                                 s.cloud.sh_degree);
+  if (s.dropped) text += fmt::format(", {} unusable rows left out", s.dropped);
+  if (!scene->cameras.empty()) text += fmt::format(", {} cameras (N, P)", scene->cameras.size());
+  say(Message::Kind::kDone, text);
+  tasks_.submit(TaskKind::kPrepare, [this, scene](const Job& job) {
+    auto prepared = std::make_shared<const PreparedScene>(prepare_scene(*scene->cloud, job));
+    if (job.cancelled()) return;
+    tasks_.post([this, scene, prepared] {
+      if (scene == scene_) prepared_ = prepared;
+    });
+  });
+  if (options_.inline_tasks) tasks_.deliver();
+}
+
+const CutRun* Studio::cut_run(ObjectId object) const {
+  const auto found = runs_.find(object);
+  return found == runs_.end() ? nullptr : &found->second;
+}
+
+// What should be computed follows from the document: a stale object is cut, a cut nobody needs is stopped.
+void Studio::schedule_cut() {
+  if (!scene_ || !prepared_) return;
+  if (cutting_object_ != 0) {
+    const ObjectItem* object = document().find(cutting_object_);
+    if (object && key_of(cut_input(document(), *object)) == cutting_key_) return;
+    tasks_.cancel(TaskKind::kCut);
+    runs_[cutting_object_].running = false;
+    runs_[cutting_object_].preview = nullptr;
+    cutting_object_ = 0;
+    ++view_serial_;
+  }
+  for (const ObjectItem& object : document().objects) {
+    if (!is_stale(document(), object)) continue;
+    if (given_up_.contains(key_of(cut_input(document(), object)))) continue;
+    start_cut(object);
+    return;
+  }
+}
+
+std::shared_ptr<ObjectCutter> Studio::cutter_for(ObjectId object) {
+  const auto found =
+      std::ranges::find(cutters_, object, &std::pair<ObjectId, std::shared_ptr<ObjectCutter>>::first);
+  if (found != cutters_.end()) {
+    std::rotate(found, found + 1, cutters_.end());
+  } else {
+    cutters_.emplace_back(object, std::make_shared<ObjectCutter>(scene_->cloud, prepared_));
+    if (cutters_.size() > kCuttersKept) cutters_.erase(cutters_.begin());
+  }
+  return cutters_.back().second;
+}
+
+void Studio::start_cut(const ObjectItem& object) {
+  ObjectCutInput input = cut_input(document(), object);
+  cutting_object_ = object.id;
+  cutting_key_ = key_of(input);
+  CutRun& run = runs_[object.id];
+  std::vector<ViewCard> before = std::move(run.views);
+  run = CutRun{};
+  run.running = true;
+  run.key = cutting_key_;
+  run.views = std::move(before);
+  run.started_s = clock_s_;
+  struct Seen {
+    std::size_t views = 0;
+  };
+  tasks_.submit(TaskKind::kCut, [this, input = std::move(input), cutter = cutter_for(object.id),
+                                 id = object.id, key = cutting_key_, colour = object.colour, scene = scene_,
+                                 heat = view_.heat](const Job& job) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto ms = [start] {
+      return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    };
+    Seen seen;
+    bool first = true;
+    const auto snapshot = [&](const PipelineReport& report) {
+      if (report.labels.empty()) return;
+      std::vector<ViewCard> fresh;
+      if (report.views.size() < seen.views) seen.views = 0;
+      for (; seen.views < report.views.size(); ++seen.views)
+        fresh.push_back(card_of(report.views[seen.views], mask_card(report.views[seen.views], colour)));
+      const double first_ms = first ? ms() : 0;
+      first = false;
+      tasks_.post([this, id, key, first_ms, scene, fresh = std::move(fresh), stages = report.stages,
+                   count = report.views.size(), labels = make_flags(report.labels)] {
+        if (scene != scene_ || cutting_object_ != id || cutting_key_ != key) return;
+        CutRun& now = runs_[id];
+        if (first_ms > 0) {
+          now.first_mask_ms = first_ms;
+          now.views.clear();
+        }
+        now.views.resize(std::min(now.views.size(), count - std::min(count, fresh.size())));
+        for (const ViewCard& card : fresh) {
+          now.views.push_back(card);
+          now.views.back().serial = next_card_serial_++;
+        }
+        now.stages = stages;
+        now.preview = labels;
+        ++view_serial_;
+      });
+    };
+    ObjectCutReport report = cutter->cut(input, snapshot, job);
+    if (report.outcome == Outcome::kCancelled || job.cancelled()) return;
+    const double total_ms = ms();
+    auto labels = make_flags(report.labels);
+    tasks_.post([this, id, key, scene, labels, total_ms, stages = report.stages, outcome = report.outcome,
+                 reason = report.reason] {
+      if (scene != scene_) return;
+      CutRun& now = runs_[id];
+      if (now.key != key) return;
+      now.running = false;
+      now.preview = nullptr;
+      if (!stages.empty()) now.stages = stages;
+      now.total_ms = total_ms;
+      if (now.first_mask_ms == 0) now.first_mask_ms = total_ms;
+      now.outcome = outcome;
+      now.reason = reason;
+      if (cutting_object_ == id && cutting_key_ == key) cutting_object_ = 0;
+      history_.set_cut(id, key, labels);
+      document_changed();
+      const ObjectItem* item = document().find(id);
+      if (!item) return;
+      if (outcome == Outcome::kNothingFound)
+        say(Message::Kind::kRefused, item->name + ": " + reason);
+      else
+        say(Message::Kind::kDone,
+            fmt::format("{}: {} Gaussians cut out in {:.0f} ms", item->name, gaussians_of(id), total_ms));
+    });
+    // The cutout is on the screen; the rest is for looking at.
+    std::shared_ptr<const std::vector<float>> likelihood;
+    if (heat) likelihood = std::make_shared<const std::vector<float>>(cutter->likelihood_of(report, job));
+    std::vector<ViewCard> cards;
+    for (const ViewReport& view : report.views) {
+      if (job.cancelled()) return;
+      job.progress("pictures of the views",
+                   static_cast<double>(cards.size()) / static_cast<double>(report.views.size()));
+      cards.push_back(card_of(view, thumbnail(*scene->cloud, view, colour, job)));
+    }
+    tasks_.post([this, id, key, scene, cards = std::move(cards), likelihood]() mutable {
+      if (scene != scene_ || runs_[id].key != key) return;
+      runs_[id].views = std::move(cards);
+      for (ViewCard& card : runs_[id].views) card.serial = next_card_serial_++;
+      if (likelihood) runs_[id].likelihood = likelihood;
+      ++view_serial_;
+    });
+  });
+  if (options_.inline_tasks) tasks_.deliver();
+}
+
+void Studio::request_likelihood() {
+  const ObjectItem* object = document().active_object();
+  if (!view_.heat || !object || cutting_object_ != 0 || object->cut_key.empty() || !prepared_ ||
+      tasks_.busy(TaskKind::kCut))
+    return;
+  CutRun& run = runs_[object->id];
+  if (run.likelihood && run.key == object->cut_key) return;
+  if (is_stale(document(), *object)) return;
+  run.key = object->cut_key;
+  tasks_.submit(TaskKind::kCut, [this, input = cut_input(document(), *object),
+                                 cutter = cutter_for(object->id), id = object->id, key = object->cut_key,
+                                 scene = scene_](const Job& job) {
+    job.progress("likelihood", 0);
+    const ObjectCutReport report = cutter->cut(input, {}, job);  // kept from the last cut, or computed again
+    if (job.cancelled()) return;
+    auto likelihood = std::make_shared<const std::vector<float>>(cutter->likelihood_of(report, job));
+    if (job.cancelled()) return;
+    tasks_.post([this, id, key, scene, likelihood] {
+      if (scene != scene_ || runs_[id].key != key) return;
+      runs_[id].likelihood = likelihood;
+      ++view_serial_;
+    });
+  });
+  if (options_.inline_tasks) tasks_.deliver();
+}
+
+void Studio::autosave(double seconds) {
+  if (options_.state_folder.empty() || !scene_ || autosaved_serial_ == document_serial_ ||
+      cutting_object_ != 0)
+    return;
+  autosave_wait_s_ += seconds;
+  if (autosave_wait_s_ < kAutosaveAfterSeconds) return;
+  autosaved_serial_ = document_serial_;
+  tasks_.submit(TaskKind::kExport, [path = options_.state_folder / "autosave.splatcut.json",
+                                    document = document(), scene = scene_](const Job&) {
+    std::filesystem::create_directories(path.parent_path());
+    write_work_file(path, *scene->scene, scene->hash, document);
+  });
+}
+
+}  // namespace splatcut

@@ -1,0 +1,223 @@
+// What is on the screen: styles, requests for pictures, the frame loop.
+#include <algorithm>
+#include <cmath>
+
+#include "app/studio/studio.h"
+#include "scene/rasterizer.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr double kStillAfterSeconds = 0.15;  // without a move the picture is drawn in full
+constexpr double kMovingGoalMs = 32;         // a reduced picture should take no longer
+constexpr float kLeastScale = 0.2f;
+constexpr float kMostNearPlane = 0.2f;  // scene units: the near plane scenes are trained with
+
+// Scales in steps of 5 %: the same size again and again costs no new textures.
+float stepped(float scale) {
+  return std::clamp(std::round(scale * 20) / 20, kLeastScale, 1.0f);
+}
+
+}  // namespace
+
+void Studio::set_viewport(int width_px, int height_px, float pixels_per_point) {
+  width_px_ = std::max(1, width_px);
+  height_px_ = std::max(1, height_px);
+  pixels_per_point_ = pixels_per_point;
+}
+
+float Studio::near_plane() const {
+  return std::min(kMostNearPlane, view_.near_share * camera_.scene_size());
+}
+
+Camera Studio::viewport_camera() const {
+  return camera_.camera(std::max(1, width_px_ / panes()), std::max(1, height_px_));
+}
+
+Camera Studio::pane_camera() const {
+  return viewport_camera();
+}
+
+glm::vec2 Studio::in_pane(const glm::vec2& pixel) const {
+  if (panes() == 1 || tools_.dragging()) return pixel;
+  const float half = 0.5f * static_cast<float>(width_px_);
+  return pixel.x >= half ? pixel - glm::vec2(half, 0) : pixel;
+}
+
+ToolContext Studio::tool_context(const glm::vec2&) {
+  return {camera_, view_, pane_camera(), pixels_per_point_, [this](const glm::vec2& at) { return pick(at); }};
+}
+
+std::optional<PickedPoint> Studio::pick(const glm::vec2& pixel) const {
+  if (!scene_) return {};
+  const Camera camera = pane_camera();
+  const auto x = static_cast<int>(std::floor(pixel.x)), y = static_cast<int>(std::floor(pixel.y));
+  if (x < 0 || y < 0 || x >= camera.width_px || y >= camera.height_px) return {};
+  // The picture on the screen knows, where it is this view; else one pixel is drawn.
+  if (picture_ && !picture_->frames.empty()) {
+    const Frame& frame = *picture_->frames.front();
+    if (same_camera(frame.camera, camera)) {
+      if (frame.first_hit.at(x, y) < 0) return {};
+      return PickedPoint{camera.world_from_pixel(pixel, frame.depth.at(x, y)), frame.first_hit.at(x, y)};
+    }
+  }
+  RasterOptions options;
+  options.colour = false;
+  options.depth = true;
+  options.near_plane = near_plane();
+  options.roi = PixelRect{x, y, x + 1, y + 1};
+  const Flags visible = shown(0);
+  if (visible) options.shown = *visible;
+  const RasterOutput out = rasterize(*scene_->cloud, camera, options);
+  if (out.first_hit.at(0, 0) < 0) return {};
+  return PickedPoint{camera.world_from_pixel(pixel, out.median_depth.at(0, 0)), out.first_hit.at(0, 0)};
+}
+
+Flags Studio::shown(int pane) const {
+  return shown_[pane];
+}
+
+FrameStyle Studio::style(int pane) const {
+  return style_[pane];
+}
+
+void Studio::refresh_style() {
+  if (!scene_) return;
+  if (style_serial_ == document_serial_ && styled_view_serial_ == view_serial_) return;
+  style_serial_ = document_serial_;
+  styled_view_serial_ = view_serial_;
+  ++style_version_;
+  const std::size_t n = scene_->cloud->size();
+  const Document& document = this->document();
+  std::vector<std::uint8_t> owner(n, 0), active(n, 0);
+  FrameStyle style;
+  style.background = document.background;
+  style.tint = view_.tint;
+  style.outline = view_.outline;
+  bool any = false;
+  for (std::size_t i = 0; i < document.objects.size() && i < 255; ++i) {
+    const ObjectItem& object = document.objects[i];
+    const CutRun* run = cut_run(object.id);
+    std::vector<std::uint8_t> own = run && run->preview ? *run->preview : labels_of(document, object, n);
+    const auto number = static_cast<std::uint8_t>(i + 1);
+    style.owner_colour[number] = object.colour;
+    if (object.visible)
+      for (std::size_t g = 0; g < n; ++g)
+        if (own[g]) owner[g] = number;
+    any |= object.visible;
+    if (object.id == document.active) active = std::move(own);
+  }
+  if (any) style.owner = make_flags(std::move(owner));
+  if (view_.heat)
+    if (const CutRun* run = cut_run(document.active)) style.heat = run->likelihood;
+  floater_count_ = 0;
+  if (highlight_floaters_ && prepared_) {
+    Selection found = floaters(*scene_->cloud, prepared_->graph, active);
+    floater_count_ = count_flags(found);
+    style.highlight = make_flags(std::move(found));
+  }
+  // What a pane shows: its Gaussians change the rasterised picture, so an equal set stays the same object.
+  const auto visible_set = [&](DisplayMode mode) -> Flags {
+    if (mode == DisplayMode::kWhole && !document.deleted) return nullptr;
+    std::vector<std::uint8_t> set(n, 1);
+    for (std::size_t g = 0; g < n; ++g) {
+      if (mode == DisplayMode::kIsolate) set[g] = active[g];
+      if (mode == DisplayMode::kHide) set[g] = !active[g];
+      if (document.deleted && (*document.deleted)[g]) set[g] = 0;
+    }
+    return make_flags(std::move(set));
+  };
+  const auto keep_equal = [](Flags* old, Flags fresh) {
+    const bool equal = *old && fresh ? **old == *fresh : *old == fresh;
+    if (!equal) *old = std::move(fresh);
+  };
+  const bool two = view_.display == DisplayMode::kSideBySide;
+  const bool alone = view_.display == DisplayMode::kIsolate;
+  FrameStyle plain = style;
+  plain.owner = nullptr;
+  keep_equal(&shown_[0], visible_set(two ? DisplayMode::kWhole : view_.display));
+  style_[0] = alone && !style.highlight ? plain : style;
+  if (view_.heat && style.heat) style_[0].heat = style.heat;
+  if (two) {
+    keep_equal(&shown_[1], visible_set(DisplayMode::kIsolate));
+    style_[1] = plain;
+    style_[1].heat = nullptr;
+  }
+}
+
+void Studio::request_picture() {
+  if (!scene_ || width_px_ == 0) return;
+  const Camera full_camera = viewport_camera();
+  const bool still = clock_s_ - last_move_s_ > kStillAfterSeconds;
+  if (gpu_view_ && !still) return;
+  const float scale = still ? 1.0f : moving_scale_;
+  const Camera camera =
+      scale == 1.0f
+          ? full_camera
+          : resized(
+                full_camera,
+                std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(full_camera.width_px)))),
+                std::max(1,
+                         static_cast<int>(std::lround(scale * static_cast<float>(full_camera.height_px)))));
+  const bool same = requested_camera_ && same_camera(*requested_camera_, camera) &&
+                    requested_full_ == still && requested_style_ == style_version_;
+  if (same) return;
+  requested_camera_ = camera;
+  requested_full_ = still;
+  requested_style_ = style_version_;
+  FrameRequest request{scene_->serial, scene_->cloud, {}, near_plane(), still};
+  for (int pane = 0; pane < panes(); ++pane) request.panes.push_back({camera, shown_[pane], style_[pane]});
+  frames_.request(std::move(request));
+}
+
+void Studio::take_picture() {
+  auto result = frames_.take();
+  if (!result || !scene_ || result->scene != scene_->serial) return;
+  double raster_ms = 0;
+  for (const auto& frame : result->frames) raster_ms += frame->raster_ms;
+  if (result->full) {
+    still_ms_ = raster_ms;
+  } else {
+    moving_ms_ = result->ms;
+    // Half of a picture's cost goes with its pixels, the rest with the Gaussians.
+    const double factor = std::clamp(kMovingGoalMs / std::max(1.0, result->ms), 0.5, 1.3);
+    if (factor < 0.9 || factor > 1.15) moving_scale_ = stepped(moving_scale_ * static_cast<float>(factor));
+  }
+  picture_ = std::move(result);
+  ++picture_serial_;
+}
+
+bool Studio::idle() const {
+  return tasks_.idle() && frames_.idle() &&
+         (!scene_ || (picture_ && picture_->full && requested_full_ && requested_style_ == style_version_ &&
+                      clock_s_ - last_move_s_ > kStillAfterSeconds));
+}
+
+bool Studio::update(double seconds) {
+  clock_s_ += seconds;
+  tasks_.deliver();
+  const CameraPose before = camera_.pose();
+  const Flight flying = flight();
+  const bool flies = scene_ && flying.moving();
+  if (flies) camera_.fly(flying, static_cast<float>(std::min(seconds, 0.1)));
+  const bool travels = camera_.advance(static_cast<float>(seconds));
+  const CameraPose& after = camera_.pose();
+  const bool moved = before.position_world != after.position_world ||
+                     before.camera_from_world != after.camera_from_world ||
+                     before.fov_y_rad != after.fov_y_rad;
+  const bool camera_differs =
+      requested_camera_ &&
+      !same_camera(resized(*requested_camera_, viewport_camera().width_px, viewport_camera().height_px),
+                   viewport_camera());
+  if (flies || travels || moved || (camera_differs && tools_.moves_camera())) last_move_s_ = clock_s_;
+  schedule_cut();
+  request_likelihood();
+  refresh_style();
+  request_picture();
+  take_picture();
+  autosave(seconds);
+  return flies || travels || !idle();
+}
+
+}  // namespace splatcut

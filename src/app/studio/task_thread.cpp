@@ -1,0 +1,123 @@
+#include "app/studio/task_thread.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+namespace splatcut {
+
+TaskThread::TaskThread(std::function<void()> wake, bool inline_work)
+    : wake_(std::move(wake)), inline_work_(inline_work) {
+  if (!inline_work_) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+TaskThread::~TaskThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.clear();
+    running_stop_.request_stop();
+  }
+  thread_.request_stop();
+  if (thread_.joinable()) thread_.join();
+}
+
+void TaskThread::submit(TaskKind kind, Work work) {
+  Task task{kind, std::move(work), {}};
+  if (inline_work_) {
+    perform(task);
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(waiting_, [&](const Task& t) { return t.kind == kind; });
+    if (running_ && running_kind_ == kind) running_stop_.request_stop();
+    waiting_.push_back(std::move(task));
+  }
+  changed_.notify_one();
+}
+
+void TaskThread::cancel(TaskKind kind) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(waiting_, [&](const Task& t) { return t.kind == kind; });
+  if (running_ && running_kind_ == kind) running_stop_.request_stop();
+}
+
+bool TaskThread::busy(TaskKind kind) const {
+  const std::lock_guard lock(mutex_);
+  return (running_ && running_kind_ == kind) ||
+         std::ranges::any_of(waiting_, [&](const Task& t) { return t.kind == kind; });
+}
+
+bool TaskThread::idle() const {
+  const std::lock_guard lock(mutex_);
+  return !running_ && waiting_.empty() && posted_.empty();
+}
+
+TaskThread::Progress TaskThread::progress() const {
+  const std::lock_guard lock(mutex_);
+  return progress_;
+}
+
+void TaskThread::post(std::function<void()> closure) {
+  {
+    const std::lock_guard lock(mutex_);
+    posted_.push_back(std::move(closure));
+  }
+  if (wake_) wake_();
+}
+
+bool TaskThread::deliver() {
+  std::vector<std::function<void()>> closures;
+  {
+    const std::lock_guard lock(mutex_);
+    closures.swap(posted_);
+  }
+  for (const auto& closure : closures) closure();
+  return !closures.empty();
+}
+
+void TaskThread::perform(Task& task) {
+  Job job;
+  job.stop = task.stop.get_token();
+  job.on_progress = [this, kind = task.kind](std::string_view stage, double fraction) {
+    {
+      const std::lock_guard lock(mutex_);
+      progress_ = {true, kind, std::string(stage), fraction};
+    }
+    if (wake_) wake_();
+  };
+  const auto report = [this, kind = task.kind](std::string message) {
+    post([this, kind, message = std::move(message)] {
+      if (on_error) on_error(kind, message);
+    });
+  };
+  try {
+    task.work(job);
+  } catch (const std::bad_alloc&) {
+    report("There is not enough memory for this. Close other programs, or use a smaller scene.");
+  } catch (const std::exception& error) {
+    report(error.what());
+  }
+}
+
+void TaskThread::run(const std::stop_token& stop) {
+  while (true) {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait(lock, stop, [&] { return !waiting_.empty(); })) return;
+    Task task = std::move(waiting_.front());
+    waiting_.pop_front();
+    running_ = true;
+    running_kind_ = task.kind;
+    running_stop_ = task.stop;
+    progress_ = {true, task.kind, {}, 0};
+    lock.unlock();
+    perform(task);
+    lock.lock();
+    running_ = false;
+    progress_ = {};
+    lock.unlock();
+    if (wake_) wake_();
+  }
+}
+
+}  // namespace splatcut

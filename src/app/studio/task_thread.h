@@ -1,0 +1,75 @@
+// One worker for everything that takes long: load, prepare, cut, select, export. Work runs on snapshots; what
+// it finds comes back as closures that the main thread runs in deliver().
+//
+// A task of a kind replaces the waiting and stops the running task of the same kind: the latest request wins.
+// Cancel is a normal end. Shutdown: stop is requested, what waits is dropped, the thread is joined.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "scene/job.h"
+
+namespace splatcut {
+
+enum class TaskKind { kLoad, kPrepare, kCut, kSelect, kExport };
+
+class TaskThread {
+ public:
+  // Runs on the worker. An Error it throws arrives in on_error.
+  using Work = std::function<void(const Job& job)>;
+
+  struct Progress {
+    bool busy = false;
+    TaskKind kind = TaskKind::kLoad;
+    std::string stage;
+    double fraction = 0;  // [0, 1]
+  };
+
+  // wake: called from the worker when there is something to deliver. inline_work: every task runs inside
+  // submit(), for tests that want one order of events.
+  explicit TaskThread(std::function<void()> wake = {}, bool inline_work = false);
+  ~TaskThread();
+
+  void submit(TaskKind kind, Work work);
+  void cancel(TaskKind kind);
+  bool busy(TaskKind kind) const;  // waiting or running
+  bool idle() const;
+  Progress progress() const;
+
+  // From the worker: `closure` will run on the main thread.
+  void post(std::function<void()> closure);
+
+  // Main thread: runs what was posted. True where there was anything.
+  bool deliver();
+
+  std::function<void(TaskKind, const std::string& message)> on_error;  // called in deliver()
+
+ private:
+  struct Task {
+    TaskKind kind;
+    Work work;
+    std::stop_source stop;
+  };
+  void run(const std::stop_token& stop);
+  void perform(Task& task);
+
+  std::function<void()> wake_;
+  const bool inline_work_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::deque<Task> waiting_;
+  bool running_ = false;
+  TaskKind running_kind_ = TaskKind::kLoad;
+  std::stop_source running_stop_;
+  Progress progress_;
+  std::vector<std::function<void()>> posted_;
+  std::jthread thread_;  // last: ends before the rest goes
+};
+
+}  // namespace splatcut

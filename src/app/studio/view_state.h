@@ -1,0 +1,47 @@
+// How the user looks and works, as far as it is no part of the work: never undone, remembered between runs.
+#pragma once
+
+#include "app/studio/selection.h"
+
+namespace splatcut {
+
+enum class Tool {
+  kNavigate,
+  kClick,
+  kScribble,
+  kBox,
+  kBrush,
+  kLasso,
+  kRectangle,
+  kPolygon,
+  kSphere,
+  kGround
+};
+inline constexpr int kTools = 10;
+
+enum class DisplayMode { kWhole, kIsolate, kHide, kSideBySide };
+
+struct ViewState {
+  Tool tool = Tool::kClick;
+  SetOperation operation = SetOperation::kAdd;  // of the region tools, where no modifier key says otherwise
+  float brush_px = 14;                          // radius, logical pixels
+  bool see_through = false;                     // region tools take what is hidden behind, too
+  float depth_limit = 0;                        // of the scene's size behind the surface; 0: no limit
+  DisplayMode display = DisplayMode::kWhole;
+  bool tint = true;
+  bool outline = true;
+  bool heat = false;
+  float near_share = 0.01f;  // near plane, of the scene's size; at most 0.2 scene units
+
+  bool operator==(const ViewState&) const = default;
+};
+
+// Tools whose strokes go to the cut, and those that select Gaussians by hand.
+constexpr bool is_stroke_tool(Tool tool) {
+  return tool == Tool::kClick || tool == Tool::kScribble || tool == Tool::kBox;
+}
+constexpr bool is_region_tool(Tool tool) {
+  return tool >= Tool::kBrush && tool <= Tool::kSphere;
+}
+
+}  // namespace splatcut

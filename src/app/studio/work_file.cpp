@@ -1,0 +1,267 @@
+#include "app/studio/work_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "scene/atomic_file.h"
+#include "scene/error.h"
+#include "scene/mapped_file.h"
+
+namespace splatcut {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int kVersion = 1;
+
+json list(const glm::vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+glm::vec3 vec3_from(const json& j) {
+  return {j.at(0).get<float>(), j.at(1).get<float>(), j.at(2).get<float>()};
+}
+
+json camera_json(const Camera& c) {
+  json rotation = json::array();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) rotation.push_back(c.camera_from_world_rotation[column][row]);
+  return {{"name", c.name},
+          {"width", c.width_px},
+          {"height", c.height_px},
+          {"fx", c.fx_px},
+          {"fy", c.fy_px},
+          {"cx", c.cx_px},
+          {"cy", c.cy_px},
+          {"camera_from_world_rotation", rotation},
+          {"camera_from_world_translation", list(c.camera_from_world_translation)}};
+}
+
+Camera camera_from(const json& j) {
+  constexpr int kMostPixels = 1 << 15;
+  Camera c;
+  c.name = j.value("name", "");
+  c.width_px = j.at("width");
+  c.height_px = j.at("height");
+  if (c.width_px < 1 || c.height_px < 1 || c.width_px > kMostPixels || c.height_px > kMostPixels)
+    throw Error("camera", fmt::format("a picture of {} x {} pixels is impossible", c.width_px, c.height_px));
+  c.fx_px = j.at("fx");
+  c.fy_px = j.at("fy");
+  c.cx_px = j.at("cx");
+  c.cy_px = j.at("cy");
+  const json& rotation = j.at("camera_from_world_rotation");
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      c.camera_from_world_rotation[column][row] = rotation.at(static_cast<std::size_t>(3 * row + column));
+  c.camera_from_world_translation = vec3_from(j.at("camera_from_world_translation"));
+  return c;
+}
+
+json strokes_json(const Strokes& strokes) {
+  json out = json::array();
+  for (const Stroke& s : strokes) {
+    json points = json::array();
+    for (const glm::vec2& p : s.points_px) points.push_back({p.x, p.y});
+    out.push_back({{"label", s.label == SeedLabel::kObject ? "object" : "rest"},
+                   {"radius_px", s.radius_px},
+                   {"points", points}});
+  }
+  return out;
+}
+
+Strokes strokes_from(const json& j) {
+  Strokes strokes;
+  for (const json& s : j) {
+    const std::string label = s.at("label");
+    if (label != "object" && label != "rest")
+      throw Error("stroke", "the label \"" + label + "\" is unknown", "Use object or rest");
+    Stroke stroke{label == "object" ? SeedLabel::kObject : SeedLabel::kRest, s.at("radius_px"), {}};
+    for (const json& p : s.at("points"))
+      stroke.points_px.emplace_back(p.at(0).get<float>(), p.at(1).get<float>());
+    strokes.push_back(std::move(stroke));
+  }
+  return strokes;
+}
+
+// [value, run, value, run, ...] over the rows of the file.
+json runs_json(const Flags& flags, const Scene& scene) {
+  if (!flags) return nullptr;
+  std::vector<std::uint8_t> rows(scene.file_rows, 0);
+  for (std::size_t g = 0; g < flags->size(); ++g) rows[scene.cloud.file_row[g]] = (*flags)[g];
+  json out = json::array();
+  for (std::size_t begin = 0; begin < rows.size();) {
+    std::size_t end = begin;
+    while (end < rows.size() && rows[end] == rows[begin]) ++end;
+    out.push_back(rows[begin]);
+    out.push_back(end - begin);
+    begin = end;
+  }
+  return out;
+}
+
+Flags flags_from(const json& j, const Scene& scene, std::uint8_t most) {
+  if (j.is_null()) return nullptr;
+  std::vector<std::uint8_t> rows;
+  rows.reserve(scene.file_rows);
+  for (std::size_t i = 0; i + 1 < j.size(); i += 2) {
+    const auto value = j.at(i).get<unsigned>();
+    const auto run = j.at(i + 1).get<std::size_t>();
+    if (value > most || run > scene.file_rows - rows.size())
+      throw Error("labels", fmt::format("run {} does not fit the scene's {} rows", i / 2, scene.file_rows));
+    rows.insert(rows.end(), run, static_cast<std::uint8_t>(value));
+  }
+  if (rows.size() != scene.file_rows)
+    throw Error("labels", fmt::format("cover {} of {} rows", rows.size(), scene.file_rows));
+  std::vector<std::uint8_t> flags(scene.cloud.size());
+  for (std::size_t g = 0; g < flags.size(); ++g) flags[g] = rows[scene.cloud.file_row[g]];
+  return make_flags(std::move(flags));
+}
+
+json object_json(const Document& document, const ObjectItem& o, const Scene& scene) {
+  json views = json::array();
+  for (const StrokedView& view : o.views)
+    views.push_back({{"camera", camera_json(view.camera)}, {"strokes", strokes_json(view.strokes)}});
+  json out = {{"id", o.id},
+              {"name", o.name},
+              {"colour", {o.colour[0], o.colour[1], o.colour[2]}},
+              {"visible", o.visible},
+              {"locked", o.locked},
+              {"within", o.within},
+              {"views", views},
+              {"left_out", o.left_out},
+              {"cut", runs_json(o.cut, scene)},
+              {"cut_is_current", o.cut != nullptr && !is_stale(document, o)},
+              {"hand", runs_json(o.hand, scene)}};
+  if (o.smoothness) out["smoothness"] = *o.smoothness;
+  return out;
+}
+
+ObjectItem object_from(const json& j, const Scene& scene) {
+  ObjectItem o;
+  o.id = j.at("id");
+  o.name = j.at("name");
+  for (std::size_t c = 0; c < 3; ++c) o.colour[c] = j.at("colour").at(c);
+  o.visible = j.value("visible", true);
+  o.locked = j.value("locked", false);
+  o.within = j.value("within", 0u);
+  for (const json& view : j.at("views"))
+    o.views.push_back({camera_from(view.at("camera")), strokes_from(view.at("strokes"))});
+  o.left_out = j.value("left_out", std::vector<int>{});
+  if (j.contains("smoothness")) o.smoothness = j.at("smoothness").get<float>();
+  o.cut = flags_from(j.value("cut", json()), scene, 1);
+  o.hand = flags_from(j.value("hand", json()), scene, kHandRest);
+  return o;
+}
+
+json parse(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  if (!in) throw Error(path.string(), "cannot be opened");
+  json work = json::parse(in, nullptr, false);
+  if (work.is_discarded() || !work.is_object() || !work.contains("splatcut_work"))
+    throw Error(path.string(), "is no work file of splatcut");
+  if (work["splatcut_work"] != kVersion)
+    throw Error(path.string(), "was written by a newer splatcut", "Update splatcut");
+  return work;
+}
+
+std::filesystem::path scene_path(const json& work, const std::filesystem::path& path) {
+  const std::filesystem::path scene = work.at("scene").at("path").get<std::string>();
+  return scene.is_absolute() ? scene : std::filesystem::absolute(path).parent_path() / scene;
+}
+
+}  // namespace
+
+bool is_work_file(const std::filesystem::path& path) {
+  return path.string().ends_with(".splatcut.json");
+}
+
+WorkFile read_work_header(const std::filesystem::path& path) {
+  try {
+    const json work = parse(path);
+    WorkFile out;
+    out.scene = scene_path(work, path);
+    out.scene_hash = std::stoull(work.at("scene").at("hash").get<std::string>(), nullptr, 16);
+    return out;
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw Error(path.string(), std::string("does not have the expected form (") + error.what() + ")");
+  }
+}
+
+WorkFile read_work_file(const std::filesystem::path& path, const Scene& scene, std::uint64_t scene_hash) {
+  WorkFile out = read_work_header(path);
+  if (out.scene_hash != scene_hash)
+    throw Error(path.string(), fmt::format("belongs to another version of {}", out.scene.filename().string()),
+                "Its labels would be wrong; open the scene itself to start anew");
+  try {
+    const json work = parse(path);
+    Document& d = out.document;
+    d.active = work.value("active", 0u);
+    d.next_id = work.at("next_id");
+    d.up_world = vec3_from(work.at("up"));
+    d.preset = work.at("preset");
+    preset(d.preset);  // throws for an unknown one
+    d.background = vec3_from(work.at("background"));
+    d.deleted = flags_from(work.value("deleted", json()), scene, 1);
+    for (const json& o : work.at("objects")) d.objects.push_back(object_from(o, scene));
+    for (std::size_t i = 0; i < d.objects.size(); ++i) {
+      ObjectItem& o = d.objects[i];
+      if (o.id == 0 || o.id >= d.next_id || d.find(o.id) != &o)
+        throw Error("objects", fmt::format("the id {} is used twice or out of range", o.id));
+      if (o.cut && work.at("objects").at(i).value("cut_is_current", false))
+        o.cut_key = key_of(cut_input(d, o));
+    }
+    return out;
+  } catch (const Error& error) {
+    throw Error(path.string(), error.what());
+  } catch (const json::exception& error) {
+    throw Error(path.string(), std::string("does not have the expected form (") + error.what() + ")");
+  }
+}
+
+void write_work_file(const std::filesystem::path& path, const Scene& scene, std::uint64_t scene_hash,
+                     const Document& document) {
+  json objects = json::array();
+  for (const ObjectItem& o : document.objects) objects.push_back(object_json(document, o, scene));
+  // A scene beside or below the work file moves with it.
+  const std::filesystem::path absolute = std::filesystem::absolute(scene.path).lexically_normal();
+  const std::filesystem::path relative =
+      absolute.lexically_relative(std::filesystem::absolute(path).parent_path().lexically_normal());
+  const bool beside = !relative.empty() && !relative.string().starts_with("..");
+  const json work = {{"splatcut_work", kVersion},
+                     {"scene",
+                      {{"path", (beside ? relative : absolute).string()},
+                       {"hash", fmt::format("{:016x}", scene_hash)},
+                       {"gaussians", scene.cloud.size()}}},
+                     {"active", document.active},
+                     {"next_id", document.next_id},
+                     {"up", list(document.up_world)},
+                     {"preset", document.preset},
+                     {"background", list(document.background)},
+                     {"deleted", runs_json(document.deleted, scene)},
+                     {"objects", objects}};
+  write_text_file(path, work.dump() + "\n");
+}
+
+std::uint64_t hash_of_file(const std::filesystem::path& path) {
+  const MappedFile file(path);
+  const std::span<const std::byte> bytes = file.bytes();
+  std::uint64_t hash = 14695981039346656037ull;
+  constexpr std::uint64_t kPrime = 1099511628211ull;
+  std::size_t i = 0;
+  for (; i + 8 <= bytes.size(); i += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + i, 8);
+    hash = (hash ^ word) * kPrime;
+  }
+  for (; i < bytes.size(); ++i) hash = (hash ^ static_cast<std::uint64_t>(bytes[i])) * kPrime;
+  return hash;
+}
+
+}  // namespace splatcut

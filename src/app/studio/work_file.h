@@ -1,0 +1,39 @@
+// The work file (.splatcut.json): which scene, and what was made of it. Text, written whole or not at all.
+//
+// Holds the scene's path (relative to the work file where it lies below or beside it) and hash, and the
+// document: strokes with their cameras in full float precision, hand marks and labels as run lengths over the
+// Gaussians in file order, settings. The labels of an object are a function of scene, strokes, settings and
+// marks, so that `splatcut cut --work` computes the same bits again. Errors: Error naming the file and the
+// entry.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/studio/document.h"
+#include "scene/scene_file.h"
+
+namespace splatcut {
+
+struct WorkFile {
+  std::filesystem::path scene;  // absolute
+  std::uint64_t scene_hash = 0;
+  Document document;
+};
+
+bool is_work_file(const std::filesystem::path& path);  // by its name
+
+// The scene a work file belongs to, without its arrays: read first, to load the scene.
+WorkFile read_work_header(const std::filesystem::path& path);
+
+// scene: the loaded scene of the header; its cloud gives the arrays their order. Throws Error where they
+// differ.
+WorkFile read_work_file(const std::filesystem::path& path, const Scene& scene, std::uint64_t scene_hash);
+
+void write_work_file(const std::filesystem::path& path, const Scene& scene, std::uint64_t scene_hash,
+                     const Document& document);
+
+// FNV-1a over the 64-bit words of the file.
+std::uint64_t hash_of_file(const std::filesystem::path& path);
+
+}  // namespace splatcut

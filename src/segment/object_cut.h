@@ -1,0 +1,79 @@
+// From one object's strokes, in any number of views, to a label per Gaussian: what the window runs after
+// every stroke, and what `splatcut cut --work` runs again.
+//
+// In: cloud with its prepared data, strokes by view (the first view with an object stroke is the reference),
+// views to leave out, smoothness. Out: labels (1 = object), the views with their masks, milliseconds per
+// stage. Steps: (1) cut_out() from the reference's strokes at the preset's own smoothness; (2) where strokes
+// in other views, left-out views or another smoothness ask for it, the masks are corrected and one more cut
+// is solved:
+//   A_g += k (M_g of added + removed pixels),  M_g += k (M_g of added pixels),  k = 4 x views used,
+// so that a stroke in one view outweighs the views that did not see the fault.
+// Step 1 is kept: what changes only step 2 costs only step 2. The result is a function of the input alone,
+// kept steps or not, on any number of threads. Errors: Error for an unknown preset. Nothing marked, nothing
+// found, cancelled: in `outcome` with a reason.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "segment/pipeline.h"
+#include "segment/prepared_scene.h"
+
+namespace splatcut {
+
+struct StrokedView {
+  Camera camera;
+  Strokes strokes;  // in the camera's pixels
+};
+
+struct ObjectCutInput {
+  std::vector<StrokedView> views;
+  glm::vec3 up_world{0, -1, 0};
+  std::string preset = "default";
+  std::optional<float>
+      smoothness;             // weight of the neighbour term, [0, 500]; the preset's own where not given
+  int part_step = 0;          // see PickOptions::scale_steps
+  std::vector<int> left_out;  // indices into ObjectCutReport::views that do not count
+};
+
+struct ObjectCutReport {
+  Outcome outcome = Outcome::kDone;
+  std::string reason;                // for kNothingFound
+  std::vector<std::uint8_t> labels;  // per Gaussian, 1 = object
+  std::vector<ViewReport> views;     // the reference, orbit views, then the other stroked views
+  std::vector<StageTime> stages;     // what was done this time; kept steps cost nothing and are not listed
+};
+
+class ObjectCutter {
+ public:
+  using Snapshot = std::function<void(const PipelineReport&)>;  // called on the running thread
+
+  ObjectCutter(std::shared_ptr<const GaussianCloud> cloud, std::shared_ptr<const PreparedScene> prepared);
+
+  ObjectCutReport cut(const ObjectCutInput& input, const Snapshot& on_snapshot = {}, const Job& job = {});
+
+  // w_g of the views that count in `report`, for display.
+  std::vector<float> likelihood_of(const ObjectCutReport& report, const Job& job = {}) const;
+
+ private:
+  const PipelineReport& first_cut(const ObjectCutInput& input, const StrokedView& reference,
+                                  const Snapshot& on_snapshot, const Job& job, bool* fresh);
+  MaskedSums sums_of(const std::vector<ViewReport>& views, const Job& job) const;
+
+  std::shared_ptr<const GaussianCloud> cloud_;
+  std::shared_ptr<const PreparedScene> prepared_;
+  std::string first_key_;                // inputs of step 1 as bytes
+  std::optional<PipelineReport> first_;  // its result
+  std::string sums_key_;                 // masks that sums_ was added up from
+  std::optional<MaskedSums> sums_;
+  std::vector<std::int32_t> unit_capacity_;  // arc capacities at smoothness 1
+  std::string unit_preset_;
+};
+
+// The inputs as bytes: equal exactly where the result must be. For keys, not for files.
+std::string key_of(const ObjectCutInput& input);
+
+}  // namespace splatcut
