@@ -1,20 +1,33 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <new>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
 #include "scene/error.h"
 
+using namespace splatcut;
+
 namespace {
 
 constexpr int kCouldNot = 1, kWrongUsage = 2;
 
+// `splatcut` and `splatcut SCENE` mean `splatcut view`.
+void parse(CLI::App& program, int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const bool scene_first = !words.empty() && words[0][0] != '-' && program.get_subcommands([&](const CLI::App* c) { return c->check_name(words[0]); }).empty();
+  if (words.empty() || scene_first) words.insert(words.begin(), "view");
+  std::ranges::reverse(words);  // as CLI11 wants them
+  program.parse(std::move(words));
+}
+
 int run(int argc, char** argv) {
-  using namespace splatcut;
   CLI::App program{"Click an object in a 3D Gaussian Splatting scene, hold a clean cutout"};
   program.footer("Example: splatcut cut scene.ply --click 512,384 -o cutout");
   program.set_version_flag("--version", "splatcut " SPLATCUT_VERSION);
@@ -33,8 +46,9 @@ int run(int argc, char** argv) {
   add_convert_command(program, common);
   add_make_scene_command(program, common);
   add_eval_command(program, common);
+  add_view_command(program, common);
   try {
-    program.parse(argc, argv);
+    parse(program, argc, argv);
     return 0;
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : kWrongUsage;

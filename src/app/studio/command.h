@@ -129,6 +129,9 @@ struct SetView {
 struct GoToCamera {
   Camera camera;
 };
+struct SetFieldOfView {
+  float fov_y_rad;
+};
 
 // Files.
 struct OpenScene {
@@ -155,7 +158,7 @@ using Command =
                  ShowFloaters, StepScale, ClearStrokes, NewObject, RemoveObject, RenameObject, RecolourObject,
                  ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject, DuplicateObject,
                  SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness, SetPreset,
-                 SetBackground, SetUp, Undo, Redo, JumpHistory, Cancel, Recompute, SetView, GoToCamera,
+                 SetBackground, SetUp, Undo, Redo, JumpHistory, Cancel, Recompute, SetView, GoToCamera, SetFieldOfView,
                  OpenScene, SaveWork, RestoreAutosave, Export, SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

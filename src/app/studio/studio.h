@@ -139,6 +139,9 @@ class Studio {
   float near_plane() const;
   std::uint64_t document_serial() const { return document_serial_; }
   const std::filesystem::path& work_path() const { return work_path_; }
+  bool unsaved() const { return !document().objects.empty() && saved_serial_ != document_serial_; }
+  std::uint64_t style_serial() const { return style_version_; }  // changes with what style() and shown() say
+  void leave();  // the program ends: an autosave that is not needed goes
 
   // A GPU draws the splats: pictures are then made for picking only, when nothing moves.
   void set_gpu_view(bool gpu) { gpu_view_ = gpu; }
@@ -166,6 +169,7 @@ class Studio {
   void perform(const Recompute&);
   void perform(const SetView& c);
   void perform(const GoToCamera& c);
+  void perform(const SetFieldOfView& c);
   // studio_files.cpp
   void perform(const OpenScene& c);
   void perform(const SaveWork& c);
@@ -240,7 +244,7 @@ class Studio {
 
   std::filesystem::path work_path_;
   bool autosave_found_ = false;
-  std::uint64_t autosaved_serial_ = 1;
+  std::uint64_t autosaved_serial_ = 1, saved_serial_ = 1;
   double autosave_wait_s_ = 0;
   std::uint64_t next_scene_serial_ = 1, next_card_serial_ = 1;
 

@@ -296,6 +296,10 @@ void Studio::perform(const GoToCamera& c) {
   if (!c.camera.name.empty()) say(Message::Kind::kInfo, "Camera " + c.camera.name);
 }
 
+void Studio::perform(const SetFieldOfView& c) {
+  camera_.set_fov_y(c.fov_y_rad);
+}
+
 void Studio::document_changed() {
   ++document_serial_;
   counts_.clear();

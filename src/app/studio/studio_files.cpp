@@ -44,7 +44,15 @@ void Studio::perform(const SaveWork& c) {
   if (!is_work_file(path)) path += ".splatcut.json";
   write_work_file(path, *scene_->scene, scene_->hash, document());
   work_path_ = path;
+  saved_serial_ = document_serial_;
   say(Message::Kind::kDone, "Work saved to " + path.string());
+}
+
+void Studio::leave() {
+  if (options_.state_folder.empty() || unsaved() || autosave_found_) return;
+  tasks_.cancel(TaskKind::kExport);
+  std::error_code ignored;
+  std::filesystem::remove(options_.state_folder / "autosave.splatcut.json", ignored);
 }
 
 void Studio::perform(const RestoreAutosave&) {

@@ -132,7 +132,7 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
     camera_.finish_transition();
   }
   document_changed();
-  autosaved_serial_ = document_serial_;
+  autosaved_serial_ = saved_serial_ = document_serial_;
   ++view_serial_;
   const Scene& s = *scene->scene;
   std::string text = fmt::format("{}: {} Gaussians, SH degree {}", s.path.filename().string(), s.cloud.size(),

@@ -1,0 +1,17 @@
+# A target `ui_fonts` that holds the interface's fonts as bytes: the program needs no files beside it.
+enable_language(ASM)
+function(splatcut_embed_fonts)
+  find_file(ROBOTO_REGULAR Roboto-Regular.ttf PATHS /usr/share/fonts/truetype/roboto/unhinted/RobotoTTF REQUIRED)
+  find_file(ROBOTO_MEDIUM Roboto-Medium.ttf PATHS /usr/share/fonts/truetype/roboto/unhinted/RobotoTTF REQUIRED)
+  find_file(FONT_AWESOME fontawesome-webfont.ttf PATHS /usr/share/fonts-font-awesome/fonts REQUIRED)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/ui_fonts.S)
+  set(text ".section .rodata\n")
+  foreach(font roboto_regular roboto_medium font_awesome)
+    string(TOUPPER ${font} variable)
+    string(APPEND text ".global splatcut_${font}\n.global splatcut_${font}_end\n.balign 16\nsplatcut_${font}:\n"
+      ".incbin \"${${variable}}\"\nsplatcut_${font}_end:\n.byte 0\n")
+  endforeach()
+  string(APPEND text ".section .note.GNU-stack,\"\",%progbits\n")
+  file(CONFIGURE OUTPUT ${source} CONTENT "${text}" @ONLY)
+  add_library(ui_fonts STATIC ${source})
+endfunction()

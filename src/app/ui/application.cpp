@@ -1,0 +1,192 @@
+#include "app/ui/application.h"
+
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace splatcut {
+
+namespace {
+
+constexpr double kDoubleClickSeconds = 0.35;
+constexpr float kDoubleClickPoints = 6;
+constexpr std::size_t kRecentKept = 8;
+
+// Keys that a held key repeats.
+bool repeats(Action action) {
+  return action == Action::kUndo || action == Action::kRedo || action == Action::kBrushSmaller ||
+         action == Action::kBrushLarger || action == Action::kPartLarger || action == Action::kPartSmaller;
+}
+
+}  // namespace
+
+Application::Application(ApplicationOptions options) : studio_(options.studio) {
+  if (!options.sample.empty() && std::filesystem::exists(options.sample))
+    interface_.state().sample = options.sample;
+  choose_renderer(options.renderer);
+  resize(size_points_, 1);
+}
+
+void Application::choose_renderer(RendererChoice choice) {
+  const GlInfo gl = current_gl_info();
+  const bool use_gl = choice == RendererChoice::kGl || (choice == RendererChoice::kAuto && !gl.software);
+  std::string name = gl.renderer.substr(0, gl.renderer.find(" ("));
+  interface_.state().renderer_line = use_gl ? fmt::format("OpenGL on {}", name)
+                                     : choice == RendererChoice::kCpu
+                                         ? "CPU renderer (asked for)"
+                                         : fmt::format("CPU renderer (OpenGL is software here: {})", name);
+  studio_.set_gpu_view(use_gl);
+  if (use_gl) gpu_ = std::make_unique<GpuView>(std::function<void()>());
+}
+
+void Application::resize(const glm::vec2& size_points, float pixels_per_point) {
+  size_points_ = size_points;
+  pixels_per_point_ = pixels_per_point;
+  interface_.resize(size_points, pixels_per_point, &renderer_);
+}
+
+void Application::handle(const UiEvent& event) {
+  interface_.make_current();
+  std::visit([this](const auto& e) { handle_one(e); }, event);
+}
+
+glm::vec2 Application::in_viewport_px(const glm::vec2& point) const {
+  return (point - interface_.viewport(studio_).min) * pixels_per_point_;
+}
+
+void Application::set_modifiers(const Modifiers& modifiers) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.KeyShift = modifiers.shift;
+  io.KeyCtrl = modifiers.ctrl;
+  io.KeyAlt = modifiers.alt;
+}
+
+void Application::handle_one(const PointerMoved& event) {
+  pointer_ = event.position_points;
+  ImGui::GetIO().MousePos = {pointer_.x, pointer_.y};
+  set_modifiers(event.modifiers);
+  if (dragging_picture_ || interface_.picture_at(pointer_, studio_))
+    studio_.pointer_moved(in_viewport_px(pointer_), event.modifiers);
+}
+
+void Application::handle_one(const PointerButtonChanged& event) {
+  const auto index = static_cast<std::size_t>(event.button);
+  set_modifiers(event.modifiers);
+  button_down_[index] = event.down;
+  if (event.down) pressed_since_frame_[index] = true;
+  if (!event.down) {
+    if (dragging_picture_) studio_.pointer_released(in_viewport_px(pointer_), event.button, event.modifiers);
+    dragging_picture_ =
+        std::ranges::any_of(button_down_, [](bool down) { return down; }) && dragging_picture_;
+    return;
+  }
+  if (!interface_.picture_at(pointer_, studio_)) return;
+  dragging_picture_ = true;
+  const bool twice = event.button == PointerButton::kLeft && clock_s_ - last_click_s_ < kDoubleClickSeconds &&
+                     glm::length(pointer_ - last_click_) < kDoubleClickPoints;
+  last_click_s_ = twice || event.button != PointerButton::kLeft ? -1 : clock_s_;
+  last_click_ = pointer_;
+  if (twice)
+    studio_.pointer_double_clicked(in_viewport_px(pointer_));
+  else
+    studio_.pointer_pressed(in_viewport_px(pointer_), event.button, event.modifiers);
+}
+
+void Application::handle_one(const WheelTurned& event) {
+  if (interface_.picture_at(pointer_, studio_))
+    studio_.wheel(event.steps, event.modifiers);
+  else
+    ImGui::GetIO().MouseWheel += event.steps;
+}
+
+void Application::handle_one(const KeyChanged& event) {
+  ImGuiIO& io = ImGui::GetIO();
+  set_modifiers(event.modifiers);
+  if (event.key >= 0 && event.key < key::kCount) io.KeysDown[event.key] = event.down;
+  if (!event.down) return studio_.key_released(event.key);
+  if (io.WantTextInput || interface_.dialog_open()) return;
+  if (event.repeated && !repeats(action_for(event.key, event.modifiers))) return;
+  studio_.key_pressed(event.key, event.modifiers);
+}
+
+void Application::handle_one(const TextTyped& event) {
+  ImGui::GetIO().AddInputCharacter(event.code_point);
+}
+
+void Application::handle_one(const FileDropped& event) {
+  studio_.apply(OpenScene{event.path});
+}
+
+void Application::handle_one(const FocusChanged& event) {
+  if (event.focused) return;
+  studio_.release_keys();
+  std::ranges::fill(ImGui::GetIO().KeysDown, false);
+  set_modifiers({});
+}
+
+void Application::remember_recent() {
+  const OpenedScene* scene = studio_.scene();
+  if (!scene || scene->serial == recent_scene_) return;
+  recent_scene_ = scene->serial;
+  auto& recent = interface_.state().recent;
+  const std::filesystem::path path = std::filesystem::absolute(scene->scene->path);
+  std::erase(recent, path);
+  recent.insert(recent.begin(), path);
+  if (recent.size() > kRecentKept) recent.resize(kRecentKept);
+}
+
+bool Application::frame(double seconds) {
+  const auto start = std::chrono::steady_clock::now();
+  clock_s_ += seconds;
+  interface_.make_current();
+  const glm::vec2 view_px = interface_.viewport(studio_).size() * pixels_per_point_;
+  studio_.set_viewport(static_cast<int>(std::lround(view_px.x)), static_cast<int>(std::lround(view_px.y)),
+                       pixels_per_point_);
+  const bool busy = studio_.update(seconds);
+  remember_recent();
+  if (studio_.overlay().cuts && !studio_.document().objects.empty()) interface_.state().hint_wanted = false;
+  for (const UiRequest request : studio_.take_ui_requests()) interface_.show(request, studio_, &renderer_);
+  // A press and release between two frames is a click, too.
+  for (int i = 0; i < 3; ++i)
+    ImGui::GetIO().MouseDown[i] = std::exchange(pressed_since_frame_[i], false) || button_down_[i];
+
+  GLint target = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+  ImTextureID gpu_pictures[2] = {};
+  if (gpu_) {
+    const auto textures = gpu_->draw(studio_);
+    for (std::size_t i = 0; i < 2; ++i) gpu_pictures[i] = texture_id(textures[i]);
+  }
+  Requests ask;
+  interface_.build(studio_, seconds, &renderer_, gpu_pictures, &ask);
+  glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
+  glDisable(GL_SCISSOR_TEST);
+  const ImVec4& back = interface_.theme().colour.panel_low;
+  glClearColor(back.x, back.y, back.z, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  renderer_.draw(*ImGui::GetDrawData());
+  renderer_.end_frame();
+  for (const Action action : ask.actions) studio_.run(action);
+  for (const Command& command : ask.commands) studio_.apply(command);
+  longest_ms_ =
+      std::max(longest_ms_,
+               std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  return busy || !ask.actions.empty() || !ask.commands.empty();
+}
+
+bool Application::settle(double most_seconds) {
+  const auto start = std::chrono::steady_clock::now();
+  int quiet = 0;
+  while (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < most_seconds) {
+    frame(1.0 / 60);
+    quiet = studio_.idle() ? quiet + 1 : 0;
+    if (quiet >= 3) return true;
+    if (quiet == 0) std::this_thread::sleep_for(std::chrono::milliseconds(3));
+  }
+  return false;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,74 @@
+// The whole program behind the window: studio, interface, renderers. Needs a current OpenGL context and is
+// told of events and sizes; a real window, an off-screen test and a screenshot drive it the same way. Main
+// thread only.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "app/studio/studio.h"
+#include "app/ui/gpu_view.h"
+#include "app/ui/interface.h"
+#include "app/ui/ui_events.h"
+#include "render/context.h"
+
+namespace splatcut {
+
+enum class RendererChoice { kAuto, kGl, kCpu };
+
+struct ApplicationOptions {
+  StudioOptions studio;
+  RendererChoice renderer = RendererChoice::kAuto;
+  std::filesystem::path sample;  // offered on the start page; empty: none
+};
+
+class Application {
+ public:
+  explicit Application(ApplicationOptions options);
+
+  // size_points: of the window in logical points; framebuffer pixels = points times pixels_per_point.
+  void resize(const glm::vec2& size_points, float pixels_per_point);
+  void handle(const UiEvent& event);
+  // Advances by `seconds` and draws into the bound framebuffer. True while something moves or is awaited.
+  bool frame(double seconds);
+  bool wants_to_close() { return interface_.state().quit_wanted; }
+
+  // Frames of 1/60 s until nothing moves and nothing runs. False after `most_seconds` of real time.
+  bool settle(double most_seconds);
+
+  Studio& studio() { return studio_; }
+  Interface& interface() { return interface_; }
+  // Longest time update and interface took in one frame since the last call, ms: what a user feels as a
+  // block.
+  double take_longest_ms() { return std::exchange(longest_ms_, 0.0); }
+
+ private:
+  void handle_one(const PointerMoved& event);
+  void handle_one(const PointerButtonChanged& event);
+  void handle_one(const WheelTurned& event);
+  void handle_one(const KeyChanged& event);
+  void handle_one(const TextTyped& event);
+  void handle_one(const FileDropped& event);
+  void handle_one(const FocusChanged& event);
+  glm::vec2 in_viewport_px(const glm::vec2& point) const;
+  void set_modifiers(const Modifiers& modifiers);
+  void choose_renderer(RendererChoice choice);
+  void remember_recent();
+
+  Studio studio_;
+  Interface interface_;
+  UiRenderer renderer_;
+  std::unique_ptr<GpuView> gpu_;
+  glm::vec2 size_points_{1280, 720};
+  float pixels_per_point_ = 1;
+  glm::vec2 pointer_{-1e6f, -1e6f};
+  bool dragging_picture_ = false;
+  bool pressed_since_frame_[3] = {};
+  bool button_down_[3] = {};
+  double clock_s_ = 0, last_click_s_ = -1;
+  glm::vec2 last_click_{0};
+  std::uint64_t recent_scene_ = 0;
+  double longest_ms_ = 0;
+};
+
+}  // namespace splatcut

@@ -1,0 +1,221 @@
+// Export, help, quit.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <imgui_stdlib.h>  // needs imgui.h first
+
+#include <cstring>
+
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr const char* kWhatNames[] = {"The object", "Everything else", "All objects, a file each"};
+constexpr SceneFormat kFormats[] = {SceneFormat::kPly, SceneFormat::kCompressedPly, SceneFormat::kSplat,
+                                    SceneFormat::kSpz};
+
+void centre_next_window(const ImVec2& size) {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize(size);
+}
+
+constexpr ImGuiWindowFlags kDialog = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove;
+
+std::size_t gaussians_to_export(const Studio& studio, ExportWhat what) {
+  const Document& document = studio.document();
+  const std::size_t object = studio.gaussians_of(document.active);
+  if (what == ExportWhat::kObject) return object;
+  if (what == ExportWhat::kRest) {
+    const std::size_t deleted = document.deleted ? count_flags(*document.deleted) : 0;
+    return studio.scene()->cloud->size() - object - deleted;
+  }
+  std::size_t sum = 0;
+  for (const ObjectItem& item : document.objects) sum += studio.gaussians_of(item.id);
+  return sum;
+}
+
+void propose_path(UiContext& ui) {
+  ExportChoice& choice = ui.state.exporting;
+  const Studio& s = ui.studio;
+  const std::filesystem::path folder = choice.path.empty()
+                                           ? std::filesystem::absolute(s.scene()->scene->path).parent_path()
+                                           : std::filesystem::path(choice.path).parent_path();
+  std::string stem = s.scene()->scene->path.filename().string();
+  stem = stem.substr(0, stem.find('.'));
+  const ObjectItem* active = s.document().active_object();
+  std::string name = choice.what == ExportWhat::kRest         ? "rest"
+                     : choice.what == ExportWhat::kAllObjects ? "objects"
+                     : active                                 ? active->name
+                                                              : "object";
+  for (char& c : name)
+    if (c == ' ' || c == '/') c = '_';
+  choice.path = (folder / (stem + "_" + name +
+                           (choice.what == ExportWhat::kAllObjects ? "" : extension_of(choice.format))))
+                    .string();
+}
+
+void fact(UiContext& ui, const char* symbol, const ImVec4& colour, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(symbol);
+  ImGui::PopStyleColor();
+  ImGui::SameLine(34);
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  (void)ui;
+}
+
+void export_choices(UiContext& ui) {
+  ExportChoice& choice = ui.state.exporting;
+  ImGui::TextUnformatted("What");
+  for (int i = 0; i < 3; ++i) {
+    ImGui::SameLine(i == 0 ? 90.0f : 0.0f, i == 0 ? -1.0f : 2.0f);
+    const auto what = static_cast<ExportWhat>(i);
+    if (button(ui, kWhatNames[i], kWhatNames[i], {}, choice.what == what)) {
+      choice.what = what;
+      propose_path(ui);
+    }
+  }
+  ImGui::TextUnformatted("Format");
+  for (const SceneFormat format : kFormats) {
+    ImGui::SameLine(format == SceneFormat::kPly ? 90.0f : 0.0f, format == SceneFormat::kPly ? -1.0f : 2.0f);
+    if (button(ui, extension_of(format), name_of(format), {}, choice.format == format)) {
+      choice.format = format;
+      if (choice.what != ExportWhat::kAllObjects) choice.path = with_extension(choice.path, format).string();
+    }
+  }
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("File");
+  ImGui::SameLine(90);
+  ImGui::SetNextItemWidth(-44);
+  ImGui::InputText("##path", &choice.path);
+  ImGui::SameLine(0, 4);
+  if (button(ui, icon::kFolder, "Choose a folder and name")) {
+    ui.state.export_open = false;
+    ImGui::CloseCurrentPopup();
+    open_file_dialog(ui, FilePurpose::kExport);
+  }
+}
+
+}  // namespace
+
+void export_dialog(UiContext& ui) {
+  const char* id = "Export###export";
+  if (ui.state.export_open && !ImGui::IsPopupOpen(id)) {
+    if (!ui.studio.scene()) return;
+    if (ui.state.exporting.path.empty()) propose_path(ui);
+    ImGui::OpenPopup(id);
+  }
+  centre_next_window({620, 356});
+  if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
+  export_choices(ui);
+  ExportChoice& choice = ui.state.exporting;
+  const std::size_t gaussians = gaussians_to_export(ui.studio, choice.what);
+  const ExportPlan plan = plan_export(*ui.studio.scene()->scene, gaussians, choice.format);
+  const Palette& p = ui.theme.colour;
+  ImGui::Separator();
+  fact(ui, icon::kInfo, p.accent,
+       fmt::format("{} Gaussians, {}{}", grouped(gaussians), plan.about ? "about " : "",
+                   human_bytes(plan.bytes)));
+  fact(ui, icon::kCheck, p.good, "Kept: " + plan.kept);
+  fact(ui, plan.lost.empty() ? icon::kCheck : icon::kWarning, plan.lost.empty() ? p.good : p.warn,
+       plan.lost.empty() ? "Nothing is lost." : "Lost: " + plan.lost);
+  const bool exists = std::filesystem::exists(choice.path);
+  if (exists) ImGui::Checkbox("Replace the file that is there", &choice.overwrite);
+  ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
+  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
+  ImGui::SameLine(ImGui::GetWindowWidth() - 122);
+  const std::string reason = choice.path.empty() ? "Type where it should go"
+                             : gaussians == 0    ? "It would hold no Gaussians"
+                             : exists && !choice.overwrite
+                                 ? "The file exists: allow replacing it, or change the name"
+                                 : "";
+  const bool done = button(ui, "Export", "Write it", reason, reason.empty(), 110);
+  if (done) ui.ask(Export{{choice.what, choice.format, choice.path, choice.overwrite}});
+  if (done || cancelled) {
+    ui.state.export_open = false;
+    if (done) choice.path.clear(), choice.overwrite = false;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+void help_page(UiContext& ui) {
+  const char* id = "Keys and pointer###help";
+  if (ui.state.help_open && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  centre_next_window({std::min(980.0f, screen.x - 40), std::min(680.0f, screen.y - 40)});
+  if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
+  ImGui::BeginChild("keys", {0, -40});
+  ImGui::Columns(3, "groups", false);
+  const char* group = "";
+  std::size_t rows = 0;
+  const std::size_t per_column = key_bindings().size() / 3 + 3;
+  Action before = Action::kNone;
+  for (const Binding& b : key_bindings()) {
+    if (b.action == before) continue;  // all keys of an action are on its first row
+    before = b.action;
+    if (std::strcmp(b.group, group) != 0) {
+      if (rows > per_column) {
+        ImGui::NextColumn();
+        rows = 0;
+      }
+      group = b.group;
+      ImGui::PushFont(ui.theme.strong);
+      ImGui::TextColored(ui.theme.colour.accent, "%s", group);
+      ImGui::PopFont();
+      rows += 2;
+    }
+    const float left = ImGui::GetCursorPosX();
+    ImGui::TextUnformatted(keys_of(b.action).c_str());
+    ImGui::SameLine(left + 116);
+    ImGui::PushTextWrapPos(left + ImGui::GetColumnWidth() - 24);
+    muted_text(ui, b.what);
+    ImGui::PopTextWrapPos();
+    ++rows;
+  }
+  ImGui::PushFont(ui.theme.strong);
+  ImGui::TextColored(ui.theme.colour.accent, "Pointer");
+  ImGui::PopFont();
+  wrapped_muted(ui,
+                "Middle drag turns with any tool, with Shift it shifts. Double-click sets the point to turn "
+                "around (Navigate). "
+                "Region tools: Shift adds, Ctrl removes, Alt intersects. Alt+wheel changes the brush.");
+  ImGui::Columns(1);
+  ImGui::EndChild();
+  const bool closed = ImGui::IsKeyPressed(key::kEscape, false) ||
+                      (ImGui::IsKeyPressed(key::kF1, false) && !ImGui::IsWindowAppearing());
+  if (ImGui::Button("Close", {110, 0}) || closed) {
+    ui.state.help_open = false;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+void quit_dialog(UiContext& ui) {
+  const char* id = "Leave without saving?###quit";
+  if (ui.state.quit_asked && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
+  centre_next_window({430, 150});
+  if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
+  wrapped_muted(ui,
+                "The objects and strokes were not saved since they changed. They are also kept by themselves "
+                "and offered at the next start.");
+  ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
+  const bool stays = ImGui::Button("Stay", {100, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
+  ImGui::SameLine();
+  const bool saves = ImGui::Button("Save...", {100, 0});
+  ImGui::SameLine(ImGui::GetWindowWidth() - 112);
+  if (button(ui, "Leave", "End the program", {}, true, 100)) ui.state.quit_wanted = true;
+  if (stays || saves || ui.state.quit_wanted) {
+    ui.state.quit_asked = false;
+    ImGui::CloseCurrentPopup();
+  }
+  if (saves) ui.ask(Action::kSave);
+  ImGui::EndPopup();
+}
+
+}  // namespace splatcut

@@ -1,0 +1,30 @@
+// Choosing a file or folder inside the window, for desktops without a dialog of their own.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace splatcut {
+
+struct BrowserEntry {
+  std::string name;
+  bool folder = false;
+  std::uint64_t bytes = 0;
+};
+
+struct FileBrowser {
+  bool open = false;
+  bool saving = false;                  // a name can be typed
+  std::string title, name;              // name: what is chosen or typed
+  std::vector<std::string> extensions;  // shown files; empty: all
+  std::filesystem::path folder;
+  std::string typed_folder;
+  std::vector<BrowserEntry> entries;  // of the folder, folders first
+  std::string trouble;                // why the folder cannot be read
+
+  void enter(const std::filesystem::path& where);  // reads it
+};
+
+}  // namespace splatcut

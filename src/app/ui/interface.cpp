@@ -1,0 +1,201 @@
+#include "app/ui/interface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr float kTopHeight = 46, kToolsWidth = 54, kSideWidth = 316, kStatus = 30, kStrip = 96;
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+
+bool has_strip(const Studio& studio) {
+  const ObjectItem* object = studio.document().active_object();
+  const CutRun* run = object ? studio.cut_run(object->id) : nullptr;
+  return studio.scene() && run && !run->views.empty();
+}
+
+// A panel that fills a rectangle.
+template <class Content>
+void fixed_panel(const char* name, const UiRect& rect, const Palette& palette, ImGuiWindowFlags extra,
+                 const ImVec2& padding, const Content& content) {
+  ImGui::SetNextWindowPos({rect.min.x, rect.min.y});
+  ImGui::SetNextWindowSize({rect.size().x, rect.size().y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, palette.panel);
+  ImGui::Begin(name, nullptr, kFixed | extra);
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(3);
+  content();
+  ImGui::End();
+}
+
+void line(const glm::vec2& a, const glm::vec2& b, const Palette& palette) {
+  ImGui::GetForegroundDrawList()->AddLine({a.x, a.y}, {b.x, b.y}, packed(palette.line, 0.8f));
+}
+
+}  // namespace
+
+Interface::Interface() : context_(ImGui::CreateContext()) {
+  make_current();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.LogFilename = nullptr;
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  const std::pair<ImGuiKey, int> kKeys[] = {{ImGuiKey_Tab, key::kTab},
+                                            {ImGuiKey_LeftArrow, key::kLeft},
+                                            {ImGuiKey_RightArrow, key::kRight},
+                                            {ImGuiKey_UpArrow, key::kUp},
+                                            {ImGuiKey_DownArrow, key::kDown},
+                                            {ImGuiKey_PageUp, key::kPageUp},
+                                            {ImGuiKey_PageDown, key::kPageDown},
+                                            {ImGuiKey_Home, key::kHome},
+                                            {ImGuiKey_End, key::kEnd},
+                                            {ImGuiKey_Insert, key::kInsert},
+                                            {ImGuiKey_Delete, key::kDelete},
+                                            {ImGuiKey_Backspace, key::kBackspace},
+                                            {ImGuiKey_Space, ' '},
+                                            {ImGuiKey_Enter, key::kEnter},
+                                            {ImGuiKey_Escape, key::kEscape},
+                                            {ImGuiKey_KeyPadEnter, key::kKeypadEnter},
+                                            {ImGuiKey_A, 'A'},
+                                            {ImGuiKey_C, 'C'},
+                                            {ImGuiKey_V, 'V'},
+                                            {ImGuiKey_X, 'X'},
+                                            {ImGuiKey_Y, 'Y'},
+                                            {ImGuiKey_Z, 'Z'}};
+  for (const auto& [imgui_key, code] : kKeys) io.KeyMap[imgui_key] = code;
+}
+
+Interface::~Interface() {
+  ImGui::DestroyContext(context_);
+}
+
+void Interface::make_current() {
+  ImGui::SetCurrentContext(context_);
+}
+
+void Interface::resize(const glm::vec2& size_points, float pixels_per_point, UiRenderer* renderer) {
+  make_current();
+  size_points_ = size_points;
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {size_points.x, size_points.y};
+  io.DisplayFramebufferScale = {pixels_per_point, pixels_per_point};
+  if (theme_.body && theme_.pixels_per_point == pixels_per_point) return;
+  load_fonts(&theme_, pixels_per_point);
+  renderer->upload_fonts();
+  apply_theme(&theme_, state_.dark);
+}
+
+UiRect Interface::viewport(const Studio& studio) const {
+  const float bottom = size_points_.y - kStatus - (has_strip(studio) ? kStrip : 0);
+  const auto whole = [&](float v) {
+    return std::round(v * theme_.pixels_per_point) / theme_.pixels_per_point;
+  };
+  return {{kToolsWidth, kTopHeight},
+          {whole(std::max(kToolsWidth + 1, size_points_.x - kSideWidth)), whole(std::max(kTopHeight + 1, bottom))}};
+}
+
+bool Interface::dialog_open() const {
+  return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
+bool Interface::picture_at(const glm::vec2& point, const Studio& studio) const {
+  if (!studio.scene() || dialog_open() || !viewport(studio).contains(point)) return false;
+  return std::ranges::none_of(covered_, [&](const UiRect& r) { return r.contains(point); });
+}
+
+void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer, ImTextureID gpu_picture[2],
+                      Requests* ask) {
+  make_current();
+  if (theme_.dark != state_.dark) apply_theme(&theme_, state_.dark);
+  ImGuiIO& io = ImGui::GetIO();
+  io.DeltaTime = static_cast<float>(std::max(1e-4, seconds));
+  io.ConfigInputTextCursorBlink = !state_.steady;
+  ImGui::NewFrame();
+  ImGui::PushFont(theme_.body);
+  UiContext ui{studio, state_, *ask, theme_, *renderer};
+  const Palette& p = theme_.colour;
+  const glm::vec2 size = size_points_;
+  const UiRect view = viewport(studio);
+  fixed_panel("picture", view, p, ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoFocusOnAppearing,
+              {0, 0}, [&] { covered_ = viewport_pane(ui, view, gpu_picture); });
+  fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
+              [&] { top_bar(ui); });
+  fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatus}}, p, ImGuiWindowFlags_NoScrollWithMouse, {8, 8},
+              [&] { tool_column(ui); });
+  fixed_panel("side", {{size.x - kSideWidth, kTopHeight}, {size.x, size.y - kStatus}}, p,
+              ImGuiWindowFlags_AlwaysVerticalScrollbar & 0, {12, 8}, [&] {
+                ImGui::BeginChild("scroll", {0, 0});
+                objects_panel(ui);
+                cutout_panel(ui);
+                repair_panel(ui);
+                scene_panel(ui);
+                history_panel(ui);
+                ImGui::EndChild();
+              });
+  if (has_strip(studio))
+    fixed_panel("strip", {{kToolsWidth, view.max.y}, {size.x - kSideWidth, size.y - kStatus}}, p,
+                ImGuiWindowFlags_HorizontalScrollbar, {8, 7}, [&] {
+                  ImGui::BeginChild("cards", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
+                  view_strip(ui);
+                  if (ImGui::IsWindowHovered()) ImGui::SetScrollX(ImGui::GetScrollX() - 60 * io.MouseWheel);
+                  ImGui::EndChild();
+                });
+  fixed_panel("status", {{0, size.y - kStatus}, {size.x, size.y}}, p, ImGuiWindowFlags_NoScrollWithMouse,
+              {12, 3}, [&] { status_bar(ui); });
+  if (!dialog_open()) {
+    line({0, kTopHeight}, {size.x, kTopHeight}, p);
+    line({kToolsWidth, kTopHeight}, {kToolsWidth, size.y - kStatus}, p);
+    line({size.x - kSideWidth, kTopHeight}, {size.x - kSideWidth, size.y - kStatus}, p);
+    line({0, size.y - kStatus}, {size.x, size.y - kStatus}, p);
+  }
+  file_dialog(ui);
+  export_dialog(ui);
+  help_page(ui);
+  quit_dialog(ui);
+  ImGui::PopFont();
+  ImGui::Render();
+}
+
+void Interface::show(UiRequest request, const Studio& studio, UiRenderer* renderer) {
+  make_current();
+  Requests ignored;
+  UiContext ui{studio, state_, ignored, theme_, *renderer};
+  switch (request) {
+    case UiRequest::kOpenDialog:
+      return open_file_dialog(ui, FilePurpose::kOpen);
+    case UiRequest::kSaveDialog:
+      return open_file_dialog(ui, FilePurpose::kSaveWork);
+    case UiRequest::kSnapshotDialog:
+      return open_file_dialog(ui, FilePurpose::kSnapshot);
+    case UiRequest::kExportDialog:
+      state_.exporting.path.clear();
+      state_.export_open = true;
+      return;
+    case UiRequest::kHelp:
+      state_.help_open = true;
+      return;
+    case UiRequest::kTheme:
+      state_.dark = !state_.dark;
+      return;
+    case UiRequest::kHistory:
+      state_.history_wanted = !state_.history_open;
+      return;
+    case UiRequest::kQuit:
+      if (studio.unsaved())
+        state_.quit_asked = true;
+      else
+        state_.quit_wanted = true;
+  }
+}
+
+}  // namespace splatcut

@@ -1,0 +1,49 @@
+// Lays out the panels and draws them with ImGui; owns the ImGui context. Knows no window and no OpenGL beyond
+// textures. Main thread only.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "app/ui/panels.h"
+#include "app/ui/ui_context.h"
+
+struct ImGuiContext;
+
+namespace splatcut {
+
+class Interface {
+ public:
+  Interface();
+  ~Interface();
+  Interface(const Interface&) = delete;
+  Interface& operator=(const Interface&) = delete;
+
+  void make_current();
+  // size_points: of the window, in logical points. Loads the fonts again where the scale differs.
+  void resize(const glm::vec2& size_points, float pixels_per_point, UiRenderer* renderer);
+
+  // Where the picture is drawn, in points: on whole pixels.
+  UiRect viewport(const Studio& studio) const;
+  // True where a press at this point is meant for the picture.
+  bool picture_at(const glm::vec2& point, const Studio& studio) const;
+  bool dialog_open() const;
+
+  // Builds the frame; its draw data is ImGui's until the next call.
+  void build(const Studio& studio, double seconds, UiRenderer* renderer, ImTextureID gpu_picture[2],
+             Requests* ask);
+
+  // What the studio wants shown: dialogs, pages, themes.
+  void show(UiRequest request, const Studio& studio, UiRenderer* renderer);
+
+  UiState& state() { return state_; }
+  const Theme& theme() const { return theme_; }
+
+ private:
+  ImGuiContext* context_;
+  Theme theme_;
+  UiState state_;
+  glm::vec2 size_points_{1280, 720};
+  std::vector<UiRect> covered_;  // parts of the picture that take clicks themselves, as of the last frame
+};
+
+}  // namespace splatcut

@@ -1,0 +1,138 @@
+// The list of objects: choose, name, colour, show, lock, and what can be done with each.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <imgui_stdlib.h>  // needs imgui.h first
+
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+void name_field(UiContext& ui, const ObjectItem& object, float width) {
+  ImGui::SetNextItemWidth(width);
+  ImGui::SetKeyboardFocusHere();
+  const bool entered = ImGui::InputText(
+      "##name", &ui.state.new_name, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const bool left = ImGui::IsItemDeactivated();
+  if (!entered && !left) return;
+  if (!ui.state.new_name.empty() && ui.state.new_name != object.name)
+    ui.ask(RenameObject{object.id, ui.state.new_name});
+  ui.state.renaming = 0;
+}
+
+void merge_menu(UiContext& ui, const ObjectItem& object) {
+  const auto& objects = ui.studio.document().objects;
+  if (!ImGui::BeginMenu("Merge into", objects.size() > 1)) return;
+  for (const ObjectItem& other : objects)
+    if (other.id != object.id && ImGui::MenuItem(other.name.c_str()))
+      ui.ask(MergeObjects{other.id, object.id});
+  ImGui::EndMenu();
+}
+
+void object_menu(UiContext& ui, const ObjectItem& object) {
+  const bool empty = ui.studio.gaussians_of(object.id) == 0;
+  if (ImGui::MenuItem("Rename")) {
+    ui.state.renaming = object.id;
+    ui.state.new_name = object.name;
+  }
+  if (ImGui::MenuItem("New part of this object")) ui.ask(NewObject{object.id});
+  if (ImGui::MenuItem("Duplicate")) ui.ask(DuplicateObject{object.id});
+  merge_menu(ui, object);
+  if (ImGui::MenuItem("Split into connected parts", nullptr, false, !empty)) ui.ask(SplitObject{object.id});
+  if (ImGui::MenuItem("Separate in place", nullptr, false, !empty)) ui.ask(SeparateObject{object.id});
+  ImGui::Separator();
+  if (ImGui::MenuItem("Clear strokes", nullptr, false,
+                      !object.views.empty() && object.id == ui.studio.document().active))
+    ui.ask(ClearStrokes{});
+  if (ImGui::MenuItem("Remove from the list")) ui.ask(RemoveObject{object.id});
+}
+
+// An icon without a frame.
+bool flat_icon(UiContext& ui, const char* symbol, bool lit, const char* tip) {
+  ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
+  ImGui::PushStyleColor(ImGuiCol_Text, lit ? ui.theme.colour.text : ui.theme.colour.muted);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {3, 5});
+  const bool pressed = ImGui::Button(symbol);
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor(2);
+  tooltip(tip);
+  return pressed;
+}
+
+void object_row(UiContext& ui, const ObjectItem& object) {
+  constexpr float kIconsWidth = 84;
+  const bool active = object.id == ui.studio.document().active;
+  ImGui::PushID(static_cast<int>(object.id));
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFrameHeight() + 4;
+  if (active)
+    ImGui::GetWindowDrawList()->AddRectFilled({corner.x - 4, corner.y - 2},
+                                              {corner.x + width + 4, corner.y + height - 2},
+                                              packed(ui.theme.colour.accent, 0.22f), 5);
+  if (object.within != 0) ImGui::Indent(14);
+  ImVec4 colour = colour_of(object.colour);
+  ImGui::SetNextItemWidth(22);
+  if (ImGui::ColorEdit3(
+          "##colour", &colour.x,
+          ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_NoTooltip))
+    ui.ask(RecolourObject{object.id, Rgb8{static_cast<std::uint8_t>(colour.x * 255 + 0.5f),
+                                          static_cast<std::uint8_t>(colour.y * 255 + 0.5f),
+                                          static_cast<std::uint8_t>(colour.z * 255 + 0.5f)}});
+  tooltip("Colour of the object");
+  ImGui::SameLine();
+  const float name_width = width - kIconsWidth - 34 - (object.within ? 14.0f : 0.0f);
+  if (ui.state.renaming == object.id) {
+    name_field(ui, object, name_width);
+  } else {
+    const std::string label = fmt::format("{}##row", object.name);
+    ImGui::AlignTextToFramePadding();
+    if (ImGui::Selectable(label.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick, {name_width, 0})) {
+      if (!active) ui.ask(ActivateObject{object.id});
+      if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        ui.state.renaming = object.id;
+        ui.state.new_name = object.name;
+      }
+    }
+    tooltip(fmt::format("{} Gaussians. Double-click renames, right-click shows more.",
+                        grouped(ui.studio.gaussians_of(object.id))));
+    if (ImGui::BeginPopupContextItem("menu")) {
+      object_menu(ui, object);
+      ImGui::EndPopup();
+    }
+  }
+  ImGui::SameLine(width - kIconsWidth + 12);
+  if (flat_icon(ui, object.visible ? icon::kEye : icon::kEyeOff, object.visible,
+                object.visible ? "Tint is shown" : "Tint is hidden"))
+    ui.ask(ShowObject{object.id, !object.visible});
+  ImGui::SameLine(0, 0);
+  if (flat_icon(ui, object.locked ? icon::kLock : icon::kUnlock, object.locked,
+                object.locked ? "Locked: nothing changes it" : "Not locked"))
+    ui.ask(LockObject{object.id, !object.locked});
+  ImGui::SameLine(0, 0);
+  if (flat_icon(ui, icon::kMore, true, "More")) ImGui::OpenPopup("more");
+  if (ImGui::BeginPopup("more")) {
+    object_menu(ui, object);
+    ImGui::EndPopup();
+  }
+  if (object.within != 0) ImGui::Unindent(14);
+  ImGui::PopID();
+}
+
+}  // namespace
+
+void objects_panel(UiContext& ui) {
+  if (!section(ui, "Objects")) return;
+  const auto& objects = ui.studio.document().objects;
+  if (objects.empty()) wrapped_muted(ui, "Click an object in the picture: it appears here.");
+  for (const ObjectItem& object : objects) object_row(ui, object);
+  action_button(ui, Action::kNewObject, fmt::format("{} New object", icon::kPlus).c_str(), false, -1);
+  if (!objects.empty() && ui.studio.document().active_object())
+    wrapped_muted(ui, fmt::format("{} holds {} Gaussians. Clicks and strokes go to it.",
+                                  ui.studio.document().active_object()->name,
+                                  grouped(ui.studio.gaussians_of(ui.studio.document().active))));
+}
+
+}  // namespace splatcut

@@ -1,0 +1,37 @@
+// The panels: each draws itself into the current ImGui window from a const view and asks for what was
+// clicked.
+#pragma once
+
+#include "app/ui/ui_context.h"
+
+namespace splatcut {
+
+struct UiRect {
+  glm::vec2 min{0}, max{0};  // logical points
+  glm::vec2 size() const { return max - min; }
+  bool contains(const glm::vec2& p) const {
+    return p.x >= min.x && p.y >= min.y && p.x < max.x && p.y < max.y;
+  }
+};
+
+void top_bar(UiContext& ui);
+void tool_column(UiContext& ui);
+void objects_panel(UiContext& ui);
+void cutout_panel(UiContext& ui);
+void repair_panel(UiContext& ui);
+void scene_panel(UiContext& ui);
+void history_panel(UiContext& ui);
+void view_strip(UiContext& ui);
+void status_bar(UiContext& ui);
+
+// Pictures, strokes, tool shapes, messages. Returns what covers the picture and takes clicks itself.
+std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID gpu_picture[2]);
+void start_page(UiContext& ui, const UiRect& area);
+
+void help_page(UiContext& ui);
+void export_dialog(UiContext& ui);
+void quit_dialog(UiContext& ui);
+void file_dialog(UiContext& ui);  // and what follows from the choice
+void open_file_dialog(UiContext& ui, FilePurpose purpose);
+
+}  // namespace splatcut

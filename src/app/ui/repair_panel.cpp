@@ -1,0 +1,146 @@
+// Repairing a selection by hand: neighbours, parts, floaters, and selection by property with its histogram.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr const char* kPropertyNames[] = {"Opacity", "Size", "Depth", "Colour"};
+constexpr int kColourProperty = 3, kBins = 48;
+
+void pair_of(UiContext& ui, Action left, const char* left_label, Action right, const char* right_label) {
+  const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
+  action_button(ui, left, left_label, false, half);
+  ImGui::SameLine(0, 4);
+  action_button(ui, right, right_label, false, half);
+}
+
+void floater_buttons(UiContext& ui) {
+  const Studio& s = ui.studio;
+  const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
+  action_button(ui, Action::kFloaters, "Show floaters", s.floaters_shown(), half);
+  ImGui::SameLine(0, 4);
+  const std::string reason = !s.floaters_shown()      ? "Show them first"
+                             : s.floater_count() == 0 ? "There are none"
+                                                      : "";
+  if (button(ui,
+             s.floaters_shown() && s.floater_count()
+                 ? fmt::format("Remove {}", grouped(s.floater_count())).c_str()
+                 : "Remove them",
+             "Takes the small far clusters out of the selection", reason, false, half))
+    ui.ask(EditSelection{SelectionEdit::kRemoveFloaters});
+}
+
+void refresh_histogram(UiContext& ui) {
+  PropertyChoice& choice = ui.state.property;
+  const Camera camera = ui.studio.viewport_camera();
+  const auto eye = camera.centre_world();
+  std::string key = fmt::format("{} {}", ui.studio.scene()->serial, choice.property);
+  if (choice.property == 2) key += fmt::format(" {:.3g} {:.3g} {:.3g}", eye.x, eye.y, eye.z);
+  if (key == choice.histogram_key) return;
+  const bool other =
+      !choice.histogram_key.starts_with(fmt::format("{} {}", ui.studio.scene()->serial, choice.property));
+  const auto values =
+      property_values(*ui.studio.scene()->cloud, static_cast<Property>(choice.property), &camera);
+  choice.histogram = histogram(values, kBins);
+  choice.histogram_key = key;
+  if (!other) return;
+  choice.low = choice.histogram.low;
+  choice.high = choice.histogram.high;
+}
+
+void draw_histogram(UiContext& ui) {
+  const PropertyChoice& choice = ui.state.property;
+  const Histogram& h = choice.histogram;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = 46;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, {at.x + width, at.y + height}, packed(ui.theme.colour.field), 4);
+  const float bar = width / static_cast<float>(h.share.size());
+  for (std::size_t i = 0; i < h.share.size(); ++i) {
+    const float middle =
+        h.low + (h.high - h.low) * (static_cast<float>(i) + 0.5f) / static_cast<float>(h.share.size());
+    const bool inside = middle >= choice.low && middle <= choice.high;
+    const float x = at.x + bar * static_cast<float>(i), top = at.y + (height - 2) * (1 - h.share[i]);
+    list.AddRectFilled({x, top}, {x + bar - 1, at.y + height},
+                       packed(inside ? ui.theme.colour.accent : ui.theme.colour.line));
+  }
+  ImGui::Dummy({width, height});
+}
+
+void property_range(UiContext& ui) {
+  PropertyChoice& choice = ui.state.property;
+  refresh_histogram(ui);
+  draw_histogram(ui);
+  const char* format = choice.property == 1 ? "10^%.2f" : "%.3f";
+  ImGui::SetNextItemWidth(-1);
+  ImGui::DragFloatRange2("##range", &choice.low, &choice.high,
+                         std::max(1e-4f, (choice.high - choice.low) / 200), choice.histogram.low,
+                         choice.histogram.high, format, format);
+  tooltip(choice.property == 1 ? "Size: the largest standard deviation, in scene units. Drag to change."
+                               : "Drag to change.");
+}
+
+void property_selection(UiContext& ui) {
+  PropertyChoice& choice = ui.state.property;
+  ImGui::TextUnformatted("Select by");
+  for (int i = 0; i < 4; ++i) {
+    if (i == 0)
+      ImGui::SameLine(76);
+    else
+      ImGui::SameLine(0, 2);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6, 4});
+    if (button(ui, kPropertyNames[i], fmt::format("Select Gaussians by {}", kPropertyNames[i]), {},
+               choice.property == i))
+      choice.property = i;
+    ImGui::PopStyleVar();
+  }
+  if (choice.property == kColourProperty) {
+    ImGui::SetNextItemWidth(-1);
+    ImGui::ColorEdit3("##colour", &choice.colour.x, ImGuiColorEditFlags_DisplayRGB);
+    ImGui::SetNextItemWidth(-1);
+    ImGui::SliderFloat("##tolerance", &choice.tolerance, 0.01f, 0.5f, "within %.2f");
+  } else {
+    property_range(ui);
+  }
+  const auto ask = [&](SetOperation operation) {
+    if (choice.property == kColourProperty)
+      ui.ask(SelectColour{choice.colour, choice.tolerance, operation});
+    else
+      ui.ask(SelectRange{static_cast<Property>(choice.property), choice.low, choice.high, operation});
+  };
+  const ObjectItem* active = ui.studio.document().active_object();
+  const std::string reason = active && active->locked ? active->name + " is locked" : "";
+  const float third = (ImGui::GetContentRegionAvail().x - 8) / 3;
+  if (button(ui, "Add", "Add what lies in the range to the selection", reason, false, third))
+    ask(SetOperation::kAdd);
+  ImGui::SameLine(0, 4);
+  if (button(ui, "Remove", "Take what lies in the range out of the selection", reason, false, third))
+    ask(SetOperation::kRemove);
+  ImGui::SameLine(0, 4);
+  if (button(ui, "Keep only", "Keep only what lies in the range", reason, false, third))
+    ask(SetOperation::kIntersect);
+}
+
+}  // namespace
+
+void repair_panel(UiContext& ui) {
+  if (!section(ui, "Repair by hand", false)) return;
+  pair_of(ui, Action::kGrow, "Grow", Action::kShrink, "Shrink");
+  pair_of(ui, Action::kInvert, "Invert", Action::kLargestPart, "Largest part");
+  floater_buttons(ui);
+  const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
+  action_button(ui, Action::kDelete, "Delete from scene", false, half);
+  ImGui::SameLine(0, 4);
+  if (button(ui, "Restore deleted", "Brings everything back that was deleted from the scene",
+             ui.studio.document().deleted ? "" : "Nothing is deleted", false, half))
+    ui.ask(RestoreDeleted{});
+  if (ui.studio.scene()) property_selection(ui);
+}
+
+}  // namespace splatcut

@@ -1,0 +1,93 @@
+// How the scene is looked at, and the history.
+#include <fmt/format.h>
+
+#include <glm/gtc/constants.hpp>
+
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+void up_buttons(UiContext& ui) {
+  struct Axis {
+    const char* name;
+    glm::vec3 direction;
+  };
+  const Axis axes[] = {{"+X", {1, 0, 0}},  {"-X", {-1, 0, 0}}, {"+Y", {0, 1, 0}},
+                       {"-Y", {0, -1, 0}}, {"+Z", {0, 0, 1}},  {"-Z", {0, 0, -1}}};
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Up");
+  for (const Axis& axis : axes) {
+    ImGui::SameLine(0, axis.name == axes[0].name ? 74.0f : 2.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {5, 4});
+    const bool on = glm::dot(ui.studio.document().up_world, axis.direction) > 0.9999f;
+    if (button(ui, axis.name, "Turns the scene so that this axis points up", {}, on))
+      ui.ask(SetUp{axis.direction});
+    ImGui::PopStyleVar();
+  }
+}
+
+void slider_row(const char* label, const char* tip, const std::function<void()>& slider) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  ImGui::SameLine(92);
+  ImGui::SetNextItemWidth(-1);
+  slider();
+  tooltip(tip);
+}
+
+}  // namespace
+
+void scene_panel(UiContext& ui) {
+  if (!section(ui, "View", false)) return;
+  const Studio& s = ui.studio;
+  ViewState view = s.view();
+  slider_row("Background", "Behind the scene; pictures with transparency leave it out", [&] {
+    glm::vec3 background = s.document().background;
+    if (ImGui::ColorEdit3("##background", &background.x)) ui.ask(SetBackground{background});
+  });
+  slider_row("View angle", "Vertical field of view", [&] {
+    float degrees = glm::degrees(s.camera().pose().fov_y_rad);
+    if (ImGui::SliderFloat("##fov", &degrees, 10, 110, "%.0f deg"))
+      ui.ask(SetFieldOfView{glm::radians(degrees)});
+  });
+  slider_row("Near limit", "What is nearer than this is not drawn, in shares of the scene's size", [&] {
+    if (ImGui::SliderFloat("##near", &view.near_share, 0.0005f, 0.2f, "%.4f", ImGuiSliderFlags_Logarithmic))
+      ui.ask(SetView{view});
+  });
+  up_buttons(ui);
+  const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
+  action_button(ui, Action::kFrameScene, "Frame scene", false, half);
+  ImGui::SameLine(0, 4);
+  action_button(ui, Action::kFrameObject, "Frame object", false, half);
+  action_button(ui, Action::kPreviousCamera, "Previous camera", false, half);
+  ImGui::SameLine(0, 4);
+  action_button(ui, Action::kNextCamera, "Next camera", false, half);
+  const ObjectItem* active = s.document().active_object();
+  const bool selected = active && s.gaussians_of(active->id) > 0;
+  if (button(ui, fmt::format("{} Turntable pictures", icon::kFilm).c_str(),
+             "Frames of the object turning once, as transparent PNGs",
+             selected ? "" : "There is no object to turn", false, -1))
+    open_file_dialog(ui, FilePurpose::kTurntable);
+}
+
+void history_panel(UiContext& ui) {
+  if (ui.state.history_wanted) ImGui::SetNextItemOpen(*std::exchange(ui.state.history_wanted, std::nullopt));
+  ui.state.history_open = section(ui, "History", false);
+  if (!ui.state.history_open) return;
+  const History& history = ui.studio.history();
+  for (std::size_t i = 0; i < history.entries().size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    const bool undone = i > history.cursor();
+    if (undone) ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.colour.muted);
+    if (ImGui::Selectable(history.entries()[i].title.c_str(), i == history.cursor()) && i != history.cursor())
+      ui.ask(JumpHistory{i});
+    if (undone) ImGui::PopStyleColor();
+    if (i == history.cursor() && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
+    ImGui::PopID();
+  }
+}
+
+}  // namespace splatcut

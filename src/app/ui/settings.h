@@ -1,0 +1,25 @@
+// What is remembered between runs: window, theme, tool settings, recent files. A file that cannot be read is
+// as good as none.
+#pragma once
+
+#include <filesystem>
+
+#include "app/studio/view_state.h"
+
+namespace splatcut {
+
+struct Settings {
+  int width = 1440, height = 900;
+  bool dark = true, hint_wanted = true;
+  float ui_scale = 1;
+  std::vector<std::filesystem::path> recent;
+  ViewState view;  // brush, tints and outline of it; tools and display modes start afresh
+};
+
+std::filesystem::path config_folder();  // $XDG_CONFIG_HOME/splatcut, or ~/.config/splatcut
+std::filesystem::path state_folder();   // $XDG_STATE_HOME/splatcut, or ~/.local/state/splatcut
+
+Settings load_settings(const std::filesystem::path& file);
+void save_settings(const std::filesystem::path& file, const Settings& settings);  // throws Error
+
+}  // namespace splatcut

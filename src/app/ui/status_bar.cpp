@@ -1,0 +1,58 @@
+// One line at the bottom: what runs, what is selected, which renderer draws and why.
+#include <fmt/format.h>
+
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+std::string left_text(const Studio& studio) {
+  if (studio.loading()) return fmt::format("Loading: {}", studio.progress().stage);
+  if (!studio.scene()) return "No scene";
+  const auto progress = studio.progress();
+  if (progress.busy && progress.kind == TaskKind::kPrepare) return "Preparing neighbours in the background";
+  if (progress.busy) return progress.stage.empty() ? "Working" : "Working: " + progress.stage;
+  return "Ready";
+}
+
+std::string right_text(const UiContext& ui) {
+  const Studio& studio = ui.studio;
+  std::string text = ui.state.renderer_line;
+  if (!studio.scene()) return text;
+  if (!ui.state.steady && studio.still_ms() > 0)
+    text += fmt::format(",  still {}", ms_text(studio.still_ms()));
+  if (!ui.state.steady && studio.moving_ms() > 0)
+    text += fmt::format(", moving {} at {:.0f} %", ms_text(studio.moving_ms()), 100 * studio.moving_scale());
+  return fmt::format("{} Gaussians    {}", grouped(studio.scene()->cloud->size()), text);
+}
+
+}  // namespace
+
+void status_bar(UiContext& ui) {
+  const auto progress = ui.studio.progress();
+  ImGui::AlignTextToFramePadding();
+  muted_text(ui, left_text(ui.studio));
+  if (progress.busy && progress.fraction > 0) {
+    ImGui::SameLine();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    constexpr float kWidth = 120;
+    list.AddRectFilled({at.x, at.y + 9}, {at.x + kWidth, at.y + 15}, packed(ui.theme.colour.line), 3);
+    list.AddRectFilled({at.x, at.y + 9}, {at.x + kWidth * static_cast<float>(progress.fraction), at.y + 15},
+                       packed(ui.theme.colour.accent), 3);
+    ImGui::Dummy({kWidth, 1});
+  }
+  const ObjectItem* active = ui.studio.document().active_object();
+  if (active) {
+    ImGui::SameLine(0, 24);
+    ImGui::TextUnformatted(
+        fmt::format("{}: {} selected", active->name, grouped(ui.studio.gaussians_of(active->id))).c_str());
+  }
+  const std::string right = right_text(ui);
+  ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(right.c_str()).x - 12);
+  muted_text(ui, right);
+}
+
+}  // namespace splatcut

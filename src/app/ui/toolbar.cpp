@@ -1,0 +1,178 @@
+// The bar along the top and the column of tools.
+#include <fmt/format.h>
+
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr Action kToolActions[kTools] = {Action::kToolNavigate,  Action::kToolClick,   Action::kToolScribble,
+                                         Action::kToolBox,       Action::kToolBrush,   Action::kToolLasso,
+                                         Action::kToolRectangle, Action::kToolPolygon, Action::kToolSphere,
+                                         Action::kToolGround};
+constexpr const char* kToolHints[kTools] = {
+    "Left drag turns, right drag shifts, the wheel zooms. Double-click sets the point to turn around.",
+    "Left click: this is the object. Right click (or Ctrl): this is not. Dragging turns the view.",
+    "Drag over what belongs to the object; with the right button (or Ctrl) over what does not.",
+    "Drag a box around the object.",
+    "Paint over Gaussians to select them by hand.",
+    "Draw around Gaussians to select them by hand.",
+    "Drag a rectangle around Gaussians to select them by hand.",
+    "Click corners; Enter, a double-click or a click on the first corner closes the shape.",
+    "Drag from a point on a surface: everything in the sphere is selected.",
+    "Click three points of the ground: that is where down is."};
+
+void gap() {
+  ImGui::SameLine(0, 16);
+}
+
+void set_view(UiContext& ui, const ViewState& view) {
+  ui.ask(SetView{view});
+}
+
+void brush_size(UiContext& ui, bool half) {
+  ViewState view = ui.studio.view();
+  ImGui::AlignTextToFramePadding();
+  muted_text(ui, "Size");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(110);
+  float shown = half ? view.brush_px * 0.5f : view.brush_px;
+  if (ImGui::SliderFloat("##brush", &shown, half ? 0.5f : 1.0f, half ? 60.0f : 120.0f, "%.0f pt",
+                         ImGuiSliderFlags_Logarithmic)) {
+    view.brush_px = half ? 2 * shown : shown;
+    set_view(ui, view);
+  }
+  tooltip(fmt::format("Brush radius  ({}, {}, Alt+wheel)", keys_of(Action::kBrushSmaller),
+                      keys_of(Action::kBrushLarger)));
+}
+
+void region_options(UiContext& ui) {
+  ViewState view = ui.studio.view();
+  struct Choice {
+    SetOperation operation;
+    const char *label, *tip;
+  };
+  constexpr Choice kChoices[] = {{SetOperation::kAdd, "Add", "Add to the selection  (Shift)"},
+                                 {SetOperation::kRemove, "Remove", "Take out of the selection  (Ctrl)"},
+                                 {SetOperation::kIntersect, "Intersect", "Keep only what is in both  (Alt)"}};
+  for (const Choice& c : kChoices) {
+    if (c.operation != SetOperation::kAdd) ImGui::SameLine(0, 2);
+    if (button(ui, c.label, c.tip, {}, view.operation == c.operation)) {
+      view.operation = c.operation;
+      set_view(ui, view);
+    }
+  }
+  if (view.tool == Tool::kSphere) return;
+  gap();
+  if (button(ui, view.see_through ? "See-through" : "Visible only",
+             "Visible only takes the surface you see; see-through takes what is hidden behind it, too  (V)",
+             {}, view.see_through))
+    ui.ask(Action::kSeeThrough);
+  if (!view.see_through) return;
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(130);
+  if (ImGui::SliderFloat("##depth", &view.depth_limit, 0, 0.5f,
+                         view.depth_limit > 0 ? "depth %.3f" : "no depth limit"))
+    set_view(ui, view);
+  tooltip("How far behind the visible surface it reaches, in scene sizes; 0 is no limit");
+}
+
+void tool_options(UiContext& ui) {
+  const ViewState& view = ui.studio.view();
+  if (view.tool == Tool::kScribble || view.tool == Tool::kBrush) {
+    brush_size(ui, view.tool == Tool::kScribble);
+    if (view.tool == Tool::kBrush) gap();
+  }
+  if (is_region_tool(view.tool)) return region_options(ui);
+  if (view.tool == Tool::kScribble) {
+    gap();
+    muted_text(ui, "left: object   right: rest");
+  } else if (view.tool == Tool::kClick) {
+    ImGui::AlignTextToFramePadding();
+    muted_text(ui, "left click: object   right click: rest   drag: turn");
+  } else if (view.tool == Tool::kBox) {
+    ImGui::AlignTextToFramePadding();
+    muted_text(ui, "drag a box around the object");
+  } else if (view.tool == Tool::kGround) {
+    ImGui::AlignTextToFramePadding();
+    muted_text(ui, "click three points of the ground");
+  }
+}
+
+void display_buttons(UiContext& ui) {
+  const ViewState& view = ui.studio.view();
+  const DisplayMode mode = view.display;
+  action_button(ui, Action::kShowAll, "Whole", mode == DisplayMode::kWhole);
+  ImGui::SameLine(0, 2);
+  action_button(ui, Action::kIsolate, "Isolate", mode == DisplayMode::kIsolate);
+  ImGui::SameLine(0, 2);
+  action_button(ui, Action::kHide, "Hide", mode == DisplayMode::kHide);
+  ImGui::SameLine(0, 2);
+  action_button(ui, Action::kSideBySide, icon::kColumns, mode == DisplayMode::kSideBySide);
+  gap();
+  action_button(ui, Action::kTint, icon::kTint, view.tint);
+  ImGui::SameLine(0, 2);
+  action_button(ui, Action::kOutline, "\xef\x84\x8c", view.outline);
+  ImGui::SameLine(0, 2);
+  action_button(ui, Action::kHeat, icon::kHeat, view.heat);
+  gap();
+  action_button(ui, Action::kTheme, ui.state.dark ? icon::kSun : icon::kMoon);
+  ImGui::SameLine(0, 2);
+  action_button(ui, Action::kHelp, icon::kHelp, ui.state.help_open);
+}
+
+}  // namespace
+
+void top_bar(UiContext& ui) {
+  action_button(ui, Action::kOpen, fmt::format("{} Open", icon::kOpen).c_str());
+  ImGui::SameLine(0, 2);
+  action_button(ui, Action::kSave, fmt::format("{} Save", icon::kSave).c_str());
+  ImGui::SameLine(0, 2);
+  action_button(ui, Action::kExport, fmt::format("{} Export", icon::kExport).c_str());
+  ImGui::SameLine(0, 2);
+  action_button(ui, Action::kSnapshot, icon::kCamera);
+  gap();
+  action_button(ui, Action::kUndo, icon::kUndo);
+  ImGui::SameLine(0, 2);
+  action_button(ui, Action::kRedo, icon::kRedo);
+  gap();
+  if (ui.studio.scene()) tool_options(ui);
+  constexpr float kDisplayWidth = 426;
+  ImGui::SameLine(ImGui::GetWindowWidth() - kDisplayWidth);
+  display_buttons(ui);
+}
+
+void tool_column(UiContext& ui) {
+  constexpr float kSide = 38;
+  for (int i = 0; i < kTools; ++i) {
+    const auto tool = static_cast<Tool>(i);
+    if (tool == Tool::kBrush || tool == Tool::kGround || tool == Tool::kClick) {
+      ImGui::Dummy({0, 1});
+      ImGui::Separator();
+      ImGui::Dummy({0, 1});
+    }
+    const bool on = ui.studio.view().tool == tool;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::PushID(i);
+    if (!on) ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
+    const std::string reason = ui.studio.why_not(kToolActions[i]);
+    const std::string tip = tip_of(kToolActions[i]) + "\n" + kToolHints[i];
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 3});
+    ImGui::BeginDisabled(!reason.empty());
+    if (on) ImGui::PushStyleColor(ImGuiCol_Button, ui.theme.colour.accent);
+    const bool pressed = ImGui::Button("##tool", {kSide, kSide});
+    ImGui::PopStyleColor();
+    ImGui::EndDisabled();
+    ImGui::PopStyleVar();
+    ImGui::PopID();
+    if (pressed) ui.ask(kToolActions[i]);
+    tooltip(reason.empty() ? tip : tip + "\n" + reason);
+    const ImVec4 ink = on ? ui.theme.colour.on_accent : ui.theme.colour.text;
+    draw_tool_icon(*ImGui::GetWindowDrawList(), tool, {corner.x + kSide / 2, corner.y + kSide / 2}, 10.5f,
+                   packed(ink, reason.empty() ? 1.0f : 0.4f));
+  }
+}
+
+}  // namespace splatcut

@@ -1,0 +1,73 @@
+// What every panel is given: a const view of the application, a place for what it asks for, and its own
+// state.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/studio/studio.h"
+#include "app/ui/file_browser.h"
+#include "app/ui/theme.h"
+#include "app/ui/ui_renderer.h"
+
+namespace splatcut {
+
+// Panels ask; the application does it after the frame was drawn.
+struct Requests {
+  std::vector<Action> actions;
+  std::vector<Command> commands;
+
+  void operator()(Action action) { actions.push_back(action); }
+  void operator()(Command command) { commands.push_back(std::move(command)); }
+};
+
+// Choices in the export dialog.
+struct ExportChoice {
+  ExportWhat what = ExportWhat::kObject;
+  SceneFormat format = SceneFormat::kPly;
+  std::string path;
+  bool overwrite = false;
+};
+
+// By-property selection of the repair panel.
+struct PropertyChoice {
+  int property = 0;  // 0 opacity, 1 size, 2 depth, 3 colour
+  float low = 0, high = 1;
+  glm::vec3 colour{0.5f};
+  float tolerance = 0.1f;
+  Histogram histogram;
+  std::string histogram_key;  // what it was made of
+};
+
+enum class FilePurpose { kOpen, kSaveWork, kSnapshot, kTurntable, kExport };
+
+// The interface's own state: neither document nor view.
+struct UiState {
+  bool dark = true;
+  float ui_scale = 1;  // on top of the screen's own
+  bool help_open = false, history_open = false, quit_asked = false, quit_wanted = false, export_open = false;
+  std::optional<bool> history_wanted;  // opens or closes the history section
+  bool hint_wanted = true;             // the first-run hint, until the first click
+  bool steady = false;                 // for pictures that must repeat: no times, no blinking
+  std::vector<std::filesystem::path> recent;
+  std::filesystem::path sample;  // offered on the start page where it exists
+  FileBrowser files;
+  FilePurpose file_purpose = FilePurpose::kOpen;
+  ExportChoice exporting;
+  PropertyChoice property;
+  ObjectId renaming = 0;
+  std::string new_name;
+  std::string renderer_line;  // which renderer draws, and why
+};
+
+struct UiContext {
+  const Studio& studio;
+  UiState& state;
+  Requests& ask;
+  const Theme& theme;
+  UiRenderer& renderer;
+};
+
+}  // namespace splatcut

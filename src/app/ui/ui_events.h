@@ -1,0 +1,45 @@
+// What reaches the interface from outside: the same for a real window and for tests. Positions are logical
+// points from the top left of the window.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <variant>
+
+#include "app/studio/actions.h"
+#include "app/studio/pointer_tools.h"
+
+namespace splatcut {
+
+struct PointerMoved {
+  glm::vec2 position_points{0};
+  Modifiers modifiers;
+};
+struct PointerButtonChanged {
+  PointerButton button = PointerButton::kLeft;
+  bool down = false;
+  Modifiers modifiers;
+};
+struct WheelTurned {
+  float steps = 0;
+  Modifiers modifiers;
+};
+struct KeyChanged {
+  int key = 0;
+  bool down = false, repeated = false;
+  Modifiers modifiers;
+};
+struct TextTyped {
+  unsigned code_point = 0;
+};
+struct FileDropped {
+  std::filesystem::path path;
+};
+struct FocusChanged {
+  bool focused = true;
+};
+
+using UiEvent = std::variant<PointerMoved, PointerButtonChanged, WheelTurned, KeyChanged, TextTyped,
+                             FileDropped, FocusChanged>;
+
+}  // namespace splatcut

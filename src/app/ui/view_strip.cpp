@@ -1,0 +1,71 @@
+// The views that the cut used, each with its mask: click to look from there, or leave it out.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr float kCardHeight = 76;
+constexpr std::uint64_t kCardKey = 1000;  // of the strip's textures
+
+std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
+  std::string tip = index == 0 ? "Your view" : fmt::format("View {}", index);
+  if (!card.used)
+    tip += "\nDoes not count: " + (card.reason.empty() ? std::string("left out") : card.reason);
+  else if (index > 0 && !steady)
+    tip += fmt::format("\nAgrees with the cutout: {:.0f} %", 100 * card.confidence);
+  return tip + "\nClick to look from there; correct it with strokes.";
+}
+
+void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_t index) {
+  const float width =
+      kCardHeight * static_cast<float>(c.picture->width()) / static_cast<float>(c.picture->height());
+  ImGui::PushID(static_cast<int>(index));
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  if (ImGui::InvisibleButton("card", {width, kCardHeight})) ui.ask(GoToCamera{c.camera});
+  ImGui::SetItemAllowOverlap();
+  const bool hovered = ImGui::IsItemHovered();
+  tooltip(tip_of_card(c, index, ui.state.steady));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 end = {at.x + width, at.y + kCardHeight};
+  list.AddImageRounded(ui.renderer.texture(kCardKey + index, c.serial, *c.picture), at, end, {0, 0}, {1, 1},
+                       c.used ? 0xffffffffu : 0x70ffffffu, 4);
+  list.AddRect(at, end, packed(hovered ? ui.theme.colour.accent : ui.theme.colour.line), 4, 0,
+               hovered ? 2.0f : 1.0f);
+  const bool left_out = std::ranges::find(object.left_out, static_cast<int>(index)) != object.left_out.end();
+  if (index == 0) {
+    list.AddRectFilled({at.x + 4, end.y - 21}, {at.x + 68, end.y - 4}, packed({0, 0, 0, 1}, 0.6f), 3);
+    list.AddText({at.x + 8, end.y - 21}, 0xffffffffu, "your view");
+  } else if (hovered || left_out) {
+    ImGui::SetCursorScreenPos({end.x - 24, at.y + 3});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {3, 1});
+    if (button(ui, left_out ? icon::kCheck : icon::kClose,
+               left_out ? "Use this view again" : "Leave this view out of the cut",
+               object.locked ? object.name + " is locked" : ""))
+      ui.ask(LeaveOutView{object.id, static_cast<int>(index), !left_out});
+    ImGui::PopStyleVar();
+    ImGui::SetCursorScreenPos(at);
+    ImGui::Dummy({width, kCardHeight});
+  }
+  ImGui::PopID();
+}
+
+}  // namespace
+
+void view_strip(UiContext& ui) {
+  const ObjectItem* object = ui.studio.document().active_object();
+  const CutRun* run = object ? ui.studio.cut_run(object->id) : nullptr;
+  if (!run) return;
+  for (std::size_t i = 0; i < run->views.size(); ++i) {
+    if (!run->views[i].picture) continue;
+    if (i > 0) ImGui::SameLine(0, 6);
+    card(ui, *object, run->views[i], i);
+  }
+}
+
+}  // namespace splatcut

@@ -1,0 +1,283 @@
+// The picture of the scene with strokes, tool shapes, messages and the first-run hint over it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr std::uint64_t kPaneKey = 1;  // of the panes' textures
+constexpr double kMessageSeconds = 7;
+const ImU32 kObjectInk = IM_COL32(90, 220, 120, 255), kRestInk = IM_COL32(245, 95, 90, 255);
+
+ImVec2 vec(const glm::vec2& v) {
+  return {v.x, v.y};
+}
+
+// Viewport pixels to points on the screen.
+struct Placement {
+  glm::vec2 origin;
+  float points_per_pixel;
+  ImVec2 operator()(const glm::vec2& pixel) const { return vec(origin + pixel * points_per_pixel); }
+};
+
+void smooth_path(ImDrawList& list, const std::vector<ImVec2>& path, ImU32 colour, float width) {
+  if (path.size() == 1) return list.AddCircleFilled(path[0], 0.5f * width, colour);
+  for (const ImVec2& p : path) list.PathLineTo(p);
+  list.PathStroke(colour, 0, width);
+  list.AddCircleFilled(path.front(), 0.5f * width, colour);
+  list.AddCircleFilled(path.back(), 0.5f * width, colour);
+}
+
+std::vector<ImVec2> placed(const std::vector<glm::vec2>& points_px, const Placement& place, float scale = 1) {
+  std::vector<ImVec2> out;
+  for (const glm::vec2& p : points_px) out.push_back(place(p * scale));
+  return out;
+}
+
+void draw_click(ImDrawList& list, const ImVec2& at, bool object) {
+  list.AddCircleFilled(at, 6.5f, IM_COL32(0, 0, 0, 150));
+  list.AddCircleFilled(at, 5, object ? kObjectInk : kRestInk);
+  list.AddLine({at.x - 2.5f, at.y}, {at.x + 2.5f, at.y}, IM_COL32(10, 20, 10, 255), 1.5f);
+  if (object) list.AddLine({at.x, at.y - 2.5f}, {at.x, at.y + 2.5f}, IM_COL32(10, 20, 10, 255), 1.5f);
+}
+
+// Strokes are kept per view: they show where the camera stands as it did when they were drawn.
+void draw_strokes(const UiContext& ui, ImDrawList& list, const Placement& place) {
+  const ObjectItem* object = ui.studio.document().active_object();
+  if (!object) return;
+  const Camera now = ui.studio.viewport_camera();
+  for (const StrokedView& view : object->views) {
+    const float factor = static_cast<float>(now.height_px) / static_cast<float>(view.camera.height_px);
+    const glm::vec2 shift =
+        glm::vec2(now.cx_px, now.cy_px) - factor * glm::vec2(view.camera.cx_px, view.camera.cy_px);
+    Camera there = now;
+    there.camera_from_world_rotation = view.camera.camera_from_world_rotation;
+    there.camera_from_world_translation = view.camera.camera_from_world_translation;
+    if (!same_camera(there, now) || std::abs(view.camera.fy_px * factor - now.fy_px) > 0.01f * now.fy_px)
+      continue;
+    for (const Stroke& stroke : view.strokes) {
+      const bool is_object = stroke.label == SeedLabel::kObject;
+      const Placement shifted{place.origin + shift * place.points_per_pixel, place.points_per_pixel};
+      if (stroke.points_px.size() == 1) {
+        draw_click(list, shifted(stroke.points_px.front() * factor), is_object);
+        continue;
+      }
+      const ImU32 ink = is_object ? kObjectInk : kRestInk;
+      smooth_path(list, placed(stroke.points_px, shifted, factor), (ink & 0x00ffffffu) | 0x90000000u,
+                  std::max(2.0f, 2 * stroke.radius_px * factor * place.points_per_pixel));
+    }
+  }
+}
+
+void draw_tool_shape(const UiContext& ui, ImDrawList& list, const Placement& place) {
+  const ToolOverlay overlay = ui.studio.overlay();
+  const ImU32 ink = overlay.cuts                                 ? (overlay.rest ? kRestInk : kObjectInk)
+                    : overlay.operation == SetOperation::kRemove ? kRestInk
+                                                                 : packed(ui.theme.colour.accent);
+  const ImU32 wash = (ink & 0x00ffffffu) | 0x30000000u;
+  const std::vector<ImVec2> points = placed(overlay.points_px, place);
+  const float radius = overlay.radius_px * place.points_per_pixel;
+  switch (overlay.shape) {
+    case ToolOverlay::Shape::kPath:
+      smooth_path(list, points, (ink & 0x00ffffffu) | 0x90000000u, 2 * radius);
+      break;
+    case ToolOverlay::Shape::kRectangle:
+      if (points.size() < 2) break;
+      list.AddRectFilled(points[0], points[1], wash);
+      list.AddRect(points[0], points[1], ink, 0, 0, 1.5f);
+      break;
+    case ToolOverlay::Shape::kPolygon:
+      for (const ImVec2& p : points) list.PathLineTo(p);
+      list.PathStroke(ink, ImDrawFlags_Closed, 1.8f);
+      for (const ImVec2& p : points)
+        if (ui.studio.view().tool == Tool::kPolygon) list.AddCircleFilled(p, 3.5f, ink);
+      break;
+    case ToolOverlay::Shape::kCircle:
+      list.AddCircleFilled(points[0], points.size() > 1 ? radius : 3.0f, wash);
+      list.AddCircle(points[0], points.size() > 1 ? radius : 3.0f, ink, 0, 1.8f);
+      break;
+    case ToolOverlay::Shape::kPoints:
+      for (const ImVec2& p : points) list.AddCircleFilled(p, 4, ink);
+      break;
+    case ToolOverlay::Shape::kNone:
+      break;
+  }
+}
+
+// The brush as a ring under the pointer.
+void draw_brush_ring(const UiContext& ui, ImDrawList& list, const Placement& place, const UiRect& area) {
+  const Tool tool = ui.studio.view().tool;
+  if (tool != Tool::kScribble && tool != Tool::kBrush) return;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (!area.contains({mouse.x, mouse.y}) || ImGui::IsAnyItemHovered()) return;
+  const float radius = std::max(2.0f, ui.studio.overlay().radius_px * place.points_per_pixel);
+  list.AddCircle(mouse, radius + 1, IM_COL32(0, 0, 0, 120), 0, 1);
+  list.AddCircle(mouse, radius, IM_COL32(255, 255, 255, 220), 0, 1.3f);
+}
+
+UiRect banner(const UiContext& ui, const ImVec2& at, const char* symbol, const ImVec4& colour,
+              const std::string& text, float wrap) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+  const ImVec2 end = {at.x + size.x + 46, at.y + size.y + 16};
+  list.AddRectFilled(at, end, packed(ui.theme.colour.panel, 0.94f), 7);
+  list.AddRect(at, end, packed(ui.theme.colour.line), 7);
+  list.AddText({at.x + 12, at.y + 8}, packed(colour), symbol);
+  list.AddText(nullptr, 0, {at.x + 34, at.y + 8}, packed(ui.theme.colour.text), text.c_str(), nullptr, wrap);
+  return {{at.x, at.y}, {end.x, end.y}};
+}
+
+void draw_message(const UiContext& ui, const UiRect& area) {
+  if (ui.studio.messages().empty()) return;
+  const Message& message = ui.studio.messages().back();
+  if (ui.studio.clock_s() - message.time_s > kMessageSeconds) return;
+  const Palette& p = ui.theme.colour;
+  const bool warns = message.kind == Message::Kind::kRefused, fails = message.kind == Message::Kind::kError;
+  const float wrap = std::min(760.0f, area.size().x - 90);
+  const float height = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, wrap).y + 16;
+  banner(ui, {area.min.x + 14, area.max.y - height - 14},
+         warns || fails                         ? icon::kWarning
+         : message.kind == Message::Kind::kDone ? icon::kCheck
+                                                : icon::kInfo,
+         fails                                  ? p.bad
+         : warns                                ? p.warn
+         : message.kind == Message::Kind::kDone ? p.good
+                                                : p.accent,
+         message.text, wrap);
+}
+
+// Small labels of two panes.
+void pane_label(const UiContext& ui, const ImVec2& at, const char* text) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  list.AddRectFilled(at, {at.x + size.x + 16, at.y + size.y + 8}, packed(ui.theme.colour.panel, 0.85f), 5);
+  list.AddText({at.x + 8, at.y + 4}, packed(ui.theme.colour.text), text);
+}
+
+const char* mode_label(const Studio& studio) {
+  switch (studio.view().display) {
+    case DisplayMode::kIsolate:
+      return "Only the object  (I: back)";
+    case DisplayMode::kHide:
+      return "Without the object  (H: back)";
+    default:
+      return studio.view().heat ? "Likelihood: blue rest, red object  (M: back)" : nullptr;
+  }
+}
+
+std::optional<UiRect> hint(UiContext& ui, const UiRect& area) {
+  if (!ui.state.hint_wanted || !ui.studio.document().objects.empty()) return {};
+  constexpr std::array<std::pair<const char*, const char*>, 4> kLines = {
+      {{"Click", "an object: it is cut out"},
+       {"Right-click", "what does not belong to it"},
+       {"Drag", "turns, right drag shifts, the wheel zooms"},
+       {"F1", "shows every key"}}};
+  constexpr float kWidth = 376, kHeight = 148;
+  const ImVec2 at = {area.min.x + 18, area.min.y + 18};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, {at.x + kWidth, at.y + kHeight}, packed(ui.theme.colour.panel, 0.94f), 9);
+  list.AddRect(at, {at.x + kWidth, at.y + kHeight}, packed(ui.theme.colour.accent, 0.7f), 9, 0, 1.5f);
+  float y = at.y + 16;
+  for (const auto& [what, does] : kLines) {
+    list.AddText(ui.theme.strong, ImGui::GetFontSize(), {at.x + 16, y}, packed(ui.theme.colour.accent), what);
+    list.AddText({at.x + 106, y}, packed(ui.theme.colour.text), does);
+    y += 30;
+  }
+  ImGui::SetCursorScreenPos({at.x + kWidth - 32, at.y + 6});
+  ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
+  if (ImGui::Button(icon::kClose)) ui.state.hint_wanted = false;
+  ImGui::PopStyleColor();
+  tooltip("Do not show this again");
+  return UiRect{{at.x, at.y}, {at.x + kWidth, at.y + kHeight}};
+}
+
+}  // namespace
+
+std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID gpu_picture[2]) {
+  std::vector<UiRect> covered;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const Studio& studio = ui.studio;
+  list.AddRectFilled(vec(area.min), vec(area.max), packed(ui.theme.colour.panel_low));
+  if (!studio.scene()) {
+    start_page(ui, area);
+    draw_message(ui, area);
+    return covered;
+  }
+  const int panes = studio.panes();
+  const float pane_width = area.size().x / static_cast<float>(panes);
+  const Placement place{area.min, 1 / ui.theme.pixels_per_point};
+  const FrameResult* picture = studio.picture();
+  for (int i = 0; i < panes; ++i) {
+    const ImVec2 from = {area.min.x + pane_width * static_cast<float>(i), area.min.y};
+    const ImVec2 to = {from.x + pane_width, area.max.y};
+    const auto pane = static_cast<std::size_t>(i);
+    if (gpu_picture[i])
+      list.AddImage(gpu_picture[i], from, to);
+    else if (picture && pane < picture->pictures.size())
+      list.AddImage(ui.renderer.texture(kPaneKey + pane, studio.picture_serial(), picture->pictures[pane]),
+                    from, to);
+  }
+  ImGui::PushClipRect(vec(area.min), {area.min.x + pane_width, area.max.y}, true);
+  draw_strokes(ui, list, place);
+  ImGui::PopClipRect();
+  ImGui::PushClipRect(vec(area.min), vec(area.max), true);
+  draw_tool_shape(ui, list, place);
+  draw_brush_ring(ui, list, place, area);
+  ImGui::PopClipRect();
+  if (panes == 2) {
+    list.AddLine({area.min.x + pane_width, area.min.y}, {area.min.x + pane_width, area.max.y},
+                 packed(ui.theme.colour.line), 2);
+    pane_label(ui, {area.min.x + pane_width + 12, area.min.y + 12}, "Object");
+    if (!ui.state.hint_wanted || !studio.document().objects.empty())
+      pane_label(ui, {area.min.x + 12, area.min.y + 12}, "Scene");
+  } else if (const char* label = mode_label(studio)) {
+    pane_label(ui, {area.min.x + 12, area.min.y + 12}, label);
+  }
+  if (const auto rect = hint(ui, area)) covered.push_back(*rect);
+  draw_message(ui, area);
+  return covered;
+}
+
+void start_page(UiContext& ui, const UiRect& area) {
+  constexpr float kWidth = 420;
+  const glm::vec2 middle = 0.5f * (area.min + area.max);
+  ImGui::SetCursorScreenPos({middle.x - kWidth / 2, std::max(area.min.y + 20, middle.y - 150)});
+  ImGui::BeginChild("start", {kWidth, 330});
+  ImGui::PushFont(ui.theme.title);
+  ImGui::TextUnformatted(ui.studio.loading() ? "Opening..." : "Open a scene");
+  ImGui::PopFont();
+  wrapped_muted(ui,
+                "A 3D Gaussian Splatting scene: .ply, .compressed.ply, .splat or .spz. Or a .splatcut.json "
+                "with saved work. Drop it on this window, or:");
+  ImGui::Dummy({0, 4});
+  action_button(ui, Action::kOpen, fmt::format("{} Open a file", icon::kOpen).c_str());
+  if (!ui.state.sample.empty()) {
+    ImGui::SameLine();
+    if (button(ui, "Open the sample scene", "A still life on a table, to try things on"))
+      ui.ask(OpenScene{ui.state.sample});
+  }
+  if (ui.studio.autosave_found()) {
+    ImGui::Dummy({0, 4});
+    if (button(ui, fmt::format("{} Restore the work of last time", icon::kRefresh).c_str(),
+               "It was saved by itself before the program ended"))
+      ui.ask(RestoreAutosave{});
+  }
+  if (!ui.state.recent.empty()) {
+    ImGui::Dummy({0, 6});
+    muted_text(ui, "Recent");
+    for (const auto& path : ui.state.recent) {
+      if (ImGui::Selectable(path.filename().string().c_str())) ui.ask(OpenScene{path});
+      tooltip(path.string());
+    }
+  }
+  ImGui::EndChild();
+}
+
+}  // namespace splatcut

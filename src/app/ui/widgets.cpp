@@ -1,0 +1,77 @@
+#include "app/ui/widgets.h"
+
+#include <fmt/format.h>
+
+namespace splatcut {
+
+std::string grouped(std::size_t n) {
+  if (n < 1000) return fmt::format("{}", n);
+  return fmt::format("{},{:03}", grouped(n / 1000), n % 1000);
+}
+
+std::string ms_text(double ms) {
+  return ms < 1000 ? fmt::format("{:.0f} ms", ms) : fmt::format("{:.1f} s", ms / 1000);
+}
+
+std::string tip_of(Action action) {
+  const std::string keys = keys_of(action);
+  return keys.empty() ? name_of(action) : fmt::format("{}  ({})", name_of(action), keys);
+}
+
+ImVec4 colour_of(const Rgb8& c) {
+  return {static_cast<float>(c[0]) / 255, static_cast<float>(c[1]) / 255, static_cast<float>(c[2]) / 255, 1};
+}
+
+void tooltip(const std::string& text) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(320);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+bool button(UiContext& ui, const char* label, const std::string& tip, const std::string& reason, bool on,
+            float width) {
+  const Palette& p = ui.theme.colour;
+  if (on) {
+    ImGui::PushStyleColor(ImGuiCol_Button, p.accent);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, p.accent);
+    ImGui::PushStyleColor(ImGuiCol_Text, p.on_accent);
+  }
+  ImGui::BeginDisabled(!reason.empty());
+  const bool pressed = ImGui::Button(label, {width, 0});
+  ImGui::EndDisabled();
+  if (on) ImGui::PopStyleColor(3);
+  tooltip(reason.empty() ? tip : tip + "\n" + reason);
+  return pressed && reason.empty();
+}
+
+void action_button(UiContext& ui, Action action, const char* label, bool on, float width) {
+  ImGui::PushID(static_cast<int>(action));
+  if (button(ui, label, tip_of(action), ui.studio.why_not(action), on, width)) ui.ask(action);
+  ImGui::PopID();
+}
+
+void muted_text(UiContext& ui, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.colour.muted);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
+
+void wrapped_muted(UiContext& ui, const std::string& text) {
+  ImGui::PushTextWrapPos(0);
+  muted_text(ui, text);
+  ImGui::PopTextWrapPos();
+}
+
+bool section(UiContext& ui, const char* title, bool open) {
+  ImGui::PushFont(ui.theme.strong);
+  ImGui::PushStyleColor(ImGuiCol_Header, {0, 0, 0, 0});
+  const bool is_open = ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+  return is_open;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,31 @@
+// Small pieces that all panels use.
+#pragma once
+
+#include <string>
+
+#include "app/ui/ui_context.h"
+
+namespace splatcut {
+
+// A button for an action of the key table: greyed with its reason where it is not allowed, its keys in the
+// tooltip. label: what it shows, an icon or text. on: drawn as switched on. width 0: as wide as its label.
+void action_button(UiContext& ui, Action action, const char* label, bool on = false, float width = 0);
+
+// A button that is greyed with `reason` unless that is empty. True when pressed.
+bool button(UiContext& ui, const char* label, const std::string& tip, const std::string& reason = {},
+            bool on = false, float width = 0);
+
+void tooltip(const std::string& text);  // of the last item
+void muted_text(UiContext& ui, const std::string& text);
+void wrapped_muted(UiContext& ui, const std::string& text);
+bool section(UiContext& ui, const char* title, bool open = true);
+
+std::string grouped(std::size_t n);  // "1,234,567"
+std::string ms_text(double ms);      // "740 ms", "2.4 s"
+std::string tip_of(Action action);   // "Undo (Ctrl+Z)"
+ImVec4 colour_of(const Rgb8& c);
+
+// A symbol of a tool, drawn with lines; radius in points.
+void draw_tool_icon(ImDrawList& list, Tool tool, const ImVec2& centre, float radius, ImU32 colour);
+
+}  // namespace splatcut

@@ -1,0 +1,223 @@
+#include "app/ui/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "app/ui/settings.h"
+#include "scene/error.h"
+
+namespace splatcut {
+
+namespace {
+
+std::string last_glfw_error() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? text : "no reason given";
+}
+
+struct Glfw {
+  Glfw() {
+    if (!glfwInit())
+      throw Error("window", "cannot be opened: " + last_glfw_error(),
+                  "Is there a display? Without one, use splatcut cut");
+  }
+  ~Glfw() { glfwTerminate(); }
+  Glfw(const Glfw&) = delete;
+  Glfw& operator=(const Glfw&) = delete;
+};
+
+struct GlfwWindow {
+  GlfwWindow(int width, int height) {
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "splatcut");
+    handle = glfwCreateWindow(width, height, "splatcut", nullptr, nullptr);
+    if (!handle)
+      throw Error("window", "no OpenGL 3.3: " + last_glfw_error(),
+                  "Install a driver, or Mesa's libgl1-mesa-dri");
+    glfwMakeContextCurrent(handle);
+    load_gl_functions(glfwGetProcAddress);
+    glfwSwapInterval(1);
+  }
+  ~GlfwWindow() { glfwDestroyWindow(handle); }
+  GlfwWindow(const GlfwWindow&) = delete;
+  GlfwWindow& operator=(const GlfwWindow&) = delete;
+  GLFWwindow* handle;
+};
+
+Modifiers modifiers_of(int mods) {
+  return {(mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_ALT) != 0};
+}
+
+Modifiers held_modifiers(GLFWwindow* window) {
+  const auto held = [window](int a, int b) {
+    return glfwGetKey(window, a) == GLFW_PRESS || glfwGetKey(window, b) == GLFW_PRESS;
+  };
+  return {held(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT),
+          held(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL), held(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT)};
+}
+
+// What the callbacks reach through the window's user pointer.
+struct Loop {
+  GLFWwindow* window;
+  Application& app;
+  float ui_scale;
+  double last_event_s = 0;
+
+  // Window coordinates (which on some systems are no pixels) to logical points.
+  glm::vec2 points(double x, double y) const {
+    int width = 1, fb_width = 1, height = 1;
+    glfwGetWindowSize(window, &width, &height);
+    glfwGetFramebufferSize(window, &fb_width, nullptr);
+    const float factor =
+        static_cast<float>(fb_width) / static_cast<float>(std::max(1, width)) / pixels_per_point();
+    return glm::vec2(x, y) * factor;
+  }
+  float pixels_per_point() const {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window, &x, &y);
+    return std::max(0.5f, x * ui_scale);
+  }
+  void fit() const {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window, &width, &height);
+    if (width > 0 && height > 0)
+      app.resize(glm::vec2(width, height) / pixels_per_point(), pixels_per_point());
+  }
+  void send(const UiEvent& event) {
+    last_event_s = glfwGetTime();
+    app.handle(event);
+  }
+};
+
+Loop& loop_of(GLFWwindow* window) {
+  return *static_cast<Loop*>(glfwGetWindowUserPointer(window));
+}
+
+// GLFW names keys by their place on an American keyboard; letters are meant as they are printed.
+int key_of(int code, int scancode) {
+  if (code < 'A' || code > 'Z') return code;
+  const char* name = glfwGetKeyName(code, scancode);
+  return name && name[0] >= 'a' && name[0] <= 'z' && name[1] == 0 ? name[0] - 'a' + 'A' : code;
+}
+
+void install_callbacks(GLFWwindow* window) {
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    loop_of(w).send(PointerMoved{loop_of(w).points(x, y), held_modifiers(w)});
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
+    if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+    loop_of(w).send(
+        PointerButtonChanged{static_cast<PointerButton>(button), action == GLFW_PRESS, modifiers_of(mods)});
+  });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) {
+    loop_of(w).send(WheelTurned{static_cast<float>(y), held_modifiers(w)});
+  });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int code, int scancode, int action, int mods) {
+    if (code == GLFW_KEY_UNKNOWN) return;
+    loop_of(w).send(KeyChanged{key_of(code, scancode), action != GLFW_RELEASE, action == GLFW_REPEAT,
+                               modifiers_of(mods)});
+  });
+  glfwSetCharCallback(window,
+                      [](GLFWwindow* w, unsigned code_point) { loop_of(w).send(TextTyped{code_point}); });
+  glfwSetWindowFocusCallback(
+      window, [](GLFWwindow* w, int focused) { loop_of(w).send(FocusChanged{focused == GLFW_TRUE}); });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    if (count > 0) loop_of(w).send(FileDropped{paths[0]});
+  });
+}
+
+void install_clipboard(GLFWwindow* window) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.ClipboardUserData = window;
+  io.GetClipboardTextFn = [](void* w) { return glfwGetClipboardString(static_cast<GLFWwindow*>(w)); };
+  io.SetClipboardTextFn = [](void* w, const char* text) {
+    glfwSetClipboardString(static_cast<GLFWwindow*>(w), text);
+  };
+}
+
+std::filesystem::path sample_beside_program() {
+  std::error_code ignored;
+  std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
+  for (; folder.has_relative_path(); folder = folder.parent_path())
+    if (const auto sample = folder / "assets/sample/sample.compressed.ply"; std::filesystem::exists(sample))
+      return sample;
+  return {};
+}
+
+std::string title_of(const Studio& studio) {
+  if (!studio.scene()) return "splatcut";
+  const std::filesystem::path& shown =
+      studio.work_path().empty() ? studio.scene()->scene->path : studio.work_path();
+  return fmt::format("{}{} - splatcut", studio.unsaved() ? "* " : "", shown.filename().string());
+}
+
+void run_loop(Loop& loop) {
+  constexpr double kAfterEventSeconds = 0.3, kIdleSeconds = 0.5, kMovingSeconds = 0.004;
+  double before = glfwGetTime();
+  std::string title;
+  while (!loop.app.wants_to_close()) {
+    if (glfwWindowShouldClose(loop.window)) {
+      glfwSetWindowShouldClose(loop.window, GLFW_FALSE);
+      loop.app.studio().run(Action::kQuit);
+    }
+    loop.fit();
+    const double now = glfwGetTime();
+    const bool busy = loop.app.frame(now - before);
+    before = now;
+    if (std::string wanted = title_of(loop.app.studio()); wanted != title)
+      glfwSetWindowTitle(loop.window, (title = wanted).c_str());
+    glfwSwapBuffers(loop.window);
+    const bool fresh = glfwGetTime() - loop.last_event_s < kAfterEventSeconds;
+    glfwWaitEventsTimeout(busy || fresh ? kMovingSeconds : kIdleSeconds);
+  }
+}
+
+}  // namespace
+
+std::string why_no_window() {
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
+    return "neither DISPLAY nor WAYLAND_DISPLAY is set";
+  if (!glfwInit()) return last_glfw_error();
+  glfwTerminate();
+  return {};
+}
+
+void run_window(const WindowOptions& options) {
+  const std::filesystem::path settings_file = config_folder() / "settings.json";
+  Settings settings = load_settings(settings_file);
+  const Glfw glfw;
+  const GlfwWindow window(options.width > 0 ? options.width : settings.width,
+                          options.height > 0 ? options.height : settings.height);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  const float ui_scale = options.ui_scale > 0 ? options.ui_scale : settings.ui_scale;
+  {
+    Application app({{glfwPostEmptyEvent, false, state_folder()}, options.renderer, sample_beside_program()});
+    Loop loop{window.handle, app, ui_scale};
+    UiState& state = app.interface().state();
+    state.dark = settings.dark;
+    state.hint_wanted = settings.hint_wanted;
+    state.recent = settings.recent;
+    app.studio().apply(SetView{settings.view});
+    install_clipboard(window.handle);
+    glfwSetWindowUserPointer(window.handle, &loop);
+    install_callbacks(window.handle);
+    if (!options.open.empty()) app.studio().apply(OpenScene{options.open});
+    run_loop(loop);
+    glfwGetWindowSize(window.handle, &settings.width, &settings.height);
+    settings.dark = state.dark;
+    settings.hint_wanted = state.hint_wanted;
+    settings.recent = state.recent;
+    settings.view = app.studio().view();
+    app.studio().leave();
+  }
+  save_settings(settings_file, settings);
+}
+
+}  // namespace splatcut

@@ -1,0 +1,23 @@
+// The real window: GLFW, one OpenGL context, the main loop. Throws Error where there is no display.
+#pragma once
+
+#include <filesystem>
+
+#include "app/ui/application.h"
+
+namespace splatcut {
+
+struct WindowOptions {
+  std::filesystem::path open;  // a scene or a work file; empty: the start page
+  RendererChoice renderer = RendererChoice::kAuto;
+  float ui_scale = 0;         // 0: the screen's, times the remembered one
+  int width = 0, height = 0;  // 0: as it was left
+};
+
+// Runs until the window is closed.
+void run_window(const WindowOptions& options);
+
+// Whether a window can open here; if not, why.
+std::string why_no_window();
+
+}  // namespace splatcut

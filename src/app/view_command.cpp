@@ -1,0 +1,41 @@
+// splatcut view: the window.
+#include <memory>
+
+#include "app/commands.h"
+#include "app/ui/window.h"
+
+namespace splatcut {
+
+namespace {
+
+struct ViewArguments {
+  WindowOptions window;
+  std::string renderer = "auto", size;
+};
+
+void run_view(ViewArguments args) {
+  args.window.renderer = args.renderer == "gl"    ? RendererChoice::kGl
+                         : args.renderer == "cpu" ? RendererChoice::kCpu
+                                                  : RendererChoice::kAuto;
+  run_window(args.window);
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& program, const CommonOptions&) {
+  auto args = std::make_shared<ViewArguments>();
+  CLI::App& command = *program.add_subcommand("view", "Open the window (splatcut SCENE does the same)");
+  command.footer("Example: splatcut view scene.ply");
+  command.add_option("scene", args->window.open, "Scene file or .splatcut.json");
+  command
+      .add_option("--renderer", args->renderer,
+                  "auto, gl or cpu: auto takes the CPU where OpenGL is software")
+      ->check(CLI::IsMember({"auto", "gl", "cpu"}));
+  command.add_option("--ui-scale", args->window.ui_scale, "Size of the interface, 1 is usual")
+      ->check(CLI::Range(0.5, 4.0));
+  command.add_option("--width", args->window.width, "Width of the window")->check(CLI::Range(640, 8192));
+  command.add_option("--height", args->window.height, "Height of the window")->check(CLI::Range(480, 8192));
+  command.callback([args] { run_view(*args); });
+}
+
+}  // namespace splatcut
