@@ -304,7 +304,9 @@ void Studio::document_changed() {
   ++document_serial_;
   counts_.clear();
   autosave_wait_s_ = 0;
-  if (document().up_world != camera_.up_world()) camera_.set_up(document().up_world);
+  constexpr float kSameDirection = 0.99999f;  // the controller keeps it normalised
+  if (glm::dot(glm::normalize(document().up_world), camera_.up_world()) < kSameDirection)
+    camera_.set_up(document().up_world);
 }
 
 std::vector<std::uint8_t> Studio::labels(ObjectId object) const {

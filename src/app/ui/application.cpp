@@ -54,7 +54,7 @@ void Application::handle(const UiEvent& event) {
 }
 
 glm::vec2 Application::in_viewport_px(const glm::vec2& point) const {
-  return (point - interface_.viewport(studio_).min) * pixels_per_point_;
+  return (point - interface_.viewport().min) * pixels_per_point_;
 }
 
 void Application::set_modifiers(const Modifiers& modifiers) {
@@ -142,7 +142,7 @@ bool Application::frame(double seconds) {
   const auto start = std::chrono::steady_clock::now();
   clock_s_ += seconds;
   interface_.make_current();
-  const glm::vec2 view_px = interface_.viewport(studio_).size() * pixels_per_point_;
+  const glm::vec2 view_px = interface_.viewport().size() * pixels_per_point_;
   studio_.set_viewport(static_cast<int>(std::lround(view_px.x)), static_cast<int>(std::lround(view_px.y)),
                        pixels_per_point_);
   const bool busy = studio_.update(seconds);

@@ -11,6 +11,7 @@ namespace splatcut {
 namespace {
 
 constexpr const char* kPresets[] = {"fast", "default", "best", "paper"};
+constexpr const char* kPresetLabels[] = {"Fast", "Default", "Best", "Paper"};
 constexpr const char* kPresetTips[] = {
     "Your view only: quickest, for a first look", "Your view and a few around the object",
     "More views, finer pictures: slower", "GaussianCut's literal energy and number of views"};
@@ -24,7 +25,7 @@ void quality_choice(UiContext& ui) {
     if (i > 0) ImGui::SameLine(0, 2);
     ImGui::PushID(static_cast<int>(i));
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6, 5});
-    if (button(ui, kPresets[i], kPresetTips[i], {}, now == kPresets[i])) ui.ask(SetPreset{kPresets[i]});
+    if (button(ui, kPresetLabels[i], kPresetTips[i], {}, now == kPresets[i])) ui.ask(SetPreset{kPresets[i]});
     ImGui::PopStyleVar();
     ImGui::PopID();
   }
@@ -86,7 +87,10 @@ void cutout_panel(UiContext& ui) {
   }
   if (run->running) {
     const auto progress = ui.studio.progress();
-    ImGui::ProgressBar(static_cast<float>(progress.fraction), {-72, 0}, progress.stage.c_str());
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::ProgressBar(static_cast<float>(progress.fraction), {-72, 0}, "");
+    ImGui::GetWindowDrawList()->AddText({at.x + 8, at.y + 5}, packed(ui.theme.colour.text),
+                                        progress.stage.c_str());
     ImGui::SameLine();
     action_button(ui, Action::kCancel, "Cancel", false, -1);
   }

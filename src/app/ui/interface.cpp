@@ -95,13 +95,14 @@ void Interface::resize(const glm::vec2& size_points, float pixels_per_point, UiR
   apply_theme(&theme_, state_.dark);
 }
 
-UiRect Interface::viewport(const Studio& studio) const {
-  const float bottom = size_points_.y - kStatus - (has_strip(studio) ? kStrip : 0);
+UiRect Interface::viewport() const {
+  const float bottom = size_points_.y - kStatus;
   const auto whole = [&](float v) {
     return std::round(v * theme_.pixels_per_point) / theme_.pixels_per_point;
   };
   return {{kToolsWidth, kTopHeight},
-          {whole(std::max(kToolsWidth + 1, size_points_.x - kSideWidth)), whole(std::max(kTopHeight + 1, bottom))}};
+          {whole(std::max(kToolsWidth + 1, size_points_.x - kSideWidth)),
+           whole(std::max(kTopHeight + 1, bottom))}};
 }
 
 bool Interface::dialog_open() const {
@@ -109,7 +110,7 @@ bool Interface::dialog_open() const {
 }
 
 bool Interface::picture_at(const glm::vec2& point, const Studio& studio) const {
-  if (!studio.scene() || dialog_open() || !viewport(studio).contains(point)) return false;
+  if (!studio.scene() || dialog_open() || !viewport().contains(point)) return false;
   return std::ranges::none_of(covered_, [&](const UiRect& r) { return r.contains(point); });
 }
 
@@ -125,13 +126,14 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   UiContext ui{studio, state_, *ask, theme_, *renderer};
   const Palette& p = theme_.colour;
   const glm::vec2 size = size_points_;
-  const UiRect view = viewport(studio);
+  const UiRect view = viewport();
   fixed_panel("picture", view, p, ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoFocusOnAppearing,
-              {0, 0}, [&] { covered_ = viewport_pane(ui, view, gpu_picture); });
+              {0, 0},
+              [&] { covered_ = viewport_pane(ui, view, has_strip(studio) ? kStrip : 0, gpu_picture); });
   fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
               [&] { top_bar(ui); });
-  fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatus}}, p, ImGuiWindowFlags_NoScrollWithMouse, {8, 8},
-              [&] { tool_column(ui); });
+  fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatus}}, p,
+              ImGuiWindowFlags_NoScrollWithMouse, {8, 8}, [&] { tool_column(ui); });
   fixed_panel("side", {{size.x - kSideWidth, kTopHeight}, {size.x, size.y - kStatus}}, p,
               ImGuiWindowFlags_AlwaysVerticalScrollbar & 0, {12, 8}, [&] {
                 ImGui::BeginChild("scroll", {0, 0});
@@ -142,14 +144,18 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
                 history_panel(ui);
                 ImGui::EndChild();
               });
-  if (has_strip(studio))
-    fixed_panel("strip", {{kToolsWidth, view.max.y}, {size.x - kSideWidth, size.y - kStatus}}, p,
-                ImGuiWindowFlags_HorizontalScrollbar, {8, 7}, [&] {
-                  ImGui::BeginChild("cards", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
-                  view_strip(ui);
-                  if (ImGui::IsWindowHovered()) ImGui::SetScrollX(ImGui::GetScrollX() - 60 * io.MouseWheel);
-                  ImGui::EndChild();
-                });
+  if (has_strip(studio)) {
+    const UiRect strip = {{view.min.x, view.max.y - kStrip}, view.max};
+    covered_.push_back(strip);
+    Palette clear = p;
+    clear.panel.w = 0.9f;
+    fixed_panel("strip", strip, clear, 0, {8, 7}, [&] {
+      ImGui::BeginChild("cards", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
+      view_strip(ui);
+      if (ImGui::IsWindowHovered()) ImGui::SetScrollX(ImGui::GetScrollX() - 60 * io.MouseWheel);
+      ImGui::EndChild();
+    });
+  }
   fixed_panel("status", {{0, size.y - kStatus}, {size.x, size.y}}, p, ImGuiWindowFlags_NoScrollWithMouse,
               {12, 3}, [&] { status_bar(ui); });
   if (!dialog_open()) {

@@ -23,7 +23,7 @@ class Interface {
   void resize(const glm::vec2& size_points, float pixels_per_point, UiRenderer* renderer);
 
   // Where the picture is drawn, in points: on whole pixels.
-  UiRect viewport(const Studio& studio) const;
+  UiRect viewport() const;
   // True where a press at this point is meant for the picture.
   bool picture_at(const glm::vec2& point, const Studio& studio) const;
   bool dialog_open() const;

@@ -129,10 +129,8 @@ void objects_panel(UiContext& ui) {
   if (objects.empty()) wrapped_muted(ui, "Click an object in the picture: it appears here.");
   for (const ObjectItem& object : objects) object_row(ui, object);
   action_button(ui, Action::kNewObject, fmt::format("{} New object", icon::kPlus).c_str(), false, -1);
-  if (!objects.empty() && ui.studio.document().active_object())
-    wrapped_muted(ui, fmt::format("{} holds {} Gaussians. Clicks and strokes go to it.",
-                                  ui.studio.document().active_object()->name,
-                                  grouped(ui.studio.gaussians_of(ui.studio.document().active))));
+  if (const ObjectItem* active = ui.studio.document().active_object())
+    wrapped_muted(ui, fmt::format("Clicks and strokes go to {}.", active->name));
 }
 
 }  // namespace splatcut

@@ -24,8 +24,10 @@ void history_panel(UiContext& ui);
 void view_strip(UiContext& ui);
 void status_bar(UiContext& ui);
 
-// Pictures, strokes, tool shapes, messages. Returns what covers the picture and takes clicks itself.
-std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID gpu_picture[2]);
+// Pictures, strokes, tool shapes, messages; these stay above the lowest `bottom` points. Returns what covers
+// the picture and takes clicks itself.
+std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float bottom,
+                                  ImTextureID gpu_picture[2]);
 void start_page(UiContext& ui, const UiRect& area);
 
 void help_page(UiContext& ui);

@@ -46,9 +46,11 @@ void status_bar(UiContext& ui) {
   }
   const ObjectItem* active = ui.studio.document().active_object();
   if (active) {
+    const CutRun* run = ui.studio.cut_run(active->id);
+    const std::string what =
+        run && run->running ? "computing" : grouped(ui.studio.gaussians_of(active->id)) + " Gaussians";
     ImGui::SameLine(0, 24);
-    ImGui::TextUnformatted(
-        fmt::format("{}: {} selected", active->name, grouped(ui.studio.gaussians_of(active->id))).c_str());
+    ImGui::TextUnformatted(fmt::format("{}: {}", active->name, what).c_str());
   }
   const std::string right = right_text(ui);
   ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(right.c_str()).x - 12);

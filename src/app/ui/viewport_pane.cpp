@@ -134,7 +134,7 @@ UiRect banner(const UiContext& ui, const ImVec2& at, const char* symbol, const I
   return {{at.x, at.y}, {end.x, end.y}};
 }
 
-void draw_message(const UiContext& ui, const UiRect& area) {
+void draw_message(const UiContext& ui, const UiRect& area, float bottom) {
   if (ui.studio.messages().empty()) return;
   const Message& message = ui.studio.messages().back();
   if (ui.studio.clock_s() - message.time_s > kMessageSeconds) return;
@@ -142,7 +142,7 @@ void draw_message(const UiContext& ui, const UiRect& area) {
   const bool warns = message.kind == Message::Kind::kRefused, fails = message.kind == Message::Kind::kError;
   const float wrap = std::min(760.0f, area.size().x - 90);
   const float height = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, wrap).y + 16;
-  banner(ui, {area.min.x + 14, area.max.y - height - 14},
+  banner(ui, {area.min.x + 14, area.max.y - bottom - height - 14},
          warns || fails                         ? icon::kWarning
          : message.kind == Message::Kind::kDone ? icon::kCheck
                                                 : icon::kInfo,
@@ -200,14 +200,15 @@ std::optional<UiRect> hint(UiContext& ui, const UiRect& area) {
 
 }  // namespace
 
-std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID gpu_picture[2]) {
+std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float bottom,
+                                  ImTextureID gpu_picture[2]) {
   std::vector<UiRect> covered;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Studio& studio = ui.studio;
   list.AddRectFilled(vec(area.min), vec(area.max), packed(ui.theme.colour.panel_low));
   if (!studio.scene()) {
     start_page(ui, area);
-    draw_message(ui, area);
+    draw_message(ui, area, bottom);
     return covered;
   }
   const int panes = studio.panes();
@@ -241,7 +242,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, ImTextureID
     pane_label(ui, {area.min.x + 12, area.min.y + 12}, label);
   }
   if (const auto rect = hint(ui, area)) covered.push_back(*rect);
-  draw_message(ui, area);
+  draw_message(ui, area, bottom);
   return covered;
 }
 

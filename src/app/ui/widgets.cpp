@@ -68,7 +68,9 @@ void wrapped_muted(UiContext& ui, const std::string& text) {
 bool section(UiContext& ui, const char* title, bool open) {
   ImGui::PushFont(ui.theme.strong);
   ImGui::PushStyleColor(ImGuiCol_Header, {0, 0, 0, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2, 5});
   const bool is_open = ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  ImGui::PopStyleVar();
   ImGui::PopStyleColor();
   ImGui::PopFont();
   return is_open;

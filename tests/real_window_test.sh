@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Opens the program in a real window on a virtual screen, clicks, scribbles, isolates, exports, quits.
+# Usage: real_window_test.sh PROGRAM SAMPLE_FOLDER [SHOTS_FOLDER]   exit 77: skipped, with a sentence why.
+set -euo pipefail
+program=$1 sample=$2 shots=${3:-}
+for tool in Xvfb xdotool; do
+  command -v $tool >/dev/null || { echo "skipped: $tool is not installed (apt install xvfb xdotool)"; exit 77; }
+done
+work=$(mktemp -d)
+children=()
+cleanup() { for pid in "${children[@]}"; do kill "$pid" 2>/dev/null || true; done; rm -rf "$work"; }
+trap cleanup EXIT
+fail() { echo "failed: $*"; cat "$work/program.log"; exit 1; }
+
+cp "$sample/sample.compressed.ply" "$sample/cameras.json" "$work/"
+export XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state
+Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>"$work/display" 2>/dev/null &
+children+=($!)
+for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
+[ -s "$work/display" ] || { echo "skipped: Xvfb does not start here"; exit 77; }
+export DISPLAY=:$(cat "$work/display")
+unset WAYLAND_DISPLAY
+
+"$program" "$work/sample.compressed.ply" --width 1280 --height 800 >"$work/program.log" 2>&1 &
+pid=$!
+children+=($pid)
+autosave=$work/state/splatcut/autosave.splatcut.json
+shot() { [ -z "$shots" ] || { sleep 1; import -window root "$shots/$1.png"; }; }
+wait_for() {  # wait_for SECONDS WHAT COMMAND...
+  local seconds=$1 what=$2; shift 2
+  for _ in $(seq $((seconds * 5))); do
+    "$@" >/dev/null 2>&1 && return
+    kill -0 $pid 2>/dev/null || fail "the program ended while waiting for $what"
+    sleep 0.2
+  done
+  fail "no $what after $seconds s"
+}
+click() { xdotool mousemove "$1" "$2" sleep 0.2 click "${3:-1}" sleep 0.2; }
+
+wait_for 60 "window" xdotool search --name sample
+sleep 1
+shot 1_opened
+click 668 524                                   # the apple
+wait_for 240 "cutout of the apple" grep -q '"cut_is_current": *true' "$autosave"
+shot 2_clicked
+before=$(stat -c %Y.%s "$autosave")
+xdotool key 3 mousemove 660 505 mousedown 1 mousemove 668 515 mousemove 676 530 mouseup 1
+changed() { [ "$(stat -c %Y.%s "$autosave")" != "$before" ]; }
+wait_for 240 "new cutout after the stroke" changed
+shot 3_scribbled
+xdotool key i; shot 4_isolated
+xdotool key ctrl+e sleep 1; shot 5_export
+click 883 551
+exported() { ls "$work"/sample_*.ply; }
+wait_for 60 "exported file" exported
+shot 6_exported
+xdotool key ctrl+q sleep 1; shot 7_quit
+click 793 448
+for _ in $(seq 100); do kill -0 $pid 2>/dev/null || break; sleep 0.1; done
+kill -0 $pid 2>/dev/null && fail "it does not quit"
+wait $pid || fail "it ended with an error"
+info=$("$program" info "$work"/sample_*.ply)
+count=$(echo "$info" | awk '$1 == "gaussians" {print $2}')
+echo "exported $count Gaussians"
+[ "$count" -gt 2000 ] && [ "$count" -lt 20000 ] || fail "that is no apple"
