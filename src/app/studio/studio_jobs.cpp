@@ -261,7 +261,7 @@ void Studio::start_cut(const ObjectItem& object) {
         say(Message::Kind::kRefused, item->name + ": " + reason);
       else
         say(Message::Kind::kDone,
-            fmt::format("{}: {} Gaussians cut out in {:.0f} ms", item->name, gaussians_of(id), total_ms));
+            fmt::format("{}: {} Gaussians cut out in {:.1f} s", item->name, gaussians_of(id), total_ms / 1000));
     });
     // The cutout is on the screen; the rest is for looking at.
     std::shared_ptr<const std::vector<float>> likelihood;

@@ -15,6 +15,10 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowF
                                     ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
 
+// ImGui puts windows that do not come to the front behind those made before them.
+constexpr ImGuiWindowFlags kOverPicture =
+    (kFixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoFocusOnAppearing;
+
 bool has_strip(const Studio& studio) {
   const ObjectItem* object = studio.document().active_object();
   const CutRun* run = object ? studio.cut_run(object->id) : nullptr;
@@ -23,7 +27,7 @@ bool has_strip(const Studio& studio) {
 
 // A panel that fills a rectangle.
 template <class Content>
-void fixed_panel(const char* name, const UiRect& rect, const Palette& palette, ImGuiWindowFlags extra,
+void fixed_panel(const char* name, const UiRect& rect, const Palette& palette, ImGuiWindowFlags flags,
                  const ImVec2& padding, const Content& content) {
   ImGui::SetNextWindowPos({rect.min.x, rect.min.y});
   ImGui::SetNextWindowSize({rect.size().x, rect.size().y});
@@ -31,7 +35,7 @@ void fixed_panel(const char* name, const UiRect& rect, const Palette& palette, I
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, palette.panel);
-  ImGui::Begin(name, nullptr, kFixed | extra);
+  ImGui::Begin(name, nullptr, flags);
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(3);
   content();
@@ -127,15 +131,14 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   const Palette& p = theme_.colour;
   const glm::vec2 size = size_points_;
   const UiRect view = viewport();
-  fixed_panel("picture", view, p, ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoFocusOnAppearing,
-              {0, 0},
+  fixed_panel("picture", view, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {0, 0},
               [&] { covered_ = viewport_pane(ui, view, has_strip(studio) ? kStrip : 0, gpu_picture); });
-  fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
+  fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
               [&] { top_bar(ui); });
   fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatus}}, p,
               ImGuiWindowFlags_NoScrollWithMouse, {8, 8}, [&] { tool_column(ui); });
-  fixed_panel("side", {{size.x - kSideWidth, kTopHeight}, {size.x, size.y - kStatus}}, p,
-              ImGuiWindowFlags_AlwaysVerticalScrollbar & 0, {12, 8}, [&] {
+  fixed_panel("side", {{size.x - kSideWidth, kTopHeight}, {size.x, size.y - kStatus}}, p, kFixed, {12, 8},
+              [&] {
                 ImGui::BeginChild("scroll", {0, 0});
                 objects_panel(ui);
                 cutout_panel(ui);
@@ -149,15 +152,15 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
     covered_.push_back(strip);
     Palette clear = p;
     clear.panel.w = 0.9f;
-    fixed_panel("strip", strip, clear, 0, {8, 7}, [&] {
+    fixed_panel("strip", strip, clear, kOverPicture, {8, 7}, [&] {
       ImGui::BeginChild("cards", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
       view_strip(ui);
       if (ImGui::IsWindowHovered()) ImGui::SetScrollX(ImGui::GetScrollX() - 60 * io.MouseWheel);
       ImGui::EndChild();
     });
   }
-  fixed_panel("status", {{0, size.y - kStatus}, {size.x, size.y}}, p, ImGuiWindowFlags_NoScrollWithMouse,
-              {12, 3}, [&] { status_bar(ui); });
+  fixed_panel("status", {{0, size.y - kStatus}, {size.x, size.y}}, p,
+              kFixed | ImGuiWindowFlags_NoScrollWithMouse, {12, 3}, [&] { status_bar(ui); });
   if (!dialog_open()) {
     line({0, kTopHeight}, {size.x, kTopHeight}, p);
     line({kToolsWidth, kTopHeight}, {kToolsWidth, size.y - kStatus}, p);

@@ -93,14 +93,14 @@ void apply_theme(Theme* theme, bool dark) {
   set(ImGuiCol_FrameBg, p.field);
   set(ImGuiCol_FrameBgHovered, p.panel_high);
   set(ImGuiCol_FrameBgActive, p.panel_high);
-  set(ImGuiCol_Button, dark ? p.panel_high : p.panel_high);
+  set(ImGuiCol_Button, p.panel_high);
   set(ImGuiCol_ButtonHovered, faded(p.accent, 0.35f));
   set(ImGuiCol_ButtonActive, faded(p.accent, 0.6f));
   set(ImGuiCol_Header, faded(p.accent, 0.28f));
   set(ImGuiCol_HeaderHovered, faded(p.accent, 0.2f));
   set(ImGuiCol_HeaderActive, faded(p.accent, 0.4f));
   set(ImGuiCol_CheckMark, p.accent);
-  set(ImGuiCol_SliderGrab, p.accent);
+  set(ImGuiCol_SliderGrab, faded(p.accent, 0.55f));
   set(ImGuiCol_SliderGrabActive, p.accent);
   set(ImGuiCol_Separator, p.line);
   set(ImGuiCol_ScrollbarBg, {0, 0, 0, 0});

@@ -116,7 +116,9 @@ void draw_brush_ring(const UiContext& ui, ImDrawList& list, const Placement& pla
   const Tool tool = ui.studio.view().tool;
   if (tool != Tool::kScribble && tool != Tool::kBrush) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  if (!area.contains({mouse.x, mouse.y}) || ImGui::IsAnyItemHovered()) return;
+  if (!area.contains({mouse.x, mouse.y}) || ImGui::IsAnyItemHovered() ||
+      ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
+    return;
   const float radius = std::max(2.0f, ui.studio.overlay().radius_px * place.points_per_pixel);
   list.AddCircle(mouse, radius + 1, IM_COL32(0, 0, 0, 120), 0, 1);
   list.AddCircle(mouse, radius, IM_COL32(255, 255, 255, 220), 0, 1.3f);
