@@ -10,6 +10,7 @@
 #include "app/console.h"
 #include "app/cutout_files.h"
 #include "app/seeds_file.h"
+#include "app/work_cut.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/png_file.h"
@@ -19,7 +20,7 @@ namespace splatcut {
 namespace {
 
 struct CutArguments {
-  std::filesystem::path scene, seeds, mask, output;
+  std::filesystem::path scene, seeds, mask, work, output;
   std::vector<std::string> clicks;
   std::string preset = "default";
   CameraOptions camera;
@@ -78,6 +79,8 @@ void say_other_sizes(const PipelineReport& report) {
 }
 
 void run_cut(const CutArguments& args, const CommonOptions& common) {
+  if (!args.work.empty()) return run_work_cut({args.work, args.output, args.overwrite, args.json, common.quiet});
+  if (args.scene.empty()) throw Error("splatcut cut", "no scene is given", "Give a scene file, or --work FILE.splatcut.json");
   const Strokes strokes = strokes_of(args);
   OutputFolder folder(args.output, args.overwrite);
   const Job job = console_job(common.quiet);
@@ -117,11 +120,12 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
   auto args = std::make_shared<CutArguments>();
   CLI::App& command = *program.add_subcommand("cut", "Cut the object that clicks, strokes or a mask point at");
   command.footer("Example: splatcut cut scene.ply --camera-pos 0,-1,-4 --camera-target 0,0,0 --click 512,384 --click 40,40:rest -o cutout");
-  command.add_option("scene", args->scene, "Scene file")->required();
+  command.add_option("scene", args->scene, "Scene file");
   args->camera.add_to(command);
   command.add_option("--click", args->clicks, "Pixel x,y[:object|:rest] of the reference view; may be repeated");
   command.add_option("--seeds", args->seeds, "JSON file with clicks and scribbles");
   command.add_option("--mask", args->mask, "PNG mask of the reference view, white = object");
+  command.add_option("--work", args->work, "Work saved by the window (.splatcut.json): computes all its objects again")->check(CLI::ExistingFile);
   command.add_option("-o,--output", args->output, "Folder to write")->required();
   command.add_option("--preset", args->preset, "fast, default, best or paper");
   command.add_option("--views", args->views, "Orbit views beside the reference")->check(CLI::Range(0, 400));

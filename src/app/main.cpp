@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <new>
 #include <optional>
@@ -20,10 +19,12 @@ constexpr int kCouldNot = 1, kWrongUsage = 2;
 
 // `splatcut` and `splatcut SCENE` mean `splatcut view`.
 void parse(CLI::App& program, int argc, char** argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
-  const bool scene_first = !words.empty() && words[0][0] != '-' && program.get_subcommands([&](const CLI::App* c) { return c->check_name(words[0]); }).empty();
-  if (words.empty() || scene_first) words.insert(words.begin(), "view");
-  std::ranges::reverse(words);  // as CLI11 wants them
+  const std::string first = argc > 1 ? argv[1] : "";
+  const bool known = first.starts_with('-') ||
+                     !program.get_subcommands([&](const CLI::App* c) { return c->check_name(first); }).empty();
+  std::vector<std::string> words;  // from the last to the first, as CLI11 wants them
+  for (int i = argc - 1; i > 0; --i) words.emplace_back(argv[i]);
+  if (!known) words.emplace_back("view");
   program.parse(std::move(words));
 }
 
@@ -46,6 +47,7 @@ int run(int argc, char** argv) {
   add_convert_command(program, common);
   add_make_scene_command(program, common);
   add_eval_command(program, common);
+  add_compare_command(program, common);
   add_view_command(program, common);
   try {
     parse(program, argc, argv);

@@ -3,6 +3,7 @@
 
 #include "app/commands.h"
 #include "app/ui/window.h"
+#include "scene/error.h"
 
 namespace splatcut {
 
@@ -10,10 +11,14 @@ namespace {
 
 struct ViewArguments {
   WindowOptions window;
-  std::string renderer = "auto", size;
+  std::string renderer = "auto";
+  bool check = false;
 };
 
 void run_view(ViewArguments args) {
+  if (const std::string reason = args.check ? why_no_window() : ""; !reason.empty())
+    throw Error("window", "cannot be opened here: " + reason);
+  if (args.check) return;
   args.window.renderer = args.renderer == "gl"    ? RendererChoice::kGl
                          : args.renderer == "cpu" ? RendererChoice::kCpu
                                                   : RendererChoice::kAuto;
@@ -35,6 +40,7 @@ void add_view_command(CLI::App& program, const CommonOptions&) {
       ->check(CLI::Range(0.5, 4.0));
   command.add_option("--width", args->window.width, "Width of the window")->check(CLI::Range(640, 8192));
   command.add_option("--height", args->window.height, "Height of the window")->check(CLI::Range(480, 8192));
+  command.add_flag("--check", args->check, "Only say whether a window can open here (exit code 0 or 1)");
   command.callback([args] { run_view(*args); });
 }
 

@@ -48,7 +48,7 @@ struct ShowFloaters {
   bool shown;  // a preview; EditSelection{kRemoveFloaters} removes them
 };
 struct StepScale {
-  int steps;  // after a click: to larger (+) or smaller (-) parts
+  int steps;  // of the active object's first click: to larger (+) or smaller (-) parts
 };
 struct ClearStrokes {};
 

@@ -32,6 +32,7 @@ struct ObjectItem {
   bool locked = false;
   ObjectId within = 0;  // part of that object: labels outside of it do not count
   std::vector<StrokedView> views;
+  int part_step = 0;                // sizes above or below what the first click chose
   std::vector<int> left_out;        // orbit views that do not count, see ObjectCutInput
   std::optional<float> smoothness;  // the preset's own where not given
   Flags cut;                        // labels from the strokes, 1 = object

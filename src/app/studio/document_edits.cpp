@@ -106,6 +106,7 @@ std::string edit(Document* document, const ClearStrokes&, const EditContext&) {
   if (object.views.empty()) throw Error(object.name, "has no strokes");
   object.views.clear();
   object.left_out.clear();
+  object.part_step = 0;
   object.cut = nullptr;
   object.cut_key.clear();
   return "Strokes of " + object.name + " cleared";
@@ -289,6 +290,15 @@ std::string edit(Document* document, const RestoreDeleted&, const EditContext&) 
   if (!document->deleted) throw Error("restore", "nothing is deleted");
   document->deleted = nullptr;
   return "Deleted Gaussians restored";
+}
+
+std::string edit(Document* document, const StepScale& command, const EditContext&) {
+  if (!document->active_object()) throw Error("parts", "no object is chosen", "Click an object first");
+  ObjectItem& object = unlocked(document, document->active);
+  if (object.views.empty()) throw Error("parts", object.name + " has no clicks", "Click on it first");
+  constexpr int kMostSteps = 40;
+  object.part_step = std::clamp(object.part_step + command.steps, -kMostSteps, kMostSteps);
+  return fmt::format("A {} part", command.steps > 0 ? "larger" : "smaller");
 }
 
 std::string edit(Document* document, const LeaveOutView& command, const EditContext&) {

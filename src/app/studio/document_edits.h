@@ -34,6 +34,7 @@ std::string edit(Document* document, const DuplicateObject& command, const EditC
 std::string edit(Document* document, const SeparateObject& command, const EditContext& context);
 std::string edit(Document* document, const DeleteSelected& command, const EditContext& context);
 std::string edit(Document* document, const RestoreDeleted& command, const EditContext& context);
+std::string edit(Document* document, const StepScale& command, const EditContext& context);
 std::string edit(Document* document, const LeaveOutView& command, const EditContext& context);
 std::string edit(Document* document, const SetSmoothness& command, const EditContext& context);
 std::string edit(Document* document, const SetPreset& command, const EditContext& context);

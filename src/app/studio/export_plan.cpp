@@ -21,12 +21,6 @@ std::uint64_t ply_row_bytes(const Scene& scene) {
   return floats * sizeof(float);
 }
 
-std::string file_name_of(const std::string& object_name) {
-  std::string name;
-  for (const char c : object_name) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
-  return name.empty() ? "object" : name;
-}
-
 void save(const std::filesystem::path& path, const Scene& scene, const std::vector<std::uint8_t>& keep,
           const ExportRequest& request, ExportReport* report) {
   if (count_flags(keep) == 0)
@@ -40,6 +34,12 @@ void save(const std::filesystem::path& path, const Scene& scene, const std::vect
 }
 
 }  // namespace
+
+std::string file_name_of(const std::string& object_name) {
+  std::string name;
+  for (const char c : object_name) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
+  return name.empty() ? "object" : name;
+}
 
 const char* extension_of(SceneFormat format) {
   switch (format) {

@@ -43,6 +43,8 @@ struct ExportReport {
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
                         const ExportRequest& request);
 
+std::string file_name_of(const std::string& object_name);  // letters, digits, - and _
+
 std::string human_bytes(std::uint64_t bytes);  // "4.4 MB"
 
 }  // namespace splatcut

@@ -307,7 +307,12 @@ void Studio::pointer_pressed(const glm::vec2& pixel, PointerButton button, const
   if (scene_) run_all(tools_.press(in_pane(pixel), button, modifiers, tool_context(pixel)));
 }
 
+void Studio::pointer_left() {
+  pointer_inside_ = false;
+}
+
 void Studio::pointer_moved(const glm::vec2& pixel, const Modifiers& modifiers) {
+  pointer_inside_ = true;
   held_modifiers_ = modifiers;
   if (scene_) run_all(tools_.move(in_pane(pixel), modifiers, tool_context(pixel)));
 }

@@ -18,9 +18,9 @@
 #include "app/studio/command.h"
 #include "app/studio/frame_thread.h"
 #include "app/studio/history.h"
+#include "app/studio/opened_scene.h"
 #include "app/studio/pointer_tools.h"
 #include "app/studio/task_thread.h"
-#include "scene/scene_file.h"
 
 namespace splatcut {
 
@@ -30,15 +30,6 @@ struct StudioOptions {
   std::function<void()> wake;          // called from any thread when update() has something to do
   bool inline_tasks = false;           // for tests: tasks run inside apply()
   std::filesystem::path state_folder;  // for the autosave; empty: none is written
-};
-
-struct OpenedScene {
-  std::uint64_t serial = 0;  // differs for every scene opened
-  std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const GaussianCloud> cloud;  // of the scene
-  std::vector<Camera> cameras;                 // of the capture, found beside the file; may be empty
-  std::uint64_t hash = 0;                      // of the file
-  Box bounds;                                  // robust: outliers do not count
 };
 
 struct Message {
@@ -101,6 +92,7 @@ class Studio {
   void key_pressed(int key, const Modifiers& modifiers);
   void key_released(int key);
   void release_keys();  // the window lost the focus
+  void pointer_left();  // the viewport
 
   // Once a frame: results, transitions, requests. True while something moves or waits.
   bool update(double seconds);
@@ -115,7 +107,8 @@ class Studio {
   bool loading() const { return tasks_.busy(TaskKind::kLoad); }
   bool cutting() const { return tasks_.busy(TaskKind::kCut); }
   TaskThread::Progress progress() const { return tasks_.progress(); }
-  bool idle() const;  // no task, no picture on its way, the last picture is full and current
+  bool moving() const;  // the view does, or did a moment ago
+  bool idle() const;    // no task, no picture on its way, the last picture is full and current
   const std::deque<Message>& messages() const { return messages_; }
   double clock_s() const { return clock_s_; }
   const FrameResult* picture() const { return picture_ ? &*picture_ : nullptr; }
@@ -161,7 +154,6 @@ class Studio {
   void perform(const SelectColour& c);
   void perform(const SelectRange& c);
   void perform(const ShowFloaters& c);
-  void perform(const StepScale& c);
   void perform(const Undo&);
   void perform(const Redo&);
   void perform(const JumpHistory& c);
@@ -199,6 +191,7 @@ class Studio {
 
   // studio_view.cpp
   void refresh_style();
+  void refresh_hover();
   void request_picture();
   void take_picture();
   Flight flight() const;
@@ -233,6 +226,10 @@ class Studio {
   std::uint64_t style_version_ = 0, requested_style_ = 0;
   mutable std::map<ObjectId, std::size_t> counts_;
   bool highlight_floaters_ = false;
+  PartView hover_view_;                 // parts in the picture on the screen
+  std::uint64_t hover_picture_ = 0;     // picture_serial_ of hover_view_
+  std::uint32_t hover_leaf_ = kNoPart;  // under the pointer; kNoPart: nothing is outlined
+  bool pointer_inside_ = false;
   std::size_t floater_count_ = 0;
   std::optional<FrameResult> picture_;
   std::uint64_t picture_serial_ = 0, picture_style_ = 0;
@@ -252,12 +249,5 @@ class Studio {
   FrameThread frames_;
   TaskThread tasks_;
 };
-
-// Capture cameras beside a scene: cameras.json, transforms.json or a COLMAP folder in its folder or the two
-// above.
-std::vector<Camera> cameras_near(const std::filesystem::path& scene);
-
-// Up of a capture: what its cameras agree on; (0,-1,0) without any.
-glm::vec3 up_of(const std::vector<Camera>& cameras);
 
 }  // namespace splatcut

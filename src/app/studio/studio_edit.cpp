@@ -62,6 +62,7 @@ struct Titles {
   std::string operator()(const SeparateObject&) const { return "Separate object"; }
   std::string operator()(const DeleteSelected&) const { return "Delete from the scene"; }
   std::string operator()(const RestoreDeleted&) const { return "Restore deleted"; }
+  std::string operator()(const StepScale& c) const { return c.steps > 0 ? "Larger part" : "Smaller part"; }
   std::string operator()(const LeaveOutView& c) const {
     return c.left_out ? "Leave out a view" : "Use a view";
   }
@@ -130,6 +131,7 @@ template void Studio::perform(const DuplicateObject&);
 template void Studio::perform(const SeparateObject&);
 template void Studio::perform(const DeleteSelected&);
 template void Studio::perform(const RestoreDeleted&);
+template void Studio::perform(const StepScale&);
 template void Studio::perform(const LeaveOutView&);
 template void Studio::perform(const SetSmoothness&);
 template void Studio::perform(const SetPreset&);
@@ -224,10 +226,6 @@ void Studio::perform(const ShowFloaters& c) {
   refresh_style();
   say(Message::Kind::kInfo, fmt::format("{} Gaussians float apart from the object{}", floater_count_,
                                         floater_count_ ? ", shown in white" : ""));
-}
-
-void Studio::perform(const StepScale&) {
-  throw Error("parts", "this scene has no parts to step through");
 }
 
 void Studio::perform(const Undo&) {

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 
-#include "app/camera_options.h"
 #include "app/studio/studio.h"
 #include "app/studio/work_file.h"
-#include "scene/camera_file.h"
 #include "scene/error.h"
 #include "scene/rasterizer.h"
 
@@ -60,27 +58,6 @@ ViewCard card_of(const ViewReport& view, Image<Rgba8> picture) {
 
 }  // namespace
 
-std::vector<Camera> cameras_near(const std::filesystem::path& scene) {
-  std::filesystem::path folder = std::filesystem::absolute(scene).parent_path();
-  for (int level = 0; level < 3; ++level) {
-    for (const char* name : {"cameras.json", "transforms.json", "sparse/0"}) {
-      if (!std::filesystem::exists(folder / name)) continue;
-      try {
-        return load_cameras(folder / name);
-      } catch (const Error&) {
-        // A file of that name that holds something else is no reason not to open the scene.
-      }
-    }
-    if (!folder.has_parent_path() || folder == folder.parent_path()) break;
-    folder = folder.parent_path();
-  }
-  return {};
-}
-
-glm::vec3 up_of(const std::vector<Camera>& cameras) {
-  return cameras.empty() ? glm::vec3(0, -1, 0) : common_up(cameras);
-}
-
 void Studio::perform(const OpenScene& c) {
   const std::uint64_t serial = next_scene_serial_++;
   say(Message::Kind::kInfo, "Opening " + c.path.filename().string());
@@ -88,17 +65,11 @@ void Studio::perform(const OpenScene& c) {
   tasks_.submit(TaskKind::kLoad, [this, path = c.path, serial](const Job& job) {
     const bool work = is_work_file(path);
     const std::filesystem::path file = work ? read_work_header(path).scene : path;
-    auto opened_scene = std::make_shared<OpenedScene>();
-    auto scene = std::make_shared<Scene>(load_scene(file, job));
+    const std::shared_ptr<OpenedScene> opened_scene = open_scene(file, job);
     if (job.cancelled()) return;
     opened_scene->serial = serial;
-    opened_scene->cloud = std::shared_ptr<const GaussianCloud>(scene, &scene->cloud);
-    opened_scene->bounds = robust_bounds(scene->cloud.position, 0.9);
-    opened_scene->hash = hash_of_file(file);
-    opened_scene->cameras = cameras_near(file);
     std::optional<Document> document;
-    if (work) document = read_work_file(path, *scene, opened_scene->hash).document;
-    opened_scene->scene = std::move(scene);
+    if (work) document = read_work_file(path, *opened_scene->scene, opened_scene->hash).document;
     tasks_.post([this, opened_scene, document, work_path = work ? path : std::filesystem::path()] {
       opened(opened_scene, document, work_path);
     });
@@ -124,7 +95,7 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
                    ? work_path
                    : std::filesystem::path();
   Document start;
-  start.up_world = up_of(scene->cameras);
+  start.up_world = scene->up_world;
   history_.reset(document ? *document : start, document ? "Open work" : "Open scene");
   camera_.reset(scene->bounds, history_.now().up_world);
   if (!scene->cameras.empty()) {
@@ -141,7 +112,7 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
   if (!scene->cameras.empty()) text += fmt::format(", {} cameras (N, P)", scene->cameras.size());
   say(Message::Kind::kDone, text);
   tasks_.submit(TaskKind::kPrepare, [this, scene](const Job& job) {
-    auto prepared = std::make_shared<const PreparedScene>(prepare_scene(*scene->cloud, job));
+    auto prepared = prepare(*scene, job);
     if (job.cancelled()) return;
     tasks_.post([this, scene, prepared] {
       if (scene == scene_) prepared_ = prepared;

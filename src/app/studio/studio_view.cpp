@@ -88,6 +88,7 @@ void Studio::refresh_style() {
   style_serial_ = document_serial_;
   styled_view_serial_ = view_serial_;
   ++style_version_;
+  hover_leaf_ = kNoPart;  // asked again below
   const std::size_t n = scene_->cloud->size();
   const Document& document = this->document();
   std::vector<std::uint8_t> owner(n, 0), active(n, 0);
@@ -146,10 +147,35 @@ void Studio::refresh_style() {
   }
 }
 
+// Outlines what a click would take, as long as the active object has no strokes yet.
+void Studio::refresh_hover() {
+  const ObjectItem* active = document().active_object();
+  const bool wanted = pointer_inside_ && prepared_ && view_.tool == Tool::kClick && panes() == 1 && !view_.heat &&
+                      !tools_.dragging() && !highlight_floaters_ && (!active || active->views.empty());
+  std::optional<PickedPoint> point;
+  if (wanted && picture_ && picture_->full && same_camera(picture_->frames.front()->camera, viewport_camera()))
+    point = pick(tools_.pointer_px());
+  const std::uint32_t leaf = point ? prepared_->parts.leaf_of[static_cast<std::size_t>(point->gaussian)] : kNoPart;
+  if (leaf == hover_leaf_) return;
+  hover_leaf_ = leaf;
+  ++style_version_;
+  if (leaf == kNoPart) {
+    style_[0].highlight = nullptr;
+    return;
+  }
+  if (hover_picture_ != picture_serial_ || hover_view_.pixels.size() != prepared_->parts.nodes()) {
+    hover_view_ = view_parts(prepared_->parts, picture_->frames.front()->first_hit);
+    hover_picture_ = picture_serial_;
+  }
+  const Pick picked =
+      pick_parts(prepared_->parts, hover_view_, {click(tools_.pointer_px(), SeedLabel::kObject)});
+  style_[0].highlight = make_flags(splatcut::labels_of(prepared_->parts, picked.leaves));
+}
+
 void Studio::request_picture() {
   if (!scene_ || width_px_ == 0) return;
   const Camera full_camera = viewport_camera();
-  const bool still = clock_s_ - last_move_s_ > kStillAfterSeconds;
+  const bool still = !moving();
   if (gpu_view_ && !still) return;
   const float scale = still ? 1.0f : moving_scale_;
   const Camera camera =
@@ -188,10 +214,13 @@ void Studio::take_picture() {
   ++picture_serial_;
 }
 
+bool Studio::moving() const {
+  return clock_s_ - last_move_s_ <= kStillAfterSeconds;
+}
+
 bool Studio::idle() const {
   return tasks_.idle() && frames_.idle() &&
-         (!scene_ || (picture_ && picture_->full && requested_full_ && requested_style_ == style_version_ &&
-                      clock_s_ - last_move_s_ > kStillAfterSeconds));
+         (!scene_ || (picture_ && picture_->full && requested_full_ && requested_style_ == style_version_ && !moving()));
 }
 
 bool Studio::update(double seconds) {
@@ -214,6 +243,7 @@ bool Studio::update(double seconds) {
   schedule_cut();
   request_likelihood();
   refresh_style();
+  refresh_hover();
   request_picture();
   take_picture();
   autosave(seconds);

@@ -133,6 +133,7 @@ json object_json(const Document& document, const ObjectItem& o, const Scene& sce
               {"locked", o.locked},
               {"within", o.within},
               {"views", views},
+              {"part_step", o.part_step},
               {"left_out", o.left_out},
               {"cut", runs_json(o.cut, scene)},
               {"cut_is_current", o.cut != nullptr && !is_stale(document, o)},
@@ -149,8 +150,10 @@ ObjectItem object_from(const json& j, const Scene& scene) {
   o.visible = j.value("visible", true);
   o.locked = j.value("locked", false);
   o.within = j.value("within", 0u);
+  if (o.within >= o.id) throw Error("object", "\"" + o.name + "\" cannot be a part of a later one");
   for (const json& view : j.at("views"))
     o.views.push_back({camera_from(view.at("camera")), strokes_from(view.at("strokes"))});
+  o.part_step = j.value("part_step", 0);
   o.left_out = j.value("left_out", std::vector<int>{});
   if (j.contains("smoothness")) o.smoothness = j.at("smoothness").get<float>();
   o.cut = flags_from(j.value("cut", json()), scene, 1);

@@ -70,6 +70,8 @@ void Application::handle_one(const PointerMoved& event) {
   set_modifiers(event.modifiers);
   if (dragging_picture_ || interface_.picture_at(pointer_, studio_))
     studio_.pointer_moved(in_viewport_px(pointer_), event.modifiers);
+  else
+    studio_.pointer_left();
 }
 
 void Application::handle_one(const PointerButtonChanged& event) {

@@ -160,6 +160,7 @@ std::string title_of(const Studio& studio) {
 
 void run_loop(Loop& loop) {
   constexpr double kAfterEventSeconds = 0.3, kIdleSeconds = 0.5, kMovingSeconds = 0.004;
+  constexpr double kWorkingSeconds = 0.05;  // software OpenGL would take the cores that the work needs
   double before = glfwGetTime();
   std::string title;
   while (!loop.app.wants_to_close()) {
@@ -175,7 +176,8 @@ void run_loop(Loop& loop) {
       glfwSetWindowTitle(loop.window, (title = wanted).c_str());
     glfwSwapBuffers(loop.window);
     const bool fresh = glfwGetTime() - loop.last_event_s < kAfterEventSeconds;
-    glfwWaitEventsTimeout(busy || fresh ? kMovingSeconds : kIdleSeconds);
+    const bool moving = fresh || loop.app.studio().moving();
+    glfwWaitEventsTimeout(moving ? kMovingSeconds : busy ? kWorkingSeconds : kIdleSeconds);
   }
 }
 

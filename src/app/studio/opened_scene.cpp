@@ -1,0 +1,50 @@
+#include "app/studio/opened_scene.h"
+
+#include "app/camera_options.h"
+#include "app/studio/camera_controller.h"
+#include "app/studio/work_file.h"
+#include "scene/camera_file.h"
+#include "scene/error.h"
+
+namespace splatcut {
+
+std::vector<Camera> cameras_near(const std::filesystem::path& scene) {
+  std::filesystem::path folder = std::filesystem::absolute(scene).parent_path();
+  for (int level = 0; level < 3; ++level) {
+    for (const char* name : {"cameras.json", "transforms.json", "sparse/0"}) {
+      if (!std::filesystem::exists(folder / name)) continue;
+      try {
+        return load_cameras(folder / name);
+      } catch (const Error&) {
+        // A file of that name that holds something else is no reason not to open the scene.
+      }
+    }
+    if (!folder.has_parent_path() || folder == folder.parent_path()) break;
+    folder = folder.parent_path();
+  }
+  return {};
+}
+
+std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const Job& job) {
+  auto opened = std::make_shared<OpenedScene>();
+  auto scene = std::make_shared<Scene>(load_scene(file, job));
+  if (job.cancelled()) return opened;
+  opened->cloud = std::shared_ptr<const GaussianCloud>(scene, &scene->cloud);
+  opened->bounds = robust_bounds(scene->cloud.position, 0.9);
+  opened->hash = hash_of_file(file);
+  opened->cameras = cameras_near(file);
+  if (!opened->cameras.empty()) opened->up_world = common_up(opened->cameras);
+  opened->scene = std::move(scene);
+  return opened;
+}
+
+std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job& job) {
+  constexpr int kWidth = 640, kHeight = 480;
+  CameraController start;
+  start.reset(scene.bounds, scene.up_world);
+  const Camera reference = scene.cameras.empty() ? start.camera(kWidth, kHeight) : scene.cameras.front();
+  return std::make_shared<const PreparedScene>(
+      prepare_scene(*scene.cloud, reference, scene.up_world, scene.cameras, {}, job));
+}
+
+}  // namespace splatcut

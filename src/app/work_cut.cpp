@@ -1,0 +1,87 @@
+#include "app/work_cut.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/console.h"
+#include "app/output_folder.h"
+#include "app/studio/export_plan.h"
+#include "app/studio/work_file.h"
+#include "scene/atomic_file.h"
+#include "scene/error.h"
+
+namespace splatcut {
+
+namespace {
+
+void write_labels(const std::filesystem::path& path, const Scene& scene,
+                  const std::vector<std::uint8_t>& labels) {
+  std::vector<std::uint8_t> in_file_order(scene.file_rows, 0);
+  for (std::size_t g = 0; g < labels.size(); ++g) in_file_order[scene.cloud.file_row[g]] = labels[g] ? 1 : 0;
+  AtomicFile file(path);
+  file.write(std::as_bytes(std::span(in_file_order)));
+  file.commit();
+}
+
+// Two objects of one name get numbers.
+std::string free_file_name(const nlohmann::json& written, const ObjectItem& object) {
+  const std::string name = file_name_of(object.name);
+  for (const auto& entry : written)
+    if (entry.at("file") == name + ".ply") return fmt::format("{}_{}", name, object.id);
+  return name;
+}
+
+}  // namespace
+
+Document computed_again(const OpenedScene& scene, Document document, const Job& job) {
+  const auto prepared = prepare(scene, job);
+  for (ObjectItem& object : document.objects) {
+    if (object.views.empty() || job.cancelled()) continue;
+    const ObjectCutInput input = cut_input(document, object);
+    ObjectCutter cutter(scene.cloud, prepared);
+    ObjectCutReport report = cutter.cut(input, {}, job);
+    if (report.outcome == Outcome::kNothingFound)
+      throw Error(object.name, "is not found again: " + report.reason);
+    object.cut = make_flags(std::move(report.labels));
+    object.cut_key = key_of(input);
+  }
+  return document;
+}
+
+void run_work_cut(const WorkCutOptions& options) {
+  OutputFolder folder(options.output, options.overwrite);
+  const Job job = console_job(options.quiet);
+  const auto scene = open_scene(read_work_header(options.work).scene, job);
+  if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
+  const Document document =
+      computed_again(*scene, read_work_file(options.work, *scene->scene, scene->hash).document, job);
+  end_progress();
+  if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
+  nlohmann::json objects = nlohmann::json::array();
+  for (const ObjectItem& object : document.objects) {
+    const std::vector<std::uint8_t> labels = labels_of(document, object, scene->cloud->size());
+    const std::size_t gaussians = count_flags(labels);
+    if (gaussians == 0) continue;
+    const std::string name = free_file_name(objects, object);
+    save_scene(folder.file(name + ".ply"), *scene->scene, labels, SceneFormat::kPly);
+    write_labels(folder.file(name + ".labels.u8"), *scene->scene, labels);
+    objects.push_back({{"name", object.name},
+                       {"file", name + ".ply"},
+                       {"labels", name + ".labels.u8"},
+                       {"gaussians", gaussians}});
+  }
+  if (objects.empty()) throw Error(options.work.string(), "holds no object with any Gaussians");
+  const nlohmann::json report = {{"work", options.work.string()},
+                                 {"scene", scene->scene->path.string()},
+                                 {"preset", document.preset},
+                                 {"objects", objects}};
+  write_text_file(folder.file("report.json"), report.dump(2) + "\n");
+  folder.commit();
+  if (options.json) fmt::print("{}\n", report.dump(2));
+  if (options.quiet || options.json) return;
+  for (const auto& o : objects)
+    fmt::print("{}: {} Gaussians\n", o["name"].get<std::string>(), o["gaussians"].get<std::size_t>());
+}
+
+}  // namespace splatcut

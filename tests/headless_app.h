@@ -1,0 +1,149 @@
+// The whole program over Mesa's software rasteriser in memory, driven by the events a window would send.
+#pragma once
+
+#include <unistd.h>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include "app/ui/application.h"
+#include "render/context.h"
+#include "render/gl_objects.h"
+#include "render/read_back.h"
+#include "scene/camera_file.h"
+
+namespace splatcut::testing {
+
+inline const std::filesystem::path kSampleFolder = SPLATCUT_SOURCE_DIR "/assets/sample";
+inline const std::filesystem::path kSample = kSampleFolder / "sample.compressed.ply";
+
+// Goes with everything in it.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(const std::string& name)
+      : path_(std::filesystem::temp_directory_path() /
+              ("splatcut_" + name + "_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() { std::filesystem::remove_all(path_); }
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+class HeadlessApp {
+ public:
+  explicit HeadlessApp(int width = 1040, int height = 600, float pixels_per_point = 1,
+                       ApplicationOptions options = {})
+      : context_(make_osmesa_context()), app_(with_target(width, height, std::move(options))) {
+    app_.resize(glm::vec2(width, height) / pixels_per_point, pixels_per_point);
+    app_.interface().state().steady = true;
+  }
+
+  Application& operator*() { return app_; }
+  Application* operator->() { return &app_; }
+  Studio& studio() { return app_.studio(); }
+
+  void open(const std::filesystem::path& scene) { app_.handle(FileDropped{scene}); }
+  // Nothing moves or runs afterwards.
+  bool settle(double most_seconds = 300) { return app_.settle(most_seconds); }
+  void frames(int count) {
+    for (int i = 0; i < count; ++i) app_.frame(1.0 / 60);
+  }
+  // The message on the screen goes.
+  void wait_for_message_to_go() {
+    app_.frame(10);
+    frames(2);
+  }
+
+  void move(const glm::vec2& point, const Modifiers& modifiers = {}) {
+    app_.handle(PointerMoved{point, modifiers});
+  }
+  void press(PointerButton button, const Modifiers& modifiers = {}) {
+    app_.handle(PointerButtonChanged{button, true, modifiers});
+  }
+  void release(PointerButton button, const Modifiers& modifiers = {}) {
+    app_.handle(PointerButtonChanged{button, false, modifiers});
+  }
+  void click(const glm::vec2& point, PointerButton button = PointerButton::kLeft,
+             const Modifiers& modifiers = {}) {
+    move(point, modifiers);
+    press(button, modifiers);
+    release(button, modifiers);
+    app_.frame(0.5);  // no double-click with the next
+  }
+  void drag(std::initializer_list<glm::vec2> path, PointerButton button = PointerButton::kLeft) {
+    move(*path.begin());
+    press(button);
+    for (const glm::vec2& p : path) {
+      move(p);
+      app_.frame(1.0 / 60);
+    }
+    release(button);
+    app_.frame(0.5);
+  }
+  void key(int code, const Modifiers& modifiers = {}) {
+    app_.handle(KeyChanged{code, true, false, modifiers});
+    app_.frame(1.0 / 60);
+    app_.handle(KeyChanged{code, false, false, modifiers});
+    app_.frame(1.0 / 60);
+  }
+
+  // Where a pixel of the sample's camera 0 is on the screen while the view stands there.
+  glm::vec2 screen_of(const glm::vec2& pixel) {
+    const Camera given = load_cameras(kSampleFolder / "cameras.json").front();
+    const Camera shown = studio().viewport_camera();
+    const float factor = shown.fy_px / given.fy_px;
+    const glm::vec2 at =
+        (pixel - glm::vec2(given.cx_px, given.cy_px)) * factor + glm::vec2(shown.cx_px, shown.cy_px);
+    return app_.interface().viewport().min + at;
+  }
+
+  Image<Rgb8> picture() {
+    target_.bind();
+    return read_back_rgb8(target_.width(), target_.height(), true);
+  }
+
+ private:
+  ApplicationOptions with_target(int width, int height, ApplicationOptions options) {
+    const GLenum formats[] = {GL_RGBA8};
+    target_.resize(width, height, formats);
+    target_.bind();
+    return options;
+  }
+
+  std::unique_ptr<OffscreenContext> context_;
+  RenderTarget target_;
+  Application app_;
+};
+
+// True object numbers of the sample, per Gaussian of the cloud.
+inline std::vector<std::uint8_t> sample_truth(const Scene& scene, std::uint8_t object) {
+  std::ifstream in(kSampleFolder / "sample.labels.u8", std::ios::binary);
+  const std::vector<char> rows{std::istreambuf_iterator<char>(in), {}};
+  std::vector<std::uint8_t> truth(scene.cloud.size());
+  for (std::size_t g = 0; g < truth.size(); ++g)
+    truth[g] = static_cast<std::uint8_t>(rows.at(scene.cloud.file_row[g])) == object;
+  return truth;
+}
+
+inline double iou_of(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  std::size_t both = 0, any = 0;
+  for (std::size_t g = 0; g < a.size(); ++g) {
+    both += a[g] && b[g];
+    any += a[g] || b[g];
+  }
+  return any ? static_cast<double>(both) / static_cast<double>(any) : 1.0;
+}
+
+inline constexpr std::uint8_t kMug = 1, kApple = 2, kOrange = 3;  // of sample.labels.u8
+inline constexpr glm::vec2 kOnApple{670, 490}, kOnOrange{786, 460}, kOnMug{498, 450};
+
+}  // namespace splatcut::testing

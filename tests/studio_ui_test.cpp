@@ -1,0 +1,185 @@
+// The program driven by pointer and keys, without a window.
+#include <doctest/doctest.h>
+
+#include "app/studio/work_file.h"
+#include "app/work_cut.h"
+#include "headless_app.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+HeadlessApp& opened(HeadlessApp& app) {
+  app.open(kSample);
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().scene());
+  return app;
+}
+
+std::vector<std::uint8_t> active_labels(HeadlessApp& app) {
+  return app.studio().labels(app.studio().document().active);
+}
+
+}  // namespace
+
+TEST_CASE("a click on the apple cuts out the apple; strokes, undo and redo give the same bytes") {
+  HeadlessApp app;
+  opened(app);
+  std::vector<std::string> states{bytes_of(app.studio().document())};
+  app.click(app.screen_of(kOnApple));
+  REQUIRE(app.settle());
+  const Scene& scene = *app.studio().scene()->scene;
+  const double first = iou_of(active_labels(app), sample_truth(scene, kApple));
+  MESSAGE("apple, one click: IoU " << first);
+  CHECK(first > 0.9);
+  CHECK_FALSE(app.studio().cut_run(app.studio().document().active)->views.empty());
+  states.push_back(bytes_of(app.studio().document()));
+
+  app.key('3');
+  const glm::vec2 at = app.screen_of(kOnApple);
+  app.drag({at, at + glm::vec2(6, 6), at + glm::vec2(12, 4)});
+  REQUIRE(app.settle());
+  states.push_back(bytes_of(app.studio().document()));
+  CHECK(app.studio().document().active_object()->views.front().strokes.size() == 2);
+  app.key('=');  // grow, by hand
+  states.push_back(bytes_of(app.studio().document()));
+  REQUIRE(states.back() != states[2]);
+
+  for (std::size_t i = states.size(); i-- > 1;) {
+    app.key('Z', {.ctrl = true});
+    REQUIRE(app.settle());
+    CHECK(bytes_of(app.studio().document()) == states[i - 1]);
+  }
+  CHECK_FALSE(app.studio().history().can_undo());
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    app.key('Z', {.shift = true, .ctrl = true});
+    REQUIRE(app.settle());
+    CHECK(bytes_of(app.studio().document()) == states[i]);
+  }
+  CHECK_FALSE(app.studio().history().can_redo());
+}
+
+TEST_CASE("two objects: a right click takes away, the wheel steps through parts, hovering outlines") {
+  HeadlessApp app;
+  opened(app);
+  app.move(app.screen_of(kOnMug));
+  REQUIRE(app.settle());
+  const Flags outlined = app.studio().style(0).highlight;
+  REQUIRE(outlined);
+  const Scene& scene = *app.studio().scene()->scene;
+  CHECK(iou_of(*outlined, sample_truth(scene, kMug)) > 0.3);
+  app.click(app.screen_of(kOnMug));
+  REQUIRE(app.settle());
+  const std::size_t before = count_flags(active_labels(app));
+  app->handle(WheelTurned{-1, {}});
+  REQUIRE(app.settle());
+  const std::size_t smaller = count_flags(active_labels(app));
+  MESSAGE("mug: IoU " << iou_of(active_labels(app), sample_truth(scene, kMug))
+                      << " after a step down; Gaussians " << before << " -> " << smaller);
+  CHECK(smaller < before);
+  app.key('Z', {.ctrl = true});
+  REQUIRE(app.settle());
+  CHECK(count_flags(active_labels(app)) == before);
+
+  app.key('N', {.ctrl = true});
+  app.click(app.screen_of(kOnOrange));
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().document().objects.size() == 2);
+  CHECK(iou_of(active_labels(app), sample_truth(scene, kOrange)) > 0.9);
+  const std::size_t orange = count_flags(active_labels(app));
+  app.click(app.screen_of(kOnOrange) + glm::vec2(8, 8), PointerButton::kRight);
+  REQUIRE(app.settle());
+  CHECK(count_flags(active_labels(app)) < orange);
+}
+
+TEST_CASE("cancel: in every stage the strokes stay, nothing half done is left, and R computes again") {
+  HeadlessApp app;
+  opened(app);
+  const glm::vec2 apple = app.screen_of(kOnApple);
+  std::set<std::string> seen;
+  for (int round = 0; round < 6; ++round) {
+    app.click(apple);
+    for (int i = 0; i < 4000 && (!app.studio().cutting() || seen.contains(app.studio().progress().stage));
+         ++i) {
+      app.frames(1);
+      if (!app.studio().cutting() && i > 100 && app.studio().document().active_object()->cut) break;
+    }
+    seen.insert(app.studio().progress().stage);
+    const bool was_cutting = app.studio().cutting();
+    app.key(key::kEscape);
+    REQUIRE(app.settle());
+    const ObjectItem& object = *app.studio().document().active_object();
+    CHECK(object.views.front().strokes.size() == 1);
+    if (was_cutting && !object.cut) {
+      CHECK(count_flags(active_labels(app)) == 0);
+      CHECK_FALSE(app.studio().cut_run(object.id)->running);
+    }
+    while (app.studio().history().can_undo()) app.studio().apply(Undo{});
+    app.studio().apply(SetView{});
+    REQUIRE(app.settle());
+  }
+  CHECK(seen.size() > 1);
+  app.click(apple);
+  app.frames(1);
+  app.key(key::kEscape);
+  REQUIRE(app.settle());
+  app.key('R');
+  REQUIRE(app.settle());
+  CHECK(iou_of(active_labels(app), sample_truth(*app.studio().scene()->scene, kApple)) > 0.9);
+}
+
+TEST_CASE("saved work: read back the same, and computed again bit for bit") {
+  const ScratchFolder folder("work");
+  HeadlessApp app;
+  opened(app);
+  app.click(app.screen_of(kOnApple));
+  REQUIRE(app.settle());
+  app.key('=');
+  app.studio().apply(SetSmoothness{app.studio().document().active, 3.5f});
+  REQUIRE(app.settle());
+  const auto file = folder / "apple.splatcut.json";
+  app.studio().apply(SaveWork{file});
+  REQUIRE(std::filesystem::exists(file));
+  CHECK_FALSE(app.studio().unsaved());
+  const auto labels = active_labels(app);
+  const std::string bytes = bytes_of(app.studio().document());
+
+  const auto scene = open_scene(read_work_header(file).scene);
+  const Document read = read_work_file(file, *scene->scene, scene->hash).document;
+  CHECK(bytes_of(read) == bytes);
+  Document empty = read;
+  for (ObjectItem& object : empty.objects) object.cut = nullptr;
+  const Document again = computed_again(*scene, empty);
+  CHECK(labels_of(again, *again.active_object(), labels.size()) == labels);
+  CHECK(bytes_of(again) == bytes);
+
+  app.open(file);  // and the window opens it
+  REQUIRE(app.settle());
+  CHECK(bytes_of(app.studio().document()) == bytes);
+}
+
+TEST_CASE("work is saved by itself and offered after a crash") {
+  const ScratchFolder folder("state");
+  std::string bytes;
+  {
+    ApplicationOptions options;
+    options.studio.state_folder = folder.path();
+    HeadlessApp app(1040, 600, 1, options);
+    CHECK_FALSE(app.studio().autosave_found());
+    opened(app);
+    app.click(app.screen_of(kOnApple));
+    REQUIRE(app.settle());
+    app.frames(60 * 3);
+    REQUIRE(app.settle());
+    bytes = bytes_of(app.studio().document());
+  }  // no leave(): as if it had crashed
+  REQUIRE(std::filesystem::exists(folder / "autosave.splatcut.json"));
+  ApplicationOptions options;
+  options.studio.state_folder = folder.path();
+  HeadlessApp app(1040, 600, 1, options);
+  CHECK(app.studio().autosave_found());
+  app.studio().apply(RestoreAutosave{});
+  REQUIRE(app.settle());
+  CHECK(bytes_of(app.studio().document()) == bytes);
+}
