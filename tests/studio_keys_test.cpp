@@ -159,16 +159,16 @@ void arrange(HeadlessApp& app, Action action) {
   Studio& s = app.studio();
   if (action == Action::kRedo) s.apply(Undo{});
   if (action == Action::kPartLarger || action == Action::kPartSmaller) {
-    s.apply(JumpHistory{0});
+    s.apply(JumpHistory{1});
     app.click(app.screen_of(kOnApple));
   }
   if (action == Action::kShowAll) s.run(Action::kIsolate);
   if (action == Action::kConfirm) {
     s.run(Action::kToolPolygon);
     const UiRect view = app->interface().viewport();
-    app.click(view.min + glm::vec2(40, 300));
-    app.click(view.min + glm::vec2(160, 300));
-    app.click(view.min + glm::vec2(100, 420));
+    app.click(view.min + glm::vec2(40, 120));
+    app.click(view.min + glm::vec2(160, 120));
+    app.click(view.min + glm::vec2(100, 200));
   }
   app.frames(2);
 }
@@ -176,15 +176,16 @@ void arrange(HeadlessApp& app, Action action) {
 }  // namespace
 
 TEST_CASE("every key of the F1 page does what the page says") {
-  HeadlessApp app;
+  HeadlessApp app(760, 420);
   app.open(kSample);
   REQUIRE(app.settle());
+  app.studio().apply(SetPreset{"fast"});
   app.click(app.screen_of(kOnApple));
   REQUIRE(app.settle());
   for (const Binding& binding : key_bindings()) {
     const Check& check = kChecks.at(binding.action);  // a key without a check is a gap
     Studio& s = app.studio();
-    s.apply(JumpHistory{1});  // the apple's click, its cutout computed
+    s.apply(JumpHistory{2});  // the apple's click, its cutout computed
     s.apply(SetView{});
     s.apply(ShowFloaters{false});
     s.camera().go_to(s.scene()->cameras.front());

@@ -162,6 +162,7 @@ const PipelineReport& ObjectCutter::first_cut(const ObjectCutInput& input, const
   *fresh = !first_ || key != first_key_;
   if (!*fresh) return *first_;
   first_.reset();
+  job.progress("first mask", 0);
   PipelineOptions options = preset(input.preset);
   options.on_snapshot = on_snapshot;
   options.pick.scale_steps = input.part_step;
@@ -231,6 +232,7 @@ ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& o
     out.outcome = Outcome::kCancelled;
     return out;
   }
+  job.progress("cut", 0.9);
   MaskedSums sums = *sums_;
   auto used = std::ranges::count_if(out.views, [](const ViewReport& v) { return v.used; });
   const auto first_used = used;

@@ -32,7 +32,11 @@ float Studio::near_plane() const {
 }
 
 Camera Studio::viewport_camera() const {
-  return camera_.camera(std::max(1, width_px_ / panes()), std::max(1, height_px_));
+  Camera camera = camera_.camera(std::max(1, width_px_ / panes()), std::max(1, height_px_));
+  // Half a viewport shows as much from left to right as the whole.
+  camera.fx_px /= static_cast<float>(panes());
+  camera.fy_px /= static_cast<float>(panes());
+  return camera;
 }
 
 Camera Studio::pane_camera() const {

@@ -186,7 +186,7 @@ bool Application::settle(double most_seconds) {
     frame(1.0 / 60);
     quiet = studio_.idle() ? quiet + 1 : 0;
     if (quiet >= 3) return true;
-    if (quiet == 0) std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    if (quiet == 0) std::this_thread::sleep_for(std::chrono::milliseconds(25));  // the work needs the cores
   }
   return false;
 }

@@ -170,9 +170,10 @@ void help_page(UiContext& ui) {
       ImGui::PopFont();
       rows += 2;
     }
+    constexpr float kKeysWidth = 132;
     const float left = ImGui::GetCursorPosX();
     ImGui::TextUnformatted(keys_of(b.action).c_str());
-    ImGui::SameLine(left + 116);
+    ImGui::SameLine(kKeysWidth);
     ImGui::PushTextWrapPos(left + ImGui::GetColumnWidth() - 24);
     muted_text(ui, b.what);
     ImGui::PopTextWrapPos();

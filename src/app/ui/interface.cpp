@@ -136,7 +136,7 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
               [&] { top_bar(ui); });
   fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatus}}, p,
-              ImGuiWindowFlags_NoScrollWithMouse, {8, 8}, [&] { tool_column(ui); });
+              kFixed | ImGuiWindowFlags_NoScrollWithMouse, {8, 8}, [&] { tool_column(ui); });
   fixed_panel("side", {{size.x - kSideWidth, kTopHeight}, {size.x, size.y - kStatus}}, p, kFixed, {12, 8},
               [&] {
                 ImGui::BeginChild("scroll", {0, 0});

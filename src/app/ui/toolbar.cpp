@@ -160,12 +160,13 @@ void tool_column(UiContext& ui) {
     const std::string reason = ui.studio.why_not(kToolActions[i]);
     const std::string tip = tip_of(kToolActions[i]) + "\n" + kToolHints[i];
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 3});
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0);
     ImGui::BeginDisabled(!reason.empty());
     if (on) ImGui::PushStyleColor(ImGuiCol_Button, ui.theme.colour.accent);
     const bool pressed = ImGui::Button("##tool", {kSide, kSide});
     ImGui::PopStyleColor();
     ImGui::EndDisabled();
-    ImGui::PopStyleVar();
+    ImGui::PopStyleVar(2);
     ImGui::PopID();
     if (pressed) ui.ask(kToolActions[i]);
     tooltip(reason.empty() ? tip : tip + "\n" + reason);

@@ -54,14 +54,12 @@ void draw_strokes(const UiContext& ui, ImDrawList& list, const Placement& place)
   if (!object) return;
   const Camera now = ui.studio.viewport_camera();
   for (const StrokedView& view : object->views) {
-    const float factor = static_cast<float>(now.height_px) / static_cast<float>(view.camera.height_px);
+    if (view.camera.camera_from_world_rotation != now.camera_from_world_rotation ||
+        view.camera.camera_from_world_translation != now.camera_from_world_translation)
+      continue;
+    const float factor = now.fy_px / view.camera.fy_px;
     const glm::vec2 shift =
         glm::vec2(now.cx_px, now.cy_px) - factor * glm::vec2(view.camera.cx_px, view.camera.cy_px);
-    Camera there = now;
-    there.camera_from_world_rotation = view.camera.camera_from_world_rotation;
-    there.camera_from_world_translation = view.camera.camera_from_world_translation;
-    if (!same_camera(there, now) || std::abs(view.camera.fy_px * factor - now.fy_px) > 0.01f * now.fy_px)
-      continue;
     for (const Stroke& stroke : view.strokes) {
       const bool is_object = stroke.label == SeedLabel::kObject;
       const Placement shifted{place.origin + shift * place.points_per_pixel, place.points_per_pixel};

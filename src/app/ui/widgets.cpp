@@ -69,8 +69,9 @@ bool section(UiContext& ui, const char* title, bool open) {
   ImGui::PushFont(ui.theme.strong);
   ImGui::PushStyleColor(ImGuiCol_Header, {0, 0, 0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2, 5});
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0);
   const bool is_open = ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
   ImGui::PopStyleColor();
   ImGui::PopFont();
   return is_open;
