@@ -103,6 +103,9 @@ void Studio::push(std::string title, Document after, std::string merge_key, cons
     return;
   }
   history_.push(std::move(title), std::move(after), std::move(merge_key));
+  // Asking again for what was cancelled means that it is wanted now.
+  if (const ObjectItem* active = document().active_object())
+    given_up_.erase(key_of(cut_input(document(), *active)));
   document_changed();
   say(Message::Kind::kDone, message);
 }

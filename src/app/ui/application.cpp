@@ -141,7 +141,12 @@ void Application::remember_recent() {
 }
 
 bool Application::frame(double seconds) {
-  const auto start = std::chrono::steady_clock::now();
+  FrameTimes times;
+  auto before = std::chrono::steady_clock::now();
+  const auto lap = [&before] {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double, std::milli>(now - std::exchange(before, now)).count();
+  };
   clock_s_ += seconds;
   interface_.make_current();
   const glm::vec2 view_px = interface_.viewport().size() * pixels_per_point_;
@@ -149,34 +154,43 @@ bool Application::frame(double seconds) {
                        pixels_per_point_);
   const bool busy = studio_.update(seconds);
   remember_recent();
-  if (studio_.overlay().cuts && !studio_.document().objects.empty()) interface_.state().hint_wanted = false;
+  if (!studio_.document().objects.empty()) interface_.state().hint_wanted = false;
   for (const UiRequest request : studio_.take_ui_requests()) interface_.show(request, studio_, &renderer_);
+  times.update = lap();
+  Requests ask;
+  build_interface(seconds, &ask);
+  times.interface = lap();
+  draw_interface();
+  times.draw = lap();
+  for (const Action action : ask.actions) studio_.run(action);
+  for (const Command& command : ask.commands) studio_.apply(command);
+  times.requests = lap();
+  if (times.total() > longest_.total()) longest_ = times;
+  return busy || !ask.actions.empty() || !ask.commands.empty();
+}
+
+void Application::build_interface(double seconds, Requests* ask) {
   // A press and release between two frames is a click, too.
   for (int i = 0; i < 3; ++i)
     ImGui::GetIO().MouseDown[i] = std::exchange(pressed_since_frame_[i], false) || button_down_[i];
-
-  GLint target = 0;
-  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
   ImTextureID gpu_pictures[2] = {};
   if (gpu_) {
+    GLint target = 0;  // drawing splats binds others
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
     const auto textures = gpu_->draw(studio_);
     for (std::size_t i = 0; i < 2; ++i) gpu_pictures[i] = texture_id(textures[i]);
+    glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
   }
-  Requests ask;
-  interface_.build(studio_, seconds, &renderer_, gpu_pictures, &ask);
-  glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
+  interface_.build(studio_, seconds, &renderer_, gpu_pictures, ask);
+}
+
+void Application::draw_interface() {
   glDisable(GL_SCISSOR_TEST);
   const ImVec4& back = interface_.theme().colour.panel_low;
   glClearColor(back.x, back.y, back.z, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   renderer_.draw(*ImGui::GetDrawData());
   renderer_.end_frame();
-  for (const Action action : ask.actions) studio_.run(action);
-  for (const Command& command : ask.commands) studio_.apply(command);
-  longest_ms_ =
-      std::max(longest_ms_,
-               std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-  return busy || !ask.actions.empty() || !ask.commands.empty();
 }
 
 bool Application::settle(double most_seconds) {
@@ -184,6 +198,7 @@ bool Application::settle(double most_seconds) {
   int quiet = 0;
   while (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < most_seconds) {
     frame(1.0 / 60);
+    glFinish();  // software OpenGL would queue frames faster than it draws them
     quiet = studio_.idle() ? quiet + 1 : 0;
     if (quiet >= 3) return true;
     if (quiet == 0) std::this_thread::sleep_for(std::chrono::milliseconds(25));  // the work needs the cores

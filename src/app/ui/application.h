@@ -22,6 +22,12 @@ struct ApplicationOptions {
   std::filesystem::path sample;  // offered on the start page; empty: none
 };
 
+// Milliseconds of one frame on the main thread.
+struct FrameTimes {
+  double update = 0, interface = 0, draw = 0, requests = 0;
+  double total() const { return update + interface + draw + requests; }
+};
+
 class Application {
  public:
   explicit Application(ApplicationOptions options);
@@ -38,9 +44,8 @@ class Application {
 
   Studio& studio() { return studio_; }
   Interface& interface() { return interface_; }
-  // Longest time update and interface took in one frame since the last call, ms: what a user feels as a
-  // block.
-  double take_longest_ms() { return std::exchange(longest_ms_, 0.0); }
+  // The longest frame since the last call: what a user feels as a block.
+  FrameTimes take_longest() { return std::exchange(longest_, FrameTimes()); }
 
  private:
   void handle_one(const PointerMoved& event);
@@ -54,6 +59,8 @@ class Application {
   void set_modifiers(const Modifiers& modifiers);
   void choose_renderer(RendererChoice choice);
   void remember_recent();
+  void build_interface(double seconds, Requests* ask);
+  void draw_interface();
 
   Studio studio_;
   Interface interface_;
@@ -68,7 +75,7 @@ class Application {
   double clock_s_ = 0, last_click_s_ = -1;
   glm::vec2 last_click_{0};
   std::uint64_t recent_scene_ = 0;
-  double longest_ms_ = 0;
+  FrameTimes longest_;
 };
 
 }  // namespace splatcut
