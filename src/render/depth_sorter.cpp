@@ -16,7 +16,9 @@ DepthOrder depth_order(std::shared_ptr<const GaussianCloud> cloud, const Camera&
     if (z > 0)
       items.push_back({std::bit_cast<std::uint32_t>(z), g});  // positive floats order like their bits
   }
-  radix_sort(items, scratch, 32);
+  scratch.resize(items.size());
+  constexpr int kDigitBits = 11, kKeyBits = 32;
+  radix_sort<kDigitBits>(std::span(items), std::span(scratch), 0, kKeyBits);
   DepthOrder order{std::move(cloud), std::vector<std::uint32_t>(items.size())};
   for (std::size_t i = 0; i < items.size(); ++i) order.back_to_front[i] = items[items.size() - 1 - i].value;
   return order;

@@ -199,6 +199,9 @@ ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& o
   out.reason = first.reason;
   out.labels = first.labels;
   out.views = first.views;
+  out.sizes = first.first_sizes;
+  out.size = first.first_size;
+  out.ambiguous = first.ambiguous;
   if (fresh) out.stages = first.stages;
   const auto settings = preset(input.preset);
   const float smoothness = input.smoothness.value_or(settings.cut.energy.lambda);

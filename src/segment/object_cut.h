@@ -44,6 +44,8 @@ struct ObjectCutReport {
   std::string reason;                // for kNothingFound
   std::vector<std::uint8_t> labels;  // per Gaussian, 1 = object
   std::vector<ViewReport> views;     // the reference, orbit views, then the other stroked views
+  std::size_t sizes = 0, size = 0;   // that the first click can mean, from small to large; the one taken
+  bool ambiguous = false;            // another size was nearly as likely
   std::vector<StageTime> stages;     // what was done this time; kept steps cost nothing and are not listed
 };
 

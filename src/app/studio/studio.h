@@ -59,6 +59,8 @@ struct CutRun {
   Outcome outcome = Outcome::kDone;
   std::string reason;
   double started_s = 0, first_mask_ms = 0, total_ms = 0;
+  std::size_t sizes = 0, size = 0;  // that the first click can mean; the one taken
+  bool ambiguous = false;           // another size was nearly as likely
   std::shared_ptr<const std::vector<float>> likelihood;  // of `key`; null until asked for
 };
 

@@ -86,6 +86,8 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
   given_up_.clear();
   cutting_object_ = 0;
   picture_.reset();
+  hover_view_ = {};
+  hover_leaf_ = kNoPart;
   tools_.abandon();
   view_.display = DisplayMode::kWhole;
   view_.heat = false;
@@ -212,6 +214,7 @@ void Studio::start_cut(const ObjectItem& object) {
     const double total_ms = ms();
     auto labels = make_flags(report.labels);
     tasks_.post([this, id, key, scene, labels, total_ms, stages = report.stages, outcome = report.outcome,
+                 sizes = report.sizes, size = report.size, ambiguous = report.ambiguous,
                  reason = report.reason] {
       if (scene != scene_) return;
       CutRun& now = runs_[id];
@@ -220,6 +223,9 @@ void Studio::start_cut(const ObjectItem& object) {
       now.preview = nullptr;
       if (!stages.empty()) now.stages = stages;
       now.total_ms = total_ms;
+      now.sizes = sizes;
+      now.size = size;
+      now.ambiguous = ambiguous;
       if (now.first_mask_ms == 0) now.first_mask_ms = total_ms;
       now.outcome = outcome;
       now.reason = reason;
@@ -232,7 +238,9 @@ void Studio::start_cut(const ObjectItem& object) {
         say(Message::Kind::kRefused, item->name + ": " + reason);
       else
         say(Message::Kind::kDone,
-            fmt::format("{}: {} Gaussians cut out in {:.1f} s", item->name, gaussians_of(id), total_ms / 1000));
+            fmt::format(
+                "{}: {} Gaussians cut out in {:.1f} s{}", item->name, gaussians_of(id), total_ms / 1000,
+                ambiguous && tools_.scale_armed() ? ". Not all of it? Turn the wheel for another size" : ""));
     });
     // The cutout is on the screen; the rest is for looking at.
     std::shared_ptr<const std::vector<float>> likelihood;

@@ -167,7 +167,7 @@ void Studio::refresh_hover() {
     style_[0].highlight = nullptr;
     return;
   }
-  if (hover_picture_ != picture_serial_ || hover_view_.pixels.size() != prepared_->parts.nodes()) {
+  if (hover_picture_ != picture_serial_ || hover_view_.trees.empty()) {
     hover_view_ = view_parts(prepared_->parts, picture_->frames.front()->first_hit);
     hover_picture_ = picture_serial_;
   }

@@ -98,6 +98,12 @@ void cutout_panel(UiContext& ui) {
   if (!run->running && run->total_ms > 0 && !ui.state.steady)
     muted_text(ui,
                fmt::format("first mask {}, cutout {}", ms_text(run->first_mask_ms), ms_text(run->total_ms)));
+  if (!run->running && run->sizes > 1) {
+    muted_text(ui, fmt::format("size {} of {}", run->size + 1, run->sizes));
+    tooltip(
+        "What the first click can mean, from small to large: the wheel right after the click, Page Up or "
+        "Page Down");
+  }
   if (run->outcome == Outcome::kNothingFound && !run->running) {
     ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.colour.warn);
     ImGui::TextWrapped("%s", run->reason.c_str());
