@@ -21,7 +21,8 @@ class Fuzz {
   void step() {
     const Document& d = studio_.document();
     const auto object = [&]() -> ObjectId {
-      return d.objects.empty() || chance(20) ? static_cast<ObjectId>(whole(6)) : d.objects[whole(d.objects.size())].id;
+      return d.objects.empty() || chance(20) ? static_cast<ObjectId>(whole(6))
+                                             : d.objects[whole(d.objects.size())].id;
     };
     const auto set = [&] { return static_cast<SetOperation>(whole(4)); };
     switch (whole(30)) {
@@ -81,7 +82,7 @@ class Fuzz {
       case 27:
         return studio_.apply(SetUp{{real() - 0.5f, real() - 0.5f, chance(5) ? 0.0f : real() - 0.5f}});
       case 28:
-        return chance(70) ? studio_.apply(Undo{})
+        return chance(97) ? studio_.apply(Undo{})
                           : studio_.apply(JumpHistory{whole(studio_.history().entries().size() + 2)});
       default:
         return studio_.apply(SetBackground{{real(), real(), real()}});
@@ -130,7 +131,10 @@ TEST_CASE("10,000 random commands, undone to the start and redone to the end") {
   for (int i = 0; i < kSteps; ++i) {
     fuzz.step();
     if (i % (kSteps / kCuts) == 0) studio.update(1.0 / 60);  // cuts what is stale
-    if (studio.document().objects.size() > 40) studio.apply(JumpHistory{0});
+    while (studio.document().objects.size() > 12) {
+      studio.apply(LockObject{studio.document().objects.front().id, false});
+      studio.apply(RemoveObject{studio.document().objects.front().id});
+    }
   }
   const std::string end = bytes_of(studio.document());
   MESSAGE("history: " << studio.history().entries().size() << " steps");
