@@ -65,6 +65,36 @@ TEST_CASE("frames: the sample with the hint, the keys, twice the scale") {
   check_golden("keys", app.picture());
 }
 
+TEST_CASE("frames: the OpenGL renderer shows what the CPU renderer shows") {
+  Image<Rgb8> pictures[2];
+  for (const RendererChoice renderer : {RendererChoice::kCpu, RendererChoice::kGl}) {
+    ApplicationOptions options;
+    options.renderer = renderer;
+    HeadlessApp app(760, 420, 1, options);
+    app.interface_state().hint_wanted = false;
+    app.open(kSample);
+    REQUIRE(app.settle());
+    app.studio().apply(EditSelection{SelectionEdit::kAll});  // the tint, too
+    ViewState view = app.studio().view();
+    view.outline = false;  // drawn with other filters
+    app.studio().apply(SetView{view});
+    REQUIRE(app.settle());
+    app.frames(3);  // the sorter's order arrives
+    app.wait_for_message_to_go();
+    const UiRect area = app->interface().viewport();
+    const Image<Rgb8> frame = app.picture();
+    Image<Rgb8>& cut = pictures[static_cast<int>(renderer == RendererChoice::kGl)];
+    cut = Image<Rgb8>(static_cast<int>(area.size().x), static_cast<int>(area.size().y));
+    for (int y = 0; y < cut.height(); ++y)
+      for (int x = 0; x < cut.width(); ++x)
+        cut.at(x, y) = frame.at(x + static_cast<int>(area.min.x), y + static_cast<int>(area.min.y));
+  }
+  const PictureDifference d = picture_difference(pictures[0], pictures[1]);
+  MESSAGE("PSNR " << d.psnr_db << " dB, SSIM " << d.ssim);
+  CHECK(d.psnr_db > 35);
+  CHECK(d.ssim > 0.98);
+}
+
 TEST_CASE("frames: HiDPI") {
   HeadlessApp app(1600, 900, 1.5f);
   app.frames(3);

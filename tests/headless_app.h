@@ -50,6 +50,7 @@ class HeadlessApp {
   Application& operator*() { return app_; }
   Application* operator->() { return &app_; }
   Studio& studio() { return app_.studio(); }
+  UiState& interface_state() { return app_.interface().state(); }
 
   void open(const std::filesystem::path& scene) { app_.handle(FileDropped{scene}); }
   // Nothing moves or runs afterwards.

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <random>
+#include <thread>
 
 #include "app/studio/studio.h"
 #include "headless_app.h"
@@ -106,16 +107,44 @@ class Fuzz {
   std::mt19937 random_;
 };
 
+void write_random_scene(const std::filesystem::path& path) {
+  constexpr std::size_t kGaussians = 400;
+  Scene scene;
+  scene.cloud = random_cloud(kGaussians, 11, 1);
+  scene.file_rows = kGaussians;
+  scene.format = SceneFormat::kSplat;  // not .ply: rows are written, not copied
+  save_scene(path, scene, {}, SceneFormat::kPly);
+}
+
 }  // namespace
+
+TEST_CASE("random commands while the threads work, and an end in the middle of it") {
+  const ScratchFolder folder("threads");
+  write_random_scene(folder / "random.ply");
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    CAPTURE(seed);
+    StudioOptions options;
+    options.state_folder = folder / "state";
+    Studio studio(options);
+    studio.set_viewport(64, 48, 1);
+    studio.apply(OpenScene{folder / "random.ply"});
+    REQUIRE(studio.settle(120));
+    Fuzz fuzz(&studio, seed);
+    for (int i = 0; i < 150; ++i) {
+      fuzz.step();
+      if (i % 7 == 0) studio.camera().orbit({3, 1});
+      if (i % 31 == 0) studio.apply(Cancel{});
+      studio.update(1.0 / 10);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    studio.apply(AddStroke{front_camera(64, 48), click({32, 24}, SeedLabel::kObject)});
+    studio.update(1.0 / 60);  // a cut and a picture run as the studio ends
+  }
+}
 
 TEST_CASE("10,000 random commands, undone to the start and redone to the end") {
   const ScratchFolder folder("fuzz");
-  Scene scene;
-  scene.cloud = random_cloud(400, 11, 1);
-  scene.file_rows = 400;
-  scene.format = SceneFormat::kSplat;
-  save_scene(folder / "random.ply", scene, {}, SceneFormat::kPly);
-
+  write_random_scene(folder / "random.ply");
   StudioOptions options;
   options.inline_tasks = true;
   Studio studio(options);

@@ -58,7 +58,7 @@ void propose_path(UiContext& ui) {
                     .string();
 }
 
-void fact(UiContext& ui, const char* symbol, const ImVec4& colour, const std::string& text) {
+void fact(const char* symbol, const ImVec4& colour, const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(symbol);
   ImGui::PopStyleColor();
@@ -66,7 +66,6 @@ void fact(UiContext& ui, const char* symbol, const ImVec4& colour, const std::st
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
-  (void)ui;
 }
 
 void export_choices(UiContext& ui) {
@@ -101,6 +100,41 @@ void export_choices(UiContext& ui) {
   }
 }
 
+void heading(UiContext& ui, const char* text) {
+  ImGui::PushFont(ui.theme.strong);
+  ImGui::TextColored(ui.theme.colour.accent, "%s", text);
+  ImGui::PopFont();
+}
+
+// Keys of one heading; all keys of an action are on its first row.
+void key_group(UiContext& ui, const char* group) {
+  constexpr float kKeysWidth = 132;
+  heading(ui, group);
+  Action before = Action::kNone;
+  for (const Binding& b : key_bindings()) {
+    if (b.action == before || std::strcmp(b.group, group) != 0) continue;
+    before = b.action;
+    const float left = ImGui::GetCursorPosX();
+    ImGui::TextUnformatted(keys_of(b.action).c_str());
+    ImGui::SameLine(kKeysWidth);
+    ImGui::PushTextWrapPos(left + ImGui::GetColumnWidth() - 24);
+    muted_text(ui, b.what);
+    ImGui::PopTextWrapPos();
+  }
+  ImGui::Dummy({0, 6});
+}
+
+void pointer_help(UiContext& ui) {
+  heading(ui, "Pointer");
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + ImGui::GetColumnWidth() - 24);
+  muted_text(
+      ui,
+      "Middle drag turns with any tool, with Shift it shifts. Double-click sets the point to turn around "
+      "(Navigate). The wheel zooms; right after a click it steps through larger and smaller parts. Region "
+      "tools: Shift adds, Ctrl removes, Alt intersects. Alt+wheel changes the brush.");
+  ImGui::PopTextWrapPos();
+}
+
 }  // namespace
 
 void export_dialog(UiContext& ui) {
@@ -118,11 +152,11 @@ void export_dialog(UiContext& ui) {
   const ExportPlan plan = plan_export(*ui.studio.scene()->scene, gaussians, choice.format);
   const Palette& p = ui.theme.colour;
   ImGui::Separator();
-  fact(ui, icon::kInfo, p.accent,
+  fact(icon::kInfo, p.accent,
        fmt::format("{} Gaussians, {}{}", grouped(gaussians), plan.about ? "about " : "",
                    human_bytes(plan.bytes)));
-  fact(ui, icon::kCheck, p.good, "Kept: " + plan.kept);
-  fact(ui, plan.lost.empty() ? icon::kCheck : icon::kWarning, plan.lost.empty() ? p.good : p.warn,
+  fact(icon::kCheck, p.good, "Kept: " + plan.kept);
+  fact(plan.lost.empty() ? icon::kCheck : icon::kWarning, plan.lost.empty() ? p.good : p.warn,
        plan.lost.empty() ? "Nothing is lost." : "Lost: " + plan.lost);
   const bool exists = std::filesystem::exists(choice.path);
   if (exists) ImGui::Checkbox("Replace the file that is there", &choice.overwrite);
@@ -148,44 +182,16 @@ void help_page(UiContext& ui) {
   const char* id = "Keys and pointer###help";
   if (ui.state.help_open && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  centre_next_window({std::min(980.0f, screen.x - 40), std::min(680.0f, screen.y - 40)});
+  centre_next_window({std::min(1060.0f, screen.x - 40), std::min(720.0f, screen.y - 40)});
   if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
   ImGui::BeginChild("keys", {0, -40});
   ImGui::Columns(3, "groups", false);
-  const char* group = "";
-  std::size_t rows = 0;
-  const std::size_t per_column = key_bindings().size() / 3 + 3;
-  Action before = Action::kNone;
-  for (const Binding& b : key_bindings()) {
-    if (b.action == before) continue;  // all keys of an action are on its first row
-    before = b.action;
-    if (std::strcmp(b.group, group) != 0) {
-      if (rows > per_column) {
-        ImGui::NextColumn();
-        rows = 0;
-      }
-      group = b.group;
-      ImGui::PushFont(ui.theme.strong);
-      ImGui::TextColored(ui.theme.colour.accent, "%s", group);
-      ImGui::PopFont();
-      rows += 2;
-    }
-    constexpr float kKeysWidth = 132;
-    const float left = ImGui::GetCursorPosX();
-    ImGui::TextUnformatted(keys_of(b.action).c_str());
-    ImGui::SameLine(kKeysWidth);
-    ImGui::PushTextWrapPos(left + ImGui::GetColumnWidth() - 24);
-    muted_text(ui, b.what);
-    ImGui::PopTextWrapPos();
-    ++rows;
-  }
-  ImGui::PushFont(ui.theme.strong);
-  ImGui::TextColored(ui.theme.colour.accent, "Pointer");
-  ImGui::PopFont();
-  wrapped_muted(ui,
-                "Middle drag turns with any tool, with Shift it shifts. Double-click sets the point to turn "
-                "around (Navigate). "
-                "Region tools: Shift adds, Ctrl removes, Alt intersects. Alt+wheel changes the brush.");
+  for (const char* group : {"File", "Edit", "Selection"}) key_group(ui, group);
+  ImGui::NextColumn();
+  key_group(ui, "Tools");
+  pointer_help(ui);
+  ImGui::NextColumn();
+  for (const char* group : {"Display", "Camera"}) key_group(ui, group);
   ImGui::Columns(1);
   ImGui::EndChild();
   const bool closed = ImGui::IsKeyPressed(key::kEscape, false) ||
