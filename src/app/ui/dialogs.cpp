@@ -70,6 +70,7 @@ void fact(const char* symbol, const ImVec4& colour, const std::string& text) {
 
 void export_choices(UiContext& ui) {
   ExportChoice& choice = ui.state.exporting;
+  ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("What");
   for (int i = 0; i < 3; ++i) {
     ImGui::SameLine(i == 0 ? 90.0f : 0.0f, i == 0 ? -1.0f : 2.0f);
@@ -79,6 +80,7 @@ void export_choices(UiContext& ui) {
       propose_path(ui);
     }
   }
+  ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Format");
   for (const SceneFormat format : kFormats) {
     ImGui::SameLine(format == SceneFormat::kPly ? 90.0f : 0.0f, format == SceneFormat::kPly ? -1.0f : 2.0f);

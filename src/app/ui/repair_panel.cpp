@@ -88,6 +88,7 @@ void property_range(UiContext& ui) {
 
 void property_selection(UiContext& ui) {
   PropertyChoice& choice = ui.state.property;
+  ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Select by");
   for (int i = 0; i < 4; ++i) {
     if (i == 0)
