@@ -14,4 +14,13 @@ Likelihood likelihood(const MaskedSums& sums) {
   return out;
 }
 
+Likelihood with_prior(Likelihood seen, std::span<const std::uint8_t> prior, float prior_px) {
+  for (std::size_t g = 0; g < prior.size(); ++g) {
+    const float all = seen.seen_px[g] + prior_px;
+    seen.w[g] = (seen.w[g] * seen.seen_px[g] + (prior[g] ? prior_px : 0)) / all;
+    seen.seen_px[g] = all;
+  }
+  return seen;
+}
+
 }  // namespace splatcut

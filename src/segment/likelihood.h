@@ -2,6 +2,8 @@
 // Source: Jain et al., GaussianCut, NeurIPS 2024, eq. 1-2.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scene/rasterizer.h"
@@ -14,5 +16,8 @@ struct Likelihood {
 };
 
 Likelihood likelihood(const MaskedSums& sums);
+
+// What was known before (1 = object, per Gaussian; empty: nothing) counts like prior_px more pixels of each.
+Likelihood with_prior(Likelihood seen, std::span<const std::uint8_t> prior, float prior_px);
 
 }  // namespace splatcut

@@ -9,6 +9,7 @@
 #include "segment/likelihood.h"
 #include "segment/mask_tools.h"
 #include "segment/stage_clock.h"
+#include "segment/trim.h"
 
 namespace splatcut {
 
@@ -140,6 +141,14 @@ std::vector<std::int32_t> scaled_capacity(const std::vector<std::int32_t>& unit,
   return out;
 }
 
+void trim_labels(const GaussianCloud& cloud, const std::vector<ViewReport>& views,
+                 const PipelineOptions& options, const Job& job, std::vector<std::uint8_t>* labels) {
+  std::vector<TrimView> seen;
+  for (const ViewReport& view : views)
+    if (view.used) seen.push_back({view.camera, &view.mask});
+  trim(cloud, seen, options.trim_options, labels, job);
+}
+
 }  // namespace
 
 std::string key_of(const ObjectCutInput& input) {
@@ -255,13 +264,18 @@ ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& o
   const Camera& view = out.views.front().camera;
   const double pixels = static_cast<double>(view.width_px) * view.height_px;
   const auto report = clock.time("cut", [&] {
-    return cut_object(*cloud_, prepared_->graph, scaled_capacity(unit_capacity_, smoothness),
-                      likelihood(sums), static_cast<int>(used), pixels, options, job);
+    return cut_object(
+        *cloud_, prepared_->graph, scaled_capacity(unit_capacity_, smoothness),
+        with_prior(likelihood(sums), first.prior, settings.prior_px_per_view * static_cast<float>(used)),
+        static_cast<int>(used), pixels, options, job);
   });
   if (job.cancelled())
     out.outcome = Outcome::kCancelled;
   else
     out.labels = report.labels;
+  if (settings.trim && out.outcome == Outcome::kDone)
+    clock.time("trim", [&] { trim_labels(*cloud_, out.views, settings, job, &out.labels); });
+  if (job.cancelled()) out.outcome = Outcome::kCancelled;
   return out;
 }
 

@@ -7,7 +7,8 @@
 // in other views, left-out views or another smoothness ask for it, the masks are corrected and one more cut
 // is solved:
 //   A_g += k (M_g of added + removed pixels),  M_g += k (M_g of added pixels),  k = 4 x views used,
-// so that a stroke in one view outweighs the views that did not see the fault.
+// so that a stroke in one view outweighs the views that did not see the fault; what the parts say and the
+// trimming count as in step 1.
 // Step 1 is kept: what changes only step 2 costs only step 2. The result is a function of the input alone,
 // kept steps or not, on any number of threads. Errors: Error for an unknown preset. Nothing marked, nothing
 // found, cancelled: in `outcome` with a reason.

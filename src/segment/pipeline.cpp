@@ -51,18 +51,19 @@ class Run {
       : cloud_(cloud), graph_(prepared.graph), parts_(prepared.parts), options_(options), job_(job), report_(*report), clock_(&report->stages),
         sums_(cloud.size()) {}
 
-  bool answered_by_parts() const { return !prior_.empty() && !options_.cut_parts; }
+  bool answered_by_parts() const { return !prior().empty() && !options_.cut_parts; }
   void reference_view(const Camera& full, const Strokes& strokes);
   void other_views(const std::vector<Camera>& cameras);
   void settle();
   void trim_labels();
 
  private:
+  const std::vector<std::uint8_t>& prior() const { return report_.prior; }
+  float prior_px() const { return options_.prior_px_per_view * static_cast<float>(used_views_); }
   void snapshot() const {
     if (options_.on_snapshot && !job_.cancelled()) options_.on_snapshot(report_);
   }
   void solve();
-  Likelihood with_prior(Likelihood seen) const;
   void add_view(const Camera& camera);
   Mask labels_in(const Camera& camera);
   Mask refined(const Camera& camera, const Mask& seen);
@@ -85,26 +86,13 @@ class Run {
   MaskedSums sums_;
   std::vector<std::int32_t> capacity_;  // does not change within a run
   int used_views_ = 0;
-  std::vector<std::uint8_t> prior_;  // what the parts say, per Gaussian; empty without parts
 };
-
-// What the parts say counts like prior_px_per_view more pixels of each Gaussian in each view.
-Likelihood Run::with_prior(Likelihood seen) const {
-  if (prior_.empty()) return seen;
-  const float px = options_.prior_px_per_view * static_cast<float>(used_views_);
-  for (std::size_t g = 0; g < prior_.size(); ++g) {
-    const float all = seen.seen_px[g] + px;
-    seen.w[g] = (seen.w[g] * seen.seen_px[g] + (prior_[g] ? px : 0)) / all;
-    seen.seen_px[g] = all;
-  }
-  return seen;
-}
 
 void Run::solve() {
   clock_.time("cut", [&] {
     const Camera& view = report_.views.front().camera;
     if (capacity_.empty() && !options_.cut.coarse) capacity_ = arc_capacities(cloud_, graph_, options_.cut.energy);
-    report_.cut = cut_object(cloud_, graph_, capacity_, with_prior(likelihood(sums_)), used_views_,
+    report_.cut = cut_object(cloud_, graph_, capacity_, with_prior(likelihood(sums_), prior(), prior_px()), used_views_,
                              static_cast<double>(view.width_px) * view.height_px, options_.cut, job_);
     report_.labels = report_.cut.labels;
   });
@@ -179,12 +167,12 @@ void Run::reference_view(const Camera& full, const Strokes& strokes) {
     mask = resized_mask(*options_.given_first_mask, camera.width_px, camera.height_px);
     if (options_.first_mask_from == FirstMaskFrom::kParts && count(mask) > 0) {
       complete(camera, mask);
-      prior_ = report_.labels;
+      report_.prior = report_.labels;
     }
   } else if (options_.first_mask_from == FirstMaskFrom::kParts) {
     pick(camera, here);
     if (job_.cancelled()) return;
-    prior_ = report_.labels;
+    report_.prior = report_.labels;
     mask = labels_in(camera);
   } else {
     mask = mask_from_pixels(camera, here);

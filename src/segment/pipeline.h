@@ -77,6 +77,7 @@ struct PipelineReport {
   Outcome outcome = Outcome::kDone;
   std::string reason;                // for kNothingFound
   std::vector<std::uint8_t> labels;  // per Gaussian of the cloud, 1 = object
+  std::vector<std::uint8_t> prior;   // kParts: what the parts say, per Gaussian; it counts in every cut
   CutReport cut;
   std::size_t first_sizes = 0, first_size = 0;  // kParts: sizes that the first click can mean; the one taken
   bool ambiguous = false;            // kParts: another size was nearly as likely
