@@ -80,7 +80,7 @@ void say_other_sizes(const PipelineReport& report) {
 
 void run_cut(const CutArguments& args, const CommonOptions& common) {
   if (!args.work.empty()) return run_work_cut({args.work, args.output, args.overwrite, args.json, common.quiet});
-  if (args.scene.empty()) throw Error("splatcut cut", "no scene is given", "Give a scene file, or --work FILE.splatcut.json");
+  if (args.scene.empty()) throw CLI::RequiredError("scene, or --work FILE.splatcut.json,");
   const Strokes strokes = strokes_of(args);
   OutputFolder folder(args.output, args.overwrite);
   const Job job = console_job(common.quiet);

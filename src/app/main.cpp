@@ -20,11 +20,11 @@ constexpr int kCouldNot = 1, kWrongUsage = 2;
 // `splatcut` and `splatcut SCENE` mean `splatcut view`.
 void parse(CLI::App& program, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
-  const bool known = first.starts_with('-') ||
-                     !program.get_subcommands([&](const CLI::App* c) { return c->check_name(first); }).empty();
+  const auto ends = [&](const char* ending) { return first.ends_with(ending); };
+  const bool scene = ends(".ply") || ends(".splat") || ends(".spz") || ends(".splatcut.json");
   std::vector<std::string> words;  // from the last to the first, as CLI11 wants them
   for (int i = argc - 1; i > 0; --i) words.emplace_back(argv[i]);
-  if (!known) words.emplace_back("view");
+  if (argc == 1 || scene) words.emplace_back("view");
   program.parse(std::move(words));
 }
 
