@@ -196,6 +196,8 @@ double Run::share_visible(const Camera& camera, const Mask& seen) {
     RasterOptions options;
     options.colour = false;
     options.shown = report_.labels;
+    options.roi = labelled_rectangle(cloud_, camera, report_.labels);
+    if (options.roi->empty()) return std::size_t{0};
     return count(thresholded(rasterize(cloud_, camera, options, job_).alpha, 0.5f));
   });
   return alone ? static_cast<double>(count(seen)) / static_cast<double>(alone) : 0.0;
