@@ -36,8 +36,12 @@ Mask noisy(const Mask& truth, std::mt19937& random) {
 CutProblem problem_from(std::string name, const GaussianCloud& cloud, std::vector<std::uint8_t> truth,
                         const std::vector<Camera>& views) {
   std::mt19937 random(11);
+  CutProblem problem;
+  const double pixels = static_cast<double>(views.front().width_px) * views.front().height_px;
   MaskedSums sums(cloud.size());
+  const auto net = [&](std::size_t seen) { return terminals(cloud, likelihood(sums), static_cast<int>(seen), pixels, {}).net; };
   for (const Camera& view : views) {
+    if (&view == &views.back()) problem.terminal_before = net(views.size() - 1);
     const Mask mask = noisy(thresholded(render_labels(cloud, view, truth), 0.5f), random);
     RasterOptions options;
     options.colour = false;
@@ -45,12 +49,10 @@ CutProblem problem_from(std::string name, const GaussianCloud& cloud, std::vecto
     options.sums = &sums;
     rasterize(cloud, view, options);
   }
-  CutProblem problem;
   problem.name = std::move(name);
   problem.graph = knn_graph(cloud);
   problem.capacity = arc_capacities(cloud, problem.graph, {});
-  const double pixels = static_cast<double>(views.front().width_px) * views.front().height_px;
-  problem.terminal = terminals(cloud, likelihood(sums), static_cast<int>(views.size()), pixels, {}).net;
+  problem.terminal = net(views.size());
   problem.position = cloud.position;
   problem.truth = std::move(truth);
   return problem;

@@ -16,7 +16,7 @@ struct CutProblem {
   std::string name;
   FlowGraph graph;
   std::vector<std::int32_t> capacity;  // of lambda = 1
-  std::vector<std::int64_t> terminal;
+  std::vector<std::int64_t> terminal, terminal_before;  // of all views; of all but the last
   std::vector<glm::vec3> position;     // where strokes are painted
   std::vector<std::uint8_t> truth;     // per node: 1 = the object
 };

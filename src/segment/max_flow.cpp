@@ -222,6 +222,9 @@ bool MaxFlow::over_budget() const {
 
 bool MaxFlow::solve(const Job& job) {
   if (!warm_) ++cold_starts_;
+  // Labels that are wrong after a change would rise one by one up to those of the last solve; nodes that leave the
+  // forest and are reached again get the right one at once.
+  highest_label_ = 1;
   work_ = 0;
   adopt_orphans();
   std::size_t scans = 0;

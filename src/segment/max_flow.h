@@ -115,7 +115,7 @@ class MaxFlow {
   std::vector<std::uint32_t> touched_;               // nodes whose state is not what their b alone says
   std::vector<std::vector<std::uint32_t>> active_;   // by label: source nodes whose arcs are to be looked at
   std::size_t lowest_active_ = 0;
-  std::int32_t highest_label_ = 1;                   // no source node is given a label above it but by growth
+  std::int32_t highest_label_ = 1;                   // so far in this solve; adoption gives none above it
   std::vector<std::uint32_t> source_orphans_, sink_orphans_;
   std::int64_t positive_b_ = 0, positive_excess_ = 0;
   std::size_t work_ = 0, work_when_cold_ = 0;        // nodes scanned and adopted by a solve
@@ -129,7 +129,6 @@ struct MaxFlow::Snapshot {
   std::vector<Node> node;              // of touched
   std::vector<std::int32_t> residual;  // of the arcs of touched, in their order
   std::int64_t positive_b = 0, positive_excess = 0;
-  std::int32_t highest_label = 1;
 };
 
 struct MinCutReport {

@@ -84,7 +84,6 @@ void MaxFlow::restart() {
     plant(node);
   }
   positive_excess_ = positive_b_;
-  highest_label_ = 1;
   warm_ = false;
 }
 
@@ -164,7 +163,7 @@ std::int64_t MaxFlow::min_marginal(std::uint32_t node) {
 }
 
 MaxFlow::Snapshot MaxFlow::snapshot() const {
-  Snapshot kept{b_, touched_, {}, {}, positive_b_, positive_excess_, highest_label_};
+  Snapshot kept{b_, touched_, {}, {}, positive_b_, positive_excess_};
   for (const std::uint32_t node : touched_) {
     kept.node.push_back(node_[node]);
     kept.residual.insert(kept.residual.end(), residual_.begin() + graph_.first_arc[node],
@@ -196,7 +195,6 @@ void MaxFlow::restore(const Snapshot& kept) {
   }
   positive_b_ = kept.positive_b;
   positive_excess_ = kept.positive_excess;
-  highest_label_ = kept.highest_label;
   warm_ = true;
 }
 
