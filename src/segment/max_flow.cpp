@@ -73,19 +73,19 @@ void MaxFlow::scan(std::uint32_t node) {
   }
 }
 
-std::int64_t MaxFlow::bottleneck(std::uint32_t node, std::uint32_t bridge) const {
-  std::int64_t amount = residual_[bridge];
+std::int32_t MaxFlow::bottleneck(std::uint32_t node, std::uint32_t bridge) const {
+  std::int32_t amount = residual_[bridge];
   std::uint32_t v = node;
   for (; node_[v].parent != kRoot; v = graph_.head[node_[v].parent])
-    amount = std::min<std::int64_t>(amount, residual_[graph_.reverse_arc[node_[v].parent]]);
+    amount = std::min(amount, residual_[graph_.reverse_arc[node_[v].parent]]);
   amount = std::min(amount, node_[v].excess);
   for (v = graph_.head[bridge]; node_[v].parent != kRoot; v = graph_.head[node_[v].parent])
-    amount = std::min<std::int64_t>(amount, residual_[node_[v].parent]);
+    amount = std::min(amount, residual_[node_[v].parent]);
   return std::min(amount, -node_[v].excess);
 }
 
 void MaxFlow::augment(std::uint32_t node, std::uint32_t bridge) {
-  const auto amount = static_cast<std::int32_t>(bottleneck(node, bridge));
+  const std::int32_t amount = bottleneck(node, bridge);
   assert(amount > 0);
   residual_[bridge] -= amount;
   residual_[graph_.reverse_arc[bridge]] += amount;

@@ -1,7 +1,7 @@
 // Exact minimum cut of a graph with integer capacities, solved again at little cost when capacities change.
 // Knows nothing of Gaussians.
 //
-// In: a FlowGraph; c, a capacity per arc (int32, >= 0); b, the net terminal capacity per node: source arc minus
+// In: a FlowGraph; c, a capacity per arc (0 <= c <= 2^30); b, the net terminal capacity per node: source arc minus
 // sink arc. Out: the minimal source set (what the sources still reach), which is unique, so labels do not
 // depend on the order of work or on what was solved before; the flow, in 64 bits.
 //
@@ -19,7 +19,7 @@
 // Source: Boykov, Kolmogorov, 2004 (forests, orphans); Goldberg, Hed, Kaplan, Kohli, Tarjan, Werneck, Faster and more
 // dynamic maximum flow by incremental breadth-first search, 2015 (labels, pseudoflow); Kohli, Torr, Dynamic graph
 // cuts, 2007 (residual state kept). Ours: growth from excess only, and the growth in order of labels after a change.
-// Cost: near linear in the nodes touched on k-NN graphs. Memory: 25 bytes a node and 4 an arc beside graph and
+// Cost: near linear in the nodes touched on k-NN graphs. Memory: 17 bytes a node and 4 an arc beside graph and
 // capacities. Errors: shapes are asserted.
 #pragma once
 
@@ -42,7 +42,8 @@ class MaxFlow {
   // All b = 0. graph and capacity must outlive this and stay as they are.
   MaxFlow(const FlowGraph& graph, std::span<const std::int32_t> capacity);
 
-  // Any number of changes between two solves, in any order. |b| < 2^40.
+  // Any number of changes between two solves, in any order. |b| <= kLargestTerminal.
+  static constexpr std::int64_t kLargestTerminal = 1 << 29;
   void set_terminal(std::uint32_t node, std::int64_t b);
   void set_terminals(std::span<const std::int64_t> b);  // of all nodes
   // Other capacities on the same graph. The flow is kept where all of it still fits (capacities that only
@@ -65,12 +66,12 @@ class MaxFlow {
   // Bounds from the node and its arcs. v on the source side: at_least = e(v) + sum_u min(r(u,v), max(e(u), 0)), at_most
   // = e(v) + sum of r(u,v) from the source side; on the other side the same with arcs turned and -e. Cost: its arcs.
   FlipCost flip_cost(std::uint32_t node) const;
-  // The exact rise, its min-marginal (Kohli, Torr 2008): the flow that its forced change adds. Two warm solves;
-  // leaves everything as it was but the trees.
+  // The exact rise, its min-marginal (Kohli, Torr 2008): the flow that its forced change adds; at most
+  // kLargestTerminal - |b| of it. Two warm solves; leaves everything as it was but the forests.
   std::int64_t min_marginal(std::uint32_t node);
 
-  // The state after a solve(), for undo. Capacities must be the same at restore(). 8 bytes a node and about 60 and its
-  // arcs a node touched.
+  // The state after a solve(), for undo. Capacities must be the same at restore(). 4 bytes a node; 16, and 4 per arc,
+  // a node touched.
   struct Snapshot;
   Snapshot snapshot() const;
   void restore(const Snapshot& snapshot);
@@ -81,7 +82,7 @@ class MaxFlow {
   // label > 0: in the source forest, < 0: in the sink forest, 0: in none; its size rises from root to leaf.
   // parent: the arc to the parent, kRoot or kOrphan.
   struct Node {
-    std::int64_t excess = 0;
+    std::int32_t excess = 0;  // roots only send or take what is theirs: never beyond twice the largest terminal
     std::uint32_t parent = kRoot;
     std::int32_t label = 0;
   };
@@ -90,7 +91,7 @@ class MaxFlow {
   void activate(std::uint32_t node);
   bool next_active(std::uint32_t* node);
   void scan(std::uint32_t node);
-  std::int64_t bottleneck(std::uint32_t node, std::uint32_t bridge) const;
+  std::int32_t bottleneck(std::uint32_t node, std::uint32_t bridge) const;
   void augment(std::uint32_t node, std::uint32_t bridge);
   void push_from_source(std::uint32_t node, std::int32_t amount);
   void push_to_sink(std::uint32_t node, std::int32_t amount);
@@ -110,7 +111,7 @@ class MaxFlow {
   std::span<const std::int32_t> capacity_;
   std::vector<std::int32_t> residual_;
   std::vector<Node> node_;
-  std::vector<std::int64_t> b_;
+  std::vector<std::int32_t> b_;
   std::vector<std::uint8_t> flags_;                  // kActive, kTouched
   std::vector<std::uint32_t> touched_;               // nodes whose state is not what their b alone says
   std::vector<std::vector<std::uint32_t>> active_;   // by label: source nodes whose arcs are to be looked at
@@ -124,7 +125,7 @@ class MaxFlow {
 };
 
 struct MaxFlow::Snapshot {
-  std::vector<std::int64_t> b;
+  std::vector<std::int32_t> b;
   std::vector<std::uint32_t> touched;
   std::vector<Node> node;              // of touched
   std::vector<std::int32_t> residual;  // of the arcs of touched, in their order

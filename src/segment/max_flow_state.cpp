@@ -1,6 +1,7 @@
 // What surrounds the search: changes of capacities, reports, bounds, undo.
 #include <algorithm>
 #include <cassert>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "segment/max_flow.h"
@@ -29,13 +30,14 @@ void MaxFlow::plant(std::uint32_t node) {
 }
 
 void MaxFlow::set_terminal(std::uint32_t node, std::int64_t b) {
+  assert(std::abs(b) <= kLargestTerminal);
   if (b == b_[node]) return;
   Node& n = node_[node];
-  positive_b_ += std::max<std::int64_t>(b, 0) - std::max<std::int64_t>(b_[node], 0);
-  positive_excess_ -= std::max<std::int64_t>(n.excess, 0);
-  n.excess += b - b_[node];
-  b_[node] = b;
-  positive_excess_ += std::max<std::int64_t>(n.excess, 0);
+  positive_b_ += std::max<std::int64_t>(b, 0) - std::max(b_[node], 0);
+  positive_excess_ -= std::max(n.excess, 0);
+  n.excess += static_cast<std::int32_t>(b - b_[node]);
+  b_[node] = static_cast<std::int32_t>(b);
+  positive_excess_ += std::max(n.excess, 0);
   if (n.excess > 0) {
     if (n.label < 0) leave_sink_forest(node);
     if (n.label > 0) n.parent = kRoot;
@@ -111,10 +113,10 @@ std::int64_t MaxFlow::energy() const {
   std::int64_t energy = 0;  // a node that was never touched has b <= 0 and is not in the source set: nothing
   for (const std::uint32_t node : touched_) {
     if (!source_side(node)) {
-      energy += std::max<std::int64_t>(b_[node], 0);
+      energy += std::max(b_[node], 0);
       continue;
     }
-    energy += std::max<std::int64_t>(-b_[node], 0);
+    energy += std::max(-b_[node], 0);
     for (std::uint32_t arc = graph_.first_arc[node]; arc < graph_.first_arc[node + 1]; ++arc)
       if (!source_side(graph_.head[arc])) energy += capacity_[arc];
   }
@@ -134,7 +136,7 @@ bool MaxFlow::certified() const {
 FlipCost MaxFlow::flip_cost(std::uint32_t node) const {
   const bool source = source_side(node);
   const auto spare = [&](std::uint32_t v) {
-    return std::max<std::int64_t>(source ? node_[v].excess : -node_[v].excess, 0);
+    return std::int64_t{std::max(source ? node_[v].excess : -node_[v].excess, 0)};
   };
   FlipCost cost{spare(node), spare(node)};
   for (std::uint32_t arc = graph_.first_arc[node]; arc < graph_.first_arc[node + 1]; ++arc) {
@@ -150,7 +152,7 @@ FlipCost MaxFlow::flip_cost(std::uint32_t node) const {
 std::int64_t MaxFlow::min_marginal(std::uint32_t node) {
   const std::int64_t old_flow = flow(), b = b_[node], beyond = flip_cost(node).at_most + 1;
   const bool source = source_side(node);
-  const std::int64_t forced = source ? b - beyond : b + beyond;
+  const std::int64_t forced = std::clamp(source ? b - beyond : b + beyond, -kLargestTerminal, kLargestTerminal);
   set_terminal(node, forced);
   solve();
   // What the forced node itself pays in the two energies.
@@ -179,7 +181,7 @@ void MaxFlow::restore(const Snapshot& kept) {
   b_ = kept.b;
   touched_.clear();
   for (std::uint32_t node = 0; node < b_.size(); ++node) {
-    const std::int64_t b = b_[node];
+    const std::int32_t b = b_[node];
     node_[node] = {b, kRoot, b > 0 ? 1 : b < 0 ? -1 : 0};
   }
   std::size_t at = 0;
