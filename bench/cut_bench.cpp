@@ -66,11 +66,13 @@ void cut_in_place(benchmark::State& state, const ProblemOf& problem_of) {
     max_flow.solve();
     timed(state, [&] {
       max_flow.set_terminals(p.terminal);
-      max_flow.restart();
       max_flow.solve();
     });
   }
   demand(max_flow.flow() == expected_flow(p));
+  const double bytes = 4.0 * static_cast<double>(p.graph.nodes() + 1) + 12.0 * static_cast<double>(p.graph.arcs()) +
+                       17.0 * static_cast<double>(p.graph.nodes()) + 4.0 * static_cast<double>(p.graph.arcs());
+  state.counters["bytes_per_node"] = bytes / static_cast<double>(p.graph.nodes());
 }
 
 void cut_other(benchmark::State& state, const ProblemOf& problem_of, std::int64_t (*solve)(const CutProblem&)) {
@@ -208,6 +210,10 @@ void register_problem(const std::string& name, const ProblemOf& problem, bool wi
   };
   add("cut_cold", [=](benchmark::State& s) { cut_cold(s, problem); });
   add("cut_in_place", [=](benchmark::State& s) { cut_in_place(s, problem); });
+  add("cut_in_place_twice_the_background", [=](benchmark::State& s) {
+    const CutProblem doubled = with_twice_the_background(problem());
+    cut_in_place(s, [&]() -> const CutProblem& { return doubled; });
+  });
   if (with_others) {
     add("boost_boykov_kolmogorov", [=](benchmark::State& s) { cut_other(s, problem, boost_boykov_kolmogorov); });
     add("boost_push_relabel", [=](benchmark::State& s) { cut_other(s, problem, boost_push_relabel); });

@@ -93,6 +93,35 @@ const CutProblem& still_life_problem(std::size_t gaussians) {
              problem_from("still_life_" + std::to_string(gaussians / 1000) + "k", scene.cloud, scene.mug, views);
 }
 
+CutProblem with_twice_the_background(const CutProblem& p) {
+  const auto n = static_cast<std::uint32_t>(p.graph.nodes());
+  CutProblem out;
+  out.name = p.name + "_twice_the_background";
+  out.terminal = p.terminal;
+  std::vector<std::uint32_t> copy(n, 0);
+  for (std::uint32_t v = 0; v < n; ++v) {
+    if (p.truth[v]) continue;
+    copy[v] = static_cast<std::uint32_t>(out.terminal.size());
+    out.terminal.push_back(std::min<std::int64_t>(p.terminal[v], 0));
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  std::vector<std::int32_t> weight;
+  for (const bool again : {false, true})
+    for (std::uint32_t v = 0; v < n; ++v)
+      for (std::uint32_t arc = p.graph.first_arc[v]; arc < p.graph.first_arc[v + 1]; ++arc) {
+        const std::uint32_t other = p.graph.head[arc];
+        if (other < v || (again && (p.truth[v] || p.truth[other]))) continue;
+        edges.emplace_back(again ? copy[v] : v, again ? copy[other] : other);
+        weight.push_back(p.capacity[arc]);
+      }
+  std::vector<std::uint32_t> arc_of_edge;
+  out.graph = graph_from_edges(out.terminal.size(), edges, &arc_of_edge);
+  out.capacity.resize(out.graph.arcs());
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    out.capacity[arc_of_edge[e]] = out.capacity[out.graph.reverse_arc[arc_of_edge[e]]] = weight[e];
+  return out;
+}
+
 std::vector<CutProblem> suite_problems(const std::filesystem::path& suite) {
   std::ifstream file(suite);
   std::vector<CutProblem> problems;

@@ -24,6 +24,9 @@ struct CutProblem {
 // The mug of a still life; made once per size.
 const CutProblem& still_life_problem(std::size_t gaussians);
 
+// The same object in a scene with twice as much around it: all that is not the object once more, seen and in no mask.
+CutProblem with_twice_the_background(const CutProblem& problem);
+
 // The entries with truth labels of a suite (see the README's `eval`), in its order.
 std::vector<CutProblem> suite_problems(const std::filesystem::path& suite);
 
