@@ -53,7 +53,7 @@ bool MaxFlow::next_active(std::uint32_t* node) {
 // Takes free neighbours into the source forest and sends flow across every arc that meets the sink forest.
 void MaxFlow::scan(std::uint32_t node) {
   const std::int32_t label = node_[node].label;
-  highest_label_ = std::max(highest_label_, label + 1);
+  highest_label_ = label;
   for (std::uint32_t arc = graph_.first_arc[node]; arc < graph_.first_arc[node + 1];) {
     const std::uint32_t other = graph_.head[arc];
     if (residual_[arc] == 0 || node_[other].label > 0) {
@@ -155,6 +155,8 @@ void MaxFlow::adopt_source(std::uint32_t node) {
     parent = arc;
     if (lowest < old_label) break;
   }
+  // Above the label being scanned growth comes by soon and gives the right one at once, where adoption might have to
+  // raise it step by step.
   if (lowest >= highest_label_) {
     leave_source_forest(node);
     node_[node].label = 0;
@@ -222,8 +224,6 @@ bool MaxFlow::over_budget() const {
 
 bool MaxFlow::solve(const Job& job) {
   if (!warm_) ++cold_starts_;
-  // Labels that are wrong after a change would rise one by one up to those of the last solve; nodes that leave the
-  // forest and are reached again get the right one at once.
   highest_label_ = 1;
   work_ = 0;
   adopt_orphans();

@@ -116,7 +116,7 @@ class MaxFlow {
   std::vector<std::uint32_t> touched_;               // nodes whose state is not what their b alone says
   std::vector<std::vector<std::uint32_t>> active_;   // by label: source nodes whose arcs are to be looked at
   std::size_t lowest_active_ = 0;
-  std::int32_t highest_label_ = 1;                   // so far in this solve; adoption gives none above it
+  std::int32_t highest_label_ = 1;                   // that of the node being scanned: adoption gives none above the next
   std::vector<std::uint32_t> source_orphans_, sink_orphans_;
   std::int64_t positive_b_ = 0, positive_excess_ = 0;
   std::size_t work_ = 0, work_when_cold_ = 0;        // nodes scanned and adopted by a solve
