@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -169,7 +170,8 @@ Terminals terminals(const GaussianCloud& cloud, const Likelihood& likelihood, in
   const double v0 = static_cast<double>(options.v0_px_per_view_at_400) * static_cast<double>(std::max(1, views)) * pixels_per_view / kPixelsAt400;
   Terminals out;
   out.net.resize(cloud.size());
-  for (std::size_t g = 0; g < cloud.size(); ++g) {
+  std::atomic<std::int64_t> base_flow = 0;  // an integer: the order of the sum does not matter
+  const auto net_of = [&](std::size_t g) {
     const double v = options.visibility ? std::min(1.0, likelihood.seen_px[g] / v0) : 1.0;
     double source = v * likelihood.w[g], sink = v * (1.0 - likelihood.w[g]);
     if (options.lambda_u > 0) {
@@ -178,8 +180,14 @@ Terminals terminals(const GaussianCloud& cloud, const Likelihood& likelihood, in
     }
     const auto s = std::llround(source * kCapacityScale), t = std::llround(sink * kCapacityScale);
     out.net[g] = s - t;
-    out.base_flow += std::min(s, t);
-  }
+    return std::min(s, t);
+  };
+  for_chunks(cloud.size(), [&](std::size_t from, std::size_t to) {
+    std::int64_t sum = 0;
+    for (std::size_t g = from; g < to; ++g) sum += net_of(g);
+    base_flow += sum;
+  });
+  out.base_flow = base_flow;
   return out;
 }
 
