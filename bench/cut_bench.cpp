@@ -199,6 +199,19 @@ void min_marginals_of_100(benchmark::State& state, const ProblemOf& problem_of) 
     });
 }
 
+void snapshot_and_restore(benchmark::State& state, const ProblemOf& problem_of) {
+  const CutProblem& p = problem_of();
+  MaxFlow max_flow(p.graph, p.capacity);
+  max_flow.set_terminals(p.terminal);
+  max_flow.solve();
+  for (auto _ : state)
+    timed(state, [&] {
+      const MaxFlow::Snapshot kept = max_flow.snapshot();
+      max_flow.restore(kept);
+    });
+  demand(max_flow.certified());
+}
+
 benchmark::internal::Benchmark* manual(benchmark::internal::Benchmark* bench) {
   return bench->Unit(benchmark::kMillisecond)->UseManualTime();
 }
@@ -224,6 +237,7 @@ void register_problem(const std::string& name, const ProblemOf& problem, bool wi
   add("cut_after_rest_stroke", [=](benchmark::State& s) { cut_after_stroke(s, problem, -kMeant); })->RangeMultiplier(10)->Range(10, 10000);
   add("lambda_sweep_warm", [=](benchmark::State& s) { lambda_sweep(s, problem, true); });
   add("lambda_sweep_cold", [=](benchmark::State& s) { lambda_sweep(s, problem, false); });
+  add("snapshot_and_restore", [=](benchmark::State& s) { snapshot_and_restore(s, problem); });
   add("flip_cost_of_all", [=](benchmark::State& s) { flip_cost_of_all(s, problem); });
   add("min_marginals_of_100", [=](benchmark::State& s) { min_marginals_of_100(s, problem); });
 }

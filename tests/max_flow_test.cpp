@@ -103,6 +103,19 @@ TEST_CASE("after each of 1000 changes of one graph the warm solve is the cold on
   CHECK(max_flow.cold_starts() < 20);
 }
 
+TEST_CASE("a change of everything at once is exact, warm or by the cold start that it may end in") {
+  std::mt19937 random(38);
+  FlowProblem p = grid_problem(random, 250, 250, 10);
+  MaxFlow max_flow = cold(p);
+  check_as_cold(max_flow, p);
+  for (const std::uint32_t shift : {1u, 100u, 20000u}) {
+    std::ranges::rotate(p.terminal, p.terminal.begin() + shift);
+    for (std::int64_t& b : p.terminal) b = shift == 100 ? -b : b;
+    max_flow.set_terminals(p.terminal);
+    check_as_cold(max_flow, p);
+  }
+}
+
 TEST_CASE("small ranges, where ties and zeros are common: 1000 changes against brute force") {
   std::mt19937 random(32);
   for (int graph = 0; graph < 50; ++graph) {
