@@ -36,8 +36,12 @@ Mask noisy(const Mask& truth, std::mt19937& random) {
 CutProblem problem_from(std::string name, const GaussianCloud& cloud, std::vector<std::uint8_t> truth,
                         const std::vector<Camera>& views) {
   std::mt19937 random(11);
+  CutProblem problem;
+  const double pixels = static_cast<double>(views.front().width_px) * views.front().height_px;
   MaskedSums sums(cloud.size());
+  const auto net = [&](std::size_t seen) { return terminals(cloud, likelihood(sums), static_cast<int>(seen), pixels, {}).net; };
   for (const Camera& view : views) {
+    if (&view == &views.back()) problem.terminal_before = net(views.size() - 1);
     const Mask mask = noisy(thresholded(render_labels(cloud, view, truth), 0.5f), random);
     RasterOptions options;
     options.colour = false;
@@ -45,12 +49,10 @@ CutProblem problem_from(std::string name, const GaussianCloud& cloud, std::vecto
     options.sums = &sums;
     rasterize(cloud, view, options);
   }
-  CutProblem problem;
   problem.name = std::move(name);
   problem.graph = knn_graph(cloud);
   problem.capacity = arc_capacities(cloud, problem.graph, {});
-  const double pixels = static_cast<double>(views.front().width_px) * views.front().height_px;
-  problem.terminal = terminals(cloud, likelihood(sums), static_cast<int>(views.size()), pixels, {}).net;
+  problem.terminal = net(views.size());
   problem.position = cloud.position;
   problem.truth = std::move(truth);
   return problem;
@@ -89,6 +91,35 @@ const CutProblem& still_life_problem(std::size_t gaussians) {
   const std::vector<Camera> views = views_around(scene.cloud, scene.mug, scene.cameras.front(), {0, -1, 0});
   return problems[gaussians] =
              problem_from("still_life_" + std::to_string(gaussians / 1000) + "k", scene.cloud, scene.mug, views);
+}
+
+CutProblem with_twice_the_background(const CutProblem& p) {
+  const auto n = static_cast<std::uint32_t>(p.graph.nodes());
+  CutProblem out;
+  out.name = p.name + "_twice_the_background";
+  out.terminal = p.terminal;
+  std::vector<std::uint32_t> copy(n, 0);
+  for (std::uint32_t v = 0; v < n; ++v) {
+    if (p.truth[v]) continue;
+    copy[v] = static_cast<std::uint32_t>(out.terminal.size());
+    out.terminal.push_back(std::min<std::int64_t>(p.terminal[v], 0));
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  std::vector<std::int32_t> weight;
+  for (const bool again : {false, true})
+    for (std::uint32_t v = 0; v < n; ++v)
+      for (std::uint32_t arc = p.graph.first_arc[v]; arc < p.graph.first_arc[v + 1]; ++arc) {
+        const std::uint32_t other = p.graph.head[arc];
+        if (other < v || (again && (p.truth[v] || p.truth[other]))) continue;
+        edges.emplace_back(again ? copy[v] : v, again ? copy[other] : other);
+        weight.push_back(p.capacity[arc]);
+      }
+  std::vector<std::uint32_t> arc_of_edge;
+  out.graph = graph_from_edges(out.terminal.size(), edges, &arc_of_edge);
+  out.capacity.resize(out.graph.arcs());
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    out.capacity[arc_of_edge[e]] = out.capacity[out.graph.reverse_arc[arc_of_edge[e]]] = weight[e];
+  return out;
 }
 
 std::vector<CutProblem> suite_problems(const std::filesystem::path& suite) {

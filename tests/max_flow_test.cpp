@@ -2,65 +2,44 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/boykov_kolmogorov_max_flow.hpp>
-#include <random>
-#include <set>
+#include <deque>
+
+#include "flow_problems.h"
 
 using namespace splatcut;
+using namespace splatcut::testing;
 
 namespace {
 
-struct Problem {
-  FlowGraph graph;
-  std::vector<std::int32_t> capacity;
-  std::vector<std::int64_t> terminal;
-};
-
-// Small ranges make ties and zero capacities common; few edges leave parts disconnected.
-Problem random_problem(std::mt19937& random, std::uint32_t nodes, std::size_t edge_count, int range) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (std::size_t e = 0; e < edge_count; ++e) {
-    const auto a = static_cast<std::uint32_t>(random() % nodes), b = static_cast<std::uint32_t>(random() % nodes);
-    if (a != b) edges.insert(std::minmax(a, b));
-  }
-  Problem p;
-  p.graph = graph_from_edges(nodes, std::vector(edges.begin(), edges.end()));
-  for (std::size_t arc = 0; arc < p.graph.arcs(); ++arc) p.capacity.push_back(static_cast<std::int32_t>(random() % range));
-  for (std::uint32_t n = 0; n < nodes; ++n) p.terminal.push_back(static_cast<std::int64_t>(random() % (2 * range)) - range);
-  return p;
+std::vector<std::uint8_t> bits(std::uint32_t set, std::size_t nodes) {
+  std::vector<std::uint8_t> side(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) side[n] = set >> n & 1;
+  return side;
 }
 
-std::int64_t boost_flow(const Problem& p) {
-  using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
-  using Graph = boost::adjacency_list<
-      boost::vecS, boost::vecS, boost::directedS,
-      boost::property<boost::vertex_index_t, long,
-                      boost::property<boost::vertex_color_t, boost::default_color_type,
-                                      boost::property<boost::vertex_distance_t, long,
-                                                      boost::property<boost::vertex_predecessor_t, Traits::edge_descriptor>>>>,
-      boost::property<boost::edge_capacity_t, long,
-                      boost::property<boost::edge_residual_capacity_t, long,
-                                      boost::property<boost::edge_reverse_t, Traits::edge_descriptor>>>>;
-  const std::size_t nodes = p.graph.nodes();
-  Graph g(nodes + 2);
-  auto capacity = boost::get(boost::edge_capacity, g);
-  auto reverse = boost::get(boost::edge_reverse, g);
-  const auto add = [&](std::size_t a, std::size_t b, long there, long back) {
-    const auto e = boost::add_edge(a, b, g).first, r = boost::add_edge(b, a, g).first;
-    capacity[e] = there;
-    capacity[r] = back;
-    reverse[e] = r;
-    reverse[r] = e;
-  };
-  for (std::uint32_t n = 0; n < nodes; ++n) {
-    if (p.terminal[n] > 0) add(nodes, n, p.terminal[n], 0);
-    if (p.terminal[n] < 0) add(n, nodes + 1, -p.terminal[n], 0);
-    for (std::uint32_t arc = p.graph.first_arc[n]; arc < p.graph.first_arc[n + 1]; ++arc)
-      if (p.graph.head[arc] > n) add(n, p.graph.head[arc], p.capacity[arc], p.capacity[p.graph.reverse_arc[arc]]);
+// A solver that was just made and holds the problem.
+MaxFlow cold(const FlowProblem& p) {
+  MaxFlow max_flow(p.graph, p.capacity);
+  max_flow.set_terminals(p.terminal);
+  return max_flow;
+}
+
+// Solves and compares with a cold start: same energy and labels, and the proof holds.
+void check_as_cold(MaxFlow& warm, const FlowProblem& p) {
+  REQUIRE(warm.solve());
+  const MinCutReport expected = min_cut(p.graph, p.capacity, p.terminal);
+  REQUIRE(warm.flow() == expected.flow);
+  REQUIRE(warm.energy() == expected.flow);
+  REQUIRE(warm.source_set() == expected.source_side);
+  REQUIRE(warm.certified());
+}
+
+void change_terminals(std::mt19937& random, int count, int range, FlowProblem& p, MaxFlow& max_flow) {
+  for (int i = 0; i < count; ++i) {
+    const auto node = static_cast<std::uint32_t>(random() % p.graph.nodes());
+    p.terminal[node] = static_cast<std::int64_t>(random() % static_cast<unsigned>(2 * range)) - range;
+    max_flow.set_terminal(node, p.terminal[node]);
   }
-  return boost::boykov_kolmogorov_max_flow(g, nodes, nodes + 1);
 }
 
 }  // namespace
@@ -69,33 +48,32 @@ TEST_CASE("min_cut finds the least energy, and its smallest source set, of all c
   std::mt19937 random(5);
   for (int trial = 0; trial < 1000; ++trial) {
     CAPTURE(trial);
-    const auto nodes = static_cast<std::uint32_t>(2 + random() % 11);
-    const Problem p = random_problem(random, nodes, random() % (3 * nodes), 1 + static_cast<int>(random() % 12));
-    std::int64_t best = std::numeric_limits<std::int64_t>::max();
-    std::uint32_t smallest = 0;
-    std::vector<std::uint8_t> side(nodes);
-    for (std::uint32_t cut = 0; cut < (1u << nodes); ++cut) {
-      for (std::uint32_t n = 0; n < nodes; ++n) side[n] = cut >> n & 1;
-      const std::int64_t energy = cut_energy(p.graph, p.capacity, p.terminal, side);
-      if (energy < best) smallest = cut;
-      else if (energy == best) smallest &= cut;  // minimum cuts are closed under intersection
-      best = std::min(best, energy);
-    }
+    const auto nodes = static_cast<std::uint32_t>(2 + random() % (trial % 20 == 0 ? 13 : 9));  // 2^14 cuts are slow to list
+    const FlowProblem p = random_problem(random, nodes, random() % (3 * nodes), 1 + static_cast<int>(random() % 12));
+    const BruteForceCut best = brute_force(p);
     const MinCutReport report = min_cut(p.graph, p.capacity, p.terminal);
-    REQUIRE(report.energy == best);
-    REQUIRE(report.flow == best);
-    for (std::uint32_t n = 0; n < nodes; ++n) REQUIRE(report.source_side[n] == (smallest >> n & 1));
+    REQUIRE(report.energy == best.energy);
+    REQUIRE(report.flow == best.energy);
+    REQUIRE(report.source_side == bits(best.source_set, nodes));
   }
 }
 
-TEST_CASE("min_cut has the flow of Boost's solver on graphs of up to 50,000 nodes") {
+TEST_CASE("min_cut has the flow of Boost's solver on 110 graphs of up to 200,000 nodes") {
   std::mt19937 random(9);
-  for (const std::uint32_t nodes : {200u, 2000u, 2000u, 20000u, 50000u}) {
-    CAPTURE(nodes);
-    const Problem p = random_problem(random, nodes, 4 * nodes, 1000);
-    const MinCutReport report = min_cut(p.graph, p.capacity, p.terminal);
-    CHECK(report.flow == boost_flow(p));
-    CHECK(report.energy == report.flow);
+  std::vector<FlowProblem> problems;
+  for (int i = 0; i < 50; ++i) problems.push_back(random_problem(random, 200 + static_cast<std::uint32_t>(random() % 1000), 2500, 1 + 1000 * (i % 2)));
+  for (std::uint32_t i = 0; i < 57; ++i) problems.push_back(grid_problem(random, 20 + i, 30, static_cast<int>(i) % 40));
+  problems.push_back(random_problem(random, 30000, 120000, 1000));
+  problems.push_back(grid_problem(random, 200, 200, 20));
+  problems.push_back(grid_problem(random, 500, 400, 5));
+  REQUIRE(problems.back().graph.nodes() == 200000);
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    CAPTURE(i);
+    MaxFlow max_flow = cold(problems[i]);
+    REQUIRE(max_flow.solve());
+    REQUIRE(max_flow.flow() == boost_flow(problems[i]));
+    REQUIRE(max_flow.energy() == max_flow.flow());
+    REQUIRE(max_flow.certified());
   }
 }
 
@@ -109,4 +87,147 @@ TEST_CASE("a path of three nodes, by hand") {
   const MinCutReport report = min_cut(graph, capacity, terminal, 7);
   CHECK(report.flow == 7 + 3 + 0);
   CHECK(report.source_side == std::vector<std::uint8_t>{1, 1, 0});
+}
+
+TEST_CASE("after each of 1000 changes of one graph the warm solve is the cold one") {
+  std::mt19937 random(31);
+  FlowProblem p = grid_problem(random, 40, 40, 15);
+  MaxFlow max_flow = cold(p);
+  check_as_cold(max_flow, p);
+  constexpr int kRange = 1000;
+  for (int change = 0; change < 1000; ++change) {
+    CAPTURE(change);
+    change_terminals(random, 1 + static_cast<int>(random() % (change % 50 == 0 ? 800 : 12)), kRange, p, max_flow);
+    check_as_cold(max_flow, p);
+  }
+  CHECK(max_flow.cold_starts() < 20);
+}
+
+TEST_CASE("a change of everything at once is exact, warm or by the cold start that it may end in") {
+  std::mt19937 random(38);
+  FlowProblem p = grid_problem(random, 250, 250, 10);
+  MaxFlow max_flow = cold(p);
+  check_as_cold(max_flow, p);
+  for (const std::uint32_t shift : {1u, 100u, 20000u}) {
+    std::ranges::rotate(p.terminal, p.terminal.begin() + shift);
+    for (std::int64_t& b : p.terminal) b = shift == 100 ? -b : b;
+    max_flow.set_terminals(p.terminal);
+    check_as_cold(max_flow, p);
+  }
+}
+
+TEST_CASE("small ranges, where ties and zeros are common: 1000 changes against brute force") {
+  std::mt19937 random(32);
+  for (int graph = 0; graph < 50; ++graph) {
+    FlowProblem p = random_problem(random, 8, random() % 20, 1 + graph % 4);
+    MaxFlow max_flow = cold(p);
+    for (int change = 0; change < 20; ++change) {
+      change_terminals(random, 1 + static_cast<int>(random() % 4), 1 + graph % 4, p, max_flow);
+      REQUIRE(max_flow.solve());
+      const BruteForceCut best = brute_force(p);
+      REQUIRE(max_flow.flow() == best.energy);
+      REQUIRE(max_flow.source_set() == bits(best.source_set, 8));
+    }
+  }
+}
+
+TEST_CASE("other capacities: rising ones keep the flow, others start cold, both are exact") {
+  std::mt19937 random(33);
+  FlowProblem p = grid_problem(random, 30, 30, 20);
+  const std::vector<std::int32_t> first = p.capacity;
+  std::deque<std::vector<std::int32_t>> kept = {first};  // what the solver looks at must stay
+  MaxFlow max_flow(p.graph, kept.back());
+  max_flow.set_terminals(p.terminal);
+  check_as_cold(max_flow, p);
+  int percent_before = 100;
+  for (const int percent : {130, 150, 400, 90, 10, 300, 0, 100}) {
+    CAPTURE(percent);
+    kept.push_back(first);
+    for (std::int32_t& c : kept.back()) c = c * percent / 100;
+    p.capacity = kept.back();
+    const std::size_t cold_starts = max_flow.cold_starts();
+    max_flow.set_capacity(kept.back());
+    check_as_cold(max_flow, p);
+    if (percent > percent_before && percent_before > 0) CHECK(max_flow.cold_starts() == cold_starts);
+    percent_before = percent;
+    change_terminals(random, 20, 1000, p, max_flow);
+    check_as_cold(max_flow, p);
+  }
+}
+
+TEST_CASE("undo: a snapshot brings back labels and flow, and the solver goes on from it") {
+  std::mt19937 random(34);
+  FlowProblem p = grid_problem(random, 30, 30, 20);
+  MaxFlow max_flow = cold(p);
+  REQUIRE(max_flow.solve());
+  std::vector<FlowProblem> problems;
+  std::vector<MaxFlow::Snapshot> snapshots;
+  for (int step = 0; step < 10; ++step) {
+    problems.push_back(p);
+    snapshots.push_back(max_flow.snapshot());
+    change_terminals(random, 30, 1000, p, max_flow);
+    REQUIRE(max_flow.solve());
+  }
+  for (const std::size_t step : {9u, 3u, 7u, 0u, 8u}) {
+    max_flow.restore(snapshots[step]);
+    p = problems[step];
+    const MinCutReport expected = min_cut(p.graph, p.capacity, p.terminal);
+    CHECK(max_flow.source_set() == expected.source_side);
+    CHECK(max_flow.flow() == expected.flow);
+    CHECK(max_flow.certified());
+    change_terminals(random, 30, 1000, p, max_flow);
+    check_as_cold(max_flow, p);
+  }
+}
+
+TEST_CASE("restart forgets the flow, not the problem; a cancelled solve can be taken up again") {
+  std::mt19937 random(35);
+  const FlowProblem p = grid_problem(random, 200, 200, 10);
+  MaxFlow max_flow = cold(p);
+  std::stop_source stop;
+  stop.request_stop();
+  Job job;
+  job.stop = stop.get_token();
+  CHECK_FALSE(max_flow.solve(job));
+  check_as_cold(max_flow, p);
+  max_flow.restart();
+  check_as_cold(max_flow, p);
+}
+
+TEST_CASE("confidence: the bounds hold the min-marginal, which brute force confirms") {
+  std::mt19937 random(36);
+  for (int trial = 0; trial < 100; ++trial) {
+    CAPTURE(trial);
+    const auto nodes = static_cast<std::uint32_t>(3 + random() % 7);
+    const FlowProblem p = random_problem(random, nodes, random() % (3 * nodes), 1 + static_cast<int>(random() % 12));
+    MaxFlow max_flow = cold(p);
+    REQUIRE(max_flow.solve());
+    const BruteForceCut best = brute_force(p);
+    for (std::uint32_t node = 0; node < nodes; ++node) {
+      const std::int64_t rise = brute_force(p, 1u << node, ~best.source_set).energy - best.energy;
+      const FlipCost cost = max_flow.flip_cost(node);
+      REQUIRE(cost.at_least <= rise);
+      REQUIRE(rise <= cost.at_most);
+      REQUIRE(max_flow.min_marginal(node) == rise);
+    }
+    REQUIRE(max_flow.source_set() == bits(best.source_set, nodes));
+  }
+}
+
+TEST_CASE("the solve stays near the object: background that nothing pulls on is not touched") {
+  std::mt19937 random(37);
+  std::vector<std::size_t> touched;
+  for (const std::uint32_t width : {100u, 200u, 400u}) {
+    FlowProblem p = grid_problem(random, width, 100, 0);
+    for (std::uint32_t n = 0; n < p.graph.nodes(); ++n) {
+      const std::uint32_t x = n % width, y = n / width;
+      p.terminal[n] = x >= 20 && x < 50 && y >= 30 && y < 60 ? 800 : -100;
+    }
+    MaxFlow max_flow = cold(p);
+    check_as_cold(max_flow, p);
+    touched.push_back(max_flow.touched());
+  }
+  CHECK(touched[0] < 3000);
+  CHECK(touched[1] < 1.2 * static_cast<double>(touched[0]));
+  CHECK(touched[2] < 1.2 * static_cast<double>(touched[0]));
 }

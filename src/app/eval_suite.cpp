@@ -23,14 +23,14 @@ Camera look_at_of(const nlohmann::json& j) {
                  glm::radians(j.at("fov_y_deg").get<float>()), j.at("size").at(0).get<int>(), j.at("size").at(1).get<int>());
 }
 
-std::vector<std::uint8_t> truth_labels(const std::filesystem::path& path, const Scene& scene) {
+std::vector<std::uint8_t> truth_labels(const std::filesystem::path& path, const Scene& scene, int wanted) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(path.string(), "cannot be opened");
   const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
   if (bytes.size() != scene.file_rows)
     throw Error(path.string(), fmt::format("holds {} labels, the scene {} rows", bytes.size(), scene.file_rows));
   std::vector<std::uint8_t> labels(scene.cloud.size());
-  for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = bytes[scene.cloud.file_row[g]] == 1;
+  for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = static_cast<std::uint8_t>(bytes[scene.cloud.file_row[g]]) == wanted;
   return labels;
 }
 
@@ -64,8 +64,9 @@ std::vector<Camera> fill_case(const nlohmann::json& entry, const std::filesystem
   }
   const auto& truth = entry.at("truth");
   if (truth.contains("labels")) {
-    for (const auto& view : entry.at("test_views")) test.test_views.push_back(look_at_of(view));
-    test.truth_labels = truth_labels(folder / truth.at("labels").get<std::string>(), loaded->scene);
+    for (const auto& view : entry.at("test_views"))
+      test.test_views.push_back(view.contains("camera") ? find_camera(cameras, view.at("camera"), test.name) : look_at_of(view));
+    test.truth_labels = truth_labels(folder / truth.at("labels").get<std::string>(), loaded->scene, truth.value("label", 1));
     render_truth(&test);
   } else {
     load_mask_truth(folder / truth.at("masks").get<std::string>(), cameras, &test);

@@ -1,8 +1,8 @@
 // Reads a suite of scenes with truth, as `splatcut eval` takes it.
 //
-// {"scenes": [{"name", "scene", "cameras"?, "truth": {"labels": FILE} | {"masks": FOLDER}, "reference":
+// {"scenes": [{"name", "scene", "cameras"?, "truth": {"labels": FILE, "label": 1} | {"masks": FOLDER}, "reference":
 // {"position","target","up","fov_y_deg","size"} | {"camera": NAME}, "clicks": "robot" | [...],
-// "scribbles": [...], "test_views": [...]}]}, paths relative to the suite's folder.
+// "scribbles": [...], "test_views": [as reference]}]}, paths relative to the suite's folder.
 #pragma once
 
 #include <filesystem>

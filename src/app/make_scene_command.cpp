@@ -33,6 +33,20 @@ nlohmann::json seeds_json(const LabelledScene& made) {
   return {{"labels", made.label_name}, {"objects", objects}};
 }
 
+// One entry per object, as `splatcut eval` takes them: clicks by the robot, every camera a test view.
+nlohmann::json suite_json(const LabelledScene& made, const std::string& file, const std::string& labels_file) {
+  nlohmann::json views = nlohmann::json::array(), scenes = nlohmann::json::array();
+  for (const Camera& camera : made.cameras) views.push_back({{"camera", camera.name}});
+  for (const auto& seed : made.seeds) {
+    const auto label = std::ranges::find(made.label_name, seed.object) - made.label_name.begin();
+    scenes.push_back({{"name", seed.object}, {"scene", file}, {"cameras", "cameras.json"},
+                      {"truth", {{"labels", labels_file}, {"label", label}}},
+                      {"reference", {{"camera", made.cameras[static_cast<std::size_t>(seed.camera)].name}}},
+                      {"clicks", "robot"}, {"test_views", views}});
+  }
+  return {{"scenes", scenes}};
+}
+
 void run_make_scene(const MakeSceneArguments& args, const CommonOptions& common) {
   refuse_existing(args.output, args.overwrite);
   const Job job = console_job(common.quiet);
@@ -52,14 +66,16 @@ void run_make_scene(const MakeSceneArguments& args, const CommonOptions& common)
   }
   const std::string file = args.name + "." + args.format;
   save_scene(folder.file(file), scene, {}, format_from_name(file));
-  AtomicFile labels(folder.file(args.name + ".labels.u8"));
+  const std::string labels_file = args.name + ".labels.u8";
+  AtomicFile labels(folder.file(labels_file));
   labels.write(std::as_bytes(std::span(label)));
   labels.commit();
   save_inria_cameras(folder.file("cameras.json"), made.cameras);
   write_text_file(folder.file("seeds.json"), seeds_json(made).dump(1) + "\n");
+  write_text_file(folder.file("suite.json"), suite_json(made, file, labels_file).dump(1) + "\n");
   if (job.cancelled()) throw Error("splatcut make-scene", "cancelled, nothing was written");
   folder.commit();
-  if (!common.quiet) fmt::print("{}: {} Gaussians in {}, labels, cameras.json, seeds.json\n", args.output.string(), scene.cloud.size(), file);
+  if (!common.quiet) fmt::print("{}: {} Gaussians in {}, labels, cameras.json, seeds.json, suite.json\n", args.output.string(), scene.cloud.size(), file);
 }
 
 }  // namespace

@@ -3,10 +3,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "scene/splat_math.h"
+#include "segment/overlap_weights.h"
 
 namespace splatcut {
 
@@ -18,19 +22,6 @@ template <class Work>
 void for_chunks(std::size_t n, const Work& work) {
   tbb::parallel_for(std::size_t{0}, (n + kChunk - 1) / kChunk,
                     [&](std::size_t c) { work(c * kChunk, std::min(n, (c + 1) * kChunk)); });
-}
-
-float overlap_distance(const glm::mat3& sigma_g, const glm::mat3& sigma_h, const glm::vec3& d) {
-  glm::mat3 s = 0.5f * (sigma_g + sigma_h);
-  const float ridge = 1e-3f * (s[0][0] + s[1][1] + s[2][2]);
-  // Scaled to unit trace: determinants of tiny scenes stay in range, and D does not change.
-  const float unit = ridge > 0 ? 1e-3f / ridge : 1.0f;
-  const glm::mat3 r(1e-3f);
-  s = s * unit + r;
-  const glm::mat3 a = sigma_g * unit + r, b = sigma_h * unit + r;
-  const glm::vec3 scaled = d * std::sqrt(unit);
-  const float mahalanobis2 = glm::dot(scaled, glm::inverse(s) * scaled);
-  return 0.25f * mahalanobis2 + std::log(glm::determinant(s) / std::sqrt(glm::determinant(a) * glm::determinant(b)));
 }
 
 float distance2(const glm::vec3& a, const glm::vec3& b) { return glm::dot(a - b, a - b); }
@@ -90,34 +81,74 @@ EnergyOptions paper_energy() {
   return options;
 }
 
+namespace {
+
+Symmetric3 covariance_of(const GaussianCloud& cloud, std::size_t g) {
+  const glm::mat3 sigma = covariance_world(cloud.scale[g], cloud.rotation[g]);
+  return {sigma[0][0], sigma[0][1], sigma[0][2], sigma[1][1], sigma[1][2], sigma[2][2]};
+}
+
+// lambda psi as an integer capacity.
+std::int32_t capacity_of(float psi, float lambda) {
+  return static_cast<std::int32_t>(std::llround(static_cast<double>(lambda) * static_cast<double>(std::isfinite(psi) ? psi : 0.0f) * kCapacityScale));
+}
+
+// Calls work(arc, g, h) for the arcs of the nodes from..to that lead to a later node: each edge once.
+template <class Work>
+void for_edges(const FlowGraph& graph, std::size_t from, std::size_t to, const Work& work) {
+  for (std::size_t g = from; g < to; ++g)
+    for (std::uint32_t arc = graph.first_arc[g]; arc < graph.first_arc[g + 1]; ++arc)
+      if (graph.head[arc] > g) work(arc, g, graph.head[arc]);
+}
+
+void overlap_capacities(const GaussianCloud& cloud, const FlowGraph& graph, const EnergyOptions& options,
+                        std::span<const Symmetric3> sigma, std::size_t from, std::size_t to, std::vector<std::int32_t>& capacity) {
+  OverlapBlock block{};
+  std::array<std::uint32_t, OverlapBlock::kPairs> arc_of{};
+  int pairs = 0;
+  const auto flush = [&] {
+    overlap_weights(block, options.gamma_position, options.gamma_colour);
+    for (int i = 0; i < pairs; ++i) {
+      const std::uint32_t arc = arc_of[static_cast<std::size_t>(i)];
+      capacity[arc] = capacity[graph.reverse_arc[arc]] = capacity_of(block.psi[i], options.lambda);
+    }
+    pairs = 0;
+  };
+  for_edges(graph, from, to, [&](std::uint32_t arc, std::size_t g, std::size_t h) {
+    arc_of[static_cast<std::size_t>(pairs)] = arc;
+    block.set(pairs, sigma[g], sigma[h], cloud.position[g] - cloud.position[h], distance2(cloud.f_dc[g], cloud.f_dc[h]));
+    if (++pairs == OverlapBlock::kPairs) flush();
+  });
+  flush();
+}
+
+}  // namespace
+
 float overlap_distance(const GaussianCloud& cloud, std::size_t g, std::size_t h) {
-  return overlap_distance(covariance_world(cloud.scale[g], cloud.rotation[g]), covariance_world(cloud.scale[h], cloud.rotation[h]),
-                          cloud.position[g] - cloud.position[h]);
+  OverlapBlock block{};
+  block.set(0, covariance_of(cloud, g), covariance_of(cloud, h), cloud.position[g] - cloud.position[h], 0);
+  overlap_weights(block, 1, 1);
+  return block.distance[0];
 }
 
 std::vector<std::int32_t> arc_capacities(const GaussianCloud& cloud, const FlowGraph& graph, const EnergyOptions& options) {
   std::vector<std::int32_t> capacity(graph.arcs());
-  std::vector<glm::mat3> sigma;
   if (options.pairwise == Pairwise::kOverlap) {
-    sigma.resize(cloud.size());
+    std::vector<Symmetric3> sigma(cloud.size());
     for_chunks(cloud.size(), [&](std::size_t from, std::size_t to) {
-      for (std::size_t g = from; g < to; ++g) sigma[g] = covariance_world(cloud.scale[g], cloud.rotation[g]);
+      for (std::size_t g = from; g < to; ++g) sigma[g] = covariance_of(cloud, g);
     });
+    for_chunks(cloud.size(), [&](std::size_t from, std::size_t to) {
+      overlap_capacities(cloud, graph, options, sigma, from, to, capacity);
+    });
+    return capacity;
   }
   for_chunks(cloud.size(), [&](std::size_t from, std::size_t to) {
-    for (std::size_t g = from; g < to; ++g)
-      for (std::uint32_t arc = graph.first_arc[g]; arc < graph.first_arc[g + 1]; ++arc) {
-        const std::uint32_t h = graph.head[arc];
-        if (h < g) continue;  // the other end writes both
-        const float colour2 = distance2(cloud.f_dc[g], cloud.f_dc[h]);
-        const float psi = options.pairwise == Pairwise::kOverlap
-                              ? std::exp(-options.gamma_position * overlap_distance(sigma[g], sigma[h], cloud.position[g] - cloud.position[h]) -
-                                         options.gamma_colour * colour2)
-                              : std::exp(-options.gamma_position * distance2(cloud.position[g], cloud.position[h])) +
-                                    options.lambda_n * std::exp(-options.gamma_colour * colour2);
-        const double units = static_cast<double>(options.lambda) * static_cast<double>(std::isfinite(psi) ? psi : 0.0f) * kCapacityScale;
-        capacity[arc] = capacity[graph.reverse_arc[arc]] = static_cast<std::int32_t>(std::llround(units));
-      }
+    for_edges(graph, from, to, [&](std::uint32_t arc, std::size_t g, std::size_t h) {
+      const float psi = std::exp(-options.gamma_position * distance2(cloud.position[g], cloud.position[h])) +
+                        options.lambda_n * std::exp(-options.gamma_colour * distance2(cloud.f_dc[g], cloud.f_dc[h]));
+      capacity[arc] = capacity[graph.reverse_arc[arc]] = capacity_of(psi, options.lambda);
+    });
   });
   return capacity;
 }
@@ -139,7 +170,8 @@ Terminals terminals(const GaussianCloud& cloud, const Likelihood& likelihood, in
   const double v0 = static_cast<double>(options.v0_px_per_view_at_400) * static_cast<double>(std::max(1, views)) * pixels_per_view / kPixelsAt400;
   Terminals out;
   out.net.resize(cloud.size());
-  for (std::size_t g = 0; g < cloud.size(); ++g) {
+  std::atomic<std::int64_t> base_flow = 0;  // an integer: the order of the sum does not matter
+  const auto net_of = [&](std::size_t g) {
     const double v = options.visibility ? std::min(1.0, likelihood.seen_px[g] / v0) : 1.0;
     double source = v * likelihood.w[g], sink = v * (1.0 - likelihood.w[g]);
     if (options.lambda_u > 0) {
@@ -148,8 +180,14 @@ Terminals terminals(const GaussianCloud& cloud, const Likelihood& likelihood, in
     }
     const auto s = std::llround(source * kCapacityScale), t = std::llround(sink * kCapacityScale);
     out.net[g] = s - t;
-    out.base_flow += std::min(s, t);
-  }
+    return std::min(s, t);
+  };
+  for_chunks(cloud.size(), [&](std::size_t from, std::size_t to) {
+    std::int64_t sum = 0;
+    for (std::size_t g = from; g < to; ++g) sum += net_of(g);
+    base_flow += sum;
+  });
+  out.base_flow = base_flow;
   return out;
 }
 

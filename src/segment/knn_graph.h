@@ -11,7 +11,7 @@
 namespace splatcut {
 
 struct KnnOptions {
-  int neighbours = 10;  // k, without the point itself
+  int neighbours = 10;  // k < 255, without the point itself
 };
 
 FlowGraph knn_graph(const GaussianCloud& cloud, const KnnOptions& options = {}, const Job& job = {});

@@ -1,11 +1,13 @@
 #include "segment/mask_tools.h"
 
 #include <algorithm>
+#include <limits>
 #include <cassert>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "scene/rasterizer.h"
+#include "scene/splat_math.h"
 #include "segment/cv_image.h"
 
 namespace splatcut {
@@ -98,15 +100,45 @@ Mask largest_region(const Mask& mask) {
   return out;
 }
 
+PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> labels) {
+  constexpr float kNearPlane = 0.2f;  // as RasterOptions
+  constexpr float kCutoffSigmas = 3.34f;  // sqrt(2 ln 255): beyond it alpha is below 1/255
+  const float slope_x = kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px;
+  const float slope_y = kFrustumSlack * 0.5f * static_cast<float>(camera.height_px) / camera.fy_px;
+  // The Jacobian's norm is at most focal length / z times this.
+  const float bend = std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
+  glm::vec2 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+  for (std::size_t g = 0; g < cloud.size(); ++g) {
+    if (!labels[g]) continue;
+    const glm::vec3 at = camera.camera_from_world(cloud.position[g]);
+    if (at.z < kNearPlane) continue;
+    const glm::vec3& scale = cloud.scale[g];
+    const float sigma_px = std::max(camera.fx_px, camera.fy_px) / at.z * bend * std::max({scale.x, scale.y, scale.z});
+    const float radius_px = kCutoffSigmas * std::sqrt(sigma_px * sigma_px + kLowPassPx2) + 1;
+    const glm::vec2 centre = camera.pixel_from_camera(at);
+    low = glm::min(low, centre - radius_px);
+    high = glm::max(high, centre + radius_px);
+  }
+  const glm::vec2 size(camera.width_px, camera.height_px);
+  low = glm::clamp(low, glm::vec2(0), size);
+  high = glm::clamp(high, glm::vec2(0), size);
+  const PixelRect rect{static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(std::ceil(high.x)), static_cast<int>(std::ceil(high.y))};
+  return rect.empty() ? PixelRect{} : rect;
+}
+
 Image<float> render_labels(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> labels,
                            const Job& job) {
+  Image<float> share(camera.width_px, camera.height_px);
+  const PixelRect rect = labelled_rectangle(cloud, camera, labels);
+  if (rect.empty()) return share;
   std::vector<glm::vec3> white(cloud.size());
   for (std::size_t g = 0; g < cloud.size(); ++g) white[g] = glm::vec3(labels[g] ? 1.0f : 0.0f);
   RasterOptions options;
   options.colour_override = white;
+  options.roi = rect;
   const RasterOutput picture = rasterize(cloud, camera, options, job);
-  Image<float> share(camera.width_px, camera.height_px);
-  std::ranges::transform(picture.colour.pixels(), share.pixels().begin(), [](const glm::vec3& c) { return c.r; });
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x) share.at(x, y) = picture.colour.at(x - rect.x0, y - rect.y0).r;
   return share;
 }
 

@@ -30,6 +30,9 @@ Image<float> distance_inside(const Mask& mask);
 // The largest 8-connected region.
 Mask largest_region(const Mask& mask);
 
+// Pixels outside of it show nothing of the labelled Gaussians; empty where none is in view.
+PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> labels);
+
 // Object white, everything else black and occluding; the share of white, before a threshold.
 Image<float> render_labels(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> labels,
                            const Job& job = {});

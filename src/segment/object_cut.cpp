@@ -131,16 +131,6 @@ void add_weighted(const GaussianCloud& cloud, const Correction& correction, std:
   }
 }
 
-std::vector<std::int32_t> scaled_capacity(const std::vector<std::int32_t>& unit, float smoothness) {
-  constexpr double kLargest = std::numeric_limits<std::int32_t>::max();
-  std::vector<std::int32_t> out(unit.size());
-  std::ranges::transform(unit, out.begin(), [&](std::int32_t c) {
-    return static_cast<std::int32_t>(
-        std::min(kLargest, std::floor(0.5 + static_cast<double>(c) * smoothness)));
-  });
-  return out;
-}
-
 void trim_labels(const GaussianCloud& cloud, const std::vector<ViewReport>& views,
                  const PipelineOptions& options, const Job& job, std::vector<std::uint8_t>* labels) {
   std::vector<TrimView> seen;
@@ -233,13 +223,6 @@ ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& o
       sums_key_ = std::move(sums_key);
     }
   }
-  if (unit_capacity_.empty() || unit_preset_ != input.preset) {
-    EnergyOptions energy = settings.cut.energy;
-    energy.lambda = 1;
-    unit_capacity_ =
-        clock.time("graph weights", [&] { return arc_capacities(*cloud_, prepared_->graph, energy); });
-    unit_preset_ = input.preset;
-  }
   if (job.cancelled()) {
     out.outcome = Outcome::kCancelled;
     return out;
@@ -264,10 +247,9 @@ ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& o
   const Camera& view = out.views.front().camera;
   const double pixels = static_cast<double>(view.width_px) * view.height_px;
   const auto report = clock.time("cut", [&] {
-    return cut_object(
-        *cloud_, prepared_->graph, scaled_capacity(unit_capacity_, smoothness),
-        with_prior(likelihood(sums), first.prior, settings.prior_px_per_view * static_cast<float>(used)),
-        static_cast<int>(used), pixels, options, job);
+    const float prior_px = settings.prior_px_per_view * static_cast<float>(used);
+    return CutSolver(*cloud_, prepared_->graph, options)
+        .solve(with_prior(likelihood(sums), first.prior, prior_px), static_cast<int>(used), pixels, job);
   });
   if (job.cancelled())
     out.outcome = Outcome::kCancelled;

@@ -72,8 +72,6 @@ class ObjectCutter {
   std::optional<PipelineReport> first_;  // its result
   std::string sums_key_;                 // masks that sums_ was added up from
   std::optional<MaskedSums> sums_;
-  std::vector<std::int32_t> unit_capacity_;  // arc capacities at smoothness 1
-  std::string unit_preset_;
 };
 
 // The inputs as bytes: equal exactly where the result must be. For keys, not for files.

@@ -48,8 +48,8 @@ class Run {
  public:
   Run(const GaussianCloud& cloud, const PreparedScene& prepared, const PipelineOptions& options, const Job& job,
       PipelineReport* report)
-      : cloud_(cloud), graph_(prepared.graph), parts_(prepared.parts), options_(options), job_(job), report_(*report), clock_(&report->stages),
-        sums_(cloud.size()) {}
+      : cloud_(cloud), parts_(prepared.parts), options_(options), job_(job), report_(*report), clock_(&report->stages),
+        sums_(cloud.size()), solver_(cloud, prepared.graph, options.cut) {}
 
   bool answered_by_parts() const { return !prior().empty() && !options_.cut_parts; }
   void reference_view(const Camera& full, const Strokes& strokes);
@@ -77,23 +77,21 @@ class Run {
   void measure_agreement();
 
   const GaussianCloud& cloud_;
-  const FlowGraph& graph_;
   const PartHierarchy& parts_;
   const PipelineOptions& options_;
   const Job& job_;
   PipelineReport& report_;
   StageClock clock_;
   MaskedSums sums_;
-  std::vector<std::int32_t> capacity_;  // does not change within a run
+  CutSolver solver_;
   int used_views_ = 0;
 };
 
 void Run::solve() {
   clock_.time("cut", [&] {
     const Camera& view = report_.views.front().camera;
-    if (capacity_.empty() && !options_.cut.coarse) capacity_ = arc_capacities(cloud_, graph_, options_.cut.energy);
-    report_.cut = cut_object(cloud_, graph_, capacity_, with_prior(likelihood(sums_), prior(), prior_px()), used_views_,
-                             static_cast<double>(view.width_px) * view.height_px, options_.cut, job_);
+    report_.cut = solver_.solve(with_prior(likelihood(sums_), prior(), prior_px()), used_views_,
+                                static_cast<double>(view.width_px) * view.height_px, job_);
     report_.labels = report_.cut.labels;
   });
   snapshot();
@@ -189,6 +187,8 @@ double Run::share_visible(const Camera& camera, const Mask& seen) {
     RasterOptions options;
     options.colour = false;
     options.shown = report_.labels;
+    options.roi = labelled_rectangle(cloud_, camera, report_.labels);
+    if (options.roi->empty()) return std::size_t{0};
     return count(thresholded(rasterize(cloud_, camera, options, job_).alpha, 0.5f));
   });
   return alone ? static_cast<double>(count(seen)) / static_cast<double>(alone) : 0.0;

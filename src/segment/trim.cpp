@@ -11,19 +11,21 @@ namespace {
 
 // Where the object may be: its mask, and where something nearer hides it.
 Mask allowed_in(const GaussianCloud& cloud, const TrimView& view, const TrimOptions& options, const std::vector<std::uint8_t>& labels,
-                const Job& job) {
+                const PixelRect& rect, const Job& job) {
   RasterOptions raster;
   raster.colour = false;
   raster.depth = true;
+  raster.roi = rect;
   const RasterOutput scene = rasterize(cloud, view.camera, raster, job);
   raster.shown = labels;
   const RasterOutput alone = rasterize(cloud, view.camera, raster, job);
   Mask allowed = dilated(*view.mask, options.margin_px);
   constexpr float kNearer = 0.99f;
-  for (std::size_t i = 0; i < allowed.size(); ++i) {
-    const float depth = scene.median_depth.pixels()[i];
-    if (depth > 0 && depth < kNearer * alone.expected_depth.pixels()[i]) allowed.pixels()[i] = kMaskObject;
-  }
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      const float depth = scene.median_depth.at(x - rect.x0, y - rect.y0);
+      if (depth > 0 && depth < kNearer * alone.expected_depth.at(x - rect.x0, y - rect.y0)) allowed.at(x, y) = kMaskObject;
+    }
   return allowed;
 }
 
@@ -36,8 +38,11 @@ std::size_t trim(const GaussianCloud& cloud, std::span<const TrimView> views, co
   for (std::size_t i = 0; i < n; ++i) {
     const TrimView& view = views[i * views.size() / n];
     if (job.cancelled()) return 0;
-    const Mask allowed = allowed_in(cloud, view, options, *labels, job);
+    const PixelRect rect = labelled_rectangle(cloud, view.camera, *labels);
+    if (rect.empty()) continue;
+    const Mask allowed = allowed_in(cloud, view, options, *labels, rect, job);
     RasterOptions raster;
+    raster.roi = rect;
     raster.colour = false;
     raster.shown = *labels;
     raster.sum_mask = &allowed;
