@@ -17,17 +17,18 @@ series() {  # name of the benchmark -> lines of "thousand nodes, ms"
 }
 for name in cut_cold cut_in_place cut_next_view boost_boykov_kolmogorov opencv_gcgraph; do series "$name" > "$work/$name"; done
 gnuplot <<PLOT
-set terminal svg size 760,480 font "sans,13" background "white"
+set terminal svg size 760,580 font "sans,13" background "white"
 set output "$root/docs/cut_growth.svg"
 set logscale xy
 set xlabel "Gaussians (thousand)"
 set ylabel "CPU time (ms)"
-set key left top
+set key below vertical maxrows 5 Left reverse
+set xtics (200, 500, 1000, 2000, 5000)
 set grid
 set xrange [180:5600]
 plot "$work/boost_boykov_kolmogorov" w lp title "Boost boykov\\\\_kolmogorov, building included", \
      "$work/opencv_gcgraph" w lp title "OpenCV GCGraph, building included", \
      "$work/cut_cold" w lp lw 2 title "cold, building included", \
      "$work/cut_in_place" w lp lw 2 title "sub-graph, on a solver that stands ready", \
-     "$work/cut_next_view" w lp lw 2 title "warm, after one more view"
+     "$work/cut_next_view" w lp lw 2 lc rgb "#c05000" title "warm, after one more view"
 PLOT
