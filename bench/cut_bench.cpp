@@ -233,8 +233,8 @@ void register_problem(const std::string& name, const ProblemOf& problem, bool wi
   }
   add("cut_next_view", [=](benchmark::State& s) { cut_next_view(s, problem); });
   constexpr std::int64_t kMeant = 8 << 20;  // eight times what all views together can say
-  add("cut_after_object_stroke", [=](benchmark::State& s) { cut_after_stroke(s, problem, kMeant); })->RangeMultiplier(10)->Range(10, 10000);
-  add("cut_after_rest_stroke", [=](benchmark::State& s) { cut_after_stroke(s, problem, -kMeant); })->RangeMultiplier(10)->Range(10, 10000);
+  add("cut_after_object_stroke", [=](benchmark::State& s) { cut_after_stroke(s, problem, kMeant); })->RangeMultiplier(10)->Range(10, 10000)->Iterations(20);
+  add("cut_after_rest_stroke", [=](benchmark::State& s) { cut_after_stroke(s, problem, -kMeant); })->RangeMultiplier(10)->Range(10, 10000)->Iterations(20);
   add("lambda_sweep_warm", [=](benchmark::State& s) { lambda_sweep(s, problem, true); });
   add("lambda_sweep_cold", [=](benchmark::State& s) { lambda_sweep(s, problem, false); });
   add("snapshot_and_restore", [=](benchmark::State& s) { snapshot_and_restore(s, problem); });
