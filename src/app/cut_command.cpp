@@ -82,8 +82,8 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   if (!args.work.empty()) return run_work_cut({args.work, args.output, args.overwrite, args.json, common.quiet});
   if (args.scene.empty()) throw CLI::RequiredError("scene, or --work FILE.splatcut.json,");
   const Strokes strokes = strokes_of(args);
+  const Job job = console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
   OutputFolder folder(args.output, args.overwrite);
-  const Job job = console_job(common.quiet);
   const auto start = std::chrono::steady_clock::now();
   const auto ms_since_start = [&] { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(); };
   const Scene scene = load_scene(args.scene, job);

@@ -70,8 +70,8 @@ void print_row(const nlohmann::json& s) {
 }
 
 void run_eval(const EvalArguments& args, const CommonOptions& common) {
+  const Job job = console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
   OutputFolder folder(args.output, args.overwrite);
-  const Job job = console_job(common.quiet);
   EvaluationOptions options;
   options.pipeline = preset(args.preset);
   options.clicks = args.clicks;
