@@ -312,3 +312,23 @@ TEST_CASE("parts: objects of the still life in three robot clicks") {
   CHECK(first > 0.7);
   CHECK(third > 0.93);
 }
+
+TEST_CASE("parts: cancelled before, or at any step that reports progress, without harm") {
+  const GaussianCloud cloud = random_cloud(3000, 8);
+  const Camera camera = look_at({0, 0, -4}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120);
+  for (int step = 0; step < 12; ++step) {
+    std::stop_source stop;
+    int seen = 0;
+    Job job;
+    job.stop = stop.get_token();
+    job.on_progress = [&](std::string_view, double) {
+      if (seen++ == step) stop.request_stop();
+    };
+    prepare_scene(cloud, camera, {0, -1, 0}, {}, {}, job);
+  }
+  std::stop_source stopped;
+  stopped.request_stop();
+  Job job;
+  job.stop = stopped.get_token();
+  CHECK(prepare_scene(cloud, camera, {0, -1, 0}, {}, {}, job).parts.trees.empty());
+}

@@ -17,7 +17,7 @@ namespace {
 struct EvalArguments {
   std::filesystem::path suite, output;
   std::string preset = "default", first_mask, masks;
-  int clicks = 3;
+  int clicks = 3, views = -1;
   bool curve = true, parts_only = false, json = false, overwrite = false;
 };
 
@@ -81,6 +81,7 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
   if (args.first_mask == "pixels") options.pipeline.first_mask_from = FirstMaskFrom::kPixels;
   if (args.first_mask == "parts") options.pipeline.first_mask_from = FirstMaskFrom::kParts;
   options.pipeline.cut_parts = !args.parts_only;
+  if (args.views >= 0) options.pipeline.orbit.views = args.views;
   std::vector<nlohmann::json> scores;
   if (!args.json)
     fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>8}\n", "scene", "img IoU", "acc", "bnd IoU", "gau IoU",
@@ -117,6 +118,7 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("-o,--output", args->output, "Folder for eval.json")->required();
   command.add_option("--preset", args->preset, "fast, default, best or paper");
   command.add_option("--clicks", args->clicks, "Clicks for the final cut")->check(CLI::Range(1, 8));
+  command.add_option("--views", args->views, "Orbit views beside the reference")->check(CLI::Range(0, 400));
   command.add_option("--first-mask", args->first_mask, "parts: the hierarchy of parts; pixels: GrabCut in the one picture; truth: the true mask")
       ->check(CLI::IsMember({"parts", "pixels", "truth"}));
   command.add_flag("--parts-only", args->parts_only, "The parts are the answer: no orbit views, no graph cut");

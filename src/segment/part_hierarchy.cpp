@@ -202,6 +202,7 @@ void attach_others(const GaussianCloud& cloud, const SurfaceFeatures& f, const S
     }
   const auto k = std::min<std::size_t>(static_cast<std::size_t>(votes), f.core.size());
   const std::vector<std::uint32_t> nearest = k_nearest_of(f.position_world, others, k, job);
+  if (job.cancelled()) return;
   for (std::size_t i = 0; i < others.size(); ++i) {
     std::uint32_t best = kNoPart;
     std::ptrdiff_t most = 0;
@@ -222,6 +223,7 @@ void attach_others(const GaussianCloud& cloud, const SurfaceFeatures& f, const S
 
 PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeatures& features, const PartOptions& options, const Job& job) {
   PartHierarchy out;
+  if (job.cancelled()) return out;
   const std::vector<SurfaceEdge> edges = surface_edges(cloud, features);
   const Superpoints leaves = superpoints(features, edges, options.superpoints);
   job.progress("parts", 0.6);

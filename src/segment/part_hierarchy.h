@@ -68,6 +68,7 @@ struct PartHierarchy {
   std::vector<PartTree> trees;         // over the same leaves
 };
 
+// Cancelled: what comes back is incomplete and must not be used.
 PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, std::span<const Camera> observing, const PartOptions& options = {},
                                    const Job& job = {});
 

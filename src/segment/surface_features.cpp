@@ -123,6 +123,7 @@ SurfaceFeatures surface_features(const GaussianCloud& cloud, std::span<const Cam
   });
   f.k = std::min<std::size_t>(static_cast<std::size_t>(options.neighbours), n > 0 ? n - 1 : 0);
   f.neighbour = k_nearest(f.position_world, f.k, job);
+  if (job.cancelled()) return f;
   for_each_index(n, [&](std::size_t i) {
     const std::uint32_t last = f.k ? f.neighbour[(i + 1) * f.k - 1] : kNoNeighbour;
     if (last == kNoNeighbour) return;
