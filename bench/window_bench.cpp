@@ -96,6 +96,10 @@ void gl_pictures(const std::shared_ptr<const GaussianCloud>& cloud, const Camera
 int main(int argc, char** argv) {
   if (argc < 4) return 2;
   const glm::vec2 share(std::atof(argv[2]), std::atof(argv[3]));
+  if (!(share.x > 0 && share.y > 0 && share.x < 1 && share.y < 1)) {
+    fmt::print(stderr, "X and Y are shares of the picture between 0 and 1\n");
+    return 2;
+  }
   HeadlessApp app(1280 + 370, 720 + 76);  // a picture of 1280x720
   Studio& s = app.studio();
   FrameTimes longest;
