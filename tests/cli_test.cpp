@@ -88,6 +88,7 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused("eval bad.json -o cut", {"bad.json", "suite"});
   place.write("no_truth.json", R"({"scenes": [{"name": "a", "scene": "made/small.ply"}]})");
   refused("eval no_truth.json -o cut", {"entry a", "reference"});
+  refused(life.cut("--click " + life.click + " -o cut --first-mask pixels --parts-only"), {"parts", "pixels"});
   CHECK_FALSE(place.exists("cut"));
   CHECK_FALSE(place.exists("a.png"));
   CHECK(place.leftovers().empty());
@@ -220,6 +221,26 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
   CHECK(scene["image_iou"].get<double>() <= 1.0);
   CHECK(scene["ms"].contains("cut"));
   CHECK(place.run("eval made/suite.json --preset fast -o measured").code == 1);
+
+  // A scene known by masks of photographs only has no truth of the reference: such a scene is left out, by name.
+  json photographed = entry;
+  photographed["name"] = "photographed";
+  photographed["truth"] = {{"masks", "photos"}};
+  photographed["clicks"] = {{{"x", 10}, {"y", 10}}};
+  place.make_folder("made/photos");
+  REQUIRE(place.run("render " + life.scene + " --what alpha " + life.camera + " -o view_00.png").code == 0);
+  place.write("made/photos/view_00.png", place.text("view_00.png"));
+  place.write("made/both.json", json{{"scenes", {photographed, entry}}}.dump());
+  const Result truth_given = place.run("eval made/both.json --preset fast --first-mask truth --masks truth -o from_truth");
+  REQUIRE_MESSAGE(truth_given.code == 0, truth_given.err);
+  CHECK(truth_given.err.find("photographed: left out") != std::string::npos);
+  const json from_truth = json::parse(place.text("from_truth/eval.json"));
+  REQUIRE(from_truth["scenes"].size() == 1);
+  CHECK(from_truth["scenes"][0]["image_iou"].get<double>() > 0.8);
+  place.write("made/photos_only.json", json{{"scenes", {photographed}}}.dump());
+  const Result nothing_left = place.run("eval made/photos_only.json --first-mask truth -o nothing");
+  CHECK(nothing_left.code == 1);
+  CHECK(nothing_left.err.find("no scene of the suite") != std::string::npos);
 }
 
 TEST_CASE("Ctrl+C ends a run with 1 and leaves nothing half written") {

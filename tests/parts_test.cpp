@@ -12,6 +12,7 @@
 #include "scene/still_life.h"
 #include "segment/mask_tools.h"
 #include "segment/part_picker.h"
+#include "segment/pipeline.h"
 #include "segment/prepared_scene.h"
 #include "segment/robot_user.h"
 #include "synthetic_cloud.h"
@@ -331,4 +332,19 @@ TEST_CASE("parts: cancelled before, or at any step that reports progress, withou
   Job job;
   job.stop = stopped.get_token();
   CHECK(prepare_scene(cloud, camera, {0, -1, 0}, {}, {}, job).parts.trees.empty());
+  const PreparedScene prepared = prepare_scene(cloud, camera, {0, -1, 0}, {});
+  const Mask none = first_mask_of(cloud, prepared, camera, {click({80, 60}, SeedLabel::kObject)}, preset("default"), job);
+  CHECK(none.width() == 160);
+  CHECK(count(none) == 0);
+}
+
+TEST_CASE("parts: a scene prepared for masks from pixels has none") {
+  PipelineOptions options = preset("default");
+  CHECK(prepare_options(options).with_parts);
+  options.first_mask_from = FirstMaskFrom::kPixels;
+  const GaussianCloud cloud = random_cloud(1000, 8);
+  const Camera camera = look_at({0, 0, -4}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120);
+  const PreparedScene prepared = prepare_scene(cloud, camera, {0, -1, 0}, {}, prepare_options(options));
+  CHECK(prepared.parts.trees.empty());
+  CHECK(prepared.graph.nodes() == cloud.size());
 }

@@ -92,7 +92,8 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   const ChosenCamera chosen = choose_camera(args.camera, scene.cloud);
   warn(chosen.warning, common.quiet);
   check_inside(strokes, chosen.camera);
-  const PipelineOptions options = pipeline_of(args, chosen);
+  PipelineOptions options = pipeline_of(args, chosen);
+  options.scene_cameras = chosen.given;
   PipelineReport report = cut_out(scene.cloud, nullptr, chosen.camera, chosen.up_world, strokes, options, job);
   end_progress();
   if (report.outcome == Outcome::kCancelled) throw Error("splatcut cut", "cancelled, nothing was written");

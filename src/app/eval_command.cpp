@@ -69,6 +69,11 @@ void print_row(const nlohmann::json& s) {
              after("3"), after("5"), number("noc90", "{:.1f}"), number("total_ms", "{:.0f}"));
 }
 
+// --first-mask truth needs the truth of the reference view, --masks truth that of any view.
+bool lacks_truth(const EvaluationCase& test, const EvaluationOptions& options) {
+  return (options.truth_first_mask && !test.reference_truth) || (options.truth_masks && test.truth_labels.empty());
+}
+
 void run_eval(const EvalArguments& args, const CommonOptions& common) {
   const Job job = console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
   OutputFolder folder(args.output, args.overwrite);
@@ -87,9 +92,14 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
     fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>8}\n", "scene", "img IoU", "acc", "bnd IoU", "gau IoU",
                "1 click", "3", "5", "NoC90", "ms");
   for (const nlohmann::json& entry : read_suite(args.suite)) {
-    const auto loaded = load_case(entry, args.suite.parent_path(), options.pipeline.neighbours, job);
+    const auto loaded = load_case(entry, args.suite.parent_path(), prepare_options(options.pipeline), job);
     if (job.cancelled()) throw Error("splatcut eval", "cancelled, nothing was written");
     warn(loaded->warning, common.quiet);
+    if (lacks_truth(loaded->test, options)) {
+      end_progress();
+      fmt::print(stderr, "{}: left out, it has no truth where --first-mask or --masks asks for it\n", loaded->test.name);
+      continue;
+    }
     SceneScore score = evaluate(loaded->test, options, job);
     if (job.cancelled()) throw Error("splatcut eval", "cancelled, nothing was written");
     score.stages.insert(score.stages.begin(), loaded->prepared.stages.begin(), loaded->prepared.stages.end());
@@ -99,6 +109,7 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
     if (!args.json) print_row(scores.back());
     std::fflush(stdout);
   }
+  if (scores.empty()) throw Error("splatcut eval", "no scene of the suite is left to measure");
   const nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"clicks", args.clicks},
                                  {"scenes", scores}, {"mean", mean_json(scores)}};
   write_text_file(folder.file("eval.json"), result.dump(2) + "\n");

@@ -89,7 +89,7 @@ std::vector<nlohmann::json> read_suite(const std::filesystem::path& path) {
   return {suite.at("scenes").begin(), suite.at("scenes").end()};
 }
 
-std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder, int neighbours, const Job& job) {
+std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder, const PrepareOptions& prepare, const Job& job) {
   auto loaded = std::make_unique<LoadedCase>();
   const auto ms = [](auto a, auto b) { return std::chrono::duration<double, std::milli>(b - a).count(); };
   try {
@@ -99,8 +99,6 @@ std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::fi
     loaded->load_ms = ms(start, loaded_at);
     if (job.cancelled()) return loaded;
     const std::vector<Camera> cameras = fill_case(entry, folder, loaded.get());
-    PrepareOptions prepare;
-    prepare.graph.neighbours = neighbours;
     loaded->prepared = prepare_scene(loaded->scene.cloud, loaded->test.reference, loaded->test.up_world, cameras, prepare, job);
   } catch (const nlohmann::json::exception& error) {
     throw Error("suite", "the entry " + entry.value("name", "?") + " lacks something (" + error.what() + ")");

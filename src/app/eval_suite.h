@@ -29,6 +29,6 @@ struct LoadedCase {
 std::vector<nlohmann::json> read_suite(const std::filesystem::path& path);
 
 // Scene, graph, parts, cameras and truth of one entry.
-std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder, int neighbours, const Job& job);
+std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder, const PrepareOptions& prepare, const Job& job);
 
 }  // namespace splatcut

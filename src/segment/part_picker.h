@@ -34,8 +34,9 @@ PartView view_parts(const PartHierarchy& parts, const Image<std::int32_t>& first
 struct PickOptions {
   int scale_steps = 0;  // along first_chain from what looks most likely: -1 the next smaller part, +1 the next larger
   float doubt = 0.25f;  // how much more likely the first click's part must be than others to count as clear
-  float stability_weight = 3;
+  float stability_weight = 3;  // of -ln of the mean IoU with the other trees' likest parts
 
+  // Logarithms of folds unless said otherwise; found by random search (docs/masks.md).
   float rise_bonus = 0.0095f;
   float cut_weight = 0.094f, jump_bonus = 0.17f, root_penalty = 0.011f;
   float frame_penalty = 1.9f;
@@ -43,7 +44,7 @@ struct PickOptions {
   float small_penalty = 2, large_penalty = 0.55f;
   float least_log_cut = -16;
   float growth_penalty = 0.01f, growth_slack = 0.5f;  // of additions larger than what is selected
-  float change_large = 3.4f, change_small = 0, change_slack = 3.25f, change_most = 2.7f;  // of later clicks
+  float change_large = 3.4f, change_slack = 3.25f, change_most = 2.7f;  // of later clicks
 };
 
 struct PartNode {

@@ -282,14 +282,21 @@ PipelineOptions preset(const std::string& name) {
   return options;
 }
 
+PrepareOptions prepare_options(const PipelineOptions& options) {
+  PrepareOptions prepare;
+  prepare.graph.neighbours = options.neighbours;
+  prepare.with_parts = options.first_mask_from == FirstMaskFrom::kParts;
+  return prepare;
+}
+
 PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,
                        const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options, const Job& job) {
+  if (!options.cut_parts && options.first_mask_from != FirstMaskFrom::kParts)
+    throw Error("settings", "the parts cannot be the answer where the first mask comes from pixels", "Leave one of the two out");
   PipelineReport report;
   PreparedScene made;
   if (!prepared) {
-    PrepareOptions prepare;
-    prepare.graph.neighbours = options.neighbours;
-    made = prepare_scene(cloud, reference, up_world, options.view_cameras, prepare, job);
+    made = prepare_scene(cloud, reference, up_world, options.scene_cameras, prepare_options(options), job);
     report.stages = made.stages;
     prepared = &made;
   }
@@ -324,6 +331,10 @@ Mask first_mask_of(const GaussianCloud& cloud, const PreparedScene& prepared, co
   PipelineReport report;
   Run run(cloud, prepared, options, job, &report);
   run.reference_view(reference, strokes);
+  if (report.views.empty()) {  // cancelled
+    const Camera camera = limited_to_width(reference, options.work_width_px);
+    return Mask(camera.width_px, camera.height_px);
+  }
   return report.views.front().mask;
 }
 

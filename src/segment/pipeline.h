@@ -41,6 +41,7 @@ struct PipelineOptions {
   int work_width_px = 400;           // views are rendered no wider than this
   OrbitOptions orbit;
   std::vector<Camera> view_cameras;  // empty: orbit
+  std::vector<Camera> scene_cameras;  // of its photographs, where known: parts are seen from there (not prepared yet)
   int neighbours = 10;               // k of the graph
   FirstMaskFrom first_mask_from = FirstMaskFrom::kParts;
   PickOptions pick;                  // kParts
@@ -59,9 +60,12 @@ struct PipelineOptions {
   std::function<void(const PipelineReport&)> on_snapshot;
 };
 
-// Settings by name: fast (no orbit views), default, best, paper (GaussianCut's literal energy and counts).
+// Settings by name: fast (few, small orbit views), default, best, paper (GaussianCut's literal energy and counts).
 // Throws Error for any other name.
 PipelineOptions preset(const std::string& name);
+
+// What a scene must be prepared with for these options.
+PrepareOptions prepare_options(const PipelineOptions& options);
 
 struct ViewReport {
   Camera camera;
@@ -87,6 +91,7 @@ struct PipelineReport {
 };
 
 // `prepared` may be null: it is then made here. up_world: which way is up, for the orbit.
+// Throws Error for parts as the answer (cut_parts = false) without parts (kPixels).
 PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,
                        const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options,
                        const Job& job = {});

@@ -10,6 +10,7 @@ PreparedScene prepare_scene(const GaussianCloud& cloud, const Camera& reference,
   StageClock clock(&prepared.stages);
   job.progress("graph", 0);
   clock.time("graph", [&] { prepared.graph = knn_graph(cloud, options.graph, job); });
+  if (!options.with_parts) return prepared;
   job.progress("parts", 0.4);
   clock.time("parts", [&] {
     const auto views = observing_views(cloud, reference, up_world, given, options.observing, job);

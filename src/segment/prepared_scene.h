@@ -25,6 +25,7 @@ struct PrepareOptions {
   KnnOptions graph;
   ObservingOptions observing;
   PartOptions parts;
+  bool with_parts = true;  // they are not needed where masks come from pixels
 };
 
 struct PreparedScene {
