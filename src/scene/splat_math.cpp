@@ -47,6 +47,12 @@ glm::mat3 covariance_world(const glm::vec3& scale, const glm::quat& rotation) {
   return m * glm::transpose(m);
 }
 
+glm::vec3 shortest_axis(const glm::vec3& scale, const glm::quat& rotation) {
+  const glm::mat3 world_from_local = glm::mat3_cast(rotation);
+  const int axis = scale.x <= scale.y && scale.x <= scale.z ? 0 : scale.y <= scale.z ? 1 : 2;
+  return world_from_local[axis];
+}
+
 Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, const glm::mat3& sigma_world) {
   const float z = point_camera.z;
   const float limit_x = kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px;

@@ -34,6 +34,9 @@ struct Splat {
 // R diag(s^2) R^T, world frame, scene units squared.
 glm::mat3 covariance_world(const glm::vec3& scale, const glm::quat& rotation);
 
+// The unit axis along which the Gaussian is thinnest: its surface's normal, of either sign.
+glm::vec3 shortest_axis(const glm::vec3& scale, const glm::quat& rotation);
+
 // Sigma2 of a Gaussian whose mean is at point_camera.
 Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, const glm::mat3& sigma_world);
 

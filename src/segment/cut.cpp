@@ -1,10 +1,10 @@
 #include "segment/cut.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cassert>
 #include <stdexcept>
+
+#include "segment/parallel.h"
 
 namespace splatcut {
 
@@ -38,15 +38,12 @@ CutReport CutSolver::solve(const Likelihood& likelihood, int views, double pixel
 
 Confidence CutSolver::confidence() const {
   assert(max_flow_);
-  constexpr std::size_t kChunk = 8192;
   const std::size_t n = cloud_.size();
   Confidence out{std::vector<float>(n), std::vector<float>(n)};
-  tbb::parallel_for(std::size_t{0}, (n + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    for (std::size_t g = chunk * kChunk; g < std::min(n, (chunk + 1) * kChunk); ++g) {
-      const FlipCost cost = max_flow_->flip_cost(static_cast<std::uint32_t>(g));
-      out.at_least[g] = static_cast<float>(static_cast<double>(cost.at_least) / kCapacityScale);
-      out.at_most[g] = static_cast<float>(static_cast<double>(cost.at_most) / kCapacityScale);
-    }
+  for_each_index(n, [&](std::size_t g) {
+    const FlipCost cost = max_flow_->flip_cost(static_cast<std::uint32_t>(g));
+    out.at_least[g] = static_cast<float>(static_cast<double>(cost.at_least) / kCapacityScale);
+    out.at_most[g] = static_cast<float>(static_cast<double>(cost.at_most) / kCapacityScale);
   });
   return out;
 }

@@ -1,9 +1,9 @@
 #include "segment/k_nearest.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <nanoflann.hpp>
+
+#include "segment/parallel.h"
 
 namespace splatcut {
 
@@ -22,7 +22,7 @@ struct PointSource {
 
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointSource>, PointSource, 3, std::uint32_t>;
 
-constexpr std::size_t kLeafSize = 16, kChunk = 4096;
+constexpr std::size_t kLeafSize = 16;
 
 }  // namespace
 
@@ -33,11 +33,11 @@ std::vector<std::uint32_t> k_nearest(const std::vector<glm::vec3>& points, std::
   const PointSource source{points};
   Tree tree(3, source, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
   tree.buildIndex();
-  tbb::parallel_for(std::size_t{0}, (n + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+  for_chunks(n, [&](std::size_t from, std::size_t to) {
     if (job.cancelled()) return;
     std::vector<std::uint32_t> found(k + 1);
     std::vector<float> distance2(k + 1);
-    for (std::size_t g = chunk * kChunk; g < std::min(n, (chunk + 1) * kChunk); ++g) {
+    for (std::size_t g = from; g < to; ++g) {
       const std::size_t count = tree.knnSearch(&points[g].x, k + 1, found.data(), distance2.data());
       std::size_t used = 0;  // the point itself is among them, unless k + 1 twins lie on it
       for (std::size_t i = 0; i < count && used < k; ++i)
@@ -53,10 +53,10 @@ std::vector<std::uint32_t> k_nearest_of(const std::vector<glm::vec3>& points, co
   const PointSource source{points};
   Tree tree(3, source, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
   tree.buildIndex();
-  tbb::parallel_for(std::size_t{0}, (queries.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+  for_chunks(queries.size(), [&](std::size_t from, std::size_t to) {
     if (job.cancelled()) return;
     std::vector<float> distance2(k);
-    for (std::size_t q = chunk * kChunk; q < std::min(queries.size(), (chunk + 1) * kChunk); ++q)
+    for (std::size_t q = from; q < to; ++q)
       tree.knnSearch(&queries[q].x, k, &neighbour[q * k], distance2.data());
   });
   return neighbour;

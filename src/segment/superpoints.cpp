@@ -1,7 +1,5 @@
 #include "segment/superpoints.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "scene/radix_sort.h"
 #include "scene/splat_math.h"
 #include "segment/k_nearest.h"
+#include "segment/parallel.h"
 
 namespace splatcut {
 
@@ -80,10 +79,7 @@ std::vector<SurfaceEdge> surface_edges(const GaussianCloud& cloud, const Surface
       const std::uint32_t j = f.neighbour[e];
       if (j != kNoNeighbour && (i < j || !lists(j, i))) edges.push_back({std::min(i, j), std::max(i, j)});
     }
-  constexpr std::size_t kChunk = 8192;
-  tbb::parallel_for(std::size_t{0}, (edges.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    for (std::size_t i = chunk * kChunk; i < std::min(edges.size(), (chunk + 1) * kChunk); ++i) measure(cloud, f, &edges[i]);
-  });
+  for_each_index(edges.size(), [&](std::size_t i) { measure(cloud, f, &edges[i]); });
   return edges;
 }
 

@@ -1,26 +1,16 @@
 #include "segment/surface_features.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "scene/rasterizer.h"
 #include "scene/splat_math.h"
 #include "segment/k_nearest.h"
+#include "segment/parallel.h"
 
 namespace splatcut {
 
 namespace {
-
-constexpr std::size_t kChunk = 4096;
-
-template <class Body>
-void for_each_index(std::size_t n, const Body& body) {
-  tbb::parallel_for(std::size_t{0}, (n + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    for (std::size_t i = chunk * kChunk; i < std::min(n, (chunk + 1) * kChunk); ++i) body(i);
-  });
-}
 
 struct Observation {
   std::vector<float> seen_px;           // A_g over all views
@@ -69,12 +59,6 @@ std::vector<std::uint32_t> core_of(const GaussianCloud& cloud, const Observation
   return core;
 }
 
-glm::vec3 shortest_axis(const GaussianCloud& cloud, std::size_t g) {
-  const glm::vec3& s = cloud.scale[g];
-  const glm::mat3 world_from_local = glm::mat3_cast(cloud.rotation[g]);
-  return s.x <= s.y && s.x <= s.z ? world_from_local[0] : s.y <= s.z ? world_from_local[1] : world_from_local[2];
-}
-
 // Averages over the neighbours, `weight(i, j)` each, itself with 1.
 template <class Value, class Weight>
 std::vector<Value> averaged(const std::vector<Value>& value, const SurfaceFeatures& f, const Weight& weight) {
@@ -119,7 +103,7 @@ SurfaceFeatures surface_features(const GaussianCloud& cloud, std::span<const Cam
   for_each_index(n, [&](std::size_t i) {
     f.position_world[i] = cloud.position[f.core[i]];
     f.colour[i] = glm::vec3(0.5f) + kShC0 * cloud.f_dc[f.core[i]];
-    f.normal_world[i] = shortest_axis(cloud, f.core[i]);
+    f.normal_world[i] = shortest_axis(cloud.scale[f.core[i]], cloud.rotation[f.core[i]]);
   });
   f.k = std::min<std::size_t>(static_cast<std::size_t>(options.neighbours), n > 0 ? n - 1 : 0);
   f.neighbour = k_nearest(f.position_world, f.k, job);
