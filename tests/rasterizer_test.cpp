@@ -182,6 +182,32 @@ TEST_CASE("weights plus remaining transmittance sum to 1") {
   CHECK(sums.inside == sums.total);
 }
 
+TEST_CASE("whole pixels: sums count where a Gaussian shows, however little") {
+  // Alpha 0.5 falls below 1/255 at d^2 = 2 ln 127.5 variances; sigma 0.05 at depth 1 is 5 px, its variance 25.3 px^2 with
+  // the low-pass.
+  const GaussianCloud cloud = single_splat(1, 0.05f, 0.5f, glm::vec3(1));
+  const Camera camera = axis_camera();
+  std::int64_t expected = 0, expected_left = 0;
+  for (int y = 0; y < camera.height_px; ++y)
+    for (int x = 0; x < camera.width_px; ++x)
+      if ((x - 16) * (x - 16) + (y - 16) * (y - 16) < 2 * std::log(127.5) * 25.3) {
+        ++expected;
+        expected_left += x < camera.width_px / 2;
+      }
+  const Mask mask = left_half(camera);
+  for (auto* draw : {+[](const GaussianCloud& c, const Camera& v, const RasterOptions& o) { rasterize(c, v, o); },
+                     +[](const GaussianCloud& c, const Camera& v, const RasterOptions& o) { rasterize_reference(c, v, o); }}) {
+    MaskedSums sums(1);
+    RasterOptions options;
+    options.sum_mask = &mask;
+    options.sums = &sums;
+    options.sum_whole_pixels = true;
+    draw(cloud, camera, options);
+    CHECK(sums.total[0] == expected * 65536);
+    CHECK(sums.inside[0] == expected_left * 65536);
+  }
+}
+
 TEST_CASE("same bits on 1, 2, 3 threads and on every SIMD target of this machine") {
   const GaussianCloud cloud = random_cloud(20000, 11, 2, 0.06f);
   const Camera camera = front_camera(317, 203);

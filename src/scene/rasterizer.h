@@ -43,6 +43,7 @@ struct RasterOptions {
   std::span<const std::uint8_t> shown;         // size of the cloud: 0 leaves the Gaussian out
   const Mask* sum_mask = nullptr;              // with `sums`: size of the camera's picture, non-zero = object
   MaskedSums* sums = nullptr;                  // added to; arrays of the cloud's size
+  bool sum_whole_pixels = false;               // a pixel counts 1, not by its weight, where alpha >= 1/255
 };
 
 struct RasterOutput {

@@ -62,7 +62,7 @@ RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camer
         colour += weight * s.colour;
         weighted_depth += weight * s.splat.depth;
         if (options.sums) {
-          const auto units = std::llrint(weight * MaskedSums::kUnitsPerPixel);
+          const auto units = std::llrint((options.sum_whole_pixels ? 1 : weight) * MaskedSums::kUnitsPerPixel);
           options.sums->total[s.gaussian] += units;
           if (options.sum_mask->at(x, y)) options.sums->inside[s.gaussian] += units;
         }

@@ -102,7 +102,8 @@ struct TilePixels {
   alignas(64) std::array<std::int32_t, kTilePixels> hit;
   alignas(64) std::array<std::int32_t, kTilePixels> object;  // -1 inside the mask, else 0
   std::array<int, kBlocks> object_pixels;
-  std::uint32_t alive = 0;  // bit b: some pixel of block b can still change
+  bool whole_pixels = false;  // sums count pixels, not weights
+  std::uint32_t alive = 0;    // bit b: some pixel of block b can still change
 };
 
 // Indices into a chunk, front to back, for each block of a row of blocks.
@@ -220,6 +221,7 @@ void start_pixels(const View& view, int tile_x, int tile_y, TilePixels* pixels) 
     values->fill(0);
   pixels->hit.fill(-1);
   pixels->object_pixels.fill(0);
+  pixels->whole_pixels = view.options.sum_whole_pixels;
   for (int i = 0; i < kTilePixels; ++i) {
     const int block = i / kBlockPixels, p = i % kBlockPixels;
     const int x = tile_x + block % kBlocksAcross * kBlockPx + p % kBlockPx;
@@ -241,7 +243,7 @@ template <bool kColour, bool kDepth, bool kSums>
 bool blend_block(float x0, float y0, int block, const std::int32_t* list, int count, TilePixels* pixels,
                  Chunk* chunk) {
   const int begin = block * kBlockPixels;
-  const bool some_object = kSums && pixels->object_pixels[block] != 0;
+  const bool some_object = kSums && pixels->object_pixels[block] != 0, whole_pixels = kSums && pixels->whole_pixels;
   V px[kVectors], py[kVectors], transmittance[kVectors], red[kVectors], green[kVectors], blue[kVectors],
       depth[kVectors], median[kVectors];
   hn::Vec<IntLanes> hit[kVectors], object[kVectors];
@@ -298,7 +300,8 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
                                 hit[v]);
       }
       if constexpr (kSums) {
-        const V shifted = fma(weight, hn::Set(kF, static_cast<float>(MaskedSums::kUnitsPerPixel)),
+        const V share = whole_pixels ? hn::IfThenElseZero(counts, hn::Set(kF, 1.0f)) : weight;
+        const V shifted = fma(share, hn::Set(kF, static_cast<float>(MaskedSums::kUnitsPerPixel)),
                               hn::Set(kF, kRoundShift));
         const auto u = hn::Sub(hn::BitCast(kI, shifted), hn::Set(kI, kRoundShiftBits));
         units = hn::Add(units, u);
