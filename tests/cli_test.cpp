@@ -171,6 +171,33 @@ TEST_CASE("the bytes of a cutout do not depend on --threads") {
   }
 }
 
+TEST_CASE("--set sets what a switch sets, and refuses what it does not know with a list of what it does") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  REQUIRE(place.run(life.cut("--click " + life.click + " --smoothness 3 -o by_switch")).code == 0);
+  REQUIRE(place.run(life.cut("--click " + life.click + " --set energy.lambda=3 -o by_set")).code == 0);
+  CHECK(place.text("by_set/labels.u8") == place.text("by_switch/labels.u8"));
+  CHECK(json::parse(place.text("by_set/report.json"))["settings"]["set"] == json({"energy.lambda=3"}));
+  REQUIRE(place.run(life.cut("--click " + life.click + " --set energy.pairwise=paper --set energy.hard=1 -o other")).code == 0);
+  CHECK(json::parse(place.text("other/report.json"))["cut"]["energy"] != json::parse(place.text("by_set/report.json"))["cut"]["energy"]);
+  const auto refused = [&](const std::string& assignment, const char* says) {
+    const Result result = place.run(life.cut("--click " + life.click + " --set " + assignment + " -o refused"));
+    CHECK_MESSAGE(result.code == 2, assignment);
+    CHECK_MESSAGE(result.err.find(says) != std::string::npos, result.err);
+  };
+  refused("energy.lamda=3", "energy.lambda, ");
+  refused("=3", "there is no setting");
+  refused("energy.lambda", "from 0 to 500");
+  refused("energy.lambda=", "from 0 to 500");
+  refused("energy.lambda=3x", "from 0 to 500");
+  refused("energy.lambda=nan", "from 0 to 500");
+  refused("energy.lambda=-1", "from 0 to 500");
+  refused("energy.pairwise=best", "overlap, distance, paper or paper-code");
+  refused("energy.hard=yes", "0 or 1");
+  refused("neighbours=0", "a whole number from 1 to 254");
+  CHECK_FALSE(place.exists("refused"));
+}
+
 TEST_CASE("convert goes through every format and back, and says what is lost") {
   StillLife& life = still_life();
   Workplace& place = life.place;

@@ -8,6 +8,7 @@
 #include "app/console.h"
 #include "app/eval_suite.h"
 #include "app/output_folder.h"
+#include "app/tuning_options.h"
 #include "scene/atomic_file.h"
 
 namespace splatcut {
@@ -17,6 +18,7 @@ namespace {
 struct EvalArguments {
   std::filesystem::path suite, output;
   std::string preset = "default", first_mask, masks;
+  std::vector<std::string> set;
   int clicks = 3, views = -1;
   bool curve = true, parts_only = false, json = false, overwrite = false;
 };
@@ -87,6 +89,7 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
   if (args.first_mask == "parts") options.pipeline.first_mask_from = FirstMaskFrom::kParts;
   options.pipeline.cut_parts = !args.parts_only;
   if (args.views >= 0) options.pipeline.orbit.views = args.views;
+  for (const std::string& assignment : args.set) set_tuning_option(assignment, &options.pipeline);
   std::vector<nlohmann::json> scores;
   if (!args.json)
     fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>8}\n", "scene", "img IoU", "acc", "bnd IoU", "gau IoU",
@@ -110,7 +113,7 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
     std::fflush(stdout);
   }
   if (scores.empty()) throw Error("splatcut eval", "no scene of the suite is left to measure");
-  const nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"clicks", args.clicks},
+  const nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"set", args.set}, {"clicks", args.clicks},
                                  {"scenes", scores}, {"mean", mean_json(scores)}};
   write_text_file(folder.file("eval.json"), result.dump(2) + "\n");
   folder.commit();
@@ -127,13 +130,14 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   CLI::App& command = *program.add_subcommand("eval", "Measure cutouts against truth on a suite of scenes");
   command.add_option("suite", args->suite, "suite.json")->required();
   command.add_option("-o,--output", args->output, "Folder for eval.json")->required();
-  command.add_option("--preset", args->preset, "fast, default, best or paper");
+  command.add_option("--preset", args->preset, "fast, default, best, paper or paper-code");
   command.add_option("--clicks", args->clicks, "Clicks for the final cut")->check(CLI::Range(1, 8));
   command.add_option("--views", args->views, "Orbit views beside the reference")->check(CLI::Range(0, 400));
   command.add_option("--first-mask", args->first_mask, "parts: the hierarchy of parts; pixels: GrabCut in the one picture; truth: the true mask")
       ->check(CLI::IsMember({"parts", "pixels", "truth"}));
   command.add_flag("--parts-only", args->parts_only, "The parts are the answer: no orbit views, no graph cut");
   command.add_option("--masks", args->masks, "truth: the true masks in all orbit views")->check(CLI::IsMember({"truth"}));
+  add_tuning_options(command, &args->set);
   command.add_flag("!--no-curve", args->curve, "Leave out the figures after 1..8 clicks");
   command.add_flag("--json", args->json, "Print JSON");
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");

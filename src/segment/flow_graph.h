@@ -12,6 +12,7 @@ struct FlowGraph {
   std::vector<std::uint32_t> first_arc;    // nodes + 1
   std::vector<std::uint32_t> head;         // per arc: the node it leads to
   std::vector<std::uint32_t> reverse_arc;  // per arc: the arc the other way
+  std::uint32_t listed = 0;                // k-NN graphs: so many first arcs of a node lead to its own neighbours
   std::size_t nodes() const { return first_arc.empty() ? 0 : first_arc.size() - 1; }
   std::size_t arcs() const { return head.size(); }
 };

@@ -1,26 +1,16 @@
 #include "segment/knn_graph.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <utility>
 
 #include "segment/k_nearest.h"
+#include "segment/parallel.h"
 
 namespace splatcut {
 
 namespace {
-
-constexpr std::size_t kChunk = 4096;
-
-template <class Work>
-void for_nodes(std::size_t n, const Work& work) {
-  tbb::parallel_for(std::size_t{0}, (n + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    for (std::size_t g = chunk * kChunk; g < std::min(n, (chunk + 1) * kChunk); ++g) work(static_cast<std::uint32_t>(g));
-  });
-}
 
 using Counts = std::vector<std::atomic<std::uint32_t>>;
 
@@ -36,7 +26,8 @@ struct Lists {
 
   Lists(std::vector<std::uint32_t> nearest, std::size_t n, std::size_t per_node)
       : neighbour(std::move(nearest)), k(per_node), place_of_me(n * per_node), one_sided(n) {
-    for_nodes(n, [&](std::uint32_t g) {
+    for_each_index(n, [&](std::size_t node) {
+      const auto g = static_cast<std::uint32_t>(node);
       for (std::size_t i = g * k; i < (g + 1) * k; ++i) {
         place_of_me[i] = place(neighbour[i], g);
         if (place_of_me[i] == kNowhere) one_sided[neighbour[i]].fetch_add(1, std::memory_order_relaxed);
@@ -53,7 +44,8 @@ struct Lists {
 // The arcs of a node: its list, nearest first, then the one-sided ones by their node.
 void fill_heads(Lists& lists, FlowGraph& graph) {
   const std::size_t k = lists.k;
-  for_nodes(graph.nodes(), [&](std::uint32_t g) {
+  for_each_index(graph.nodes(), [&](std::size_t node) {
+    const auto g = static_cast<std::uint32_t>(node);
     for (std::size_t i = 0; i < k; ++i) {
       const std::uint32_t h = lists.neighbour[g * k + i];
       graph.head[graph.first_arc[g] + i] = h;
@@ -61,14 +53,16 @@ void fill_heads(Lists& lists, FlowGraph& graph) {
         graph.head[graph.first_arc[h + 1] - lists.one_sided[h].fetch_sub(1, std::memory_order_relaxed)] = g;
     }
   });
-  for_nodes(graph.nodes(), [&](std::uint32_t g) {
+  for_each_index(graph.nodes(), [&](std::size_t node) {
+    const auto g = static_cast<std::uint32_t>(node);
     std::sort(&graph.head[graph.first_arc[g]] + k, &graph.head[graph.first_arc[g]] + (graph.first_arc[g + 1] - graph.first_arc[g]));
   });
 }
 
 void pair_arcs(const Lists& lists, FlowGraph& graph) {
   const std::size_t k = lists.k;
-  for_nodes(graph.nodes(), [&](std::uint32_t g) {
+  for_each_index(graph.nodes(), [&](std::size_t node) {
+    const auto g = static_cast<std::uint32_t>(node);
     for (std::size_t i = 0; i < k; ++i) {
       const std::uint32_t h = lists.neighbour[g * k + i], arc = graph.first_arc[g] + static_cast<std::uint32_t>(i);
       const std::uint8_t place = lists.place_of_me[g * k + i];
@@ -94,6 +88,7 @@ FlowGraph knn_graph(const GaussianCloud& cloud, const KnnOptions& options, const
   if (job.cancelled()) return graph_from_edges(n, {});
   Lists lists(std::move(nearest), n, k);
   FlowGraph graph;
+  graph.listed = static_cast<std::uint32_t>(k);
   graph.first_arc.assign(n + 1, 0);
   for (std::size_t g = 0; g < n; ++g)
     graph.first_arc[g + 1] = graph.first_arc[g] + static_cast<std::uint32_t>(k) + lists.one_sided[g];

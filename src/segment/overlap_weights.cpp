@@ -44,17 +44,17 @@ inline __attribute__((always_inline)) float determinant(float xx, float xy, floa
 
 }  // namespace
 
-void OverlapBlock::set(int pair, const Symmetric3& g, const Symmetric3& h, const glm::vec3& difference, float colour_distance2) {
+void OverlapBlock::set(int pair, const Symmetric3& g, const Symmetric3& h, const glm::vec3& difference, float unlikeness) {
   const float of_g[6] = {g.xx, g.xy, g.xz, g.yy, g.yz, g.zz}, of_h[6] = {h.xx, h.xy, h.xz, h.yy, h.yz, h.zz};
   for (int i = 0; i < 6; ++i) {
     a[i][pair] = of_g[i];
     b[i][pair] = of_h[i];
   }
   for (int i = 0; i < 3; ++i) d[i][pair] = difference[i];
-  colour2[pair] = colour_distance2;
+  unlike[pair] = unlikeness;
 }
 
-SPLATCUT_WIDE_VECTORS void overlap_weights(OverlapBlock& block, float gamma_position, float gamma_colour) {
+SPLATCUT_WIDE_VECTORS void overlap_weights(OverlapBlock& block, float gamma_position) {
   for (int i = 0; i < OverlapBlock::kPairs; ++i) {
     const float trace2 = block.a[0][i] + block.a[3][i] + block.a[5][i] + block.b[0][i] + block.b[3][i] + block.b[5][i];
     // Scaled to S of unit trace: determinants of tiny scenes stay in range, and D does not change.
@@ -76,10 +76,10 @@ SPLATCUT_WIDE_VECTORS void overlap_weights(OverlapBlock& block, float gamma_posi
     const float s = det_s > kLeast ? det_s : kLeast, a = det_a > kLeast ? det_a : kLeast, b = det_b > kLeast ? det_b : kLeast;
     const float mahalanobis2 = unit * form / s;
     const float distance = 0.25f * mahalanobis2 + kLn2 * (log2_of(s) - 0.5f * (log2_of(a) + log2_of(b)));
-    const float all = det_a + det_b + det_s + mahalanobis2 + block.colour2[i];
+    const float all = det_a + det_b + det_s + mahalanobis2 + block.unlike[i];
     const bool finite = all - all == 0;
     block.distance[i] = finite ? distance : std::numeric_limits<float>::infinity();
-    const float psi = exp2_of(-kLog2E * (gamma_position * distance + gamma_colour * block.colour2[i]));
+    const float psi = exp2_of(-kLog2E * (gamma_position * distance + block.unlike[i]));
     block.psi[i] = finite ? psi : 0.0f;
   }
 }

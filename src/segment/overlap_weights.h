@@ -18,13 +18,13 @@ struct OverlapBlock {
   static constexpr int kPairs = 16;
   alignas(64) float a[6][kPairs], b[6][kPairs];  // the two covariances, scene units squared
   alignas(64) float d[3][kPairs];                // difference of the positions, scene units
-  alignas(64) float colour2[kPairs];             // |dbeta|^2
+  alignas(64) float unlike[kPairs];              // what else speaks against the pair: gamma_colour |dbeta|^2 and more
   alignas(64) float distance[kPairs];            // out: D, infinite where an input was not finite
-  alignas(64) float psi[kPairs];                 // out: exp(-gamma_position D - gamma_colour colour2)
+  alignas(64) float psi[kPairs];                 // out: exp(-gamma_position D - unlike)
 
-  void set(int pair, const Symmetric3& sigma_g, const Symmetric3& sigma_h, const glm::vec3& difference, float colour_distance2);
+  void set(int pair, const Symmetric3& sigma_g, const Symmetric3& sigma_h, const glm::vec3& difference, float unlikeness);
 };
 
-void overlap_weights(OverlapBlock& block, float gamma_position, float gamma_colour);
+void overlap_weights(OverlapBlock& block, float gamma_position);
 
 }  // namespace splatcut

@@ -27,9 +27,10 @@ Picture render(const GaussianCloud& cloud, const Camera& camera, const Job& job)
   return {rgb8_from_linear(out.colour), out.expected_depth};
 }
 
-void accumulate(const GaussianCloud& cloud, const Camera& camera, const Mask& mask, const Job& job, MaskedSums* sums) {
+void accumulate(const GaussianCloud& cloud, const Camera& camera, const Mask& mask, bool whole_pixels, const Job& job, MaskedSums* sums) {
   RasterOptions options;
   options.colour = false;
+  options.sum_whole_pixels = whole_pixels;
   options.sum_mask = &mask;
   options.sums = sums;
   rasterize(cloud, camera, options, job);
@@ -103,7 +104,7 @@ Mask Run::labels_in(const Camera& camera) {
 
 void Run::use(ViewReport view) {
   view.used = true;
-  clock_.time("likelihood", [&] { accumulate(cloud_, view.camera, view.mask, job_, &sums_); });
+  clock_.time("likelihood", [&] { accumulate(cloud_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
   ++used_views_;
   report_.views.push_back(std::move(view));
 }
@@ -246,7 +247,7 @@ void Run::settle() {
       view.reason = "its mask disagrees with the others";
     }
     if (!view.used) continue;
-    clock_.time("likelihood", [&] { accumulate(cloud_, view.camera, view.mask, job_, &sums_); });
+    clock_.time("likelihood", [&] { accumulate(cloud_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
     ++used_views_;
   }
   solve();
@@ -271,13 +272,15 @@ PipelineOptions preset(const std::string& name) {
   } else if (name == "best") {
     options.orbit.views = 20;
     options.work_width_px = 512;
-  } else if (name == "paper") {
+  } else if (name == "paper" || name == "paper-code") {
+    const bool code = name == "paper-code";
     options.orbit.views = 40;
     options.first_mask_from = FirstMaskFrom::kPixels;
-    options.cut.energy = paper_energy();
+    options.cut.energy = code ? paper_code_energy() : paper_energy();
+    if (code) options.neighbours = 9;
     options.trim = false;
   } else {
-    throw Error("--preset " + name, "there is no such preset", "Take fast, default, best or paper");
+    throw Error("--preset " + name, "there is no such preset", "Take fast, default, best, paper or paper-code");
   }
   return options;
 }

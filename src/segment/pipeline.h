@@ -49,6 +49,7 @@ struct PipelineOptions {
   bool feedback = true;              // kPixels: cut from the one view in 3D, rendered back, corrects the mask
   float prior_px_per_view = 0.1f;    // kParts: what the parts say counts as that many pixels of each Gaussian
   bool cut_parts = true;             // kParts: the graph cut settles what the parts say; false: they are the answer
+  bool hard_counts = false;          // the likelihood counts pixels, not weights (the paper's hard variant)
   int refine_iterations = 0;         // GrabCut in orbit views; 0 takes the rendered labels as they are
   double view_agreement = 0.6;       // views whose mask agrees less with the solution are left out
   CutOptions cut;
@@ -60,7 +61,8 @@ struct PipelineOptions {
   std::function<void(const PipelineReport&)> on_snapshot;
 };
 
-// Settings by name: fast (few, small orbit views), default, best, paper (GaussianCut's literal energy and counts).
+// Settings by name: fast (few, small orbit views), default, best, paper (GaussianCut's literal energy and counts),
+// paper-code (those of its published code).
 // Throws Error for any other name.
 PipelineOptions preset(const std::string& name);
 
