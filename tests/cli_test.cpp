@@ -162,13 +162,51 @@ TEST_CASE("the bytes of a cutout do not depend on --threads") {
   StillLife& life = still_life();
   Workplace& place = life.place;
   for (const char* threads : {"1", "2", "3"})
-    REQUIRE(place.run(life.cut("--click " + life.click + " --threads " + threads + " -o on_" + threads)).code == 0);
+    REQUIRE(place.run(life.cut("--click " + life.click + " --no-cache --threads " + threads + " -o on_" + threads)).code == 0);
   for (const char* file : {"object.ply", "rest.ply", "labels.u8", "object.png", "rest.png", "tint.png", "masks.png"}) {
     CAPTURE(file);
     const std::string one = place.text(std::string("on_1/") + file);
     CHECK(place.text(std::string("on_2/") + file) == one);
     CHECK(place.text(std::string("on_3/") + file) == one);
   }
+}
+
+TEST_CASE("what was prepared is kept: the second run reads it and writes the same bytes, --no-cache does neither") {
+  StillLife& life = still_life();
+  Workplace place;  // its cache is empty
+  const auto stages = [&](const std::string& folder) {
+    std::set<std::string> names;
+    const json report = json::parse(place.text(folder + "/report.json"));
+    for (const json& stage : report["stages"]) names.insert(stage["name"]);
+    return names;
+  };
+  const std::string cut = life.cut("--click " + life.click);
+  REQUIRE(place.run(cut + " --no-cache -o without").code == 0);
+  CHECK_FALSE(place.exists("cache"));
+  REQUIRE(place.run(cut + " -o first").code == 0);
+  REQUIRE(place.files_in("cache/splatcut").size() == 1);
+  CHECK(stages("first").contains("graph"));
+  REQUIRE(place.run(cut + " -o second").code == 0);
+  CHECK(stages("second").contains("cache"));
+  CHECK_FALSE(stages("second").contains("graph"));
+  for (const char* file : {"object.ply", "rest.ply", "labels.u8", "object.png", "rest.png", "tint.png", "masks.png"}) {
+    CAPTURE(file);
+    const std::string one = place.text(std::string("without/") + file);
+    CHECK(place.text(std::string("first/") + file) == one);
+    CHECK(place.text(std::string("second/") + file) == one);
+  }
+  // Damaged: made again, written again.
+  const std::string kept = "cache/splatcut/" + *place.files_in("cache/splatcut").begin();
+  const std::string bytes = place.text(kept);
+  place.write(kept, bytes.substr(0, bytes.size() / 2));
+  REQUIRE(place.run(cut + " -o third").code == 0);
+  CHECK(stages("third").contains("graph"));
+  CHECK(place.text("third/labels.u8") == place.text("without/labels.u8"));
+  CHECK(place.text(kept) == bytes);
+  // A folder that cannot be made is no reason to stop.
+  std::filesystem::remove_all(place / "cache");
+  place.write("cache", "a file");
+  CHECK(place.run(cut + " -o fourth").code == 0);
 }
 
 TEST_CASE("--set sets what a switch sets, and refuses what it does not know with a list of what it does") {

@@ -15,6 +15,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -84,6 +85,11 @@ class Workplace {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
+    std::string cache = "XDG_CACHE_HOME=" + (folder_ / "cache").string();  // not the user's own
+    std::vector<char*> environment = {cache.data()};
+    for (char** variable = environ; *variable; ++variable)
+      if (!std::string_view(*variable).starts_with("XDG_CACHE_HOME=")) environment.push_back(*variable);
+    environment.push_back(nullptr);
     const std::string out = (folder_ / "stdout.txt").string(), err = (folder_ / "stderr.txt").string();
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
@@ -92,7 +98,7 @@ class Workplace {
     ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), kFlags, kMode);
     ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), kFlags, kMode);
     pid_t child = 0;
-    const int failed = ::posix_spawn(&child, SPLATCUT_PROGRAM, &actions, nullptr, argv.data(), environ);
+    const int failed = ::posix_spawn(&child, SPLATCUT_PROGRAM, &actions, nullptr, argv.data(), environment.data());
     ::posix_spawn_file_actions_destroy(&actions);
     REQUIRE(failed == 0);
     return child;

@@ -3,13 +3,23 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/user_folders.h"
+#include "segment/prepared_scene.h"
+
 namespace splatcut {
 
 // What every subcommand shares.
 struct CommonOptions {
   int threads = 0;  // 0: all cores
   bool quiet = false;
+  bool cache = true;  // scenes once prepared are kept in the user's cache folder
 };
+
+inline PreparedCache prepared_cache(const CommonOptions& common) {
+  PreparedCache cache;
+  if (common.cache) cache.folder = cache_folder();
+  return cache;
+}
 
 void add_info_command(CLI::App& program, const CommonOptions& common);
 void add_render_command(CLI::App& program, const CommonOptions& common);

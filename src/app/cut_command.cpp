@@ -81,7 +81,7 @@ void say_other_sizes(const PipelineReport& report) {
 }
 
 void run_cut(const CutArguments& args, const CommonOptions& common) {
-  if (!args.work.empty()) return run_work_cut({args.work, args.output, args.overwrite, args.json, common.quiet});
+  if (!args.work.empty()) return run_work_cut({args.work, args.output, args.overwrite, args.json, common.quiet, prepared_cache(common)});
   if (args.scene.empty()) throw CLI::RequiredError("scene, or --work FILE.splatcut.json,");
   const Strokes strokes = strokes_of(args);
   const Job job = console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
@@ -96,6 +96,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   check_inside(strokes, chosen.camera);
   PipelineOptions options = pipeline_of(args, chosen);
   options.scene_cameras = chosen.given;
+  options.cache = prepared_cache(common);
   PipelineReport report = cut_out(scene.cloud, nullptr, chosen.camera, chosen.up_world, strokes, options, job);
   end_progress();
   if (report.outcome == Outcome::kCancelled) throw Error("splatcut cut", "cancelled, nothing was written");

@@ -81,6 +81,7 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
   OutputFolder folder(args.output, args.overwrite);
   EvaluationOptions options;
   options.pipeline = preset(args.preset);
+  options.pipeline.cache = prepared_cache(common);
   options.clicks = args.clicks;
   options.truth_first_mask = args.first_mask == "truth";
   options.truth_masks = args.masks == "truth";

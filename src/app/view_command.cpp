@@ -27,7 +27,7 @@ void run_view(ViewArguments args) {
 
 }  // namespace
 
-void add_view_command(CLI::App& program, const CommonOptions&) {
+void add_view_command(CLI::App& program, const CommonOptions& common) {
   auto args = std::make_shared<ViewArguments>();
   CLI::App& command = *program.add_subcommand("view", "Open the window (splatcut SCENE does the same)");
   command.footer("Example: splatcut view scene.ply");
@@ -41,7 +41,10 @@ void add_view_command(CLI::App& program, const CommonOptions&) {
   command.add_option("--width", args->window.width, "Width of the window")->check(CLI::Range(640, 8192));
   command.add_option("--height", args->window.height, "Height of the window")->check(CLI::Range(480, 8192));
   command.add_flag("--check", args->check, "Only say whether a window can open here (exit code 0 or 1)");
-  command.callback([args] { run_view(*args); });
+  command.callback([args, &common] {
+    args->window.cache = prepared_cache(common);
+    run_view(*args);
+  });
 }
 
 }  // namespace splatcut

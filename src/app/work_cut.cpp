@@ -34,8 +34,8 @@ std::string free_file_name(const nlohmann::json& written, const ObjectItem& obje
 
 }  // namespace
 
-Document computed_again(const OpenedScene& scene, Document document, const Job& job) {
-  const auto prepared = prepare(scene, job);
+Document computed_again(const OpenedScene& scene, Document document, const Job& job, const PreparedCache& cache) {
+  const auto prepared = prepare(scene, job, cache);
   for (ObjectItem& object : document.objects) {
     if (object.views.empty() || job.cancelled()) continue;
     const ObjectCutInput input = cut_input(document, object);
@@ -55,7 +55,7 @@ void run_work_cut(const WorkCutOptions& options) {
   const auto scene = open_scene(read_work_header(options.work).scene, job);
   if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
   const Document document =
-      computed_again(*scene, read_work_file(options.work, *scene->scene, scene->hash).document, job);
+      computed_again(*scene, read_work_file(options.work, *scene->scene, scene->hash).document, job, options.cache);
   end_progress();
   if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
   nlohmann::json objects = nlohmann::json::array();

@@ -10,11 +10,12 @@ namespace splatcut {
 
 // Every object's labels from its strokes; the result's labels are the window's, bit for bit. Throws Error
 // where an object's strokes find nothing. Cancelled: the document is incomplete.
-Document computed_again(const OpenedScene& scene, Document document, const Job& job = {});
+Document computed_again(const OpenedScene& scene, Document document, const Job& job = {}, const PreparedCache& cache = {});
 
 struct WorkCutOptions {
   std::filesystem::path work, output;
   bool overwrite = false, json = false, quiet = false;
+  PreparedCache cache;
 };
 // A folder with NAME.ply and NAME.labels.u8 (file order, 1 = object) for each object, and report.json.
 void run_work_cut(const WorkCutOptions& options);

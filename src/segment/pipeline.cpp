@@ -288,6 +288,7 @@ PipelineOptions preset(const std::string& name) {
 PrepareOptions prepare_options(const PipelineOptions& options) {
   PrepareOptions prepare;
   prepare.graph.neighbours = options.neighbours;
+  prepare.cache = options.cache;
   prepare.with_parts = options.first_mask_from == FirstMaskFrom::kParts;
   return prepare;
 }

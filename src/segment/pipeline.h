@@ -43,6 +43,7 @@ struct PipelineOptions {
   std::vector<Camera> view_cameras;  // empty: orbit
   std::vector<Camera> scene_cameras;  // of its photographs, where known: parts are seen from there (not prepared yet)
   int neighbours = 10;               // k of the graph
+  PreparedCache cache;               // where the scene is not prepared yet
   FirstMaskFrom first_mask_from = FirstMaskFrom::kParts;
   PickOptions pick;                  // kParts
   FirstMaskOptions first_mask;       // kPixels

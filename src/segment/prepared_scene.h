@@ -2,6 +2,8 @@
 // Cost: about 2 s for 300,000 Gaussians on two cores; in the window it runs in the background.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
@@ -21,17 +23,25 @@ struct StageTime {
   double ms = 0;
 };
 
+// Where scenes once prepared are kept, see prepared_cache.h. The result is the same bits.
+struct PreparedCache {
+  std::filesystem::path folder;  // empty: nowhere
+  std::uintmax_t most_bytes = 2'000'000'000;
+};
+
 struct PrepareOptions {
   KnnOptions graph;
   ObservingOptions observing;
   PartOptions parts;
   bool with_parts = true;  // they are not needed where masks come from pixels
+  PreparedCache cache;
 };
 
 struct PreparedScene {
   FlowGraph graph;
   PartHierarchy parts;
   std::vector<StageTime> stages;
+  bool from_cache = false;
 };
 
 // reference: a view from where the scene is looked at; given: cameras of its photographs, may be empty.

@@ -38,13 +38,15 @@ std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const
   return opened;
 }
 
-std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job& job) {
+std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job& job, const PreparedCache& cache) {
   constexpr int kWidth = 640, kHeight = 480;
   CameraController start;
   start.reset(scene.bounds, scene.up_world);
   const Camera reference = scene.cameras.empty() ? start.camera(kWidth, kHeight) : scene.cameras.front();
+  PrepareOptions options;
+  options.cache = cache;
   return std::make_shared<const PreparedScene>(
-      prepare_scene(*scene.cloud, reference, scene.up_world, scene.cameras, {}, job));
+      prepare_scene(*scene.cloud, reference, scene.up_world, scene.cameras, options, job));
 }
 
 }  // namespace splatcut

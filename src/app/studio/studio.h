@@ -30,6 +30,7 @@ struct StudioOptions {
   std::function<void()> wake;          // called from any thread when update() has something to do
   bool inline_tasks = false;           // for tests: tasks run inside apply()
   std::filesystem::path state_folder;  // for the autosave; empty: none is written
+  PreparedCache cache;                 // of scenes once prepared
 };
 
 struct Message {

@@ -114,7 +114,7 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
   if (!scene->cameras.empty()) text += fmt::format(", {} cameras (N, P)", scene->cameras.size());
   say(Message::Kind::kDone, text);
   tasks_.submit(TaskKind::kPrepare, [this, scene](const Job& job) {
-    auto prepared = prepare(*scene, job);
+    auto prepared = prepare(*scene, job, options_.cache);
     if (job.cancelled()) return;
     tasks_.post([this, scene, prepared] {
       if (scene == scene_) prepared_ = prepared;

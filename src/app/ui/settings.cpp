@@ -1,32 +1,12 @@
 #include "app/ui/settings.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "scene/atomic_file.h"
 
 namespace splatcut {
-
-namespace {
-
-std::filesystem::path xdg(const char* variable, const char* in_home) {
-  if (const char* folder = std::getenv(variable); folder && *folder)
-    return std::filesystem::path(folder) / "splatcut";
-  const char* home = std::getenv("HOME");
-  return std::filesystem::path(home && *home ? home : "/tmp") / in_home / "splatcut";
-}
-
-}  // namespace
-
-std::filesystem::path config_folder() {
-  return xdg("XDG_CONFIG_HOME", ".config");
-}
-
-std::filesystem::path state_folder() {
-  return xdg("XDG_STATE_HOME", ".local/state");
-}
 
 Settings load_settings(const std::filesystem::path& file) {
   Settings s;

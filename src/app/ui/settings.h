@@ -16,9 +16,6 @@ struct Settings {
   ViewState view;  // brush, tints and outline of it; tools and display modes start afresh
 };
 
-std::filesystem::path config_folder();  // $XDG_CONFIG_HOME/splatcut, or ~/.config/splatcut
-std::filesystem::path state_folder();   // $XDG_STATE_HOME/splatcut, or ~/.local/state/splatcut
-
 Settings load_settings(const std::filesystem::path& file);
 void save_settings(const std::filesystem::path& file, const Settings& settings);  // throws Error
 

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "app/ui/settings.h"
+#include "app/user_folders.h"
 #include "scene/error.h"
 
 namespace splatcut {
@@ -200,7 +201,7 @@ void run_window(const WindowOptions& options) {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   const float ui_scale = options.ui_scale > 0 ? options.ui_scale : settings.ui_scale;
   {
-    Application app({{glfwPostEmptyEvent, false, state_folder()}, options.renderer, sample_beside_program()});
+    Application app({{glfwPostEmptyEvent, false, state_folder(), options.cache}, options.renderer, sample_beside_program()});
     Loop loop{window.handle, app, ui_scale};
     UiState& state = app.interface().state();
     state.dark = settings.dark;

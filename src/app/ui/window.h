@@ -12,6 +12,7 @@ struct WindowOptions {
   RendererChoice renderer = RendererChoice::kAuto;
   float ui_scale = 0;         // 0: the screen's, times the remembered one
   int width = 0, height = 0;  // 0: as it was left
+  PreparedCache cache;
 };
 
 // Runs until the window is closed.
