@@ -88,7 +88,7 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused("eval bad.json -o cut", {"bad.json", "suite"});
   place.write("no_truth.json", R"({"scenes": [{"name": "a", "scene": "made/small.ply"}]})");
   refused("eval no_truth.json -o cut", {"entry a", "reference"});
-  refused(life.cut("--click " + life.click + " -o cut --first-mask pixels --parts-only"), {"parts", "pixels"});
+  refused(life.cut("--click " + life.click + " -o cut --first-mask grabcut --parts-only"), {"parts", "pixels"});
   CHECK_FALSE(place.exists("cut"));
   CHECK_FALSE(place.exists("a.png"));
   CHECK(place.leftovers().empty());

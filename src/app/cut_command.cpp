@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/cutout_files.h"
+#include "app/mask_options.h"
 #include "app/seeds_file.h"
 #include "app/tuning_options.h"
 #include "app/work_cut.h"
@@ -25,10 +26,10 @@ struct CutArguments {
   std::vector<std::string> clicks, set;
   std::string preset = "default";
   CameraOptions camera;
-  int views = -1, scale = 0;
-  std::string first_mask;
+  MaskOptions masks;
+  int scale = 0;
   float lambda = -1;
-  bool coarse = false, parts_only = false, json = false, overwrite = false;
+  bool coarse = false, json = false, overwrite = false;
 };
 
 Strokes strokes_of(const CutArguments& args) {
@@ -42,12 +43,10 @@ Strokes strokes_of(const CutArguments& args) {
 
 PipelineOptions pipeline_of(const CutArguments& args, const ChosenCamera& chosen) {
   PipelineOptions options = preset(args.preset);
-  if (args.views >= 0) options.orbit.views = args.views;
   if (args.lambda >= 0) options.cut.energy.lambda = args.lambda;
   options.cut.coarse = args.coarse;
   options.pick.scale_steps = args.scale;
-  if (!args.first_mask.empty()) options.first_mask_from = args.first_mask == "pixels" ? FirstMaskFrom::kPixels : FirstMaskFrom::kParts;
-  options.cut_parts = !args.parts_only;
+  args.masks.apply(&options);
   for (const std::string& assignment : args.set) set_tuning_option(assignment, &options);
   if (args.mask.empty()) return options;
   Mask mask = read_png_grey(args.mask);
@@ -105,7 +104,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   report.stages.insert(report.stages.begin(), {"load", load_ms});
   const nlohmann::json settings = {{"preset", args.preset}, {"views", options.orbit.views}, {"work_width_px", options.work_width_px},
                                    {"neighbours", options.neighbours}, {"lambda", options.cut.energy.lambda}, {"set", args.set}, {"coarse", options.cut.coarse},
-                                   {"first_mask", options.first_mask_from == FirstMaskFrom::kPixels ? "pixels" : "parts"}, {"scale", args.scale}, {"parts_only", args.parts_only}};
+                                   {"first_mask", args.masks.first_mask.empty() ? "as the preset" : args.masks.first_mask}, {"scale", args.scale}, {"parts_only", args.masks.parts_only}};
   const nlohmann::json json = report_json(scene, report, settings, ms_since_start());
   write_cutout_scenes(folder, scene, report.labels);
   write_cutout_pictures(folder, scene.cloud, chosen.camera, report);
@@ -132,13 +131,9 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--work", args->work, "Work saved by the window (.splatcut.json): computes all its objects again")->check(CLI::ExistingFile);
   command.add_option("-o,--output", args->output, "Folder to write")->required();
   command.add_option("--preset", args->preset, "fast, default, best, paper or paper-code");
-  command.add_option("--views", args->views, "Orbit views beside the reference")->check(CLI::Range(0, 400));
+  args->masks.add_to(command, false);
   command.add_option("--smoothness", args->lambda, "Weight of the neighbour term")->check(CLI::Range(0.0, 500.0));
   command.add_option("--scale", args->scale, "Next larger (+1, +2, ...) or smaller (-1, ...) part for the first click")->check(CLI::Range(-100, 100));
-  command.add_option("--first-mask", args->first_mask, "parts: the hierarchy of parts; pixels: GrabCut in the one picture")
-      ->check(CLI::IsMember({"parts", "pixels"}));
-  command.add_flag("--parts-only", args->parts_only, "The parts are the answer: no orbit views, no graph cut");
-  add_tuning_options(command, &args->set);
   command.add_flag("--coarse", args->coarse, "Threshold the likelihood instead of the cut");
   command.add_flag("--json", args->json, "Print the report as JSON");
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");

@@ -104,7 +104,9 @@ double peak_rss_mb() {
 
 nlohmann::json report_json(const Scene& scene, const PipelineReport& report, const nlohmann::json& settings, double total_ms) {
   nlohmann::json views = nlohmann::json::array(), stages = nlohmann::json::array();
+  std::size_t pixels = 0;
   for (const ViewReport& view : report.views) {
+    if (view.used) pixels += view.mask.size();
     views.push_back({{"used", view.used}, {"confidence", view.confidence}, {"mask_px", count(view.mask)}});
     if (!view.reason.empty()) views.back()["reason"] = view.reason;
   }
@@ -114,6 +116,7 @@ nlohmann::json report_json(const Scene& scene, const PipelineReport& report, con
           {"scene", {{"gaussians", scene.cloud.size()}, {"file_rows", scene.file_rows}, {"dropped", scene.dropped}}},
           {"object", {{"gaussians", std::ranges::count(report.labels, 1)}}},
           {"views", views},
+          {"enough", {{"views", std::ranges::count_if(report.views, &ViewReport::used)}, {"pixels", pixels}, {"gaussians", report.cut.touched}, {"why", report.enough}}},
           {"cut", {{"nodes", report.cut.nodes}, {"arcs", report.cut.arcs}, {"energy", report.cut.energy}, {"flow", report.cut.flow}}},
           {"stages", stages},
           {"total_ms", total_ms},

@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/eval_suite.h"
+#include "app/mask_options.h"
 #include "app/output_folder.h"
 #include "app/tuning_options.h"
 #include "scene/atomic_file.h"
@@ -17,10 +18,11 @@ namespace {
 
 struct EvalArguments {
   std::filesystem::path suite, output;
-  std::string preset = "default", first_mask, masks;
+  std::string preset = "default", masks;
+  MaskOptions mask;
   std::vector<std::string> set;
-  int clicks = 3, views = -1;
-  bool curve = true, parts_only = false, json = false, overwrite = false;
+  int clicks = 3;
+  bool curve = true, json = false, overwrite = false;
 };
 
 nlohmann::json score_json(const SceneScore& s) {
@@ -83,13 +85,10 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
   options.pipeline = preset(args.preset);
   options.pipeline.cache = prepared_cache(common);
   options.clicks = args.clicks;
-  options.truth_first_mask = args.first_mask == "truth";
+  options.truth_first_mask = args.mask.first_mask == "truth";
   options.truth_masks = args.masks == "truth";
   options.click_curve = args.curve;
-  if (args.first_mask == "pixels") options.pipeline.first_mask_from = FirstMaskFrom::kPixels;
-  if (args.first_mask == "parts") options.pipeline.first_mask_from = FirstMaskFrom::kParts;
-  options.pipeline.cut_parts = !args.parts_only;
-  if (args.views >= 0) options.pipeline.orbit.views = args.views;
+  args.mask.apply(&options.pipeline);
   for (const std::string& assignment : args.set) set_tuning_option(assignment, &options.pipeline);
   std::vector<nlohmann::json> scores;
   if (!args.json)
@@ -133,10 +132,7 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("-o,--output", args->output, "Folder for eval.json")->required();
   command.add_option("--preset", args->preset, "fast, default, best, paper or paper-code");
   command.add_option("--clicks", args->clicks, "Clicks for the final cut")->check(CLI::Range(1, 8));
-  command.add_option("--views", args->views, "Orbit views beside the reference")->check(CLI::Range(0, 400));
-  command.add_option("--first-mask", args->first_mask, "parts: the hierarchy of parts; pixels: GrabCut in the one picture; truth: the true mask")
-      ->check(CLI::IsMember({"parts", "pixels", "truth"}));
-  command.add_flag("--parts-only", args->parts_only, "The parts are the answer: no orbit views, no graph cut");
+  args->mask.add_to(command, true);
   command.add_option("--masks", args->masks, "truth: the true masks in all orbit views")->check(CLI::IsMember({"truth"}));
   add_tuning_options(command, &args->set);
   command.add_flag("!--no-curve", args->curve, "Leave out the figures after 1..8 clicks");

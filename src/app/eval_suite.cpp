@@ -54,6 +54,7 @@ std::vector<Camera> fill_case(const nlohmann::json& entry, const std::filesystem
   test.prepared = &loaded->prepared;
   std::vector<Camera> cameras;
   if (entry.contains("cameras")) cameras = load_cameras(folder / entry.at("cameras").get<std::string>(), &loaded->warning);
+  test.scene_cameras = cameras;
   const auto& reference = entry.at("reference");
   if (reference.contains("camera")) {
     test.reference = find_camera(cameras, reference.at("camera"), test.name);

@@ -72,6 +72,10 @@ std::vector<TuningOption> make_table() {
   constexpr float kLargestGamma = 1000;
   const std::vector<std::pair<std::string_view, Pairwise>> kinds = {
       {"overlap", Pairwise::kOverlap}, {"distance", Pairwise::kDistance}, {"paper", Pairwise::kPaper}, {"paper-code", Pairwise::kPaperCode}};
+  const std::vector<std::pair<std::string_view, Propagator>> propagators = {{"lift", Propagator::kLift}, {"warp", Propagator::kWarp}, {"dis", Propagator::kFlow}};
+  const std::vector<std::pair<std::string_view, MaskSolver>> solvers = {
+      {"none", MaskSolver::kNone}, {"grabcut", MaskSolver::kGrabCut}, {"pixelcut", MaskSolver::kPixelCut}};
+  const std::vector<std::pair<std::string_view, FirstMaskFrom>> ways_in = {{"parts", FirstMaskFrom::kParts}, {"pixels", FirstMaskFrom::kPixels}};
   return {
       choice("energy.pairwise", kinds, of_energy(&E::pairwise)),
       number("energy.gamma_position", 0.0f, kLargestGamma, of_energy(&E::gamma_position)),
@@ -90,6 +94,23 @@ std::vector<TuningOption> make_table() {
       flag("energy.hard", of_pipeline(&PipelineOptions::hard_counts)),
       flag("energy.coarse", of_cut(&CutOptions::coarse)),
       number("energy.tau", 0.0f, 1.0f, of_cut(&CutOptions::tau)),
+      choice("views.propagate", propagators, of_pipeline(&PipelineOptions::propagate)),
+      choice("views.refine", solvers, [](PipelineOptions& o) -> MaskSolver& { return o.refine.solver; }),
+      number("views.refine_band_px", 1, 100, [](PipelineOptions& o) -> int& { return o.refine.band_px; }),
+      number("views.refine_grow_px", 0, 100, [](PipelineOptions& o) -> int& { return o.refine.grow_px; }),
+      number("views.refine_lambda", 0.0f, 1000.0f, [](PipelineOptions& o) -> float& { return o.refine.lambda; }),
+      number("views.refine_prior", 0.0f, 1000.0f, [](PipelineOptions& o) -> float& { return o.refine.prior_weight; }),
+      flag("views.hidden_test", of_pipeline(&PipelineOptions::hidden_test)),
+      number("views.most", 0, 400, [](PipelineOptions& o) -> int& { return o.orbit.views; }),
+      number("views.distance_sizes", 0.5f, 10.0f, [](PipelineOptions& o) -> float& { return o.orbit.distance_sizes; }),
+      number("views.settled_change", 0.0, 1.0, of_pipeline(&PipelineOptions::settled_change)),
+      number("views.settled", 1, 400, of_pipeline(&PipelineOptions::settled_views)),
+      number("views.agreement", 0.0, 1.0, of_pipeline(&PipelineOptions::view_agreement)),
+      number("work_width_px", 32, 8192, of_pipeline(&PipelineOptions::work_width_px)),
+      number("least_object_px", 0, 4096, of_pipeline(&PipelineOptions::least_object_px)),
+      choice("first.from", ways_in, of_pipeline(&PipelineOptions::first_mask_from)),
+      choice("first.solver", solvers, [](PipelineOptions& o) -> MaskSolver& { return o.first_mask.refine.solver; }),
+      flag("first.feedback", of_pipeline(&PipelineOptions::feedback)),
       number("neighbours", 1, 254, of_pipeline(&PipelineOptions::neighbours)),
       flag("trim", of_pipeline(&PipelineOptions::trim)),
       number("prior_px_per_view", 0.0f, 1000.0f, of_pipeline(&PipelineOptions::prior_px_per_view)),

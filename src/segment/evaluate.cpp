@@ -63,7 +63,8 @@ RobotSession robot_session(const EvaluationCase& scene, const EvaluationOptions&
     if (const auto next = robot_click(truth, mask)) {
       const Strokes scaled_click = scaled({*next}, to_reference);
       session.strokes.push_back(scaled_click.front());
-      mask = first_mask_of(*scene.cloud, *scene.prepared, scene.reference, session.strokes, options.pipeline, job);
+      const Mask found = first_mask_of(*scene.cloud, *scene.prepared, scene.reference, session.strokes, options.pipeline, job);
+      mask = resized_mask(found, work.width_px, work.height_px);
     }
     session.iou_after.push_back(iou(truth, mask));
   }
@@ -81,6 +82,7 @@ Strokes first_strokes(const Strokes& strokes, int n) {
 
 PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& options, const Strokes& strokes, const Job& job) {
   PipelineOptions pipeline = options.pipeline;
+  pipeline.scene_cameras = scene.scene_cameras;
   if (options.truth_first_mask) {
     if (!scene.reference_truth) throw Error(scene.name, "--first-mask truth needs the truth of the reference view");
     pipeline.given_first_mask = scene.reference_truth;

@@ -27,6 +27,7 @@ struct EvaluationCase {
   std::vector<Mask> truth_masks;              // per test view
   Camera reference;
   glm::vec3 up_world{0, -1, 0};
+  std::vector<Camera> scene_cameras;          // of its photographs, where known
   std::optional<Mask> reference_truth;        // needed by the robot
   Strokes clicks;                             // where the truth of the reference is unknown
 };

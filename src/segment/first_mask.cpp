@@ -142,34 +142,6 @@ Mask joined_to_strokes(const Mask& mask, const Image<std::uint8_t>& seeds) {
 
 }  // namespace
 
-Mask refine_mask(const Image<Rgb8>& picture, const Mask& prior, int band_px, int iterations,
-                 const Image<std::uint8_t>& seeds) {
-  const PixelRect object = bounds(prior);
-  if (object.empty() || iterations == 0) return prior;
-  const PixelRect rect = grown(object, 2 * band_px + 4, prior.width(), prior.height());
-  Mask trimap(prior.width(), prior.height());
-  const Mask core = eroded(prior, band_px), reach = dilated(prior, band_px);
-  std::size_t object_pixels = 0, rest_pixels = 0;
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x) {
-      std::uint8_t& t = trimap.at(x, y);
-      t = core.at(x, y) ? cv::GC_FGD : !reach.at(x, y) ? cv::GC_BGD : prior.at(x, y) ? cv::GC_PR_FGD : cv::GC_PR_BGD;
-      if (!seeds.empty() && seeds.at(x, y) != kNoSeed) t = seeds.at(x, y) == kObjectSeed ? cv::GC_FGD : cv::GC_BGD;
-      (t == cv::GC_FGD || t == cv::GC_PR_FGD ? object_pixels : rest_pixels)++;
-    }
-  constexpr std::size_t kMixtureComponents = 5;  // OpenCV's k-means asserts below this many samples
-  if (object_pixels < 2 * kMixtureComponents || rest_pixels < 2 * kMixtureComponents) return prior;
-  cv::Mat inside_picture = as_const_mat(picture)(as_rect(rect)), labels = as_mat(trimap)(as_rect(rect)).clone();
-  cv::Mat background_model, object_model;
-  cv::setRNGSeed(1);  // grabCut's k-means draws from a global generator
-  cv::grabCut(inside_picture, labels, {}, background_model, object_model, iterations, cv::GC_INIT_WITH_MASK);
-  Mask out(prior.width(), prior.height());
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x)
-      out.at(x, y) = labels.at<std::uint8_t>(y - rect.y0, x - rect.x0) & 1 ? kMaskObject : 0;  // FGD, PR_FGD are odd
-  return out;
-}
-
 Mask first_mask(const Image<Rgb8>& picture, const Image<float>& depth, const Strokes& strokes,
                 const FirstMaskOptions& options, const Job& job) {
   const Image<std::uint8_t> seeds = draw_seeds(strokes, picture.width(), picture.height());
@@ -178,8 +150,9 @@ Mask first_mask(const Image<Rgb8>& picture, const Image<float>& depth, const Str
   const Mask prior = geodesic_prior(picture, depth, seeds, options);
   if (job.cancelled()) return prior;
   const double size = std::sqrt(static_cast<double>(count(prior)));
-  const int band = std::max(2, static_cast<int>(0.06 * size));
-  return joined_to_strokes(refine_mask(picture, prior, band, options.grabcut_iterations, seeds), seeds);
+  RefineOptions refine = options.refine;
+  refine.band_px = std::max(2, static_cast<int>(0.06 * size));
+  return joined_to_strokes(refine_mask(picture, depth, prior, refine, seeds), seeds);
 }
 
 }  // namespace splatcut

@@ -65,6 +65,14 @@ Mask eroded(const Mask& mask, int radius_px) {
   return out;
 }
 
+Mask resized_mask(const Mask& mask, int width_px, int height_px) {
+  Mask out(width_px, height_px);
+  for (int y = 0; y < height_px; ++y)
+    for (int x = 0; x < width_px; ++x)
+      out.at(x, y) = mask.at(static_cast<int>((x + 0.5) * mask.width() / width_px), static_cast<int>((y + 0.5) * mask.height() / height_px));
+  return out;
+}
+
 PixelRect bounds(const Mask& mask) {
   PixelRect r{mask.width(), mask.height(), 0, 0};
   for (int y = 0; y < mask.height(); ++y)

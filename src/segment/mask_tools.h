@@ -21,6 +21,7 @@ double boundary_iou(const Mask& a, const Mask& b);
 
 Mask dilated(const Mask& mask, int radius_px);
 Mask eroded(const Mask& mask, int radius_px);
+Mask resized_mask(const Mask& mask, int width_px, int height_px);  // the nearest pixel of the mask
 PixelRect bounds(const Mask& mask);  // empty where the mask is
 PixelRect grown(const PixelRect& rect, int margin_px, int width, int height);  // clipped to the picture
 

@@ -1,6 +1,9 @@
 #include "segment/pipeline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "scene/error.h"
 #include "scene/png_file.h"
@@ -20,6 +23,16 @@ struct Picture {
   Image<float> depth;
 };
 
+// Labels that differ, as a share of the object.
+double changed_share(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after) {
+  std::size_t changed = 0, object = 0;
+  for (std::size_t g = 0; g < after.size(); ++g) {
+    changed += before[g] != after[g];
+    object += after[g];
+  }
+  return static_cast<double>(changed) / static_cast<double>(std::max<std::size_t>(1, object));
+}
+
 Picture render(const GaussianCloud& cloud, const Camera& camera, const Job& job) {
   RasterOptions options;
   options.depth = true;
@@ -36,25 +49,17 @@ void accumulate(const GaussianCloud& cloud, const Camera& camera, const Mask& ma
   rasterize(cloud, camera, options, job);
 }
 
-Mask resized_mask(const Mask& mask, int width, int height) {
-  Mask out(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      out.at(x, y) = mask.at(static_cast<int>((x + 0.5) * mask.width() / width), static_cast<int>((y + 0.5) * mask.height() / height));
-  return out;
-}
-
 // One run: what the stages share.
 class Run {
  public:
   Run(const GaussianCloud& cloud, const PreparedScene& prepared, const PipelineOptions& options, const Job& job,
       PipelineReport* report)
       : cloud_(cloud), parts_(prepared.parts), options_(options), job_(job), report_(*report), clock_(&report->stages),
-        sums_(cloud.size()), solver_(cloud, prepared.graph, options.cut) {}
+        sums_(cloud.size()), solver_(cloud, prepared.graph, options.cut), work_width_px_(options.work_width_px) {}
 
   bool answered_by_parts() const { return !prior().empty() && !options_.cut_parts; }
   void reference_view(const Camera& full, const Strokes& strokes);
-  void other_views(const std::vector<Camera>& cameras);
+  void other_views(const Camera& reference, const glm::vec3& up_world);
   void settle();
   void trim_labels();
 
@@ -65,16 +70,20 @@ class Run {
     if (options_.on_snapshot && !job_.cancelled()) options_.on_snapshot(report_);
   }
   void solve();
-  void add_view(const Camera& camera);
+  bool find_object(const Camera& camera, const Strokes& strokes);
+  bool too_small(const Mask& mask, const Camera& camera, const Camera& full);
+  void add_given(const GivenView& given);
+  void add_view(const Camera& full, const glm::vec3& object_centre_world);
+  bool needs_pictures() const { return options_.propagate != Propagator::kLift || options_.refine.solver != MaskSolver::kNone; }
   Mask labels_in(const Camera& camera);
-  Mask refined(const Camera& camera, const Mask& seen);
+  Mask propagated(const Camera& camera, const Picture& picture);
   double share_visible(const Camera& camera, const Mask& seen);
   PartView parts_in(const Camera& camera);
   void pick(const Camera& camera, const Strokes& strokes);
   void complete(const Camera& camera, const Mask& mask);
   Mask mask_from_pixels(const Camera& camera, const Strokes& strokes);
   Mask with_feedback(const Camera& camera, const Picture& picture, const Mask& mask, const Strokes& strokes);
-  void use(ViewReport view);
+  void use(ViewReport view, Picture picture = {});
   void measure_agreement();
 
   const GaussianCloud& cloud_;
@@ -85,6 +94,8 @@ class Run {
   StageClock clock_;
   MaskedSums sums_;
   CutSolver solver_;
+  std::vector<SeenView> seen_;  // in two dimensions; empty for kLift
+  int work_width_px_;
   int used_views_ = 0;
 };
 
@@ -102,8 +113,12 @@ Mask Run::labels_in(const Camera& camera) {
   return clock_.time("labels in views", [&] { return thresholded(render_labels(cloud_, camera, report_.labels, job_), 0.5f); });
 }
 
-void Run::use(ViewReport view) {
+void Run::use(ViewReport view, Picture picture) {
   view.used = true;
+  if (options_.propagate != Propagator::kLift) {
+    if (picture.rgb.empty()) picture = clock_.time("view", [&] { return render(cloud_, view.camera, job_); });
+    seen_.push_back({view.camera, std::move(picture.rgb), std::move(picture.depth), view.mask});
+  }
   clock_.time("likelihood", [&] { accumulate(cloud_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
   ++used_views_;
   report_.views.push_back(std::move(view));
@@ -115,12 +130,13 @@ Mask Run::with_feedback(const Camera& camera, const Picture& picture, const Mask
   solve();
   const Mask seen = labels_in(camera);
   report_.views.clear();
+  seen_.clear();
   sums_ = MaskedSums(cloud_.size());
   used_views_ = 0;
   constexpr double kSaneChange = 0.5;  // a cut that keeps less than this of the mask is no correction
   if (iou(seen, mask) < kSaneChange) return mask;
   const Image<std::uint8_t> seeds = draw_seeds(strokes, camera.width_px, camera.height_px);
-  return clock_.time("first mask", [&] { return refine_mask(picture.rgb, seen, 2, options_.first_mask.grabcut_iterations, seeds); });
+  return clock_.time("first mask", [&] { return refine_mask(picture.rgb, picture.depth, seen, options_.first_mask.refine, seeds); });
 }
 
 PartView Run::parts_in(const Camera& camera) {
@@ -158,9 +174,8 @@ Mask Run::mask_from_pixels(const Camera& camera, const Strokes& strokes) {
   return mask;
 }
 
-void Run::reference_view(const Camera& full, const Strokes& strokes) {
-  const Camera camera = limited_to_width(full, options_.work_width_px);
-  const Strokes here = scaled(strokes, static_cast<float>(camera.width_px) / static_cast<float>(full.width_px));
+// Whether a mask was found; false: cancelled.
+bool Run::find_object(const Camera& camera, const Strokes& strokes) {
   Mask mask;
   if (options_.given_first_mask) {
     mask = resized_mask(*options_.given_first_mask, camera.width_px, camera.height_px);
@@ -169,15 +184,37 @@ void Run::reference_view(const Camera& full, const Strokes& strokes) {
       report_.prior = report_.labels;
     }
   } else if (options_.first_mask_from == FirstMaskFrom::kParts) {
-    pick(camera, here);
-    if (job_.cancelled()) return;
+    pick(camera, strokes);
+    if (job_.cancelled()) return false;
     report_.prior = report_.labels;
     mask = labels_in(camera);
   } else {
-    mask = mask_from_pixels(camera, here);
+    mask = mask_from_pixels(camera, strokes);
   }
-  const bool anything = count(mask) > 0;
-  use({camera, std::move(mask), true, 0, {}});
+  if (job_.cancelled()) return false;
+  report_.views.assign(1, {camera, std::move(mask), true, 0, {}});
+  return true;
+}
+
+// Then the view is looked at again with more pixels, at most once.
+bool Run::too_small(const Mask& mask, const Camera& camera, const Camera& full) {
+  const double side = std::sqrt(static_cast<double>(count(mask)));
+  if (side == 0 || side >= options_.least_object_px || camera.width_px >= full.width_px) return false;
+  work_width_px_ = std::min(full.width_px, static_cast<int>(std::ceil(camera.width_px * options_.least_object_px / side)));
+  return true;
+}
+
+void Run::reference_view(const Camera& full, const Strokes& strokes) {
+  const auto look = [&] {
+    const Camera camera = limited_to_width(full, work_width_px_);
+    return find_object(camera, scaled(strokes, static_cast<float>(camera.width_px) / static_cast<float>(full.width_px)));
+  };
+  if (!look()) return report_.views.clear();
+  if (too_small(report_.views.front().mask, report_.views.front().camera, full) && !look()) return report_.views.clear();
+  ViewReport view = std::move(report_.views.front());
+  report_.views.clear();
+  const bool anything = count(view.mask) > 0;
+  use(std::move(view));
   snapshot();
   if (anything && !answered_by_parts()) solve();
 }
@@ -195,36 +232,70 @@ double Run::share_visible(const Camera& camera, const Mask& seen) {
   return alone ? static_cast<double>(count(seen)) / static_cast<double>(alone) : 0.0;
 }
 
-Mask Run::refined(const Camera& camera, const Mask& seen) {
-  const Picture picture = clock_.time("view", [&] { return render(cloud_, camera, job_); });
-  constexpr int kBandPx = 2;  // the labels are right up to about two pixels of the border
-  return clock_.time("masks", [&] { return refine_mask(picture.rgb, seen, kBandPx, options_.refine_iterations); });
+// What is object in this view, before the picture has its say.
+Mask Run::propagated(const Camera& camera, const Picture& picture) {
+  if (options_.propagate == Propagator::kLift) return labels_in(camera);
+  const SeenView& nearest = *std::ranges::min_element(
+      seen_, {}, [&](const SeenView& v) { return glm::distance(v.camera.centre_world(), camera.centre_world()); });
+  return clock_.time("masks", [&] {
+    return options_.propagate == Propagator::kWarp ? warped_by_depth(nearest, camera, picture.depth) : warped_by_flow(nearest, picture.rgb);
+  });
 }
 
-void Run::add_view(const Camera& full) {
-  const Camera camera = limited_to_width(full, options_.work_width_px);
-  ViewReport view{camera, Mask(camera.width_px, camera.height_px), false, 0, {}};
-  if (options_.given_masks) {
-    view.mask = options_.given_masks(camera);
-    return use(std::move(view));
-  }
-  const Mask seen = labels_in(camera);
-  constexpr double kHidden = 0.2;
-  if (share_visible(camera, seen) < kHidden) {
-    view.reason = "the object is hidden here";
-    report_.views.push_back(std::move(view));
-    return;
-  }
-  view.mask = options_.refine_iterations > 0 ? refined(camera, seen) : seen;
-  use(std::move(view));
+void Run::add_given(const GivenView& given) {
+  const Camera camera = limited_to_width(given.camera, work_width_px_);
+  use({camera, resized_mask(given.mask, camera.width_px, camera.height_px), true, 0, {}});
   solve();
 }
 
-void Run::other_views(const std::vector<Camera>& cameras) {
+void Run::add_view(const Camera& full, const glm::vec3& object_centre_world) {
+  ViewReport view{limited_to_width(full, work_width_px_), {}, false, 0, {}};
+  if (options_.given_masks) {
+    view.mask = options_.given_masks(view.camera);
+    return use(std::move(view));
+  }
+  constexpr double kHidden = 0.2;
+  // Where a wall or another thing stands before the object, from nearer.
+  for (const float share : {1.0f, 0.7f, 0.5f}) {
+    view.camera = approached(limited_to_width(full, work_width_px_), object_centre_world, share);
+    Picture picture;
+    if (needs_pictures()) picture = clock_.time("view", [&] { return render(cloud_, view.camera, job_); });
+    const Mask seen = propagated(view.camera, picture);
+    if (job_.cancelled()) return;
+    if (options_.hidden_test && share_visible(view.camera, seen) < kHidden) continue;
+    view.mask = clock_.time("masks", [&] { return refine_mask(picture.rgb, picture.depth, seen, options_.refine); });
+    use(std::move(view), std::move(picture));
+    return solve();
+  }
+  view.camera = limited_to_width(full, work_width_px_);
+  view.mask = Mask(view.camera.width_px, view.camera.height_px);
+  view.reason = "the object is hidden here";
+  report_.views.push_back(std::move(view));
+}
+
+void Run::other_views(const Camera& reference, const glm::vec3& up_world) {
+  if (!options_.given_views.empty()) {
+    for (const GivenView& given : options_.given_views)
+      if (!job_.cancelled()) add_given(given);
+    report_.enough = fmt::format("all {} given masks", options_.given_views.size() + 1);
+    return;
+  }
+  const ObjectExtent extent = object_extent(cloud_, report_.labels);
+  const std::vector<Camera> cameras =
+      options_.view_cameras.empty() ? cameras_around(reference, up_world, extent, options_.scene_cameras, options_.orbit) : options_.view_cameras;
+  int steady = 0;
   for (std::size_t i = 0; i < cameras.size() && !job_.cancelled(); ++i) {
     job_.progress("views", static_cast<double>(i) / static_cast<double>(cameras.size()));
-    add_view(cameras[i]);
+    const std::vector<std::uint8_t> before = report_.labels;
+    const int used_before = used_views_;
+    add_view(cameras[i], extent.centre_world);
+    if (options_.given_masks || used_views_ == used_before) continue;
+    steady = changed_share(before, report_.labels) < options_.settled_change ? steady + 1 : 0;
+    if (steady < options_.settled_views) continue;
+    report_.enough = fmt::format("labels changed by less than {:.1f} % in {} views running", 100 * options_.settled_change, steady);
+    return;
   }
+  report_.enough = cameras.empty() ? "no view beside the first was asked for" : fmt::format("all {} views were looked at", cameras.size() + 1);
 }
 
 void Run::measure_agreement() {
@@ -263,36 +334,6 @@ void Run::trim_labels() {
 
 }  // namespace
 
-PipelineOptions preset(const std::string& name) {
-  PipelineOptions options;
-  if (name == "default") return options;
-  if (name == "fast") {
-    options.orbit.views = 4;
-    options.work_width_px = 256;
-  } else if (name == "best") {
-    options.orbit.views = 20;
-    options.work_width_px = 512;
-  } else if (name == "paper" || name == "paper-code") {
-    const bool code = name == "paper-code";
-    options.orbit.views = 40;
-    options.first_mask_from = FirstMaskFrom::kPixels;
-    options.cut.energy = code ? paper_code_energy() : paper_energy();
-    if (code) options.neighbours = 9;
-    options.trim = false;
-  } else {
-    throw Error("--preset " + name, "there is no such preset", "Take fast, default, best, paper or paper-code");
-  }
-  return options;
-}
-
-PrepareOptions prepare_options(const PipelineOptions& options) {
-  PrepareOptions prepare;
-  prepare.graph.neighbours = options.neighbours;
-  prepare.cache = options.cache;
-  prepare.with_parts = options.first_mask_from == FirstMaskFrom::kParts;
-  return prepare;
-}
-
 PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,
                        const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options, const Job& job) {
   if (!options.cut_parts && options.first_mask_from != FirstMaskFrom::kParts)
@@ -319,10 +360,7 @@ PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared
     return report;
   }
   if (run.answered_by_parts()) return report;
-  const std::vector<Camera> cameras =
-      options.view_cameras.empty() ? orbit_cameras(reference, up_world, object_extent(cloud, report.labels), options.orbit)
-                                   : options.view_cameras;
-  run.other_views(cameras);
+  run.other_views(reference, up_world);
   if (cancelled()) return report;
   run.settle();
   if (options.trim && !job.cancelled()) run.trim_labels();

@@ -3,7 +3,7 @@
 // In: cloud, reference camera, strokes in the reference's pixels (or a mask of it).
 // Out: labels (1 = object), the views used with their masks, likelihood, energy, milliseconds per stage.
 // Source: Jain et al., GaussianCut, NeurIPS 2024; the propagator is ours: labels of a 3D cut rendered into
-// the next view are its mask (refine_iterations > 0 lets GrabCut settle the border, which thin parts suffer from).
+// the next view are its mask. Views are added until the labels stop changing.
 // Errors: Error for strokes that mark nothing. Expected outcomes (nothing found, cancelled) are in `outcome`.
 #pragma once
 
@@ -21,6 +21,8 @@
 #include "segment/orbit.h"
 #include "segment/part_picker.h"
 #include "segment/prepared_scene.h"
+#include "segment/propagate.h"
+#include "segment/refine_mask.h"
 #include "segment/seeds.h"
 #include "segment/trim.h"
 
@@ -28,6 +30,12 @@ namespace splatcut {
 
 // Gives the mask of a view in place of the pipeline's own (truth in experiments, masks of other tools).
 using MaskSource = std::function<Mask(const Camera&)>;
+
+// A view whose mask the user brings. Mask: any size of the camera's aspect ratio.
+struct GivenView {
+  Camera camera;
+  Mask mask;
+};
 
 // Where the mask of the reference view comes from.
 enum class FirstMaskFrom {
@@ -40,8 +48,8 @@ struct PipelineReport;
 struct PipelineOptions {
   int work_width_px = 400;           // views are rendered no wider than this
   OrbitOptions orbit;
-  std::vector<Camera> view_cameras;  // empty: orbit
-  std::vector<Camera> scene_cameras;  // of its photographs, where known: parts are seen from there (not prepared yet)
+  std::vector<Camera> view_cameras;  // empty: see cameras_around()
+  std::vector<Camera> scene_cameras;  // of its photographs, where known
   int neighbours = 10;               // k of the graph
   PreparedCache cache;               // where the scene is not prepared yet
   FirstMaskFrom first_mask_from = FirstMaskFrom::kParts;
@@ -51,13 +59,19 @@ struct PipelineOptions {
   float prior_px_per_view = 0.1f;    // kParts: what the parts say counts as that many pixels of each Gaussian
   bool cut_parts = true;             // kParts: the graph cut settles what the parts say; false: they are the answer
   bool hard_counts = false;          // the likelihood counts pixels, not weights (the paper's hard variant)
-  int refine_iterations = 0;         // GrabCut in orbit views; 0 takes the rendered labels as they are
+  Propagator propagate = Propagator::kLift;
+  RefineOptions refine{.solver = MaskSolver::kNone};  // of propagated masks: thin parts suffer from it
+  bool hidden_test = true;           // views in which something hides the object are taken from nearer or left out
+  double settled_change = 0.003;     // no more views once the labels change by less (share of the object) ...
+  int settled_views = 2;             // ... in that many views running
+  int least_object_px = 48;          // square root of its pixels: smaller ones are looked at with more pixels
   double view_agreement = 0.6;       // views whose mask agrees less with the solution are left out
   CutOptions cut;
   bool trim = true;                  // see trim.h
   TrimOptions trim_options;
   std::optional<Mask> given_first_mask;  // size of the reference camera
   MaskSource given_masks;                // of every orbit view
+  std::vector<GivenView> given_views;    // these in place of an orbit
   // Called on the running thread when a mask was found and after each cut; the report is as far as it has come.
   std::function<void(const PipelineReport&)> on_snapshot;
 };
@@ -90,6 +104,7 @@ struct PipelineReport {
   bool ambiguous = false;            // kParts: another size was nearly as likely
   std::size_t trimmed = 0;           // Gaussians that left the object after the cut
   std::vector<ViewReport> views;     // the reference first
+  std::string enough;                // why there are no more views
   std::vector<StageTime> stages;     // in order, same names added up
 };
 
