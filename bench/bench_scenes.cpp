@@ -6,7 +6,7 @@
 
 #include "scene/morton.h"
 #include "scene/scene_file.h"
-#include "scene/still_life.h"
+#include "still_life_mug.h"
 #include "synthetic_cloud.h"
 
 namespace splatcut::bench {
@@ -16,14 +16,9 @@ namespace {
 constexpr int kWidth = 1280, kHeight = 720;
 
 BenchScene make_still_life_scene(std::size_t gaussians) {
-  StillLifeOptions options;
-  options.gaussians = gaussians;
-  const LabelledScene made = make_still_life(options);
-  const std::vector<std::uint32_t> order = morton_order(made.cloud.position);
-  const auto mug = std::ranges::find(made.label_name, "mug") - made.label_name.begin();
-  BenchScene scene{permuted(made.cloud, order), resized(made.cameras.front(), kWidth, kHeight), {}, {}};
+  testing::MugScene made = testing::still_life_with_mug(gaussians);
+  BenchScene scene{std::move(made.cloud), resized(made.cameras.front(), kWidth, kHeight), {}, std::move(made.mug)};
   for (const Camera& camera : made.cameras) scene.cameras.push_back(limited_to_width(camera, 400));
-  for (const std::uint32_t g : order) scene.mug.push_back(made.label[g] == mug);
   return scene;
 }
 

@@ -155,11 +155,13 @@ std::vector<std::int32_t> scaled_capacity(const CutProblem& p, double lambda) {
   return scaled;
 }
 
-// lambda from a quarter to 16 in 12 rising steps: the sum, each step from the one before or from nothing.
-void lambda_sweep(benchmark::State& state, const ProblemOf& problem_of, bool warm) {
+// lambda from a quarter to 16 in 12 steps, rising or falling: the sum, each step from the one before or from nothing.
+void lambda_sweep(benchmark::State& state, const ProblemOf& problem_of, bool rising, bool warm) {
   const CutProblem& p = problem_of();
   std::vector<std::vector<std::int32_t>> capacities;
   for (int step = 0; step <= 12; ++step) capacities.push_back(scaled_capacity(p, 0.25 * std::exp2(step / 2.0)));
+  if (!rising) std::ranges::reverse(capacities);
+  std::size_t cold = 0;
   for (auto _ : state) {
     MaxFlow max_flow(p.graph, capacities.front());
     max_flow.set_terminals(p.terminal);
@@ -171,7 +173,9 @@ void lambda_sweep(benchmark::State& state, const ProblemOf& problem_of, bool war
         max_flow.solve();
       }
     });
+    cold = max_flow.cold_starts() - 1;
   }
+  state.counters["cold_starts"] = static_cast<double>(cold);
 }
 
 void flip_cost_of_all(benchmark::State& state, const ProblemOf& problem_of) {
@@ -235,8 +239,10 @@ void register_problem(const std::string& name, const ProblemOf& problem, bool wi
   constexpr std::int64_t kMeant = 8 << 20;  // eight times what all views together can say
   add("cut_after_object_stroke", [=](benchmark::State& s) { cut_after_stroke(s, problem, kMeant); })->RangeMultiplier(10)->Range(10, 10000)->Iterations(20);
   add("cut_after_rest_stroke", [=](benchmark::State& s) { cut_after_stroke(s, problem, -kMeant); })->RangeMultiplier(10)->Range(10, 10000)->Iterations(20);
-  add("lambda_sweep_warm", [=](benchmark::State& s) { lambda_sweep(s, problem, true); });
-  add("lambda_sweep_cold", [=](benchmark::State& s) { lambda_sweep(s, problem, false); });
+  for (const bool rising : {true, false})
+    for (const bool warm : {true, false})
+      add(fmt::format("lambda_{}_{}", rising ? "rising" : "falling", warm ? "warm" : "cold"),
+          [=](benchmark::State& s) { lambda_sweep(s, problem, rising, warm); });
   add("snapshot_and_restore", [=](benchmark::State& s) { snapshot_and_restore(s, problem); });
   add("flip_cost_of_all", [=](benchmark::State& s) { flip_cost_of_all(s, problem); });
   add("min_marginals_of_100", [=](benchmark::State& s) { min_marginals_of_100(s, problem); });

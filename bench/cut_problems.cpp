@@ -12,6 +12,7 @@
 #include "segment/likelihood.h"
 #include "segment/mask_tools.h"
 #include "segment/orbit.h"
+#include "still_life_mug.h"
 
 namespace splatcut::bench {
 
@@ -43,11 +44,7 @@ CutProblem problem_from(std::string name, const GaussianCloud& cloud, std::vecto
   for (const Camera& view : views) {
     if (&view == &views.back()) problem.terminal_before = net(views.size() - 1);
     const Mask mask = noisy(thresholded(render_labels(cloud, view, truth), 0.5f), random);
-    RasterOptions options;
-    options.colour = false;
-    options.sum_mask = &mask;
-    options.sums = &sums;
-    rasterize(cloud, view, options);
+    testing::add_masked_view(cloud, view, mask, sums);
   }
   problem.name = std::move(name);
   problem.graph = knn_graph(cloud);

@@ -9,13 +9,11 @@
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
 
-#include "scene/morton.h"
-#include "scene/rasterizer.h"
 #include "scene/scene_file.h"
 #include "scene/splat_math.h"
-#include "scene/still_life.h"
 #include "segment/knn_graph.h"
 #include "segment/mask_tools.h"
+#include "still_life_mug.h"
 #include "synthetic_cloud.h"
 
 using namespace splatcut;
@@ -25,12 +23,7 @@ namespace {
 
 void add_view(const GaussianCloud& cloud, const Camera& camera, const std::vector<std::uint8_t>& object, int dilation_px,
               MaskedSums& sums) {
-  const Mask mask = dilated(thresholded(render_labels(cloud, camera, object), 0.5f), dilation_px);
-  RasterOptions options;
-  options.colour = false;
-  options.sum_mask = &mask;
-  options.sums = &sums;
-  rasterize(cloud, camera, options);
+  add_masked_view(cloud, camera, dilated(thresholded(render_labels(cloud, camera, object), 0.5f), dilation_px), sums);
 }
 
 struct Labelled {
@@ -39,14 +32,9 @@ struct Labelled {
   std::vector<Camera> cameras;
 };
 
-Labelled still_life_with_mug(std::size_t gaussians) {
-  StillLifeOptions options;
-  options.gaussians = gaussians;
-  const LabelledScene made = make_still_life(options);
-  const auto order = morton_order(made.cloud.position);
-  Labelled out{permuted(made.cloud, order), {}, {}};
-  const auto mug = std::ranges::find(made.label_name, "mug") - made.label_name.begin();
-  for (const std::uint32_t g : order) out.object.push_back(made.label[g] == mug);
+Labelled labelled_mug(std::size_t gaussians) {
+  MugScene made = still_life_with_mug(gaussians);
+  Labelled out{std::move(made.cloud), std::move(made.mug), {}};
   for (const Camera& camera : made.cameras) out.cameras.push_back(limited_to_width(camera, 160));
   return out;
 }
@@ -126,7 +114,7 @@ TEST_CASE("weights of Gaussians of infinite size are zero, of identical ones lam
 }
 
 TEST_CASE("view by view, the kept solver's labels are a fresh solver's, and its sub-graph proves them") {
-  check_view_by_view(still_life_with_mug(30000), 8);
+  check_view_by_view(labelled_mug(30000), 8);
 }
 
 TEST_CASE("the same on captured scenes") {

@@ -1,7 +1,7 @@
 // Exact minimum cut of a graph with integer capacities, solved again at little cost when capacities change.
 // Knows nothing of Gaussians.
 //
-// In: a FlowGraph; c, a capacity per arc (0 <= c <= 2^30); b, the net terminal capacity per node: source arc minus
+// In: a FlowGraph; c, a capacity per arc (0 <= c < 2^30); b, the net terminal capacity per node: source arc minus
 // sink arc. Out: the minimal source set (what the sources still reach), which is unique, so labels do not
 // depend on the order of work or on what was solved before; the flow, in 64 bits.
 //
@@ -46,8 +46,8 @@ class MaxFlow {
   static constexpr std::int64_t kLargestTerminal = 1 << 29;
   void set_terminal(std::uint32_t node, std::int64_t b);
   void set_terminals(std::span<const std::int64_t> b);  // of all nodes
-  // Other capacities on the same graph. The flow is kept where all of it still fits (capacities that only
-  // rise), else the next solve starts cold.
+  // Other capacities on the same graph. The flow is kept: what no longer fits through an arc stays as excess before it
+  // and is lacking behind it. Where that is more than a node can hold, the next solve starts cold.
   void set_capacity(std::span<const std::int32_t> capacity);
 
   // False when cancelled: the sides are then unspecified, another solve() goes on.
@@ -82,7 +82,7 @@ class MaxFlow {
   // label > 0: in the source forest, < 0: in the sink forest, 0: in none; its size rises from root to leaf.
   // parent: the arc to the parent, kRoot or kOrphan.
   struct Node {
-    std::int32_t excess = 0;  // roots only send or take what is theirs: never beyond twice the largest terminal
+    std::int32_t excess = 0;  // roots only send or take what is theirs: never beyond three times the largest terminal
     std::uint32_t parent = kRoot;
     std::int32_t label = 0;
   };
@@ -103,6 +103,7 @@ class MaxFlow {
   void leave_source_forest(std::uint32_t node);
   void leave_sink_forest(std::uint32_t node);
   void reset_arcs_of_touched();
+  bool take_back(std::uint32_t node, std::uint32_t arc);
   void clear_lists();
   void plant(std::uint32_t node);
   bool over_budget() const;

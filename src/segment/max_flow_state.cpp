@@ -9,6 +9,12 @@
 
 namespace splatcut {
 
+namespace {
+
+constexpr std::int32_t kLargestExcess = MaxFlow::kLargestTerminal;  // that a change of capacities may leave at a node
+
+}  // namespace
+
 MaxFlow::MaxFlow(const FlowGraph& graph, std::span<const std::int32_t> capacity)
     : graph_(graph), capacity_(capacity), residual_(capacity.begin(), capacity.end()), node_(graph.nodes()),
       b_(graph.nodes(), 0), flags_(graph.nodes(), 0) {
@@ -89,6 +95,20 @@ void MaxFlow::restart() {
   warm_ = false;
 }
 
+// The part of the arc's flow that its capacity no longer holds goes back to its node. False where that is too much.
+bool MaxFlow::take_back(std::uint32_t node, std::uint32_t arc) {
+  const std::int32_t beyond = -residual_[arc];
+  const std::uint32_t other = graph_.head[arc];
+  if (node_[node].excess > kLargestExcess - beyond || node_[other].excess < beyond - kLargestExcess) return false;
+  residual_[arc] = 0;
+  residual_[graph_.reverse_arc[arc]] -= beyond;
+  node_[node].excess += beyond;
+  node_[other].excess -= beyond;
+  touch(node);
+  touch(other);
+  return true;
+}
+
 void MaxFlow::set_capacity(std::span<const std::int32_t> capacity) {
   assert(capacity.size() == graph_.arcs());
   std::int32_t least = 0;
@@ -97,10 +117,19 @@ void MaxFlow::set_capacity(std::span<const std::int32_t> capacity) {
     least = std::min(least, residual_[arc]);
   }
   capacity_ = capacity;
-  if (least < 0) return restart();
-  // Arcs that were full are open: the forests are planted anew on the flow that is kept.
+  for (std::size_t i = 0; least < 0 && i < touched_.size(); ++i)  // touched_ grows: flow lies on arcs of touched nodes
+    for (std::uint32_t arc = graph_.first_arc[touched_[i]]; arc < graph_.first_arc[touched_[i] + 1]; ++arc) {
+      const std::uint32_t back = graph_.reverse_arc[arc];
+      if ((residual_[arc] < 0 && !take_back(touched_[i], arc)) || (residual_[back] < 0 && !take_back(graph_.head[arc], back)))
+        return restart();
+    }
+  // Arcs that were full may be open: the forests are planted anew on the flow that is kept.
   clear_lists();
-  for (std::size_t i = 0, n = touched_.size(); i < n; ++i) plant(touched_[i]);
+  positive_excess_ = 0;
+  for (std::size_t i = 0, n = touched_.size(); i < n; ++i) {
+    positive_excess_ += std::max(node_[touched_[i]].excess, 0);
+    plant(touched_[i]);
+  }
 }
 
 std::vector<std::uint8_t> MaxFlow::source_set() const {

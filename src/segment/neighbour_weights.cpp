@@ -22,7 +22,7 @@ Symmetric3 covariance_of(const GaussianCloud& cloud, std::size_t g) {
 
 // lambda psi as an integer capacity.
 std::int32_t capacity_of(float psi, float lambda) {
-  constexpr double kLargest = 1 << 30;  // of the maximum flow
+  constexpr double kLargest = (1 << 30) - 1;  // of the maximum flow
   const double capacity = static_cast<double>(lambda) * static_cast<double>(std::isfinite(psi) ? psi : 0.0f) * kCapacityScale;
   return static_cast<std::int32_t>(std::llround(std::min(capacity, kLargest)));
 }
