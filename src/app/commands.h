@@ -26,6 +26,7 @@ void add_render_command(CLI::App& program, const CommonOptions& common);
 void add_convert_command(CLI::App& program, const CommonOptions& common);
 void add_cut_command(CLI::App& program, const CommonOptions& common);
 void add_make_scene_command(CLI::App& program, const CommonOptions& common);
+void add_study_command(CLI::App& program, const CommonOptions& common);
 void add_eval_command(CLI::App& program, const CommonOptions& common);
 void add_compare_command(CLI::App& program, const CommonOptions& common);
 void add_view_command(CLI::App& program, const CommonOptions& common);

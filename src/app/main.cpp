@@ -48,6 +48,7 @@ int run(int argc, char** argv) {
   add_convert_command(program, common);
   add_make_scene_command(program, common);
   add_eval_command(program, common);
+  add_study_command(program, common);
   add_compare_command(program, common);
   add_view_command(program, common);
   try {

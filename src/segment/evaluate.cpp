@@ -18,59 +18,6 @@ Mask picture_of(const GaussianCloud& cloud, const Camera& camera, const std::vec
   return thresholded(render_labels(cloud, camera, labels), 0.5f);
 }
 
-double label_iou(const std::vector<std::uint8_t>& truth, const std::vector<std::uint8_t>& labels) {
-  std::size_t both = 0, either = 0;
-  for (std::size_t g = 0; g < truth.size(); ++g) {
-    both += truth[g] && labels[g];
-    either += truth[g] || labels[g];
-  }
-  return either ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
-}
-
-struct ImageScore {
-  double iou = 0, accuracy = 0, boundary = 0;
-};
-
-ImageScore score_images(const EvaluationCase& scene, const std::vector<std::uint8_t>& labels) {
-  ImageScore sum;
-  int views = 0;
-  for (std::size_t v = 0; v < scene.test_views.size(); ++v) {
-    const Mask& truth = scene.truth_masks[v];
-    if (static_cast<double>(count(truth)) < kLeastTruthShare * static_cast<double>(truth.size())) continue;
-    const Mask seen = picture_of(*scene.cloud, scene.test_views[v], labels);
-    sum.iou += iou(truth, seen);
-    sum.accuracy += pixel_accuracy(truth, seen);
-    sum.boundary += boundary_iou(truth, seen);
-    ++views;
-  }
-  if (views == 0) throw Error(scene.name, "the truth shows in none of its test views");
-  return {sum.iou / views, sum.accuracy / views, sum.boundary / views};
-}
-
-// The robot works on the mask's own picture size; strokes come back in the reference's pixels.
-struct RobotSession {
-  Strokes strokes;                       // in reference pixels, one more per step
-  std::vector<double> iou_after;         // of the mask after each click
-};
-
-RobotSession robot_session(const EvaluationCase& scene, const EvaluationOptions& options, int clicks, const Job& job) {
-  const Camera work = limited_to_width(scene.reference, options.pipeline.work_width_px);
-  const float to_reference = static_cast<float>(scene.reference.width_px) / static_cast<float>(work.width_px);
-  const Mask truth = picture_of(*scene.cloud, work, scene.truth_labels);
-  Mask mask(work.width_px, work.height_px);
-  RobotSession session;
-  for (int i = 0; i < clicks && !job.cancelled(); ++i) {
-    if (const auto next = robot_click(truth, mask)) {
-      const Strokes scaled_click = scaled({*next}, to_reference);
-      session.strokes.push_back(scaled_click.front());
-      const Mask found = first_mask_of(*scene.cloud, *scene.prepared, scene.reference, session.strokes, options.pipeline, job);
-      mask = resized_mask(found, work.width_px, work.height_px);
-    }
-    session.iou_after.push_back(iou(truth, mask));
-  }
-  return session;
-}
-
 int clicks_to(const std::vector<double>& iou_after, double goal) {
   const auto reached = std::ranges::find_if(iou_after, [&](double v) { return v >= goal; });
   return reached == iou_after.end() ? kClicksNotReached : static_cast<int>(reached - iou_after.begin()) + 1;
@@ -96,6 +43,50 @@ PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& op
 
 }  // namespace
 
+double label_iou(const std::vector<std::uint8_t>& truth, const std::vector<std::uint8_t>& labels) {
+  std::size_t both = 0, either = 0;
+  for (std::size_t g = 0; g < truth.size(); ++g) {
+    both += truth[g] && labels[g];
+    either += truth[g] || labels[g];
+  }
+  return either ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
+}
+
+ImageScore score_images(const EvaluationCase& scene, const std::vector<std::uint8_t>& labels) {
+  ImageScore sum;
+  int views = 0;
+  for (std::size_t v = 0; v < scene.test_views.size(); ++v) {
+    const Mask& truth = scene.truth_masks[v];
+    if (static_cast<double>(count(truth)) < kLeastTruthShare * static_cast<double>(truth.size())) continue;
+    const Mask seen = picture_of(*scene.cloud, scene.test_views[v], labels);
+    sum.iou += iou(truth, seen);
+    sum.accuracy += pixel_accuracy(truth, seen);
+    sum.boundary += boundary_iou(truth, seen);
+    ++views;
+  }
+  if (views == 0) throw Error(scene.name, "the truth shows in none of its test views");
+  return {sum.iou / views, sum.accuracy / views, sum.boundary / views};
+}
+
+// The robot works on the mask's own picture size.
+RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks, std::uint64_t draw, const Job& job) {
+  const Camera work = limited_to_width(scene.reference, pipeline.work_width_px);
+  const float to_reference = static_cast<float>(scene.reference.width_px) / static_cast<float>(work.width_px);
+  const Mask truth = picture_of(*scene.cloud, work, scene.truth_labels);
+  Mask mask(work.width_px, work.height_px);
+  RobotSession session;
+  for (int i = 0; i < clicks && !job.cancelled(); ++i) {
+    if (const auto next = robot_click(truth, mask, draw ? draw * 16 + static_cast<std::uint64_t>(i) : 0)) {
+      const Strokes scaled_click = scaled({*next}, to_reference);
+      session.strokes.push_back(scaled_click.front());
+      const Mask found = first_mask_of(*scene.cloud, *scene.prepared, scene.reference, session.strokes, pipeline, job);
+      mask = resized_mask(found, work.width_px, work.height_px);
+    }
+    session.iou_after.push_back(iou(truth, mask));
+  }
+  return session;
+}
+
 void render_truth(EvaluationCase* scene) {
   scene->truth_masks.clear();
   for (const Camera& view : scene->test_views) scene->truth_masks.push_back(picture_of(*scene->cloud, view, scene->truth_labels));
@@ -108,7 +99,7 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
   Strokes strokes = scene.clicks;
   if (strokes.empty() && !options.truth_first_mask) {
     const RobotSession robot =
-        robot_session(scene, options, options.click_curve ? std::max(kRobotClicks, options.clicks) : options.clicks, job);
+        robot_session(scene, options.pipeline, options.click_curve ? std::max(kRobotClicks, options.clicks) : options.clicks, 0, job);
     strokes = robot.strokes;
     score.mask_iou_after_clicks = robot.iou_after;
     if (options.click_curve) {

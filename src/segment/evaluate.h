@@ -51,6 +51,20 @@ struct SceneScore {
   double total_ms = 0;
 };
 
+// The robot's strokes on the first mask, in reference pixels, and the mask's IoU after each. draw: see robot_click.
+struct RobotSession {
+  Strokes strokes;  // fewer than clicks where nothing was wrong any more
+  std::vector<double> iou_after;  // clicks values
+};
+RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks, std::uint64_t draw = 0, const Job& job = {});
+
+// Means over the test views that count.
+struct ImageScore {
+  double iou = 0, accuracy = 0, boundary = 0;
+};
+ImageScore score_images(const EvaluationCase& scene, const std::vector<std::uint8_t>& labels);
+double label_iou(const std::vector<std::uint8_t>& truth, const std::vector<std::uint8_t>& labels);
+
 // Fills truth_masks and reference_truth from truth_labels.
 void render_truth(EvaluationCase* scene);
 

@@ -1,0 +1,20 @@
+// Masks made worse on purpose, to see what a method stands.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "scene/image.h"
+
+namespace splatcut {
+
+struct MaskDisturbance {
+  // none, erode, dilate, shift (to the right), holes (a third of the discs of that radius on a grid), empty, full
+  std::string kind = "none";
+  int px = 0;
+};
+
+// Throws Error for an unknown kind.
+Mask disturbed(const Mask& mask, const MaskDisturbance& disturbance, std::uint64_t seed);
+
+}  // namespace splatcut
