@@ -100,8 +100,8 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
   start.up_world = scene->up_world;
   history_.reset(document ? *document : start, document ? "Open work" : "Open scene");
   camera_.reset(scene->bounds, history_.now().up_world);
-  if (!scene->cameras.empty()) {
-    camera_.go_to(scene->cameras.front());
+  if (!scene->cameras.empty() || scene->first_view) {
+    camera_.go_to(scene->cameras.empty() ? *scene->first_view : scene->cameras.front());
     camera_.finish_transition();
   }
   document_changed();
@@ -111,7 +111,8 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
   std::string text = fmt::format("{}: {} Gaussians, SH degree {}", s.path.filename().string(), s.cloud.size(),
                                  s.cloud.sh_degree);
   if (s.dropped) text += fmt::format(", {} unusable rows left out", s.dropped);
-  if (!scene->cameras.empty()) text += fmt::format(", {} cameras (N, P)", scene->cameras.size());
+  text += scene->cameras.empty() ? std::string(". Does it lean or stand on its head? Set what is up under View")
+                                 : fmt::format(", {} cameras (N, P)", scene->cameras.size());
   say(Message::Kind::kDone, text);
   tasks_.submit(TaskKind::kPrepare, [this, scene](const Job& job) {
     auto prepared = prepare(*scene, job, options_.cache);
