@@ -15,6 +15,7 @@ namespace {
 constexpr int kThumbnailWidth = 160;
 constexpr std::size_t kCuttersKept = 3;  // each remembers its first cut: about 20 bytes a Gaussian
 constexpr double kAutosaveAfterSeconds = 2;
+constexpr std::size_t kCoarseFrom = 300000;  // Gaussians; fewer are drawn fast enough as they are
 
 // The view's picture with its mask in the object's colour; dark where the view does not count.
 Image<Rgba8> thumbnail(const GaussianCloud& cloud, const ViewReport& view, const Rgb8& colour,
@@ -81,6 +82,7 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
                     const std::filesystem::path& work_path) {
   tasks_.cancel(TaskKind::kPrepare);
   prepared_ = nullptr;
+  coarse_ = nullptr;
   runs_.clear();
   cutters_.clear();
   given_up_.clear();
@@ -115,6 +117,10 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
                                  : fmt::format(", {} cameras (N, P)", scene->cameras.size());
   say(Message::Kind::kDone, text);
   tasks_.submit(TaskKind::kPrepare, [this, scene](const Job& job) {
+    if (scene->cloud->size() >= kCoarseFrom)
+      tasks_.post([this, scene, coarse = std::make_shared<const CoarseCloud>(coarse_cloud(*scene->cloud))] {
+        if (scene == scene_) coarse_ = coarse;
+      });
     auto prepared = prepare(*scene, job, options_.cache);
     if (job.cancelled()) return;
     tasks_.post([this, scene, prepared] {
