@@ -4,6 +4,7 @@ uniform sampler2D picture;
 uniform sampler2D selected;
 uniform vec3 background;
 uniform float tint_strength;     // [0, 1]
+uniform bool tint_shaded;        // the tint keeps the picture's light and dark
 uniform float outline_strength;  // [0, 1]
 
 out vec4 pixel;
@@ -13,6 +14,11 @@ float strength(ivec2 p) {
   return max(s.r, max(s.g, s.b));
 }
 
+// The hue as bright as the picture, but never dark: an orange tint on blue is orange, not brown.
+vec3 shaded_tint(vec3 hue, vec3 colour) {
+  return hue * (0.7 + 0.5 * dot(colour, vec3(0.299, 0.587, 0.114)));
+}
+
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
   vec4 premultiplied = texelFetch(picture, p, 0);
@@ -20,7 +26,7 @@ void main() {
   vec3 selection = texelFetch(selected, p, 0).rgb;
   float here = strength(p);
   vec3 hue = here > 0.0 ? selection / here : vec3(1.0);
-  colour = mix(colour, hue, tint_strength * clamp(here, 0.0, 1.0));
+  colour = mix(colour, tint_shaded ? shaded_tint(hue, colour) : hue, tint_strength * clamp(here, 0.0, 1.0));
   float inside = step(0.5, here), border = 0.0;
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x) border = max(border, abs(inside - step(0.5, strength(p + ivec2(x, y)))));

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "headless_app.h"
+#include "scene/error.h"
 #include "scene/picture_difference.h"
 #include "scene/png_file.h"
 
@@ -118,4 +119,26 @@ TEST_CASE("frames: after one click, alone, side by side") {
   REQUIRE(app.settle());
   app.wait_for_message_to_go();
   check_golden("side_by_side", app.picture());
+}
+
+TEST_CASE("frames: the program over EGL without a surface shows what it shows over OSMesa") {
+  std::unique_ptr<OffscreenContext> context;
+  try {
+    context = make_egl_context();
+  } catch (const Error& error) {
+    MESSAGE("skipped: no EGL context here, " << error.what());
+    return;
+  }
+  const bool software = current_gl_info().software;
+  HeadlessApp app(1040, 600, 1, {}, std::move(context));
+  app.open(kSample);
+  REQUIRE(app.settle());
+  app.wait_for_message_to_go();
+  const Image<Rgb8> picture = app.picture();
+  if (software) return check_golden("sample", picture);
+  // A GPU rounds lines and text in its own way, and draws the splats itself.
+  const PictureDifference d =
+      picture_difference(read_png_rgb(SPLATCUT_SOURCE_DIR "/tests/goldens/sample.png"), picture);
+  MESSAGE("on a GPU: PSNR " << d.psnr_db << " dB");
+  CHECK(d.ssim > 0.95);
 }

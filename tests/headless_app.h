@@ -1,4 +1,4 @@
-// The whole program over Mesa's software rasteriser in memory, driven by the events a window would send.
+// The whole program over Mesa's software rasteriser in memory (or another context), driven by the events a window would send.
 #pragma once
 
 #include <unistd.h>
@@ -41,8 +41,9 @@ class ScratchFolder {
 class HeadlessApp {
  public:
   explicit HeadlessApp(int width = 1040, int height = 600, float pixels_per_point = 1,
-                       ApplicationOptions options = {})
-      : context_(make_osmesa_context()), app_(with_target(width, height, std::move(options))) {
+                       ApplicationOptions options = {},
+                       std::unique_ptr<OffscreenContext> context = make_osmesa_context())
+      : context_(std::move(context)), app_(with_target(width, height, std::move(options))) {
     app_.resize(glm::vec2(width, height) / pixels_per_point, pixels_per_point);
     app_.interface().state().steady = true;
   }

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Opens the program in a real window on a virtual screen, clicks, scribbles, isolates, exports, quits.
+# Opens the program in a real window on a virtual screen, clicks, scribbles, isolates, exports, quits; then computes
+# the saved work again without a window.
 # Usage: real_window_test.sh PROGRAM SAMPLE_FOLDER [SHOTS_FOLDER]   exit 77: skipped, with a sentence why.
 set -euo pipefail
 program=$1 sample=$2 shots=${3:-}
@@ -54,6 +55,7 @@ click 883 551
 exported() { ls "$work"/sample_*.ply; }
 wait_for 60 "exported file" exported
 shot 6_exported
+cp "$autosave" "$work/apple.splatcut.json"       # leaving the program for good removes it
 xdotool key ctrl+q sleep 1; shot 7_quit
 click 793 448
 for _ in $(seq 100); do kill -0 $pid 2>/dev/null || break; sleep 0.1; done
@@ -63,3 +65,15 @@ info=$("$program" info "$work"/sample_*.ply)
 count=$(echo "$info" | awk '$1 == "gaussians" {print $2}')
 echo "exported $count Gaussians"
 [ "$count" -gt 2000 ] && [ "$count" -lt 20000 ] || fail "that is no apple"
+
+# The command cuts what the window cut, to the byte: strokes from the file, nothing else of it.
+labels_of() { grep -o '"cut": *\[[^]]*\]' "$1" | tr -d ' '; }
+[ -n "$(labels_of "$work/apple.splatcut.json")" ] || fail "the saved work holds no labels"
+sed 's/"cut": *\[[^]]*\]/"cut":null/' "$work/apple.splatcut.json" >"$work/strokes.splatcut.json"
+[ -z "$(labels_of "$work/strokes.splatcut.json")" ] || fail "the labels were not taken out of the saved work"
+"$program" cut --work "$work/strokes.splatcut.json" -o "$work/again" --quiet || fail "cut --work did not run"
+cmp "$work"/sample_*.ply "$work"/again/*.ply || fail "cut --work gives another object than the window"
+rows=$("$program" info "$work/sample.compressed.ply" | awk '$1 == "gaussians" {print $2}')
+[ "$(stat -c %s "$work"/again/*.labels.u8)" -eq "$rows" ] || fail "the labels do not cover the file's $rows rows"
+[ "$(tr -d '\000' <"$(echo "$work"/again/*.labels.u8)" | wc -c)" -eq "$count" ] || fail "labels and exported rows differ"
+echo "cut --work: the same $count Gaussians, byte for byte"

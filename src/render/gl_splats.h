@@ -31,6 +31,7 @@ struct SplatDrawOptions {
 struct ResolveOptions {
   glm::vec3 background{0};
   float tint_strength = 0;     // [0, 1]: how much of the selection colour covers the picture
+  bool tint_shaded = false;    // the tint keeps the picture's light and dark
   float outline_strength = 0;  // [0, 1]
 };
 

@@ -2,6 +2,16 @@
 
 namespace splatcut {
 
+void add_masked_sums(const GaussianCloud& cloud, const Camera& camera, const Mask& mask, bool whole_pixels, const Job& job,
+                     MaskedSums* sums) {
+  RasterOptions options;
+  options.colour = false;
+  options.sum_whole_pixels = whole_pixels;
+  options.sum_mask = &mask;
+  options.sums = sums;
+  rasterize(cloud, camera, options, job);
+}
+
 Likelihood likelihood(const MaskedSums& sums) {
   Likelihood out;
   out.w.resize(sums.total.size());

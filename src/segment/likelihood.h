@@ -15,6 +15,10 @@ struct Likelihood {
   std::vector<float> seen_px;  // A_g over all views, pixels
 };
 
+// Adds one view's A_g and M_g to `sums`. mask: of the camera's size. whole_pixels: see RasterOptions.
+void add_masked_sums(const GaussianCloud& cloud, const Camera& camera, const Mask& mask, bool whole_pixels, const Job& job,
+                     MaskedSums* sums);
+
 Likelihood likelihood(const MaskedSums& sums);
 
 // What was known before (1 = object, per Gaussian; empty: nothing) counts like prior_px more pixels of each.

@@ -64,15 +64,6 @@ std::string key_of_views(const std::vector<ViewReport>& views) {
   return key;
 }
 
-void add_sums(const GaussianCloud& cloud, const Camera& camera, const Mask& mask, const Job& job,
-              MaskedSums* sums) {
-  RasterOptions options;
-  options.colour = false;
-  options.sum_mask = &mask;
-  options.sums = sums;
-  rasterize(cloud, camera, options, job);
-}
-
 Strokes swapped(const Strokes& strokes) {
   Strokes out = strokes;
   for (Stroke& s : out) s.label = s.label == SeedLabel::kObject ? SeedLabel::kRest : SeedLabel::kObject;
@@ -121,22 +112,14 @@ Correction corrected(const GaussianCloud& cloud, const StrokedView& view,
 }
 
 void add_weighted(const GaussianCloud& cloud, const Correction& correction, std::int64_t weight,
-                  const Job& job, MaskedSums* sums) {
+                  bool whole_pixels, const Job& job, MaskedSums* sums) {
   MaskedSums added(cloud.size()), removed(cloud.size());
-  add_sums(cloud, correction.camera, correction.added, job, &added);
-  add_sums(cloud, correction.camera, correction.removed, job, &removed);
+  add_masked_sums(cloud, correction.camera, correction.added, whole_pixels, job, &added);
+  add_masked_sums(cloud, correction.camera, correction.removed, whole_pixels, job, &removed);
   for (std::size_t g = 0; g < cloud.size(); ++g) {
     sums->total[g] += weight * (added.inside[g] + removed.inside[g]);
     sums->inside[g] += weight * added.inside[g];
   }
-}
-
-void trim_labels(const GaussianCloud& cloud, const std::vector<ViewReport>& views,
-                 const PipelineOptions& options, const Job& job, std::vector<std::uint8_t>* labels) {
-  std::vector<TrimView> seen;
-  for (const ViewReport& view : views)
-    if (view.used) seen.push_back({view.camera, &view.mask});
-  trim(cloud, seen, options.trim_options, labels, job);
 }
 
 }  // namespace
@@ -172,15 +155,17 @@ const PipelineReport& ObjectCutter::first_cut(const ObjectCutInput& input, const
   return *first_;
 }
 
-MaskedSums ObjectCutter::sums_of(const std::vector<ViewReport>& views, const Job& job) const {
+MaskedSums ObjectCutter::sums_of(const std::vector<ViewReport>& views, bool whole_pixels,
+                                 const Job& job) const {
   MaskedSums sums(cloud_->size());
   for (const ViewReport& view : views)
-    if (view.used && !job.cancelled()) add_sums(*cloud_, view.camera, view.mask, job, &sums);
+    if (view.used && !job.cancelled())
+      add_masked_sums(*cloud_, view.camera, view.mask, whole_pixels, job, &sums);
   return sums;
 }
 
 std::vector<float> ObjectCutter::likelihood_of(const ObjectCutReport& report, const Job& job) const {
-  return likelihood(sums_of(report.views, job)).w;
+  return likelihood(sums_of(report.views, false, job)).w;
 }
 
 ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& on_snapshot, const Job& job) {
@@ -215,9 +200,10 @@ ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& o
       out.views[static_cast<std::size_t>(view)].reason = "left out";
     }
   std::string sums_key = key_of_views(out.views);
+  append(&sums_key, settings.hard_counts);
   if (!sums_ || sums_key != sums_key_) {
     sums_.reset();
-    MaskedSums sums = clock.time("likelihood", [&] { return sums_of(out.views, job); });
+    MaskedSums sums = clock.time("likelihood", [&] { return sums_of(out.views, settings.hard_counts, job); });
     if (!job.cancelled()) {
       sums_ = std::move(sums);
       sums_key_ = std::move(sums_key);
@@ -236,8 +222,8 @@ ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& o
     const Correction c =
         clock.time("masks", [&] { return corrected(*cloud_, view, out.labels, settings, job); });
     clock.time("likelihood", [&] {
-      add_sums(*cloud_, c.camera, c.mask, job, &sums);
-      add_weighted(*cloud_, c, kCorrectionWeight * first_used, job, &sums);
+      add_masked_sums(*cloud_, c.camera, c.mask, settings.hard_counts, job, &sums);
+      add_weighted(*cloud_, c, kCorrectionWeight * first_used, settings.hard_counts, job, &sums);
     });
     out.views.push_back({c.camera, c.mask, true, 1, {}});
     ++used;
@@ -256,7 +242,7 @@ ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& o
   else
     out.labels = report.labels;
   if (settings.trim && out.outcome == Outcome::kDone)
-    clock.time("trim", [&] { trim_labels(*cloud_, out.views, settings, job, &out.labels); });
+    clock.time("trim", [&] { trim_to_views(*cloud_, out.views, settings, &out.labels, job); });
   if (job.cancelled()) out.outcome = Outcome::kCancelled;
   return out;
 }

@@ -64,7 +64,7 @@ class ObjectCutter {
  private:
   const PipelineReport& first_cut(const ObjectCutInput& input, const StrokedView& reference,
                                   const Snapshot& on_snapshot, const Job& job, bool* fresh);
-  MaskedSums sums_of(const std::vector<ViewReport>& views, const Job& job) const;
+  MaskedSums sums_of(const std::vector<ViewReport>& views, bool whole_pixels, const Job& job) const;
 
   std::shared_ptr<const GaussianCloud> cloud_;
   std::shared_ptr<const PreparedScene> prepared_;

@@ -40,15 +40,6 @@ Picture render(const GaussianCloud& cloud, const Camera& camera, const Job& job)
   return {rgb8_from_linear(out.colour), out.expected_depth};
 }
 
-void accumulate(const GaussianCloud& cloud, const Camera& camera, const Mask& mask, bool whole_pixels, const Job& job, MaskedSums* sums) {
-  RasterOptions options;
-  options.colour = false;
-  options.sum_whole_pixels = whole_pixels;
-  options.sum_mask = &mask;
-  options.sums = sums;
-  rasterize(cloud, camera, options, job);
-}
-
 // One run: what the stages share.
 class Run {
  public:
@@ -119,7 +110,7 @@ void Run::use(ViewReport view, Picture picture) {
     if (picture.rgb.empty()) picture = clock_.time("view", [&] { return render(cloud_, view.camera, job_); });
     seen_.push_back({view.camera, std::move(picture.rgb), std::move(picture.depth), view.mask});
   }
-  clock_.time("likelihood", [&] { accumulate(cloud_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
+  clock_.time("likelihood", [&] { add_masked_sums(cloud_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
   ++used_views_;
   report_.views.push_back(std::move(view));
 }
@@ -318,7 +309,7 @@ void Run::settle() {
       view.reason = "its mask disagrees with the others";
     }
     if (!view.used) continue;
-    clock_.time("likelihood", [&] { accumulate(cloud_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
+    clock_.time("likelihood", [&] { add_masked_sums(cloud_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
     ++used_views_;
   }
   solve();
@@ -326,13 +317,18 @@ void Run::settle() {
 }
 
 void Run::trim_labels() {
-  std::vector<TrimView> views;
-  for (const ViewReport& view : report_.views)
-    if (view.used) views.push_back({view.camera, &view.mask});
-  clock_.time("trim", [&] { report_.trimmed = trim(cloud_, views, options_.trim_options, &report_.labels, job_); });
+  clock_.time("trim", [&] { report_.trimmed = trim_to_views(cloud_, report_.views, options_, &report_.labels, job_); });
 }
 
 }  // namespace
+
+std::size_t trim_to_views(const GaussianCloud& cloud, const std::vector<ViewReport>& views, const PipelineOptions& options,
+                          std::vector<std::uint8_t>* labels, const Job& job) {
+  std::vector<TrimView> seen;
+  for (const ViewReport& view : views)
+    if (view.used) seen.push_back({view.camera, &view.mask});
+  return trim(cloud, seen, options.trim_options, labels, job);
+}
 
 PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,
                        const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options, const Job& job) {

@@ -108,6 +108,10 @@ struct PipelineReport {
   std::vector<StageTime> stages;     // in order, same names added up
 };
 
+// trim() by the views that count. Returns how many Gaussians left the object.
+std::size_t trim_to_views(const GaussianCloud& cloud, const std::vector<ViewReport>& views, const PipelineOptions& options,
+                          std::vector<std::uint8_t>* labels, const Job& job = {});
+
 // `prepared` may be null: it is then made here. up_world: which way is up, for the orbit.
 // Throws Error for parts as the answer (cut_parts = false) without parts (kPixels).
 PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,

@@ -151,6 +151,7 @@ struct SaveSnapshot {
 struct SaveTurntable {
   std::filesystem::path folder;
   int frames = 72;
+  int width_px = 0, height_px = 0;  // 0: as large as the view
 };
 
 using Command =

@@ -8,12 +8,17 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kTint = 0.42f;
+constexpr float kTint = 0.6f;
 constexpr float kOutline = 0.95f;
 constexpr float kHeat = 0.7f;
 
 glm::vec3 unit(const Rgb8& c) {
   return glm::vec3(c[0], c[1], c[2]) / 255.0f;
+}
+
+// The hue as bright as the picture, but never dark: an orange tint on blue is orange, not brown.
+glm::vec3 shaded_tint(const glm::vec3& hue, const glm::vec3& colour) {
+  return hue * (0.7f + 0.5f * glm::dot(colour, glm::vec3(0.299f, 0.587f, 0.114f)));
 }
 
 Rgba8 packed(const glm::vec3& c) {
@@ -92,7 +97,7 @@ Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style) {
       if (style.owner && (style.tint || style.outline)) {
         const Around a = around(owners, x, y);
         const glm::vec3 hue = unit(style.owner_colour[a.owner]);
-        if (style.tint && !style.heat) c = glm::mix(c, hue, kTint * a.inside);
+        if (style.tint && !style.heat) c = glm::mix(c, shaded_tint(hue, c), kTint * a.inside);
         if (style.outline && !a.uniform)
           c = glm::mix(c, glm::mix(hue, glm::vec3(1), 0.35f), kOutline * border(a.inside));
       }

@@ -29,13 +29,15 @@ bool same_camera(const Camera& a, const Camera& b) {
          a.camera_from_world_translation == b.camera_from_world_translation;
 }
 
-std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
-                                          const Flags& shown, float near_plane, const Job& job) {
+namespace {
+
+std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera,
+                                std::span<const std::uint8_t> shown, float near_plane, const Job& job) {
   const auto start = std::chrono::steady_clock::now();
   RasterOptions options;
   options.depth = true;
   options.near_plane = near_plane;
-  if (shown) options.shown = *shown;
+  options.shown = shown;
   RasterOutput out = rasterize(cloud, camera, options, job);
   auto frame = std::make_shared<Frame>();
   frame->camera = camera;
@@ -44,6 +46,25 @@ std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Came
   frame->depth = std::move(out.median_depth);
   frame->first_hit = std::move(out.first_hit);
   frame->raster_ms = ms_since(start);
+  return frame;
+}
+
+}  // namespace
+
+std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
+                                          const Flags& shown, float near_plane, const Job& job) {
+  return frame_of(cloud, camera, shown ? std::span<const std::uint8_t>(*shown) : std::span<const std::uint8_t>(),
+                  near_plane, job);
+}
+
+std::shared_ptr<const Frame> coarse_frame(const CoarseCloud& coarse, const Camera& camera, const Flags& shown,
+                                          float near_plane, const Job& job) {
+  std::vector<std::uint8_t> coarse_shown;
+  if (shown)
+    for (const std::uint32_t g : coarse.stands_for) coarse_shown.push_back((*shown)[g]);
+  auto frame = frame_of(coarse.cloud, camera, coarse_shown, near_plane, job);
+  for (std::int32_t& hit : frame->first_hit.pixels())
+    if (hit >= 0) hit = static_cast<std::int32_t>(coarse.stands_for[static_cast<std::size_t>(hit)]);
   return frame;
 }
 
@@ -89,13 +110,15 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
   for (std::size_t i = 0; i < request.panes.size(); ++i) {
     const PaneRequest& pane = request.panes[i];
     Kept& kept = kept_[i];
-    const bool reusable = kept.frame && kept.scene == request.scene && kept.shown == pane.shown &&
+    const bool reusable = kept.frame && (kept.full || !request.full) && kept.scene == request.scene && kept.shown == pane.shown &&
                           kept.near_plane == request.near_plane &&
                           same_camera(kept.frame->camera, pane.camera);
     if (!reusable) {
-      auto frame = raster_frame(*request.cloud, pane.camera, pane.shown, request.near_plane, job);
+      const bool coarse = request.coarse && !request.full;
+      auto frame = coarse ? coarse_frame(*request.coarse, pane.camera, pane.shown, request.near_plane, job)
+                          : raster_frame(*request.cloud, pane.camera, pane.shown, request.near_plane, job);
       if (job.cancelled()) return std::nullopt;
-      kept = {request.scene, pane.shown, request.near_plane, std::move(frame)};
+      kept = {request.scene, pane.shown, request.near_plane, request.full, std::move(frame)};
     }
     result.frames.push_back(kept.frame);
     result.pictures.push_back(shaded(*kept.frame, pane.style));
@@ -113,7 +136,7 @@ void FrameThread::run(const std::stop_token& stop) {
     drawing_stop_ = std::stop_source();
     const std::stop_token token = drawing_stop_.get_token();
     lock.unlock();
-    auto result = draw(request, token);
+    auto result = arena_.execute([&] { return draw(request, token); });
     lock.lock();
     drawing_.reset();
     if (result) done_ = std::move(result);

@@ -2,8 +2,11 @@
 //
 // The latest request wins. A request that asks for another view while a full picture is being drawn stops it;
 // one for a reduced picture lets the reduced picture before it finish, so that something moves. Requests that
-// differ in style only are shaded again, not rasterised.
+// differ in style only are shaded again, not rasterised. Pictures come before the work of other threads; reduced ones
+// are drawn of a coarse stand-in where there is one.
 #pragma once
+
+#include <tbb/task_arena.h>
 
 #include <condition_variable>
 #include <cstdint>
@@ -14,6 +17,7 @@
 #include <thread>
 
 #include "app/studio/frame_shading.h"
+#include "scene/coarse_cloud.h"
 #include "scene/gaussian_cloud.h"
 
 namespace splatcut {
@@ -28,6 +32,7 @@ struct PaneRequest {
 struct FrameRequest {
   std::uint64_t scene = 0;  // changes with the cloud
   std::shared_ptr<const GaussianCloud> cloud;
+  std::shared_ptr<const CoarseCloud> coarse;  // may be null: what reduced pictures are drawn of
   std::vector<PaneRequest> panes;  // 1 or 2, left to right
   float near_plane = 0.2f;
   bool full = true;  // full resolution; may be stopped by the next request
@@ -66,15 +71,19 @@ class FrameThread {
     std::uint64_t scene = 0;
     Flags shown;
     float near_plane = 0;
+    bool full = true;
     std::shared_ptr<const Frame> frame;
   };
   std::vector<Kept> kept_;
+  tbb::task_arena arena_{tbb::task_arena::automatic, 1, tbb::task_arena::priority::high};
   std::jthread thread_;  // last: ends before the rest goes
 };
 
 // The same on the calling thread, without reuse: for captures and tests.
 std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
                                           const Flags& shown, float near_plane, const Job& job = {});
+std::shared_ptr<const Frame> coarse_frame(const CoarseCloud& coarse, const Camera& camera, const Flags& shown,
+                                          float near_plane, const Job& job = {});
 
 bool same_camera(const Camera& a, const Camera& b);  // names apart
 

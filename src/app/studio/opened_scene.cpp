@@ -5,8 +5,27 @@
 #include "app/studio/work_file.h"
 #include "scene/camera_file.h"
 #include "scene/error.h"
+#include "scene/guessed_view.h"
 
 namespace splatcut {
+
+namespace {
+
+Camera view_of_all(const OpenedScene& scene) {
+  constexpr int kWidth = 640, kHeight = 480;
+  CameraController start;
+  start.reset(scene.bounds, scene.up_world);
+  return start.camera(kWidth, kHeight);
+}
+
+// Without cameras the splats themselves have to say how the scene stands and from where it is seen.
+void look_around(OpenedScene* scene, const Job& job) {
+  scene->up_world = guessed_up(*scene->cloud);
+  scene->first_view =
+      better_first_view(*scene->cloud, scene->bounds, scene->up_world, view_of_all(*scene), job);
+}
+
+}  // namespace
 
 std::vector<Camera> cameras_near(const std::filesystem::path& scene) {
   std::filesystem::path folder = std::filesystem::absolute(scene).parent_path();
@@ -33,16 +52,18 @@ std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const
   opened->bounds = robust_bounds(scene->cloud.position, 0.9);
   opened->hash = hash_of_file(file);
   opened->cameras = cameras_near(file);
-  if (!opened->cameras.empty()) opened->up_world = common_up(opened->cameras);
+  if (opened->cameras.empty())
+    look_around(opened.get(), job);
+  else
+    opened->up_world = common_up(opened->cameras);
   opened->scene = std::move(scene);
   return opened;
 }
 
 std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job& job, const PreparedCache& cache) {
-  constexpr int kWidth = 640, kHeight = 480;
-  CameraController start;
-  start.reset(scene.bounds, scene.up_world);
-  const Camera reference = scene.cameras.empty() ? start.camera(kWidth, kHeight) : scene.cameras.front();
+  const Camera reference = !scene.cameras.empty() ? scene.cameras.front()
+                           : scene.first_view     ? *scene.first_view
+                                                  : view_of_all(scene);
   PrepareOptions options;
   options.cache = cache;
   return std::make_shared<const PreparedScene>(

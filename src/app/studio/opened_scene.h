@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "scene/camera.h"
@@ -18,7 +19,9 @@ struct OpenedScene {
   std::vector<Camera> cameras;                 // of the capture, found beside the file; may be empty
   std::uint64_t hash = 0;                      // of the file
   Box bounds;                                  // robust: outliers do not count
-  glm::vec3 up_world{0, -1, 0};                // of the capture
+  glm::vec3 up_world{0, -1, 0};                // of the capture, or guessed
+  std::optional<Camera>
+      first_view;  // where neither a capture camera nor the view of all from outside will do
 };
 
 // Throws Error for a file that is no scene. Cancelled: the result is empty.

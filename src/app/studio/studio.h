@@ -209,6 +209,7 @@ class Studio {
   PointerTools tools_;
   std::shared_ptr<const OpenedScene> scene_;
   std::shared_ptr<const PreparedScene> prepared_;
+  std::shared_ptr<const CoarseCloud> coarse_;  // of large scenes, for pictures while the view moves
   std::map<ObjectId, CutRun> runs_;
   std::vector<std::pair<ObjectId, std::shared_ptr<ObjectCutter>>> cutters_;  // most recent last
   ObjectId cutting_object_ = 0;

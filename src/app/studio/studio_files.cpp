@@ -92,7 +92,12 @@ void Studio::perform(const SaveSnapshot& c) {
 
 void Studio::perform(const SaveTurntable& c) {
   require_scene();
-  if (c.frames < 2) throw Error("turntable", "it needs at least two frames");
+  constexpr int kMostFrames = 10000, kMostPixels = 8192;
+  if (c.frames < 2 || c.frames > kMostFrames)
+    throw Error("turntable", fmt::format("{} frames are too {}", c.frames, c.frames < 2 ? "few" : "many"));
+  if (c.width_px < 0 || c.height_px < 0 || c.width_px > kMostPixels || c.height_px > kMostPixels)
+    throw Error("turntable",
+                fmt::format("a picture of {} x {} pixels is impossible", c.width_px, c.height_px));
   const ObjectItem* object = document().active_object();
   if (!object || gaussians_of(object->id) == 0)
     throw Error("turntable", "there is no object to turn", "Click an object first");
@@ -106,11 +111,13 @@ void Studio::perform(const SaveTurntable& c) {
     const glm::vec3 back = front.centre_world() - extent.centre_world;
     const glm::vec3 offset = glm::normalize(back) * (extent.radius * 2 * OrbitOptions{}.distance_sizes);
     const float fov_y = 2 * std::atan(0.5f * static_cast<float>(front.height_px) / front.fy_px);
+    const int width = c.width_px > 0 ? c.width_px : front.width_px;
+    const int height = c.height_px > 0 ? c.height_px : front.height_px;
     for (int i = 0; i < c.frames && !job.cancelled(); ++i) {
       job.progress("turntable", static_cast<double>(i) / c.frames);
       const float angle = glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(c.frames);
       const Camera camera = look_at(extent.centre_world + glm::angleAxis(angle, up) * offset,
-                                    extent.centre_world, up, fov_y, front.width_px, front.height_px);
+                                    extent.centre_world, up, fov_y, width, height);
       write_png(folder.file(fmt::format("frame_{:04}.png", i)),
                 capture(*scene->cloud, camera, visible, near, glm::vec3(0), true, job));
     }

@@ -15,6 +15,7 @@ namespace {
 constexpr int kThumbnailWidth = 160;
 constexpr std::size_t kCuttersKept = 3;  // each remembers its first cut: about 20 bytes a Gaussian
 constexpr double kAutosaveAfterSeconds = 2;
+constexpr std::size_t kCoarseFrom = 300000;  // Gaussians; fewer are drawn fast enough as they are
 
 // The view's picture with its mask in the object's colour; dark where the view does not count.
 Image<Rgba8> thumbnail(const GaussianCloud& cloud, const ViewReport& view, const Rgb8& colour,
@@ -81,6 +82,7 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
                     const std::filesystem::path& work_path) {
   tasks_.cancel(TaskKind::kPrepare);
   prepared_ = nullptr;
+  coarse_ = nullptr;
   runs_.clear();
   cutters_.clear();
   given_up_.clear();
@@ -100,8 +102,8 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
   start.up_world = scene->up_world;
   history_.reset(document ? *document : start, document ? "Open work" : "Open scene");
   camera_.reset(scene->bounds, history_.now().up_world);
-  if (!scene->cameras.empty()) {
-    camera_.go_to(scene->cameras.front());
+  if (!scene->cameras.empty() || scene->first_view) {
+    camera_.go_to(scene->cameras.empty() ? *scene->first_view : scene->cameras.front());
     camera_.finish_transition();
   }
   document_changed();
@@ -111,9 +113,14 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
   std::string text = fmt::format("{}: {} Gaussians, SH degree {}", s.path.filename().string(), s.cloud.size(),
                                  s.cloud.sh_degree);
   if (s.dropped) text += fmt::format(", {} unusable rows left out", s.dropped);
-  if (!scene->cameras.empty()) text += fmt::format(", {} cameras (N, P)", scene->cameras.size());
+  text += scene->cameras.empty() ? std::string(". Does it lean or stand on its head? Set what is up under View")
+                                 : fmt::format(", {} cameras (N, P)", scene->cameras.size());
   say(Message::Kind::kDone, text);
   tasks_.submit(TaskKind::kPrepare, [this, scene](const Job& job) {
+    if (scene->cloud->size() >= kCoarseFrom)
+      tasks_.post([this, scene, coarse = std::make_shared<const CoarseCloud>(coarse_cloud(*scene->cloud))] {
+        if (scene == scene_) coarse_ = coarse;
+      });
     auto prepared = prepare(*scene, job, options_.cache);
     if (job.cancelled()) return;
     tasks_.post([this, scene, prepared] {

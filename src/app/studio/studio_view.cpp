@@ -196,7 +196,7 @@ void Studio::request_picture() {
   requested_camera_ = camera;
   requested_full_ = still;
   requested_style_ = style_version_;
-  FrameRequest request{scene_->serial, scene_->cloud, {}, near_plane(), still};
+  FrameRequest request{scene_->serial, scene_->cloud, coarse_, {}, near_plane(), still};
   for (int pane = 0; pane < panes(); ++pane) request.panes.push_back({camera, shown_[pane], style_[pane]});
   frames_.request(std::move(request));
 }

@@ -1,4 +1,4 @@
-// The file dialog: opening, saving work, pictures, and choosing where an export goes.
+// The file dialog, the desktop's own or the one inside the window: opening, saving work, pictures, and choosing where an export goes.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -25,7 +25,7 @@ Kind kind_of(FilePurpose purpose) {
     case FilePurpose::kSnapshot:
       return {"Save a picture of the view, with transparency", "Save", ".png", {".png"}};
     case FilePurpose::kTurntable:
-      return {"Save turntable pictures into a folder of this name", "Save", "", {"/"}};
+      return {"A folder of this name for the turntable pictures", "Choose", "", {"/"}};
     case FilePurpose::kExport:
       return {"Where should it go?", "Choose", "", {".ply", ".splat", ".spz"}};
   }
@@ -49,11 +49,19 @@ void use_choice(UiContext& ui, std::filesystem::path path) {
     case FilePurpose::kSnapshot:
       return ui.ask(SaveSnapshot{path, true});
     case FilePurpose::kTurntable:
-      return ui.ask(SaveTurntable{path, 72});
+      ui.state.turntable.folder = path.string();
+      ui.state.turntable_open = true;
+      return;
     case FilePurpose::kExport:
       ui.state.exporting.path = path.string();
       ui.state.export_open = true;
   }
+}
+
+// The dialog that asked for a path comes back without one.
+void back_to_caller(UiContext& ui) {
+  if (ui.state.file_purpose == FilePurpose::kExport) ui.state.export_open = true;
+  if (ui.state.file_purpose == FilePurpose::kTurntable) ui.state.turntable_open = true;
 }
 
 void entry_list(FileBrowser& files, float height, bool* chosen) {
@@ -97,15 +105,35 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
   if (purpose == FilePurpose::kExport)
     files.name = std::filesystem::path(ui.state.exporting.path).filename().string();
   std::filesystem::path start = files.folder;
+  if (purpose == FilePurpose::kTurntable && !ui.state.turntable.folder.empty()) {
+    files.name = std::filesystem::path(ui.state.turntable.folder).filename().string();
+    start = std::filesystem::path(ui.state.turntable.folder).parent_path();
+  }
   if (start.empty())
     start = ui.studio.scene() ? std::filesystem::absolute(ui.studio.scene()->scene->path).parent_path()
                               : std::filesystem::current_path();
   files.enter(start);
-  files.open = true;
+  files.open = !ui.state.native_wanted ||
+               !ui.state.native_files.ask({files.title, files.saving, files.saving ? start / files.name : start,
+                                           files.extensions});
 }
 
 void file_dialog(UiContext& ui) {
   FileBrowser& files = ui.state.files;
+  switch (ui.state.native_files.poll()) {
+    case NativeDialog::State::kChosen:
+      files.folder = ui.state.native_files.path().parent_path();  // where the next one starts
+      use_choice(ui, ui.state.native_files.path());
+      break;
+    case NativeDialog::State::kCancelled:
+      back_to_caller(ui);
+      break;
+    case NativeDialog::State::kFailed:  // no display for it, say: the one inside of the window takes over
+      files.open = true;
+      break;
+    default:
+      break;
+  }
   const char* id = "###files";
   if (files.open && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
   const ImVec2 middle = {ImGui::GetIO().DisplaySize.x / 2, ImGui::GetIO().DisplaySize.y / 2};
@@ -136,7 +164,7 @@ void file_dialog(UiContext& ui) {
     ImGui::CloseCurrentPopup();
   }
   if (chosen) use_choice(ui, files.folder / files.name);
-  if (cancelled && ui.state.file_purpose == FilePurpose::kExport) ui.state.export_open = true;
+  if (cancelled) back_to_caller(ui);
   ImGui::EndPopup();
 }
 

@@ -4,7 +4,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kTint = 0.42f, kHeat = 0.7f, kOutline = 0.9f;  // as the CPU renderer's shading
+constexpr float kTint = 0.6f, kHeat = 0.7f, kOutline = 0.9f;  // as the CPU renderer's shading
 
 SplatStyle style_of(const FrameStyle& style, std::size_t g) {
   if (style.heat) {
@@ -70,6 +70,7 @@ std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
                     .tint_strength = style.heat   ? kHeat
                                      : style.tint ? kTint
                                                   : 0,
+                    .tint_shaded = !style.heat,
                     .outline_strength = style.outline && !style.heat ? kOutline : 0});
     textures[static_cast<std::size_t>(i)] = splats.picture_texture();
   }

@@ -169,6 +169,7 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   }
   file_dialog(ui);
   export_dialog(ui);
+  turntable_dialog(ui);
   help_page(ui);
   quit_dialog(ui);
   ImGui::PopFont();

@@ -32,6 +32,7 @@ void start_page(UiContext& ui, const UiRect& area);
 
 void help_page(UiContext& ui);
 void export_dialog(UiContext& ui);
+void turntable_dialog(UiContext& ui);
 void quit_dialog(UiContext& ui);
 void file_dialog(UiContext& ui);  // and what follows from the choice
 void open_file_dialog(UiContext& ui, FilePurpose purpose);

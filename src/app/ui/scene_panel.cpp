@@ -70,7 +70,7 @@ void scene_panel(UiContext& ui) {
   if (button(ui, fmt::format("{} Turntable pictures", icon::kFilm).c_str(),
              "Frames of the object turning once, as transparent PNGs",
              selected ? "" : "There is no object to turn", false, -1))
-    open_file_dialog(ui, FilePurpose::kTurntable);
+    ui.state.turntable_open = true;
 }
 
 void history_panel(UiContext& ui) {

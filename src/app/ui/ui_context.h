@@ -9,6 +9,7 @@
 
 #include "app/studio/studio.h"
 #include "app/ui/file_browser.h"
+#include "app/ui/native_dialog.h"
 #include "app/ui/theme.h"
 #include "app/ui/ui_renderer.h"
 
@@ -29,6 +30,12 @@ struct ExportChoice {
   SceneFormat format = SceneFormat::kPly;
   std::string path;
   bool overwrite = false;
+};
+
+// Choices in the turntable dialog.
+struct TurntableChoice {
+  int frames = 72, width_px = 0, height_px = 0;  // 0: as large as the view
+  std::string folder;
 };
 
 // By-property selection of the repair panel.
@@ -54,8 +61,12 @@ struct UiState {
   std::vector<std::filesystem::path> recent;
   std::filesystem::path sample;  // offered on the start page where it exists
   FileBrowser files;
+  NativeDialog native_files;
+  bool native_wanted = false;  // the desktop's own file dialog, where there is one
   FilePurpose file_purpose = FilePurpose::kOpen;
   ExportChoice exporting;
+  bool turntable_open = false;
+  TurntableChoice turntable;
   PropertyChoice property;
   ObjectId renaming = 0;
   std::string new_name;

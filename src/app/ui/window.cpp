@@ -205,6 +205,7 @@ void run_window(const WindowOptions& options) {
     Loop loop{window.handle, app, ui_scale};
     UiState& state = app.interface().state();
     state.dark = settings.dark;
+    state.native_wanted = true;
     state.hint_wanted = settings.hint_wanted;
     state.recent = settings.recent;
     app.studio().apply(SetView{settings.view});

@@ -1,0 +1,103 @@
+#include "app/ui/native_dialog.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <sstream>
+
+extern char** environ;
+
+namespace splatcut {
+
+namespace {
+
+bool on_path(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (::access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+std::string patterns(const FileQuestion& question) {
+  std::string out;
+  for (const std::string& e : question.extensions) out += (out.empty() ? "*" : " *") + e;
+  return out.empty() ? "*" : out;
+}
+
+}  // namespace
+
+std::vector<std::string> native_dialog_command(const FileQuestion& question) {
+  const std::string start = question.start.string();
+  if (on_path("zenity")) {
+    std::vector<std::string> command = {"zenity", "--file-selection", "--title=" + question.title,
+                                        "--filename=" + start + (question.saving ? "" : "/")};
+    if (question.saving)
+      command.insert(command.end(), {"--save", "--confirm-overwrite"});
+    else
+      command.push_back("--file-filter=" + patterns(question));
+    return command;
+  }
+  if (on_path("kdialog"))
+    return {"kdialog",      "--title",
+            question.title, question.saving ? "--getsavefilename" : "--getopenfilename",
+            start,          patterns(question)};
+  return {};
+}
+
+NativeDialog::~NativeDialog() {
+  close();
+}
+
+void NativeDialog::close() {
+  if (output_ >= 0) ::close(output_);
+  if (child_ > 0) {
+    ::kill(child_, SIGTERM);
+    ::waitpid(child_, nullptr, 0);
+  }
+  output_ = -1;
+  child_ = -1;
+}
+
+bool NativeDialog::ask(const FileQuestion& question) {
+  close();
+  text_.clear();
+  std::vector<std::string> command = native_dialog_command(question);
+  int ends[2];
+  if (command.empty() || ::pipe2(ends, O_CLOEXEC) != 0) return false;
+  std::vector<char*> arguments;
+  for (std::string& word : command) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  const int failed = ::posix_spawnp(&child_, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(ends[1]);
+  output_ = ends[0];
+  ::fcntl(output_, F_SETFL, O_NONBLOCK);
+  if (failed) child_ = -1, close();
+  return !failed;
+}
+
+NativeDialog::State NativeDialog::poll() {
+  if (child_ <= 0) return State::kClosed;
+  int status = 0;
+  const bool ended = ::waitpid(child_, &status, WNOHANG) == child_;
+  char buffer[4096];
+  for (ssize_t n = 0; (n = ::read(output_, buffer, sizeof(buffer))) > 0;)
+    text_.append(buffer, static_cast<std::size_t>(n));
+  if (!ended) return State::kOpen;
+  child_ = -1;
+  close();
+  while (!text_.empty() && text_.back() == '\n') text_.pop_back();
+  path_ = text_;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && !text_.empty()) return State::kChosen;
+  return WIFEXITED(status) && WEXITSTATUS(status) <= 1 ? State::kCancelled : State::kFailed;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,113 @@
+// How many pictures of the object turning once, how large, and where they go.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <imgui_stdlib.h>  // needs imgui.h first
+
+#include <algorithm>
+#include <array>
+
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr float kLabels = 90;
+
+void propose(UiContext& ui) {
+  TurntableChoice& choice = ui.state.turntable;
+  const Camera view = ui.studio.viewport_camera();
+  if (choice.width_px <= 0) choice.width_px = view.width_px;
+  if (choice.height_px <= 0) choice.height_px = view.height_px;
+  if (!choice.folder.empty()) return;
+  const std::filesystem::path scene = std::filesystem::absolute(ui.studio.scene()->scene->path);
+  const std::string name = scene.filename().string();
+  choice.folder = (scene.parent_path() / (name.substr(0, name.find('.')) + "_turntable")).string();
+}
+
+void label(const char* text) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  ImGui::SameLine(kLabels);
+}
+
+void number(const char* id, int* value, int least, int most) {
+  ImGui::SetNextItemWidth(96);
+  ImGui::InputInt(id, value, 0);
+  *value = std::clamp(*value, least, most);
+}
+
+void frames_row(UiContext& ui, TurntableChoice& choice) {
+  label("Pictures");
+  number("##frames", &choice.frames, 2, 10000);
+  for (const int frames : {24, 72, 120}) {
+    ImGui::SameLine(0, 4);
+    if (button(ui, std::to_string(frames).c_str(), "So many in one turn", {}, choice.frames == frames))
+      choice.frames = frames;
+  }
+}
+
+void size_row(UiContext& ui, TurntableChoice& choice) {
+  label("Size");
+  number("##width", &choice.width_px, 16, 8192);
+  ImGui::SameLine(0, 6);
+  ImGui::TextUnformatted("x");
+  ImGui::SameLine(0, 6);
+  number("##height", &choice.height_px, 16, 8192);
+  struct Size {
+    const char *name, *tip;
+    int width, height;
+  };
+  const Camera view = ui.studio.viewport_camera();
+  for (const Size& s :
+       std::array{Size{"View", "As large as the view", view.width_px, view.height_px},
+                  Size{"1080p", "1920 x 1080", 1920, 1080}, Size{"Square", "1024 x 1024", 1024, 1024}}) {
+    ImGui::SameLine(0, 4);
+    if (button(ui, s.name, s.tip, {}, choice.width_px == s.width && choice.height_px == s.height))
+      choice.width_px = s.width, choice.height_px = s.height;
+  }
+}
+
+}  // namespace
+
+void turntable_dialog(UiContext& ui) {
+  const char* id = "Turntable pictures###turntable";
+  TurntableChoice& choice = ui.state.turntable;
+  if (ui.state.turntable_open && !ImGui::IsPopupOpen(id)) {
+    if (!ui.studio.scene()) return;
+    propose(ui);
+    ImGui::OpenPopup(id);
+  }
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({560, 236});
+  if (!ImGui::BeginPopupModal(id, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return;
+  frames_row(ui, choice);
+  size_row(ui, choice);
+  label("Folder");
+  ImGui::SetNextItemWidth(-44);
+  ImGui::InputText("##folder", &choice.folder);
+  ImGui::SameLine(0, 4);
+  const bool browse = button(ui, icon::kFolder, "Choose a folder and name");
+  wrapped_muted(
+      ui, fmt::format(
+              "frame_0000.png to frame_{:04}.png, the object alone on nothing. The camera goes round once "
+              "at the height from which you look. Pictures of the same names there are replaced.",
+              choice.frames - 1));
+  ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
+  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
+  ImGui::SameLine(ImGui::GetWindowWidth() - 122);
+  const std::string reason = choice.folder.empty() ? "Type where they should go" : "";
+  const bool done = button(ui, "Save", "Draw and write them", reason, reason.empty(), 110);
+  if (done) ui.ask(SaveTurntable{choice.folder, choice.frames, choice.width_px, choice.height_px});
+  if (done || cancelled || browse) {
+    ui.state.turntable_open = false;
+    ImGui::CloseCurrentPopup();
+  }
+  if (browse) open_file_dialog(ui, FilePurpose::kTurntable);
+  ImGui::EndPopup();
+}
+
+}  // namespace splatcut
