@@ -308,6 +308,42 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
   CHECK(nothing_left.err.find("no scene of the suite") != std::string::npos);
 }
 
+TEST_CASE("study measures, goes on where it was stopped, heals a line cut off, and draws charts and a page") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  const std::string command = "study made/suite.json -o studied --quick --draws 2 --only needed --only views";
+  const Result stopped = place.run_interrupted(command, 1500);
+  CHECK((stopped.code == 1 || stopped.signal == SIGINT || stopped.code == 0));
+  if (stopped.code == 1) CHECK(stopped.err.find("goes on") != std::string::npos);
+  const Result done = place.run(command);
+  REQUIRE_MESSAGE(done.code == 0, done.err);
+  const std::string cells = place.text("studied/cells.jsonl");
+  for (const char* file : {"results.csv", "results.json", "index.html", "charts/views.svg", "charts/views.png", "charts/needed_width.svg"})
+    CHECK_MESSAGE(place.exists(std::string("studied/") + file), file);
+  CHECK(place.text("studied/index.html").find("data:image/svg+xml;base64,") != std::string::npos);
+  const json results = json::parse(place.text("studied/results.json"));
+  const auto lines = static_cast<std::size_t>(std::count(cells.begin(), cells.end(), '\n'));
+  CHECK(results["results"].size() == lines);
+  const std::string csv = place.text("studied/results.csv");
+  CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == lines + 1);
+  for (const json& r : results["results"]) {
+    CHECK(r["image_iou"].get<double>() >= 0);
+    CHECK(r["image_iou"].get<double>() <= 1);
+    CHECK(r["ms"].get<double>() > 0);
+  }
+  REQUIRE(place.run(command + " --no-charts").code == 0);
+  CHECK(place.text("studied/cells.jsonl") == cells);  // nothing was left to measure
+  place.write("studied/cells.jsonl", cells.substr(0, cells.size() - 20));
+  REQUIRE(place.run(command + " --no-charts").code == 0);
+  const std::string healed = place.text("studied/cells.jsonl");
+  CHECK(static_cast<std::size_t>(std::count(healed.begin(), healed.end(), '\n')) == lines);
+  place.write("studied/cells.jsonl", "no measurement\n");
+  const Result foreign = place.run(command);
+  CHECK(foreign.code == 1);
+  CHECK(foreign.err.find("is not a list of measurements") != std::string::npos);
+  CHECK(place.run("study made/suite.json -o other --only nonsense").code == 1);
+}
+
 TEST_CASE("Ctrl+C ends a run with 1 and leaves nothing half written") {
   StillLife& life = still_life();
   Workplace& place = life.place;

@@ -237,7 +237,7 @@ TEST_CASE("undo: a snapshot brings back labels and flow, and the solver goes on 
   }
 }
 
-TEST_CASE("restart forgets the flow, not the problem; a cancelled solve can be taken up again") {
+TEST_CASE("restart forgets the flow, not the problem, a cancelled solve can be taken up again") {
   std::mt19937 random(35);
   const FlowProblem p = grid_problem(random, 200, 200, 10);
   MaxFlow max_flow = cold(p);

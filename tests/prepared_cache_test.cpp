@@ -143,7 +143,7 @@ TEST_CASE("the key changes with all that the preparation depends on") {
   CHECK(key(e.cloud, camera, {}, options) == graph_only);  // no camera plays a part
 }
 
-TEST_CASE("prepare_scene fills the cache and reads from it; a cancelled run leaves nothing") {
+TEST_CASE("prepare_scene fills the cache and reads from it, a cancelled run leaves nothing") {
   const Folder folder;
   const Example e;
   PrepareOptions options;

@@ -42,7 +42,7 @@ TEST_CASE("ply: known values, properties in any order and of any type, with and 
   CHECK(text_of(folder / "copy.ply") == text);
 }
 
-TEST_CASE("ply: infinite opacity and flat scale are legal; NaN and zero rotations are dropped and counted") {
+TEST_CASE("ply: infinite opacity and flat scale are legal, NaN and zero rotations are dropped and counted") {
   const Folder folder;
   const std::vector<std::string> names = splat_names(9);
   std::string text = header(names, 5);

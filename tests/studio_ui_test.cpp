@@ -29,7 +29,7 @@ std::vector<std::uint8_t> active_labels(HeadlessApp& app) {
 
 }  // namespace
 
-TEST_CASE("a click on the apple cuts out the apple; strokes, undo and redo give the same bytes") {
+TEST_CASE("a click on the apple cuts out the apple, strokes, undo and redo give the same bytes") {
   HeadlessApp app(kWidth, kHeight);
   opened(app);
   std::vector<std::string> states{bytes_of(app.studio().document())};

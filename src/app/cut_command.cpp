@@ -134,6 +134,7 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
   args->masks.add_to(command, false);
   command.add_option("--smoothness", args->lambda, "Weight of the neighbour term")->check(CLI::Range(0.0, 500.0));
   command.add_option("--scale", args->scale, "Next larger (+1, +2, ...) or smaller (-1, ...) part for the first click")->check(CLI::Range(-100, 100));
+  add_tuning_options(command, &args->set);
   command.add_flag("--coarse", args->coarse, "Threshold the likelihood instead of the cut");
   command.add_flag("--json", args->json, "Print the report as JSON");
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
