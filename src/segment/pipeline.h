@@ -46,7 +46,7 @@ enum class FirstMaskFrom {
 struct PipelineReport;
 
 struct PipelineOptions {
-  int work_width_px = 400;           // views are rendered no wider than this
+  int work_width_px = 320;           // views are rendered no wider than this
   OrbitOptions orbit;
   std::vector<Camera> view_cameras;  // empty: see cameras_around()
   std::vector<Camera> scene_cameras;  // of its photographs, where known
@@ -76,7 +76,7 @@ struct PipelineOptions {
   std::function<void(const PipelineReport&)> on_snapshot;
 };
 
-// Settings by name: fast (few, small orbit views), default, best, paper (GaussianCut's literal energy and counts),
+// Settings by name: fast (the first view alone), default, best, paper (GaussianCut's literal energy and counts),
 // paper-code (those of its published code).
 // Throws Error for any other name.
 PipelineOptions preset(const std::string& name);

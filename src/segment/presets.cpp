@@ -5,14 +5,17 @@ namespace splatcut {
 
 PipelineOptions preset(const std::string& name) {
   PipelineOptions options;
+  // Smoother than the energy's own defaults: better on photographs and straddling splats (docs/study.md).
+  options.cut.energy.lambda = 2;
+  options.cut.energy.v0_px_per_view_at_400 = 3;
   if (name == "default") return options;
   if (name == "fast") {
-    options.orbit.views = 4;
+    options.orbit.views = 0;
     options.work_width_px = 256;
   } else if (name == "best") {
-    options.orbit.views = 20;
+    options.orbit.views = 6;
     options.settled_change = 0;  // all of them
-    options.work_width_px = 512;
+    options.refine.solver = MaskSolver::kPixelCut;
   } else if (name == "paper" || name == "paper-code") {
     const bool code = name == "paper-code";
     options.orbit.views = 40;
