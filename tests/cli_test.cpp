@@ -5,35 +5,12 @@
 #include <set>
 
 #include "program_runner.h"
+#include "small_still_life.h"
 
 using namespace splatcut::testing;
 using nlohmann::json;
 
 namespace {
-
-// A still life of 20,000 Gaussians, made once by the program, with a click on its apple.
-struct StillLife {
-  Workplace place;
-  std::string scene = (place / "made/small.ply").string();
-  std::string camera = "--cameras " + (place / "made/cameras.json").string() + " --camera 0";
-  std::string click;
-  StillLife() {
-    REQUIRE(place.run("make-scene small -o made --gaussians 20000").code == 0);
-    const json seeds = json::parse(place.text("made/seeds.json"));
-    for (const json& object : seeds["objects"])
-      if (object["object"] == "apple") {
-        const json& at = object["clicks"][0];
-        click = std::to_string(at["x"].get<int>()) + "," + std::to_string(at["y"].get<int>());
-      }
-    REQUIRE_FALSE(click.empty());
-  }
-  std::string cut(const std::string& rest) const { return "cut " + scene + " " + camera + " --preset fast " + rest; }
-};
-
-StillLife& still_life() {
-  static StillLife made;
-  return made;
-}
 
 bool has_keys(const json& object, std::initializer_list<const char*> keys) {
   for (const char* key : keys)

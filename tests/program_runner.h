@@ -67,21 +67,36 @@ class Workplace {
     return names;
   }
 
-  // arguments: separated by blanks, no quoting. The program's current folder is this one.
-  Result run(const std::string& arguments) const { return finish(start(arguments)); }
+  // arguments: separated by blanks, no quoting; whole_arguments may hold blanks. The program's current folder is this one.
+  Result run(const std::string& arguments) const { return finish(start(words_of(arguments))); }
+  Result run(const std::string& arguments, const std::vector<std::string>& whole_arguments) const {
+    return finish(start(words_of(arguments, whole_arguments)));
+  }
 
   Result run_interrupted(const std::string& arguments, int after_ms) const {
-    const pid_t child = start(arguments);
+    const pid_t child = start(words_of(arguments));
     std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
     ::kill(child, SIGINT);
     return finish(child);
   }
+  // Interrupted once the file is there; the program is ended where that takes half a minute.
+  Result run_until(const std::string& file, const std::string& arguments, const std::vector<std::string>& whole_arguments) const {
+    const pid_t child = start(words_of(arguments, whole_arguments));
+    for (int tenths = 0; tenths < 300 && !exists(file); ++tenths) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ::kill(child, exists(file) ? SIGINT : SIGKILL);
+    return finish(child);
+  }
 
  private:
-  pid_t start(const std::string& arguments) const {
+  static std::vector<std::string> words_of(const std::string& arguments, const std::vector<std::string>& whole_arguments = {}) {
     std::istringstream in(arguments);
     std::vector<std::string> words = {SPLATCUT_PROGRAM};
     for (std::string word; in >> word;) words.push_back(word);
+    words.insert(words.end(), whole_arguments.begin(), whole_arguments.end());
+    return words;
+  }
+
+  pid_t start(std::vector<std::string> words) const {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);

@@ -77,23 +77,37 @@ Image<Rgb8> contact_sheet(const GaussianCloud& cloud, const std::vector<ViewRepo
 
 }  // namespace
 
+void write_cutout_picture(const std::filesystem::path& path, const GaussianCloud& cloud, const Camera& camera,
+                          std::span<const std::uint8_t> shown) {
+  write_png(path, cutout_picture(cloud, camera, shown));
+}
+
+void write_object_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera, const PipelineReport& report,
+                           const PictureNames& names) {
+  write_cutout_picture(folder.file(names.object), cloud, camera, report.labels);
+  const Mask seen = thresholded(render_labels(cloud, camera, report.labels), 0.5f);
+  write_png(folder.file(names.tint), tinted_view(cloud, camera, seen));
+  write_png(folder.file(names.masks), contact_sheet(cloud, report.views));
+}
+
 void write_cutout_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
                            const PipelineReport& report) {
-  write_png(folder.file("object.png"), cutout_picture(cloud, camera, report.labels));
-  write_png(folder.file("rest.png"), cutout_picture(cloud, camera, inverted(report.labels)));
-  const Mask seen = thresholded(render_labels(cloud, camera, report.labels), 0.5f);
-  write_png(folder.file("tint.png"), tinted_view(cloud, camera, seen));
-  write_png(folder.file("masks.png"), contact_sheet(cloud, report.views));
+  write_object_pictures(folder, cloud, camera, report);
+  write_cutout_picture(folder.file("rest.png"), cloud, camera, inverted(report.labels));
+}
+
+void write_labels(const std::filesystem::path& path, const Scene& scene, const std::vector<std::uint8_t>& labels) {
+  std::vector<std::uint8_t> in_file_order(scene.file_rows, 0);
+  for (std::size_t g = 0; g < labels.size(); ++g) in_file_order[scene.cloud.file_row[g]] = labels[g];
+  AtomicFile file(path);
+  file.write(std::as_bytes(std::span(in_file_order)));
+  file.commit();
 }
 
 void write_cutout_scenes(const OutputFolder& folder, const Scene& scene, const std::vector<std::uint8_t>& labels) {
   save_scene(folder.file("object.ply"), scene, labels, SceneFormat::kPly);
   save_scene(folder.file("rest.ply"), scene, inverted(labels), SceneFormat::kPly);
-  std::vector<std::uint8_t> in_file_order(scene.file_rows, 0);
-  for (std::size_t g = 0; g < labels.size(); ++g) in_file_order[scene.cloud.file_row[g]] = labels[g] ? 1 : 0;
-  AtomicFile file(folder.file("labels.u8"));
-  file.write(std::as_bytes(std::span(in_file_order)));
-  file.commit();
+  write_labels(folder.file("labels.u8"), scene, labels);
 }
 
 double peak_rss_mb() {
@@ -102,7 +116,15 @@ double peak_rss_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-nlohmann::json report_json(const Scene& scene, const PipelineReport& report, const nlohmann::json& settings, double total_ms) {
+nlohmann::json run_json(const Scene& scene, const nlohmann::json& settings, double total_ms) {
+  return {{"version", SPLATCUT_VERSION},
+          {"settings", settings},
+          {"scene", {{"gaussians", scene.cloud.size()}, {"file_rows", scene.file_rows}, {"dropped", scene.dropped}}},
+          {"total_ms", total_ms},
+          {"peak_rss_mb", peak_rss_mb()}};
+}
+
+nlohmann::json object_json(const PipelineReport& report) {
   nlohmann::json views = nlohmann::json::array(), stages = nlohmann::json::array();
   std::size_t pixels = 0;
   for (const ViewReport& view : report.views) {
@@ -111,16 +133,17 @@ nlohmann::json report_json(const Scene& scene, const PipelineReport& report, con
     if (!view.reason.empty()) views.back()["reason"] = view.reason;
   }
   for (const StageTime& stage : report.stages) stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
-  return {{"version", SPLATCUT_VERSION},
-          {"settings", settings},
-          {"scene", {{"gaussians", scene.cloud.size()}, {"file_rows", scene.file_rows}, {"dropped", scene.dropped}}},
-          {"object", {{"gaussians", std::ranges::count(report.labels, 1)}}},
+  return {{"object", {{"gaussians", std::ranges::count(report.labels, 1)}}},
           {"views", views},
           {"enough", {{"views", std::ranges::count_if(report.views, &ViewReport::used)}, {"pixels", pixels}, {"gaussians", report.cut.touched}, {"why", report.enough}}},
           {"cut", {{"nodes", report.cut.nodes}, {"arcs", report.cut.arcs}, {"energy", report.cut.energy}, {"flow", report.cut.flow}}},
-          {"stages", stages},
-          {"total_ms", total_ms},
-          {"peak_rss_mb", peak_rss_mb()}};
+          {"stages", stages}};
+}
+
+nlohmann::json report_json(const Scene& scene, const PipelineReport& report, const nlohmann::json& settings, double total_ms) {
+  nlohmann::json json = run_json(scene, settings, total_ms);
+  json.update(object_json(report));
+  return json;
 }
 
 }  // namespace splatcut

@@ -1,23 +1,80 @@
 #include "app/run_program.h"
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <thread>
 
 namespace splatcut {
 
-int run_program(const std::vector<std::string>& words) {
+namespace {
+
+std::vector<char*> pointers_to(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  return arguments;
+}
+
+// In a process group of its own, so that all of it can be ended.
+int start_in_group(const std::vector<std::string>& words, pid_t* child) {
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_t attributes;
+  ::posix_spawn_file_actions_init(&files);
+  ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  ::posix_spawnattr_setpgroup(&attributes, 0);
+  const std::vector<char*> arguments = pointers_to(words);
+  const int error = ::posix_spawnp(child, arguments.front(), &files, &attributes, arguments.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
+  ::posix_spawn_file_actions_destroy(&files);
+  return error;
+}
+
+}  // namespace
+
+int run_program(const std::vector<std::string>& words) {
+  const std::vector<char*> arguments = pointers_to(words);
   pid_t child = 0;
   if (::posix_spawnp(&child, arguments.front(), nullptr, nullptr, arguments.data(), environ) != 0) return -1;
   int status = 0;
   while (::waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return -1;
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+ProgramEnd run_program(const std::vector<std::string>& words, const Job& job) {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto kLook = std::chrono::milliseconds(20), kGrace = std::chrono::milliseconds(2000);
+  pid_t child = 0;
+  ProgramEnd end;
+  end.start_error = start_in_group(words, &child);
+  if (end.start_error != 0) return end;
+  int status = 0;
+  Clock::time_point asked_to_end{};
+  for (pid_t ended = 0; ended != child;) {
+    ended = ::waitpid(child, &status, WNOHANG);
+    if (ended < 0 && errno != EINTR) return end;
+    if (ended == child) break;
+    if (job.cancelled() && asked_to_end == Clock::time_point{}) {
+      ::kill(-child, SIGTERM);
+      asked_to_end = Clock::now();
+    } else if (job.cancelled() && Clock::now() - asked_to_end > kGrace) {
+      ::kill(-child, SIGKILL);
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+  if (job.cancelled()) ::kill(-child, SIGKILL);  // what it started and left
+  if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  return end;
 }
 
 }  // namespace splatcut

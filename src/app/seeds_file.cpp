@@ -36,12 +36,16 @@ Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where)
   return strokes;
 }
 
-Strokes load_seeds(const std::filesystem::path& path) {
+nlohmann::json read_seeds_json(const std::filesystem::path& path) {
   std::ifstream in(path);
   if (!in) throw Error(path.string(), "cannot be opened");
-  const nlohmann::json seeds = nlohmann::json::parse(in, nullptr, false);
+  nlohmann::json seeds = nlohmann::json::parse(in, nullptr, false);
   if (seeds.is_discarded()) throw Error(path.string(), "is not JSON");
-  const Strokes strokes = strokes_from_json(seeds, path.string());
+  return seeds;
+}
+
+Strokes load_seeds(const std::filesystem::path& path) {
+  const Strokes strokes = strokes_from_json(read_seeds_json(path), path.string());
   if (strokes.empty()) throw Error(path.string(), "holds neither clicks nor scribbles");
   return strokes;
 }

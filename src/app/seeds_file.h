@@ -14,6 +14,9 @@ namespace splatcut {
 Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where);
 Strokes load_seeds(const std::filesystem::path& path);
 
+// Throws Error where there is no such file or it is not JSON.
+nlohmann::json read_seeds_json(const std::filesystem::path& path);
+
 // "x,y", "x,y:object" or "x,y:rest".
 Stroke parse_click(const std::string& text);
 

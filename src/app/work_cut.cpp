@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/console.h"
+#include "app/cutout_files.h"
 #include "app/output_folder.h"
 #include "app/studio/export_plan.h"
 #include "app/studio/work_file.h"
@@ -14,15 +15,6 @@
 namespace splatcut {
 
 namespace {
-
-void write_labels(const std::filesystem::path& path, const Scene& scene,
-                  const std::vector<std::uint8_t>& labels) {
-  std::vector<std::uint8_t> in_file_order(scene.file_rows, 0);
-  for (std::size_t g = 0; g < labels.size(); ++g) in_file_order[scene.cloud.file_row[g]] = labels[g] ? 1 : 0;
-  AtomicFile file(path);
-  file.write(std::as_bytes(std::span(in_file_order)));
-  file.commit();
-}
 
 // Two objects of one name get numbers.
 std::string free_file_name(const nlohmann::json& written, const ObjectItem& object) {

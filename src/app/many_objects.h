@@ -1,0 +1,50 @@
+// Several objects cut out of one scene, which is prepared once for all of them.
+//
+// The objects share nothing: a Gaussian that two of them claim is the later one's, in the order of the file.
+// So each Gaussian lies in exactly one of NAME.ply ... and rest.ply.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/camera_options.h"
+#include "app/output_folder.h"
+#include "scene/job.h"
+#include "scene/scene_file.h"
+#include "segment/pipeline.h"
+#include "segment/seeds.h"
+
+namespace splatcut {
+
+struct NamedSeeds {
+  std::string name;                   // names the files
+  std::optional<std::string> camera;  // of --cameras, by name or number; otherwise the reference
+  Strokes strokes;
+};
+
+// {"objects": [{"name", "camera", "clicks", "scribbles"}, ...]}, as load_seeds() for each; "object" is read
+// as "name", too (make-scene writes it). Empty where the file has no "objects". Throws Error naming the
+// entry.
+std::vector<NamedSeeds> load_named_seeds(const std::filesystem::path& path);
+
+// Throws Error for strokes outside of the camera's picture.
+void check_inside(const Strokes& strokes, const Camera& camera);
+
+struct ManyObjects {
+  const Scene& scene;
+  const ChosenCamera& chosen;
+  const CameraOptions& camera;
+  const PipelineOptions& options;
+  const std::vector<NamedSeeds>& objects;
+};
+
+// Writes NAME.ply, NAME.labels.u8, NAME.png, NAME.tint.png and NAME.masks.png of each object, rest.ply,
+// rest.png and labels.u8 (0 = rest, 1 = the first object, ...). Returns "objects", "rest" and "stages" of the
+// report. Throws Error where an object is not found or left with nothing. Cancelled: the result is
+// incomplete.
+nlohmann::json cut_many_objects(const ManyObjects& in, const OutputFolder& folder, const Job& job);
+
+}  // namespace splatcut

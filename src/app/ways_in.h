@@ -1,0 +1,45 @@
+// The part of the command line that says which object is meant: clicks, a file of them, masks of other tools,
+// words.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/camera_options.h"
+#include "app/many_objects.h"
+#include "app/segmenter.h"
+#include "segment/pipeline.h"
+#include "segment/seeds.h"
+
+namespace splatcut {
+
+// What was said, read and checked as far as that needs no scene.
+struct Meant {
+  Strokes strokes;
+  std::vector<NamedSeeds> objects;  // several, each with strokes of its own
+  std::filesystem::path mask, masks_folder;
+  std::optional<Segmenter> segmenter;
+};
+
+struct WaysIn {
+  std::filesystem::path seeds, mask, masks_folder;
+  std::vector<std::string> clicks;
+  std::string text, segmenter;
+  bool by_text = false;
+
+  // Clicks and a file of them add up, the others stand alone. The command must not outlive this.
+  void add_to(CLI::App& command);
+  // Throws Error where nothing is meant, or what is meant lacks something.
+  Meant read(const CameraOptions& camera) const;
+};
+
+// The masks that are given, in place of strokes. With a folder of them the reference may become another
+// camera; returns a sentence about that, or nothing. Throws Error for masks that cannot be used. Cancelled:
+// incomplete.
+std::string take_masks(const Meant& meant, const CameraOptions& camera, const GaussianCloud& cloud,
+                       const Job& job, ChosenCamera* chosen, PipelineOptions* options);
+
+}  // namespace splatcut
