@@ -246,6 +246,19 @@ TEST_CASE("parts: clicks on four stripes, worked out by hand") {
   CHECK(count(mask_of(view, pick.leaves)) == 200);
 }
 
+TEST_CASE("parts: an object click just beside what is selected is not lost, a rest click just inside takes no more than it means") {
+  const PartHierarchy parts = four_leaves();
+  const PartView view = view_parts(parts, four_stripes());
+  PickOptions options;
+  options.scale_steps = -10;  // the first click takes its leaf alone
+  const Strokes strokes = {click({5, 5}, SeedLabel::kObject), click({11, 5}, SeedLabel::kObject)};
+  CHECK(pick_parts(parts, view, strokes, options).leaves == std::vector<std::uint8_t>{1, 1, 0, 0});
+  options.change_most_of_selected = 0;  // two pixels from the border, a stripe of a hundred pixels looks like a slip
+  CHECK(pick_parts(parts, view, strokes, options).leaves == std::vector<std::uint8_t>{1, 0, 0, 0});
+  const Strokes slip = {click({5, 5}, SeedLabel::kObject), click({9, 5}, SeedLabel::kRest)};
+  CHECK(pick_parts(parts, view, slip, PickOptions{.scale_steps = -10}).leaves == std::vector<std::uint8_t>{1, 0, 0, 0});
+}
+
 TEST_CASE("parts: a mask of one side completes to whole nodes, by hand") {
   const PartHierarchy parts = four_leaves();
   Image<std::int32_t> hit = four_stripes();

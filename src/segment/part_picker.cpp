@@ -78,6 +78,7 @@ class Picker {
   float odd_look(std::size_t tree, std::uint32_t node) const;
   float odd_size(float pixels) const;
   float odd_change(float changed_px, float radius_px, float selected_px) const;
+  float largest_change(float radius_px, float selected_px) const;
   std::vector<float> pixels_on_side(std::size_t tree, bool selected) const;
   float selected_pixels() const;
   float distance_to_border(const glm::vec2& pixel, bool selected) const;
@@ -121,6 +122,11 @@ float Picker::odd_change(float changed_px, float radius_px, float selected_px) c
   const float growth = std::log(std::max(changed_px, 1.0f) / std::max(selected_px, 1.0f));
   return options_.change_large * std::max(0.0f, folds - options_.change_slack) +
          options_.growth_penalty * std::max(0.0f, growth - options_.growth_slack);
+}
+
+// More pixels than that are not meant by a click so near to the border, unless they are few beside what is selected.
+float Picker::largest_change(float radius_px, float selected_px) const {
+  return std::max(options_.change_most * 3.14159265f * (radius_px + 1) * (radius_px + 1), options_.change_most_of_selected * selected_px);
 }
 
 std::vector<float> Picker::pixels_on_side(std::size_t t, bool selected) const {
@@ -201,8 +207,8 @@ void Picker::apply(const glm::vec2& pixel, SeedLabel label) {
     for (const std::uint32_t node : ancestors(parts_.trees[t], leaf)) clicked_[object][t][node] = 1;
   if (pick_.leaves[leaf] == object) return;  // already on that side
   const float radius = any_ ? distance_to_border(pixel, !object) : 0;
-  if (any_ && view_.trees[0].pixels[leaf] > options_.change_most * 3.14159265f * (radius + 1) * (radius + 1)) return;
   const float selected_px = object && any_ ? selected_pixels() : std::numeric_limits<float>::max();
+  if (any_ && view_.trees[0].pixels[leaf] > largest_change(radius, object ? selected_px : 0)) return;
   const std::vector<Proposals> all = proposals(leaf, object);
   std::vector<Candidate> candidates;
   for (std::size_t t = 0; t < all.size(); ++t)

@@ -45,6 +45,7 @@ struct PickOptions {
   float least_log_cut = -16;
   float growth_penalty = 0.01f, growth_slack = 0.5f;  // of additions larger than what is selected
   float change_large = 3.4f, change_slack = 3.25f, change_most = 2.7f;  // of later clicks
+  float change_most_of_selected = 1;  // an object click may add that much, however near to the border
 };
 
 struct PartNode {
