@@ -34,6 +34,13 @@ std::string block(const std::string& name, std::vector<std::pair<double, double>
   return text + "EOD\n";
 }
 
+// A gnuplot string: in single quotes an apostrophe is written twice.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
+  return out + "'";
+}
+
 std::string joined(const std::vector<std::string>& parts) {
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : ", \\\n     ") + part;
@@ -55,7 +62,7 @@ Drawing trade_off(const StudyResults& results) {
     for (const SettingScore& s : scores)
       if (s.series == series) points.emplace_back(s.ms / 1000, s.iou);
     d.data += block(fmt::format("s{}", n), points);
-    plots.push_back(fmt::format("$s{} with points pt {} ps 1.2 lc {} title '{}'", n, 5 + n % 10, n + 1, series));
+    plots.push_back(fmt::format("$s{} with points pt {} ps 1.2 lc {} title {}", n, 5 + n % 10, n + 1, quoted(series)));
     ++n;
   }
   std::string presets = "$presets << EOD\n";
@@ -72,7 +79,7 @@ Drawing trade_off(const StudyResults& results) {
 Drawing stages(const StudyResults& results) {
   Drawing d{{"stages", "Where the time goes"}, {}, {}, 900, 520};
   std::vector<SettingScore> scores = scores_of(results);
-  std::erase_if(scores, [](const SettingScore& s) { return s.series != "preset" && s.series != "card's baseline" && s.series != "parts alone"; });
+  std::erase_if(scores, [](const SettingScore& s) { return s.series != "preset" && s.series != "usual pipeline" && s.series != "parts alone"; });
   std::set<std::string> names;
   for (const SettingScore& s : scores)
     for (const auto& [stage, ms] : s.stages) names.insert(stage);
@@ -102,11 +109,11 @@ Drawing lines(const StudyResults& results, StudyChart chart, const std::string& 
         low.emplace_back(s.x, s.least_iou);
       }
     d.data += block(fmt::format("m{}", n), mean) + block(fmt::format("l{}", n), low);
-    plots.push_back(fmt::format("$m{} with linespoints pt 7 lw 2 lc {} title '{}'", n, n + 1, series));
-    if (least) plots.push_back(fmt::format("$l{} with lines dt 3 lw 1.5 lc {} title 'least of the scenes'", n, n + 1));
+    plots.push_back(fmt::format("$m{} with linespoints pt {} lw 2 dt {} lc {} title {}", n, n < 8 ? 7 : 4, n / 8 + 1, n % 8 + 1, quoted(series)));
+    if (least) plots.push_back(fmt::format("$l{} with lines dt 3 lw 1.5 lc {} title 'least of the scenes'", n, n % 8 + 1));
     ++n;
   }
-  d.body = "set xlabel '" + x_label + "'\nset ylabel 'image IoU'\nset key outside right top\n" + more + "plot " + joined(plots);
+  d.body = "set xlabel " + quoted(x_label) + "\nset ylabel 'image IoU'\nset key outside right top\n" + more + "plot " + joined(plots);
   return d;
 }
 
@@ -118,19 +125,19 @@ Drawing jitter(const StudyResults& results) {
     d.data += fmt::format("{} {} {} {} {} {} \"{}, {}\"\n", i, spreads[i].p10, spreads[i].least, spreads[i].most, spreads[i].p90, spreads[i].median,
                           spreads[i].scene, spreads[i].series);
   d.data += "EOD\n";
-  d.body = "set boxwidth 0.5\nset style fill solid 0.4\nset ylabel 'image IoU'\nset xtics rotate by -40\nset noenhanced\nset key below\n"
-           "plot $box using 1:2:3:4:5:xtic(7) with candlesticks whiskerbars title 'least, 10 %, 90 %, most', "
+  d.body = "set boxwidth 0.5\nset style fill solid 0.4\nset ylabel 'image IoU'\nset xtics rotate by -40\nset offsets 0.5, 0.5, 0.02, 0.02\nset rmargin 12\nset key below\n"
+           "plot $box using 1:2:3:4:5:xtic(7) with candlesticks title 'least, 10 %, 90 %, most' whiskerbars, "
            "$box using 1:6:6:6:6 with candlesticks lw 2 lc rgb '#c00000' title 'median'\n";
   return d;
 }
 
 void draw(const Drawing& drawing, const std::filesystem::path& folder) {
   const auto script_for = [&](const std::string& terminal, const std::string& ending) {
-    return fmt::format("set terminal {} size {},{}\nset output '{}'\nset title '{}'\nset grid\n{}unset output\nreset\n", terminal, drawing.width_px,
-                       drawing.height_px, (folder / (drawing.chart.name + ending)).string(), drawing.chart.title, drawing.body);
+    return fmt::format("set terminal {} size {},{}\nset output {}\nset title {}\nset grid\n{}unset output\nreset\n", terminal, drawing.width_px,
+                       drawing.height_px, quoted((folder / (drawing.chart.name + ending)).string()), quoted(drawing.chart.title), drawing.body);
   };
   const std::filesystem::path script = folder / (drawing.chart.name + ".gp");
-  write_text_file(script, drawing.data + script_for("svg font 'sans,13' background 'white'", ".svg") + script_for("pngcairo font 'sans,10'", ".png"));
+  write_text_file(script, drawing.data + script_for("svg noenhanced font 'sans,13' background 'white'", ".svg") + script_for("pngcairo noenhanced font 'sans,10'", ".png"));
   const int code = run_program({"gnuplot", script.string()});
   if (code != 0) throw Error("gnuplot", code < 0 ? "cannot be started" : fmt::format("ended with code {} on {}", code, script.string()),
                              "Install gnuplot-nox; the measurements are kept, run the same command again");

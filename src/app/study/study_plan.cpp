@@ -49,7 +49,7 @@ void Plan::trade_off() {
     add("trade-off", "preset", 0).preset = preset;
   }
   add("trade-off", "parts alone", 0).parts_only = true;
-  add("trade-off", "card's baseline", 0,
+  add("trade-off", "usual pipeline", 0,
       {"first.from=pixels", "first.solver=grabcut", "views.propagate=dis", "views.refine=grabcut", "energy.coarse=1", "views.settled_change=0", "trim=0"});
   for (const double views : some({2, 12, 0, 6}))
     for (const double width : some({400, 256, 512})) {
