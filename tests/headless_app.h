@@ -148,4 +148,13 @@ inline double iou_of(const std::vector<std::uint8_t>& a, const std::vector<std::
 inline constexpr std::uint8_t kMug = 1, kApple = 2, kOrange = 3;  // of sample.labels.u8
 inline constexpr glm::vec2 kOnApple{670, 490}, kOnOrange{786, 460}, kOnMug{498, 450};
 
+// The sample opened and its apple cut out by one click.
+inline bool cut_out_apple(HeadlessApp& app) {
+  app.open(kSample);
+  if (!app.settle()) return false;
+  app.studio().apply(SetPreset{"fast"});
+  app.click(app.screen_of(kOnApple));
+  return app.settle();
+}
+
 }  // namespace splatcut::testing

@@ -111,11 +111,7 @@ TEST_CASE(
 TEST_CASE("dialogs: the turntable writes as many pictures of the size asked for") {
   const ScratchFolder folder("turntable");
   HeadlessApp app(760, 420);
-  app.open(kSample);
-  REQUIRE(app.settle());
-  app.studio().apply(SetPreset{"fast"});
-  app.click(app.screen_of(kOnApple));
-  REQUIRE(app.settle());
+  REQUIRE(cut_out_apple(app));
   UiState& state = app.interface_state();
   state.turntable_open = true;
   app.frames(3);

@@ -177,11 +177,7 @@ void arrange(HeadlessApp& app, Action action) {
 
 TEST_CASE("every key of the F1 page does what the page says") {
   HeadlessApp app(760, 420);
-  app.open(kSample);
-  REQUIRE(app.settle());
-  app.studio().apply(SetPreset{"fast"});
-  app.click(app.screen_of(kOnApple));
-  REQUIRE(app.settle());
+  REQUIRE(cut_out_apple(app));
   for (const Binding& binding : key_bindings()) {
     const Check& check = kChecks.at(binding.action);  // a key without a check is a gap
     Studio& s = app.studio();

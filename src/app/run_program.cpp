@@ -40,16 +40,6 @@ int start_in_group(const std::vector<std::string>& words, pid_t* child) {
 
 }  // namespace
 
-int run_program(const std::vector<std::string>& words) {
-  const std::vector<char*> arguments = pointers_to(words);
-  pid_t child = 0;
-  if (::posix_spawnp(&child, arguments.front(), nullptr, nullptr, arguments.data(), environ) != 0) return -1;
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 ProgramEnd run_program(const std::vector<std::string>& words, const Job& job) {
   using Clock = std::chrono::steady_clock;
   constexpr auto kLook = std::chrono::milliseconds(20), kGrace = std::chrono::milliseconds(2000);

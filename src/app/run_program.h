@@ -8,18 +8,14 @@
 
 namespace splatcut {
 
-// words: the program, looked up on PATH, then its arguments; no shell reads them. Its exit code, or -1 where
-// it could not be started or a signal ended it.
-int run_program(const std::vector<std::string>& words);
-
 struct ProgramEnd {
   int start_error = 0;  // errno where it could not be started
   int exit_code = -1;   // -1 where a signal ended it
   int signal = 0;
 };
 
-// The same, for programs that take long: a cancelled job ends it and what it started. It reads nothing, and
-// what it prints goes to stderr.
+// words: the program, looked up on PATH, then its arguments; no shell reads them. A cancelled job ends it and what it
+// started. It reads nothing, and what it prints goes to stderr.
 ProgramEnd run_program(const std::vector<std::string>& words, const Job& job);
 
 }  // namespace splatcut

@@ -138,9 +138,10 @@ void draw(const Drawing& drawing, const std::filesystem::path& folder) {
   };
   const std::filesystem::path script = folder / (drawing.chart.name + ".gp");
   write_text_file(script, drawing.data + script_for("svg noenhanced font 'sans,13' background 'white'", ".svg") + script_for("pngcairo noenhanced font 'sans,10'", ".png"));
-  const int code = run_program({"gnuplot", script.string()});
-  if (code != 0) throw Error("gnuplot", code < 0 ? "cannot be started" : fmt::format("ended with code {} on {}", code, script.string()),
-                             "Install gnuplot-nox; the measurements are kept, run the same command again");
+  const ProgramEnd end = run_program({"gnuplot", script.string()}, {});
+  if (end.exit_code != 0)
+    throw Error("gnuplot", end.start_error ? "cannot be started" : fmt::format("ended with code {} on {}", end.exit_code, script.string()),
+                "Install gnuplot-nox; the measurements are kept, run the same command again");
 }
 
 }  // namespace

@@ -155,13 +155,18 @@ StudyRunner::Setup StudyRunner::set_up(const StudyCell& cell, const Job& job) {
   return setup;
 }
 
+PipelineReport StudyRunner::cut(const StudyCell& cell, Setup* setup, const Job& job) const {
+  const EvaluationCase& test = setup->test;
+  if (cell.true_masks) setup->pipeline.given_masks = true_masks(test, cell);
+  return cut_out(*test.cloud, test.prepared, test.reference, test.up_world, setup->strokes, setup->pipeline, job);
+}
+
 nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
   Setup setup = set_up(cell, job);
   if (!setup.possible || job.cancelled()) return nullptr;
   const EvaluationCase& test = setup.test;
-  if (cell.true_masks) setup.pipeline.given_masks = true_masks(test, cell);
   const auto start = std::chrono::steady_clock::now();
-  const PipelineReport report = cut_out(*test.cloud, test.prepared, test.reference, test.up_world, setup.strokes, setup.pipeline, job);
+  const PipelineReport report = cut(cell, &setup, job);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   if (job.cancelled()) return nullptr;
   const ImageScore score = score_images(test, report.labels);
@@ -185,8 +190,7 @@ Image<Rgb8> StudyRunner::picture(const StudyCell& cell, const Job& job) {
   Setup setup = set_up(cell, job);
   if (!setup.possible || job.cancelled()) return {};
   const EvaluationCase& test = setup.test;
-  if (cell.true_masks) setup.pipeline.given_masks = true_masks(test, cell);
-  const PipelineReport report = cut_out(*test.cloud, test.prepared, test.reference, test.up_world, setup.strokes, setup.pipeline, job);
+  const PipelineReport report = cut(cell, &setup, job);
   if (job.cancelled()) return {};
   constexpr int kWidthPx = 360;
   const Camera camera = limited_to_width(test.reference, kWidthPx);

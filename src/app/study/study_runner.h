@@ -29,6 +29,7 @@ class StudyRunner {
     Strokes strokes;
     bool possible = true;
   };
+  PipelineReport cut(const StudyCell& cell, Setup* setup, const Job& job) const;
   void load(const PipelineOptions& pipeline, const Job& job);
   Setup set_up(const StudyCell& cell, const Job& job);
   void choose_strokes(const StudyCell& cell, const Job& job, Setup* setup) const;
