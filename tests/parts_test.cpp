@@ -10,6 +10,9 @@
 #include "scene/morton.h"
 #include "scene/rasterizer.h"
 #include "scene/still_life.h"
+#include "scene/error.h"
+#include "segment/click_draws.h"
+#include "segment/enclosed.h"
 #include "segment/mask_tools.h"
 #include "segment/part_picker.h"
 #include "segment/pipeline.h"
@@ -251,12 +254,37 @@ TEST_CASE("parts: an object click just beside what is selected is not lost, a re
   const PartView view = view_parts(parts, four_stripes());
   PickOptions options;
   options.scale_steps = -10;  // the first click takes its leaf alone
-  const Strokes strokes = {click({5, 5}, SeedLabel::kObject), click({11, 5}, SeedLabel::kObject)};
-  CHECK(pick_parts(parts, view, strokes, options).leaves == std::vector<std::uint8_t>{1, 1, 0, 0});
-  options.change_most_of_selected = 0;  // two pixels from the border, a stripe of a hundred pixels looks like a slip
-  CHECK(pick_parts(parts, view, strokes, options).leaves == std::vector<std::uint8_t>{1, 0, 0, 0});
+  using Leaves = std::vector<std::uint8_t>;
+  const auto leaves = [&](float x) {
+    return pick_parts(parts, view, {click({5, 5}, SeedLabel::kObject), click({x, 5}, SeedLabel::kObject)}, options).leaves;
+  };
+  CHECK(leaves(12.5f) == Leaves{1, 1, 0, 0});
+  // At the very border, a stripe of a hundred pixels looks like a slip.
+  CHECK(leaves(10.5f) == Leaves{1, 0, 0, 0});
+  options.border_px = 0;
+  CHECK(leaves(10.5f) == Leaves{1, 1, 0, 0});
+  options.change_most_of_selected = 0;
+  CHECK(leaves(12.5f) == Leaves{1, 0, 0, 0});
   const Strokes slip = {click({5, 5}, SeedLabel::kObject), click({9, 5}, SeedLabel::kRest)};
   CHECK(pick_parts(parts, view, slip, PickOptions{.scale_steps = -10}).leaves == std::vector<std::uint8_t>{1, 0, 0, 0});
+}
+
+TEST_CASE("parts: a correction that brings much of what the view hides is not meant") {
+  PartHierarchy parts = four_leaves();
+  const PartView view = view_parts(parts, four_stripes());
+  parts.trees[0].cut = {1, 1, 1, 1, 1, 0.5f, 1};  // the right pair looks a little likelier than its stripes
+  PickOptions options;
+  options.cut_weight = 1;
+  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty = options.large_penalty = 0;
+  options.scale_steps = -10;
+  const Strokes strokes = {click({5, 5}, SeedLabel::kObject), click({25, 5}, SeedLabel::kObject)};
+  using Leaves = std::vector<std::uint8_t>;
+  CHECK(pick_parts(parts, view, strokes, options).leaves == Leaves{1, 0, 1, 1});
+  parts.trees[0].area = {1, 1, 1, 99, 2, 100, 102};  // the last stripe is the tip of something large
+  options.hidden_penalty = 0;
+  CHECK(pick_parts(parts, view, strokes, options).leaves == Leaves{1, 0, 1, 1});
+  options.hidden_penalty = 2;
+  CHECK(pick_parts(parts, view, strokes, options).leaves == Leaves{1, 0, 1, 0});
 }
 
 TEST_CASE("parts: a mask of one side completes to whole nodes, by hand") {
@@ -360,4 +388,89 @@ TEST_CASE("parts: a scene prepared for masks from pixels has none") {
   const PreparedScene prepared = prepare_scene(cloud, camera, {0, -1, 0}, {}, prepare_options(options));
   CHECK(prepared.parts.trees.empty());
   CHECK(prepared.graph.nodes() == cloud.size());
+}
+
+TEST_CASE("enclosed: hidden pieces join the object that they touch alone, by hand") {
+  // A chain: object 0 1, hidden 2 3, object 4, hidden 5, rest 6, and faint 7 hanging at 3.
+  GaussianCloud cloud;
+  cloud.resize(8, 0);
+  std::ranges::fill(cloud.opacity, 0.9f);
+  cloud.opacity[7] = 0.05f;
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>> edges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}, {3, 7}};
+  const FlowGraph graph = graph_from_edges(8, edges);
+  using Labels = std::vector<std::uint8_t>;
+  const Labels shown = {1, 1, 0, 0, 1, 0, 1, 0}, before = {1, 1, 0, 0, 1, 0, 0, 0};
+  EnclosedOptions options;
+  options.most_size = 1;
+  Labels labels = before;
+  CHECK(join_enclosed(cloud, graph, shown, options, &labels) == 2);
+  CHECK(labels == Labels{1, 1, 1, 1, 1, 0, 0, 0});  // 5 touches the rest as well
+  labels = before;
+  options.most_size = 0.5f;  // a piece of two is too much beside an object of three
+  CHECK(join_enclosed(cloud, graph, shown, options, &labels) == 0);
+  CHECK(labels == before);
+  options.most_size = 1;
+  options.least_object = 0.5f;
+  CHECK(join_enclosed(cloud, graph, shown, options, &labels) == 3);
+  // What the view shows stays as the user sees it.
+  const Labels all_shown(8, 1);
+  labels = before;
+  CHECK(join_enclosed(cloud, graph, all_shown, {}, &labels) == 0);
+  CHECK(labels == before);
+}
+
+TEST_CASE("parts: a scene in other units is cut the same") {
+  const Table& t = table();
+  const Target mug = target(t, "mug");
+  const auto labels_at = [&](float scale) {
+    GaussianCloud cloud = t.cloud;
+    for (glm::vec3& p : cloud.position) p *= scale;
+    for (glm::vec3& s : cloud.scale) s *= scale;
+    cloud.near_plane = natural_near_plane(cloud.position);
+    Camera camera = mug.camera;
+    camera.camera_from_world_translation *= scale;
+    const glm::vec2 middle = robot_click(mug.truth, Mask(mug.truth.width(), mug.truth.height()))->points_px[0];
+    return cut_out(cloud, nullptr, camera, {0, 1, 0}, {click(middle, SeedLabel::kObject)}, preset("fast")).labels;
+  };
+  const std::vector<std::uint8_t> one = labels_at(1);
+  CHECK(std::ranges::count(one, 1) > 1000);
+  for (const float scale : {1.0f / 64, 64.0f}) CHECK(labels_at(scale) == one);  // powers of two: the same bits
+  std::size_t differ = 0;
+  const std::vector<std::uint8_t> hundredth = labels_at(0.01f);
+  for (std::size_t g = 0; g < one.size(); ++g) differ += one[g] != hundredth[g];
+  CHECK(differ < one.size() / 1000);
+}
+
+TEST_CASE("parts: draws of unsteady clicks, their median, their least and the clicks to a goal") {
+  const Table& t = table();
+  EvaluationCase scene;
+  scene.cloud = &t.cloud;
+  scene.prepared = &t.prepared;
+  const auto index = std::ranges::find(t.scene.label_name, "mug") - t.scene.label_name.begin();
+  for (const auto label : t.label) scene.truth_labels.push_back(label == index);
+  scene.reference = target(t, "mug").camera;
+  render_truth(&scene);
+  const ClickDraws draws = draw_clicks(scene, preset("default"), 3, 4);
+  REQUIRE(draws.iou_after.size() == 4);
+  CHECK(draws.iou_after[0] == robot_session(scene, preset("default"), 3).iou_after);
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<double> at;
+    for (const auto& session : draws.iou_after) at.push_back(session[k]);
+    std::ranges::sort(at);
+    CHECK(draws.least[k] == at.front());
+    CHECK(draws.median[k] == doctest::Approx((at[1] + at[2]) / 2));
+  }
+  CHECK(draws.least_from_second == std::min(draws.least[1], draws.least[2]));
+  CHECK(draws.mean_noc90 >= draws.mean_noc85);
+  CHECK(draws.most_noc90 >= draws.mean_noc90);
+  // The same scene known by masks of its views: each of them is clicked.
+  EvaluationCase photographs = scene;
+  photographs.test_views = {scene.reference, scene.reference};
+  photographs.truth_masks = {*scene.reference_truth, *scene.reference_truth};
+  photographs.truth_labels.clear();
+  photographs.reference_truth.reset();
+  CHECK(draw_clicks(photographs, preset("default"), 3, 2).iou_after.size() == 4);
+  photographs.test_views.clear();
+  CHECK(draw_clicks(photographs, preset("default"), 3, 2).iou_after.empty());
+  CHECK_THROWS_AS(robot_session(photographs, preset("default"), 1), Error);
 }

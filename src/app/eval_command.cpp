@@ -11,6 +11,7 @@
 #include "app/output_folder.h"
 #include "app/tuning_options.h"
 #include "scene/atomic_file.h"
+#include "segment/click_draws.h"
 
 namespace splatcut {
 
@@ -21,7 +22,7 @@ struct EvalArguments {
   std::string preset = "default", masks;
   MaskOptions mask;
   std::vector<std::string> set;
-  int clicks = 3;
+  int clicks = 3, draws = 0;
   bool curve = true, json = false, overwrite = false;
 };
 
@@ -73,6 +74,26 @@ void print_row(const nlohmann::json& s) {
              after("3"), after("5"), number("noc90", "{:.1f}"), number("total_ms", "{:.0f}"));
 }
 
+nlohmann::json draws_json(const ClickDraws& d) {
+  return {{"median", d.median}, {"least", d.least}, {"mean_noc85", d.mean_noc85}, {"mean_noc90", d.mean_noc90},
+          {"most_noc90", d.most_noc90}, {"least_from_second_click", d.least_from_second}};
+}
+
+// The first mask under an unsteady hand, a row per scene.
+void print_draws(const std::vector<nlohmann::json>& scores, int draws) {
+  fmt::print("\nfirst mask, IoU after 1..{} clicks, median / least of {} draws\n", kRobotClicks, draws);
+  for (const nlohmann::json& s : scores) {
+    if (!s.contains("draws")) continue;
+    const nlohmann::json& d = s.at("draws");
+    fmt::print("{:<16}", s.value("name", ""));
+    for (std::size_t k = 0; k < d.at("median").size(); ++k)
+      fmt::print(" {:.3f}/{:.3f}", d.at("median")[k].get<double>(), d.at("least")[k].get<double>());
+    if (d.contains("mean_noc90"))
+      fmt::print("  NoC85 {:.2f} NoC90 {:.2f}, most {}", d.at("mean_noc85").get<double>(), d.at("mean_noc90").get<double>(), d.at("most_noc90").get<double>());
+    fmt::print("\n");
+  }
+}
+
 // --first-mask truth needs the truth of the reference view, --masks truth that of any view.
 bool lacks_truth(const EvaluationCase& test, const EvaluationOptions& options) {
   return (options.truth_first_mask && !test.reference_truth) || (options.truth_masks && test.truth_labels.empty());
@@ -108,12 +129,17 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
     score.stages.insert(score.stages.begin(), loaded->prepared.stages.begin(), loaded->prepared.stages.end());
     score.stages.insert(score.stages.begin(), {"load", loaded->load_ms});
     scores.push_back(score_json(score));
+    if (args.draws > 0) {
+      const ClickDraws draws = draw_clicks(loaded->test, options.pipeline, kRobotClicks, args.draws, job);
+      if (job.cancelled()) throw Error("splatcut eval", "cancelled, nothing was written");
+      if (!draws.median.empty()) scores.back()["draws"] = draws_json(draws);
+    }
     end_progress();
     if (!args.json) print_row(scores.back());
     std::fflush(stdout);
   }
   if (scores.empty()) throw Error("splatcut eval", "no scene of the suite is left to measure");
-  const nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"set", args.set}, {"clicks", args.clicks},
+  const nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"set", args.set}, {"clicks", args.clicks}, {"draws", args.draws},
                                  {"scenes", scores}, {"mean", mean_json(scores)}};
   write_text_file(folder.file("eval.json"), result.dump(2) + "\n");
   folder.commit();
@@ -121,6 +147,10 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
     fmt::print("{}\n", result.dump(2));
   else
     print_row(result["mean"]);
+  if (!args.json && args.draws > 0) {
+    scores.push_back(result["mean"]);
+    print_draws(scores, args.draws);
+  }
 }
 
 }  // namespace
@@ -132,6 +162,7 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("-o,--output", args->output, "Folder for eval.json")->required();
   command.add_option("--preset", args->preset, "fast, default, best, paper or paper-code");
   command.add_option("--clicks", args->clicks, "Clicks for the final cut")->check(CLI::Range(1, 8));
+  command.add_option("--draws", args->draws, "The first mask again with that many draws of unsteady clicks")->check(CLI::Range(0, 1000));
   args->mask.add_to(command, true);
   command.add_option("--masks", args->masks, "truth: the true masks in all orbit views")->check(CLI::IsMember({"truth"}));
   add_tuning_options(command, &args->set);

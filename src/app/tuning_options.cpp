@@ -111,6 +111,7 @@ std::vector<TuningOption> make_table() {
       choice("first.from", ways_in, of_pipeline(&PipelineOptions::first_mask_from)),
       choice("first.solver", solvers, [](PipelineOptions& o) -> MaskSolver& { return o.first_mask.refine.solver; }),
       number("pick.change_most_of_selected", 0.0f, 100.0f, [](PipelineOptions& o) -> float& { return o.pick.change_most_of_selected; }),
+      flag("pick.join_enclosed", of_pipeline(&PipelineOptions::join_enclosed)),
       flag("first.feedback", of_pipeline(&PipelineOptions::feedback)),
       number("neighbours", 1, 254, of_pipeline(&PipelineOptions::neighbours)),
       flag("trim", of_pipeline(&PipelineOptions::trim)),

@@ -20,6 +20,7 @@ void GaussianCloud::resize(std::size_t n, int degree) {
 GaussianCloud permuted(const GaussianCloud& cloud, std::span<const std::uint32_t> order) {
   GaussianCloud out;
   out.resize(order.size(), cloud.sh_degree);
+  out.near_plane = cloud.near_plane;
   const std::size_t stride = cloud.sh_stride();
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::uint32_t g = order[i];
@@ -54,6 +55,10 @@ Box robust_bounds(std::span<const glm::vec3> positions, double inside) {
     box.max[axis] = *high;
   }
   return box;
+}
+
+float natural_near_plane(std::span<const glm::vec3> positions) {
+  return kNaturalNearShare * glm::length(robust_bounds(positions).extent());
 }
 
 }  // namespace splatcut

@@ -23,6 +23,7 @@ struct GaussianCloud {
                                      // all of red, then green, then blue
   int sh_degree = 0;                 // 0..3
   std::vector<std::uint32_t> file_row;  // row of each Gaussian in the file it came from
+  float near_plane = 0.2f;           // scene units: pictures leave out what is nearer; see natural_near_plane()
 
   std::size_t size() const { return position.size(); }
   bool empty() const { return position.empty(); }
@@ -44,5 +45,10 @@ struct Box {
   glm::vec3 extent() const { return max - min; }
 };
 Box robust_bounds(std::span<const glm::vec3> positions, double inside = 0.98);
+
+// That share of the diagonal of robust_bounds(): about the 0.2 units that scenes are trained with where those have
+// the usual units, and the same picture where they have others. load_scene() sets it.
+constexpr float kNaturalNearShare = 0.01f;
+float natural_near_plane(std::span<const glm::vec3> positions);
 
 }  // namespace splatcut

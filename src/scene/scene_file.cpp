@@ -104,6 +104,7 @@ Scene load_scene(const std::filesystem::path& path, const Job& job) {
     throw Error(
         path.string(),
         fmt::format("none of the {} Gaussians is usable: each has NaN or a zero rotation", scene.file_rows));
+  scene.cloud.near_plane = natural_near_plane(scene.cloud.position);
   return scene;
 }
 

@@ -120,7 +120,7 @@ struct Frame {
   PixelRect region;
 };
 
-Frame frame_of(const Camera& camera, const RasterOptions& options, const PixelRect& region) {
+Frame frame_of(const Camera& camera, float near_plane, const PixelRect& region) {
   const glm::mat3 world_from_camera = glm::transpose(camera.camera_from_world_rotation);
   return {camera,
           world_from_camera[0],
@@ -129,7 +129,7 @@ Frame frame_of(const Camera& camera, const RasterOptions& options, const PixelRe
           camera.centre_world(),
           kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px,
           kFrustumSlack * 0.5f * static_cast<float>(camera.height_px) / camera.fy_px,
-          options.near_plane,
+          near_plane,
           region};
 }
 
@@ -260,7 +260,7 @@ HWY_INLINE M shown_lanes(const RasterOptions& options, std::uint32_t g, std::siz
 
 void project_batch(const GaussianCloud& cloud, std::uint32_t begin, std::uint32_t end, const Camera& camera,
                    const RasterOptions& options, const PixelRect& region, SplatBatch* batch) {
-  const Frame frame = frame_of(camera, options, region);
+  const Frame frame = frame_of(camera, options.near_plane.value_or(cloud.near_plane), region);
   batch->size = 0;
   for (std::uint32_t g = begin; g < end; g += static_cast<std::uint32_t>(kWidth)) {
     const std::size_t count = std::min<std::size_t>(kWidth, end - g);

@@ -169,6 +169,7 @@ void shuffle_rows(LabelledScene& scene, std::uint64_t seed) {
   CounterRng rng(seed, kShuffleStream);
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[rng.below(i)]);
   scene.cloud = permuted(scene.cloud, order);
+  scene.cloud.near_plane = natural_near_plane(scene.cloud.position);
   std::vector<std::uint8_t> label(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) label[i] = scene.label[order[i]];
   scene.label = std::move(label);

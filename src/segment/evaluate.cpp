@@ -18,11 +18,6 @@ Mask picture_of(const GaussianCloud& cloud, const Camera& camera, const std::vec
   return thresholded(render_labels(cloud, camera, labels), 0.5f);
 }
 
-int clicks_to(const std::vector<double>& iou_after, double goal) {
-  const auto reached = std::ranges::find_if(iou_after, [&](double v) { return v >= goal; });
-  return reached == iou_after.end() ? kClicksNotReached : static_cast<int>(reached - iou_after.begin()) + 1;
-}
-
 Strokes first_strokes(const Strokes& strokes, int n) {
   return {strokes.begin(), strokes.begin() + std::min<std::ptrdiff_t>(n, std::ssize(strokes))};
 }
@@ -42,6 +37,11 @@ PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& op
 }
 
 }  // namespace
+
+int clicks_to(const std::vector<double>& iou_after, double goal) {
+  const auto reached = std::ranges::find_if(iou_after, [&](double v) { return v >= goal; });
+  return reached == iou_after.end() ? kClicksNotReached : static_cast<int>(reached - iou_after.begin()) + 1;
+}
 
 double label_iou(const std::vector<std::uint8_t>& truth, const std::vector<std::uint8_t>& labels) {
   std::size_t both = 0, either = 0;
@@ -72,7 +72,9 @@ ImageScore score_images(const EvaluationCase& scene, const std::vector<std::uint
 RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks, std::uint64_t draw, const Job& job) {
   const Camera work = limited_to_width(scene.reference, pipeline.work_width_px);
   const float to_reference = static_cast<float>(scene.reference.width_px) / static_cast<float>(work.width_px);
-  const Mask truth = picture_of(*scene.cloud, work, scene.truth_labels);
+  if (scene.truth_labels.empty() && !scene.reference_truth) throw Error(scene.name, "the robot needs the truth of the reference view");
+  const Mask truth = scene.truth_labels.empty() ? resized_mask(*scene.reference_truth, work.width_px, work.height_px)
+                                                : picture_of(*scene.cloud, work, scene.truth_labels);
   Mask mask(work.width_px, work.height_px);
   RobotSession session;
   for (int i = 0; i < clicks && !job.cancelled(); ++i) {

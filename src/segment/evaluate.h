@@ -56,7 +56,11 @@ struct RobotSession {
   Strokes strokes;  // fewer than clicks where nothing was wrong any more
   std::vector<double> iou_after;  // clicks values
 };
+// Throws Error where the truth of the reference is unknown.
 RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks, std::uint64_t draw = 0, const Job& job = {});
+
+// Clicks until the IoU reaches the goal; kClicksNotReached where it does not.
+int clicks_to(const std::vector<double>& iou_after, double goal);
 
 // Means over the test views that count.
 struct ImageScore {

@@ -50,6 +50,7 @@ struct Proposals {
   std::vector<std::uint32_t> chain;  // candidates, from small to large
   std::vector<std::uint32_t> level;  // per leaf
   std::vector<float> changed_px;     // per candidate
+  std::vector<float> changed_area;   // per candidate, what the view hides included; scene units squared
   std::vector<float> stability;      // per candidate: mean over the other trees of the best IoU there
 };
 
@@ -79,8 +80,9 @@ class Picker {
   float odd_size(float pixels) const;
   float odd_change(float changed_px, float radius_px, float selected_px) const;
   float largest_change(float radius_px, float selected_px) const;
-  std::vector<float> pixels_on_side(std::size_t tree, bool selected) const;
-  float selected_pixels() const;
+  float odd_hidden(float changed_px, float changed_area) const;
+  std::vector<float> on_side(std::size_t tree, const std::vector<float>& of_leaves, bool selected) const;
+  float selected_sum(const std::vector<float>& of_leaves) const;
   float distance_to_border(const glm::vec2& pixel, bool selected) const;
 
   const PartHierarchy& parts_;
@@ -126,23 +128,33 @@ float Picker::odd_change(float changed_px, float radius_px, float selected_px) c
 
 // More pixels than that are not meant by a click so near to the border, unless they are few beside what is selected.
 float Picker::largest_change(float radius_px, float selected_px) const {
-  return std::max(options_.change_most * 3.14159265f * (radius_px + 1) * (radius_px + 1), options_.change_most_of_selected * selected_px);
+  const float disc = options_.change_most * 3.14159265f * (radius_px + 1) * (radius_px + 1);
+  return radius_px < options_.border_px ? disc : std::max(disc, options_.change_most_of_selected * selected_px);
 }
 
-std::vector<float> Picker::pixels_on_side(std::size_t t, bool selected) const {
+// A correction that brings along much more of what the view hides than the selection has, per pixel, is not meant.
+float Picker::odd_hidden(float changed_px, float changed_area) const {
+  const float selected_px = selected_sum(view_.trees[0].pixels), selected_area = selected_sum(parts_.trees[0].area);
+  if (selected_px <= 0 || selected_area <= 0) return 0;
+  const float folds = changed_area / std::max(changed_px, 1.0f) / (selected_area / selected_px);
+  return options_.hidden_penalty * std::max(0.0f, std::log(std::max(folds, 1e-6f)) - options_.hidden_slack);
+}
+
+// Sums over each node's leaves on that side.
+std::vector<float> Picker::on_side(std::size_t t, const std::vector<float>& of_leaves, bool selected) const {
   const PartTree& tree = parts_.trees[t];
-  std::vector<float> pixels(tree.nodes(), 0);
+  std::vector<float> sum(tree.nodes(), 0);
   for (std::uint32_t node = 0; node < tree.nodes(); ++node) {
-    if (node < parts_.leaves && pick_.leaves[node] == selected) pixels[node] = view_.trees[t].pixels[node];
-    if (tree.parent[node] != kNoPart) pixels[tree.parent[node]] += pixels[node];
+    if (node < parts_.leaves && pick_.leaves[node] == selected) sum[node] = of_leaves[node];
+    if (tree.parent[node] != kNoPart) sum[tree.parent[node]] += sum[node];
   }
-  return pixels;
+  return sum;
 }
 
-float Picker::selected_pixels() const {
-  float pixels = 0;
-  for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf) pixels += pick_.leaves[leaf] ? view_.trees[0].pixels[leaf] : 0;
-  return pixels;
+float Picker::selected_sum(const std::vector<float>& of_leaves) const {
+  float sum = 0;
+  for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf) sum += pick_.leaves[leaf] ? of_leaves[leaf] : 0;
+  return sum;
 }
 
 float Picker::distance_to_border(const glm::vec2& pixel, bool selected) const {
@@ -160,11 +172,12 @@ std::vector<Proposals> Picker::proposals(std::uint32_t leaf, bool object) const 
   std::vector<Proposals> all(parts_.trees.size());
   for (std::size_t t = 0; t < all.size(); ++t) {
     const PartTree& tree = parts_.trees[t];
-    const std::vector<float> changed = pixels_on_side(t, !object);
+    const std::vector<float> changed = on_side(t, view_.trees[t].pixels, !object), area = on_side(t, tree.area, !object);
     for (const std::uint32_t node : ancestors(tree, leaf)) {
       if (node != leaf && clicked_[!object][t][node]) break;
       all[t].chain.push_back(node);
       all[t].changed_px.push_back(changed[node]);
+      all[t].changed_area.push_back(area[node]);
     }
     all[t].level = levels(tree, parts_.leaves, all[t].chain);
   }
@@ -207,13 +220,14 @@ void Picker::apply(const glm::vec2& pixel, SeedLabel label) {
     for (const std::uint32_t node : ancestors(parts_.trees[t], leaf)) clicked_[object][t][node] = 1;
   if (pick_.leaves[leaf] == object) return;  // already on that side
   const float radius = any_ ? distance_to_border(pixel, !object) : 0;
-  const float selected_px = object && any_ ? selected_pixels() : std::numeric_limits<float>::max();
+  const float selected_px = object && any_ ? selected_sum(view_.trees[0].pixels) : std::numeric_limits<float>::max();
   if (any_ && view_.trees[0].pixels[leaf] > largest_change(radius, object ? selected_px : 0)) return;
   const std::vector<Proposals> all = proposals(leaf, object);
   std::vector<Candidate> candidates;
   for (std::size_t t = 0; t < all.size(); ++t)
     for (std::size_t i = 0; i < all[t].chain.size(); ++i) {
-      const float size = any_ ? odd_change(all[t].changed_px[i], radius, selected_px) : odd_size(all[t].changed_px[i]);
+      const float px = all[t].changed_px[i];
+      const float size = any_ ? odd_change(px, radius, selected_px) + odd_hidden(px, all[t].changed_area[i]) : odd_size(px);
       const float rare = -std::log(std::max(all[t].stability[i], 0.01f));
       candidates.push_back({t, i, odd_look(t, all[t].chain[i]) + size + options_.stability_weight * rare});
     }

@@ -45,7 +45,9 @@ struct PickOptions {
   float least_log_cut = -16;
   float growth_penalty = 0.01f, growth_slack = 0.5f;  // of additions larger than what is selected
   float change_large = 3.4f, change_slack = 3.25f, change_most = 2.7f;  // of later clicks
-  float change_most_of_selected = 1;  // an object click may add that much, however near to the border
+  float change_most_of_selected = 1;  // an object click farther than border_px from the selection may add that much
+  float border_px = 2;                // nearer ones mend its border
+  float hidden_penalty = 1, hidden_slack = 2;  // of later clicks that bring much of what the view hides, per pixel
 };
 
 struct PartNode {

@@ -45,7 +45,7 @@ class Run {
  public:
   Run(const GaussianCloud& cloud, const PreparedScene& prepared, const PipelineOptions& options, const Job& job,
       PipelineReport* report)
-      : cloud_(cloud), parts_(prepared.parts), options_(options), job_(job), report_(*report), clock_(&report->stages),
+      : cloud_(cloud), graph_(prepared.graph), parts_(prepared.parts), options_(options), job_(job), report_(*report), clock_(&report->stages),
         sums_(cloud.size()), solver_(cloud, prepared.graph, options.cut), work_width_px_(options.work_width_px) {}
 
   bool answered_by_parts() const { return !prior().empty() && !options_.cut_parts; }
@@ -72,12 +72,14 @@ class Run {
   PartView parts_in(const Camera& camera);
   void pick(const Camera& camera, const Strokes& strokes);
   void complete(const Camera& camera, const Mask& mask);
+  void join_enclosed_by(const PartView& view);
   Mask mask_from_pixels(const Camera& camera, const Strokes& strokes);
   Mask with_feedback(const Camera& camera, const Picture& picture, const Mask& mask, const Strokes& strokes);
   void use(ViewReport view, Picture picture = {});
   void measure_agreement();
 
   const GaussianCloud& cloud_;
+  const FlowGraph& graph_;
   const PartHierarchy& parts_;
   const PipelineOptions& options_;
   const Job& job_;
@@ -147,14 +149,25 @@ void Run::pick(const Camera& camera, const Strokes& strokes) {
     report_.first_sizes = picked.first_chain.size();
     report_.first_size = picked.first_chosen;
     report_.ambiguous = picked.ambiguous;
+    join_enclosed_by(view);
   });
+}
+
+void Run::join_enclosed_by(const PartView& view) {
+  if (!options_.join_enclosed || view.trees.empty()) return;
+  std::vector<std::uint8_t> shown(cloud_.size(), 0);
+  for (std::size_t g = 0; g < shown.size(); ++g)
+    shown[g] = parts_.leaf_of[g] != kNoPart && view.trees.front().pixels[parts_.leaf_of[g]] > 0;
+  join_enclosed(cloud_, graph_, shown, options_.enclosed, &report_.labels);
 }
 
 // What the mask means as parts becomes the labels.
 void Run::complete(const Camera& camera, const Mask& mask) {
   clock_.time("first mask", [&] {
     const PartView view = parts_in(camera);
-    if (!job_.cancelled()) report_.labels = labels_of(parts_, parts_of_mask(parts_, view, mask));
+    if (job_.cancelled()) return;
+    report_.labels = labels_of(parts_, parts_of_mask(parts_, view, mask));
+    join_enclosed_by(view);
   });
 }
 

@@ -17,6 +17,7 @@
 #include "scene/image.h"
 #include "scene/job.h"
 #include "segment/cut.h"
+#include "segment/enclosed.h"
 #include "segment/first_mask.h"
 #include "segment/orbit.h"
 #include "segment/part_picker.h"
@@ -57,6 +58,8 @@ struct PipelineOptions {
   FirstMaskOptions first_mask;       // kPixels
   bool feedback = true;              // kPixels: cut from the one view in 3D, rendered back, corrects the mask
   float prior_px_per_view = 0.1f;    // kParts: what the parts say counts as that many pixels of each Gaussian
+  bool join_enclosed = true;         // kParts: hidden pieces that touch the object alone belong to it
+  EnclosedOptions enclosed;
   bool cut_parts = true;             // kParts: the graph cut settles what the parts say; false: they are the answer
   bool hard_counts = false;          // the likelihood counts pixels, not weights (the paper's hard variant)
   Propagator propagate = Propagator::kLift;

@@ -12,7 +12,6 @@ namespace {
 constexpr double kStillAfterSeconds = 0.15;  // without a move the picture is drawn in full
 constexpr double kMovingGoalMs = 32;         // a reduced picture should take no longer
 constexpr float kLeastScale = 0.2f;
-constexpr float kMostNearPlane = 0.2f;  // scene units: the near plane scenes are trained with
 
 // Scales in steps of 5 %: the same size again and again costs no new textures.
 float stepped(float scale) {
@@ -28,7 +27,7 @@ void Studio::set_viewport(int width_px, int height_px, float pixels_per_point) {
 }
 
 float Studio::near_plane() const {
-  return std::min(kMostNearPlane, view_.near_share * camera_.scene_size());
+  return scene_ ? scene_->cloud->near_plane * (view_.near_share / kNaturalNearShare) : kNaturalNearShare;
 }
 
 Camera Studio::viewport_camera() const {

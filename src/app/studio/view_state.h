@@ -31,7 +31,7 @@ struct ViewState {
   bool tint = true;
   bool outline = true;
   bool heat = false;
-  float near_share = 0.01f;  // near plane, of the scene's size; at most 0.2 scene units
+  float near_share = 0.01f;  // near plane, of the scene's size; see natural_near_plane()
 
   bool operator==(const ViewState&) const = default;
 };

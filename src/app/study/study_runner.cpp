@@ -109,6 +109,7 @@ void StudyRunner::scale_to(double scale, const PipelineOptions& pipeline, const 
   scaled_cloud_ = loaded_->scene.cloud;
   for (glm::vec3& p : scaled_cloud_.position) p *= static_cast<float>(scale);
   for (glm::vec3& s : scaled_cloud_.scale) s *= static_cast<float>(scale);
+  scaled_cloud_.near_plane = natural_near_plane(scaled_cloud_.position);
   const EvaluationCase test = rescaled(loaded_->test, static_cast<float>(scale));
   scaled_prepared_ = prepare_scene(scaled_cloud_, test.reference, test.up_world, test.scene_cameras, prepare_options(pipeline), job);
   scale_ = scale;
