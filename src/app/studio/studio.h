@@ -215,6 +215,7 @@ class Studio {
   ObjectId cutting_object_ = 0;
   std::string cutting_key_;
   std::set<std::string> given_up_;  // keys that were cancelled or failed: not tried again by themselves
+  std::shared_ptr<SceneSolvers> solvers_;  // for the worker
   std::deque<Message> messages_;
   std::vector<UiRequest> ui_requests_;
   std::set<int> held_keys_;
