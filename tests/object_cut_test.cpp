@@ -83,6 +83,18 @@ TEST_CASE("object cut: kept steps, flow and other objects before it change no la
   steps.emplace_back(&apple, a);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     CAPTURE(i);
+    // Cancelled on the way, sooner or later: that must leave no trace either.
+    std::stop_source stop;
+    Job cancelled;
+    cancelled.stop = stop.get_token();
+    std::size_t snapshots = 0;
+    const auto stop_soon = [&](const PipelineReport&) {
+      if (snapshots++ == i % 3) stop.request_stop();
+    };
+    cancelled.on_progress = [&](std::string_view stage, double) {
+      if (stage == "cut") stop.request_stop();
+    };
+    steps[i].first->cut(steps[i].second, stop_soon, cancelled);
     const ObjectCutReport kept = steps[i].first->cut(steps[i].second);
     REQUIRE(kept.outcome == Outcome::kDone);
     CHECK(std::ranges::count(kept.labels, 1) > 0);

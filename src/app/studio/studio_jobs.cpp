@@ -109,6 +109,7 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
   }
   document_changed();
   autosaved_serial_ = saved_serial_ = document_serial_;
+  if (document && work_path_.empty()) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
   ++view_serial_;
   const Scene& s = *scene->scene;
   std::string text = fmt::format("{}: {} Gaussians, SH degree {}", s.path.filename().string(), s.cloud.size(),
@@ -305,10 +306,19 @@ void Studio::autosave(double seconds) {
   autosave_wait_s_ += seconds;
   if (autosave_wait_s_ < kAutosaveAfterSeconds) return;
   autosaved_serial_ = document_serial_;
-  tasks_.submit(TaskKind::kExport, [path = options_.state_folder / "autosave.splatcut.json",
+  const std::filesystem::path path = options_.state_folder / kAutosave;
+  if (restorable_ == path) {  // what is offered must not be written over
+    std::error_code trouble;
+    std::filesystem::rename(path, options_.state_folder / kAutosaveBefore, trouble);
+    if (!trouble) restorable_ = options_.state_folder / kAutosaveBefore;
+  }
+  const auto before = options_.state_folder / kAutosaveBefore;
+  tasks_.submit(TaskKind::kExport, [path, restored = restorable_ == before ? std::filesystem::path() : before,
                                     document = document(), scene = scene_](const Job&) {
     std::filesystem::create_directories(path.parent_path());
     write_work_file(path, *scene->scene, scene->hash, document);
+    std::error_code ignored;  // what was restored is in the file now
+    if (!restored.empty()) std::filesystem::remove(restored, ignored);
   });
 }
 
