@@ -95,3 +95,28 @@ TEST_CASE(
   const Box around{glm::vec3(-1), glm::vec3(1)};
   CHECK_FALSE(better_first_view(object, around, {0, -1, 0}, outside_of(around)));
 }
+
+TEST_CASE("view of all: the box lies in the picture with air around it, upright, seen from above, whatever is up") {
+  const Box bounds{{-2, -1, -3}, {4, 1, 2}};
+  for (const glm::vec3 up : {glm::vec3(0, -1, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 2), glm::vec3(1, 0, 0)}) {
+    CAPTURE(up.x);
+    CAPTURE(up.y);
+    const Camera view = view_of_all(bounds, up, 0.87f, 640, 480);
+    const glm::vec3 unit_up = glm::normalize(up);
+    CHECK(glm::dot(view.centre_world() - bounds.centre(), unit_up) > 0);
+    CHECK(glm::dot(view.down_world(), unit_up) < -0.9f);
+    float lowest = 480, highest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::vec3 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
+                        corner & 4 ? bounds.max.z : bounds.min.z);
+      const glm::vec2 at = view.pixel_from_camera(view.camera_from_world(p));
+      CHECK(at.x > 0);
+      CHECK(at.x < 640);
+      lowest = std::min(lowest, at.y);
+      highest = std::max(highest, at.y);
+    }
+    CHECK(lowest > 0);
+    CHECK(highest < 480);
+    CHECK(highest - lowest > 120);  // and is no dot in it
+  }
+}

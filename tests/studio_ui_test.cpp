@@ -1,12 +1,17 @@
 // The program driven by pointer and keys, without a window.
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
 #include <functional>
+#include <glm/gtc/constants.hpp>
 #include <thread>
 
+#include "app/camera_options.h"
 #include "app/studio/work_file.h"
 #include "app/work_cut.h"
 #include "headless_app.h"
+#include "scene/error.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -189,7 +194,113 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   options.studio.state_folder = folder.path();
   HeadlessApp app(kWidth, kHeight, 1, options);
   CHECK(app.studio().autosave_found());
+  // Started with a scene and worked on: what is offered is still there.
+  opened(app);
+  app.click(app.screen_of(kOnOrange));
+  REQUIRE(app.settle());
+  app.frames(60 * 3);
+  REQUIRE(app.settle());
+  CHECK(std::filesystem::exists(folder / kAutosave));
+  REQUIRE(app.studio().autosave_found());
   app.studio().apply(RestoreAutosave{});
   REQUIRE(app.settle());
   CHECK(bytes_of(app.studio().document()) == bytes);
+  CHECK_FALSE(app.studio().autosave_found());
+  CHECK(app.studio().unsaved());  // it is nowhere else yet
+  app.frames(60 * 3);
+  REQUIRE(app.settle());
+  app.studio().leave();
+  REQUIRE(std::filesystem::exists(folder / kAutosave));
+  CHECK_FALSE(std::filesystem::exists(folder / kAutosaveBefore));
+  const auto again = open_scene(read_work_header(folder / kAutosave).scene);
+  CHECK(bytes_of(read_work_file(folder / kAutosave, *again->scene, again->hash).document) == bytes);
+}
+
+TEST_CASE("opening asks before unsaved work goes, dropped files and recent ones alike") {
+  const ScratchFolder folder("open_asks");
+  HeadlessApp app(kWidth, kHeight);
+  opened(app);
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  const std::string bytes = bytes_of(app.studio().document());
+  const std::uint64_t scene = app.studio().scene()->serial;
+  REQUIRE(app.studio().unsaved());
+  app.open(kSample);
+  app.frames(3);
+  CHECK(app->interface().dialog_open());
+  app.key(key::kEscape);
+  REQUIRE(app.settle());
+  CHECK_FALSE(app->interface().dialog_open());
+  CHECK(bytes_of(app.studio().document()) == bytes);
+  CHECK(app.studio().scene()->serial == scene);
+  app.open(kSample);
+  app.frames(3);
+  app.click({kWidth / 2 + 215 - 62, kHeight / 2 + 75 - 28});  // Open
+  REQUIRE(app.settle());
+  CHECK(app.studio().scene()->serial != scene);
+  CHECK(app.studio().document().objects.empty());
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  app.studio().apply(SaveWork{folder / "all.splatcut.json"});
+  const std::uint64_t saved = app.studio().scene()->serial;
+  app.open(kSample);  // nothing would be lost
+  REQUIRE(app.settle());
+  CHECK(app.studio().scene()->serial != saved);
+}
+
+TEST_CASE("far limit: what lies beyond is neither drawn nor picked nor selected") {
+  HeadlessApp app(kWidth, kHeight);
+  opened(app);
+  const glm::vec2 wall(60, 60), apple = app.screen_of(kOnApple) - app->interface().viewport().min;
+  REQUIRE(app.studio().pick(wall));
+  REQUIRE(app.studio().pick(apple));
+  const Camera camera = app.studio().viewport_camera();
+  const auto depth = [&](const glm::vec2& at) { return camera.camera_from_world(app.studio().pick(at)->position_world).z; };
+  const float near_z = depth(apple), far_z = depth(wall), limit = 0.5f * (near_z + far_z);
+  REQUIRE(near_z < far_z);
+  ViewState view = app.studio().view();
+  view.far_share = limit / app.studio().camera().scene_size();
+  app.studio().apply(SetView{view});
+  CHECK_FALSE(app.studio().pick(wall));  // one pixel drawn for the question
+  REQUIRE(app.settle());
+  CHECK_FALSE(app.studio().pick(wall));  // the picture on the screen
+  CHECK(app.studio().pick(apple));
+  const Frame& frame = *app.studio().picture()->frames.front();
+  const GaussianCloud& cloud = *app.studio().scene()->cloud;
+  float farthest = 0;
+  for (const std::int32_t g : frame.first_hit.pixels())
+    if (g >= 0) farthest = std::max(farthest, camera.camera_from_world(cloud.position[static_cast<std::size_t>(g)]).z);
+  CHECK(farthest <= limit);
+  CHECK(farthest > near_z);
+  view.far_share = 0;
+  app.studio().apply(SetView{view});
+  REQUIRE(app.settle());
+  CHECK(app.studio().pick(wall));
+}
+
+TEST_CASE("a scene without cameras: the commands stand where the window opens it, whatever is up in the file") {
+  const ScratchFolder folder("no_cameras");
+  Scene scene = load_scene(kSample);
+  const glm::quat stood_up = glm::angleAxis(-glm::half_pi<float>(), glm::vec3(1, 0, 0));  // -y to +z
+  for (glm::vec3& p : scene.cloud.position) p = stood_up * p;
+  for (glm::quat& q : scene.cloud.rotation) q = stood_up * q;
+  const auto file = folder / "turned.splat";
+  save_scene(file, scene, {}, SceneFormat::kSplat);
+  HeadlessApp app(kWidth, kHeight);
+  app.open(file);
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().scene());
+  CHECK(app.studio().scene()->cameras.empty());
+  const Camera window = app.studio().viewport_camera();
+  CameraOptions options;
+  options.size = fmt::format("{}x{}", window.width_px, window.height_px);
+  const ChosenCamera chosen = choose_camera(options, *app.studio().scene()->cloud);
+  CHECK(glm::distance(chosen.up_world, glm::vec3(0, 0, 1)) < 1e-6f);
+  CHECK(glm::distance(chosen.camera.centre_world(), window.centre_world()) < 1e-3f);
+  CHECK(glm::distance(chosen.camera.forward_world(), window.forward_world()) < 1e-4f);
+  CHECK(glm::distance(chosen.camera.down_world(), window.down_world()) < 1e-4f);
+  CHECK(chosen.camera.fy_px == doctest::Approx(window.fy_px).epsilon(1e-4));
+
+  options.position = "0,0,5", options.target = "0,0,0";  // straight down: the guess must not refuse it
+  CHECK_NOTHROW(choose_camera(options, scene.cloud));
+  options.up = "0,0,1";
+  CHECK_THROWS_AS(choose_camera(options, scene.cloud), Error);
 }

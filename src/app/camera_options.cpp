@@ -9,6 +9,7 @@
 
 #include "scene/camera_file.h"
 #include "scene/error.h"
+#include "scene/guessed_view.h"
 
 namespace splatcut {
 
@@ -24,13 +25,22 @@ std::pair<int, int> parse_size(const std::string& text) {
   return {width, height};
 }
 
-// Stands back along +-z of the usual capture so that the robust bounds fill the picture.
-Camera framing_camera(const GaussianCloud& cloud, const glm::vec3& up, float fov_y_rad, int width, int height) {
-  const Box box = robust_bounds(cloud.position, 0.9);
-  const float radius = std::max(1e-6f, 0.5f * glm::length(box.extent()));
-  const glm::vec3 sideways = std::abs(up.z) < 0.9f ? glm::vec3(0, 0, -1) : glm::vec3(0, -1, 0);
-  const glm::vec3 back = glm::normalize(sideways - glm::dot(sideways, up) * up + 0.35f * up);
-  return look_at(box.centre() + back * (radius / std::sin(0.5f * fov_y_rad)), box.centre(), up, fov_y_rad, width, height);
+// Where the window would stand: the picture's size has no say in it.
+Camera first_view(const GaussianCloud& cloud, const glm::vec3& up, float fov_y_rad, int width, int height) {
+  constexpr int kGuessWidth = 640, kGuessHeight = 480;
+  const Box bounds = robust_bounds(cloud.position, 0.9);
+  const Camera all = view_of_all(bounds, up, fov_y_rad, kGuessWidth, kGuessHeight);
+  const Camera view = better_first_view(cloud, bounds, up, all).value_or(all);
+  const glm::vec3 eye = view.centre_world();
+  return look_at(eye, eye + view.forward_world(), up, fov_y_rad, width, height);
+}
+
+// A guess is no reason to refuse a view straight down.
+glm::vec3 up_for(const CameraOptions& options, const glm::vec3& forward, const glm::vec3& up) {
+  constexpr float kParallel = 1e-3f;
+  const bool parallel = glm::length(glm::cross(forward, up)) < kParallel * glm::length(forward) * glm::length(up);
+  if (!parallel || !options.up.empty() || !options.cameras.empty()) return up;
+  return std::abs(up.y) > 0.5f ? glm::vec3(0, 0, 1) : glm::vec3(0, -1, 0);
 }
 
 }  // namespace
@@ -40,7 +50,7 @@ void CameraOptions::add_to(CLI::App& command) {
   command.add_option("--camera", camera, "Which of the cameras: its name, or its number from 0");
   command.add_option("--camera-pos", position, "Camera position x,y,z");
   command.add_option("--camera-target", target, "Point in the middle of the picture x,y,z");
-  command.add_option("--camera-up", up, "Up direction x,y,z (default 0,-1,0)");
+  command.add_option("--camera-up", up, "Up direction x,y,z (without it: that of the cameras, or as the scene seems to stand)");
   command.add_option("--camera-fov", fov_y_deg, "Vertical field of view, degrees")->check(CLI::Range(1.0, 170.0));
   command.add_option("--size", size, "Picture size WxH");
 }
@@ -81,19 +91,22 @@ ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cl
     if (chosen.given.empty()) throw Error(options.cameras.string(), "holds no camera");
     chosen.up_world = common_up(chosen.given);
   }
-  if (!options.up.empty()) chosen.up_world = parse_vec3(options.up, "--camera-up");
+  if (!options.up.empty())
+    chosen.up_world = parse_vec3(options.up, "--camera-up");
+  else if (chosen.given.empty())
+    chosen.up_world = guessed_up(cloud);
   const float fov_y_rad = glm::radians(options.fov_y_deg);
   const auto [width, height] = options.size.empty() ? std::pair(kDefaultWidth, kDefaultHeight) : parse_size(options.size);
   if (!options.position.empty() || !options.target.empty()) {
     if (options.position.empty() || options.target.empty())
       throw Error("camera", "--camera-pos and --camera-target belong together", "Give both");
-    chosen.camera = look_at(parse_vec3(options.position, "--camera-pos"), parse_vec3(options.target, "--camera-target"),
-                            chosen.up_world, fov_y_rad, width, height);
+    const glm::vec3 position = parse_vec3(options.position, "--camera-pos"), target = parse_vec3(options.target, "--camera-target");
+    chosen.camera = look_at(position, target, up_for(options, target - position, chosen.up_world), fov_y_rad, width, height);
   } else if (!chosen.given.empty()) {
     chosen.camera = find_camera(chosen.given, options.camera.empty() ? "0" : options.camera, options.cameras.string());
     if (!options.size.empty()) chosen.camera = resized(chosen.camera, width, height);
   } else {
-    chosen.camera = framing_camera(cloud, glm::normalize(chosen.up_world), fov_y_rad, width, height);
+    chosen.camera = first_view(cloud, chosen.up_world, fov_y_rad, width, height);
   }
   return chosen;
 }

@@ -1,4 +1,5 @@
-// The camera part of the command line: given cameras, a look-at camera, or a view that frames the scene.
+// The camera part of the command line: given cameras, a look-at camera, or the view in which the window opens a scene
+// without cameras.
 #pragma once
 
 #include <CLI/CLI.hpp>

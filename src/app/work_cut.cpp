@@ -27,11 +27,11 @@ std::string free_file_name(const nlohmann::json& written, const ObjectItem& obje
 }  // namespace
 
 Document computed_again(const OpenedScene& scene, Document document, const Job& job, const PreparedCache& cache) {
-  const auto prepared = prepare(scene, job, cache);
+  const auto solvers = std::make_shared<SceneSolvers>(scene.cloud, prepare(scene, job, cache));
   for (ObjectItem& object : document.objects) {
     if (object.views.empty() || job.cancelled()) continue;
     const ObjectCutInput input = cut_input(document, object);
-    ObjectCutter cutter(scene.cloud, prepared);
+    ObjectCutter cutter(scene.cloud, solvers);
     ObjectCutReport report = cutter.cut(input, {}, job);
     if (report.outcome == Outcome::kNothingFound)
       throw Error(object.name, "is not found again: " + report.reason);

@@ -28,6 +28,8 @@ constexpr std::size_t kWidth = hn::MaxLanes(kF);
 constexpr float kLog2E = 1.4426950408889634f;
 constexpr float kLn2 = 0.6931471805599453f;
 constexpr float kLog2Of255 = 7.994353436858858f;
+constexpr float kCutoffSigmas = 3.4f;    // a little more than sqrt(2 ln 255): beyond it alpha is below 1/255
+constexpr float kLowPassReachPx = 2.0f;  // the same of the low-pass, a little more than 3.4 sqrt(0.3)
 
 struct V3 {
   V x, y, z;
@@ -116,19 +118,24 @@ struct Frame {
   glm::vec3 right, down, forward;  // camera axes in the world
   glm::vec3 eye_world;
   float limit_x, limit_y;  // of x/z and y/z in the Jacobian
+  float reach_x, reach_y;  // at most so many times focal length / z and the longest axis from the mean
   float near_plane;
   PixelRect region;
 };
 
 Frame frame_of(const Camera& camera, float near_plane, const PixelRect& region) {
   const glm::mat3 world_from_camera = glm::transpose(camera.camera_from_world_rotation);
+  const float limit_x = kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px;
+  const float limit_y = kFrustumSlack * 0.5f * static_cast<float>(camera.height_px) / camera.fy_px;
   return {camera,
           world_from_camera[0],
           world_from_camera[1],
           world_from_camera[2],
           camera.centre_world(),
-          kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px,
-          kFrustumSlack * 0.5f * static_cast<float>(camera.height_px) / camera.fy_px,
+          limit_x,
+          limit_y,
+          kCutoffSigmas * std::sqrt(1 + limit_x * limit_x),
+          kCutoffSigmas * std::sqrt(1 + limit_y * limit_y),
           near_plane,
           region};
 }
@@ -152,8 +159,19 @@ HWY_INLINE void project_vector(const Attributes& a, M wanted, std::uint32_t firs
   const V slope_x = hn::Mul(hn::Add(dot(right, a.position), set(t.x)), inverse_z);
   const V slope_y = hn::Mul(hn::Add(dot(down, a.position), set(t.y)), inverse_z);
 
-  // Rows of J W in the world frame; Sigma2 = (J W) R diag(s^2) R^T (J W)^T.
   const V pixels_x = hn::Mul(set(camera.fx_px), inverse_z), pixels_y = hn::Mul(set(camera.fy_px), inverse_z);
+  const V x = hn::Add(hn::Mul(set(camera.fx_px), slope_x), set(camera.cx_px));
+  const V y = hn::Add(hn::Mul(set(camera.fy_px), slope_y), set(camera.cy_px));
+  // Neighbours in space are neighbours in the cloud: mostly all of a vector lie far from a small region. No splat
+  // reaches farther than sqrt(2 ln 255) of its longest axis, seen at full length, and of the low-pass.
+  const V longest = hn::Max(hn::Max(a.scale.x, a.scale.y), a.scale.z);
+  const V reach_x = hn::MulAdd(hn::Mul(longest, pixels_x), set(frame.reach_x), set(kLowPassReachPx));
+  const V reach_y = hn::MulAdd(hn::Mul(longest, pixels_y), set(frame.reach_y), set(kLowPassReachPx));
+  const M near = hn::And(overlaps(x, reach_x, frame.region.x0, frame.region.x1),
+                         overlaps(y, reach_y, frame.region.y0, frame.region.y1));
+  if (hn::AllFalse(kF, hn::And(before, near))) return;
+
+  // Rows of J W in the world frame; Sigma2 = (J W) R diag(s^2) R^T (J W)^T.
   const V bend_x = clamp(slope_x, -frame.limit_x, frame.limit_x),
           bend_y = clamp(slope_y, -frame.limit_y, frame.limit_y);
   const auto row = [&](V pixels, const V3& axis, V bend) {
@@ -168,8 +186,6 @@ HWY_INLINE void project_vector(const Attributes& a, M wanted, std::uint32_t firs
   const V sigma_xy = dot(u, v);
   const V det = hn::Sub(hn::Mul(sigma_xx, sigma_yy), hn::Mul(sigma_xy, sigma_xy));
 
-  const V x = hn::Add(hn::Mul(set(camera.fx_px), slope_x), set(camera.cx_px));
-  const V y = hn::Add(hn::Mul(set(camera.fy_px), slope_y), set(camera.cy_px));
   const V log2_opacity = log2_of(a.opacity);
   const V mahalanobis2 =
       hn::Mul(set(2 * kLn2), hn::Max(hn::Add(log2_opacity, set(kLog2Of255)), hn::Zero(kF)));

@@ -11,6 +11,15 @@ namespace splatcut {
 CutSolver::CutSolver(const GaussianCloud& cloud, const FlowGraph& graph, CutOptions options)
     : cloud_(cloud), graph_(graph), options_(options) {}
 
+void CutSolver::set_options(const CutOptions& options) {
+  const EnergyOptions before = options_.energy;
+  options_ = options;
+  if (!max_flow_ || same_neighbour_term(before, options.energy)) return;
+  std::vector<std::int32_t> capacity = arc_capacities(cloud_, graph_, options.energy);
+  max_flow_->set_capacity(capacity);
+  capacity_ = std::move(capacity);
+}
+
 CutReport CutSolver::solve(const Likelihood& likelihood, int views, double pixels_per_view, const Job& job) {
   CutReport report;
   if (options_.coarse) {

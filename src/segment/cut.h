@@ -35,6 +35,9 @@ class CutSolver {
  public:
   CutSolver(const GaussianCloud& cloud, const FlowGraph& graph, CutOptions options);
 
+  // From the next solve on. The flow stays of use where only weights of the energy change.
+  void set_options(const CutOptions& options);
+
   // views, pixels_per_view: what the likelihood was summed over. Cancelled: the labels are unspecified.
   CutReport solve(const Likelihood& likelihood, int views, double pixels_per_view, const Job& job = {});
 

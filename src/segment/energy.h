@@ -54,6 +54,9 @@ float overlap_distance(const GaussianCloud& cloud, std::size_t g, std::size_t h)
 // lambda psi per arc; both arcs of an edge the same.
 std::vector<std::int32_t> arc_capacities(const GaussianCloud& cloud, const FlowGraph& graph, const EnergyOptions& options);
 
+// True where arc_capacities() gives the same for both.
+bool same_neighbour_term(const EnergyOptions& a, const EnergyOptions& b);
+
 struct Terminals {
   std::vector<std::int64_t> net;  // source minus sink
   std::int64_t base_flow = 0;     // sum of min(source, sink)

@@ -1,5 +1,7 @@
 #include "segment/likelihood.h"
 
+#include "segment/parallel.h"
+
 namespace splatcut {
 
 void add_masked_sums(const GaussianCloud& cloud, const Camera& camera, const Mask& mask, bool whole_pixels, const Job& job,
@@ -16,20 +18,20 @@ Likelihood likelihood(const MaskedSums& sums) {
   Likelihood out;
   out.w.resize(sums.total.size());
   out.seen_px.resize(sums.total.size());
-  for (std::size_t g = 0; g < sums.total.size(); ++g) {
+  for_each_index(sums.total.size(), [&](std::size_t g) {
     const auto total = static_cast<double>(sums.total[g]);
     out.w[g] = total > 0 ? static_cast<float>(static_cast<double>(sums.inside[g]) / total) : 0.0f;
     out.seen_px[g] = static_cast<float>(total / MaskedSums::kUnitsPerPixel);
-  }
+  });
   return out;
 }
 
 Likelihood with_prior(Likelihood seen, std::span<const std::uint8_t> prior, float prior_px) {
-  for (std::size_t g = 0; g < prior.size(); ++g) {
+  for_each_index(prior.size(), [&](std::size_t g) {
     const float all = seen.seen_px[g] + prior_px;
     seen.w[g] = (seen.w[g] * seen.seen_px[g] + (prior[g] ? prior_px : 0)) / all;
     seen.seen_px[g] = all;
-  }
+  });
   return seen;
 }
 

@@ -9,6 +9,7 @@
 #include "scene/rasterizer.h"
 #include "scene/splat_math.h"
 #include "segment/cv_image.h"
+#include "segment/parallel.h"
 
 namespace splatcut {
 
@@ -140,7 +141,7 @@ Image<float> render_labels(const GaussianCloud& cloud, const Camera& camera, std
   const PixelRect rect = labelled_rectangle(cloud, camera, labels);
   if (rect.empty()) return share;
   std::vector<glm::vec3> white(cloud.size());
-  for (std::size_t g = 0; g < cloud.size(); ++g) white[g] = glm::vec3(labels[g] ? 1.0f : 0.0f);
+  for_each_index(cloud.size(), [&](std::size_t g) { white[g] = glm::vec3(labels[g] ? 1.0f : 0.0f); });
   RasterOptions options;
   options.colour_override = white;
   options.roi = rect;

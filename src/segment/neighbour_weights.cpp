@@ -102,6 +102,11 @@ float overlap_distance(const GaussianCloud& cloud, std::size_t g, std::size_t h)
   return block.distance[0];
 }
 
+bool same_neighbour_term(const EnergyOptions& a, const EnergyOptions& b) {
+  return a.pairwise == b.pairwise && a.gamma_position == b.gamma_position && a.gamma_colour == b.gamma_colour &&
+         a.concavity == b.concavity && a.lambda == b.lambda && a.lambda_n == b.lambda_n;
+}
+
 std::vector<std::int32_t> arc_capacities(const GaussianCloud& cloud, const FlowGraph& graph, const EnergyOptions& options) {
   std::vector<std::int32_t> capacity(graph.arcs());
   const Unlikeness unlike(cloud, options);

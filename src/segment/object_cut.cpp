@@ -6,6 +6,7 @@
 
 #include "scene/png_file.h"
 #include "scene/rasterizer.h"
+#include "segment/knn_graph.h"
 #include "segment/likelihood.h"
 #include "segment/mask_tools.h"
 #include "segment/stage_clock.h"
@@ -134,9 +135,31 @@ std::string key_of(const ObjectCutInput& input) {
   return key;
 }
 
-ObjectCutter::ObjectCutter(std::shared_ptr<const GaussianCloud> cloud,
-                           std::shared_ptr<const PreparedScene> prepared)
+SceneSolvers::SceneSolvers(std::shared_ptr<const GaussianCloud> cloud, std::shared_ptr<const PreparedScene> prepared)
     : cloud_(std::move(cloud)), prepared_(std::move(prepared)) {}
+
+const PreparedScene& SceneSolvers::prepared(const PipelineOptions& options, const Job& job) {
+  const auto as_prepared = static_cast<int>(prepared_->graph.listed);
+  // A cloud of fewer Gaussians than neighbours asked for, or parts wanted: what is there.
+  if (options.neighbours >= as_prepared || options.first_mask_from == FirstMaskFrom::kParts) return *prepared_;
+  if (other_ && static_cast<int>(other_->graph.listed) == options.neighbours) return *other_;
+  other_solver_.reset();
+  other_.emplace().graph = knn_graph(*cloud_, prepare_options(options).graph, job);
+  return *other_;
+}
+
+CutSolver& SceneSolvers::solver(const PipelineOptions& options, const Job& job) {
+  const PreparedScene& scene = prepared(options, job);
+  std::optional<CutSolver>& solver = &scene == prepared_.get() ? solver_ : other_solver_;
+  if (solver)
+    solver->set_options(options.cut);
+  else
+    solver.emplace(*cloud_, scene.graph, options.cut);
+  return *solver;
+}
+
+ObjectCutter::ObjectCutter(std::shared_ptr<const GaussianCloud> cloud, std::shared_ptr<SceneSolvers> solvers)
+    : cloud_(std::move(cloud)), solvers_(std::move(solvers)) {}
 
 const PipelineReport& ObjectCutter::first_cut(const ObjectCutInput& input, const StrokedView& reference,
                                               const Snapshot& on_snapshot, const Job& job, bool* fresh) {
@@ -148,24 +171,71 @@ const PipelineReport& ObjectCutter::first_cut(const ObjectCutInput& input, const
   PipelineOptions options = preset(input.preset);
   options.on_snapshot = on_snapshot;
   options.pick.scale_steps = input.part_step;
-  PipelineReport report =
-      cut_out(*cloud_, prepared_.get(), reference.camera, input.up_world, reference.strokes, options, job);
+  CutSolver& solver = solvers_->solver(options, job);
+  PipelineReport report;
+  report.outcome = Outcome::kCancelled;
+  if (!job.cancelled())
+    report = cut_out(*cloud_, &solvers_->prepared(options, job), reference.camera, input.up_world, reference.strokes, options, job,
+                     &solver);
   first_key_ = report.outcome == Outcome::kCancelled ? std::string() : std::move(key);
   first_ = std::move(report);
   return *first_;
 }
 
-MaskedSums ObjectCutter::sums_of(const std::vector<ViewReport>& views, bool whole_pixels,
-                                 const Job& job) const {
+// Sums of the views that count, kept until those differ. False: cancelled.
+bool ObjectCutter::add_up_views(const ObjectCutReport& out, const PipelineOptions& settings, StageClock* clock, const Job& job) {
+  std::string key = key_of_views(out.views);
+  append(&key, settings.hard_counts);
+  if (sums_ && key == sums_key_) return !job.cancelled();
+  sums_.reset();
   MaskedSums sums(cloud_->size());
-  for (const ViewReport& view : views)
-    if (view.used && !job.cancelled())
-      add_masked_sums(*cloud_, view.camera, view.mask, whole_pixels, job, &sums);
-  return sums;
+  clock->time("likelihood", [&] {
+    for (const ViewReport& view : out.views)
+      if (view.used && !job.cancelled())
+        add_masked_sums(*cloud_, view.camera, view.mask, settings.hard_counts, job, &sums);
+  });
+  if (job.cancelled()) return false;
+  sums_ = std::move(sums);
+  sums_key_ = std::move(key);
+  return true;
 }
 
-std::vector<float> ObjectCutter::likelihood_of(const ObjectCutReport& report, const Job& job) const {
-  return likelihood(sums_of(report.views, false, job)).w;
+// What the last cut weighs: the views that count, corrected by strokes in other views, and what the parts say. `out`
+// holds the first cut's views and labels; those left out are marked, those of the corrections appended.
+Likelihood ObjectCutter::evidence(const ObjectCutInput& input, const PipelineReport& first, const PipelineOptions& settings,
+                                  StageClock* clock, const Job& job, ObjectCutReport* out) {
+  for (const int view : input.left_out)
+    if (view > 0 && view < static_cast<int>(out->views.size())) {
+      out->views[static_cast<std::size_t>(view)].used = false;
+      out->views[static_cast<std::size_t>(view)].reason = "left out";
+    }
+  if (!add_up_views(*out, settings, clock, job)) return {};
+  const auto first_used = std::ranges::count_if(out->views, [](const ViewReport& v) { return v.used; });
+  const auto reference = std::ranges::find_if(input.views, marks_object);
+  std::optional<MaskedSums> sums;  // where there are corrections
+  for (const StrokedView& view : input.views) {
+    if (&view == &*reference || view.strokes.empty() || job.cancelled()) continue;
+    if (!sums) sums = sums_;
+    const Correction c = clock->time("masks", [&] { return corrected(*cloud_, view, first.labels, settings, job); });
+    clock->time("likelihood", [&] {
+      add_masked_sums(*cloud_, c.camera, c.mask, settings.hard_counts, job, &*sums);
+      add_weighted(*cloud_, c, kCorrectionWeight * first_used, settings.hard_counts, job, &*sums);
+    });
+    out->views.push_back({c.camera, c.mask, true, 1, {}});
+  }
+  const auto used = std::ranges::count_if(out->views, [](const ViewReport& v) { return v.used; });
+  return with_prior(likelihood(sums ? *sums : *sums_), first.prior, settings.prior_px_per_view * static_cast<float>(used));
+}
+
+std::vector<float> ObjectCutter::likelihood_of(const ObjectCutInput& input, const Job& job) {
+  const auto reference = std::ranges::find_if(input.views, marks_object);
+  if (reference == input.views.end()) return std::vector<float>(cloud_->size(), 0);
+  bool fresh = false;
+  const PipelineReport& first = first_cut(input, *reference, {}, job, &fresh);
+  ObjectCutReport scratch;
+  scratch.views = first.views;
+  StageClock clock(&scratch.stages);
+  return evidence(input, first, preset(input.preset), &clock, job, &scratch).w;
 }
 
 ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& on_snapshot, const Job& job) {
@@ -187,55 +257,25 @@ ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& o
   out.size = first.first_size;
   out.ambiguous = first.ambiguous;
   if (fresh) out.stages = first.stages;
-  const auto settings = preset(input.preset);
+  PipelineOptions settings = preset(input.preset);
   const float smoothness = input.smoothness.value_or(settings.cut.energy.lambda);
   const bool as_it_is =
       input.views.size() == 1 && input.left_out.empty() && smoothness == settings.cut.energy.lambda;
   if (first.outcome != Outcome::kDone || as_it_is) return out;
 
   StageClock clock(&out.stages);
-  for (const int view : input.left_out)
-    if (view > 0 && view < static_cast<int>(out.views.size())) {
-      out.views[static_cast<std::size_t>(view)].used = false;
-      out.views[static_cast<std::size_t>(view)].reason = "left out";
-    }
-  std::string sums_key = key_of_views(out.views);
-  append(&sums_key, settings.hard_counts);
-  if (!sums_ || sums_key != sums_key_) {
-    sums_.reset();
-    MaskedSums sums = clock.time("likelihood", [&] { return sums_of(out.views, settings.hard_counts, job); });
-    if (!job.cancelled()) {
-      sums_ = std::move(sums);
-      sums_key_ = std::move(sums_key);
-    }
-  }
+  const Likelihood weighed = evidence(input, first, settings, &clock, job, &out);
   if (job.cancelled()) {
     out.outcome = Outcome::kCancelled;
     return out;
   }
   job.progress("cut", 0.9);
-  MaskedSums sums = *sums_;
-  auto used = std::ranges::count_if(out.views, [](const ViewReport& v) { return v.used; });
-  const auto first_used = used;
-  for (const StrokedView& view : input.views) {
-    if (&view == &*reference || view.strokes.empty() || job.cancelled()) continue;
-    const Correction c =
-        clock.time("masks", [&] { return corrected(*cloud_, view, out.labels, settings, job); });
-    clock.time("likelihood", [&] {
-      add_masked_sums(*cloud_, c.camera, c.mask, settings.hard_counts, job, &sums);
-      add_weighted(*cloud_, c, kCorrectionWeight * first_used, settings.hard_counts, job, &sums);
-    });
-    out.views.push_back({c.camera, c.mask, true, 1, {}});
-    ++used;
-  }
-  CutOptions options = settings.cut;
-  options.energy.lambda = smoothness;
+  settings.cut.energy.lambda = smoothness;
   const Camera& view = out.views.front().camera;
   const double pixels = static_cast<double>(view.width_px) * view.height_px;
+  const auto used = static_cast<int>(std::ranges::count_if(out.views, [](const ViewReport& v) { return v.used; }));
   const auto report = clock.time("cut", [&] {
-    const float prior_px = settings.prior_px_per_view * static_cast<float>(used);
-    return CutSolver(*cloud_, prepared_->graph, options)
-        .solve(with_prior(likelihood(sums), first.prior, prior_px), static_cast<int>(used), pixels, job);
+    return solvers_->solver(settings, job).solve(weighed, used, pixels, job);
   });
   if (job.cancelled())
     out.outcome = Outcome::kCancelled;

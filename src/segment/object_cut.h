@@ -1,7 +1,7 @@
 // From one object's strokes, in any number of views, to a label per Gaussian: what the window runs after
 // every stroke, and what `splatcut cut --work` runs again.
 //
-// In: cloud with its prepared data, strokes by view (the first view with an object stroke is the reference),
+// In: cloud with its solvers, strokes by view (the first view with an object stroke is the reference),
 // views to leave out, smoothness. Out: labels (1 = object), the views with their masks, milliseconds per
 // stage. Steps: (1) cut_out() from the reference's strokes at the preset's own smoothness; (2) where strokes
 // in other views, left-out views or another smoothness ask for it, the masks are corrected and one more cut
@@ -24,6 +24,8 @@
 #include "segment/prepared_scene.h"
 
 namespace splatcut {
+
+class StageClock;
 
 struct StrokedView {
   Camera camera;
@@ -50,24 +52,45 @@ struct ObjectCutReport {
   std::vector<StageTime> stages;     // what was done this time; kept steps cost nothing and are not listed
 };
 
+// The solvers of a scene, for all its objects, one cut at a time: what they know of the graph, and mostly the flow, is of
+// use to the next cut. Labels do not depend on what was solved before.
+class SceneSolvers {
+ public:
+  SceneSolvers(std::shared_ptr<const GaussianCloud> cloud, std::shared_ptr<const PreparedScene> prepared);
+
+  // As the options want it: with another number of neighbours than was prepared, a graph is made and kept. Cancelled:
+  // what is returned must not be used.
+  const PreparedScene& prepared(const PipelineOptions& options, const Job& job);
+  CutSolver& solver(const PipelineOptions& options, const Job& job);
+
+ private:
+  std::shared_ptr<const GaussianCloud> cloud_;
+  std::shared_ptr<const PreparedScene> prepared_;
+  std::optional<PreparedScene> other_;  // a graph without parts
+  std::optional<CutSolver> solver_, other_solver_;
+};
+
 class ObjectCutter {
  public:
   using Snapshot = std::function<void(const PipelineReport&)>;  // called on the running thread
 
-  ObjectCutter(std::shared_ptr<const GaussianCloud> cloud, std::shared_ptr<const PreparedScene> prepared);
+  ObjectCutter(std::shared_ptr<const GaussianCloud> cloud, std::shared_ptr<SceneSolvers> solvers);
 
   ObjectCutReport cut(const ObjectCutInput& input, const Snapshot& on_snapshot = {}, const Job& job = {});
 
-  // w_g of the views that count in `report`, for display.
-  std::vector<float> likelihood_of(const ObjectCutReport& report, const Job& job = {}) const;
+  // w_g as the last cut of `input` weighed it, for display: soft or hard, with corrections and what the parts say.
+  // Cancelled, or nothing marked: unspecified.
+  std::vector<float> likelihood_of(const ObjectCutInput& input, const Job& job = {});
 
  private:
   const PipelineReport& first_cut(const ObjectCutInput& input, const StrokedView& reference,
                                   const Snapshot& on_snapshot, const Job& job, bool* fresh);
-  MaskedSums sums_of(const std::vector<ViewReport>& views, bool whole_pixels, const Job& job) const;
+  bool add_up_views(const ObjectCutReport& out, const PipelineOptions& settings, StageClock* clock, const Job& job);
+  Likelihood evidence(const ObjectCutInput& input, const PipelineReport& first, const PipelineOptions& settings,
+                      StageClock* clock, const Job& job, ObjectCutReport* out);
 
   std::shared_ptr<const GaussianCloud> cloud_;
-  std::shared_ptr<const PreparedScene> prepared_;
+  std::shared_ptr<SceneSolvers> solvers_;
   std::string first_key_;                // inputs of step 1 as bytes
   std::optional<PipelineReport> first_;  // its result
   std::string sums_key_;                 // masks that sums_ was added up from

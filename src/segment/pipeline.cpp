@@ -44,9 +44,9 @@ Picture render(const GaussianCloud& cloud, const Camera& camera, const Job& job)
 class Run {
  public:
   Run(const GaussianCloud& cloud, const PreparedScene& prepared, const PipelineOptions& options, const Job& job,
-      PipelineReport* report)
+      PipelineReport* report, CutSolver& solver)
       : cloud_(cloud), graph_(prepared.graph), parts_(prepared.parts), options_(options), job_(job), report_(*report), clock_(&report->stages),
-        sums_(cloud.size()), solver_(cloud, prepared.graph, options.cut), work_width_px_(options.work_width_px) {}
+        sums_(cloud.size()), solver_(solver), work_width_px_(options.work_width_px) {}
 
   bool answered_by_parts() const { return !prior().empty() && !options_.cut_parts; }
   void reference_view(const Camera& full, const Strokes& strokes);
@@ -86,7 +86,7 @@ class Run {
   PipelineReport& report_;
   StageClock clock_;
   MaskedSums sums_;
-  CutSolver solver_;
+  CutSolver& solver_;
   std::vector<SeenView> seen_;  // in two dimensions; empty for kLift
   int work_width_px_;
   int used_views_ = 0;
@@ -344,7 +344,8 @@ std::size_t trim_to_views(const GaussianCloud& cloud, const std::vector<ViewRepo
 }
 
 PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,
-                       const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options, const Job& job) {
+                       const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options, const Job& job,
+                       CutSolver* solver) {
   if (!options.cut_parts && options.first_mask_from != FirstMaskFrom::kParts)
     throw Error("settings", "the parts cannot be the answer where the first mask comes from pixels", "Leave one of the two out");
   PipelineReport report;
@@ -354,7 +355,9 @@ PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared
     report.stages = made.stages;
     prepared = &made;
   }
-  Run run(cloud, *prepared, options, job, &report);
+  std::optional<CutSolver> fresh;
+  if (!solver) solver = &fresh.emplace(cloud, prepared->graph, options.cut);
+  Run run(cloud, *prepared, options, job, &report, *solver);
   const auto cancelled = [&] {
     if (job.cancelled()) report.outcome = Outcome::kCancelled;
     return job.cancelled();
@@ -380,7 +383,8 @@ PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared
 Mask first_mask_of(const GaussianCloud& cloud, const PreparedScene& prepared, const Camera& reference, const Strokes& strokes,
                    const PipelineOptions& options, const Job& job) {
   PipelineReport report;
-  Run run(cloud, prepared, options, job, &report);
+  CutSolver solver(cloud, prepared.graph, options.cut);
+  Run run(cloud, prepared, options, job, &report, solver);
   run.reference_view(reference, strokes);
   if (report.views.empty()) {  // cancelled
     const Camera camera = limited_to_width(reference, options.work_width_px);

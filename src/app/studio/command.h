@@ -141,6 +141,7 @@ struct SaveWork {
   std::filesystem::path path;
 };
 struct RestoreAutosave {};
+struct DropAutosave {};
 struct Export {
   ExportRequest request;
 };
@@ -160,6 +161,6 @@ using Command =
                  ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject, DuplicateObject,
                  SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness, SetPreset,
                  SetBackground, SetUp, Undo, Redo, JumpHistory, Cancel, Recompute, SetView, GoToCamera, SetFieldOfView,
-                 OpenScene, SaveWork, RestoreAutosave, Export, SaveSnapshot, SaveTurntable>;
+                 OpenScene, SaveWork, RestoreAutosave, DropAutosave, Export, SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

@@ -22,6 +22,15 @@
 
 namespace splatcut {
 
+// What lies nearer or farther than this along the view axis is not drawn, scene units.
+struct DepthRange {
+  float near_plane = 0.2f, far_plane = 1e30f;
+  bool operator==(const DepthRange&) const = default;
+};
+
+// The Gaussians that are shown and not beyond the far plane. `shown` itself where there is none.
+Flags within_far_plane(const GaussianCloud& cloud, const Camera& camera, const Flags& shown, float far_plane);
+
 // One pane of the viewport: the whole, or one half of side by side.
 struct PaneRequest {
   Camera camera;
@@ -34,7 +43,7 @@ struct FrameRequest {
   std::shared_ptr<const GaussianCloud> cloud;
   std::shared_ptr<const CoarseCloud> coarse;  // may be null: what reduced pictures are drawn of
   std::vector<PaneRequest> panes;  // 1 or 2, left to right
-  float near_plane = 0.2f;
+  DepthRange range;
   bool full = true;  // full resolution; may be stopped by the next request
 };
 
@@ -44,6 +53,7 @@ struct FrameResult {
   std::vector<Image<Rgba8>> pictures;
   bool full = true;
   double ms = 0;  // rasterising and shading
+  DepthRange range;
 };
 
 class FrameThread {
@@ -70,7 +80,7 @@ class FrameThread {
   struct Kept {
     std::uint64_t scene = 0;
     Flags shown;
-    float near_plane = 0;
+    DepthRange range;
     bool full = true;
     std::shared_ptr<const Frame> frame;
   };
@@ -81,9 +91,9 @@ class FrameThread {
 
 // The same on the calling thread, without reuse: for captures and tests.
 std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
-                                          const Flags& shown, float near_plane, const Job& job = {});
+                                          const Flags& shown, const DepthRange& range, const Job& job = {});
 std::shared_ptr<const Frame> coarse_frame(const CoarseCloud& coarse, const Camera& camera, const Flags& shown,
-                                          float near_plane, const Job& job = {});
+                                          const DepthRange& range, const Job& job = {});
 
 bool same_camera(const Camera& a, const Camera& b);  // names apart
 

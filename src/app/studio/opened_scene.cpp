@@ -13,9 +13,7 @@ namespace {
 
 Camera view_of_all(const OpenedScene& scene) {
   constexpr int kWidth = 640, kHeight = 480;
-  CameraController start;
-  start.reset(scene.bounds, scene.up_world);
-  return start.camera(kWidth, kHeight);
+  return view_of_all(scene.bounds, scene.up_world, CameraPose{}.fov_y_rad, kWidth, kHeight);
 }
 
 // Without cameras the splats themselves have to say how the scene stands and from where it is seen.

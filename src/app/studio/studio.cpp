@@ -35,8 +35,9 @@ Studio::Studio(StudioOptions options)
     }
     say(Message::Kind::kError, text);
   };
-  autosave_found_ = !options_.state_folder.empty() &&
-                    std::filesystem::exists(options_.state_folder / "autosave.splatcut.json");
+  if (options_.state_folder.empty()) return;
+  for (const char* name : {kAutosaveBefore, kAutosave})
+    if (std::filesystem::exists(options_.state_folder / name)) restorable_ = options_.state_folder / name;
 }
 
 Studio::~Studio() = default;

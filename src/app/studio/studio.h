@@ -26,6 +26,10 @@ namespace splatcut {
 
 struct EditContext;
 
+// In the state folder: the work as it is now, and what was left by a program that ended badly before.
+inline constexpr const char* kAutosave = "autosave.splatcut.json";
+inline constexpr const char* kAutosaveBefore = "autosave.before.splatcut.json";
+
 struct StudioOptions {
   std::function<void()> wake;          // called from any thread when update() has something to do
   bool inline_tasks = false;           // for tests: tasks run inside apply()
@@ -129,10 +133,11 @@ class Studio {
   float moving_scale() const { return moving_scale_; }
   double moving_ms() const { return moving_ms_; }
   double still_ms() const { return still_ms_; }
-  bool autosave_found() const { return autosave_found_; }
+  // Work that the program did not get to save last time: offered until it is restored or dropped.
+  bool autosave_found() const { return !restorable_.empty(); }
   std::vector<UiRequest> take_ui_requests() { return std::exchange(ui_requests_, {}); }
   std::optional<PickedPoint> pick(const glm::vec2& pixel) const;
-  float near_plane() const;
+  DepthRange depth_range() const;
   std::uint64_t document_serial() const { return document_serial_; }
   const std::filesystem::path& work_path() const { return work_path_; }
   bool unsaved() const { return !document().objects.empty() && saved_serial_ != document_serial_; }
@@ -169,6 +174,7 @@ class Studio {
   void perform(const OpenScene& c);
   void perform(const SaveWork& c);
   void perform(const RestoreAutosave&);
+  void perform(const DropAutosave&);
   void perform(const Export& c);
   void perform(const SaveSnapshot& c);
   void perform(const SaveTurntable& c);
@@ -209,6 +215,7 @@ class Studio {
   PointerTools tools_;
   std::shared_ptr<const OpenedScene> scene_;
   std::shared_ptr<const PreparedScene> prepared_;
+  std::shared_ptr<SceneSolvers> solvers_;  // for the worker
   std::shared_ptr<const CoarseCloud> coarse_;  // of large scenes, for pictures while the view moves
   std::map<ObjectId, CutRun> runs_;
   std::vector<std::pair<ObjectId, std::shared_ptr<ObjectCutter>>> cutters_;  // most recent last
@@ -244,7 +251,7 @@ class Studio {
   double moving_ms_ = 0, still_ms_ = 0;
 
   std::filesystem::path work_path_;
-  bool autosave_found_ = false;
+  std::filesystem::path restorable_;  // empty: none
   std::uint64_t autosaved_serial_ = 1, saved_serial_ = 1;
   double autosave_wait_s_ = 0;
   std::uint64_t next_scene_serial_ = 1, next_card_serial_ = 1;

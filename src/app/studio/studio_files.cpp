@@ -16,10 +16,11 @@ namespace splatcut {
 namespace {
 
 // Straight alpha over nothing, or colour over the background.
-Image<Rgba8> capture(const GaussianCloud& cloud, const Camera& camera, const Flags& shown, float near_plane,
+Image<Rgba8> capture(const GaussianCloud& cloud, const Camera& camera, const Flags& visible, const DepthRange& range,
                      const glm::vec3& background, bool transparent, const Job& job) {
   RasterOptions options;
-  options.near_plane = near_plane;
+  options.near_plane = range.near_plane;
+  const Flags shown = within_far_plane(cloud, camera, visible, range.far_plane);
   if (shown) options.shown = *shown;
   const RasterOutput out = rasterize(cloud, camera, options, job);
   Image<Rgba8> picture(camera.width_px, camera.height_px);
@@ -49,16 +50,22 @@ void Studio::perform(const SaveWork& c) {
 }
 
 void Studio::leave() {
-  if (options_.state_folder.empty() || unsaved() || autosave_found_) return;
+  if (options_.state_folder.empty() || unsaved()) return;
   tasks_.cancel(TaskKind::kExport);
   std::error_code ignored;
-  std::filesystem::remove(options_.state_folder / "autosave.splatcut.json", ignored);
+  if (restorable_ != options_.state_folder / kAutosave) std::filesystem::remove(options_.state_folder / kAutosave, ignored);
 }
 
 void Studio::perform(const RestoreAutosave&) {
-  if (!autosave_found_) throw Error("restore", "there is no autosaved work");
-  autosave_found_ = false;
-  perform(OpenScene{options_.state_folder / "autosave.splatcut.json"});
+  if (restorable_.empty()) throw Error("restore", "there is no autosaved work");
+  perform(OpenScene{std::exchange(restorable_, {})});
+}
+
+void Studio::perform(const DropAutosave&) {
+  if (restorable_.empty()) throw Error("restore", "there is no autosaved work");
+  std::error_code ignored;
+  std::filesystem::remove(std::exchange(restorable_, {}), ignored);
+  say(Message::Kind::kInfo, "The work of last time is gone");
 }
 
 void Studio::perform(const Export& c) {
@@ -78,11 +85,11 @@ void Studio::perform(const Export& c) {
 void Studio::perform(const SaveSnapshot& c) {
   require_scene();
   const Camera camera = viewport_camera();
-  tasks_.submit(TaskKind::kExport, [this, c, camera, visible = shown(0), near = near_plane(),
+  tasks_.submit(TaskKind::kExport, [this, c, camera, visible = shown(0), range = depth_range(),
                                     background = document().background, scene = scene_](const Job& job) {
     job.progress("drawing", 0);
     const Image<Rgba8> picture =
-        capture(*scene->cloud, camera, visible, near, background, c.transparent, job);
+        capture(*scene->cloud, camera, visible, range, background, c.transparent, job);
     if (job.cancelled()) return;
     write_png(c.path, picture);
     tasks_.post([this, c] { say(Message::Kind::kDone, "Picture saved to " + c.path.string()); });
@@ -104,7 +111,7 @@ void Studio::perform(const SaveTurntable& c) {
   const std::vector<std::uint8_t> own = labels(object->id);
   const ObjectExtent extent = object_extent(*scene_->cloud, own);
   const Camera front = viewport_camera();
-  tasks_.submit(TaskKind::kExport, [this, c, extent, front, visible = make_flags(own), near = near_plane(),
+  tasks_.submit(TaskKind::kExport, [this, c, extent, front, visible = make_flags(own), near = depth_range().near_plane,
                                     up = document().up_world, scene = scene_](const Job& job) {
     OutputFolder folder(c.folder, true);
     // The camera goes round at its own elevation, from where the user stands.
@@ -119,7 +126,7 @@ void Studio::perform(const SaveTurntable& c) {
       const Camera camera = look_at(extent.centre_world + glm::angleAxis(angle, up) * offset,
                                     extent.centre_world, up, fov_y, width, height);
       write_png(folder.file(fmt::format("frame_{:04}.png", i)),
-                capture(*scene->cloud, camera, visible, near, glm::vec3(0), true, job));
+                capture(*scene->cloud, camera, visible, {.near_plane = near}, glm::vec3(0), true, job));
     }
     if (job.cancelled()) return;
     folder.commit();

@@ -82,6 +82,7 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
                     const std::filesystem::path& work_path) {
   tasks_.cancel(TaskKind::kPrepare);
   prepared_ = nullptr;
+  solvers_ = nullptr;
   coarse_ = nullptr;
   runs_.clear();
   cutters_.clear();
@@ -108,6 +109,7 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
   }
   document_changed();
   autosaved_serial_ = saved_serial_ = document_serial_;
+  if (document && work_path_.empty()) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
   ++view_serial_;
   const Scene& s = *scene->scene;
   std::string text = fmt::format("{}: {} Gaussians, SH degree {}", s.path.filename().string(), s.cloud.size(),
@@ -124,7 +126,9 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
     auto prepared = prepare(*scene, job, options_.cache);
     if (job.cancelled()) return;
     tasks_.post([this, scene, prepared] {
-      if (scene == scene_) prepared_ = prepared;
+      if (scene != scene_) return;
+      prepared_ = prepared;
+      solvers_ = std::make_shared<SceneSolvers>(scene->cloud, prepared);
     });
   });
   if (options_.inline_tasks) tasks_.deliver();
@@ -161,7 +165,7 @@ std::shared_ptr<ObjectCutter> Studio::cutter_for(ObjectId object) {
   if (found != cutters_.end()) {
     std::rotate(found, found + 1, cutters_.end());
   } else {
-    cutters_.emplace_back(object, std::make_shared<ObjectCutter>(scene_->cloud, prepared_));
+    cutters_.emplace_back(object, std::make_shared<ObjectCutter>(scene_->cloud, solvers_));
     if (cutters_.size() > kCuttersKept) cutters_.erase(cutters_.begin());
   }
   return cutters_.back().second;
@@ -251,7 +255,7 @@ void Studio::start_cut(const ObjectItem& object) {
     });
     // The cutout is on the screen; the rest is for looking at.
     std::shared_ptr<const std::vector<float>> likelihood;
-    if (heat) likelihood = std::make_shared<const std::vector<float>>(cutter->likelihood_of(report, job));
+    if (heat) likelihood = std::make_shared<const std::vector<float>>(cutter->likelihood_of(input, job));
     std::vector<ViewCard> cards;
     for (const ViewReport& view : report.views) {
       if (job.cancelled()) return;
@@ -283,9 +287,8 @@ void Studio::request_likelihood() {
                                  cutter = cutter_for(object->id), id = object->id, key = object->cut_key,
                                  scene = scene_](const Job& job) {
     job.progress("likelihood", 0);
-    const ObjectCutReport report = cutter->cut(input, {}, job);  // kept from the last cut, or computed again
-    if (job.cancelled()) return;
-    auto likelihood = std::make_shared<const std::vector<float>>(cutter->likelihood_of(report, job));
+    // Kept from the last cut, or computed again.
+    auto likelihood = std::make_shared<const std::vector<float>>(cutter->likelihood_of(input, job));
     if (job.cancelled()) return;
     tasks_.post([this, id, key, scene, likelihood] {
       if (scene != scene_ || runs_[id].key != key) return;
@@ -303,10 +306,19 @@ void Studio::autosave(double seconds) {
   autosave_wait_s_ += seconds;
   if (autosave_wait_s_ < kAutosaveAfterSeconds) return;
   autosaved_serial_ = document_serial_;
-  tasks_.submit(TaskKind::kExport, [path = options_.state_folder / "autosave.splatcut.json",
+  const std::filesystem::path path = options_.state_folder / kAutosave;
+  if (restorable_ == path) {  // what is offered must not be written over
+    std::error_code trouble;
+    std::filesystem::rename(path, options_.state_folder / kAutosaveBefore, trouble);
+    if (!trouble) restorable_ = options_.state_folder / kAutosaveBefore;
+  }
+  const auto before = options_.state_folder / kAutosaveBefore;
+  tasks_.submit(TaskKind::kExport, [path, restored = restorable_ == before ? std::filesystem::path() : before,
                                     document = document(), scene = scene_](const Job&) {
     std::filesystem::create_directories(path.parent_path());
     write_work_file(path, *scene->scene, scene->hash, document);
+    std::error_code ignored;  // what was restored is in the file now
+    if (!restored.empty()) std::filesystem::remove(restored, ignored);
   });
 }
 

@@ -26,8 +26,11 @@ void Studio::set_viewport(int width_px, int height_px, float pixels_per_point) {
   pixels_per_point_ = pixels_per_point;
 }
 
-float Studio::near_plane() const {
-  return scene_ ? scene_->cloud->near_plane * (view_.near_share / kNaturalNearShare) : kNaturalNearShare;
+DepthRange Studio::depth_range() const {
+  DepthRange range;
+  if (scene_) range.near_plane = scene_->cloud->near_plane * (view_.near_share / kNaturalNearShare);
+  if (view_.far_share > 0) range.far_plane = view_.far_share * camera_.scene_size();
+  return range;
 }
 
 Camera Studio::viewport_camera() const {
@@ -58,7 +61,7 @@ std::optional<PickedPoint> Studio::pick(const glm::vec2& pixel) const {
   const auto x = static_cast<int>(std::floor(pixel.x)), y = static_cast<int>(std::floor(pixel.y));
   if (x < 0 || y < 0 || x >= camera.width_px || y >= camera.height_px) return {};
   // The picture on the screen knows, where it is this view; else one pixel is drawn.
-  if (picture_ && !picture_->frames.empty()) {
+  if (picture_ && !picture_->frames.empty() && picture_->range == depth_range()) {
     const Frame& frame = *picture_->frames.front();
     if (same_camera(frame.camera, camera)) {
       if (frame.first_hit.at(x, y) < 0) return {};
@@ -68,9 +71,9 @@ std::optional<PickedPoint> Studio::pick(const glm::vec2& pixel) const {
   RasterOptions options;
   options.colour = false;
   options.depth = true;
-  options.near_plane = near_plane();
+  options.near_plane = depth_range().near_plane;
   options.roi = PixelRect{x, y, x + 1, y + 1};
-  const Flags visible = shown(0);
+  const Flags visible = within_far_plane(*scene_->cloud, camera, shown(0), depth_range().far_plane);
   if (visible) options.shown = *visible;
   const RasterOutput out = rasterize(*scene_->cloud, camera, options);
   if (out.first_hit.at(0, 0) < 0) return {};
@@ -195,7 +198,7 @@ void Studio::request_picture() {
   requested_camera_ = camera;
   requested_full_ = still;
   requested_style_ = style_version_;
-  FrameRequest request{scene_->serial, scene_->cloud, coarse_, {}, near_plane(), still};
+  FrameRequest request{scene_->serial, scene_->cloud, coarse_, {}, depth_range(), still};
   for (int pane = 0; pane < panes(); ++pane) request.panes.push_back({camera, shown_[pane], style_[pane]});
   frames_.request(std::move(request));
 }

@@ -2,6 +2,7 @@
 // it finds comes back as closures that the main thread runs in deliver().
 //
 // A task of a kind replaces the waiting and stops the running task of the same kind: the latest request wins.
+// Preparing runs at a lower priority: pictures of the scene come first, also where there are few cores.
 // Cancel is a normal end. Shutdown: stop is requested, what waits is dropped, the thread is joined.
 #pragma once
 

@@ -32,6 +32,7 @@ struct ViewState {
   bool outline = true;
   bool heat = false;
   float near_share = 0.01f;  // near plane, of the scene's size; see natural_near_plane()
+  float far_share = 0;       // far plane, of the scene's size; 0: none
 
   bool operator==(const ViewState&) const = default;
 };

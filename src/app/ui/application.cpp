@@ -119,7 +119,14 @@ void Application::handle_one(const TextTyped& event) {
 }
 
 void Application::handle_one(const FileDropped& event) {
-  studio_.apply(OpenScene{event.path});
+  open(event.path);
+}
+
+void Application::open(const std::filesystem::path& path) {
+  if (studio_.unsaved())
+    interface_.state().open_asked = path;
+  else
+    studio_.apply(OpenScene{path});
 }
 
 void Application::handle_one(const FocusChanged& event) {
@@ -163,7 +170,13 @@ bool Application::frame(double seconds) {
   draw_interface();
   times.draw = lap();
   for (const Action action : ask.actions) studio_.run(action);
-  for (const Command& command : ask.commands) studio_.apply(command);
+  for (const Command& command : ask.commands) {
+    if (const auto* opened = std::get_if<OpenScene>(&command))
+      open(opened->path);
+    else
+      studio_.apply(command);
+  }
+  if (const auto path = std::exchange(interface_.state().open_now, {})) studio_.apply(OpenScene{*path});
   times.requests = lap();
   if (times.total() > longest_.total()) longest_ = times;
   return busy || !ask.actions.empty() || !ask.commands.empty();

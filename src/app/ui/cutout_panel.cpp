@@ -10,16 +10,17 @@ namespace splatcut {
 
 namespace {
 
-constexpr const char* kPresets[] = {"fast", "default", "best", "paper"};
-constexpr const char* kPresetLabels[] = {"Fast", "Default", "Best", "Paper"};
+constexpr const char* kPresets[] = {"fast", "default", "best", "paper", "paper-code"};
+constexpr const char* kPresetLabels[] = {"Fast", "Default", "Best", "Paper", "Code"};
 constexpr const char* kPresetTips[] = {
     "Your view only: quickest, for a first look", "Your view and a few around the object",
-    "More views, finer pictures: slower", "GaussianCut's literal energy and number of views"};
+    "More views, finer pictures: slower", "GaussianCut's literal energy and number of views",
+    "The energy of GaussianCut's published code, which differs from the paper"};
 
 void quality_choice(UiContext& ui) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Quality");
-  ImGui::SameLine(92);
+  ImGui::SameLine(62);
   const std::string& now = ui.studio.document().preset;
   for (std::size_t i = 0; i < std::size(kPresets); ++i) {
     if (i > 0) ImGui::SameLine(0, 2);

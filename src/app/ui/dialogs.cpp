@@ -205,6 +205,28 @@ void help_page(UiContext& ui) {
   ImGui::EndPopup();
 }
 
+void open_anyway_dialog(UiContext& ui) {
+  const char* id = "Open without saving?###open_anyway";
+  if (ui.state.open_asked && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
+  centre_next_window({430, 150});
+  if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
+  const std::string name = ui.state.open_asked ? ui.state.open_asked->filename().string() : "";
+  wrapped_muted(ui, fmt::format("The objects and strokes were not saved since they changed; opening {} ends that work.", name));
+  ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
+  const bool stays = ImGui::Button("Stay", {100, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
+  ImGui::SameLine();
+  const bool saves = ImGui::Button("Save...", {100, 0});
+  ImGui::SameLine(ImGui::GetWindowWidth() - 112);
+  const bool opens = button(ui, "Open", "Open it", {}, true, 100);
+  if (opens) ui.state.open_now = ui.state.open_asked;
+  if (stays || saves || opens) {
+    ui.state.open_asked.reset();
+    ImGui::CloseCurrentPopup();
+  }
+  if (saves) ui.ask(Action::kSave);
+  ImGui::EndPopup();
+}
+
 void quit_dialog(UiContext& ui) {
   const char* id = "Leave without saving?###quit";
   if (ui.state.quit_asked && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);

@@ -56,6 +56,7 @@ std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
     ++order_serial_;
   }
   if (!order_) return textures;
+  const DepthRange range = studio.depth_range();
   for (int i = 0; i < studio.panes(); ++i) {
     if (!panes_[i]) panes_[i] = std::make_unique<Pane>();
     refresh(panes_[i].get(), studio, i);
@@ -64,7 +65,7 @@ std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
       splats.upload_order(order_->back_to_front);
       uploaded_order_[i] = order_serial_;
     }
-    splats.draw(camera, {.near_plane = studio.near_plane()});
+    splats.draw(camera, {.near_plane = range.near_plane, .far_plane = range.far_plane});
     const FrameStyle style = studio.style(i);
     splats.resolve({.background = style.background,
                     .tint_strength = style.heat   ? kHeat

@@ -19,12 +19,6 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowF
 constexpr ImGuiWindowFlags kOverPicture =
     (kFixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoFocusOnAppearing;
 
-bool has_strip(const Studio& studio) {
-  const ObjectItem* object = studio.document().active_object();
-  const CutRun* run = object ? studio.cut_run(object->id) : nullptr;
-  return studio.scene() && run && !run->views.empty();
-}
-
 // A panel that fills a rectangle.
 template <class Content>
 void fixed_panel(const char* name, const UiRect& rect, const Palette& palette, ImGuiWindowFlags flags,
@@ -131,8 +125,9 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   const Palette& p = theme_.colour;
   const glm::vec2 size = size_points_;
   const UiRect view = viewport();
+  const float cards = view_strip_width(studio);
   fixed_panel("picture", view, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {0, 0},
-              [&] { covered_ = viewport_pane(ui, view, has_strip(studio) ? kStrip : 0, gpu_picture); });
+              [&] { covered_ = viewport_pane(ui, view, cards > 0 ? kStrip : 0, gpu_picture); });
   fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
               [&] { top_bar(ui); });
   fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatus}}, p,
@@ -147,12 +142,14 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
                 history_panel(ui);
                 ImGui::EndChild();
               });
-  if (has_strip(studio)) {
-    const UiRect strip = {{view.min.x, view.max.y - kStrip}, view.max};
+  if (cards > 0) {  // no wider than it must be: it lies on the picture
+    constexpr glm::vec2 kStripPadding(8, 7);
+    const float right = std::min(view.max.x, view.min.x + std::ceil(cards) + 2 * kStripPadding.x);
+    const UiRect strip = {{view.min.x, view.max.y - kStrip}, {right, view.max.y}};
     covered_.push_back(strip);
     Palette clear = p;
     clear.panel.w = 0.9f;
-    fixed_panel("strip", strip, clear, kOverPicture, {8, 7}, [&] {
+    fixed_panel("strip", strip, clear, kOverPicture, {kStripPadding.x, kStripPadding.y}, [&] {
       ImGui::BeginChild("cards", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
       view_strip(ui);
       if (ImGui::IsWindowHovered()) ImGui::SetScrollX(ImGui::GetScrollX() - 60 * io.MouseWheel);
@@ -172,6 +169,7 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   turntable_dialog(ui);
   help_page(ui);
   quit_dialog(ui);
+  open_anyway_dialog(ui);
   ImGui::PopFont();
   ImGui::Render();
 }

@@ -23,31 +23,50 @@ void name_field(UiContext& ui, const ObjectItem& object, float width) {
   ui.state.renaming = 0;
 }
 
-void merge_menu(UiContext& ui, const ObjectItem& object) {
+std::string first_of(std::initializer_list<std::string> reasons) {
+  for (const std::string& reason : reasons)
+    if (!reason.empty()) return reason;
+  return {};
+}
+
+// Greyed, with the reason in its tooltip, unless that is empty.
+bool entry(const char* label, const std::string& reason = {}) {
+  const bool chosen = ImGui::MenuItem(label, nullptr, false, reason.empty());
+  tooltip(reason);
+  return chosen;
+}
+
+void merge_menu(UiContext& ui, const ObjectItem& object, const std::string& locked) {
   const auto& objects = ui.studio.document().objects;
-  if (!ImGui::BeginMenu("Merge into", objects.size() > 1)) return;
+  const std::string reason = objects.size() < 2 ? "There is no other object" : locked;
+  const bool open = ImGui::BeginMenu("Merge into", reason.empty());
+  tooltip(reason);
+  if (!open) return;
   for (const ObjectItem& other : objects)
-    if (other.id != object.id && ImGui::MenuItem(other.name.c_str()))
+    if (other.id != object.id && entry(other.name.c_str(), other.locked ? other.name + " is locked" : ""))
       ui.ask(MergeObjects{other.id, object.id});
   ImGui::EndMenu();
 }
 
 void object_menu(UiContext& ui, const ObjectItem& object) {
-  const bool empty = ui.studio.gaussians_of(object.id) == 0;
-  if (ImGui::MenuItem("Rename")) {
+  const std::string empty = ui.studio.gaussians_of(object.id) == 0 ? "The object is empty so far" : "";
+  const std::string locked = object.locked ? object.name + " is locked" : "";
+  const std::string neighbours = ui.studio.prepared() ? "" : "Neighbours are still being prepared";
+  if (entry("Rename")) {
     ui.state.renaming = object.id;
     ui.state.new_name = object.name;
   }
-  if (ImGui::MenuItem("New part of this object")) ui.ask(NewObject{object.id});
-  if (ImGui::MenuItem("Duplicate")) ui.ask(DuplicateObject{object.id});
-  merge_menu(ui, object);
-  if (ImGui::MenuItem("Split into connected parts", nullptr, false, !empty)) ui.ask(SplitObject{object.id});
-  if (ImGui::MenuItem("Separate in place", nullptr, false, !empty)) ui.ask(SeparateObject{object.id});
+  if (entry("New part of this object")) ui.ask(NewObject{object.id});
+  if (entry("Duplicate")) ui.ask(DuplicateObject{object.id});
+  merge_menu(ui, object, locked);
+  if (entry("Split into connected parts", first_of({locked, empty, neighbours}))) ui.ask(SplitObject{object.id});
+  if (entry("Separate in place", empty)) ui.ask(SeparateObject{object.id});
   ImGui::Separator();
-  if (ImGui::MenuItem("Clear strokes", nullptr, false,
-                      !object.views.empty() && object.id == ui.studio.document().active))
+  const bool active = object.id == ui.studio.document().active;
+  if (entry("Clear strokes", first_of({locked, object.views.empty() ? "It has no strokes" : "",
+                                       active ? "" : "Choose the object first"})))
     ui.ask(ClearStrokes{});
-  if (ImGui::MenuItem("Remove from the list")) ui.ask(RemoveObject{object.id});
+  if (entry("Remove from the list", locked)) ui.ask(RemoveObject{object.id});
 }
 
 // An icon without a frame.
@@ -127,6 +146,7 @@ void objects_panel(UiContext& ui) {
   if (!section(ui, "Objects")) return;
   const auto& objects = ui.studio.document().objects;
   if (objects.empty()) wrapped_muted(ui, "Click an object in the picture: it appears here.");
+  if (objects.empty() && ui.studio.scene() && ui.studio.autosave_found()) restore_buttons(ui);
   for (const ObjectItem& object : objects) object_row(ui, object);
   action_button(ui, Action::kNewObject, fmt::format("{} New object", icon::kPlus).c_str(), false, -1);
   if (const ObjectItem* active = ui.studio.document().active_object())

@@ -22,6 +22,7 @@ void repair_panel(UiContext& ui);
 void scene_panel(UiContext& ui);
 void history_panel(UiContext& ui);
 void view_strip(UiContext& ui);
+float view_strip_width(const Studio& studio);  // of all its cards, points; 0: none
 void status_bar(UiContext& ui);
 
 // Pictures, strokes, tool shapes, messages; these stay above the lowest `bottom` points. Returns what covers
@@ -34,6 +35,9 @@ void help_page(UiContext& ui);
 void export_dialog(UiContext& ui);
 void turntable_dialog(UiContext& ui);
 void quit_dialog(UiContext& ui);
+void open_anyway_dialog(UiContext& ui);
+void restore_buttons(UiContext& ui);  // for work of last time
+void recent_list(UiContext& ui);
 void file_dialog(UiContext& ui);  // and what follows from the choice
 void open_file_dialog(UiContext& ui, FilePurpose purpose);
 

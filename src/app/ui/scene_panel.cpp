@@ -1,6 +1,7 @@
 // How the scene is looked at, and the history.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <glm/gtc/constants.hpp>
 
 #include "app/ui/panels.h"
@@ -54,8 +55,12 @@ void scene_panel(UiContext& ui) {
       ui.ask(SetFieldOfView{glm::radians(degrees)});
   });
   slider_row("Near limit", "What is nearer than this is not drawn, in shares of the scene's size", [&] {
-    if (ImGui::SliderFloat("##near", &view.near_share, 0.0005f, 0.2f, "%.4f", ImGuiSliderFlags_Logarithmic))
+    const float most = std::min(0.2f, DepthRange{}.near_plane / s.camera().scene_size());
+    if (ImGui::SliderFloat("##near", &view.near_share, std::min(0.0005f, 0.5f * most), most, "%.4f", ImGuiSliderFlags_Logarithmic))
       ui.ask(SetView{view});
+  });
+  slider_row("Far limit", "What is farther than this is not drawn, in shares of the scene's size; 0 is no limit", [&] {
+    if (ImGui::SliderFloat("##far", &view.far_share, 0, 3, view.far_share > 0 ? "%.2f" : "none")) ui.ask(SetView{view});
   });
   up_buttons(ui);
   const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;

@@ -24,6 +24,8 @@ constexpr const char* kToolHints[kTools] = {
     "Drag from a point on a surface: everything in the sphere is selected.",
     "Click three points of the ground: that is where down is."};
 
+constexpr float kDisplayWidth = 400;  // of the buttons at the right end
+
 void gap() {
   ImGui::SameLine(0, 16);
 }
@@ -79,6 +81,12 @@ void region_options(UiContext& ui) {
   tooltip("How far behind the visible surface it reaches, in scene sizes; 0 is no limit");
 }
 
+// Where there is room for it beside the display buttons.
+void hint(UiContext& ui, const char* text) {
+  ImGui::AlignTextToFramePadding();
+  if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x <= ImGui::GetWindowWidth() - kDisplayWidth) muted_text(ui, text);
+}
+
 void tool_options(UiContext& ui) {
   const ViewState& view = ui.studio.view();
   if (view.tool == Tool::kScribble || view.tool == Tool::kBrush) {
@@ -88,16 +96,13 @@ void tool_options(UiContext& ui) {
   if (is_region_tool(view.tool)) return region_options(ui);
   if (view.tool == Tool::kScribble) {
     gap();
-    muted_text(ui, "left: object   right: rest");
+    hint(ui, "left: object   right: rest");
   } else if (view.tool == Tool::kClick) {
-    ImGui::AlignTextToFramePadding();
-    muted_text(ui, "left click: object   right click: rest   drag: turn");
+    hint(ui, "left click: object   right click: rest   drag: turn");
   } else if (view.tool == Tool::kBox) {
-    ImGui::AlignTextToFramePadding();
-    muted_text(ui, "drag a box around the object");
+    hint(ui, "drag a box around the object");
   } else if (view.tool == Tool::kGround) {
-    ImGui::AlignTextToFramePadding();
-    muted_text(ui, "click three points of the ground");
+    hint(ui, "click three points of the ground");
   }
 }
 
@@ -127,6 +132,13 @@ void display_buttons(UiContext& ui) {
 
 void top_bar(UiContext& ui) {
   action_button(ui, Action::kOpen, fmt::format("{} Open", icon::kOpen).c_str());
+  ImGui::SameLine(0, 1);
+  if (button(ui, icon::kDown, "Recent files", ui.state.recent.empty() ? "Nothing was opened so far" : ""))
+    ImGui::OpenPopup("recent");
+  if (ImGui::BeginPopup("recent")) {
+    recent_list(ui);
+    ImGui::EndPopup();
+  }
   ImGui::SameLine(0, 2);
   action_button(ui, Action::kSave, fmt::format("{} Save", icon::kSave).c_str());
   ImGui::SameLine(0, 2);
@@ -139,7 +151,6 @@ void top_bar(UiContext& ui) {
   action_button(ui, Action::kRedo, icon::kRedo);
   gap();
   if (ui.studio.scene()) tool_options(ui);
-  constexpr float kDisplayWidth = 426;
   ImGui::SameLine(ImGui::GetWindowWidth() - kDisplayWidth);
   display_buttons(ui);
 }

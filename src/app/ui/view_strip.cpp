@@ -10,8 +10,12 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kCardHeight = 76;
+constexpr float kCardHeight = 76, kCardGap = 6;
 constexpr std::uint64_t kCardKey = 1000;  // of the strip's textures
+
+float card_width(const ViewCard& c) {
+  return kCardHeight * static_cast<float>(c.picture->width()) / static_cast<float>(c.picture->height());
+}
 
 std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
   std::string tip = index == 0 ? "Your view" : fmt::format("View {}", index);
@@ -23,8 +27,7 @@ std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
 }
 
 void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_t index) {
-  const float width =
-      kCardHeight * static_cast<float>(c.picture->width()) / static_cast<float>(c.picture->height());
+  const float width = card_width(c);
   ImGui::PushID(static_cast<int>(index));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   if (ImGui::InvisibleButton("card", {width, kCardHeight})) ui.ask(GoToCamera{c.camera});
@@ -57,13 +60,23 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
 
 }  // namespace
 
+float view_strip_width(const Studio& studio) {
+  const ObjectItem* object = studio.document().active_object();
+  const CutRun* run = object ? studio.cut_run(object->id) : nullptr;
+  float width = 0;
+  if (run && studio.scene())
+    for (const ViewCard& c : run->views)
+      if (c.picture) width += card_width(c) + (width > 0 ? kCardGap : 0);
+  return width;
+}
+
 void view_strip(UiContext& ui) {
   const ObjectItem* object = ui.studio.document().active_object();
   const CutRun* run = object ? ui.studio.cut_run(object->id) : nullptr;
   if (!run) return;
   for (std::size_t i = 0; i < run->views.size(); ++i) {
     if (!run->views[i].picture) continue;
-    if (i > 0) ImGui::SameLine(0, 6);
+    if (i > 0) ImGui::SameLine(0, kCardGap);
     card(ui, *object, run->views[i], i);
   }
 }

@@ -27,12 +27,39 @@ struct Placement {
   ImVec2 operator()(const glm::vec2& pixel) const { return vec(origin + pixel * points_per_pixel); }
 };
 
-void smooth_path(ImDrawList& list, const std::vector<ImVec2>& path, ImU32 colour, float width) {
+// Corners cut twice (Chaikin 1974): the hand's path has no corners. The ends stay.
+std::vector<ImVec2> rounded(std::vector<ImVec2> path) {
+  for (int pass = 0; pass < 2 && path.size() > 2; ++pass) {
+    std::vector<ImVec2> cut{path.front()};
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const ImVec2 &a = path[i], &b = path[i + 1];
+      if (i > 0) cut.push_back({0.75f * a.x + 0.25f * b.x, 0.75f * a.y + 0.25f * b.y});
+      if (i + 2 < path.size()) cut.push_back({0.25f * a.x + 0.75f * b.x, 0.25f * a.y + 0.75f * b.y});
+    }
+    cut.push_back(path.back());
+    path = std::move(cut);
+  }
+  return path;
+}
+
+// Half a disc beyond the end of a path that comes from `before`: a whole one would show twice where the path is
+// see-through.
+void end_cap(ImDrawList& list, const ImVec2& before, const ImVec2& end, float radius, ImU32 colour) {
+  constexpr float kQuarter = 1.5707963f;
+  const float angle = std::atan2(end.y - before.y, end.x - before.x);
+  list.PathArcTo(end, radius, angle - kQuarter, angle + kQuarter);
+  list.PathFillConvex(colour);
+}
+
+void smooth_path(ImDrawList& list, const std::vector<ImVec2>& points, ImU32 colour, float width) {
+  std::vector<ImVec2> path = rounded(points);
+  const auto same = [](const ImVec2& a, const ImVec2& b) { return a.x == b.x && a.y == b.y; };
+  path.erase(std::unique(path.begin(), path.end(), same), path.end());
   if (path.size() == 1) return list.AddCircleFilled(path[0], 0.5f * width, colour);
   for (const ImVec2& p : path) list.PathLineTo(p);
   list.PathStroke(colour, 0, width);
-  list.AddCircleFilled(path.front(), 0.5f * width, colour);
-  list.AddCircleFilled(path.back(), 0.5f * width, colour);
+  end_cap(list, path[1], path.front(), 0.5f * width, colour);
+  end_cap(list, path[path.size() - 2], path.back(), 0.5f * width, colour);
 }
 
 std::vector<ImVec2> placed(const std::vector<glm::vec2>& points_px, const Placement& place, float scale = 1) {
@@ -48,10 +75,15 @@ void draw_click(ImDrawList& list, const ImVec2& at, bool object) {
   if (object) list.AddLine({at.x, at.y - 2.5f}, {at.x, at.y + 2.5f}, IM_COL32(10, 20, 10, 255), 1.5f);
 }
 
+// What is looked at alone should not be painted over, unless it is being repaired.
+bool strokes_wanted(const ViewState& view) {
+  return is_stroke_tool(view.tool) || (view.display == DisplayMode::kWhole && !view.heat);
+}
+
 // Strokes are kept per view: they show where the camera stands as it did when they were drawn.
 void draw_strokes(const UiContext& ui, ImDrawList& list, const Placement& place) {
   const ObjectItem* object = ui.studio.document().active_object();
-  if (!object) return;
+  if (!object || !strokes_wanted(ui.studio.view())) return;
   const Camera now = ui.studio.viewport_camera();
   for (const StrokedView& view : object->views) {
     if (view.camera.camera_from_world_rotation != now.camera_from_world_rotation ||
@@ -246,6 +278,21 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   return covered;
 }
 
+void restore_buttons(UiContext& ui) {
+  if (button(ui, fmt::format("{} Restore the work of last time", icon::kRefresh).c_str(),
+             "It was saved by itself before the program ended"))
+    ui.ask(RestoreAutosave{});
+  ImGui::SameLine(0, 4);
+  if (button(ui, icon::kTrash, "Throw that work away")) ui.ask(DropAutosave{});
+}
+
+void recent_list(UiContext& ui) {
+  for (const auto& path : ui.state.recent) {
+    if (ImGui::Selectable(path.filename().string().c_str())) ui.ask(OpenScene{path});
+    tooltip(path.string());
+  }
+}
+
 void start_page(UiContext& ui, const UiRect& area) {
   constexpr float kWidth = 420;
   const glm::vec2 middle = 0.5f * (area.min + area.max);
@@ -266,17 +313,12 @@ void start_page(UiContext& ui, const UiRect& area) {
   }
   if (ui.studio.autosave_found()) {
     ImGui::Dummy({0, 4});
-    if (button(ui, fmt::format("{} Restore the work of last time", icon::kRefresh).c_str(),
-               "It was saved by itself before the program ended"))
-      ui.ask(RestoreAutosave{});
+    restore_buttons(ui);
   }
   if (!ui.state.recent.empty()) {
     ImGui::Dummy({0, 6});
     muted_text(ui, "Recent");
-    for (const auto& path : ui.state.recent) {
-      if (ImGui::Selectable(path.filename().string().c_str())) ui.ask(OpenScene{path});
-      tooltip(path.string());
-    }
+    recent_list(ui);
   }
   ImGui::EndChild();
 }
