@@ -36,7 +36,7 @@ struct StudyCell {
 
 inline nlohmann::json to_json(const StudyCell& c) {
   return {{"experiment", c.experiment}, {"series", c.series}, {"still_life", c.still_life}, {"x", c.x}, {"preset", c.preset}, {"set", c.set}, {"first", c.first},
-          {"parts_only", c.parts_only}, {"true_masks", c.true_masks}, {"clicks", c.clicks}, {"draw", c.draw},
+          {"parts_only", c.parts_only}, {"true_masks", c.true_masks}, {"clicks", c.clicks}, {"draw", c.draw}, {"order", c.order},
           {"disturbance", c.disturbance.kind}, {"disturbance_px", c.disturbance.px}, {"disturbed_share", c.disturbed_share},
           {"stroke_px", c.stroke_px}, {"scene_scale", c.scene_scale}, {"up_tilt_deg", c.up_tilt_deg}, {"step_back", c.step_back},
           {"hidden", c.hidden}, {"object_share", c.object_share}, {"score_scale", c.score_scale}};

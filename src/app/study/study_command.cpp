@@ -116,23 +116,41 @@ std::vector<StudyScene> chosen_scenes(const StudyArguments& args, const std::vec
   return study_scenes(options, job);
 }
 
-// The lowest IoU of each experiment, looked at: what the user would have met.
-std::vector<WorstCase> worst_cases(const StudyArguments& args, const std::vector<StudyScene>& scenes, const std::vector<StudyCell>& cells, const PreparedCache& cache,
-                                   const StudyResults& results, const Job& job) {
-  std::vector<WorstCase> worst;
+struct Lowest {
+  const StudyScene* scene = nullptr;
+  const StudyCell* cell = nullptr;
+  nlohmann::json result;
+};
+
+// The lowest IoU of each experiment.
+std::vector<Lowest> lowest_of(const StudyResults& results, const std::vector<StudyScene>& scenes, const std::vector<StudyCell>& cells) {
+  std::vector<Lowest> lowest;
   for (const std::string& experiment : experiments_of(results)) {
     const StudyResults some = of_experiment(results, experiment);
-    const auto lowest = std::ranges::min_element(some, {}, [](const nlohmann::json& r) { return r.at("image_iou").get<double>(); });
-    const auto scene = std::ranges::find_if(scenes, [&](const StudyScene& s) { return s.name == lowest->at("scene") && s.still_life == lowest->at("still_life"); });
-    if (scene == scenes.end()) continue;
-    const auto cell = std::ranges::find_if(cells, [&](const StudyCell& c) { return key_of(c, *scene) == lowest->at("key"); });
-    if (cell == cells.end()) continue;
-    job.progress("worst case: " + experiment, 1);
-    const std::filesystem::path png = args.output / fmt::format("worst_{}.png", file_name_of(experiment));
-    write_png(png, StudyRunner(scene->entry, scene->folder, cache).picture(*cell, {job.stop, {}}));
-    const std::string warned = lowest->at("warned");
-    worst.push_back({fmt::format("{}: {}, {}, at {:g}{}: image IoU {:.3f}. Said: {}", experiment, scene->name, cell->series, cell->x,
-                                 cell->draw ? fmt::format(", draw {}", cell->draw) : "", lowest->at("image_iou").get<double>(), warned.empty() ? "nothing" : warned),
+    const auto result = std::ranges::min_element(some, {}, [](const nlohmann::json& r) { return r.at("image_iou").get<double>(); });
+    for (const StudyScene& scene : scenes)
+      for (const StudyCell& cell : cells)
+        if (cell.experiment == experiment && scene.name == result->at("scene") && key_of(cell, scene) == result->at("key")) lowest.push_back({&scene, &cell, *result});
+  }
+  return lowest;
+}
+
+// Their pictures: what the user would have met.
+std::vector<WorstCase> worst_cases(const StudyArguments& args, std::vector<Lowest> lowest, const PreparedCache& cache, const Job& job) {
+  std::vector<WorstCase> worst;
+  std::ranges::stable_sort(lowest, {}, &Lowest::scene);  // each is loaded once
+  std::optional<StudyRunner> runner;
+  for (std::size_t i = 0; i < lowest.size(); ++i) {
+    const auto& [scene, cell, result] = lowest[i];
+    if (i == 0 || lowest[i - 1].scene != scene) runner.emplace(scene->entry, scene->folder, cache);
+    job.progress("worst case: " + cell->experiment, static_cast<double>(i) / static_cast<double>(lowest.size()));
+    const std::filesystem::path png = args.output / fmt::format("worst_{}.png", file_name_of(cell->experiment));
+    const Image<Rgb8> picture = runner->picture(*cell, {job.stop, {}});
+    if (job.cancelled()) throw Error("splatcut study", "cancelled; what is finished is kept in " + args.output.string() + ", the same command goes on");
+    write_png(png, picture);
+    const std::string warned = result.at("warned"), draw = cell->draw ? fmt::format(", draw {}", cell->draw) : cell->order ? fmt::format(", order {}", cell->order) : "";
+    worst.push_back({fmt::format("{}: {}, {}, at {:g}{}: image IoU {:.3f}. Said: {}", cell->experiment, scene->name, cell->series, cell->x, draw,
+                                 result.at("image_iou").get<double>(), warned.empty() ? "nothing" : warned),
                      png});
   }
   end_progress();
@@ -155,7 +173,7 @@ void run_study(const StudyArguments& args, const CommonOptions& common) {
   write_text_file(args.output / "results.json", nlohmann::json{{"machine", machine()}, {"results", store.results()}}.dump(1) + "\n");
   if (args.no_charts) return;
   const std::vector<StudyChart> charts = draw_study_charts(store.results(), args.output / "charts");
-  const std::vector<WorstCase> worst = worst_cases(args, scenes, cells, cache, store.results(), job);
+  const std::vector<WorstCase> worst = worst_cases(args, lowest_of(store.results(), scenes, cells), cache, job);
   write_text_file(args.output / "index.html", study_page(store.results(), charts, args.output / "charts", worst, machine()));
   if (!common.quiet) fmt::print("{}: {} measurements in results.csv, {} charts, index.html\n", args.output.string(), store.results().size(), charts.size());
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <utility>
 
 namespace splatcut {
 
@@ -75,16 +74,16 @@ Drawing draw_trade_off(const StudyResults& results) {
                                 grid ? 1.1 : 1.7, grid ? colours.at(series.substr(0, semicolon)) : series == "parts alone" ? "#1b7837" : "#000000", quoted(series)));
     ++n;
   }
-  std::string presets = "$presets << EOD\n";
-  bool above = true;  // by turns, so that neighbours' names do not meet
+  // Names above and below by turns, so that neighbours' do not meet.
   std::vector<SettingScore> by_time = scores;
+  std::erase_if(by_time, [](const SettingScore& p) { return p.series != "preset"; });
   std::ranges::sort(by_time, {}, &SettingScore::ms);
-  for (const SettingScore& s : by_time)
-    if (s.series == "preset") presets += fmt::format("{} {} \"{}\" {}\n", s.ms / 1000, s.iou, s.label, std::exchange(above, !above) ? 0.9 : -0.9);
-  d.data += presets + "EOD\n";
-  plots.push_back("$presets with points pt 3 ps 2 lw 2 lc rgb '#c00000' title 'presets'");
-  plots.push_back("$presets using 1:($4 > 0 ? $2 : 1/0):3 with labels offset 0,1 tc rgb '#c00000' notitle");
-  plots.push_back("$presets using 1:($4 < 0 ? $2 : 1/0):3 with labels offset 0,-1 tc rgb '#c00000' notitle");
+  for (std::size_t i = 0; i < by_time.size(); ++i) {
+    const SettingScore& p = by_time[i];
+    d.data += fmt::format("$preset{} << EOD\n{} {} \"{}\"\nEOD\n", i, p.ms / 1000, p.iou, p.label);
+    plots.push_back(fmt::format("$preset{} with points pt 3 ps 2 lw 2 lc rgb '#c00000' {}", i, i == 0 ? "title 'presets'" : "notitle"));
+    plots.push_back(fmt::format("$preset{} using 1:2:3 with labels offset 0,{} tc rgb '#c00000' notitle", i, i % 2 ? -1 : 1));
+  }
   d.body = "set logscale x\nset xlabel 'seconds from strokes to labels (median over the scenes)'\nset ylabel 'image IoU (mean over the scenes)'\n"
            "set key outside right top\nset yrange [*:1]\nset offsets graph 0.05, graph 0.05, graph 0.06, graph 0.06\nplot " + joined(plots);
   return d;
@@ -115,7 +114,7 @@ Drawing draw_stages(const StudyResults& results) {
     ++bars;
   }
   d.data += "\nEOD\n";
-  d.body = "set style data histograms\nset style histogram rowstacked\nset style fill solid 0.8 border -1\nset boxwidth 0.6\nset ylabel 'share of the time (%)'\n"
+  d.body = "set bmargin 5\nset style data histograms\nset style histogram rowstacked\nset style fill solid 0.8 border -1\nset boxwidth 0.6\nset ylabel 'share of the time (%)'\n"
            "set yrange [0:100]\nset key outside right top\n" + fmt::format("set xrange [-0.6:{}.6]\nplot for [i=2:{}] $bars using i:xtic(1) title columnhead(i)\n", bars - 1, most.size() + 1);
   return d;
 }

@@ -86,11 +86,11 @@ std::string study_csv(const StudyResults& results) {
                                    "disturbance_px", "disturbed_share", "stroke_px", "scene_scale", "up_tilt_deg", "step_back", "order", "hidden", "object_share", "score_scale", "still_life", "image_iou", "boundary_iou",
                                    "gaussian_iou", "ms", "views", "views_left_out", "gaussians", "looked_at_mpx", "ambiguous", "warned", "found"};
   std::string csv;
-  for (const char* column : kColumns) csv += (csv.empty() ? "" : ",") + std::string(column);
+  for (const char* column : kColumns) csv.append(csv.empty() ? "" : ",").append(column);
   csv += "\n";
   for (const nlohmann::json& r : results) {
     std::string row;
-    for (const char* column : kColumns) row += (row.empty() ? "" : ",") + csv_field(r.at(column));
+    for (const char* column : kColumns) row.append(row.empty() ? "" : ",").append(csv_field(r.at(column)));
     csv += row + "\n";
   }
   return csv;

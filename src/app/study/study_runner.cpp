@@ -78,7 +78,7 @@ MaskSource true_masks(const EvaluationCase& test, const StudyCell& cell, int vie
 // What `splatcut cut` says of such a run, or its report under the views.
 std::string warning_of(const PipelineReport& report) {
   std::string words = report.reason;
-  const auto add = [&](const std::string& more) { words += (words.empty() ? "" : "; ") + more; };
+  const auto add = [&](const std::string& more) { words.append(words.empty() ? "" : "; ").append(more); };
   if (report.ambiguous) add("another size is nearly as likely");
   const auto doubted = std::ranges::count_if(report.views, [](const ViewReport& v) { return !v.used && v.reason.find("disagrees") != std::string::npos; });
   if (doubted) add(std::to_string(doubted) + " views disagree");

@@ -11,7 +11,7 @@ namespace {
 std::string label_of(const nlohmann::json& result) {
   if (result.at("preset") != "default") return result.at("preset").get<std::string>();
   std::string label;
-  for (const auto& assignment : result.at("set")) label += (label.empty() ? "" : " ") + assignment.get<std::string>();
+  for (const auto& assignment : result.at("set")) label.append(label.empty() ? "" : " ").append(assignment.get<std::string>());
   return label.empty() ? "default" : label;
 }
 
