@@ -58,8 +58,9 @@ void plan_trade_off_grid(StudyGrid* grid) {
 }  // namespace
 
 void plan_trade_off(StudyGrid* grid) {
-  for (const char* preset : {"fast", "default", "best", "paper", "paper-code"}) grid->add("trade-off", "preset", 0).preset = preset;
+  for (const char* preset : {"fast", "default", "best"}) grid->add("trade-off", "preset", 0).preset = preset;
   grid->add("trade-off", "parts alone", 0).parts_only = true;
+  plan_trade_off_grid(grid);
   for (const char* views : {"12", "40"}) {
     if (grid->quick() && std::string(views) == "40") continue;
     for (const char* tau : {"0.5", "0.3"})
@@ -67,7 +68,7 @@ void plan_trade_off(StudyGrid* grid) {
                 {"first.from=pixels", "first.solver=grabcut", "views.propagate=dis", "views.refine=grabcut", "energy.coarse=1", std::string("energy.tau=") + tau,
                  std::string("views.most=") + views, "views.settled_change=0", "trim=0"});
   }
-  plan_trade_off_grid(grid);
+  for (const char* preset : {"paper", "paper-code"}) grid->add("trade-off", "preset", 0).preset = preset;
 }
 
 namespace {
