@@ -56,6 +56,9 @@ Drawing draw_trade_off(const StudyResults& results) {
   std::vector<std::string> plots;
   Points front;
   for (const SettingScore& s : pareto_front(scores)) front.emplace_back(s.ms / 1000, s.iou);
+  double slowest = 0;
+  for (const SettingScore& s : scores) slowest = std::max(slowest, s.ms / 1000);
+  if (!front.empty()) front.emplace_back(slowest, front.back().second);  // nothing slower is better
   d.data += block("front", front);
   plots.push_back("$front with steps lw 2 lc rgb '#222222' title 'Pareto front'");
   // Colour: where the first mask comes from; shape: the energy.
@@ -136,6 +139,7 @@ Drawing draw_lines(const StudyResults& results, StudyChart chart, const std::str
 Drawing draw_bands(const StudyResults& results, const StabilityAxis& axis) {
   Drawing d{{axis.file, axis.title}, {}, {}};
   const std::vector<SettingScore> scores = scores_of(results);
+  const bool in_order = !axis.x_label.empty();  // otherwise x is a list of names, and no line joins them
   std::vector<std::string> bands, lines;
   int n = 0;
   for (const std::string& series : series_of(scores)) {
@@ -145,10 +149,11 @@ Drawing draw_bands(const StudyResults& results, const StabilityAxis& axis) {
     d.data += fmt::format("$b{} << EOD\n", n);
     for (const SettingScore& s : own) d.data += fmt::format("{} {} {} {} {}\n", s.x, s.p10, s.median, s.p90, s.least);
     d.data += "EOD\n";
-    bands.push_back(fmt::format("$b{} using 1:2:4 with filledcurves lc {} fs transparent solid 0.18 noborder title '10th to 90th percentile'", n, n + 1));
-    bands.push_back(fmt::format("$b{0} using 1:3:2:4 with yerrorbars pt 0 lw 1.5 lc {1} notitle", n, n + 1));
-    lines.push_back(fmt::format("$b{} using 1:3 with linespoints pt 7 lw 2 lc {} title {}", n, n + 1, quoted("median, " + series)));
-    lines.push_back(fmt::format("$b{} using 1:5 with linespoints pt 1 dt 3 lw 1.5 lc {} title 'least'", n, n + 1));
+    if (in_order) bands.push_back(fmt::format("$b{} using 1:2:4 with filledcurves lc {} fs transparent solid 0.18 noborder title '10th to 90th percentile'", n, n + 1));
+    const std::string x = in_order ? "1" : fmt::format("($1+{})", 0.15 * n), line = in_order ? "linespoints" : "points";
+    bands.push_back(fmt::format("$b{} using {}:3:2:4 with yerrorbars pt 0 lw 1.5 lc {} {}", n, x, n + 1, in_order ? "notitle" : "title '10th to 90th percentile'"));
+    lines.push_back(fmt::format("$b{} using {}:3 with {} pt 7 lw 2 lc {} title {}", n, x, line, n + 1, quoted("median, " + series)));
+    lines.push_back(fmt::format("$b{} using {}:5 with {} pt 1 {} lw 1.5 lc {} title 'least'", n, x, line, in_order ? "dt 3" : "", n + 1));
     ++n;
   }
   bands.insert(bands.end(), lines.begin(), lines.end());
@@ -164,7 +169,7 @@ Drawing draw_bad_masks(const StudyResults& results, const StabilityAxis& axis) {
   std::vector<std::string> plots;
   int n = 0;
   for (const std::string& series : series_of(scores)) {
-    const std::string kind = series.substr(0, series.find(' ')), px = series.substr(0, series.find(','));
+    const std::string kind = series.substr(0, series.find_first_of(" ,")), px = series.substr(0, series.find(','));
     if (strength.try_emplace(kind, px).first->second != px) continue;
     const bool threshold = series.ends_with("threshold");
     d.data += block(fmt::format("m{}", n), points_of(scores, series, &SettingScore::p10));

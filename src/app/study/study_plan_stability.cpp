@@ -48,17 +48,17 @@ struct Bad {
 };
 
 void plan_bad_masks(StudyGrid* grid) {
-  for (const Bad& bad : {Bad{"erode", {4, 2, 8}}, Bad{"dilate", {4, 2, 8}}, Bad{"shift", {16, 8, 32}}, Bad{"holes", {6, 3}}, Bad{"empty", {1}}, Bad{"full", {1}}})
+  for (const Bad& bad : {Bad{"erode", {4, 2, 8}}, Bad{"dilate", {4, 2, 8}}, Bad{"shift", {16, 8, 32}}, Bad{"holes", {6, 3}}, Bad{"empty", {0}}, Bad{"full", {0}}})
     for (const int px : bad.px) {
       if (grid->quick() && (px != bad.px.front() || bad.kind == std::string("dilate") || bad.kind == std::string("holes"))) continue;
       for (const double percent : grid->some({25, 50, 12.5}))
         for (const char* solver : {"cut", "threshold"})
-          grid->drawn("bad masks", fmt::format("{} {} px, {}", bad.kind, px, solver), percent,
+          grid->drawn("bad masks", px == 0 ? fmt::format("{}, {}", bad.kind, solver) : fmt::format("{} {} px, {}", bad.kind, px, solver), percent,
                       {"first.from=pixels", "views.most=8", "views.settled_change=0", std::string("energy.coarse=") + (std::string(solver) == "cut" ? "0" : "1")},
                       [&](StudyCell& cell) {
                         cell.first = "truth";
                         cell.true_masks = true;
-                        cell.disturbance = {bad.kind, px};
+                        cell.disturbance = {bad.kind, std::max(1, px)};  // 0 px would be no disturbance
                         cell.disturbed_share = percent / 100;
                       });
     }
