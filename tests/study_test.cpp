@@ -107,7 +107,7 @@ TEST_CASE("the first view is aimed so that the object fills the stated share of 
 
 TEST_CASE("every experiment of the study runs on still lifes of its own, is drawn, and shows its worst case") {
   const Workplace place;
-  const Result done = place.run("study -o study --quick --cells 1 --draws 1 --gaussians 5000");
+  const Result done = place.run("study -o study --quick --cells 1 --draws 1 --gaussians 2500");
   REQUIRE_MESSAGE(done.code == 0, done.err);
   std::set<std::string> planned, measured;
   for (const StudyCell& cell : study_plan(1, true)) planned.insert(cell.experiment);
@@ -126,7 +126,7 @@ TEST_CASE("every experiment of the study runs on still lifes of its own, is draw
   for (std::size_t at = 0; (at = page.find("data:image/png;base64,", at)) != std::string::npos; ++at) ++pictures;
   CHECK(pictures == planned.size());
   CHECK(page.find("The paper's tables") != std::string::npos);
-  CHECK(place.run("study -o study --quick --cells 1 --draws 1 --gaussians 5000 --no-charts").code == 0);
+  CHECK(place.run("study -o study --quick --cells 1 --draws 1 --gaussians 2500 --no-charts").code == 0);
   CHECK(json::parse(place.text("study/results.json"))["results"] == results);  // nothing was left to measure
 }
 

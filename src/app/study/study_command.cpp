@@ -130,7 +130,7 @@ std::vector<Lowest> lowest_of(const StudyResults& results, const std::vector<Stu
     const auto result = std::ranges::min_element(some, {}, [](const nlohmann::json& r) { return r.at("image_iou").get<double>(); });
     for (const StudyScene& scene : scenes)
       for (const StudyCell& cell : cells)
-        if (cell.experiment == experiment && scene.name == result->at("scene") && key_of(cell, scene) == result->at("key")) lowest.push_back({&scene, &cell, *result});
+        if (cell.experiment == experiment && cell.still_life == scene.still_life && scene.name == result->at("scene") && key_of(cell, scene) == result->at("key")) lowest.push_back({&scene, &cell, *result});
   }
   return lowest;
 }
