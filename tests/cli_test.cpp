@@ -290,7 +290,7 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
 TEST_CASE("study measures, goes on where it was stopped, heals a line cut off, and draws charts and a page") {
   StillLife& life = still_life();
   Workplace& place = life.place;
-  const std::string command = "study made/suite.json -o studied --quick --draws 2 --only needed --only views --only trade-off";
+  const std::string command = "study made/suite.json -o studied --quick --draws 2 --cells 3 --only needed --only views --only trade-off";
   const Result stopped = place.run_interrupted(command, 1500);
   CHECK((stopped.code == 1 || stopped.signal == SIGINT || stopped.code == 0));
   if (stopped.code == 1) CHECK(stopped.err.find("goes on") != std::string::npos);

@@ -1,14 +1,18 @@
 // splatcut eval: the measures of a suite, as a table and as JSON.
 #include <fmt/format.h>
 
+#include <functional>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/benchmark_folders.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/eval_suite.h"
 #include "app/mask_options.h"
 #include "app/output_folder.h"
+#include "app/published_scores.h"
 #include "app/tuning_options.h"
 #include "scene/atomic_file.h"
 #include "segment/click_draws.h"
@@ -18,7 +22,7 @@ namespace splatcut {
 namespace {
 
 struct EvalArguments {
-  std::filesystem::path suite, output;
+  std::filesystem::path suite, nvos, spin_nerf, scenes, output;
   std::string preset = "default", masks;
   MaskOptions mask;
   std::vector<std::string> set;
@@ -27,7 +31,7 @@ struct EvalArguments {
 };
 
 nlohmann::json score_json(const SceneScore& s) {
-  nlohmann::json j = {{"name", s.name}, {"image_iou", s.image_iou}, {"accuracy", s.accuracy}, {"boundary_iou", s.boundary_iou},
+  nlohmann::json j = {{"name", s.name}, {"image_iou", s.image_iou}, {"accuracy", s.accuracy}, {"boundary_iou", s.boundary_iou}, {"psnr_db", s.psnr_db}, {"ssim", s.ssim},
                       {"mask_iou_after_clicks", s.mask_iou_after_clicks}, {"total_ms", s.total_ms}, {"ms", nlohmann::json::object()}};
   j["gaussian_iou"] = s.gaussian_iou ? nlohmann::json(*s.gaussian_iou) : nullptr;
   j["noc85"] = s.noc85 ? nlohmann::json(*s.noc85) : nullptr;
@@ -61,6 +65,11 @@ nlohmann::json mean_json(const std::vector<nlohmann::json>& scores) {
   return mean;
 }
 
+void print_heads() {
+  fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>8}\n", "scene", "img IoU", "acc", "bnd IoU", "gau IoU", "PSNR", "SSIM",
+             "1 click", "3", "5", "NoC90", "ms");
+}
+
 void print_row(const nlohmann::json& s) {
   const auto number = [&s](const char* key, const char* form) {
     return s.contains(key) && s.at(key).is_number() ? fmt::format(fmt::runtime(form), s.at(key).get<double>()) : std::string("-");
@@ -69,9 +78,9 @@ void print_row(const nlohmann::json& s) {
     const auto& curve = s.value("image_iou_after_clicks", nlohmann::json::object());
     return curve.contains(n) ? fmt::format("{:.3f}", curve.at(n).get<double>()) : std::string("-");
   };
-  fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>8}\n", s.value("name", ""), number("image_iou", "{:.3f}"),
-             number("accuracy", "{:.4f}"), number("boundary_iou", "{:.3f}"), number("gaussian_iou", "{:.3f}"), after("1"),
-             after("3"), after("5"), number("noc90", "{:.1f}"), number("total_ms", "{:.0f}"));
+  fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>8}\n", s.value("name", ""), number("image_iou", "{:.3f}"),
+             number("accuracy", "{:.4f}"), number("boundary_iou", "{:.3f}"), number("gaussian_iou", "{:.3f}"), number("psnr_db", "{:.2f}"),
+             number("ssim", "{:.4f}"), after("1"), after("3"), after("5"), number("noc90", "{:.1f}"), number("total_ms", "{:.0f}"));
 }
 
 nlohmann::json draws_json(const ClickDraws& d) {
@@ -80,9 +89,11 @@ nlohmann::json draws_json(const ClickDraws& d) {
 }
 
 // The first mask under an unsteady hand, a row per scene.
-void print_draws(const std::vector<nlohmann::json>& scores, int draws) {
+void print_draws(const nlohmann::json& result, int draws) {
   fmt::print("\nfirst mask, IoU after 1..{} clicks, median / least of {} draws\n", kRobotClicks, draws);
-  for (const nlohmann::json& s : scores) {
+  std::vector<nlohmann::json> rows = result.at("scenes");
+  rows.push_back(result.at("mean"));
+  for (const nlohmann::json& s : rows) {
     if (!s.contains("draws")) continue;
     const nlohmann::json& d = s.at("draws");
     fmt::print("{:<16}", s.value("name", ""));
@@ -99,33 +110,56 @@ bool lacks_truth(const EvaluationCase& test, const EvaluationOptions& options) {
   return (options.truth_first_mask && !test.reference_truth) || (options.truth_masks && test.truth_labels.empty());
 }
 
-void run_eval(const EvalArguments& args, const CommonOptions& common) {
-  const Job job = console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
-  OutputFolder folder(args.output, args.overwrite);
+// A scene to measure, loaded when its turn comes.
+using Loader = std::function<std::unique_ptr<LoadedCase>(const PrepareOptions&, const Job&)>;
+
+std::vector<Loader> loaders(const EvalArguments& args) {
+  std::vector<Loader> all;
+  if (!args.suite.empty())
+    for (const nlohmann::json& entry : read_suite(args.suite))
+      all.push_back([entry, folder = args.suite.parent_path()](const PrepareOptions& prepare, const Job& job) { return load_case(entry, folder, prepare, job); });
+  std::vector<BenchmarkTask> tasks;
+  if (!args.nvos.empty()) tasks = nvos_tasks(args.nvos, args.scenes);
+  if (!args.spin_nerf.empty()) tasks = spin_nerf_tasks(args.spin_nerf, args.scenes);
+  for (const BenchmarkTask& task : tasks)
+    all.push_back([task](const PrepareOptions& prepare, const Job& job) { return load_task(task, prepare, job); });
+  return all;
+}
+
+EvaluationOptions evaluation_options(const EvalArguments& args, const CommonOptions& common) {
   EvaluationOptions options;
   options.pipeline = preset(args.preset);
   options.pipeline.cache = prepared_cache(common);
   options.clicks = args.clicks;
-  options.truth_first_mask = args.mask.first_mask == "truth";
+  options.truth_first_mask = args.mask.first_mask == "truth" || !args.spin_nerf.empty();
   options.truth_masks = args.masks == "truth";
-  options.click_curve = args.curve;
+  options.click_curve = args.curve && args.nvos.empty();
+  if (!args.nvos.empty()) options.clicks = std::numeric_limits<int>::max();  // all scribbles at once
   args.mask.apply(&options.pipeline);
   for (const std::string& assignment : args.set) set_tuning_option(assignment, &options.pipeline);
+  return options;
+}
+
+void stop_if_cancelled(const Job& job) {
+  if (job.cancelled()) throw Error("splatcut eval", "cancelled, nothing was written");
+}
+
+// The measures of each scene that has the truth it takes; prints a row each.
+std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationOptions& options, bool quiet, const Job& job) {
   std::vector<nlohmann::json> scores;
-  if (!args.json)
-    fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>8}\n", "scene", "img IoU", "acc", "bnd IoU", "gau IoU",
-               "1 click", "3", "5", "NoC90", "ms");
-  for (const nlohmann::json& entry : read_suite(args.suite)) {
-    const auto loaded = load_case(entry, args.suite.parent_path(), prepare_options(options.pipeline), job);
-    if (job.cancelled()) throw Error("splatcut eval", "cancelled, nothing was written");
-    warn(loaded->warning, common.quiet);
+  const std::vector<Loader> scenes = loaders(args);
+  if (!args.json) print_heads();
+  for (const Loader& load : scenes) {
+    const auto loaded = load(prepare_options(options.pipeline), job);
+    stop_if_cancelled(job);
+    warn(loaded->warning, quiet);
     if (lacks_truth(loaded->test, options)) {
       end_progress();
       fmt::print(stderr, "{}: left out, it has no truth where --first-mask or --masks asks for it\n", loaded->test.name);
       continue;
     }
     SceneScore score = evaluate(loaded->test, options, job);
-    if (job.cancelled()) throw Error("splatcut eval", "cancelled, nothing was written");
+    stop_if_cancelled(job);
     score.stages.insert(score.stages.begin(), loaded->prepared.stages.begin(), loaded->prepared.stages.end());
     score.stages.insert(score.stages.begin(), {"load", loaded->load_ms});
     scores.push_back(score_json(score));
@@ -138,19 +172,38 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
     if (!args.json) print_row(scores.back());
     std::fflush(stdout);
   }
+  return scores;
+}
+
+// One way in, and what it needs.
+void check_ways_in(const EvalArguments& args) {
+  const int ways = !args.suite.empty() + !args.nvos.empty() + !args.spin_nerf.empty();
+  if (ways != 1) throw CLI::ValidationError("give one of suite, --nvos and --spin-nerf");
+  if (args.suite.empty() == args.scenes.empty()) throw CLI::ValidationError("--scenes goes with --nvos and --spin-nerf, and they with it");
+  if (!args.nvos.empty() && args.mask.first_mask == "truth") throw CLI::ValidationError("--first-mask truth: NVOS has no true mask of the reference view");
+}
+
+void run_eval(const EvalArguments& args, const CommonOptions& common) {
+  check_ways_in(args);
+  const Job job = console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
+  OutputFolder folder(args.output, args.overwrite);
+  const std::vector<nlohmann::json> scores = measure(args, evaluation_options(args, common), common.quiet, job);
   if (scores.empty()) throw Error("splatcut eval", "no scene of the suite is left to measure");
-  const nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"set", args.set}, {"clicks", args.clicks}, {"draws", args.draws},
-                                 {"scenes", scores}, {"mean", mean_json(scores)}};
+  nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"set", args.set}, {"clicks", args.clicks}, {"draws", args.draws},
+                           {"scenes", scores}, {"mean", mean_json(scores)}};
+  const std::string benchmark = !args.nvos.empty() ? "NVOS" : !args.spin_nerf.empty() ? "SPIn-NeRF" : "";
+  if (!benchmark.empty()) result["published"] = published_json(benchmark);
   write_text_file(folder.file("eval.json"), result.dump(2) + "\n");
   folder.commit();
-  if (args.json)
+  if (args.json) {
     fmt::print("{}\n", result.dump(2));
-  else
-    print_row(result["mean"]);
-  if (!args.json && args.draws > 0) {
-    scores.push_back(result["mean"]);
-    print_draws(scores, args.draws);
+    return;
   }
+  print_row(result["mean"]);
+  if (args.draws > 0) print_draws(result, args.draws);
+  if (common.quiet) return;
+  for (const PublishedScore& p : published_scores())
+    if (p.benchmark == benchmark) fmt::print("published: {:<40} img IoU {}, acc {}\n", p.method, p.iou, p.accuracy.empty() ? "-" : p.accuracy);
 }
 
 }  // namespace
@@ -158,7 +211,18 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
 void add_eval_command(CLI::App& program, const CommonOptions& common) {
   auto args = std::make_shared<EvalArguments>();
   CLI::App& command = *program.add_subcommand("eval", "Measure cutouts against truth on a suite of scenes");
-  command.add_option("suite", args->suite, "suite.json")->required();
+  command.footer(
+      "One command a table of the GaussianCut paper, where RUNS holds a 3DGS output per scene:\n"
+      "  Tables 1, 3 (NVOS):       splatcut eval --nvos nvos/labels/llff --scenes RUNS -o OUT\n"
+      "  Table 2 (SPIn-NeRF):      splatcut eval --spin-nerf Multiview-Segmentation-Data --scenes RUNS -o OUT\n"
+      "  Table 4 (Shiny):          splatcut eval --spin-nerf YOUR_MASKS --scenes RUNS -o OUT    (a folder of masks per scene)\n"
+      "RUNS/SCENE: point_cloud/iteration_N/point_cloud.ply or one .ply, and cameras.json, sparse/0 or transforms.json.\n"
+      "NVOS: reference_image/SCENE/NAME.JPG, scribbles/SCENE/pos_*.png neg_*.png, masks/SCENE/NAME_mask.png.\n"
+      "SPIn-NeRF: SCENE/NAME.png, or in SCENE/label, masks or images_N/label; the first by name is given, the others are scored.");
+  command.add_option("suite", args->suite, "suite.json");
+  command.add_option("--nvos", args->nvos, "Folder with scribbles, masks and reference_image, as NVOS is released; wants --scenes");
+  command.add_option("--spin-nerf", args->spin_nerf, "Folder with a mask per picture and scene, as SPIn-NeRF is released; wants --scenes");
+  command.add_option("--scenes", args->scenes, "Folder of the reconstructions, one folder a scene");
   command.add_option("-o,--output", args->output, "Folder for eval.json")->required();
   command.add_option("--preset", args->preset, "fast, default, best, paper or paper-code");
   command.add_option("--clicks", args->clicks, "Clicks for the final cut")->check(CLI::Range(1, 8));

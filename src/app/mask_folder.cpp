@@ -23,17 +23,31 @@ std::string lower(std::string text) {
   return text;
 }
 
-// Only endings of pictures are dropped: "view.001" is a whole name.
-std::string without_picture_ending(const fs::path& name) {
+std::string file_part(const std::string& name) {
+  return fs::path(name).filename().string();
+}
+
+}  // namespace
+
+std::string without_picture_ending(const std::filesystem::path& name) {
   constexpr std::array kEndings = {".png",  ".jpg", ".jpeg", ".tif", ".tiff",
                                    ".webp", ".bmp", ".exr",  ".heic"};
   if (std::ranges::find(kEndings, lower(name.extension().string())) == kEndings.end()) return name.string();
   return (name.parent_path() / name.stem()).string();
 }
 
-std::string file_part(const std::string& name) {
-  return fs::path(name).filename().string();
+std::vector<std::size_t> cameras_named(const std::vector<Camera>& cameras, const std::string& name) {
+  std::vector<std::size_t> whole, file_only;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    const std::string camera = without_picture_ending(cameras[c].name);
+    if (camera.empty()) continue;
+    if (camera == name) whole.push_back(c);
+    if (file_part(camera) == file_part(name)) file_only.push_back(c);
+  }
+  return whole.empty() ? file_only : whole;
 }
+
+namespace {
 
 std::vector<fs::path> masks_in(const fs::path& folder) {
   std::error_code failure;
@@ -47,18 +61,6 @@ std::vector<fs::path> masks_in(const fs::path& folder) {
     throw Error(folder.string(), "holds no masks", "Put one PNG per camera there, named after it: NAME.png");
   std::ranges::sort(files);
   return files;
-}
-
-// The cameras that the name can mean: first with its folders, then without.
-std::vector<std::size_t> cameras_named(const std::vector<Camera>& cameras, const std::string& name) {
-  std::vector<std::size_t> whole, file_only;
-  for (std::size_t c = 0; c < cameras.size(); ++c) {
-    const std::string camera = without_picture_ending(cameras[c].name);
-    if (camera.empty()) continue;
-    if (camera == name) whole.push_back(c);
-    if (file_part(camera) == file_part(name)) file_only.push_back(c);
-  }
-  return whole.empty() ? file_only : whole;
 }
 
 // The mask of each camera that has one.

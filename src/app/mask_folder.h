@@ -20,6 +20,12 @@ namespace splatcut {
 Mask checked_mask(Image<std::uint8_t> grey, const Camera& camera, const std::string& where);
 Mask read_given_mask(const std::filesystem::path& path, const Camera& camera);
 
+// A picture's name without its ending; "view.001" is a whole name.
+std::string without_picture_ending(const std::filesystem::path& name);
+
+// The cameras, by index, that a picture's name without ending can mean: first with its folders, then without.
+std::vector<std::size_t> cameras_named(const std::vector<Camera>& cameras, const std::string& name);
+
 struct MaskFolder {
   GivenView reference;
   std::vector<GivenView> others;  // in the order of the cameras; their masks may be reduced

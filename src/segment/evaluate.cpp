@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "scene/error.h"
+#include "segment/evaluate_picture.h"
 #include "segment/mask_tools.h"
 #include "segment/robot_user.h"
 
@@ -52,12 +53,14 @@ double label_iou(const std::vector<std::uint8_t>& truth, const std::vector<std::
   return either ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
 }
 
+bool counts(const Mask& truth) { return static_cast<double>(count(truth)) >= kLeastTruthShare * static_cast<double>(truth.size()); }
+
 ImageScore score_images(const EvaluationCase& scene, const std::vector<std::uint8_t>& labels) {
   ImageScore sum;
   int views = 0;
   for (std::size_t v = 0; v < scene.test_views.size(); ++v) {
     const Mask& truth = scene.truth_masks[v];
-    if (static_cast<double>(count(truth)) < kLeastTruthShare * static_cast<double>(truth.size())) continue;
+    if (!counts(truth)) continue;
     const Mask seen = picture_of(*scene.cloud, scene.test_views[v], labels);
     sum.iou += iou(truth, seen);
     sum.accuracy += pixel_accuracy(truth, seen);
@@ -124,6 +127,9 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
   score.image_iou = images.iou;
   score.accuracy = images.accuracy;
   score.boundary_iou = images.boundary;
+  const PictureScore pictures = score_pictures(scene, report.labels);
+  score.psnr_db = pictures.psnr_db;
+  score.ssim = pictures.ssim;
   if (!scene.truth_labels.empty()) score.gaussian_iou = label_iou(scene.truth_labels, report.labels);
   return score;
 }

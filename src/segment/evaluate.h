@@ -43,6 +43,7 @@ struct EvaluationOptions {
 struct SceneScore {
   std::string name;
   double image_iou = 0, accuracy = 0, boundary_iou = 0;
+  double psnr_db = 0, ssim = 0;  // of the object on black, see evaluate_picture.h
   std::optional<double> gaussian_iou;
   std::vector<double> mask_iou_after_clicks;        // 1..8, robot only
   std::map<int, double> image_iou_after_clicks;     // 1, 3, 5
@@ -61,6 +62,9 @@ RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& p
 
 // Clicks until the IoU reaches the goal; kClicksNotReached where it does not.
 int clicks_to(const std::vector<double>& iou_after, double goal);
+
+// Whether the truth covers enough of its view for the view to count.
+bool counts(const Mask& truth);
 
 // Means over the test views that count.
 struct ImageScore {

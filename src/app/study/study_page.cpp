@@ -6,7 +6,11 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <map>
 
+#include "app/study/paper_tables.h"
+#include "app/study/study_html.h"
+#include "app/study/study_plan.h"
 #include "scene/error.h"
 
 namespace splatcut {
@@ -30,26 +34,41 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '<' ? std::string("&lt;") : c == '&' ? std::string("&amp;") : std::string(1, c);
-  return out;
-}
-
 std::string table_of(const StudyResults& results) {
-  std::string html = "<table><tr><th>series</th><th>x</th><th>setting</th><th>image IoU</th><th>least</th><th>boundary</th><th>Gaussian</th><th>ms</th><th>n</th></tr>\n";
+  std::string html = "<table>" + row_of({"series", "x", "setting", "image IoU", "least", "boundary", "Gaussian", "ms", "runs"}, "th");
   for (const SettingScore& s : scores_of(results))
-    html += fmt::format("<tr><td>{}</td><td>{:g}</td><td>{}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:.0f}</td><td>{}</td></tr>\n",
-                        escaped(s.series), s.x, escaped(s.label), s.iou, s.least_iou, s.boundary, s.gaussian_iou, s.ms, s.scenes);
+    html += row_of({s.series, fmt::format("{:g}", s.x), s.label, iou_text(s.iou), iou_text(s.least), iou_text(s.boundary), iou_text(s.gaussian_iou), fmt::format("{:.0f}", s.ms),
+                    std::to_string(s.runs)});
   return html + "</table>\n";
 }
 
+// Of all scenes, then of each.
 std::string spread_table(const StudyResults& results) {
-  std::string html = "<table><tr><th>scene</th><th>series</th><th>least</th><th>10 %</th><th>median</th><th>90 %</th><th>draws</th></tr>\n";
-  for (const Spread& s : spreads_of(results))
-    html += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:.3f}</td><td>{:.3f}</td><td>{}</td></tr>\n", escaped(s.scene),
-                        escaped(s.series), s.least, s.p10, s.median, s.p90, s.draws);
+  std::string html = "<table>" + row_of({"series", "x", "scene", "least", "10 %", "median", "90 %", "runs", "failed", "of those warned", "warned though fine"}, "th");
+  const auto add = [&](const StudyResults& some, const std::string& scene) {
+    for (const SettingScore& s : scores_of(some))
+      html += row_of({s.series, fmt::format("{:g}", s.x), scene, iou_text(s.least), iou_text(s.p10), iou_text(s.median), iou_text(s.p90), std::to_string(s.runs),
+                      std::to_string(s.failed), std::to_string(s.failed_warned), std::to_string(s.fine_warned)});
+  };
+  add(results, "all");
+  std::map<std::string, StudyResults> by_scene;
+  for (const nlohmann::json& r : results) by_scene[r.at("scene")].push_back(r);
+  if (by_scene.size() > 1)
+    for (const auto& [scene, some] : by_scene) add(some, scene);
   return html + "</table>\n";
+}
+
+// The regimes in which something fails, and whether the user is told.
+std::string failure_table(const StudyResults& results) {
+  std::string rows;
+  for (const StabilityAxis& axis : stability_axes())
+    for (const SettingScore& s : scores_of(of_experiment(results, axis.experiment)))
+      if (s.failed > 0)
+        rows += row_of({axis.experiment, s.series, fmt::format("{:g}", s.x), fmt::format("{:.0f} % of {}", 100.0 * s.failed / s.runs, s.runs),
+                        fmt::format("{:.0f} %", 100.0 * s.failed_warned / s.failed), iou_text(s.least), iou_text(s.p10), iou_text(s.median), iou_text(s.p90)});
+  if (rows.empty()) return {};
+  return fmt::format("<h2>What fails, and is it said?</h2>\n<p>Failed: image IoU below {}. Said: the program called the click ambiguous, found nothing, or left views out because they disagree.</p>\n", kFails) +
+         "<table>" + row_of({"experiment", "series", "x", "failed", "of those said", "least", "10 %", "median", "90 %"}, "th") + rows + "</table>\n";
 }
 
 std::string csv_field(const nlohmann::json& value) {
@@ -64,14 +83,14 @@ std::string csv_field(const nlohmann::json& value) {
 
 std::string study_csv(const StudyResults& results) {
   constexpr std::array kColumns = {"experiment", "series", "x", "scene", "preset", "set", "first", "parts_only", "true_masks", "clicks", "draw", "disturbance",
-                                   "disturbance_px", "disturbed_share", "stroke_px", "scene_scale", "up_tilt_deg", "step_back", "image_iou", "boundary_iou",
-                                   "gaussian_iou", "ms", "views", "views_left_out", "gaussians", "ambiguous", "found"};
+                                   "disturbance_px", "disturbed_share", "stroke_px", "scene_scale", "up_tilt_deg", "step_back", "order", "hidden", "object_share", "score_scale", "still_life", "image_iou", "boundary_iou",
+                                   "gaussian_iou", "ms", "views", "views_left_out", "gaussians", "looked_at_mpx", "ambiguous", "warned", "found"};
   std::string csv;
-  for (const char* column : kColumns) csv += (csv.empty() ? "" : ",") + std::string(column);
+  for (const char* column : kColumns) csv.append(csv.empty() ? "" : ",").append(column);
   csv += "\n";
   for (const nlohmann::json& r : results) {
     std::string row;
-    for (const char* column : kColumns) row += (row.empty() ? "" : ",") + csv_field(r.at(column));
+    for (const char* column : kColumns) row.append(row.empty() ? "" : ",").append(csv_field(r.at(column)));
     csv += row + "\n";
   }
   return csv;
@@ -90,12 +109,10 @@ std::string study_page(const StudyResults& results, const std::vector<StudyChart
   if (!worst.empty()) html += "<h2>Where it failed worst</h2>\n";
   for (const WorstCase& w : worst)
     html += fmt::format("<figure><img alt=\"\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n", base64(bytes_of(w.png)), escaped(w.caption));
-  std::vector<std::string> experiments;
-  for (const nlohmann::json& r : results)
-    if (const std::string name = r.at("experiment"); std::ranges::find(experiments, name) == experiments.end()) experiments.push_back(name);
-  for (const std::string& experiment : experiments) {
+  html += failure_table(results) + paper_tables(results);
+  for (const std::string& experiment : experiments_of(results)) {
     const StudyResults some = of_experiment(results, experiment);
-    html += "<h2>" + escaped(experiment) + "</h2>\n" + (experiment == "click jitter" ? spread_table(some) : table_of(some));
+    html += "<h2>" + escaped(experiment) + "</h2>\n" + (is_stability(experiment) ? spread_table(some) : table_of(some));
   }
   return html + "</html>\n";
 }

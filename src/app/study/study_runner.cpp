@@ -1,10 +1,12 @@
 #include "app/study/study_runner.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
+#include <numeric>
 
+#include "app/study/study_variants.h"
 #include "app/tuning_options.h"
 #include "scene/counter_rng.h"
 #include "scene/error.h"
@@ -17,36 +19,10 @@ namespace splatcut {
 
 namespace {
 
-Camera rescaled(Camera camera, float scale) {
-  camera.camera_from_world_translation *= scale;
-  return camera;
-}
-
-EvaluationCase rescaled(EvaluationCase test, float scale) {
-  for (Camera& camera : test.test_views) camera = rescaled(camera, scale);
-  for (Camera& camera : test.scene_cameras) camera = rescaled(camera, scale);
-  test.reference = rescaled(test.reference, scale);
-  return test;
-}
-
-Mask seen(const EvaluationCase& test, const Camera& camera, const std::vector<std::uint8_t>& labels) {
-  return thresholded(render_labels(*test.cloud, camera, labels), 0.5f);
-}
-
-// Where true masks are asked for, or the reference is moved, only labels of all Gaussians help.
+// Where true masks are asked for, or the first view is changed, only labels of all Gaussians help.
 bool can_run(const StudyCell& cell, const EvaluationCase& test) {
-  const bool needs_labels = cell.true_masks || cell.first == "truth" || cell.step_back != 1;
+  const bool needs_labels = cell.true_masks || cell.first == "truth" || cell.step_back != 1 || cell.hidden > 0 || cell.object_share > 0;
   return !needs_labels || !test.truth_labels.empty();
-}
-
-void step_back(EvaluationCase* test, float factor) {
-  const ObjectExtent object = object_extent(*test->cloud, test->truth_labels);
-  test->reference = approached(test->reference, object.centre_world, factor);
-  test->reference_truth = seen(*test, test->reference, test->truth_labels);
-}
-
-glm::vec3 tilted(const glm::vec3& up, const Camera& reference, double degrees) {
-  return glm::angleAxis(glm::radians(static_cast<float>(degrees)), reference.forward_world()) * up;
 }
 
 void shake(Strokes* strokes, double most_px, std::uint64_t draw) {
@@ -73,16 +49,55 @@ Mask mask_of_strokes(const Strokes& strokes, const Camera& camera) {
   return mask;
 }
 
+void shuffle(Strokes* strokes, std::uint64_t order) {
+  CounterRng random(order, 0x5467);
+  for (std::size_t i = strokes->size(); i > 1; --i) std::swap((*strokes)[i - 1], (*strokes)[random.below(i)]);
+}
+
+// Which of so many views get a wrong mask: the stated share, spread evenly, or by chance where there is a draw.
+std::vector<bool> wrong_views(const StudyCell& cell, std::size_t views) {
+  std::vector<bool> wrong(views, false);
+  std::vector<std::size_t> order(views);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (cell.draw) std::ranges::sort(order, {}, [&](std::size_t v) { return CounterRng(cell.draw, 500 + v).bits(); });
+  const auto upto = [&](std::size_t v) { return static_cast<std::size_t>(static_cast<double>(v) * cell.disturbed_share); };
+  for (std::size_t v = 0; v < views; ++v) wrong[order[v]] = cell.draw ? v < upto(views) : upto(v + 1) > upto(v);
+  return wrong;
+}
+
 // True masks of the views in the order in which they are asked for, the stated share of them disturbed.
-MaskSource true_masks(const EvaluationCase& test, const StudyCell& cell) {
-  auto asked = std::make_shared<std::uint64_t>(0);
-  return [&test, &cell, asked](const Camera& camera) {
-    const std::uint64_t view = (*asked)++;
-    const auto before = static_cast<std::uint64_t>(static_cast<double>(view) * cell.disturbed_share);
-    const auto after = static_cast<std::uint64_t>(static_cast<double>(view + 1) * cell.disturbed_share);
-    const Mask mask = seen(test, camera, test.truth_labels);
-    return after > before ? disturbed(mask, cell.disturbance, view) : mask;
+MaskSource true_masks(const EvaluationCase& test, const StudyCell& cell, int views) {
+  auto asked = std::make_shared<std::size_t>(0);
+  return [&test, &cell, asked, wrong = wrong_views(cell, static_cast<std::size_t>(views))](const Camera& camera) {
+    const std::size_t view = (*asked)++;
+    const Mask mask = labels_seen(test, camera, test.truth_labels);
+    return view < wrong.size() && wrong[view] ? disturbed(mask, cell.disturbance, 1000 * cell.draw + view) : mask;
   };
+}
+
+// What `splatcut cut` says of such a run, or its report under the views.
+std::string warning_of(const PipelineReport& report) {
+  std::string words = report.reason;
+  const auto add = [&](const std::string& more) { words.append(words.empty() ? "" : "; ").append(more); };
+  if (report.ambiguous) add("another size is nearly as likely");
+  const auto doubted = std::ranges::count_if(report.views, [](const ViewReport& v) { return !v.used && v.reason.find("disagrees") != std::string::npos; });
+  if (doubted) add(std::to_string(doubted) + " views disagree");
+  return words;
+}
+
+void paint(bool is, bool said, Rgb8* pixel) {
+  constexpr std::array<int, 3> kMissing = {220, 30, 30}, kTooMuch = {40, 90, 255};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const int own = (*pixel)[c];
+    (*pixel)[c] = static_cast<std::uint8_t>(is && said ? own : is ? (own + 2 * kMissing[c]) / 3 : said ? (own + 2 * kTooMuch[c]) / 3 : own / 4);
+  }
+}
+
+// What the first view and the others cost to look at, whatever the machine.
+double looked_at_megapixels(const PipelineReport& report) {
+  double pixels = 0;
+  for (const ViewReport& v : report.views) pixels += static_cast<double>(v.camera.width_px) * v.camera.height_px;
+  return pixels / 1e6;
 }
 
 }  // namespace
@@ -104,15 +119,22 @@ const PreparedScene& StudyRunner::prepared_for(const PipelineOptions& pipeline, 
   return it->second;
 }
 
-void StudyRunner::scale_to(double scale, const PipelineOptions& pipeline, const Job& job) {
-  if (scale_ == scale) return;
-  scaled_cloud_ = loaded_->scene.cloud;
-  for (glm::vec3& p : scaled_cloud_.position) p *= static_cast<float>(scale);
-  for (glm::vec3& s : scaled_cloud_.scale) s *= static_cast<float>(scale);
-  scaled_cloud_.near_plane = natural_near_plane(scaled_cloud_.position);
-  const EvaluationCase test = rescaled(loaded_->test, static_cast<float>(scale));
-  scaled_prepared_ = prepare_scene(scaled_cloud_, test.reference, test.up_world, test.scene_cameras, prepare_options(pipeline), job);
-  scale_ = scale;
+void StudyRunner::change_scene(const StudyCell& cell, const PipelineOptions& pipeline, const Job& job, EvaluationCase* test) {
+  if (cell.scene_scale == 1 && cell.hidden == 0) return;
+  if (variant_.scale != cell.scene_scale || variant_.hidden != cell.hidden) {
+    variant_ = {cell.scene_scale, cell.hidden, with_board(loaded_->test, cell.hidden), {}, loaded_->test.truth_labels};
+    variant_.truth.resize(test->truth_labels.empty() ? 0 : variant_.cloud.size(), 0);
+    variant_.cloud = rescaled(variant_.cloud, static_cast<float>(cell.scene_scale));
+    PrepareOptions prepare = prepare_options(pipeline);
+    prepare.cache = {};  // nobody opens it again
+    const EvaluationCase there = rescaled(*test, static_cast<float>(cell.scene_scale));
+    variant_.prepared = prepare_scene(variant_.cloud, there.reference, there.up_world, there.scene_cameras, prepare, job);
+  }
+  *test = rescaled(*test, static_cast<float>(cell.scene_scale));
+  test->cloud = &variant_.cloud;
+  test->prepared = &variant_.prepared;
+  test->truth_labels = variant_.truth;
+  if (cell.hidden > 0) render_truth(test);
 }
 
 void StudyRunner::choose_strokes(const StudyCell& cell, const Job& job, Setup* setup) const {
@@ -126,6 +148,7 @@ void StudyRunner::choose_strokes(const StudyCell& cell, const Job& job, Setup* s
   } else {
     setup->strokes = robot_session(setup->test, setup->pipeline, cell.clicks, cell.draw, job).strokes;
   }
+  if (cell.order) shuffle(&setup->strokes, cell.order);
   if (cell.stroke_px > 0) draw_out(&setup->strokes, cell.stroke_px, cell.draw);
   if (cell.first == "strokes") setup->pipeline.given_first_mask = mask_of_strokes(setup->strokes, setup->test.reference);
 }
@@ -143,13 +166,10 @@ StudyRunner::Setup StudyRunner::set_up(const StudyCell& cell, const Job& job) {
   setup.possible = !job.cancelled() && can_run(cell, setup.test);
   if (!setup.possible) return setup;
   setup.test.prepared = &prepared_for(with_parts, job);
-  if (cell.scene_scale != 1) {
-    scale_to(cell.scene_scale, with_parts, job);
-    setup.test = rescaled(loaded_->test, static_cast<float>(cell.scene_scale));
-    setup.test.cloud = &scaled_cloud_;
-    setup.test.prepared = &scaled_prepared_;
-  }
+  change_scene(cell, with_parts, job, &setup.test);
   if (cell.step_back != 1) step_back(&setup.test, static_cast<float>(cell.step_back));
+  if (cell.object_share > 0) fill_picture(&setup.test, cell.object_share);
+  if (cell.score_scale != 1) resize_tests(&setup.test, cell.score_scale);
   setup.test.up_world = tilted(setup.test.up_world, setup.test.reference, cell.up_tilt_deg);
   setup.pipeline.scene_cameras = setup.test.scene_cameras;
   choose_strokes(cell, job, &setup);
@@ -158,7 +178,7 @@ StudyRunner::Setup StudyRunner::set_up(const StudyCell& cell, const Job& job) {
 
 PipelineReport StudyRunner::cut(const StudyCell& cell, Setup* setup, const Job& job) const {
   const EvaluationCase& test = setup->test;
-  if (cell.true_masks) setup->pipeline.given_masks = true_masks(test, cell);
+  if (cell.true_masks) setup->pipeline.given_masks = true_masks(test, cell, setup->pipeline.orbit.views);
   return cut_out(*test.cloud, test.prepared, test.reference, test.up_world, setup->strokes, setup->pipeline, job);
 }
 
@@ -180,7 +200,9 @@ nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
   result["views"] = std::ranges::count_if(report.views, &ViewReport::used);
   result["views_left_out"] = std::ranges::count_if(report.views, [](const ViewReport& v) { return !v.used; });
   result["gaussians"] = report.cut.touched;
+  result["looked_at_mpx"] = looked_at_megapixels(report);
   result["ambiguous"] = report.ambiguous;
+  result["warned"] = warning_of(report);
   result["found"] = report.outcome == Outcome::kDone;
   result["stages"] = nlohmann::json::object();
   for (const StageTime& stage : report.stages) result["stages"][stage.name] = stage.ms;
@@ -194,11 +216,13 @@ Image<Rgb8> StudyRunner::picture(const StudyCell& cell, const Job& job) {
   const PipelineReport report = cut(cell, &setup, job);
   if (job.cancelled()) return {};
   constexpr int kWidthPx = 360;
-  const Camera camera = limited_to_width(test.reference, kWidthPx);
+  const bool labelled = !test.truth_labels.empty();
+  const auto view = static_cast<std::size_t>(std::ranges::find_if(test.truth_masks, counts) - test.truth_masks.begin());
+  const Camera camera = limited_to_width(labelled ? test.reference : test.test_views.at(view), kWidthPx);
+  const Mask truth = labelled ? labels_seen(test, camera, test.truth_labels) : resized_mask(test.truth_masks[view], camera.width_px, camera.height_px);
   Image<Rgb8> picture = rgb8_from_linear(rasterize(*test.cloud, camera).colour);
-  const Mask mask = seen(test, camera, report.labels);
-  for (std::size_t i = 0; i < mask.size(); ++i)
-    for (auto& c : picture.pixels()[i]) c = static_cast<std::uint8_t>(mask.pixels()[i] ? c : c / 4);
+  const Mask mask = labels_seen(test, camera, report.labels);
+  for (std::size_t i = 0; i < mask.size(); ++i) paint(truth.pixels()[i] != 0, mask.pixels()[i] != 0, &picture.pixels()[i]);
   return picture;
 }
 

@@ -16,10 +16,11 @@ class StudyRunner {
   StudyRunner(nlohmann::json entry, std::filesystem::path folder, PreparedCache cache);
 
   // What was measured, with the scene's name and the cell's settings; null where the scene cannot be asked this (photographs
-  // without true labels), or where the job was cancelled.
+  // without true labels), or where the job was cancelled. "warned": what the program tells its user, in words, or empty.
   nlohmann::json run(const StudyCell& cell, const Job& job);
 
-  // The cutout of the cell in the reference view, the rest darkened: for a look at what failed.
+  // For a look at what failed: the cell's cutout in the view asked from (or, of photographs, in the first with a truth) as it
+  // is, the rest darkened; red what is missing, blue what is too much.
   Image<Rgb8> picture(const StudyCell& cell, const Job& job);
 
  private:
@@ -29,12 +30,19 @@ class StudyRunner {
     Strokes strokes;
     bool possible = true;
   };
+  // The scene in other units, or with a board in it.
+  struct Variant {
+    double scale = 1, hidden = 0;
+    GaussianCloud cloud;
+    PreparedScene prepared;
+    std::vector<std::uint8_t> truth;
+  };
   PipelineReport cut(const StudyCell& cell, Setup* setup, const Job& job) const;
   void load(const PipelineOptions& pipeline, const Job& job);
   Setup set_up(const StudyCell& cell, const Job& job);
   void choose_strokes(const StudyCell& cell, const Job& job, Setup* setup) const;
   const PreparedScene& prepared_for(const PipelineOptions& pipeline, const Job& job);
-  void scale_to(double scale, const PipelineOptions& pipeline, const Job& job);
+  void change_scene(const StudyCell& cell, const PipelineOptions& pipeline, const Job& job, EvaluationCase* test);
 
   nlohmann::json entry_;
   std::filesystem::path folder_;
@@ -42,9 +50,7 @@ class StudyRunner {
   std::unique_ptr<LoadedCase> loaded_;
   int loaded_neighbours_ = 0;
   std::map<int, PreparedScene> prepared_;  // of other numbers of neighbours
-  double scale_ = 1;                       // of what follows
-  GaussianCloud scaled_cloud_;
-  PreparedScene scaled_prepared_;
+  Variant variant_;                        // the last one; none is kept where there was none
 };
 
 }  // namespace splatcut

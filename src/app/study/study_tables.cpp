@@ -11,15 +11,49 @@ namespace {
 std::string label_of(const nlohmann::json& result) {
   if (result.at("preset") != "default") return result.at("preset").get<std::string>();
   std::string label;
-  for (const auto& assignment : result.at("set")) label += (label.empty() ? "" : " ") + assignment.get<std::string>();
+  for (const auto& assignment : result.at("set")) label.append(label.empty() ? "" : " ").append(assignment.get<std::string>());
   return label.empty() ? "default" : label;
 }
 
 struct Group {
   SettingScore score;
-  std::vector<double> ms;
+  std::vector<double> ms, iou;
   int with_labels = 0;
 };
+
+void add(const nlohmann::json& r, Group* group) {
+  SettingScore& s = group->score;
+  const double iou = r.at("image_iou");
+  const bool failed = iou < kFails, warned = !r.at("warned").get<std::string>().empty();
+  s.iou += iou;
+  s.boundary += r.at("boundary_iou").get<double>();
+  if (r.at("gaussian_iou").is_number()) {
+    s.gaussian_iou += r.at("gaussian_iou").get<double>();
+    ++group->with_labels;
+  }
+  s.looked_at_mpx += r.at("looked_at_mpx").get<double>();
+  s.failed += failed;
+  s.failed_warned += failed && warned;
+  s.fine_warned += !failed && warned;
+  group->iou.push_back(iou);
+  group->ms.push_back(r.at("ms"));
+  for (const auto& [stage, ms] : r.at("stages").items()) s.stages[stage] += ms.get<double>();
+  ++s.runs;
+}
+
+SettingScore finished(Group g) {
+  SettingScore& s = g.score;
+  const double n = s.runs;
+  for (double* sum : {&s.iou, &s.boundary, &s.looked_at_mpx}) *sum /= n;
+  s.gaussian_iou /= std::max(1, g.with_labels);
+  for (auto& [stage, ms] : s.stages) ms /= n;
+  s.ms = quantile(g.ms, 0.5);
+  s.least = quantile(g.iou, 0);
+  s.p10 = quantile(g.iou, 0.1);
+  s.median = quantile(g.iou, 0.5);
+  s.p90 = quantile(g.iou, 0.9);
+  return std::move(s);
+}
 
 }  // namespace
 
@@ -39,7 +73,7 @@ std::vector<SettingScore> scores_of(const StudyResults& results) {
   std::vector<Group> groups;
   for (const nlohmann::json& r : results) {
     const std::string label = label_of(r), series = r.at("series");
-    const double x = r.at("x"), iou = r.at("image_iou");
+    const double x = r.at("x");
     auto it = std::ranges::find_if(groups, [&](const Group& g) { return g.score.series == series && g.score.x == x && g.score.label == label; });
     if (it == groups.end()) {
       groups.emplace_back();
@@ -48,28 +82,10 @@ std::vector<SettingScore> scores_of(const StudyResults& results) {
       it->score.label = label;
       it->score.x = x;
     }
-    SettingScore& s = it->score;
-    s.iou += iou;
-    s.least_iou = std::min(s.least_iou, iou);
-    s.boundary += r.at("boundary_iou").get<double>();
-    if (r.at("gaussian_iou").is_number()) {
-      s.gaussian_iou += r.at("gaussian_iou").get<double>();
-      ++it->with_labels;
-    }
-    it->ms.push_back(r.at("ms"));
-    for (const auto& [stage, ms] : r.at("stages").items()) s.stages[stage] += ms.get<double>();
-    ++s.scenes;
+    add(r, &*it);
   }
   std::vector<SettingScore> scores;
-  for (Group& g : groups) {
-    const double n = g.score.scenes;
-    g.score.iou /= n;
-    g.score.boundary /= n;
-    g.score.gaussian_iou /= std::max(1, g.with_labels);
-    for (auto& [stage, ms] : g.score.stages) ms /= n;
-    g.score.ms = quantile(g.ms, 0.5);
-    scores.push_back(std::move(g.score));
-  }
+  for (Group& g : groups) scores.push_back(finished(std::move(g)));
   return scores;
 }
 
@@ -81,13 +97,18 @@ std::vector<SettingScore> pareto_front(std::vector<SettingScore> scores) {
   return front;
 }
 
-std::vector<Spread> spreads_of(const StudyResults& results) {
-  std::map<std::pair<std::string, std::string>, std::vector<double>> values;
-  for (const nlohmann::json& r : results) values[{r.at("scene"), r.at("series")}].push_back(r.at("image_iou"));
-  std::vector<Spread> spreads;
-  for (const auto& [at, v] : values)
-    spreads.push_back({at.first, at.second, quantile(v, 0), quantile(v, 0.1), quantile(v, 0.5), quantile(v, 0.9), quantile(v, 1), v.size()});
-  return spreads;
+double behind_front(const SettingScore& score, const std::vector<SettingScore>& all, double SettingScore::*cost) {
+  double best = score.iou;
+  for (const SettingScore& other : all)
+    if (other.*cost <= score.*cost) best = std::max(best, other.iou);
+  return best - score.iou;
+}
+
+std::vector<std::string> experiments_of(const StudyResults& all) {
+  std::vector<std::string> names;
+  for (const nlohmann::json& r : all)
+    if (const std::string name = r.at("experiment"); std::ranges::find(names, name) == names.end()) names.push_back(name);
+  return names;
 }
 
 }  // namespace splatcut

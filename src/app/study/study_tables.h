@@ -16,28 +16,31 @@ StudyResults of_experiment(const StudyResults& all, const std::string& experimen
 // The smallest value that at least that share of the values reach; values must not be empty.
 double quantile(std::vector<double> values, double share);
 
-// One setting over all scenes.
+inline constexpr double kFails = 0.9;  // image IoU below which a cutout counts as failed
+
+// One setting over all scenes and draws.
 struct SettingScore {
   std::string series, label;  // label: what tells it from others of its series
   double x = 0;
-  double iou = 0, least_iou = 1, boundary = 0, gaussian_iou = 0;  // means (and the least) over the scenes
-  double ms = 0;                                                  // median over the scenes
-  int scenes = 0;
-  std::map<std::string, double> stages;                           // mean ms
+  double iou = 0, boundary = 0, gaussian_iou = 0;  // means
+  double least = 1, p10 = 0, median = 0, p90 = 0;  // of the image IoU
+  double ms = 0;                                   // median
+  double looked_at_mpx = 0;                        // mean
+  int runs = 0;                                    // scenes x draws
+  int failed = 0, failed_warned = 0, fine_warned = 0;  // how many fail, of those how many with a word; words without need
+  std::map<std::string, double> stages;            // mean ms
 };
 
 // One score per setting (series, x, and what was set), in order of first appearance.
 std::vector<SettingScore> scores_of(const StudyResults& results);
 
-// Those that no other beats in both time and IoU, by rising time.
+// Those that no other beats in both cost and IoU, by rising cost.
 std::vector<SettingScore> pareto_front(std::vector<SettingScore> scores);
 
-// Of the image IoU over the draws, per scene and series.
-struct Spread {
-  std::string scene, series;
-  double least = 0, p10 = 0, median = 0, p90 = 0, most = 0;
-  std::size_t draws = 0;
-};
-std::vector<Spread> spreads_of(const StudyResults& results);
+// By how much the best IoU that costs no more is better; 0 on the front. cost: see the presets' test.
+double behind_front(const SettingScore& score, const std::vector<SettingScore>& all, double SettingScore::*cost);
+
+// The names of the experiments, in order of first appearance.
+std::vector<std::string> experiments_of(const StudyResults& all);
 
 }  // namespace splatcut

@@ -55,8 +55,7 @@ void scene_panel(UiContext& ui) {
       ui.ask(SetFieldOfView{glm::radians(degrees)});
   });
   slider_row("Near limit", "What is nearer than this is not drawn, in shares of the scene's size", [&] {
-    const float most = std::min(0.2f, DepthRange{}.near_plane / s.camera().scene_size());
-    if (ImGui::SliderFloat("##near", &view.near_share, std::min(0.0005f, 0.5f * most), most, "%.4f", ImGuiSliderFlags_Logarithmic))
+    if (ImGui::SliderFloat("##near", &view.near_share, 0.0005f, 0.2f, "%.4f", ImGuiSliderFlags_Logarithmic))
       ui.ask(SetView{view});
   });
   slider_row("Far limit", "What is farther than this is not drawn, in shares of the scene's size; 0 is no limit", [&] {
