@@ -165,7 +165,7 @@ TEST_CASE("NVOS by the command: measured, with the published figures beside it, 
   CHECK(json::parse(made.place.text("again/eval.json"))["scenes"][0]["image_iou"] == scene["image_iou"]);
 }
 
-TEST_CASE("SPIn-NeRF: the first mask is given, the others scored; cut-outs are not looked at, numbers and prefixes are cameras") {
+TEST_CASE("SPIn-NeRF: the first mask is given, the others scored, cut-outs are not looked at, numbers and prefixes are cameras") {
   const StandIn made;
   made.make_spin_nerf();
   const auto tasks = spin_nerf_tasks(made.place / "spin", made.place / "scenes");

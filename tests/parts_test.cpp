@@ -264,7 +264,7 @@ TEST_CASE("parts: an object click just beside what is selected is not lost, a re
   options.border_px = 0;
   CHECK(leaves(10.5f) == Leaves{1, 1, 0, 0});
   options.change_most_of_selected = 0;
-  CHECK(leaves(12.5f) == Leaves{1, 0, 0, 0});
+  CHECK(leaves(10.5f) == Leaves{1, 0, 0, 0});
   const Strokes slip = {click({5, 5}, SeedLabel::kObject), click({9, 5}, SeedLabel::kRest)};
   CHECK(pick_parts(parts, view, slip, PickOptions{.scale_steps = -10}).leaves == std::vector<std::uint8_t>{1, 0, 0, 0});
 }

@@ -110,7 +110,6 @@ Mask largest_region(const Mask& mask) {
 }
 
 PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> labels) {
-  constexpr float kNearPlane = 0.2f;  // as RasterOptions
   constexpr float kCutoffSigmas = 3.34f;  // sqrt(2 ln 255): beyond it alpha is below 1/255
   const float slope_x = kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px;
   const float slope_y = kFrustumSlack * 0.5f * static_cast<float>(camera.height_px) / camera.fy_px;
@@ -120,7 +119,7 @@ PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera, s
   for (std::size_t g = 0; g < cloud.size(); ++g) {
     if (!labels[g]) continue;
     const glm::vec3 at = camera.camera_from_world(cloud.position[g]);
-    if (at.z < kNearPlane) continue;
+    if (at.z < cloud.near_plane) continue;
     const glm::vec3& scale = cloud.scale[g];
     const float sigma_px = std::max(camera.fx_px, camera.fy_px) / at.z * bend * std::max({scale.x, scale.y, scale.z});
     const float radius_px = kCutoffSigmas * std::sqrt(sigma_px * sigma_px + kLowPassPx2) + 1;
