@@ -221,7 +221,9 @@ void Picker::apply(const glm::vec2& pixel, SeedLabel label) {
   if (pick_.leaves[leaf] == object) return;  // already on that side
   const float radius = any_ ? distance_to_border(pixel, !object) : 0;
   const float selected_px = object && any_ ? selected_sum(view_.trees[0].pixels) : std::numeric_limits<float>::max();
-  if (any_ && view_.trees[0].pixels[leaf] > largest_change(radius, object ? selected_px : 0)) return;
+  constexpr float kMostRemoved = 0.25f;  // of what is selected, by a rest click inside of it
+  const float beside_px = object ? selected_px : kMostRemoved * selected_sum(view_.trees[0].pixels);
+  if (any_ && view_.trees[0].pixels[leaf] > largest_change(radius, beside_px)) return;
   const std::vector<Proposals> all = proposals(leaf, object);
   std::vector<Candidate> candidates;
   for (std::size_t t = 0; t < all.size(); ++t)
