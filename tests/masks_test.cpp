@@ -10,6 +10,7 @@
 #include "scene/error.h"
 #include "scene/rasterizer.h"
 #include "scene/png_file.h"
+#include "segment/doubts.h"
 #include "segment/mask_disturbance.h"
 #include "segment/mask_tools.h"
 #include "segment/orbit.h"
@@ -186,4 +187,27 @@ TEST_CASE("disturbed masks: shifted, emptied, filled, with holes only inside, an
     if (holes.pixels()[i]) CHECK(mask.pixels()[i]);
   CHECK(disturbed(mask, {"none", 9}, 1) == mask);
   CHECK_THROWS_AS(disturbed(mask, {"melt", 1}, 1), Error);
+}
+
+TEST_CASE("doubts: another size, masks left out, and a cutout that most masks speak against, in words") {
+  PipelineReport report;
+  report.views.resize(4);
+  for (ViewReport& view : report.views) {
+    view.used = true;
+    view.confidence = 0.95;
+  }
+  CHECK(doubts(report).empty());
+  report.ambiguous = true;
+  report.first_sizes = 5;
+  report.first_size = 1;
+  CHECK(doubts(report) == std::vector<std::string>{"the first click could mean a part of another size: this is 2 of 5, see --scale"});
+  report.ambiguous = false;
+  report.views[1].used = false;
+  report.views[1].reason = "the object is hidden here";
+  CHECK(doubts(report).empty());
+  report.views[1].disagreed = true;
+  CHECK(doubts(report) == std::vector<std::string>{"1 of 4 masks were left out, they disagree with the others"});
+  report.views[1].disagreed = false;
+  report.views[2].confidence = report.views[3].confidence = 0.1;
+  CHECK(doubts(report) == std::vector<std::string>{"2 of 3 masks disagree with the cutout: it is not to be trusted, look at the masks"});
 }

@@ -16,6 +16,7 @@
 #include "app/work_cut.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "segment/doubts.h"
 
 namespace splatcut {
 
@@ -60,12 +61,6 @@ void print_summary(const CutArguments& args, const Scene& scene, const nlohmann:
   fmt::print("{}: object.ply rest.ply labels.u8 object.png rest.png tint.png masks.png report.json\n", args.output.string());
 }
 
-// A first click that could mean several sizes says so.
-void say_other_sizes(const PipelineReport& report) {
-  if (report.ambiguous)
-    fmt::print(stderr, "the first click could mean a part of another size: this is {} of {}, see --scale\n", report.first_size + 1, report.first_sizes);
-}
-
 nlohmann::json settings_json(const CutArguments& args, const Meant& meant, const ChosenCamera& chosen, const PipelineOptions& options) {
   nlohmann::json settings = {{"preset", args.preset}, {"reference", chosen.camera.name}, {"views", options.orbit.views}, {"work_width_px", options.work_width_px},
                              {"neighbours", options.neighbours}, {"lambda", options.cut.energy.lambda}, {"set", args.set}, {"coarse", options.cut.coarse},
@@ -108,7 +103,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   nlohmann::json json;
   if (meant.objects.empty()) {
     PipelineReport report = cut_one_object(scene, chosen, meant.strokes, options, job);
-    if (!common.quiet) say_other_sizes(report);
+    for (const std::string& sentence : doubts(report)) warn(sentence, common.quiet);
     report.stages.insert(report.stages.begin(), {"load", load_ms});
     json = report_json(scene, report, settings, ms_since_start());
     write_cutout_scenes(folder, scene, report.labels);

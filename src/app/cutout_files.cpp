@@ -9,6 +9,7 @@
 #include "scene/atomic_file.h"
 #include "scene/png_file.h"
 #include "scene/rasterizer.h"
+#include "segment/doubts.h"
 #include "segment/mask_tools.h"
 
 namespace splatcut {
@@ -137,6 +138,7 @@ nlohmann::json object_json(const PipelineReport& report) {
           {"views", views},
           {"enough", {{"views", std::ranges::count_if(report.views, &ViewReport::used)}, {"pixels", pixels}, {"gaussians", report.cut.touched}, {"why", report.enough}}},
           {"cut", {{"nodes", report.cut.nodes}, {"arcs", report.cut.arcs}, {"energy", report.cut.energy}, {"flow", report.cut.flow}}},
+          {"doubts", doubts(report)},
           {"stages", stages}};
 }
 

@@ -319,6 +319,7 @@ void Run::settle() {
   for (ViewReport& view : report_.views) {
     if (disagrees(view)) {
       view.used = false;
+      view.disagreed = true;
       view.reason = "its mask disagrees with the others";
     }
     if (!view.used) continue;

@@ -8,14 +8,17 @@ PipelineOptions preset(const std::string& name) {
   // Smoother than the energy's own defaults: better on photographs and straddling splats (docs/study.md).
   options.cut.energy.lambda = 2;
   options.cut.energy.v0_px_per_view_at_400 = 3;
-  if (name == "default") return options;
-  if (name == "fast") {
+  // The picture may add what the parts missed: a mask too small is the worse mistake (docs/masks.md).
+  constexpr RefineOptions kGenerous{.solver = MaskSolver::kPixelCut, .grow_px = 4};
+  if (name == "default") {
+    options.refine = kGenerous;
+  } else if (name == "fast") {
     options.orbit.views = 0;
     options.work_width_px = 256;
   } else if (name == "best") {
     options.orbit.views = 6;
     options.settled_change = 0;  // all of them
-    options.refine.solver = MaskSolver::kPixelCut;
+    options.refine = kGenerous;
   } else if (name == "paper" || name == "paper-code") {
     const bool code = name == "paper-code";
     options.orbit.views = 40;

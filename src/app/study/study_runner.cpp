@@ -12,6 +12,7 @@
 #include "scene/error.h"
 #include "scene/png_file.h"
 #include "scene/rasterizer.h"
+#include "segment/doubts.h"
 #include "segment/mask_tools.h"
 #include "segment/robot_user.h"
 
@@ -75,14 +76,11 @@ MaskSource true_masks(const EvaluationCase& test, const StudyCell& cell, int vie
   };
 }
 
-// What `splatcut cut` says of such a run, or its report under the views.
+// What `splatcut cut` says of such a run.
 std::string warning_of(const PipelineReport& report) {
-  std::string words = report.reason;
-  const auto add = [&](const std::string& more) { words.append(words.empty() ? "" : "; ").append(more); };
-  if (report.ambiguous) add("another size is nearly as likely");
-  const auto doubted = std::ranges::count_if(report.views, [](const ViewReport& v) { return !v.used && v.reason.find("disagrees") != std::string::npos; });
-  if (doubted) add(std::to_string(doubted) + " views disagree");
-  return words;
+  std::vector<std::string> sentences = doubts(report);
+  if (!report.reason.empty()) sentences.insert(sentences.begin(), report.reason);
+  return fmt::format("{}", fmt::join(sentences, "; "));
 }
 
 void paint(bool is, bool said, Rgb8* pixel) {
