@@ -16,7 +16,6 @@ PipelineOptions preset(const std::string& name) {
     options.orbit.views = 0;
     options.work_width_px = 256;
   } else if (name == "best") {
-    options.orbit.views = 6;
     options.settled_change = 0;  // all of them
     options.refine = kGenerous;
   } else if (name == "paper" || name == "paper-code") {
