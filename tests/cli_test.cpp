@@ -249,8 +249,9 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
   json entry = {{"name", "apple"}, {"scene", "small.ply"}, {"cameras", "cameras.json"}, {"truth", {{"labels", "apple.labels.u8"}}},
                 {"reference", {{"camera", "view_00"}}}, {"clicks", "robot"}, {"test_views", {view}}};
   place.write("made/suite.json", json{{"scenes", {entry}}}.dump());
-  const Result result = place.run("eval made/suite.json --preset fast -o measured");
+  const Result result = place.run("eval made/suite.json --preset fast --draws 2 -o measured");
   REQUIRE_MESSAGE(result.code == 0, result.err);
+  CHECK(result.out.find("median / least of 2 draws") != std::string::npos);
   CHECK(result.out.find("apple") != std::string::npos);
   const json measured = json::parse(place.text("measured/eval.json"));
   REQUIRE(measured["scenes"].size() == 1);
@@ -261,6 +262,8 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
     CHECK(has_keys(scores["image_iou_after_clicks"], {"1", "3", "5"}));
     CHECK(scores["mask_iou_after_clicks"].size() == 8);
   }
+  CHECK(scene["draws"]["median"].size() == 8);
+  CHECK(scene["draws"]["least"][7] <= scene["draws"]["median"][7]);
   CHECK(scene["image_iou"].get<double>() > 0.7);
   CHECK(scene["image_iou"].get<double>() <= 1.0);
   CHECK(scene["ms"].contains("cut"));
