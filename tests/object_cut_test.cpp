@@ -119,6 +119,10 @@ TEST_CASE("object cut: without neighbours the heat map decides every label, corr
     ObjectCutter cutter = fresh_cutter();
     const ObjectCutReport report = cutter.cut(input);
     REQUIRE(report.outcome == Outcome::kDone);
+    if (corrected) {
+      CHECK(report.views.back().confidence == 1);
+      CHECK_FALSE(report.views.back().disagreed);
+    }
     const std::vector<float> w = cutter.likelihood_of(input);
     REQUIRE(w.size() == report.labels.size());
     std::size_t object = 0, wrong = 0, trimmed = 0;

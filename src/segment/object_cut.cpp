@@ -221,7 +221,7 @@ Likelihood ObjectCutter::evidence(const ObjectCutInput& input, const PipelineRep
       add_masked_sums(*cloud_, c.camera, c.mask, settings.hard_counts, job, &*sums);
       add_weighted(*cloud_, c, kCorrectionWeight * first_used, settings.hard_counts, job, &*sums);
     });
-    out->views.push_back({c.camera, c.mask, true, 1, {}});
+    out->views.push_back({.camera = c.camera, .mask = c.mask, .used = true, .confidence = 1});
   }
   const auto used = std::ranges::count_if(out->views, [](const ViewReport& v) { return v.used; });
   return with_prior(likelihood(sums ? *sums : *sums_), first.prior, settings.prior_px_per_view * static_cast<float>(used));

@@ -91,9 +91,9 @@ struct ViewReport {
   Camera camera;
   Mask mask;
   bool used = false;
-  bool disagreed = false;  // left out because its mask disagrees with the others
   double confidence = 0;   // IoU of the mask and the final labels seen in this view
   std::string reason;      // why it was left out
+  bool disagreed = false;  // left out because its mask disagrees with the others
 };
 
 enum class Outcome { kDone, kNothingFound, kCancelled };
