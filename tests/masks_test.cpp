@@ -200,7 +200,7 @@ TEST_CASE("doubts: another size, masks left out, and a cutout that most masks sp
   report.ambiguous = true;
   report.first_sizes = 5;
   report.first_size = 1;
-  CHECK(doubts(report) == std::vector<std::string>{"the first click could mean a part of another size: this is 2 of 5, see --scale"});
+  CHECK(doubts(report) == std::vector<std::string>{"the first click could mean a part of another size: this is size 2 of 5"});
   report.ambiguous = false;
   report.views[1].used = false;
   report.views[1].reason = "the object is hidden here";

@@ -126,6 +126,9 @@ TEST_CASE("the key changes with all that the preparation depends on") {
   cloud = e.cloud;
   cloud.f_dc[3].y += 1;
   CHECK(key(cloud, e.reference, {}, {}) != e.key);
+  cloud = e.cloud;
+  cloud.near_plane *= 2;
+  CHECK(key(cloud, e.reference, {}, {}) != e.key);
   Camera camera = e.reference;
   camera.fx_px += 1;
   CHECK(key(e.cloud, camera, {}, {}) != e.key);

@@ -58,7 +58,8 @@ Box robust_bounds(std::span<const glm::vec3> positions, double inside) {
 }
 
 float natural_near_plane(std::span<const glm::vec3> positions) {
-  return kNaturalNearShare * glm::length(robust_bounds(positions).extent());
+  const float diagonal = glm::length(robust_bounds(positions).extent());
+  return diagonal > 0 ? kNaturalNearShare * diagonal : GaussianCloud{}.near_plane;
 }
 
 }  // namespace splatcut

@@ -47,7 +47,8 @@ struct Box {
 Box robust_bounds(std::span<const glm::vec3> positions, double inside = 0.98);
 
 // That share of the diagonal of robust_bounds(): about the 0.2 units that scenes are trained with where those have
-// the usual units, and the same picture where they have others. load_scene() sets it.
+// the usual units, and the same picture where they have others. load_scene() sets it. A scene without
+// extent has GaussianCloud's own.
 constexpr float kNaturalNearShare = 0.01f;
 float natural_near_plane(std::span<const glm::vec3> positions);
 

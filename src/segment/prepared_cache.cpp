@@ -168,6 +168,7 @@ std::uint64_t prepared_key(const GaussianCloud& cloud, const Camera& reference, 
   hash.number(hash_of_program());
   hash.number(cloud.size());
   hash.number(cloud.sh_degree);
+  hash.number(cloud.near_plane);  // what the observing views show
   hash.add(std::as_bytes(std::span(cloud.position)));
   hash.add(std::as_bytes(std::span(cloud.scale)));
   hash.add(std::as_bytes(std::span(cloud.rotation)));
