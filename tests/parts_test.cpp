@@ -7,17 +7,13 @@
 #include <map>
 
 #include "scene/counter_rng.h"
-#include "scene/morton.h"
 #include "scene/rasterizer.h"
-#include "scene/still_life.h"
-#include "scene/error.h"
-#include "segment/click_draws.h"
-#include "segment/enclosed.h"
 #include "segment/mask_tools.h"
 #include "segment/part_picker.h"
 #include "segment/pipeline.h"
 #include "segment/prepared_scene.h"
 #include "segment/robot_user.h"
+#include "still_life_table.h"
 #include "synthetic_cloud.h"
 
 using namespace splatcut;
@@ -71,48 +67,6 @@ Image<std::int32_t> four_stripes() {
   for (int y = 0; y < 10; ++y)
     for (int x = 0; x < 40; ++x) hit.at(x, y) = x / 10;
   return hit;
-}
-
-// A still life in Morton order and the truth of its objects.
-struct Table {
-  LabelledScene scene;
-  GaussianCloud cloud;
-  std::vector<std::uint8_t> label;
-  PreparedScene prepared;
-};
-
-const Table& table() {
-  static const Table made = [] {
-    Table t;
-    StillLifeOptions options;
-    options.gaussians = 60000;
-    t.scene = make_still_life(options);
-    const std::vector<std::uint32_t> order = morton_order(t.scene.cloud.position);
-    t.cloud = permuted(t.scene.cloud, order);
-    for (const std::uint32_t g : order) t.label.push_back(t.scene.label[g]);
-    t.prepared = prepare_scene(t.cloud, t.scene.cameras.front(), {0, 1, 0}, t.scene.cameras);
-    return t;
-  }();
-  return made;
-}
-
-struct Target {
-  Camera camera;
-  PartView view;
-  Mask truth;
-};
-
-Target target(const Table& t, const std::string& object) {
-  const auto seed = std::ranges::find(t.scene.seeds, object, &LabelledScene::SeedClick::object);
-  const auto index = std::ranges::find(t.scene.label_name, object) - t.scene.label_name.begin();
-  std::vector<std::uint8_t> labels(t.cloud.size());
-  for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = t.label[g] == index;
-  Target out{limited_to_width(t.scene.cameras[static_cast<std::size_t>(seed->camera)], 400), {}, {}};
-  RasterOptions raster;
-  raster.depth = true;
-  out.view = view_parts(t.prepared.parts, rasterize(t.cloud, out.camera, raster).first_hit);
-  out.truth = thresholded(render_labels(t.cloud, out.camera, labels), 0.5f);
-  return out;
 }
 
 // Mask IoU after each of n robot clicks.
@@ -388,89 +342,4 @@ TEST_CASE("parts: a scene prepared for masks from pixels has none") {
   const PreparedScene prepared = prepare_scene(cloud, camera, {0, -1, 0}, {}, prepare_options(options));
   CHECK(prepared.parts.trees.empty());
   CHECK(prepared.graph.nodes() == cloud.size());
-}
-
-TEST_CASE("enclosed: hidden pieces join the object that they touch alone, by hand") {
-  // A chain: object 0 1, hidden 2 3, object 4, hidden 5, rest 6, and faint 7 hanging at 3.
-  GaussianCloud cloud;
-  cloud.resize(8, 0);
-  std::ranges::fill(cloud.opacity, 0.9f);
-  cloud.opacity[7] = 0.05f;
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>> edges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}, {3, 7}};
-  const FlowGraph graph = graph_from_edges(8, edges);
-  using Labels = std::vector<std::uint8_t>;
-  const Labels shown = {1, 1, 0, 0, 1, 0, 1, 0}, before = {1, 1, 0, 0, 1, 0, 0, 0};
-  EnclosedOptions options;
-  options.most_size = 1;
-  Labels labels = before;
-  CHECK(join_enclosed(cloud, graph, shown, options, &labels) == 2);
-  CHECK(labels == Labels{1, 1, 1, 1, 1, 0, 0, 0});  // 5 touches the rest as well
-  labels = before;
-  options.most_size = 0.5f;  // a piece of two is too much beside an object of three
-  CHECK(join_enclosed(cloud, graph, shown, options, &labels) == 0);
-  CHECK(labels == before);
-  options.most_size = 1;
-  options.least_object = 0.5f;
-  CHECK(join_enclosed(cloud, graph, shown, options, &labels) == 3);
-  // What the view shows stays as the user sees it.
-  const Labels all_shown(8, 1);
-  labels = before;
-  CHECK(join_enclosed(cloud, graph, all_shown, {}, &labels) == 0);
-  CHECK(labels == before);
-}
-
-TEST_CASE("parts: a scene in other units is cut the same") {
-  const Table& t = table();
-  const Target mug = target(t, "mug");
-  const auto labels_at = [&](float scale) {
-    GaussianCloud cloud = t.cloud;
-    for (glm::vec3& p : cloud.position) p *= scale;
-    for (glm::vec3& s : cloud.scale) s *= scale;
-    cloud.near_plane = natural_near_plane(cloud.position);
-    Camera camera = mug.camera;
-    camera.camera_from_world_translation *= scale;
-    const glm::vec2 middle = robot_click(mug.truth, Mask(mug.truth.width(), mug.truth.height()))->points_px[0];
-    return cut_out(cloud, nullptr, camera, {0, 1, 0}, {click(middle, SeedLabel::kObject)}, preset("fast")).labels;
-  };
-  const std::vector<std::uint8_t> one = labels_at(1);
-  CHECK(std::ranges::count(one, 1) > 1000);
-  for (const float scale : {1.0f / 64, 64.0f}) CHECK(labels_at(scale) == one);  // powers of two: the same bits
-  std::size_t differ = 0;
-  const std::vector<std::uint8_t> hundredth = labels_at(0.01f);
-  for (std::size_t g = 0; g < one.size(); ++g) differ += one[g] != hundredth[g];
-  CHECK(differ < one.size() / 1000);
-}
-
-TEST_CASE("parts: draws of unsteady clicks, their median, their least and the clicks to a goal") {
-  const Table& t = table();
-  EvaluationCase scene;
-  scene.cloud = &t.cloud;
-  scene.prepared = &t.prepared;
-  const auto index = std::ranges::find(t.scene.label_name, "mug") - t.scene.label_name.begin();
-  for (const auto label : t.label) scene.truth_labels.push_back(label == index);
-  scene.reference = target(t, "mug").camera;
-  render_truth(&scene);
-  const ClickDraws draws = draw_clicks(scene, preset("default"), 3, 4);
-  REQUIRE(draws.iou_after.size() == 4);
-  CHECK(draws.iou_after[0] == robot_session(scene, preset("default"), 3).iou_after);
-  for (std::size_t k = 0; k < 3; ++k) {
-    std::vector<double> at;
-    for (const auto& session : draws.iou_after) at.push_back(session[k]);
-    std::ranges::sort(at);
-    CHECK(draws.least[k] == at.front());
-    CHECK(draws.median[k] == doctest::Approx((at[1] + at[2]) / 2));
-  }
-  CHECK(draws.least_from_second == std::min(draws.least[1], draws.least[2]));
-  CHECK(draws.mean_noc90 >= draws.mean_noc85);
-  CHECK(draws.most_noc90 >= draws.mean_noc90);
-  // The same scene known by masks of its views: each of them is clicked.
-  EvaluationCase photographs = scene;
-  photographs.test_views = {scene.reference, scene.reference};
-  photographs.truth_masks = {*scene.reference_truth, *scene.reference_truth};
-  photographs.truth_labels.clear();
-  photographs.reference_truth.reset();
-  CHECK(draw_clicks(photographs, preset("default"), 3, 2).iou_after.size() == 4);
-  photographs.test_views.clear();
-  CHECK(draw_clicks(photographs, preset("default"), 3, 2).iou_after.empty());
-  CHECK_THROWS_AS(robot_session(photographs, preset("default"), 1), Error);
 }
