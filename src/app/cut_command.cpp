@@ -104,6 +104,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   if (meant.objects.empty()) {
     PipelineReport report = cut_one_object(scene, chosen, meant.strokes, options, job);
     for (const std::string& sentence : doubts(report)) warn(sentence, common.quiet);
+    if (report.ambiguous && !common.quiet) fmt::print(stderr, "--scale takes a smaller or a larger one\n");
     report.stages.insert(report.stages.begin(), {"load", load_ms});
     json = report_json(scene, report, settings, ms_since_start());
     write_cutout_scenes(folder, scene, report.labels);
@@ -112,6 +113,9 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
     json = cut_many_objects({scene, chosen, args.camera, options, meant.objects}, folder, job);
     end_progress();
     stop_if_cancelled(job);
+    for (const auto& object : json["objects"])
+      for (const auto& sentence : object["doubts"])
+        warn(fmt::format("{}: {}", object["name"].get<std::string>(), sentence.get<std::string>()), common.quiet);
     const nlohmann::json load = {{"name", "load"}, {"ms", load_ms}};
     json["stages"].insert(json["stages"].begin(), load);
     json.update(run_json(scene, settings, ms_since_start()));

@@ -9,7 +9,7 @@ namespace {
 
 enum class Visit : std::uint8_t { kNot, kThisPiece, kOpen };
 
-// Collects one piece after the other; each Gaussian is visited once, for all pieces that turn out open are marked.
+// Collects one piece after the other. Pieces that turn out open stay marked, so that each Gaussian is visited once.
 class Pieces {
  public:
   Pieces(const GaussianCloud& cloud, const FlowGraph& graph, std::span<const std::uint8_t> shown, const EnclosedOptions& options,

@@ -79,8 +79,8 @@ class Picker {
   float odd_look(std::size_t tree, std::uint32_t node) const;
   float odd_size(float pixels) const;
   float odd_change(float changed_px, float radius_px, float selected_px) const;
-  float largest_change(float radius_px, float selected_px) const;
-  float odd_hidden(float changed_px, float changed_area) const;
+  float largest_change(float radius_px, bool object) const;
+  float odd_hidden(float changed_px, float changed_area, float selected_area_per_px) const;
   std::vector<float> on_side(std::size_t tree, const std::vector<float>& of_leaves, bool selected) const;
   float selected_sum(const std::vector<float>& of_leaves) const;
   float distance_to_border(const glm::vec2& pixel, bool selected) const;
@@ -127,16 +127,17 @@ float Picker::odd_change(float changed_px, float radius_px, float selected_px) c
 }
 
 // More pixels than that are not meant by a click so near to the border, unless they are few beside what is selected.
-float Picker::largest_change(float radius_px, float selected_px) const {
+float Picker::largest_change(float radius_px, bool object) const {
   const float disc = options_.change_most * 3.14159265f * (radius_px + 1) * (radius_px + 1);
-  return radius_px < options_.border_px ? disc : std::max(disc, options_.change_most_of_selected * selected_px);
+  if (radius_px < options_.border_px) return disc;
+  const float share = object ? options_.change_most_of_selected : options_.rest_most_of_selected;
+  return std::max(disc, share * selected_sum(view_.trees[0].pixels));
 }
 
 // A correction that brings along much more of what the view hides than the selection has, per pixel, is not meant.
-float Picker::odd_hidden(float changed_px, float changed_area) const {
-  const float selected_px = selected_sum(view_.trees[0].pixels), selected_area = selected_sum(parts_.trees[0].area);
-  if (selected_px <= 0 || selected_area <= 0) return 0;
-  const float folds = changed_area / std::max(changed_px, 1.0f) / (selected_area / selected_px);
+float Picker::odd_hidden(float changed_px, float changed_area, float selected_area_per_px) const {
+  if (selected_area_per_px <= 0) return 0;
+  const float folds = changed_area / std::max(changed_px, 1.0f) / selected_area_per_px;
   return options_.hidden_penalty * std::max(0.0f, std::log(std::max(folds, 1e-6f)) - options_.hidden_slack);
 }
 
@@ -221,15 +222,14 @@ void Picker::apply(const glm::vec2& pixel, SeedLabel label) {
   if (pick_.leaves[leaf] == object) return;  // already on that side
   const float radius = any_ ? distance_to_border(pixel, !object) : 0;
   const float selected_px = object && any_ ? selected_sum(view_.trees[0].pixels) : std::numeric_limits<float>::max();
-  constexpr float kMostRemoved = 0.25f;  // of what is selected, by a rest click inside of it
-  const float beside_px = object ? selected_px : kMostRemoved * selected_sum(view_.trees[0].pixels);
-  if (any_ && view_.trees[0].pixels[leaf] > largest_change(radius, beside_px)) return;
+  if (any_ && view_.trees[0].pixels[leaf] > largest_change(radius, object)) return;
   const std::vector<Proposals> all = proposals(leaf, object);
+  const float area_per_px = selected_sum(parts_.trees[0].area) / std::max(selected_sum(view_.trees[0].pixels), 1.0f);
   std::vector<Candidate> candidates;
   for (std::size_t t = 0; t < all.size(); ++t)
     for (std::size_t i = 0; i < all[t].chain.size(); ++i) {
       const float px = all[t].changed_px[i];
-      const float size = any_ ? odd_change(px, radius, selected_px) + odd_hidden(px, all[t].changed_area[i]) : odd_size(px);
+      const float size = any_ ? odd_change(px, radius, selected_px) + odd_hidden(px, all[t].changed_area[i], area_per_px) : odd_size(px);
       const float rare = -std::log(std::max(all[t].stability[i], 0.01f));
       candidates.push_back({t, i, odd_look(t, all[t].chain[i]) + size + options_.stability_weight * rare});
     }
