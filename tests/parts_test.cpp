@@ -230,6 +230,7 @@ TEST_CASE("parts: a correction that brings much of what the view hides is not me
   PickOptions options;
   options.cut_weight = 1;
   options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty = options.large_penalty = 0;
+  options.joint_bonus = 0;
   options.scale_steps = -10;
   const Strokes strokes = {click({5, 5}, SeedLabel::kObject), click({25, 5}, SeedLabel::kObject)};
   using Leaves = std::vector<std::uint8_t>;
@@ -239,6 +240,25 @@ TEST_CASE("parts: a correction that brings much of what the view hides is not me
   CHECK(pick_parts(parts, view, strokes, options).leaves == Leaves{1, 0, 1, 1});
   options.hidden_penalty = 2;
   CHECK(pick_parts(parts, view, strokes, options).leaves == Leaves{1, 0, 1, 0});
+}
+
+TEST_CASE("parts: a part that holds all object clicks is likelier meant than one that holds the last alone") {
+  PartHierarchy parts = four_leaves();
+  const PartView view = view_parts(parts, four_stripes());
+  parts.trees[0].cut = {1, 1, 1, 1, 2, 2, 2.5f};  // the whole looks a little less likely than a stripe: ln(2.5 / 2) against ln 1
+  PickOptions options;
+  options.cut_weight = 1;
+  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty = options.large_penalty = options.change_small = 0;
+  options.scale_steps = -10;  // the first click takes its stripe
+  const Strokes strokes = {click({5, 5}, SeedLabel::kObject), click({25, 5}, SeedLabel::kObject)};
+  using Leaves = std::vector<std::uint8_t>;
+  CHECK(pick_parts(parts, view, strokes, options).leaves == Leaves{1, 1, 1, 1});
+  options.joint_bonus = 0;
+  CHECK(pick_parts(parts, view, strokes, options).leaves == Leaves{1, 0, 1, 0});
+  options.joint_bonus = 1;
+  Strokes with_rest = strokes;
+  with_rest.insert(with_rest.begin() + 1, click({35, 5}, SeedLabel::kRest));
+  CHECK(pick_parts(parts, view, with_rest, options).leaves == Leaves{1, 0, 1, 0});
 }
 
 TEST_CASE("parts: a mask of one side completes to whole nodes, by hand") {

@@ -88,7 +88,8 @@ class Picker {
   const PartHierarchy& parts_;
   const PartView& view_;
   const PickOptions& options_;
-  std::vector<std::vector<std::uint8_t>> clicked_[2];  // per sign, tree and node: holds a click of that sign
+  std::vector<std::vector<std::uint32_t>> clicked_[2];  // per sign, tree and node: clicks of that sign that it holds
+  std::uint32_t clicks_[2] = {0, 0};                    // of that sign
   bool any_ = false;
   Pick pick_;
 };
@@ -218,7 +219,8 @@ void Picker::apply(const glm::vec2& pixel, SeedLabel label) {
   if (leaf == kNoPart) return;
   const bool object = label == SeedLabel::kObject;
   for (std::size_t t = 0; t < parts_.trees.size(); ++t)
-    for (const std::uint32_t node : ancestors(parts_.trees[t], leaf)) clicked_[object][t][node] = 1;
+    for (const std::uint32_t node : ancestors(parts_.trees[t], leaf)) ++clicked_[object][t][node];
+  ++clicks_[object];
   if (pick_.leaves[leaf] == object) return;  // already on that side
   const float radius = any_ ? distance_to_border(pixel, !object) : 0;
   const float selected_px = object && any_ ? selected_sum(view_.trees[0].pixels) : std::numeric_limits<float>::max();
@@ -231,7 +233,9 @@ void Picker::apply(const glm::vec2& pixel, SeedLabel label) {
       const float px = all[t].changed_px[i];
       const float size = any_ ? odd_change(px, radius, selected_px) + odd_hidden(px, all[t].changed_area[i], area_per_px) : odd_size(px);
       const float rare = -std::log(std::max(all[t].stability[i], 0.01f));
-      candidates.push_back({t, i, odd_look(t, all[t].chain[i]) + size + options_.stability_weight * rare});
+      const std::uint32_t node = all[t].chain[i];
+      const float joint = any_ && object && clicked_[1][t][node] == clicks_[1] ? options_.joint_bonus : 0;
+      candidates.push_back({t, i, odd_look(t, node) + size + options_.stability_weight * rare - joint});
     }
   Candidate best = *std::ranges::min_element(candidates, {}, &Candidate::odd);
   if (!any_) best.index = note_first(all, candidates, best);

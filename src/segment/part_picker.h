@@ -48,6 +48,7 @@ struct PickOptions {
   float change_large = 3.4f, change_slack = 3.25f, change_most = 2.7f;  // of later clicks
   float change_most_of_selected = 1;  // an object click farther than border_px from the selection may add that much
   float rest_most_of_selected = 0.25f;  // and a rest click may remove that much
+  float joint_bonus = 1;  // of later object clicks, for a part that holds all of them
   float border_px = 2;                // nearer ones mend its border
   float hidden_penalty = 1, hidden_slack = 2;  // of later clicks that bring much of what the view hides, per pixel
 };
