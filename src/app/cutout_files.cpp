@@ -127,16 +127,15 @@ nlohmann::json run_json(const Scene& scene, const nlohmann::json& settings, doub
 
 nlohmann::json object_json(const PipelineReport& report) {
   nlohmann::json views = nlohmann::json::array(), stages = nlohmann::json::array();
-  std::size_t pixels = 0;
   for (const ViewReport& view : report.views) {
-    if (view.used) pixels += view.mask.size();
     views.push_back({{"used", view.used}, {"confidence", view.confidence}, {"mask_px", count(view.mask)}});
     if (!view.reason.empty()) views.back()["reason"] = view.reason;
   }
   for (const StageTime& stage : report.stages) stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
+  const LookedAt enough = looked_at(report);
   return {{"object", {{"gaussians", std::ranges::count(report.labels, 1)}}},
           {"views", views},
-          {"enough", {{"views", std::ranges::count_if(report.views, &ViewReport::used)}, {"pixels", pixels}, {"gaussians", report.cut.touched}, {"why", report.enough}}},
+          {"enough", {{"views", enough.views}, {"pixels", enough.pixels}, {"gaussians", report.cut.touched}, {"why", report.enough}}},
           {"cut", {{"nodes", report.cut.nodes}, {"arcs", report.cut.arcs}, {"energy", report.cut.energy}, {"flow", report.cut.flow}}},
           {"doubts", doubts(report)},
           {"stages", stages}};

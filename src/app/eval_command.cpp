@@ -39,6 +39,7 @@ nlohmann::json score_json(const SceneScore& s) {
   j["image_iou_after_clicks"] = nlohmann::json::object();
   for (const auto& [n, value] : s.image_iou_after_clicks) j["image_iou_after_clicks"][std::to_string(n)] = value;
   for (const StageTime& stage : s.stages) j["ms"][stage.name] = stage.ms;
+  j["enough"] = {{"views", s.enough.views}, {"pixels", s.enough.pixels}, {"gaussians", s.nodes_touched}, {"why", s.why_enough}};
   return j;
 }
 
@@ -57,6 +58,7 @@ nlohmann::json mean_json(const std::vector<nlohmann::json>& scores) {
   // The first score is the mould: a pointer into nothing would make an array of the keys "1", "3", "5".
   nlohmann::json mean = scores.empty() ? nlohmann::json::object() : scores.front();
   mean["name"] = "mean";
+  if (mean.contains("enough")) mean["enough"].erase("why");
   for (const auto& s : scores) {
     const nlohmann::json flat = s.flatten();  // named: items() only refers to it
     for (const auto& [at, value] : flat.items())
@@ -66,8 +68,8 @@ nlohmann::json mean_json(const std::vector<nlohmann::json>& scores) {
 }
 
 void print_heads() {
-  fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>8}\n", "scene", "img IoU", "acc", "bnd IoU", "gau IoU", "PSNR", "SSIM",
-             "1 click", "3", "5", "NoC90", "ms");
+  fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>5} {:>5} {:>8}\n", "scene", "img IoU", "acc", "bnd IoU", "gau IoU", "PSNR", "SSIM",
+             "1 click", "3", "5", "NoC90", "views", "Mpx", "ms");
 }
 
 void print_row(const nlohmann::json& s) {
@@ -78,9 +80,13 @@ void print_row(const nlohmann::json& s) {
     const auto& curve = s.value("image_iou_after_clicks", nlohmann::json::object());
     return curve.contains(n) ? fmt::format("{:.3f}", curve.at(n).get<double>()) : std::string("-");
   };
-  fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>8}\n", s.value("name", ""), number("image_iou", "{:.3f}"),
+  const nlohmann::json none, &enough = s.contains("enough") ? s.at("enough") : none;
+  const auto looked = [&enough](const char* key, double unit, const char* form) {
+    return enough.is_object() ? fmt::format(fmt::runtime(form), enough.at(key).get<double>() / unit) : std::string("-");
+  };
+  fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>5} {:>5} {:>8}\n", s.value("name", ""), number("image_iou", "{:.3f}"),
              number("accuracy", "{:.4f}"), number("boundary_iou", "{:.3f}"), number("gaussian_iou", "{:.3f}"), number("psnr_db", "{:.2f}"),
-             number("ssim", "{:.4f}"), after("1"), after("3"), after("5"), number("noc90", "{:.1f}"), number("total_ms", "{:.0f}"));
+             number("ssim", "{:.4f}"), after("1"), after("3"), after("5"), number("noc90", "{:.1f}"), looked("views", 1, "{:.0f}"), looked("pixels", 1e6, "{:.2f}"), number("total_ms", "{:.0f}"));
 }
 
 nlohmann::json draws_json(const ClickDraws& d) {

@@ -1,6 +1,7 @@
 // What a person should know before trusting a cutout.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,5 +12,8 @@ namespace splatcut {
 // A sentence each, none where nothing is in doubt: the first click means another size nearly as likely; masks were left
 // out because they disagree with the others; so many masks that count disagree with the cutout that no majority was left.
 std::vector<std::string> doubts(const PipelineReport& report, double view_agreement = PipelineOptions{}.view_agreement);
+
+// Those about the masks alone.
+std::vector<std::string> doubts_of_views(std::span<const ViewReport> views, double view_agreement = PipelineOptions{}.view_agreement);
 
 }  // namespace splatcut

@@ -122,6 +122,9 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
   const PipelineReport report = cut_with(scene, options, first_strokes(strokes, options.clicks), job);
   score.total_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   score.stages = report.stages;
+  score.enough = looked_at(report);
+  score.nodes_touched = report.cut.touched;
+  score.why_enough = report.enough;
   if (job.cancelled()) return score;
   const ImageScore images = score_images(scene, report.labels);
   score.image_iou = images.iou;

@@ -48,6 +48,9 @@ struct SceneScore {
   std::vector<double> mask_iou_after_clicks;        // 1..8, robot only
   std::map<int, double> image_iou_after_clicks;     // 1, 3, 5
   std::optional<int> noc85, noc90;
+  LookedAt enough;               // views and pixels of the final cut,
+  std::size_t nodes_touched = 0; // Gaussians that its solver looked at,
+  std::string why_enough;        // and why there were no more views
   std::vector<StageTime> stages;
   double total_ms = 0;
 };

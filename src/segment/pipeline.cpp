@@ -336,6 +336,16 @@ void Run::trim_labels() {
 
 }  // namespace
 
+LookedAt looked_at(const PipelineReport& report) {
+  LookedAt sum;
+  for (const ViewReport& view : report.views)
+    if (view.used) {
+      ++sum.views;
+      sum.pixels += view.mask.size();
+    }
+  return sum;
+}
+
 std::size_t trim_to_views(const GaussianCloud& cloud, const std::vector<ViewReport>& views, const PipelineOptions& options,
                           std::vector<std::uint8_t>* labels, const Job& job) {
   std::vector<TrimView> seen;

@@ -112,6 +112,13 @@ struct PipelineReport {
   std::vector<StageTime> stages;     // in order, same names added up
 };
 
+// What was enough: views that count, and their pixels.
+struct LookedAt {
+  int views = 0;
+  std::size_t pixels = 0;
+};
+LookedAt looked_at(const PipelineReport& report);
+
 // trim() by the views that count. Returns how many Gaussians left the object.
 std::size_t trim_to_views(const GaussianCloud& cloud, const std::vector<ViewReport>& views, const PipelineOptions& options,
                           std::vector<std::uint8_t>* labels, const Job& job = {});

@@ -66,6 +66,7 @@ struct CutRun {
   double started_s = 0, first_mask_ms = 0, total_ms = 0;
   std::size_t sizes = 0, size = 0;  // that the first click can mean; the one taken
   bool ambiguous = false;           // another size was nearly as likely
+  std::vector<std::string> doubts;  // about the masks, a sentence each
   std::shared_ptr<const std::vector<float>> likelihood;  // of `key`; null until asked for
 };
 

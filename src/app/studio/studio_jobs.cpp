@@ -7,6 +7,7 @@
 #include "app/studio/work_file.h"
 #include "scene/error.h"
 #include "scene/rasterizer.h"
+#include "segment/doubts.h"
 
 namespace splatcut {
 
@@ -226,7 +227,7 @@ void Studio::start_cut(const ObjectItem& object) {
     auto labels = make_flags(report.labels);
     tasks_.post([this, id, key, scene, labels, total_ms, stages = report.stages, outcome = report.outcome,
                  sizes = report.sizes, size = report.size, ambiguous = report.ambiguous,
-                 reason = report.reason] {
+                 doubts = doubts_of_views(report.views), reason = report.reason] {
       if (scene != scene_) return;
       CutRun& now = runs_[id];
       if (now.key != key) return;
@@ -237,6 +238,7 @@ void Studio::start_cut(const ObjectItem& object) {
       now.sizes = sizes;
       now.size = size;
       now.ambiguous = ambiguous;
+      now.doubts = doubts;
       if (now.first_mask_ms == 0) now.first_mask_ms = total_ms;
       now.outcome = outcome;
       now.reason = reason;
@@ -251,7 +253,8 @@ void Studio::start_cut(const ObjectItem& object) {
         say(Message::Kind::kDone,
             fmt::format(
                 "{}: {} Gaussians cut out in {:.1f} s{}", item->name, gaussians_of(id), total_ms / 1000,
-                ambiguous && tools_.scale_armed() ? ". Not all of it? Turn the wheel for another size" : ""));
+                !doubts.empty() ? ". But " + doubts.front()
+                : ambiguous && tools_.scale_armed() ? ". Not all of it? Turn the wheel for another size" : ""));
     });
     // The cutout is on the screen; the rest is for looking at.
     std::shared_ptr<const std::vector<float>> likelihood;

@@ -105,11 +105,9 @@ void cutout_panel(UiContext& ui) {
         "What the first click can mean, from small to large: the wheel right after the click, Page Up or "
         "Page Down");
   }
-  if (run->outcome == Outcome::kNothingFound && !run->running) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.colour.warn);
-    ImGui::TextWrapped("%s", run->reason.c_str());
-    ImGui::PopStyleColor();
-  }
+  if (run->running) return;
+  if (run->outcome == Outcome::kNothingFound) wrapped_warning(ui, run->reason);
+  for (const std::string& doubt : run->doubts) wrapped_warning(ui, doubt);
 }
 
 }  // namespace splatcut

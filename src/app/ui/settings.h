@@ -3,13 +3,17 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/vec2.hpp>
+#include <optional>
 
 #include "app/studio/view_state.h"
 
 namespace splatcut {
 
 struct Settings {
-  int width = 1440, height = 900;
+  int width = 1440, height = 900;         // screen coordinates, as GLFW has them
+  std::optional<glm::ivec2> position;     // of the window's contents; where the system likes without
+  bool maximized = false;
   bool dark = true, hint_wanted = true;
   float ui_scale = 1;
   std::vector<std::filesystem::path> recent;

@@ -204,30 +204,34 @@ const char* mode_label(const Studio& studio) {
   }
 }
 
-std::optional<UiRect> hint(UiContext& ui, const UiRect& area) {
+// Below the picture's middle, where a scene has its floor and no object.
+std::optional<UiRect> hint(UiContext& ui, const UiRect& area, float bottom) {
   if (!ui.state.hint_wanted || !ui.studio.document().objects.empty()) return {};
   constexpr std::array<std::pair<const char*, const char*>, 4> kLines = {
       {{"Click", "an object: it is cut out"},
        {"Right-click", "what does not belong to it"},
        {"Drag", "turns, right drag shifts, the wheel zooms"},
        {"F1", "shows every key"}}};
-  constexpr float kWidth = 376, kHeight = 148;
-  const ImVec2 at = {area.min.x + 18, area.min.y + 18};
+  constexpr float kMargin = 14, kPad = 16, kRow = 28, kSecondColumn = 272;
+  const bool wide = area.size().x >= 630;  // two columns, or one
+  const std::size_t rows = wide ? 2 : 4;
+  const ImVec2 size = {wide ? 600.0f : 376.0f, kRow * static_cast<float>(rows) + 20};
+  const ImVec2 at = {area.min.x + kMargin, area.max.y - bottom - size.y - kMargin};
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(at, {at.x + kWidth, at.y + kHeight}, packed(ui.theme.colour.panel, 0.94f), 9);
-  list.AddRect(at, {at.x + kWidth, at.y + kHeight}, packed(ui.theme.colour.accent, 0.7f), 9, 0, 1.5f);
-  float y = at.y + 16;
-  for (const auto& [what, does] : kLines) {
-    list.AddText(ui.theme.strong, ImGui::GetFontSize(), {at.x + 16, y}, packed(ui.theme.colour.accent), what);
-    list.AddText({at.x + 106, y}, packed(ui.theme.colour.text), does);
-    y += 30;
+  list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, packed(ui.theme.colour.panel, 0.94f), 9);
+  list.AddRect(at, {at.x + size.x, at.y + size.y}, packed(ui.theme.colour.accent, 0.7f), 9, 0, 1.5f);
+  for (std::size_t i = 0; i < kLines.size(); ++i) {
+    const bool second = i >= rows;
+    const ImVec2 from = {at.x + (second ? kSecondColumn : kPad), at.y + 14 + kRow * static_cast<float>(i % rows)};
+    list.AddText(ui.theme.strong, ImGui::GetFontSize(), from, packed(ui.theme.colour.accent), kLines[i].first);
+    list.AddText({from.x + (second ? 44.0f : 82.0f), from.y}, packed(ui.theme.colour.text), kLines[i].second);
   }
-  ImGui::SetCursorScreenPos({at.x + kWidth - 32, at.y + 6});
+  ImGui::SetCursorScreenPos({at.x + size.x - 32, at.y + 6});
   ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
   if (ImGui::Button(icon::kClose)) ui.state.hint_wanted = false;
   ImGui::PopStyleColor();
   tooltip("Do not show this again");
-  return UiRect{{at.x, at.y}, {at.x + kWidth, at.y + kHeight}};
+  return UiRect{{at.x, at.y}, {at.x + size.x, at.y + size.y}};
 }
 
 }  // namespace
@@ -268,12 +272,14 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     list.AddLine({area.min.x + pane_width, area.min.y}, {area.min.x + pane_width, area.max.y},
                  packed(ui.theme.colour.line), 2);
     pane_label(ui, {area.min.x + pane_width + 12, area.min.y + 12}, "Object");
-    if (!ui.state.hint_wanted || !studio.document().objects.empty())
-      pane_label(ui, {area.min.x + 12, area.min.y + 12}, "Scene");
+    pane_label(ui, {area.min.x + 12, area.min.y + 12}, "Scene");
   } else if (const char* label = mode_label(studio)) {
     pane_label(ui, {area.min.x + 12, area.min.y + 12}, label);
   }
-  if (const auto rect = hint(ui, area)) covered.push_back(*rect);
+  if (const auto rect = hint(ui, area, bottom)) {
+    covered.push_back(*rect);
+    bottom = area.max.y - rect->min.y;  // messages come above it
+  }
   draw_message(ui, area, bottom);
   return covered;
 }

@@ -65,6 +65,12 @@ void wrapped_muted(UiContext& ui, const std::string& text) {
   ImGui::PopTextWrapPos();
 }
 
+void wrapped_warning(UiContext& ui, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.colour.warn);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
 bool section(UiContext& ui, const char* title, bool open) {
   ImGui::PushFont(ui.theme.strong);
   ImGui::PushStyleColor(ImGuiCol_Header, {0, 0, 0, 0});

@@ -18,6 +18,7 @@ bool button(UiContext& ui, const char* label, const std::string& tip, const std:
 void tooltip(const std::string& text);  // of the last item
 void muted_text(UiContext& ui, const std::string& text);
 void wrapped_muted(UiContext& ui, const std::string& text);
+void wrapped_warning(UiContext& ui, const std::string& text);
 bool section(UiContext& ui, const char* title, bool open = true);
 
 std::string grouped(std::size_t n);  // "1,234,567"

@@ -4,7 +4,9 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "app/ui/settings.h"
 #include "app/user_folders.h"
@@ -31,8 +33,24 @@ struct Glfw {
   Glfw& operator=(const Glfw&) = delete;
 };
 
+// Whether the middle of the title bar can be reached: screens come and go between runs.
+bool on_a_screen(const glm::ivec2& position, int width) {
+  constexpr int kTitleBar = 16;
+  const glm::ivec2 grip = position + glm::ivec2(width / 2, -kTitleBar / 2);
+  int count = 0;
+  GLFWmonitor** screens = glfwGetMonitors(&count);
+  return std::any_of(screens, screens + count, [&](GLFWmonitor* screen) {
+    glm::ivec2 at(0), size(0);
+    glfwGetMonitorWorkarea(screen, &at.x, &at.y, &size.x, &size.y);
+    const glm::ivec2 in = grip - at;
+    return in.x >= 0 && in.y >= -kTitleBar && in.x < size.x && in.y < size.y;
+  });
+}
+
 struct GlfwWindow {
-  GlfwWindow(int width, int height) {
+  GlfwWindow(int width, int height, const std::optional<glm::ivec2>& position, bool maximized) {
+    glfwWindowHint(GLFW_MAXIMIZED, maximized);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -42,6 +60,8 @@ struct GlfwWindow {
     if (!handle)
       throw Error("window", "no OpenGL 3.3: " + last_glfw_error(),
                   "Install a driver, or Mesa's libgl1-mesa-dri");
+    if (position && on_a_screen(*position, width)) glfwSetWindowPos(handle, position->x, position->y);
+    glfwShowWindow(handle);
     glfwMakeContextCurrent(handle);
     load_gl_functions(glfwGetProcAddress);
     glfwSwapInterval(1);
@@ -152,6 +172,16 @@ std::filesystem::path sample_beside_program() {
   return {};
 }
 
+// A window over the whole screen goes back to its last place and size when it is no longer maximized.
+void remember_place(GLFWwindow* window, Settings* settings) {
+  settings->maximized = glfwGetWindowAttrib(window, GLFW_MAXIMIZED) == GLFW_TRUE;
+  if (settings->maximized) return;
+  glfwGetWindowSize(window, &settings->width, &settings->height);
+  glm::ivec2 at(0);
+  glfwGetWindowPos(window, &at.x, &at.y);
+  if (glfwGetError(nullptr) == GLFW_NO_ERROR) settings->position = at;
+}
+
 std::string title_of(const Studio& studio) {
   if (!studio.scene()) return "splatcut";
   const std::filesystem::path& shown =
@@ -196,8 +226,10 @@ void run_window(const WindowOptions& options) {
   const std::filesystem::path settings_file = config_folder() / "settings.json";
   Settings settings = load_settings(settings_file);
   const Glfw glfw;
+  const bool as_remembered = options.width <= 0 && options.height <= 0;
   const GlfwWindow window(options.width > 0 ? options.width : settings.width,
-                          options.height > 0 ? options.height : settings.height);
+                          options.height > 0 ? options.height : settings.height,
+                          as_remembered ? settings.position : std::nullopt, as_remembered && settings.maximized);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   const float ui_scale = options.ui_scale > 0 ? options.ui_scale : settings.ui_scale;
   {
@@ -214,7 +246,7 @@ void run_window(const WindowOptions& options) {
     install_callbacks(window.handle);
     if (!options.open.empty()) app.studio().apply(OpenScene{options.open});
     run_loop(loop);
-    glfwGetWindowSize(window.handle, &settings.width, &settings.height);
+    remember_place(window.handle, &settings);
     settings.dark = state.dark;
     settings.hint_wanted = state.hint_wanted;
     settings.recent = state.recent;

@@ -1,0 +1,40 @@
+// What the window remembers between runs.
+#include <doctest/doctest.h>
+
+#include <fstream>
+
+#include "app/ui/settings.h"
+#include "headless_app.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("settings: written and read back the same; what cannot be read is as good as none") {
+  const ScratchFolder place("settings");
+  const std::filesystem::path file = place / "deeper/settings.json";
+  CHECK(load_settings(file).width == Settings{}.width);
+  Settings settings;
+  settings.width = 1200;
+  settings.height = 700;
+  settings.position = {-1280, 35};  // a screen to the left of the first
+  settings.maximized = true;
+  settings.dark = false;
+  settings.recent = {place.path()};
+  save_settings(file, settings);
+  const Settings read = load_settings(file);
+  CHECK(read.width == 1200);
+  CHECK(read.height == 700);
+  REQUIRE(read.position);
+  CHECK(*read.position == glm::ivec2(-1280, 35));
+  CHECK(read.maximized);
+  CHECK_FALSE(read.dark);
+  CHECK(read.recent == settings.recent);
+  settings.position.reset();
+  save_settings(file, settings);
+  CHECK_FALSE(load_settings(file).position);
+  for (const char* text : {"{", "[]", R"({"position": 3})", R"({"position": [1]})", R"({"width": "wide"})"}) {
+    std::ofstream(file, std::ios::trunc) << text;
+    CHECK_FALSE(load_settings(file).position);
+    CHECK(load_settings(file).width == Settings{}.width);
+  }
+}
