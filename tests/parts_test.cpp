@@ -261,6 +261,24 @@ TEST_CASE("parts: a part that holds all object clicks is likelier meant than one
   CHECK(pick_parts(parts, view, with_rest, options).leaves == Leaves{1, 0, 1, 0});
 }
 
+TEST_CASE("parts: from the third object click on, a part much larger than what is selected is not meant") {
+  PartHierarchy parts = four_leaves();
+  const PartView view = view_parts(parts, four_stripes());
+  parts.trees[0].cut = {1, 1, 1, 1, 2, 2, 2};
+  PickOptions options;
+  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty = options.large_penalty = options.change_small = 0;
+  options.scale_steps = -10;
+  const Strokes two = {click({5, 5}, SeedLabel::kObject), click({25, 5}, SeedLabel::kObject)};
+  Strokes three = two;
+  three.insert(three.begin() + 1, click({6, 5}, SeedLabel::kObject));  // on what is selected
+  using Leaves = std::vector<std::uint8_t>;
+  options.late_growth_penalty = 5;  // ln 3 of the whole against a slack of ln 2
+  CHECK(pick_parts(parts, view, two, options).leaves == Leaves{1, 1, 1, 1});
+  CHECK(pick_parts(parts, view, three, options).leaves == Leaves{1, 0, 1, 0});
+  options.late_growth_penalty = 0;
+  CHECK(pick_parts(parts, view, three, options).leaves == Leaves{1, 1, 1, 1});
+}
+
 TEST_CASE("parts: a mask of one side completes to whole nodes, by hand") {
   const PartHierarchy parts = four_leaves();
   Image<std::int32_t> hit = four_stripes();

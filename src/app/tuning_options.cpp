@@ -110,6 +110,7 @@ std::vector<TuningOption> make_table() {
       number("least_object_px", 0, 4096, of_pipeline(&PipelineOptions::least_object_px)),
       choice("first.from", ways_in, of_pipeline(&PipelineOptions::first_mask_from)),
       choice("first.solver", solvers, [](PipelineOptions& o) -> MaskSolver& { return o.first_mask.refine.solver; }),
+      number("pick.late_growth_penalty", 0.0f, 100.0f, [](PipelineOptions& o) -> float& { return o.pick.late_growth_penalty; }),
       number("pick.joint_bonus", 0.0f, 100.0f, [](PipelineOptions& o) -> float& { return o.pick.joint_bonus; }),
       number("pick.rest_most_of_selected", 0.0f, 100.0f, [](PipelineOptions& o) -> float& { return o.pick.rest_most_of_selected; }),
       number("pick.change_most_of_selected", 0.0f, 100.0f, [](PipelineOptions& o) -> float& { return o.pick.change_most_of_selected; }),

@@ -123,8 +123,10 @@ float Picker::odd_size(float pixels) const {
 float Picker::odd_change(float changed_px, float radius_px, float selected_px) const {
   const float folds = std::log(std::max(changed_px, 1.0f) / (3.14159265f * radius_px * radius_px));
   const float growth = std::log(std::max(changed_px, 1.0f) / std::max(selected_px, 1.0f));
+  // The second click may find that the first took a crumb; what two clicks have made is not outgrown lightly.
+  const float late = clicks_[1] > 2 ? options_.late_growth_penalty * std::max(0.0f, growth - options_.late_growth_slack) : 0;
   return options_.change_small * std::max(0.0f, -folds) + options_.change_large * std::max(0.0f, folds - options_.change_slack) +
-         options_.growth_penalty * std::max(0.0f, growth - options_.growth_slack);
+         options_.growth_penalty * std::max(0.0f, growth - options_.growth_slack) + late;
 }
 
 // More pixels than that are not meant by a click so near to the border, unless they are few beside what is selected.

@@ -44,6 +44,7 @@ struct PickOptions {
   float small_penalty = 2, large_penalty = 0.55f;
   float least_log_cut = -16;
   float growth_penalty = 0.01f, growth_slack = 0.5f;  // of additions larger than what is selected
+  float late_growth_penalty = 1, late_growth_slack = 0.69f;  // the same from the third object click on
   float change_small = 0.2f;  // of later clicks that change less than a disc which reaches from the click to the border
   float change_large = 3.4f, change_slack = 3.25f, change_most = 2.7f;  // of later clicks
   float change_most_of_selected = 1;  // an object click farther than border_px from the selection may add that much
