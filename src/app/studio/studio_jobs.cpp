@@ -250,7 +250,7 @@ void Studio::start_cut(const ObjectItem& object) {
       if (outcome == Outcome::kNothingFound)
         say(Message::Kind::kRefused, item->name + ": " + reason);
       else
-        say(Message::Kind::kDone,
+        say(doubts.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
             fmt::format(
                 "{}: {} Gaussians cut out in {:.1f} s{}", item->name, gaussians_of(id), total_ms / 1000,
                 !doubts.empty() ? ". But " + doubts.front()
