@@ -9,7 +9,7 @@
 using namespace splatcut;
 using namespace splatcut::testing;
 
-TEST_CASE("settings: written and read back the same; what cannot be read is as good as none") {
+TEST_CASE("settings: written and read back the same, and what cannot be read is as good as none") {
   const ScratchFolder place("settings");
   const std::filesystem::path file = place / "deeper/settings.json";
   CHECK(load_settings(file).width == Settings{}.width);

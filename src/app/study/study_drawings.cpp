@@ -77,7 +77,7 @@ Drawing draw_trade_off(const StudyResults& results) {
                                 grid ? 1.1 : 1.7, grid ? colours.at(series.substr(0, semicolon)) : series == "parts alone" ? "#1b7837" : "#000000", quoted(series)));
     ++n;
   }
-  // Names above and below by turns, so that neighbours' do not meet.
+  // Names above, or below what is worse than the next quicker one, so that neighbours' do not meet.
   std::vector<SettingScore> by_time = scores;
   std::erase_if(by_time, [](const SettingScore& p) { return p.series != "preset"; });
   std::ranges::sort(by_time, {}, &SettingScore::ms);
@@ -85,7 +85,8 @@ Drawing draw_trade_off(const StudyResults& results) {
     const SettingScore& p = by_time[i];
     d.data += fmt::format("$preset{} << EOD\n{} {} \"{}\"\nEOD\n", i, p.ms / 1000, p.iou, p.label);
     plots.push_back(fmt::format("$preset{} with points pt 3 ps 2 lw 2 lc rgb '#c00000' {}", i, i == 0 ? "title 'presets'" : "notitle"));
-    plots.push_back(fmt::format("$preset{} using 1:2:3 with labels offset 0,{} tc rgb '#c00000' notitle", i, i % 2 ? -1 : 1));
+    const bool below = i > 0 && by_time[i - 1].iou > p.iou;
+    plots.push_back(fmt::format("$preset{} using 1:2:3 with labels offset 0,{} tc rgb '#c00000' notitle", i, below ? -1 : 1));
   }
   d.body = "set logscale x\nset xlabel 'seconds from strokes to labels (median over the scenes)'\nset ylabel 'image IoU (mean over the scenes)'\n"
            "set key outside right top\nset yrange [*:1]\nset offsets graph 0.05, graph 0.05, graph 0.06, graph 0.06\nplot " + joined(plots);

@@ -204,7 +204,7 @@ const char* mode_label(const Studio& studio) {
   }
 }
 
-// Below the picture's middle, where a scene has its floor and no object.
+// At the picture's lower edge, where a scene has its floor and no object; a small window has more room at the upper one.
 std::optional<UiRect> hint(UiContext& ui, const UiRect& area, float bottom) {
   if (!ui.state.hint_wanted || !ui.studio.document().objects.empty()) return {};
   constexpr std::array<std::pair<const char*, const char*>, 4> kLines = {
@@ -216,7 +216,7 @@ std::optional<UiRect> hint(UiContext& ui, const UiRect& area, float bottom) {
   const bool wide = area.size().x >= 630;  // two columns, or one
   const std::size_t rows = wide ? 2 : 4;
   const ImVec2 size = {wide ? 600.0f : 376.0f, kRow * static_cast<float>(rows) + 20};
-  const ImVec2 at = {area.min.x + kMargin, area.max.y - bottom - size.y - kMargin};
+  const ImVec2 at = {area.min.x + kMargin, wide ? area.max.y - bottom - size.y - kMargin : area.min.y + kMargin};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, packed(ui.theme.colour.panel, 0.94f), 9);
   list.AddRect(at, {at.x + size.x, at.y + size.y}, packed(ui.theme.colour.accent, 0.7f), 9, 0, 1.5f);
@@ -278,7 +278,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   }
   if (const auto rect = hint(ui, area, bottom)) {
     covered.push_back(*rect);
-    bottom = area.max.y - rect->min.y;  // messages come above it
+    if (rect->max.y > 0.5f * (area.min.y + area.max.y)) bottom = area.max.y - rect->min.y;  // messages come above it
   }
   draw_message(ui, area, bottom);
   return covered;
