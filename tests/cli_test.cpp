@@ -267,6 +267,12 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
   CHECK(scene["image_iou"].get<double>() > 0.7);
   CHECK(scene["image_iou"].get<double>() <= 1.0);
   CHECK(scene["ms"].contains("cut"));
+  CHECK(scene["enough"]["views"] == 1);  // fast looks at the reference alone
+  CHECK(scene["enough"]["pixels"].get<int>() > 0);
+  CHECK(scene["enough"]["gaussians"].get<int>() > 0);
+  CHECK(scene["enough"]["why"] == "no view beside the first was asked for");
+  CHECK(measured["mean"]["enough"]["views"] == 1);
+  CHECK_FALSE(measured["mean"]["enough"].contains("why"));
   CHECK(place.run("eval made/suite.json --preset fast -o measured").code == 1);
 
   // A scene known by masks of photographs only has no truth of the reference: such a scene is left out, by name.

@@ -5,7 +5,8 @@
 // most like an object: little border towards its like, not touching the picture's frame, of no odd size, and
 // held by the other trees, too. An ancestor that holds a click of the other sign is no candidate. Object clicks
 // only add, rest clicks only remove; after the first, changes are no larger than the click's distance to the
-// present border makes likely.
+// present border makes likely. A later object click prefers a part that holds all object clicks so far: the second may
+// find that the first took a crumb; from the third on, parts much larger than the selection are less likely.
 // Cost: the ancestors of the clicked leaves; below a millisecond once the view is known.
 #pragma once
 
@@ -49,8 +50,8 @@ struct PickOptions {
   float change_large = 3.4f, change_slack = 3.25f, change_most = 2.7f;  // of later clicks
   float change_most_of_selected = 1;  // an object click farther than border_px from the selection may add that much
   float rest_most_of_selected = 0.25f;  // and a rest click may remove that much
-  float joint_bonus = 1;  // of later object clicks, for a part that holds all of them
   float border_px = 2;                // nearer ones mend its border
+  float joint_bonus = 1;              // of later object clicks, for a part that holds all of them
   float hidden_penalty = 1, hidden_slack = 2;  // of later clicks that bring much of what the view hides, per pixel
 };
 

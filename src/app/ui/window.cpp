@@ -178,6 +178,7 @@ void remember_place(GLFWwindow* window, Settings* settings) {
   if (settings->maximized) return;
   glfwGetWindowSize(window, &settings->width, &settings->height);
   glm::ivec2 at(0);
+  glfwGetError(nullptr);  // forget what went before
   glfwGetWindowPos(window, &at.x, &at.y);
   if (glfwGetError(nullptr) == GLFW_NO_ERROR) settings->position = at;
 }
