@@ -145,10 +145,12 @@ json cut_many_objects(const ManyObjects& in, const OutputFolder& folder, const J
   }
   const PreparedScene prepared = prepare_scene(scene.cloud, in.chosen.camera, in.chosen.up_world,
                                                in.chosen.given, prepare_options(in.options), job);
+  CutSolver solver(scene.cloud, prepared.graph, in.options.cut);
+  KeptViews kept(scene.cloud);
   for (CutObject& object : objects) {
     if (job.cancelled()) return {};
     object.report = cut_out(scene.cloud, &prepared, object.camera, in.chosen.up_world, object.seeds->strokes,
-                            in.options, job);
+                            in.options, job, &solver, &kept);
     if (object.report.outcome == Outcome::kCancelled) return {};
     if (object.report.outcome == Outcome::kNothingFound)
       throw Error(fmt::format("object \"{}\"", object.seeds->name), "was not found: " + object.report.reason);

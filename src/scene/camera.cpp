@@ -7,6 +7,13 @@
 
 namespace splatcut {
 
+bool same_camera(const Camera& a, const Camera& b) {
+  return a.width_px == b.width_px && a.height_px == b.height_px && a.fx_px == b.fx_px && a.fy_px == b.fy_px &&
+         a.cx_px == b.cx_px && a.cy_px == b.cy_px &&
+         a.camera_from_world_rotation == b.camera_from_world_rotation &&
+         a.camera_from_world_translation == b.camera_from_world_translation;
+}
+
 Camera look_at(const glm::vec3& position, const glm::vec3& target, const glm::vec3& up, float fov_y_rad,
                int width_px, int height_px) {
   const glm::vec3 forward = target - position;

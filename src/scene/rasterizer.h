@@ -40,6 +40,7 @@ struct RasterOptions {
   std::optional<float> near_plane;  // scene units; Gaussians with camera z below are skipped; empty: the cloud's
   std::optional<PixelRect> roi;  // draw these pixels only; outputs have the size of the rectangle
   std::span<const glm::vec3> colour_override;  // size of the cloud: replaces SH colour, >= 0
+  std::span<const std::uint8_t> labels;        // size of the cloud, with colour = false: gives label_share
   std::span<const std::uint8_t> shown;         // size of the cloud: 0 leaves the Gaussian out
   const Mask* sum_mask = nullptr;              // with `sums`: size of the camera's picture, non-zero = object
   MaskedSums* sums = nullptr;                  // added to; arrays of the cloud's size
@@ -49,6 +50,7 @@ struct RasterOptions {
 struct RasterOutput {
   Image<glm::vec3> colour;        // over the background, >= 0, not clamped above
   Image<float> alpha;             // 1 - T
+  Image<float> label_share;       // sum of weight over Gaussians with a label other than 0
   Image<float> expected_depth;    // sum(weight z) / sum(weight), camera z in scene units; 0 where nothing is
   Image<float> median_depth;      // camera z of the Gaussian at which T falls below 0.5; 0 where none does
   Image<std::int32_t> first_hit;  // that Gaussian's index in the cloud, or -1

@@ -45,6 +45,7 @@ RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camer
   RasterOutput out;
   if (options.colour) out.colour = Image<glm::vec3>(roi.width(), roi.height());
   out.alpha = Image<float>(roi.width(), roi.height());
+  if (!options.labels.empty()) out.label_share = Image<float>(roi.width(), roi.height());
   if (options.depth) {
     out.expected_depth = out.median_depth = Image<float>(roi.width(), roi.height());
     out.first_hit = Image<std::int32_t>(roi.width(), roi.height(), -1);
@@ -61,6 +62,7 @@ RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camer
         const float weight = alpha * transmittance;
         colour += weight * s.colour;
         weighted_depth += weight * s.splat.depth;
+        if (!options.labels.empty() && options.labels[s.gaussian]) out.label_share.at(ox, oy) += weight;
         if (options.sums) {
           const auto units = std::llrint((options.sum_whole_pixels ? 1 : weight) * MaskedSums::kUnitsPerPixel);
           options.sums->total[s.gaussian] += units;

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
-#include "scene/radix_sort.h"
 #include "scene/splat_math.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -32,6 +31,9 @@ constexpr int kTilePixels = kTilePx * kTilePx;
 // Splats blended at a time: they and the tile's pixels fit the first-level cache, and what lies behind a tile
 // that has become opaque is never looked at.
 constexpr int kChunk = 256;
+
+// What is summed up per pixel beside the transmittance.
+enum class Paint { kNone, kLabel, kColour };
 
 using Lanes = hn::CappedTag<float, kBlockPixels>;
 using IntLanes = hn::RebindToSigned<Lanes>;
@@ -92,6 +94,7 @@ struct Chunk {
   // The ellipse alpha >= 1/255: at height dy it reaches from tilt dy - w to tilt dy + w,
   // w = sqrt(width2 - slope dy^2), and farthest at dy = +-tip.
   alignas(64) std::array<float, kCapacity> x, y, tilt, width2, slope, tip;
+  std::array<float, kCapacity> label;  // 0 or 1
   // Sums of the tile so far, lane by lane, 2^-16 pixel.
   alignas(64) std::array<std::int32_t, kCapacity * kWidth> total, inside;
 };
@@ -113,7 +116,8 @@ struct BlockLists {
 };
 
 struct Workspace {
-  std::vector<KeyValue<std::uint32_t>> order, scratch;
+  SortSpace sort_space;
+  std::vector<std::uint32_t> order, shown;
   Chunk chunk;
   TilePixels pixels;
   BlockLists lists;
@@ -123,17 +127,27 @@ struct View {
   const TileGrid& grid;
   const RasterOptions& options;
   PixelRect roi;
+  std::span<const std::uint8_t> shown;
   PairSums* pair_sums;
   RasterOutput* out;
 };
 
-// The entries of a tile by depth, ties in cloud order. Positive floats order like their bits.
-void sort_front_to_back(const TileEntry* entries, std::size_t count, Workspace* work) {
-  work->order.resize(count);
-  work->scratch.resize(count);
-  for (std::size_t i = 0; i < count; ++i)
-    work->order[i] = {std::bit_cast<std::uint32_t>(entries[i].depth), static_cast<std::uint32_t>(i)};
-  radix_sort<8>(std::span(work->order), std::span(work->scratch), 0, 32);
+// The entries of a tile that are drawn, front to back.
+std::span<const std::uint32_t> drawn_entries(const View& view, const TileEntry* entries, std::size_t first, std::size_t count,
+                                             Workspace* work) {
+  std::span<const std::uint32_t> order;
+  if (view.grid.order.size() != 0) {
+    order = {view.grid.order.data() + first, count};
+  } else {
+    work->order.resize(count);
+    sort_front_to_back({entries, count}, &work->sort_space, work->order.data());
+    order = work->order;
+  }
+  if (view.shown.empty()) return order;
+  work->shown.clear();
+  for (const std::uint32_t e : order)
+    if (view.shown[entries[e].gaussian]) work->shown.push_back(e);
+  return work->shown;
 }
 
 void derive_ellipses(Chunk* chunk) {
@@ -155,12 +169,12 @@ void derive_ellipses(Chunk* chunk) {
   }
 }
 
-void gather(const TileGrid& grid, const TileEntry* entries, const KeyValue<std::uint32_t>* order, int count,
-            bool sums, Chunk* chunk) {
+void gather(const View& view, const TileEntry* entries, std::span<const std::uint32_t> order, Chunk* chunk) {
   constexpr int kAhead = 16;  // splats lie apart in memory: asked for early
-  const auto gaussian_of = [&](int i) { return entries[order[i].value].gaussian; };
+  const int count = static_cast<int>(order.size());
+  const auto gaussian_of = [&](int i) { return entries[order[static_cast<std::size_t>(i)]].gaussian; };
   chunk->size = count;
-  chunk->splats = grid.splats.data();
+  chunk->splats = view.grid.splats.data();
   for (int i = 0; i < count; ++i) {
     if (i + kAhead < count) __builtin_prefetch(chunk->splats + gaussian_of(i + kAhead));
     chunk->gaussian[i] = gaussian_of(i);
@@ -178,7 +192,9 @@ void gather(const TileGrid& grid, const TileEntry* entries, const KeyValue<std::
     chunk->width2[i] = -1e9f;
   }
   derive_ellipses(chunk);
-  if (sums) {
+  if (!view.options.labels.empty())
+    for (int i = 0; i < count; ++i) chunk->label[i] = view.options.labels[chunk->gaussian[i]] ? 1.0f : 0.0f;
+  if (view.pair_sums) {
     std::fill_n(chunk->total.begin(), count * kWidth, 0);
     std::fill_n(chunk->inside.begin(), count * kWidth, 0);
   }
@@ -239,7 +255,7 @@ void start_pixels(const View& view, int tile_x, int tile_y, TilePixels* pixels) 
 
 // Blends the listed splats of a chunk into the block with the corner (x0, y0). True when no pixel of it can
 // change any more.
-template <bool kColour, bool kDepth, bool kSums>
+template <Paint kPaint, bool kDepth, bool kSums>
 bool blend_block(float x0, float y0, int block, const std::int32_t* list, int count, TilePixels* pixels,
                  Chunk* chunk) {
   const int begin = block * kBlockPixels;
@@ -252,8 +268,8 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
     px[v] = hn::Add(hn::Set(kF, x0), hn::Load(kF, kCentreX + v * kWidth % kBlockPx));
     py[v] = hn::Add(hn::Set(kF, y0), hn::Load(kF, kCentreY + v * kWidth));
     transmittance[v] = hn::Load(kF, &pixels->transmittance[at]);
-    if constexpr (kColour) {
-      red[v] = hn::Load(kF, &pixels->red[at]);
+    if constexpr (kPaint != Paint::kNone) red[v] = hn::Load(kF, &pixels->red[at]);
+    if constexpr (kPaint == Paint::kColour) {
       green[v] = hn::Load(kF, &pixels->green[at]);
       blue[v] = hn::Load(kF, &pixels->blue[at]);
     }
@@ -287,7 +303,8 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
       const V after = hn::Sub(before, weight);
       transmittance[v] = after;
       clearest = hn::Max(clearest, after);
-      if constexpr (kColour) {
+      if constexpr (kPaint == Paint::kLabel) red[v] = fma(weight, hn::Set(kF, chunk->label[i]), red[v]);
+      if constexpr (kPaint == Paint::kColour) {
         red[v] = fma(weight, hn::Set(kF, s.red), red[v]);
         green[v] = fma(weight, hn::Set(kF, s.green), green[v]);
         blue[v] = fma(weight, hn::Set(kF, s.blue), blue[v]);
@@ -320,8 +337,8 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
   for (int v = 0; v < kVectors; ++v) {
     const int at = begin + v * kWidth;
     hn::Store(transmittance[v], kF, &pixels->transmittance[at]);
-    if constexpr (kColour) {
-      hn::Store(red[v], kF, &pixels->red[at]);
+    if constexpr (kPaint != Paint::kNone) hn::Store(red[v], kF, &pixels->red[at]);
+    if constexpr (kPaint == Paint::kColour) {
       hn::Store(green[v], kF, &pixels->green[at]);
       hn::Store(blue[v], kF, &pixels->blue[at]);
     }
@@ -335,7 +352,7 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
 }
 
 // Blends the chunk into every block that still lets light through.
-template <bool kColour, bool kDepth, bool kSums>
+template <Paint kPaint, bool kDepth, bool kSums>
 void blend_chunk(int tile_x, int tile_y, Workspace* work) {
   constexpr std::uint32_t kRowOfBlocks = (1u << kBlocksAcross) - 1;
   TilePixels& pixels = work->pixels;
@@ -347,7 +364,7 @@ void blend_chunk(int tile_x, int tile_y, Workspace* work) {
     for (int b = 0; b < kBlocksAcross; ++b) {
       if (!(alive >> b & 1)) continue;
       const int block = row * kBlocksAcross + b;
-      if (blend_block<kColour, kDepth, kSums>(x0 + static_cast<float>(b * kBlockPx), y0, block,
+      if (blend_block<kPaint, kDepth, kSums>(x0 + static_cast<float>(b * kBlockPx), y0, block,
                                               work->lists.splat[b].data(), work->lists.count[b], &pixels,
                                               &work->chunk))
         pixels.alive &= ~(1u << block);
@@ -355,15 +372,15 @@ void blend_chunk(int tile_x, int tile_y, Workspace* work) {
   }
 }
 
-void store_sums(const Chunk& chunk, const KeyValue<std::uint32_t>* order, PairSums* sums) {
+void store_sums(const Chunk& chunk, const std::uint32_t* order, PairSums* sums) {
   const auto sum = [](const std::int32_t* lanes) {
     return static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(kI, hn::Load(kI, lanes))));
   };
   for (int i = 0; i < chunk.size; ++i)
-    sums[order[i].value] = {sum(&chunk.total[i * kWidth]), sum(&chunk.inside[i * kWidth])};
+    sums[order[i]] = {sum(&chunk.total[i * kWidth]), sum(&chunk.inside[i * kWidth])};
 }
 
-template <bool kColour, bool kDepth>
+template <Paint kPaint, bool kDepth>
 void store_pixels(const View& view, int tile_x, int tile_y, const TilePixels& pixels) {
   RasterOutput& out = *view.out;
   for (int i = 0; i < kTilePixels; ++i) {
@@ -373,7 +390,8 @@ void store_pixels(const View& view, int tile_x, int tile_y, const TilePixels& pi
     if (!out.alpha.contains(x, y)) continue;
     const float transmittance = pixels.transmittance[i];
     out.alpha.at(x, y) = 1 - transmittance;
-    if constexpr (kColour)
+    if constexpr (kPaint == Paint::kLabel) out.label_share.at(x, y) = pixels.red[i];
+    if constexpr (kPaint == Paint::kColour)
       out.colour.at(x, y) =
           glm::vec3(pixels.red[i], pixels.green[i], pixels.blue[i]) + transmittance * view.options.background;
     if constexpr (kDepth) {
@@ -384,7 +402,7 @@ void store_pixels(const View& view, int tile_x, int tile_y, const TilePixels& pi
   }
 }
 
-template <bool kColour, bool kDepth, bool kSums>
+template <Paint kPaint, bool kDepth, bool kSums>
 void draw_tile(const View& view, int tile) {
   thread_local Workspace work;
   const TileGrid& grid = view.grid;
@@ -393,33 +411,39 @@ void draw_tile(const View& view, int tile) {
   const std::size_t first = grid.first_entry[tile], count = grid.first_entry[tile + 1] - first;
   const TileEntry* entries = grid.entries.data() + first;
   start_pixels(view, tile_x, tile_y, &work.pixels);
-  sort_front_to_back(entries, count, &work);
+  const std::span<const std::uint32_t> order = drawn_entries(view, entries, first, count, &work);
   std::size_t done = 0;
-  while (done < count && work.pixels.alive != 0) {
-    const int size = static_cast<int>(std::min<std::size_t>(kChunk, count - done));
-    gather(grid, entries, work.order.data() + done, size, kSums, &work.chunk);
-    blend_chunk<kColour, kDepth, kSums>(tile_x, tile_y, &work);
-    if constexpr (kSums) store_sums(work.chunk, work.order.data() + done, view.pair_sums + first);
-    done += static_cast<std::size_t>(size);
+  while (done < order.size() && work.pixels.alive != 0) {
+    const std::size_t size = std::min<std::size_t>(kChunk, order.size() - done);
+    gather(view, entries, order.subspan(done, size), &work.chunk);
+    blend_chunk<kPaint, kDepth, kSums>(tile_x, tile_y, &work);
+    if constexpr (kSums) store_sums(work.chunk, order.data() + done, view.pair_sums + first);
+    done += size;
   }
   if constexpr (kSums)
-    for (; done < count; ++done) view.pair_sums[first + work.order[done].value] = {0, 0};
-  store_pixels<kColour, kDepth>(view, tile_x, tile_y, work.pixels);
+    for (; done < order.size(); ++done) view.pair_sums[first + order[done]] = {0, 0};
+  store_pixels<kPaint, kDepth>(view, tile_x, tile_y, work.pixels);
 }
 
 using DrawTile = void (*)(const View&, int);
 
-void blend_tiles(const TileGrid& grid, const RasterOptions& options, const PixelRect& roi, const Job& job,
-                 PairSums* pair_sums, RasterOutput* out) {
-  static constexpr DrawTile kDraw[2][2][2] = {
-      {{draw_tile<false, false, false>, draw_tile<false, false, true>},
-       {draw_tile<false, true, false>, draw_tile<false, true, true>}},
-      {{draw_tile<true, false, false>, draw_tile<true, false, true>},
-       {draw_tile<true, true, false>, draw_tile<true, true, true>}}};
-  const DrawTile draw = kDraw[options.colour][options.depth][pair_sums != nullptr];
-  const View view{grid, options, roi, pair_sums, out};
-  tbb::parallel_for(0, grid.tiles(), [&](int tile) {
-    if (!job.cancelled()) draw(view, tile);
+template <Paint kPaint>
+DrawTile draw_tile_with(bool depth, bool sums) {
+  if (depth) return sums ? draw_tile<kPaint, true, true> : draw_tile<kPaint, true, false>;
+  return sums ? draw_tile<kPaint, false, true> : draw_tile<kPaint, false, false>;
+}
+
+void blend_tiles(const TileGrid& grid, const RasterOptions& options, const PixelRect& roi, std::span<const std::uint8_t> shown,
+                 const Job& job, PairSums* pair_sums, RasterOutput* out) {
+  const DrawTile draw = (options.colour            ? draw_tile_with<Paint::kColour>
+                         : !options.labels.empty() ? draw_tile_with<Paint::kLabel>
+                                                   : draw_tile_with<Paint::kNone>)(options.depth, pair_sums != nullptr);
+  const View view{grid, options, roi, shown, pair_sums, out};
+  const int left = roi.x0 / kTilePx - grid.first_tile_x, right = (roi.x1 + kTilePx - 1) / kTilePx - grid.first_tile_x;
+  const int top = roi.y0 / kTilePx - grid.first_tile_y, bottom = (roi.y1 + kTilePx - 1) / kTilePx - grid.first_tile_y;
+  const int across = right - left;
+  tbb::parallel_for(0, across * (bottom - top), [&](int i) {
+    if (!job.cancelled()) draw(view, (top + i / across) * grid.tiles_x + left + i % across);
   });
 }
 
@@ -437,9 +461,9 @@ namespace splatcut {
 HWY_EXPORT(blend_tiles);
 HWY_EXPORT(target_name);
 
-void blend_tiles(const TileGrid& grid, const RasterOptions& options, const PixelRect& roi, const Job& job,
-                 PairSums* pair_sums, RasterOutput* out) {
-  HWY_DYNAMIC_DISPATCH(blend_tiles)(grid, options, roi, job, pair_sums, out);
+void blend_tiles(const TileGrid& grid, const RasterOptions& options, const PixelRect& roi, std::span<const std::uint8_t> shown,
+                 const Job& job, PairSums* pair_sums, RasterOutput* out) {
+  HWY_DYNAMIC_DISPATCH(blend_tiles)(grid, options, roi, shown, job, pair_sums, out);
 }
 
 const char* blend_simd_target() {

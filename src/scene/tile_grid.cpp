@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -172,6 +173,25 @@ TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const Rast
   tbb::parallel_for(std::size_t{0}, count,
                     [&](std::size_t r) { fill_entries(&runs[r], &grid.runs[r], &grid); });
   return grid;
+}
+
+void sort_front_to_back(std::span<const TileEntry> entries, SortSpace* space, std::uint32_t* order) {
+  space->items.resize(entries.size());
+  space->scratch.resize(entries.size());
+  // Positive floats order like their bits.
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    space->items[i] = {std::bit_cast<std::uint32_t>(entries[i].depth), static_cast<std::uint32_t>(i)};
+  radix_sort<8>(std::span(space->items), std::span(space->scratch), 0, 32);
+  std::ranges::transform(space->items, order, &KeyValue<std::uint32_t>::value);
+}
+
+void sort_tiles(TileGrid* grid, const Job& job) {
+  grid->order = LargeArray<std::uint32_t>(grid->entries.size());
+  tbb::parallel_for(0, grid->tiles(), [&](int tile) {
+    thread_local SortSpace space;
+    const std::size_t t = static_cast<std::size_t>(tile), first = grid->first_entry[t], count = grid->first_entry[t + 1] - first;
+    if (!job.cancelled()) sort_front_to_back({grid->entries.data() + first, count}, &space, grid->order.data() + first);
+  });
 }
 
 }  // namespace splatcut

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scene/large_array.h"
+#include "scene/radix_sort.h"
 #include "scene/rasterizer.h"
 
 namespace splatcut {
@@ -43,6 +45,7 @@ struct TileGrid {
   LargeArray<BlendSplat> splats;           // by Gaussian; only those in entries have a value
   LargeArray<TileEntry> entries;           // tile by tile; within a tile in cloud order
   std::vector<std::uint32_t> first_entry;  // tiles_x * tiles_y + 1
+  LargeArray<std::uint32_t> order;         // of each tile's entries, front to back; empty until sort_tiles()
   // Runs of Gaussians: what each run's splats touch, in cloud order. No Gaussian is in two runs.
   std::vector<std::vector<SplatTile>> runs;
 
@@ -51,5 +54,15 @@ struct TileGrid {
 
 TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
                     const Job& job);
+
+struct SortSpace {
+  std::vector<KeyValue<std::uint32_t>> items, scratch;
+};
+
+// Front to back, ties in cloud order: indices into `entries`. order: as many.
+void sort_front_to_back(std::span<const TileEntry> entries, SortSpace* space, std::uint32_t* order);
+
+// Sorts all tiles, for a grid that is drawn more than once.
+void sort_tiles(TileGrid* grid, const Job& job);
 
 }  // namespace splatcut

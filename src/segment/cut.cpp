@@ -11,6 +11,12 @@ namespace splatcut {
 CutSolver::CutSolver(const GaussianCloud& cloud, const FlowGraph& graph, CutOptions options)
     : cloud_(cloud), graph_(graph), options_(options) {}
 
+void CutSolver::make_ready() {
+  if (max_flow_ || options_.coarse) return;
+  capacity_ = arc_capacities(cloud_, graph_, options_.energy);
+  max_flow_ = std::make_unique<MaxFlow>(graph_, capacity_);
+}
+
 void CutSolver::set_options(const CutOptions& options) {
   const EnergyOptions before = options_.energy;
   options_ = options;
@@ -27,10 +33,7 @@ CutReport CutSolver::solve(const Likelihood& likelihood, int views, double pixel
     for (std::size_t g = 0; g < cloud_.size(); ++g) report.labels[g] = likelihood.w[g] > options_.tau;
     return report;
   }
-  if (!max_flow_) {
-    capacity_ = arc_capacities(cloud_, graph_, options_.energy);
-    max_flow_ = std::make_unique<MaxFlow>(graph_, capacity_);
-  }
+  make_ready();
   const Terminals data = terminals(cloud_, likelihood, views, pixels_per_view, options_.energy);
   max_flow_->set_terminals(data.net);
   const bool solved = max_flow_->solve(job);

@@ -35,6 +35,9 @@ class CutSolver {
  public:
   CutSolver(const GaussianCloud& cloud, const FlowGraph& graph, CutOptions options);
 
+  // Builds now what the first solve would build: a third of that solve's time, or more.
+  void make_ready();
+
   // From the next solve on. The flow stays of use where only weights of the energy change.
   void set_options(const CutOptions& options);
 

@@ -23,7 +23,8 @@ Strokes first_strokes(const Strokes& strokes, int n) {
   return {strokes.begin(), strokes.begin() + std::min<std::ptrdiff_t>(n, std::ssize(strokes))};
 }
 
-PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& options, const Strokes& strokes, const Job& job) {
+PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& options, const Strokes& strokes, const Job& job,
+                        CutSolver* solver = nullptr) {
   PipelineOptions pipeline = options.pipeline;
   pipeline.scene_cameras = scene.scene_cameras;
   if (options.truth_first_mask) {
@@ -34,7 +35,7 @@ PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& op
     if (scene.truth_labels.empty()) throw Error(scene.name, "--masks truth needs truth labels");
     pipeline.given_masks = [&scene](const Camera& camera) { return picture_of(*scene.cloud, camera, scene.truth_labels); };
   }
-  return cut_out(*scene.cloud, scene.prepared, scene.reference, scene.up_world, strokes, pipeline, job);
+  return cut_out(*scene.cloud, scene.prepared, scene.reference, scene.up_world, strokes, pipeline, job, solver);
 }
 
 }  // namespace
@@ -79,12 +80,13 @@ RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& p
   const Mask truth = scene.truth_labels.empty() ? resized_mask(*scene.reference_truth, work.width_px, work.height_px)
                                                 : picture_of(*scene.cloud, work, scene.truth_labels);
   Mask mask(work.width_px, work.height_px);
+  KeptViews kept(*scene.cloud);
   RobotSession session;
   for (int i = 0; i < clicks && !job.cancelled(); ++i) {
     if (const auto next = robot_click(truth, mask, draw ? draw * 16 + static_cast<std::uint64_t>(i) : 0)) {
       const Strokes scaled_click = scaled({*next}, to_reference);
       session.strokes.push_back(scaled_click.front());
-      const Mask found = first_mask_of(*scene.cloud, *scene.prepared, scene.reference, session.strokes, pipeline, job);
+      const Mask found = first_mask_of(*scene.cloud, *scene.prepared, scene.reference, session.strokes, pipeline, job, &kept);
       mask = resized_mask(found, work.width_px, work.height_px);
     }
     session.iou_after.push_back(iou(truth, mask));
@@ -118,8 +120,9 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
       if (job.cancelled()) return score;
       score.image_iou_after_clicks[n] = score_images(scene, report.labels).iou;
     }
+  CutSolver solver = ready_solver(*scene.cloud, *scene.prepared, options.pipeline);  // belongs to loading, as in the window
   const auto start = std::chrono::steady_clock::now();
-  const PipelineReport report = cut_with(scene, options, first_strokes(strokes, options.clicks), job);
+  const PipelineReport report = cut_with(scene, options, first_strokes(strokes, options.clicks), job, &solver);
   score.total_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   score.stages = report.stages;
   score.enough = looked_at(report);

@@ -4,14 +4,14 @@
 
 namespace splatcut {
 
-void add_masked_sums(const GaussianCloud& cloud, const Camera& camera, const Mask& mask, bool whole_pixels, const Job& job,
+void add_masked_sums(const Drawer& drawer, const Camera& camera, const Mask& mask, bool whole_pixels, const Job& job,
                      MaskedSums* sums) {
   RasterOptions options;
   options.colour = false;
   options.sum_whole_pixels = whole_pixels;
   options.sum_mask = &mask;
   options.sums = sums;
-  rasterize(cloud, camera, options, job);
+  drawer.draw(camera, options, job);
 }
 
 Likelihood likelihood(const MaskedSums& sums) {

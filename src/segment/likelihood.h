@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/rasterizer.h"
+#include "scene/projected_view.h"
 
 namespace splatcut {
 
@@ -16,7 +16,7 @@ struct Likelihood {
 };
 
 // Adds one view's A_g and M_g to `sums`. mask: of the camera's size. whole_pixels: see RasterOptions.
-void add_masked_sums(const GaussianCloud& cloud, const Camera& camera, const Mask& mask, bool whole_pixels, const Job& job,
+void add_masked_sums(const Drawer& drawer, const Camera& camera, const Mask& mask, bool whole_pixels, const Job& job,
                      MaskedSums* sums);
 
 Likelihood likelihood(const MaskedSums& sums);

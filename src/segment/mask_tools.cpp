@@ -134,19 +134,18 @@ PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera, s
   return rect.empty() ? PixelRect{} : rect;
 }
 
-Image<float> render_labels(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> labels,
+Image<float> render_labels(const Drawer& drawer, const Camera& camera, std::span<const std::uint8_t> labels,
                            const Job& job) {
   Image<float> share(camera.width_px, camera.height_px);
-  const PixelRect rect = labelled_rectangle(cloud, camera, labels);
+  const PixelRect rect = labelled_rectangle(drawer.cloud(), camera, labels);
   if (rect.empty()) return share;
-  std::vector<glm::vec3> white(cloud.size());
-  for_each_index(cloud.size(), [&](std::size_t g) { white[g] = glm::vec3(labels[g] ? 1.0f : 0.0f); });
   RasterOptions options;
-  options.colour_override = white;
+  options.colour = false;
+  options.labels = labels;
   options.roi = rect;
-  const RasterOutput picture = rasterize(cloud, camera, options, job);
+  const RasterOutput picture = drawer.draw(camera, options, job);
   for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x) share.at(x, y) = picture.colour.at(x - rect.x0, y - rect.y0).r;
+    for (int x = rect.x0; x < rect.x1; ++x) share.at(x, y) = picture.label_share.at(x - rect.x0, y - rect.y0);
   return share;
 }
 

@@ -10,6 +10,7 @@
 #include "scene/gaussian_cloud.h"
 #include "scene/image.h"
 #include "scene/job.h"
+#include "scene/projected_view.h"
 
 namespace splatcut {
 
@@ -35,7 +36,7 @@ Mask largest_region(const Mask& mask);
 PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> labels);
 
 // Object white, everything else black and occluding; the share of white, before a threshold.
-Image<float> render_labels(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> labels,
+Image<float> render_labels(const Drawer& drawer, const Camera& camera, std::span<const std::uint8_t> labels,
                            const Job& job = {});
 Mask thresholded(const Image<float>& image, float threshold);
 

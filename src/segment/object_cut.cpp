@@ -77,7 +77,7 @@ struct Correction {
   Mask mask, added, removed;
 };
 
-Correction corrected(const GaussianCloud& cloud, const StrokedView& view,
+Correction corrected(const Drawer& drawer, const StrokedView& view,
                      const std::vector<std::uint8_t>& labels, const PipelineOptions& options,
                      const Job& job) {
   Correction out;
@@ -87,9 +87,9 @@ Correction corrected(const GaussianCloud& cloud, const StrokedView& view,
       scaled(view.strokes, static_cast<float>(width) / static_cast<float>(view.camera.width_px));
   RasterOptions raster;
   raster.depth = true;
-  const RasterOutput drawn = rasterize(cloud, out.camera, raster, job);
+  const RasterOutput drawn = drawer.draw(out.camera, raster, job);
   const Image<Rgb8> picture = rgb8_from_linear(drawn.colour);
-  const Mask prior = thresholded(render_labels(cloud, out.camera, labels, job), 0.5f);
+  const Mask prior = thresholded(render_labels(drawer, out.camera, labels, job), 0.5f);
   const auto grown_from = [&](const Strokes& strokes, SeedLabel wanted) {
     const bool any = std::ranges::any_of(strokes, [&](const Stroke& s) { return s.label == wanted; });
     if (!any || job.cancelled()) return Mask(width, height);
@@ -112,12 +112,13 @@ Correction corrected(const GaussianCloud& cloud, const StrokedView& view,
   return out;
 }
 
-void add_weighted(const GaussianCloud& cloud, const Correction& correction, std::int64_t weight,
+void add_weighted(const Drawer& drawer, const Correction& correction, std::int64_t weight,
                   bool whole_pixels, const Job& job, MaskedSums* sums) {
-  MaskedSums added(cloud.size()), removed(cloud.size());
-  add_masked_sums(cloud, correction.camera, correction.added, whole_pixels, job, &added);
-  add_masked_sums(cloud, correction.camera, correction.removed, whole_pixels, job, &removed);
-  for (std::size_t g = 0; g < cloud.size(); ++g) {
+  const std::size_t n = drawer.cloud().size();
+  MaskedSums added(n), removed(n);
+  add_masked_sums(drawer, correction.camera, correction.added, whole_pixels, job, &added);
+  add_masked_sums(drawer, correction.camera, correction.removed, whole_pixels, job, &removed);
+  for (std::size_t g = 0; g < n; ++g) {
     sums->total[g] += weight * (added.inside[g] + removed.inside[g]);
     sums->inside[g] += weight * added.inside[g];
   }
@@ -136,7 +137,7 @@ std::string key_of(const ObjectCutInput& input) {
 }
 
 SceneSolvers::SceneSolvers(std::shared_ptr<const GaussianCloud> cloud, std::shared_ptr<const PreparedScene> prepared)
-    : cloud_(std::move(cloud)), prepared_(std::move(prepared)) {}
+    : cloud_(std::move(cloud)), prepared_(std::move(prepared)), views_(*cloud_) {}
 
 const PreparedScene& SceneSolvers::prepared(const PipelineOptions& options, const Job& job) {
   const auto as_prepared = static_cast<int>(prepared_->graph.listed);
@@ -158,6 +159,10 @@ CutSolver& SceneSolvers::solver(const PipelineOptions& options, const Job& job) 
   return *solver;
 }
 
+void SceneSolvers::make_ready(const Job& job) {
+  if (!job.cancelled()) solver(preset("default"), job).make_ready();
+}
+
 ObjectCutter::ObjectCutter(std::shared_ptr<const GaussianCloud> cloud, std::shared_ptr<SceneSolvers> solvers)
     : cloud_(std::move(cloud)), solvers_(std::move(solvers)) {}
 
@@ -176,7 +181,7 @@ const PipelineReport& ObjectCutter::first_cut(const ObjectCutInput& input, const
   report.outcome = Outcome::kCancelled;
   if (!job.cancelled())
     report = cut_out(*cloud_, &solvers_->prepared(options, job), reference.camera, input.up_world, reference.strokes, options, job,
-                     &solver);
+                     &solver, &solvers_->views());
   first_key_ = report.outcome == Outcome::kCancelled ? std::string() : std::move(key);
   first_ = std::move(report);
   return *first_;
@@ -188,11 +193,12 @@ bool ObjectCutter::add_up_views(const ObjectCutReport& out, const PipelineOption
   append(&key, settings.hard_counts);
   if (sums_ && key == sums_key_) return !job.cancelled();
   sums_.reset();
+  const Drawer drawer(*cloud_, &solvers_->views());
   MaskedSums sums(cloud_->size());
   clock->time("likelihood", [&] {
     for (const ViewReport& view : out.views)
       if (view.used && !job.cancelled())
-        add_masked_sums(*cloud_, view.camera, view.mask, settings.hard_counts, job, &sums);
+        add_masked_sums(drawer, view.camera, view.mask, settings.hard_counts, job, &sums);
   });
   if (job.cancelled()) return false;
   sums_ = std::move(sums);
@@ -213,15 +219,16 @@ Likelihood ObjectCutter::evidence(const ObjectCutInput& input, const PipelineRep
   const auto first_used = std::ranges::count_if(out->views, [](const ViewReport& v) { return v.used; });
   const auto reference = std::ranges::find_if(input.views, marks_object);
   std::optional<MaskedSums> sums;  // where there are corrections
+  const Drawer drawer(*cloud_, &solvers_->views());
   for (const StrokedView& view : input.views) {
     if (&view == &*reference || view.strokes.empty() || job.cancelled()) continue;
     if (!sums) sums = sums_;
-    const Correction c = clock->time("masks", [&] { return corrected(*cloud_, view, first.labels, settings, job); });
+    const Correction c = clock->time("masks", [&] { return corrected(drawer, view, first.labels, settings, job); });
     clock->time("likelihood", [&] {
-      add_masked_sums(*cloud_, c.camera, c.mask, settings.hard_counts, job, &*sums);
-      add_weighted(*cloud_, c, kCorrectionWeight * first_used, settings.hard_counts, job, &*sums);
+      add_masked_sums(drawer, c.camera, c.mask, settings.hard_counts, job, &*sums);
+      add_weighted(drawer, c, kCorrectionWeight * first_used, settings.hard_counts, job, &*sums);
     });
-    out->views.push_back({.camera = c.camera, .mask = c.mask, .used = true, .confidence = 1});
+    out->views.push_back({.camera = c.camera, .mask = c.mask, .used = true, .confidence = 1, .reason = {}});
   }
   const auto used = std::ranges::count_if(out->views, [](const ViewReport& v) { return v.used; });
   return with_prior(likelihood(sums ? *sums : *sums_), first.prior, settings.prior_px_per_view * static_cast<float>(used));
@@ -282,7 +289,7 @@ ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& o
   else
     out.labels = report.labels;
   if (settings.trim && out.outcome == Outcome::kDone)
-    clock.time("trim", [&] { trim_to_views(*cloud_, out.views, settings, &out.labels, job); });
+    clock.time("trim", [&] { trim_to_views({*cloud_, &solvers_->views()}, out.views, settings, &out.labels, job); });
   if (job.cancelled()) out.outcome = Outcome::kCancelled;
   return out;
 }

@@ -53,7 +53,7 @@ struct ObjectCutReport {
 };
 
 // The solvers of a scene, for all its objects, one cut at a time: what they know of the graph, and mostly the flow, is of
-// use to the next cut. Labels do not depend on what was solved before.
+// use to the next cut, and so are the views drawn last. Labels do not depend on what was done before.
 class SceneSolvers {
  public:
   SceneSolvers(std::shared_ptr<const GaussianCloud> cloud, std::shared_ptr<const PreparedScene> prepared);
@@ -62,12 +62,15 @@ class SceneSolvers {
   // what is returned must not be used.
   const PreparedScene& prepared(const PipelineOptions& options, const Job& job);
   CutSolver& solver(const PipelineOptions& options, const Job& job);
+  void make_ready(const Job& job);  // for the default preset: the first click then waits for less
+  KeptViews& views() { return views_; }
 
  private:
   std::shared_ptr<const GaussianCloud> cloud_;
   std::shared_ptr<const PreparedScene> prepared_;
   std::optional<PreparedScene> other_;  // a graph without parts
   std::optional<CutSolver> solver_, other_solver_;
+  KeptViews views_;
 };
 
 class ObjectCutter {

@@ -33,20 +33,20 @@ double changed_share(const std::vector<std::uint8_t>& before, const std::vector<
   return static_cast<double>(changed) / static_cast<double>(std::max<std::size_t>(1, object));
 }
 
-Picture render(const GaussianCloud& cloud, const Camera& camera, const Job& job) {
+Picture render(const Drawer& drawer, const Camera& camera, const Job& job) {
   RasterOptions options;
   options.depth = true;
-  const RasterOutput out = rasterize(cloud, camera, options, job);
+  const RasterOutput out = drawer.draw(camera, options, job);
   return {rgb8_from_linear(out.colour), out.expected_depth};
 }
 
 // One run: what the stages share.
 class Run {
  public:
-  Run(const GaussianCloud& cloud, const PreparedScene& prepared, const PipelineOptions& options, const Job& job,
+  Run(const Drawer& drawer, const PreparedScene& prepared, const PipelineOptions& options, const Job& job,
       PipelineReport* report, CutSolver& solver)
-      : cloud_(cloud), graph_(prepared.graph), parts_(prepared.parts), options_(options), job_(job), report_(*report), clock_(&report->stages),
-        sums_(cloud.size()), solver_(solver), work_width_px_(options.work_width_px) {}
+      : drawer_(drawer), cloud_(drawer.cloud()), graph_(prepared.graph), parts_(prepared.parts), options_(options), job_(job), report_(*report), clock_(&report->stages),
+        sums_(cloud_.size()), solver_(solver), work_width_px_(options.work_width_px) {}
 
   bool answered_by_parts() const { return !prior().empty() && !options_.cut_parts; }
   void reference_view(const Camera& full, const Strokes& strokes);
@@ -78,6 +78,7 @@ class Run {
   void use(ViewReport view, Picture picture = {});
   void measure_agreement();
 
+  const Drawer drawer_;
   const GaussianCloud& cloud_;
   const FlowGraph& graph_;
   const PartHierarchy& parts_;
@@ -103,16 +104,16 @@ void Run::solve() {
 }
 
 Mask Run::labels_in(const Camera& camera) {
-  return clock_.time("labels in views", [&] { return thresholded(render_labels(cloud_, camera, report_.labels, job_), 0.5f); });
+  return clock_.time("labels in views", [&] { return thresholded(render_labels(drawer_, camera, report_.labels, job_), 0.5f); });
 }
 
 void Run::use(ViewReport view, Picture picture) {
   view.used = true;
   if (options_.propagate != Propagator::kLift) {
-    if (picture.rgb.empty()) picture = clock_.time("view", [&] { return render(cloud_, view.camera, job_); });
+    if (picture.rgb.empty()) picture = clock_.time("view", [&] { return render(drawer_, view.camera, job_); });
     seen_.push_back({view.camera, std::move(picture.rgb), std::move(picture.depth), view.mask});
   }
-  clock_.time("likelihood", [&] { add_masked_sums(cloud_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
+  clock_.time("likelihood", [&] { add_masked_sums(drawer_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
   ++used_views_;
   report_.views.push_back(std::move(view));
 }
@@ -136,7 +137,7 @@ PartView Run::parts_in(const Camera& camera) {
   RasterOptions raster;
   raster.colour = false;
   raster.depth = true;
-  return view_parts(parts_, rasterize(cloud_, camera, raster, job_).first_hit);
+  return view_parts(parts_, drawer_.draw(camera, raster, job_).first_hit);
 }
 
 // What the strokes mean as parts becomes the labels.
@@ -172,7 +173,7 @@ void Run::complete(const Camera& camera, const Mask& mask) {
 }
 
 Mask Run::mask_from_pixels(const Camera& camera, const Strokes& strokes) {
-  const Picture picture = clock_.time("view", [&] { return render(cloud_, camera, job_); });
+  const Picture picture = clock_.time("view", [&] { return render(drawer_, camera, job_); });
   Mask mask = clock_.time("first mask", [&] { return first_mask(picture.rgb, picture.depth, strokes, options_.first_mask, job_); });
   if (options_.feedback && count(mask) > 0 && !job_.cancelled()) mask = with_feedback(camera, picture, mask, strokes);
   return mask;
@@ -220,7 +221,7 @@ void Run::reference_view(const Camera& full, const Strokes& strokes) {
   const bool anything = count(view.mask) > 0;
   use(std::move(view));
   snapshot();
-  if (anything && !answered_by_parts()) solve();
+  if (anything && options_.cut_parts) solve();
 }
 
 // The object's pixels that the scene leaves visible, as a share of what it would show alone.
@@ -231,7 +232,7 @@ double Run::share_visible(const Camera& camera, const Mask& seen) {
     options.shown = report_.labels;
     options.roi = labelled_rectangle(cloud_, camera, report_.labels);
     if (options.roi->empty()) return std::size_t{0};
-    return count(thresholded(rasterize(cloud_, camera, options, job_).alpha, 0.5f));
+    return count(thresholded(drawer_.draw(camera, options, job_).alpha, 0.5f));
   });
   return alone ? static_cast<double>(count(seen)) / static_cast<double>(alone) : 0.0;
 }
@@ -263,7 +264,7 @@ void Run::add_view(const Camera& full, const glm::vec3& object_centre_world) {
   for (const float share : {1.0f, 0.7f, 0.5f}) {
     view.camera = approached(limited_to_width(full, work_width_px_), object_centre_world, share);
     Picture picture;
-    if (needs_pictures()) picture = clock_.time("view", [&] { return render(cloud_, view.camera, job_); });
+    if (needs_pictures()) picture = clock_.time("view", [&] { return render(drawer_, view.camera, job_); });
     const Mask seen = propagated(view.camera, picture);
     if (job_.cancelled()) return;
     if (options_.hidden_test && share_visible(view.camera, seen) < kHidden) continue;
@@ -323,7 +324,7 @@ void Run::settle() {
       view.reason = "its mask disagrees with the others";
     }
     if (!view.used) continue;
-    clock_.time("likelihood", [&] { add_masked_sums(cloud_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
+    clock_.time("likelihood", [&] { add_masked_sums(drawer_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
     ++used_views_;
   }
   solve();
@@ -331,7 +332,7 @@ void Run::settle() {
 }
 
 void Run::trim_labels() {
-  clock_.time("trim", [&] { report_.trimmed = trim_to_views(cloud_, report_.views, options_, &report_.labels, job_); });
+  clock_.time("trim", [&] { report_.trimmed = trim_to_views(drawer_, report_.views, options_, &report_.labels, job_); });
 }
 
 }  // namespace
@@ -346,17 +347,17 @@ LookedAt looked_at(const PipelineReport& report) {
   return sum;
 }
 
-std::size_t trim_to_views(const GaussianCloud& cloud, const std::vector<ViewReport>& views, const PipelineOptions& options,
+std::size_t trim_to_views(const Drawer& drawer, const std::vector<ViewReport>& views, const PipelineOptions& options,
                           std::vector<std::uint8_t>* labels, const Job& job) {
   std::vector<TrimView> seen;
   for (const ViewReport& view : views)
     if (view.used) seen.push_back({view.camera, &view.mask});
-  return trim(cloud, seen, options.trim_options, labels, job);
+  return trim(drawer, seen, options.trim_options, labels, job);
 }
 
 PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,
                        const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options, const Job& job,
-                       CutSolver* solver) {
+                       CutSolver* solver, KeptViews* kept) {
   if (!options.cut_parts && options.first_mask_from != FirstMaskFrom::kParts)
     throw Error("settings", "the parts cannot be the answer where the first mask comes from pixels", "Leave one of the two out");
   PipelineReport report;
@@ -368,7 +369,9 @@ PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared
   }
   std::optional<CutSolver> fresh;
   if (!solver) solver = &fresh.emplace(cloud, prepared->graph, options.cut);
-  Run run(cloud, *prepared, options, job, &report, *solver);
+  std::optional<KeptViews> own;
+  if (!kept) kept = &own.emplace(cloud);
+  Run run({cloud, kept}, *prepared, options, job, &report, *solver);
   const auto cancelled = [&] {
     if (job.cancelled()) report.outcome = Outcome::kCancelled;
     return job.cancelled();
@@ -391,11 +394,21 @@ PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared
   return report;
 }
 
+CutSolver ready_solver(const GaussianCloud& cloud, const PreparedScene& prepared, const PipelineOptions& options) {
+  CutSolver solver(cloud, prepared.graph, options.cut);
+  solver.make_ready();
+  return solver;
+}
+
 Mask first_mask_of(const GaussianCloud& cloud, const PreparedScene& prepared, const Camera& reference, const Strokes& strokes,
-                   const PipelineOptions& options, const Job& job) {
+                   const PipelineOptions& options, const Job& job, KeptViews* kept) {
   PipelineReport report;
   CutSolver solver(cloud, prepared.graph, options.cut);
-  Run run(cloud, prepared, options, job, &report, solver);
+  std::optional<KeptViews> own;
+  if (!kept) kept = &own.emplace(cloud);
+  PipelineOptions mask_alone = options;
+  mask_alone.cut_parts = false;
+  Run run({cloud, kept}, prepared, mask_alone, job, &report, solver);
   run.reference_view(reference, strokes);
   if (report.views.empty()) {  // cancelled
     const Camera camera = limited_to_width(reference, options.work_width_px);

@@ -120,18 +120,22 @@ struct LookedAt {
 LookedAt looked_at(const PipelineReport& report);
 
 // trim() by the views that count. Returns how many Gaussians left the object.
-std::size_t trim_to_views(const GaussianCloud& cloud, const std::vector<ViewReport>& views, const PipelineOptions& options,
+std::size_t trim_to_views(const Drawer& drawer, const std::vector<ViewReport>& views, const PipelineOptions& options,
                           std::vector<std::uint8_t>* labels, const Job& job = {});
 
 // `prepared` may be null: it is then made here. up_world: which way is up, for the orbit. solver: of this cloud and the
-// prepared graph, with options.cut, used in place of a fresh one; the labels are the same.
+// prepared graph, with options.cut, used in place of a fresh one; the labels are the same. kept: views to draw by, else
+// its own.
 // Throws Error for parts as the answer (cut_parts = false) without parts (kPixels).
 PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,
                        const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options,
-                       const Job& job = {}, CutSolver* solver = nullptr);
+                       const Job& job = {}, CutSolver* solver = nullptr, KeptViews* kept = nullptr);
+
+// What a program that waits for strokes has ready: a solver whose arcs are weighed.
+CutSolver ready_solver(const GaussianCloud& cloud, const PreparedScene& prepared, const PipelineOptions& options);
 
 // The first mask alone (after feedback), in the size of limited_to_width(reference, work_width_px).
 Mask first_mask_of(const GaussianCloud& cloud, const PreparedScene& prepared, const Camera& reference, const Strokes& strokes,
-                   const PipelineOptions& options, const Job& job = {});
+                   const PipelineOptions& options, const Job& job = {}, KeptViews* kept = nullptr);
 
 }  // namespace splatcut

@@ -10,15 +10,15 @@ namespace splatcut {
 namespace {
 
 // Where the object may be: its mask, and where something nearer hides it.
-Mask allowed_in(const GaussianCloud& cloud, const TrimView& view, const TrimOptions& options, const std::vector<std::uint8_t>& labels,
+Mask allowed_in(const Drawer& drawer, const TrimView& view, const TrimOptions& options, const std::vector<std::uint8_t>& labels,
                 const PixelRect& rect, const Job& job) {
   RasterOptions raster;
   raster.colour = false;
   raster.depth = true;
   raster.roi = rect;
-  const RasterOutput scene = rasterize(cloud, view.camera, raster, job);
+  const RasterOutput scene = drawer.draw(view.camera, raster, job);
   raster.shown = labels;
-  const RasterOutput alone = rasterize(cloud, view.camera, raster, job);
+  const RasterOutput alone = drawer.draw(view.camera, raster, job);
   Mask allowed = dilated(*view.mask, options.margin_px);
   constexpr float kNearer = 0.99f;
   for (int y = rect.y0; y < rect.y1; ++y)
@@ -31,23 +31,23 @@ Mask allowed_in(const GaussianCloud& cloud, const TrimView& view, const TrimOpti
 
 }  // namespace
 
-std::size_t trim(const GaussianCloud& cloud, std::span<const TrimView> views, const TrimOptions& options,
+std::size_t trim(const Drawer& drawer, std::span<const TrimView> views, const TrimOptions& options,
                  std::vector<std::uint8_t>* labels, const Job& job) {
-  MaskedSums sums(cloud.size());
+  MaskedSums sums(drawer.cloud().size());
   const std::size_t n = std::min(views.size(), static_cast<std::size_t>(options.most_views));
   for (std::size_t i = 0; i < n; ++i) {
     const TrimView& view = views[i * views.size() / n];
     if (job.cancelled()) return 0;
-    const PixelRect rect = labelled_rectangle(cloud, view.camera, *labels);
+    const PixelRect rect = labelled_rectangle(drawer.cloud(), view.camera, *labels);
     if (rect.empty()) continue;
-    const Mask allowed = allowed_in(cloud, view, options, *labels, rect, job);
+    const Mask allowed = allowed_in(drawer, view, options, *labels, rect, job);
     RasterOptions raster;
     raster.roi = rect;
     raster.colour = false;
     raster.shown = *labels;
     raster.sum_mask = &allowed;
     raster.sums = &sums;
-    rasterize(cloud, view.camera, raster, job);
+    drawer.draw(view.camera, raster, job);
   }
   std::size_t left = 0;
   for (std::size_t g = 0; g < labels->size(); ++g) {

@@ -14,6 +14,7 @@
 #include "scene/gaussian_cloud.h"
 #include "scene/image.h"
 #include "scene/job.h"
+#include "scene/projected_view.h"
 
 namespace splatcut {
 
@@ -29,7 +30,7 @@ struct TrimOptions {
 };
 
 // labels: per Gaussian, 1 = object. Returns how many Gaussians left the object.
-std::size_t trim(const GaussianCloud& cloud, std::span<const TrimView> views, const TrimOptions& options,
+std::size_t trim(const Drawer& drawer, std::span<const TrimView> views, const TrimOptions& options,
                  std::vector<std::uint8_t>* labels, const Job& job = {});
 
 }  // namespace splatcut

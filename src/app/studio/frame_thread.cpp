@@ -22,13 +22,6 @@ bool same_views(const FrameRequest& a, const FrameRequest& b) {
 
 }  // namespace
 
-bool same_camera(const Camera& a, const Camera& b) {
-  return a.width_px == b.width_px && a.height_px == b.height_px && a.fx_px == b.fx_px && a.fy_px == b.fy_px &&
-         a.cx_px == b.cx_px && a.cy_px == b.cy_px &&
-         a.camera_from_world_rotation == b.camera_from_world_rotation &&
-         a.camera_from_world_translation == b.camera_from_world_translation;
-}
-
 Flags within_far_plane(const GaussianCloud& cloud, const Camera& camera, const Flags& shown, float far_plane) {
   if (far_plane >= DepthRange{}.far_plane) return shown;
   std::vector<std::uint8_t> set(cloud.size());

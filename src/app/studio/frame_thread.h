@@ -95,6 +95,4 @@ std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Came
 std::shared_ptr<const Frame> coarse_frame(const CoarseCloud& coarse, const Camera& camera, const Flags& shown,
                                           const DepthRange& range, const Job& job = {});
 
-bool same_camera(const Camera& a, const Camera& b);  // names apart
-
 }  // namespace splatcut

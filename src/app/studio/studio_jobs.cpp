@@ -126,10 +126,12 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
       });
     auto prepared = prepare(*scene, job, options_.cache);
     if (job.cancelled()) return;
-    tasks_.post([this, scene, prepared] {
+    auto solvers = std::make_shared<SceneSolvers>(scene->cloud, prepared);
+    solvers->make_ready(job);
+    tasks_.post([this, scene, prepared, solvers] {
       if (scene != scene_) return;
       prepared_ = prepared;
-      solvers_ = std::make_shared<SceneSolvers>(scene->cloud, prepared);
+      solvers_ = solvers;
     });
   });
   if (options_.inline_tasks) tasks_.deliver();

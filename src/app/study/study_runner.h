@@ -37,7 +37,7 @@ class StudyRunner {
     PreparedScene prepared;
     std::vector<std::uint8_t> truth;
   };
-  PipelineReport cut(const StudyCell& cell, Setup* setup, const Job& job) const;
+  PipelineReport cut(const StudyCell& cell, Setup* setup, const Job& job, double* ms) const;
   void load(const PipelineOptions& pipeline, const Job& job);
   Setup set_up(const StudyCell& cell, const Job& job);
   void choose_strokes(const StudyCell& cell, const Job& job, Setup* setup) const;
