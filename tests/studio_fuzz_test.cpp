@@ -118,7 +118,7 @@ void write_random_scene(const std::filesystem::path& path) {
 
 }  // namespace
 
-TEST_CASE("random commands while the threads work, and an end in the middle of it") {
+TEST_CASE("threads: random commands while they work, and an end in the middle of it") {
   const ScratchFolder folder("threads");
   write_random_scene(folder / "random.ply");
   for (unsigned seed = 1; seed <= 3; ++seed) {
