@@ -112,7 +112,14 @@ int main(int argc, char** argv) {
   print("open to prepared", ms_since(start));
   const Camera camera = s.viewport_camera();
   fmt::print("{} Gaussians, picture {}x{}\n", s.scene()->cloud->size(), camera.width_px, camera.height_px);
-  print("still picture", s.still_ms());
+  print("still picture, while preparing", s.still_ms());
+  s.camera().orbit({1, 0});
+  until(
+      app, [] { return true; }, &longest);
+  print("still picture, prepared", s.still_ms());
+  s.camera().orbit({-1, 0});
+  until(
+      app, [] { return true; }, &longest);
   moving_pictures(app);
   s.camera().go_to(s.scene()->cameras.empty() ? camera : s.scene()->cameras.front());
   s.camera().finish_transition();
@@ -144,6 +151,7 @@ int main(int argc, char** argv) {
   app.move(at + glm::vec2(9, 5));
   app.release(PointerButton::kLeft);
   print("stroke in the same view to cutout", until(app, done, &longest));
+  print("  to its first mask", run()->first_mask_ms);
   s.camera().orbit({60, 0});
   until(
       app, [] { return true; }, &longest);
