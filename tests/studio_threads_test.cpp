@@ -3,11 +3,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/output_folder.h"
 #include "app/still_life_files.h"
+#include "app/studio/task_thread.h"
 #include "headless_app.h"
 #include "scene/still_life.h"
 
@@ -95,6 +98,30 @@ TEST_CASE("threads: strokes, undo, smoothness and another object, all in haste, 
     return bytes_of(app.studio().document());
   };
   CHECK(work_after(true) == work_after(false));
+}
+
+TEST_CASE("threads: exports wait for each other, of any other kind the latest request wins") {
+  std::atomic<bool> go = false;
+  std::vector<std::string> done;
+  TaskThread tasks;
+  const auto submit = [&](TaskKind kind, const std::string& name) {
+    tasks.submit(kind, [&, name](const Job& job) {
+      while (!go) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      tasks.post([&, text = name + (job.cancelled() ? " stopped" : " done")] { done.push_back(text); });
+    });
+  };
+  submit(TaskKind::kExport, "turntable");
+  submit(TaskKind::kAutosave, "first autosave");
+  submit(TaskKind::kExport, "snapshot");
+  submit(TaskKind::kCut, "first cut");
+  submit(TaskKind::kAutosave, "second autosave");
+  submit(TaskKind::kCut, "second cut");
+  go = true;
+  while (!tasks.idle()) {
+    tasks.deliver();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  CHECK(done == std::vector<std::string>{"turntable done", "snapshot done", "second autosave done", "second cut done"});
 }
 
 TEST_CASE("threads: another scene is opened while the first is read, prepared and cut") {

@@ -51,7 +51,7 @@ void Studio::perform(const SaveWork& c) {
 
 void Studio::leave() {
   if (options_.state_folder.empty() || unsaved()) return;
-  tasks_.cancel(TaskKind::kExport);
+  tasks_.cancel(TaskKind::kAutosave);
   std::error_code ignored;
   if (restorable_ != options_.state_folder / kAutosave) std::filesystem::remove(options_.state_folder / kAutosave, ignored);
 }

@@ -318,8 +318,8 @@ void Studio::autosave(double seconds) {
     if (!trouble) restorable_ = options_.state_folder / kAutosaveBefore;
   }
   const auto before = options_.state_folder / kAutosaveBefore;
-  tasks_.submit(TaskKind::kExport, [path, restored = restorable_ == before ? std::filesystem::path() : before,
-                                    document = document(), scene = scene_](const Job&) {
+  tasks_.submit(TaskKind::kAutosave, [path, restored = restorable_ == before ? std::filesystem::path() : before,
+                                      document = document(), scene = scene_](const Job&) {
     std::filesystem::create_directories(path.parent_path());
     write_work_file(path, *scene->scene, scene->hash, document);
     std::error_code ignored;  // what was restored is in the file now

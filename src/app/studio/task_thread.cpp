@@ -52,8 +52,10 @@ void TaskThread::submit(TaskKind kind, Work work) {
   }
   {
     const std::lock_guard lock(mutex_);
-    std::erase_if(waiting_, [&](const Task& t) { return t.kind == kind; });
-    if (running_ && running_kind_ == kind) running_stop_.request_stop();
+    if (kind != TaskKind::kExport) {
+      std::erase_if(waiting_, [&](const Task& t) { return t.kind == kind; });
+      if (running_ && running_kind_ == kind) running_stop_.request_stop();
+    }
     waiting_.push_back(std::move(task));
   }
   changed_.notify_one();

@@ -11,6 +11,7 @@
 
 #include "app/study/study_variants.h"
 #include "app/tuning_options.h"
+#include "scene/byte_hash.h"
 #include "scene/counter_rng.h"
 #include "scene/error.h"
 #include "scene/png_file.h"
@@ -188,6 +189,16 @@ PipelineReport StudyRunner::cut(const StudyCell& cell, Setup* setup, const Job& 
   return report;
 }
 
+// Many draws end in the same labels: they are drawn and measured once.
+ImageScore StudyRunner::score_of(const StudyCell& cell, const EvaluationCase& test, const std::vector<std::uint8_t>& labels) {
+  Hasher key;
+  for (const double changed : {cell.scene_scale, cell.hidden, cell.step_back, cell.object_share, cell.score_scale}) key.number(changed);
+  key.add(std::span(labels));
+  const auto found = scores_.find(key.value());
+  if (found != scores_.end()) return found->second;
+  return scores_.emplace(key.value(), score_images(test, labels)).first->second;
+}
+
 nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
   Setup setup = set_up(cell, job);
   if (!setup.possible || job.cancelled()) return nullptr;
@@ -195,7 +206,7 @@ nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
   double ms = 0;
   const PipelineReport report = cut(cell, &setup, job, &ms);
   if (job.cancelled()) return nullptr;
-  const ImageScore score = score_images(test, report.labels);
+  const ImageScore score = score_of(cell, test, report.labels);
   nlohmann::json result = to_json(cell);
   result["scene"] = test.name;
   result["image_iou"] = score.iou;

@@ -37,6 +37,7 @@ class StudyRunner {
     PreparedScene prepared;
     std::vector<std::uint8_t> truth;
   };
+  ImageScore score_of(const StudyCell& cell, const EvaluationCase& test, const std::vector<std::uint8_t>& labels);
   PipelineReport cut(const StudyCell& cell, Setup* setup, const Job& job, double* ms) const;
   void load(const PipelineOptions& pipeline, const Job& job);
   Setup set_up(const StudyCell& cell, const Job& job);
@@ -51,6 +52,7 @@ class StudyRunner {
   int loaded_neighbours_ = 0;
   std::map<int, PreparedScene> prepared_;  // of other numbers of neighbours
   Variant variant_;                        // the last one; none is kept where there was none
+  std::map<std::uint64_t, ImageScore> scores_;
 };
 
 }  // namespace splatcut
