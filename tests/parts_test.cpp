@@ -183,11 +183,16 @@ TEST_CASE("parts: clicks on four stripes, worked out by hand") {
   // The pair has the least border for its size: ln(0.001 / sqrt 2) against ln 1 of a leaf.
   CHECK(leaves({object(5)}) == Leaves{1, 1, 0, 0});
   CHECK(leaves({object(35)}) == Leaves{0, 0, 1, 1});
-  // A rest click first: the pair that holds it is no candidate.
-  CHECK(leaves({rest(15), object(5)}) == Leaves{1, 0, 0, 0});
   CHECK(leaves({object(5), object(25)}) == Leaves{1, 1, 1, 1});
   // Removes what it hits, but nothing that holds the object click.
   CHECK(leaves({object(5), rest(15)}) == Leaves{1, 0, 0, 0});
+  // Told first it says the same: all four are meant, and one is not. It keeps no part from being meant.
+  options.scale_steps = 1;
+  CHECK(leaves({object(5), rest(15)}) == Leaves{1, 0, 1, 1});
+  CHECK(leaves({rest(15), object(5)}) == Leaves{1, 0, 1, 1});
+  CHECK(leaves({rest(35), rest(25), object(5)}) == leaves({object(5), rest(35), rest(25)}));
+  CHECK(leaves({rest(35)}) == Leaves{0, 0, 0, 0});
+  options.scale_steps = 0;
   CHECK(leaves({object(5), object(7)}) == Leaves{1, 1, 0, 0});
   // One size smaller and larger; beyond the last there is none.
   for (const auto& [steps, expected] : std::map<int, Leaves>{{-1, {1, 0, 0, 0}}, {-9, {1, 0, 0, 0}}, {1, {1, 1, 1, 1}}, {9, {1, 1, 1, 1}}}) {

@@ -297,8 +297,14 @@ PartView view_parts(const PartHierarchy& parts, const Image<std::int32_t>& first
 
 Pick pick_parts(const PartHierarchy& parts, const PartView& view, const Strokes& strokes, const PickOptions& options) {
   Picker picker(parts, view, options);
-  for (const Stroke& stroke : strokes)
+  const auto apply = [&](const Stroke& stroke) {
     for (const glm::vec2& point : stroke.points_px) picker.apply(point, stroke.label);
+  };
+  // A rest click corrects an object. One told before there is any would keep every part out that holds its leaf.
+  const auto first = std::ranges::find(strokes, SeedLabel::kObject, &Stroke::label);
+  if (first != strokes.end()) apply(*first);
+  for (auto stroke = strokes.begin(); stroke != strokes.end(); ++stroke)
+    if (stroke != first) apply(*stroke);
   return picker.take();
 }
 

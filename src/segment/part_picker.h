@@ -67,7 +67,8 @@ struct Pick {
   bool ambiguous = false;             // a part of another size looked nearly as likely
 };
 
-// Strokes in order, later ones correct earlier ones. Strokes that hit nothing do nothing.
+// Strokes in order, later ones correct earlier ones; rest strokes told before any object count right after the first
+// object stroke. Strokes that hit nothing do nothing.
 Pick pick_parts(const PartHierarchy& parts, const PartView& view, const Strokes& strokes, const PickOptions& options = {});
 
 // The leaves that a mask of the view means: per tree the nodes that agree best with it in pixels, whole nodes
