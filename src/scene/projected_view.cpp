@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+// ProjectedView stands in rasterizer.cpp, beside rasterize(), with which it shares the drawing.
+
 namespace splatcut {
 
 const ProjectedView& KeptViews::view(const Camera& camera, bool coloured, const Job& job) {

@@ -20,7 +20,7 @@ class ProjectedView {
   ProjectedView(const GaussianCloud& cloud, const Camera& camera, bool coloured, const Job& job = {});
   ~ProjectedView();
 
-  // options without near_plane and colour_override.
+  // options without near_plane and colour_override. `visible` and `pairs` are those of the whole picture.
   RasterOutput draw(const RasterOptions& options, const Job& job = {}) const;
 
   const Camera& camera() const { return camera_; }
