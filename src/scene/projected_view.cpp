@@ -1,10 +1,37 @@
 #include "scene/projected_view.h"
 
 #include <algorithm>
+#include <cassert>
 
-// ProjectedView stands in rasterizer.cpp, beside rasterize(), with which it shares the drawing.
+#include "scene/grid_drawing.h"
 
 namespace splatcut {
+
+ProjectedView::ProjectedView(const GaussianCloud& cloud, const Camera& camera, bool coloured, const Job& job)
+    : cloud_(cloud), camera_(camera), coloured_(coloured) {
+  RasterOptions options;
+  options.colour = coloured;
+  TileGrid grid = bin_splats(cloud, camera, options, job);
+  if (!job.cancelled()) sort_tiles(&grid, job);
+  if (!job.cancelled()) grid_ = std::make_unique<const TileGrid>(std::move(grid));
+}
+
+ProjectedView::~ProjectedView() = default;
+
+std::size_t ProjectedView::bytes() const {
+  if (!grid_) return 0;
+  std::size_t bytes = grid_->splats.size() * sizeof(BlendSplat) +
+                      grid_->entries.size() * (sizeof(TileEntry) + sizeof(std::uint32_t));
+  for (const std::vector<SplatTile>& run : grid_->runs) bytes += run.capacity() * sizeof(SplatTile);
+  return bytes;
+}
+
+RasterOutput ProjectedView::draw(const RasterOptions& options, const Job& job) const {
+  assert(!options.near_plane && options.colour_override.empty() && (coloured_ || !options.colour));
+  const PixelRect roi = drawn_region(cloud_, camera_, options);
+  if (roi.empty() || !grid_) return empty_output(options, roi);
+  return draw_grid(*grid_, roi, true, options, job);
+}
 
 const ProjectedView& KeptViews::view(const Camera& camera, bool coloured, const Job& job) {
   const auto found = std::ranges::find_if(views_, [&](const auto& v) { return same_camera(v->camera(), camera); });

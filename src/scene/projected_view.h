@@ -13,6 +13,8 @@
 
 namespace splatcut {
 
+struct TileGrid;
+
 // The cloud must outlive it and stay as it is. One drawing at a time.
 class ProjectedView {
  public:
@@ -29,11 +31,10 @@ class ProjectedView {
   std::size_t bytes() const;
 
  private:
-  struct Grid;
   const GaussianCloud& cloud_;
   Camera camera_;
   bool coloured_;
-  std::unique_ptr<const Grid> grid_;
+  std::unique_ptr<const TileGrid> grid_;
 };
 
 // The views drawn last, as many as fit.

@@ -117,7 +117,6 @@ struct BlockLists {
 
 struct Workspace {
   SortSpace sort_space;
-  std::vector<std::uint32_t> order, shown;
   Chunk chunk;
   TilePixels pixels;
   BlockLists lists;
@@ -131,24 +130,6 @@ struct View {
   PairSums* pair_sums;
   RasterOutput* out;
 };
-
-// The entries of a tile that are drawn, front to back.
-std::span<const std::uint32_t> drawn_entries(const View& view, const TileEntry* entries, std::size_t first, std::size_t count,
-                                             Workspace* work) {
-  std::span<const std::uint32_t> order;
-  if (view.grid.order.size() != 0) {
-    order = {view.grid.order.data() + first, count};
-  } else {
-    work->order.resize(count);
-    sort_front_to_back({entries, count}, &work->sort_space, work->order.data());
-    order = work->order;
-  }
-  if (view.shown.empty()) return order;
-  work->shown.clear();
-  for (const std::uint32_t e : order)
-    if (view.shown[entries[e].gaussian]) work->shown.push_back(e);
-  return work->shown;
-}
 
 void derive_ellipses(Chunk* chunk) {
   // On entry width2, slope and tip hold log2_opacity, qc and qb, and tilt holds qa.
@@ -408,10 +389,10 @@ void draw_tile(const View& view, int tile) {
   const TileGrid& grid = view.grid;
   const int tile_x = (tile % grid.tiles_x + grid.first_tile_x) * kTilePx;
   const int tile_y = (tile / grid.tiles_x + grid.first_tile_y) * kTilePx;
-  const std::size_t first = grid.first_entry[tile], count = grid.first_entry[tile + 1] - first;
+  const std::size_t first = grid.first_entry[static_cast<std::size_t>(tile)];
   const TileEntry* entries = grid.entries.data() + first;
   start_pixels(view, tile_x, tile_y, &work.pixels);
-  const std::span<const std::uint32_t> order = drawn_entries(view, entries, first, count, &work);
+  const std::span<const std::uint32_t> order = drawn_order(grid, tile, view.shown, &work.sort_space);
   std::size_t done = 0;
   while (done < order.size() && work.pixels.alive != 0) {
     const std::size_t size = std::min<std::size_t>(kChunk, order.size() - done);

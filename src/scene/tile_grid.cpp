@@ -146,6 +146,22 @@ void fill_entries(Run* run, std::vector<SplatTile>* pairs, TileGrid* grid) {
   }
 }
 
+std::span<const TileEntry> entries_of(const TileGrid& grid, int tile) {
+  const auto t = static_cast<std::size_t>(tile);
+  return {grid.entries.data() + grid.first_entry[t], grid.first_entry[t + 1] - grid.first_entry[t]};
+}
+
+// order: as many as entries.
+void sort_front_to_back(std::span<const TileEntry> entries, SortSpace* space, std::uint32_t* order) {
+  space->items.resize(entries.size());
+  space->scratch.resize(entries.size());
+  // Positive floats order like their bits.
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    space->items[i] = {std::bit_cast<std::uint32_t>(entries[i].depth), static_cast<std::uint32_t>(i)};
+  radix_sort<8>(std::span(space->items), std::span(space->scratch), 0, 32);
+  std::ranges::transform(space->items, order, &KeyValue<std::uint32_t>::value);
+}
+
 }  // namespace
 
 TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
@@ -175,22 +191,29 @@ TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const Rast
   return grid;
 }
 
-void sort_front_to_back(std::span<const TileEntry> entries, SortSpace* space, std::uint32_t* order) {
-  space->items.resize(entries.size());
-  space->scratch.resize(entries.size());
-  // Positive floats order like their bits.
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    space->items[i] = {std::bit_cast<std::uint32_t>(entries[i].depth), static_cast<std::uint32_t>(i)};
-  radix_sort<8>(std::span(space->items), std::span(space->scratch), 0, 32);
-  std::ranges::transform(space->items, order, &KeyValue<std::uint32_t>::value);
+std::span<const std::uint32_t> drawn_order(const TileGrid& grid, int tile, std::span<const std::uint8_t> shown, SortSpace* space) {
+  const std::span<const TileEntry> entries = entries_of(grid, tile);
+  std::span<const std::uint32_t> order;
+  if (grid.order.size() != 0) {
+    order = {grid.order.data() + grid.first_entry[static_cast<std::size_t>(tile)], entries.size()};
+  } else {
+    space->order.resize(entries.size());
+    sort_front_to_back(entries, space, space->order.data());
+    order = space->order;
+  }
+  if (shown.empty()) return order;
+  space->shown.clear();
+  for (const std::uint32_t e : order)
+    if (shown[entries[e].gaussian]) space->shown.push_back(e);
+  return space->shown;
 }
 
 void sort_tiles(TileGrid* grid, const Job& job) {
   grid->order = LargeArray<std::uint32_t>(grid->entries.size());
   tbb::parallel_for(0, grid->tiles(), [&](int tile) {
     thread_local SortSpace space;
-    const std::size_t t = static_cast<std::size_t>(tile), first = grid->first_entry[t], count = grid->first_entry[t + 1] - first;
-    if (!job.cancelled()) sort_front_to_back({grid->entries.data() + first, count}, &space, grid->order.data() + first);
+    if (!job.cancelled())
+      sort_front_to_back(entries_of(*grid, tile), &space, grid->order.data() + grid->first_entry[static_cast<std::size_t>(tile)]);
   });
 }
 

@@ -55,12 +55,15 @@ struct TileGrid {
 TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
                     const Job& job);
 
+// Room for one tile, used again from tile to tile.
 struct SortSpace {
   std::vector<KeyValue<std::uint32_t>> items, scratch;
+  std::vector<std::uint32_t> order, shown;
 };
 
-// Front to back, ties in cloud order: indices into `entries`. order: as many.
-void sort_front_to_back(std::span<const TileEntry> entries, SortSpace* space, std::uint32_t* order);
+// The entries of a tile that are shown (empty: all), front to back, ties in cloud order: offsets from the tile's first
+// entry. Good until the next call with that space.
+std::span<const std::uint32_t> drawn_order(const TileGrid& grid, int tile, std::span<const std::uint8_t> shown, SortSpace* space);
 
 // Sorts all tiles, for a grid that is drawn more than once.
 void sort_tiles(TileGrid* grid, const Job& job);

@@ -45,8 +45,8 @@ class Run {
  public:
   Run(const Drawer& drawer, const PreparedScene& prepared, const PipelineOptions& options, const Job& job,
       PipelineReport* report, CutSolver& solver)
-      : drawer_(drawer), cloud_(drawer.cloud()), graph_(prepared.graph), parts_(prepared.parts), options_(options), job_(job), report_(*report), clock_(&report->stages),
-        sums_(cloud_.size()), solver_(solver), work_width_px_(options.work_width_px) {}
+      : drawer_(drawer), cloud_(drawer.cloud()), graph_(prepared.graph), parts_(prepared.parts), options_(options), job_(job),
+        report_(*report), clock_(&report->stages), sums_(cloud_.size()), solver_(solver), work_width_px_(options.work_width_px) {}
 
   bool answered_by_parts() const { return !prior().empty() && !options_.cut_parts; }
   void reference_view(const Camera& full, const Strokes& strokes);

@@ -178,15 +178,14 @@ StudyRunner::Setup StudyRunner::set_up(const StudyCell& cell, const Job& job) {
   return setup;
 }
 
-PipelineReport StudyRunner::cut(const StudyCell& cell, Setup* setup, const Job& job, double* ms) const {
+StudyRunner::Timed StudyRunner::cut(const StudyCell& cell, Setup* setup, const Job& job) const {
   const EvaluationCase& test = setup->test;
   CutSolver solver = ready_solver(*test.cloud, *test.prepared, setup->pipeline);  // belongs to loading, as in the window
   const auto start = std::chrono::steady_clock::now();
   if (cell.true_masks) setup->pipeline.given_masks = true_masks(test, cell, setup->pipeline.orbit.views);
   PipelineReport report =
       cut_out(*test.cloud, test.prepared, test.reference, test.up_world, setup->strokes, setup->pipeline, job, &solver);
-  *ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return report;
+  return {std::move(report), std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()};
 }
 
 // Many draws end in the same labels: they are drawn and measured once.
@@ -203,8 +202,7 @@ nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
   Setup setup = set_up(cell, job);
   if (!setup.possible || job.cancelled()) return nullptr;
   const EvaluationCase& test = setup.test;
-  double ms = 0;
-  const PipelineReport report = cut(cell, &setup, job, &ms);
+  const auto [report, ms] = cut(cell, &setup, job);
   if (job.cancelled()) return nullptr;
   const ImageScore score = score_of(cell, test, report.labels);
   nlohmann::json result = to_json(cell);
@@ -229,8 +227,7 @@ Image<Rgb8> StudyRunner::picture(const StudyCell& cell, const Job& job) {
   Setup setup = set_up(cell, job);
   if (!setup.possible || job.cancelled()) return {};
   const EvaluationCase& test = setup.test;
-  double ms = 0;
-  const PipelineReport report = cut(cell, &setup, job, &ms);
+  const PipelineReport report = cut(cell, &setup, job).report;
   if (job.cancelled()) return {};
   constexpr int kWidthPx = 360;
   const bool labelled = !test.truth_labels.empty();

@@ -38,7 +38,11 @@ class StudyRunner {
     std::vector<std::uint8_t> truth;
   };
   ImageScore score_of(const StudyCell& cell, const EvaluationCase& test, const std::vector<std::uint8_t>& labels);
-  PipelineReport cut(const StudyCell& cell, Setup* setup, const Job& job, double* ms) const;
+  struct Timed {
+    PipelineReport report;
+    double ms = 0;  // from the strokes to the labels
+  };
+  Timed cut(const StudyCell& cell, Setup* setup, const Job& job) const;
   void load(const PipelineOptions& pipeline, const Job& job);
   Setup set_up(const StudyCell& cell, const Job& job);
   void choose_strokes(const StudyCell& cell, const Job& job, Setup* setup) const;

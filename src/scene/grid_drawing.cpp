@@ -1,0 +1,72 @@
+#include "scene/grid_drawing.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "scene/tile_blend.h"
+
+namespace splatcut {
+
+namespace {
+
+// Every Gaussian collects what its tiles have added, so no two threads write to the same sum.
+void add_sums(const TileGrid& grid, const LargeArray<PairSums>& pair_sums, MaskedSums* sums) {
+  tbb::parallel_for(std::size_t{0}, grid.runs.size(), [&](std::size_t run) {
+    for (const SplatTile& pair : grid.runs[run]) {
+      const PairSums& added = pair_sums[pair.entry];
+      sums->total[pair.gaussian] += added.total;
+      sums->inside[pair.gaussian] += added.inside;
+    }
+  });
+}
+
+void check_sizes([[maybe_unused]] const GaussianCloud& cloud, [[maybe_unused]] const Camera& camera,
+                 [[maybe_unused]] const RasterOptions& options) {
+  [[maybe_unused]] const auto fits = [&](std::size_t size) { return size == 0 || size == cloud.size(); };
+  assert(fits(options.colour_override.size()) && fits(options.labels.size()) && fits(options.shown.size()));
+  assert(options.labels.empty() || !options.colour);
+  assert(!options.sums ||
+         (options.sum_mask && options.sums->total.size() == cloud.size() &&
+          options.sum_mask->width() == camera.width_px && options.sum_mask->height() == camera.height_px));
+}
+
+}  // namespace
+
+RasterOutput empty_output(const RasterOptions& options, const PixelRect& roi) {
+  const int width = roi.width(), height = roi.height();
+  RasterOutput out;
+  if (options.colour) out.colour = Image<glm::vec3>(width, height);
+  if (!options.labels.empty()) out.label_share = Image<float>(width, height);
+  out.alpha = Image<float>(width, height);
+  if (options.depth) {
+    out.expected_depth = out.median_depth = Image<float>(width, height);
+    out.first_hit = Image<std::int32_t>(width, height, -1);
+  }
+  return out;
+}
+
+PixelRect drawn_region(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options) {
+  check_sizes(cloud, camera, options);
+  const PixelRect roi = options.roi.value_or(PixelRect{0, 0, camera.width_px, camera.height_px});
+  assert(roi.x0 >= 0 && roi.y0 >= 0 && roi.x1 <= camera.width_px && roi.y1 <= camera.height_px);
+  return roi;
+}
+
+RasterOutput draw_grid(const TileGrid& grid, const PixelRect& roi, bool whole, const RasterOptions& options, const Job& job) {
+  RasterOutput out = empty_output(options, roi);
+  out.visible = grid.visible;
+  out.pairs = grid.entries.size();
+  LargeArray<PairSums> pair_sums;
+  if (options.sums) {
+    pair_sums = LargeArray<PairSums>(grid.entries.size());
+    if (whole && (options.roi || !options.shown.empty())) std::fill_n(pair_sums.data(), pair_sums.size(), PairSums{0, 0});
+  }
+  const std::span<const std::uint8_t> shown = whole ? options.shown : std::span<const std::uint8_t>();
+  blend_tiles(grid, options, roi, shown, job, options.sums ? pair_sums.data() : nullptr, &out);
+  if (options.sums && !job.cancelled()) add_sums(grid, pair_sums, options.sums);
+  return out;
+}
+
+}  // namespace splatcut
