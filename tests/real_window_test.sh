@@ -7,6 +7,7 @@ program=$1 sample=$2 shots=${3:-}
 for tool in Xvfb xdotool; do
   command -v $tool >/dev/null || { echo "skipped: $tool is not installed (apt install xvfb xdotool)"; exit 77; }
 done
+[ -z "$shots" ] || mkdir -p "$shots"
 work=$(mktemp -d)
 children=()
 cleanup() { for pid in "${children[@]}"; do kill "$pid" 2>/dev/null || true; done; rm -rf "$work"; }
