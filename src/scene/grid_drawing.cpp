@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "scene/tile_blend.h"
-
 namespace splatcut {
 
 namespace {
@@ -32,6 +30,23 @@ void check_sizes([[maybe_unused]] const GaussianCloud& cloud, [[maybe_unused]] c
           options.sum_mask->width() == camera.width_px && options.sum_mask->height() == camera.height_px));
 }
 
+// partly: not all entries of the grid are drawn.
+RasterOutput draw(TileBlend what, bool partly, const Job& job) {
+  const RasterOptions& options = what.options;
+  RasterOutput out = empty_output(options, what.roi);
+  out.visible = what.grid.visible;
+  out.pairs = what.grid.entries.size();
+  LargeArray<PairSums> pair_sums;
+  if (options.sums) {
+    pair_sums = LargeArray<PairSums>(what.grid.entries.size());
+    if (partly) std::fill_n(pair_sums.data(), pair_sums.size(), PairSums{0, 0});
+    what.pair_sums = pair_sums.data();
+  }
+  blend_tiles(what, job, &out);
+  if (options.sums && !job.cancelled()) add_sums(what.grid, pair_sums, options.sums);
+  return out;
+}
+
 }  // namespace
 
 RasterOutput empty_output(const RasterOptions& options, const PixelRect& roi) {
@@ -54,19 +69,15 @@ PixelRect drawn_region(const GaussianCloud& cloud, const Camera& camera, const R
   return roi;
 }
 
-RasterOutput draw_grid(const TileGrid& grid, const PixelRect& roi, bool whole, const RasterOptions& options, const Job& job) {
-  RasterOutput out = empty_output(options, roi);
-  out.visible = grid.visible;
-  out.pairs = grid.entries.size();
-  LargeArray<PairSums> pair_sums;
-  if (options.sums) {
-    pair_sums = LargeArray<PairSums>(grid.entries.size());
-    if (whole && (options.roi || !options.shown.empty())) std::fill_n(pair_sums.data(), pair_sums.size(), PairSums{0, 0});
-  }
-  const std::span<const std::uint8_t> shown = whole ? options.shown : std::span<const std::uint8_t>();
-  blend_tiles(grid, options, roi, shown, job, options.sums ? pair_sums.data() : nullptr, &out);
-  if (options.sums && !job.cancelled()) add_sums(grid, pair_sums, options.sums);
-  return out;
+RasterOutput draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterOptions& options, const Job& job) {
+  return draw({.grid = grid, .options = options, .roi = roi, .shown = {}}, false, job);
+}
+
+RasterOutput draw_kept_grid(KeptGrid* kept, const PixelRect& roi, const RasterOptions& options, const Job& job) {
+  const PixelRect& all = kept->picture;
+  const bool everything = roi.x0 == all.x0 && roi.y0 == all.y0 && roi.x1 == all.x1 && roi.y1 == all.y1;
+  return draw({.grid = kept->grid, .options = options, .roi = roi, .shown = options.shown, .lists = &kept->lists, .fill_lists = everything},
+              !everything || !options.shown.empty(), job);
 }
 
 }  // namespace splatcut

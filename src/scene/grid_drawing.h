@@ -1,9 +1,19 @@
 // A grid of splats as a picture: what rasterize() and ProjectedView share.
 #pragma once
 
+#include <vector>
+
+#include "scene/tile_blend.h"
 #include "scene/tile_grid.h"
 
 namespace splatcut {
+
+// A grid that holds all of a picture, for any number of drawings.
+struct KeptGrid {
+  TileGrid grid;
+  PixelRect picture;
+  std::vector<TileLists> lists;  // per tile; the first drawing of everything completes them
+};
 
 // What is asked for, with nothing drawn.
 RasterOutput empty_output(const RasterOptions& options, const PixelRect& roi);
@@ -11,7 +21,10 @@ RasterOutput empty_output(const RasterOptions& options, const PixelRect& roi);
 // The pixels that are drawn. Asserts that arrays and masks have the sizes that cloud and camera ask for.
 PixelRect drawn_region(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options);
 
-// whole: the grid holds all of the picture, and roi and options.shown choose from it; else it holds what is drawn.
-RasterOutput draw_grid(const TileGrid& grid, const PixelRect& roi, bool whole, const RasterOptions& options, const Job& job);
+// grid: holds what is drawn and nothing else.
+RasterOutput draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterOptions& options, const Job& job);
+
+// roi and options.shown choose what is drawn.
+RasterOutput draw_kept_grid(KeptGrid* kept, const PixelRect& roi, const RasterOptions& options, const Job& job);
 
 }  // namespace splatcut

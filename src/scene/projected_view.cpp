@@ -11,18 +11,21 @@ ProjectedView::ProjectedView(const GaussianCloud& cloud, const Camera& camera, b
     : cloud_(cloud), camera_(camera), coloured_(coloured) {
   RasterOptions options;
   options.colour = coloured;
-  TileGrid grid = bin_splats(cloud, camera, options, job);
-  if (!job.cancelled()) sort_tiles(&grid, job);
-  if (!job.cancelled()) grid_ = std::make_unique<const TileGrid>(std::move(grid));
+  KeptGrid kept{.grid = bin_splats(cloud, camera, options, job), .picture = {0, 0, camera.width_px, camera.height_px}, .lists = {}};
+  if (!job.cancelled()) sort_tiles(&kept.grid, job);
+  if (job.cancelled()) return;
+  kept.lists.resize(static_cast<std::size_t>(kept.grid.tiles()));
+  grid_ = std::make_unique<KeptGrid>(std::move(kept));
 }
 
 ProjectedView::~ProjectedView() = default;
 
 std::size_t ProjectedView::bytes() const {
   if (!grid_) return 0;
-  std::size_t bytes = grid_->splats.size() * sizeof(BlendSplat) +
-                      grid_->entries.size() * (sizeof(TileEntry) + sizeof(std::uint32_t));
-  for (const std::vector<SplatTile>& run : grid_->runs) bytes += run.capacity() * sizeof(SplatTile);
+  const TileGrid& grid = grid_->grid;
+  std::size_t bytes = grid.splats.size() * sizeof(BlendSplat) + grid.entries.size() * (sizeof(TileEntry) + sizeof(std::uint32_t));
+  for (const std::vector<SplatTile>& run : grid.runs) bytes += run.capacity() * sizeof(SplatTile);
+  for (const TileLists& lists : grid_->lists) bytes += lists.splat.capacity() + lists.count.capacity() * sizeof(std::uint16_t);
   return bytes;
 }
 
@@ -30,7 +33,7 @@ RasterOutput ProjectedView::draw(const RasterOptions& options, const Job& job) c
   assert(!options.near_plane && options.colour_override.empty() && (coloured_ || !options.colour));
   const PixelRect roi = drawn_region(cloud_, camera_, options);
   if (roi.empty() || !grid_) return empty_output(options, roi);
-  return draw_grid(*grid_, roi, true, options, job);
+  return draw_kept_grid(grid_.get(), roi, options, job);
 }
 
 const ProjectedView& KeptViews::view(const Camera& camera, bool coloured, const Job& job) {

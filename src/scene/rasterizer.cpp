@@ -11,7 +11,7 @@ RasterOutput rasterize(const GaussianCloud& cloud, const Camera& camera, const R
   if (roi.empty()) return empty_output(options, roi);
   const TileGrid grid = bin_splats(cloud, camera, options, job);
   if (job.cancelled()) return empty_output(options, roi);
-  return draw_grid(grid, roi, false, options, job);
+  return draw_grid(grid, roi, options, job);
 }
 
 const char* rasterizer_simd_target() {

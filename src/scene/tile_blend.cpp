@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -120,16 +122,35 @@ struct Workspace {
   Chunk chunk;
   TilePixels pixels;
   BlockLists lists;
+  TileLists found;  // for TileBlend::fill_lists
 };
 
-struct View {
-  const TileGrid& grid;
-  const RasterOptions& options;
-  PixelRect roi;
-  std::span<const std::uint8_t> shown;
-  PairSums* pair_sums;
-  RasterOutput* out;
+// Reads what TileLists keeps, row of blocks by row of blocks, in the order in which it was written.
+struct ListReader {
+  const TileLists& lists;
+  std::size_t splat = 0, count = 0;  // read so far
+
+  void read_row(std::uint32_t alive, BlockLists* row) {
+    for (int b = 0; b < kBlocksAcross; ++b) {
+      const int n = lists.count[count++];
+      row->count[b] = n;
+      if (alive >> b & 1) std::copy_n(lists.splat.data() + splat, n, row->splat[b].data());
+      splat += static_cast<std::size_t>(n);
+    }
+  }
 };
+
+void write_row(const BlockLists& row, TileLists* lists) {
+  static_assert(kChunk <= 256, "places within a chunk fit 8 bits");
+  std::size_t at = lists->splat.size();
+  lists->splat.resize(at + static_cast<std::size_t>(std::accumulate(row.count.begin(), row.count.end(), 0)));
+  for (int b = 0; b < kBlocksAcross; ++b) {
+    lists->count.push_back(static_cast<std::uint16_t>(row.count[b]));
+    std::uint8_t* to = lists->splat.data() + at;
+    for (int k = 0; k < row.count[b]; ++k) to[k] = static_cast<std::uint8_t>(row.splat[b][k]);
+    at += static_cast<std::size_t>(row.count[b]);
+  }
+}
 
 void derive_ellipses(Chunk* chunk) {
   // On entry width2, slope and tip hold log2_opacity, qc and qb, and tilt holds qa.
@@ -150,15 +171,17 @@ void derive_ellipses(Chunk* chunk) {
   }
 }
 
-void gather(const View& view, const TileEntry* entries, std::span<const std::uint32_t> order, Chunk* chunk) {
+// ellipses: what list_row() needs.
+void gather(const TileBlend& what, const TileEntry* entries, std::span<const std::uint32_t> order, bool ellipses, Chunk* chunk) {
   constexpr int kAhead = 16;  // splats lie apart in memory: asked for early
   const int count = static_cast<int>(order.size());
   const auto gaussian_of = [&](int i) { return entries[order[static_cast<std::size_t>(i)]].gaussian; };
   chunk->size = count;
-  chunk->splats = view.grid.splats.data();
+  chunk->splats = what.grid.splats.data();
   for (int i = 0; i < count; ++i) {
     if (i + kAhead < count) __builtin_prefetch(chunk->splats + gaussian_of(i + kAhead));
     chunk->gaussian[i] = gaussian_of(i);
+    if (!ellipses) continue;
     const BlendSplat& s = chunk->splats[chunk->gaussian[i]];
     chunk->x[i] = s.x_px;
     chunk->y[i] = s.y_px;
@@ -167,15 +190,15 @@ void gather(const View& view, const TileEntry* entries, std::span<const std::uin
     chunk->slope[i] = s.qc;
     chunk->width2[i] = s.log2_opacity;
   }
-  for (int i = count; i % kWidth != 0; ++i) {
+  for (int i = count; ellipses && i % kWidth != 0; ++i) {
     chunk->x[i] = chunk->y[i] = chunk->tip[i] = 0;
     chunk->tilt[i] = chunk->slope[i] = -1;
     chunk->width2[i] = -1e9f;
   }
-  derive_ellipses(chunk);
-  if (!view.options.labels.empty())
-    for (int i = 0; i < count; ++i) chunk->label[i] = view.options.labels[chunk->gaussian[i]] ? 1.0f : 0.0f;
-  if (view.pair_sums) {
+  if (ellipses) derive_ellipses(chunk);
+  if (!what.options.labels.empty())
+    for (int i = 0; i < count; ++i) chunk->label[i] = what.options.labels[chunk->gaussian[i]] ? 1.0f : 0.0f;
+  if (what.pair_sums) {
     std::fill_n(chunk->total.begin(), count * kWidth, 0);
     std::fill_n(chunk->inside.begin(), count * kWidth, 0);
   }
@@ -212,23 +235,23 @@ void list_row(const Chunk& chunk, float x0, float y0, std::uint32_t alive, Block
   }
 }
 
-void start_pixels(const View& view, int tile_x, int tile_y, TilePixels* pixels) {
+void start_pixels(const TileBlend& what, int tile_x, int tile_y, TilePixels* pixels) {
   pixels->alive = 0;
   for (auto* values : {&pixels->red, &pixels->green, &pixels->blue, &pixels->depth, &pixels->median})
     values->fill(0);
   pixels->hit.fill(-1);
   pixels->object_pixels.fill(0);
-  pixels->whole_pixels = view.options.sum_whole_pixels;
+  pixels->whole_pixels = what.options.sum_whole_pixels;
   for (int i = 0; i < kTilePixels; ++i) {
     const int block = i / kBlockPixels, p = i % kBlockPixels;
     const int x = tile_x + block % kBlocksAcross * kBlockPx + p % kBlockPx;
     const int y = tile_y + block / kBlocksAcross * kBlockPx + p / kBlockPx;
-    const bool drawn = x >= view.roi.x0 && x < view.roi.x1 && y >= view.roi.y0 && y < view.roi.y1;
+    const bool drawn = x >= what.roi.x0 && x < what.roi.x1 && y >= what.roi.y0 && y < what.roi.y1;
     pixels->transmittance[i] =
         drawn ? 1.0f : 0.0f;  // pixels outside are opaque from the start: they do not count
     if (drawn) pixels->alive |= 1u << block;
-    if (!view.pair_sums) continue;
-    const bool object = drawn && view.options.sum_mask->at(x, y);
+    if (!what.pair_sums) continue;
+    const bool object = drawn && what.options.sum_mask->at(x, y);
     pixels->object[i] = object ? -1 : 0;
     pixels->object_pixels[block] += object;
   }
@@ -332,16 +355,21 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
   return opaque;
 }
 
-// Blends the chunk into every block that still lets light through.
+// Blends the chunk into every block that still lets light through. known: null, or where its lists are kept.
 template <Paint kPaint, bool kDepth, bool kSums>
-void blend_chunk(int tile_x, int tile_y, Workspace* work) {
+void blend_chunk(int tile_x, int tile_y, ListReader* known, bool keep_lists, Workspace* work) {
   constexpr std::uint32_t kRowOfBlocks = (1u << kBlocksAcross) - 1;
   TilePixels& pixels = work->pixels;
   for (int row = 0; row < kBlocksAcross; ++row) {
     const std::uint32_t alive = pixels.alive >> (row * kBlocksAcross) & kRowOfBlocks;
-    if (alive == 0) continue;
     const auto x0 = static_cast<float>(tile_x), y0 = static_cast<float>(tile_y + row * kBlockPx);
-    list_row(work->chunk, x0, y0, alive, &work->lists);
+    if (known)
+      known->read_row(alive, &work->lists);
+    else if (alive != 0)
+      list_row(work->chunk, x0, y0, alive, &work->lists);
+    else
+      work->lists.count.fill(0);
+    if (keep_lists) write_row(work->lists, &work->found);
     for (int b = 0; b < kBlocksAcross; ++b) {
       if (!(alive >> b & 1)) continue;
       const int block = row * kBlocksAcross + b;
@@ -362,19 +390,19 @@ void store_sums(const Chunk& chunk, const std::uint32_t* order, PairSums* sums) 
 }
 
 template <Paint kPaint, bool kDepth>
-void store_pixels(const View& view, int tile_x, int tile_y, const TilePixels& pixels) {
-  RasterOutput& out = *view.out;
+void store_pixels(const TileBlend& what, int tile_x, int tile_y, const TilePixels& pixels, RasterOutput* to) {
+  RasterOutput& out = *to;
   for (int i = 0; i < kTilePixels; ++i) {
     const int block = i / kBlockPixels, p = i % kBlockPixels;
-    const int x = tile_x + block % kBlocksAcross * kBlockPx + p % kBlockPx - view.roi.x0;
-    const int y = tile_y + block / kBlocksAcross * kBlockPx + p / kBlockPx - view.roi.y0;
+    const int x = tile_x + block % kBlocksAcross * kBlockPx + p % kBlockPx - what.roi.x0;
+    const int y = tile_y + block / kBlocksAcross * kBlockPx + p / kBlockPx - what.roi.y0;
     if (!out.alpha.contains(x, y)) continue;
     const float transmittance = pixels.transmittance[i];
     out.alpha.at(x, y) = 1 - transmittance;
     if constexpr (kPaint == Paint::kLabel) out.label_share.at(x, y) = pixels.red[i];
     if constexpr (kPaint == Paint::kColour)
       out.colour.at(x, y) =
-          glm::vec3(pixels.red[i], pixels.green[i], pixels.blue[i]) + transmittance * view.options.background;
+          glm::vec3(pixels.red[i], pixels.green[i], pixels.blue[i]) + transmittance * what.options.background;
     if constexpr (kDepth) {
       out.expected_depth.at(x, y) = transmittance < 1 ? pixels.depth[i] / (1 - transmittance) : 0;
       out.median_depth.at(x, y) = pixels.median[i];
@@ -384,29 +412,36 @@ void store_pixels(const View& view, int tile_x, int tile_y, const TilePixels& pi
 }
 
 template <Paint kPaint, bool kDepth, bool kSums>
-void draw_tile(const View& view, int tile) {
+void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   thread_local Workspace work;
-  const TileGrid& grid = view.grid;
+  const TileGrid& grid = what.grid;
   const int tile_x = (tile % grid.tiles_x + grid.first_tile_x) * kTilePx;
   const int tile_y = (tile / grid.tiles_x + grid.first_tile_y) * kTilePx;
   const std::size_t first = grid.first_entry[static_cast<std::size_t>(tile)];
   const TileEntry* entries = grid.entries.data() + first;
-  start_pixels(view, tile_x, tile_y, &work.pixels);
-  const std::span<const std::uint32_t> order = drawn_order(grid, tile, view.shown, &work.sort_space);
+  start_pixels(what, tile_x, tile_y, &work.pixels);
+  const std::span<const std::uint32_t> order = drawn_order(grid, tile, what.shown, &work.sort_space);
+  TileLists* lists = what.lists && what.shown.empty() ? &(*what.lists)[static_cast<std::size_t>(tile)] : nullptr;
+  std::optional<ListReader> known;
+  if (lists && lists->complete) known.emplace(*lists);
+  const bool keep_lists = lists && !known && what.fill_lists;
+  work.found.splat.clear();
+  work.found.count.clear();
   std::size_t done = 0;
   while (done < order.size() && work.pixels.alive != 0) {
     const std::size_t size = std::min<std::size_t>(kChunk, order.size() - done);
-    gather(view, entries, order.subspan(done, size), &work.chunk);
-    blend_chunk<kPaint, kDepth, kSums>(tile_x, tile_y, &work);
-    if constexpr (kSums) store_sums(work.chunk, order.data() + done, view.pair_sums + first);
+    gather(what, entries, order.subspan(done, size), !known, &work.chunk);
+    blend_chunk<kPaint, kDepth, kSums>(tile_x, tile_y, known ? &*known : nullptr, keep_lists, &work);
+    if constexpr (kSums) store_sums(work.chunk, order.data() + done, what.pair_sums + first);
     done += size;
   }
   if constexpr (kSums)
-    for (; done < order.size(); ++done) view.pair_sums[first + order[done]] = {0, 0};
-  store_pixels<kPaint, kDepth>(view, tile_x, tile_y, work.pixels);
+    for (; done < order.size(); ++done) what.pair_sums[first + order[done]] = {0, 0};
+  store_pixels<kPaint, kDepth>(what, tile_x, tile_y, work.pixels, out);
+  if (keep_lists) *lists = {work.found.splat, work.found.count, true};
 }
 
-using DrawTile = void (*)(const View&, int);
+using DrawTile = void (*)(const TileBlend&, int, RasterOutput*);
 
 template <Paint kPaint>
 DrawTile draw_tile_with(bool depth, bool sums) {
@@ -414,17 +449,17 @@ DrawTile draw_tile_with(bool depth, bool sums) {
   return sums ? draw_tile<kPaint, false, true> : draw_tile<kPaint, false, false>;
 }
 
-void blend_tiles(const TileGrid& grid, const RasterOptions& options, const PixelRect& roi, std::span<const std::uint8_t> shown,
-                 const Job& job, PairSums* pair_sums, RasterOutput* out) {
-  const DrawTile draw = (options.colour            ? draw_tile_with<Paint::kColour>
-                         : !options.labels.empty() ? draw_tile_with<Paint::kLabel>
-                                                   : draw_tile_with<Paint::kNone>)(options.depth, pair_sums != nullptr);
-  const View view{grid, options, roi, shown, pair_sums, out};
+void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
+  const DrawTile draw = (what.options.colour            ? draw_tile_with<Paint::kColour>
+                         : !what.options.labels.empty() ? draw_tile_with<Paint::kLabel>
+                                                        : draw_tile_with<Paint::kNone>)(what.options.depth, what.pair_sums != nullptr);
+  const TileGrid& grid = what.grid;
+  const PixelRect& roi = what.roi;
   const int left = roi.x0 / kTilePx - grid.first_tile_x, right = (roi.x1 + kTilePx - 1) / kTilePx - grid.first_tile_x;
   const int top = roi.y0 / kTilePx - grid.first_tile_y, bottom = (roi.y1 + kTilePx - 1) / kTilePx - grid.first_tile_y;
   const int across = right - left;
   tbb::parallel_for(0, across * (bottom - top), [&](int i) {
-    if (!job.cancelled()) draw(view, (top + i / across) * grid.tiles_x + left + i % across);
+    if (!job.cancelled()) draw(what, (top + i / across) * grid.tiles_x + left + i % across, out);
   });
 }
 
@@ -442,9 +477,8 @@ namespace splatcut {
 HWY_EXPORT(blend_tiles);
 HWY_EXPORT(target_name);
 
-void blend_tiles(const TileGrid& grid, const RasterOptions& options, const PixelRect& roi, std::span<const std::uint8_t> shown,
-                 const Job& job, PairSums* pair_sums, RasterOutput* out) {
-  HWY_DYNAMIC_DISPATCH(blend_tiles)(grid, options, roi, shown, job, pair_sums, out);
+void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
+  HWY_DYNAMIC_DISPATCH(blend_tiles)(what, job, out);
 }
 
 const char* blend_simd_target() {

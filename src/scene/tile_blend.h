@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "scene/tile_grid.h"
 
@@ -12,12 +13,27 @@ struct PairSums {
   std::uint32_t total, inside;
 };
 
-// Draws those tiles of the grid that touch roi into `out`, whose images have the size of roi. shown: empty, or per
-// Gaussian whether it is drawn, where the grid holds more. pair_sums: null, or an element for each entry of the grid,
-// set for those drawn. Same bits on every SIMD target and any number of threads: pixels
-// are independent lanes, FMA is explicit, sums are integers.
-void blend_tiles(const TileGrid& grid, const RasterOptions& options, const PixelRect& roi, std::span<const std::uint8_t> shown,
-                 const Job& job, PairSums* pair_sums, RasterOutput* out);
+// Which splats of a tile may show in which of its blocks of pixels, down to where they are opaque: as found by a drawing
+// of all splats, of use to any other that leaves none out, whatever it sums up.
+struct TileLists {
+  std::vector<std::uint8_t> splat;   // by chunk of the tile's order, then by block: places within the chunk
+  std::vector<std::uint16_t> count;  // per chunk and block
+  bool complete = false;
+};
+
+struct TileBlend {
+  const TileGrid& grid;
+  const RasterOptions& options;
+  PixelRect roi;
+  std::span<const std::uint8_t> shown;      // empty, or per Gaussian whether it is drawn, where the grid holds more
+  std::vector<TileLists>* lists = nullptr;  // per tile, where shown is empty: used once complete
+  bool fill_lists = false;                  // roi is all that the grid holds: lists are completed
+  PairSums* pair_sums = nullptr;            // null, or an element for each entry of the grid, set for those drawn
+};
+
+// Draws those tiles of the grid that touch roi into `out`, whose images have the size of roi. Same bits on every SIMD target
+// and any number of threads, with lists or without: pixels are independent lanes, FMA is explicit, sums are integers.
+void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out);
 
 // Name of the SIMD target in use.
 const char* blend_simd_target();
