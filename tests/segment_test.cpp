@@ -171,11 +171,22 @@ TEST_CASE("trim: a faint splat that sticks out leaves the object, one behind som
     cloud.opacity[g] = solid ? 0.99f : 0.3f;
   }
   const Camera camera = look_at({0, 0, 0}, {0, 0, 4}, {0, -1, 0}, 1.0f, 160, 120);
-  std::vector<std::uint8_t> labels = {1, 1, 1, 0, 1};
+  const std::vector<std::uint8_t> labels = {1, 1, 1, 0, 1};
   const Mask mask = thresholded(render_labels(cloud, camera, labels), 0.5f);
-  const TrimView view{camera, &mask};
-  CHECK(trim(cloud, {&view, 1}, {}, &labels) == 1);
-  CHECK(labels == std::vector<std::uint8_t>{1, 0, 1, 0, 1});
+  const auto trimmed = [&](const TrimView& view) {
+    std::vector<std::uint8_t> left = labels;
+    CHECK(trim(cloud, {&view, 1}, {}, &left) == 1);
+    return left;
+  };
+  CHECK(trimmed({camera, &mask}) == std::vector<std::uint8_t>{1, 0, 1, 0, 1});
+  RasterOptions whole_scene;
+  whole_scene.depth = true;
+  const Image<float> depth = rasterize(cloud, camera, whole_scene).median_depth;
+  CHECK(trimmed({camera, &mask, &depth}) == std::vector<std::uint8_t>{1, 0, 1, 0, 1});
+  const Image<float> open(camera.width_px, camera.height_px);  // nothing is nearer: what sticks out leaves everywhere
+  std::vector<std::uint8_t> left = labels;
+  const TrimView view{camera, &mask, &open};
+  CHECK(trim(cloud, {&view, 1}, {}, &left) == 2);
 }
 
 TEST_CASE("labelled rectangle: every pixel that shows a labelled Gaussian lies inside, few that do not") {

@@ -1,4 +1,4 @@
-// Image<T> seen as cv::Mat without a copy. For .cpp files of this layer only.
+// Image<T> seen as cv::Mat without a copy, and in Lab. For .cpp files of this layer only.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -18,5 +18,11 @@ cv::Mat as_const_mat(const Image<T>& image) {
 }
 
 inline cv::Rect as_rect(const PixelRect& r) { return {r.x0, r.y0, r.width(), r.height()}; }
+
+// CIE Lab of 8 bits a channel of sRGB, of their size, three floats: L 0 to 100, a and b about -128 to 128.
+cv::Mat lab_of(const cv::Mat& rgb);
+
+// Has OpenCV build its tables, a tenth of a second once per program, which the first lab_of() would wait for otherwise.
+void make_lab_ready();
 
 }  // namespace splatcut

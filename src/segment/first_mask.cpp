@@ -18,10 +18,8 @@ namespace {
 constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr float kContrastCap = 20;  // Lab units: an edge is an edge, however strong
 
-cv::Mat lab_of(const Image<Rgb8>& picture) {
-  cv::Mat scaled_rgb, lab;
-  as_const_mat(picture).convertTo(scaled_rgb, CV_32FC3, 1.0 / 255);
-  cv::cvtColor(scaled_rgb, lab, cv::COLOR_RGB2Lab);
+cv::Mat smooth_lab_of(const Image<Rgb8>& picture) {
+  cv::Mat lab = lab_of(as_const_mat(picture));
   cv::GaussianBlur(lab, lab, {3, 3}, 0.8);  // splat texture is noise to a geodesic
   return lab;
 }
@@ -113,7 +111,7 @@ float best_reach(const Image<float>& distance, const GeodesicCost& cost) {
 
 Mask geodesic_prior(const Image<Rgb8>& picture, const Image<float>& depth, const Image<std::uint8_t>& seeds,
                     const FirstMaskOptions& options) {
-  const cv::Mat lab = lab_of(picture);
+  const cv::Mat lab = smooth_lab_of(picture);
   const GeodesicCost cost{lab, depth, options};
   Image<float> to_object = geodesic_distance(sources(seeds, kObjectSeed, false), cost);
   const Image<float> to_rest = geodesic_distance(sources(seeds, kRestSeed, true), cost);

@@ -6,6 +6,7 @@
 
 #include "scene/png_file.h"
 #include "scene/rasterizer.h"
+#include "segment/cv_image.h"
 #include "segment/knn_graph.h"
 #include "segment/likelihood.h"
 #include "segment/mask_tools.h"
@@ -160,7 +161,9 @@ CutSolver& SceneSolvers::solver(const PipelineOptions& options, const Job& job) 
 }
 
 void SceneSolvers::make_ready(const Job& job) {
-  if (!job.cancelled()) solver(preset("default"), job).make_ready();
+  if (job.cancelled()) return;
+  solver(preset("default"), job).make_ready();
+  make_lab_ready();
 }
 
 ObjectCutter::ObjectCutter(std::shared_ptr<const GaussianCloud> cloud, std::shared_ptr<SceneSolvers> solvers)

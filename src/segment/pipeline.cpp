@@ -8,6 +8,7 @@
 #include "scene/error.h"
 #include "scene/png_file.h"
 #include "scene/rasterizer.h"
+#include "segment/cv_image.h"
 #include "segment/knn_graph.h"
 #include "segment/likelihood.h"
 #include "segment/mask_tools.h"
@@ -20,7 +21,8 @@ namespace {
 
 struct Picture {
   Image<Rgb8> rgb;
-  Image<float> depth;
+  Image<float> depth;         // expected
+  Image<float> median_depth;
 };
 
 // Labels that differ, as a share of the object.
@@ -36,8 +38,19 @@ double changed_share(const std::vector<std::uint8_t>& before, const std::vector<
 Picture render(const Drawer& drawer, const Camera& camera, const Job& job) {
   RasterOptions options;
   options.depth = true;
-  const RasterOutput out = drawer.draw(camera, options, job);
-  return {rgb8_from_linear(out.colour), out.expected_depth};
+  RasterOutput out = drawer.draw(camera, options, job);
+  return {rgb8_from_linear(out.colour), std::move(out.expected_depth), std::move(out.median_depth)};
+}
+
+std::size_t trim_by(const Drawer& drawer, const std::vector<ViewReport>& views, std::span<const Image<float>> scene_depths,
+                    const PipelineOptions& options, std::vector<std::uint8_t>* labels, const Job& job) {
+  std::vector<TrimView> seen;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!views[i].used) continue;
+    const bool drawn = i < scene_depths.size() && !scene_depths[i].empty();
+    seen.push_back({views[i].camera, &views[i].mask, drawn ? &scene_depths[i] : nullptr});
+  }
+  return trim(drawer, seen, options.trim_options, labels, job);
 }
 
 // One run: what the stages share.
@@ -68,7 +81,7 @@ class Run {
   bool needs_pictures() const { return options_.propagate != Propagator::kLift || options_.refine.solver != MaskSolver::kNone; }
   Mask labels_in(const Camera& camera);
   Mask propagated(const Camera& camera, const Picture& picture);
-  double share_visible(const Camera& camera, const Mask& seen);
+  bool hidden(const Camera& camera, const Mask& seen, double share);
   PartView parts_in(const Camera& camera);
   void pick(const Camera& camera, const Strokes& strokes);
   void complete(const Camera& camera, const Mask& mask);
@@ -89,6 +102,8 @@ class Run {
   MaskedSums sums_;
   CutSolver& solver_;
   std::vector<SeenView> seen_;  // in two dimensions; empty for kLift
+  Image<float> reference_depth_;            // median, of the whole scene in the view that find_object() looked at last
+  std::vector<Image<float>> scene_depths_;  // the same of report_.views; empty where a view was not drawn
   int work_width_px_;
   int used_views_ = 0;
 };
@@ -115,6 +130,8 @@ void Run::use(ViewReport view, Picture picture) {
   }
   clock_.time("likelihood", [&] { add_masked_sums(drawer_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
   ++used_views_;
+  scene_depths_.resize(report_.views.size());
+  scene_depths_.push_back(std::move(picture.median_depth));
   report_.views.push_back(std::move(view));
 }
 
@@ -137,7 +154,9 @@ PartView Run::parts_in(const Camera& camera) {
   RasterOptions raster;
   raster.colour = false;
   raster.depth = true;
-  return view_parts(parts_, drawer_.draw(camera, raster, job_).first_hit);
+  RasterOutput out = drawer_.draw(camera, raster, job_);
+  reference_depth_ = std::move(out.median_depth);
+  return view_parts(parts_, out.first_hit);
 }
 
 // What the strokes mean as parts becomes the labels.
@@ -174,6 +193,7 @@ void Run::complete(const Camera& camera, const Mask& mask) {
 
 Mask Run::mask_from_pixels(const Camera& camera, const Strokes& strokes) {
   const Picture picture = clock_.time("view", [&] { return render(drawer_, camera, job_); });
+  reference_depth_ = picture.median_depth;
   Mask mask = clock_.time("first mask", [&] { return first_mask(picture.rgb, picture.depth, strokes, options_.first_mask, job_); });
   if (options_.feedback && count(mask) > 0 && !job_.cancelled()) mask = with_feedback(camera, picture, mask, strokes);
   return mask;
@@ -219,22 +239,25 @@ void Run::reference_view(const Camera& full, const Strokes& strokes) {
   ViewReport view = std::move(report_.views.front());
   report_.views.clear();
   const bool anything = count(view.mask) > 0;
-  use(std::move(view));
+  use(std::move(view), {.rgb = {}, .depth = {}, .median_depth = std::move(reference_depth_)});
   snapshot();
   if (anything && options_.cut_parts) solve();
 }
 
-// The object's pixels that the scene leaves visible, as a share of what it would show alone.
-double Run::share_visible(const Camera& camera, const Mask& seen) {
-  const std::size_t alone = clock_.time("labels in views", [&] {
+// Whether the scene leaves less than `share` visible of the pixels that the object would show alone.
+bool Run::hidden(const Camera& camera, const Mask& seen, double share) {
+  return clock_.time("labels in views", [&] {
+    const PixelRect rect = labelled_rectangle(cloud_, camera, report_.labels);
+    if (rect.empty()) return true;
+    const auto shown = static_cast<double>(count(seen));
+    if (shown / (rect.width() * rect.height()) >= share) return false;  // alone it has no more pixels than these: no need to draw
     RasterOptions options;
     options.colour = false;
     options.shown = report_.labels;
-    options.roi = labelled_rectangle(cloud_, camera, report_.labels);
-    if (options.roi->empty()) return std::size_t{0};
-    return count(thresholded(drawer_.draw(camera, options, job_).alpha, 0.5f));
+    options.roi = rect;
+    const std::size_t alone = count(thresholded(drawer_.draw(camera, options, job_).alpha, 0.5f));
+    return alone == 0 || shown / static_cast<double>(alone) < share;
   });
-  return alone ? static_cast<double>(count(seen)) / static_cast<double>(alone) : 0.0;
 }
 
 // What is object in this view, before the picture has its say.
@@ -267,7 +290,7 @@ void Run::add_view(const Camera& full, const glm::vec3& object_centre_world) {
     if (needs_pictures()) picture = clock_.time("view", [&] { return render(drawer_, view.camera, job_); });
     const Mask seen = propagated(view.camera, picture);
     if (job_.cancelled()) return;
-    if (options_.hidden_test && share_visible(view.camera, seen) < kHidden) continue;
+    if (options_.hidden_test && hidden(view.camera, seen, kHidden)) continue;
     view.mask = clock_.time("masks", [&] { return refine_mask(picture.rgb, picture.depth, seen, options_.refine); });
     use(std::move(view), std::move(picture));
     return solve();
@@ -332,7 +355,7 @@ void Run::settle() {
 }
 
 void Run::trim_labels() {
-  clock_.time("trim", [&] { report_.trimmed = trim_to_views(drawer_, report_.views, options_, &report_.labels, job_); });
+  clock_.time("trim", [&] { report_.trimmed = trim_by(drawer_, report_.views, scene_depths_, options_, &report_.labels, job_); });
 }
 
 }  // namespace
@@ -349,10 +372,7 @@ LookedAt looked_at(const PipelineReport& report) {
 
 std::size_t trim_to_views(const Drawer& drawer, const std::vector<ViewReport>& views, const PipelineOptions& options,
                           std::vector<std::uint8_t>* labels, const Job& job) {
-  std::vector<TrimView> seen;
-  for (const ViewReport& view : views)
-    if (view.used) seen.push_back({view.camera, &view.mask});
-  return trim(drawer, seen, options.trim_options, labels, job);
+  return trim_by(drawer, views, {}, options, labels, job);
 }
 
 PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,
@@ -397,6 +417,7 @@ PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared
 CutSolver ready_solver(const GaussianCloud& cloud, const PreparedScene& prepared, const PipelineOptions& options) {
   CutSolver solver(cloud, prepared.graph, options.cut);
   solver.make_ready();
+  make_lab_ready();
   return solver;
 }
 

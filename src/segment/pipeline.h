@@ -131,7 +131,7 @@ PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared
                        const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options,
                        const Job& job = {}, CutSolver* solver = nullptr, KeptViews* kept = nullptr);
 
-// What a program that waits for strokes has ready: a solver whose arcs are weighed.
+// What a program that waits for strokes has ready: a solver whose arcs are weighed, and OpenCV's tables.
 CutSolver ready_solver(const GaussianCloud& cloud, const PreparedScene& prepared, const PipelineOptions& options);
 
 // The first mask alone (after feedback), in the size of limited_to_width(reference, work_width_px).

@@ -91,64 +91,86 @@ cv::Mat side_of_prior(const Mask& prior, const PixelRect& rect, int band_px) {
   return side;
 }
 
+// The pixels that may change side; the sure ones pull at their neighbours as terminals do.
 struct Grid {
+  std::vector<cv::Point> pixel;        // per node, row by row
+  std::vector<std::int64_t> pull;      // per node: of sure neighbours, > 0 towards the object
   FlowGraph graph;
-  std::vector<std::int32_t> capacity;
+  std::vector<std::int32_t> capacity;  // per arc
 };
 
 constexpr float kScale = 1 << 12;
 
-Grid grid_of(const cv::Mat& lab, const Image<float>& depth, const PixelRect& rect, const RefineOptions& options) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  std::vector<float> colour, rest;
-  double sum = 0;
+// Calls visit(pixel, neighbour, |dLab|^2) for each pair of the 8-grid.
+template <class Visit>
+void for_pairs(const cv::Mat& lab, const Visit& visit) {
   for (int y = 0; y < lab.rows; ++y)
     for (int x = 0; x < lab.cols; ++x)
       for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {-1, 1}}) {
         if (x + dx < 0 || x + dx >= lab.cols || y + dy >= lab.rows) continue;
         const cv::Vec3f d = lab.at<cv::Vec3f>(y, x) - lab.at<cv::Vec3f>(y + dy, x + dx);
-        const float z0 = depth.at(rect.x0 + x, rect.y0 + y), z1 = depth.at(rect.x0 + x + dx, rect.y0 + y + dy);
-        const float jump = std::min(1.0f, std::abs(z0 - z1) / std::max(1e-6f, std::min(z0, z1)));
-        edges.emplace_back(y * lab.cols + x, (y + dy) * lab.cols + x + dx);
-        colour.push_back(d.dot(d));
-        sum += colour.back();
-        rest.push_back(options.lambda * std::exp(-options.depth_weight * jump) / (dx && dy ? 1.4142136f : 1.0f));
+        visit(cv::Point(x, y), cv::Point(x + dx, y + dy), d.dot(d));
       }
-  const float mean = static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(1, edges.size())));
+}
+
+Grid grid_of(const cv::Mat& lab, const Image<float>& depth, const cv::Mat& trimap, const PixelRect& rect, const RefineOptions& options) {
+  double sum = 0;
+  std::size_t pairs = 0;
+  for_pairs(lab, [&](cv::Point, cv::Point, float colour) {
+    sum += colour;
+    ++pairs;
+  });
+  const float mean = static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(1, pairs)));
   Grid grid;
+  Image<std::int32_t> node(lab.cols, lab.rows, -1);
+  for (int y = 0; y < lab.rows; ++y)
+    for (int x = 0; x < lab.cols; ++x) {
+      if (is_sure(trimap.at<std::uint8_t>(y, x))) continue;
+      node.at(x, y) = static_cast<std::int32_t>(grid.pixel.size());
+      grid.pixel.emplace_back(x, y);
+    }
+  grid.pull.resize(grid.pixel.size());
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  std::vector<std::int32_t> weight;
+  for_pairs(lab, [&](cv::Point p, cv::Point q, float colour) {
+    const std::int32_t a = node.at(p.x, p.y), b = node.at(q.x, q.y);
+    if (a < 0 && b < 0) return;
+    const float z0 = depth.at(rect.x0 + p.x, rect.y0 + p.y), z1 = depth.at(rect.x0 + q.x, rect.y0 + q.y);
+    const float jump = std::min(1.0f, std::abs(z0 - z1) / std::max(1e-6f, std::min(z0, z1)));
+    const float most = options.lambda * std::exp(-options.depth_weight * jump) / (p.x != q.x && p.y != q.y ? 1.4142136f : 1.0f);
+    const auto c = static_cast<std::int32_t>(kScale * most * std::exp(-colour / std::max(2 * mean, 1e-6f)) + 0.5f);
+    if (a < 0 || b < 0) {
+      grid.pull[static_cast<std::size_t>(std::max(a, b))] += is_object(trimap.at<std::uint8_t>(a < 0 ? p : q)) ? c : -c;
+      return;
+    }
+    edges.emplace_back(a, b);
+    weight.push_back(c);
+  });
   std::vector<std::uint32_t> arc_of_edge;
-  grid.graph = graph_from_edges(static_cast<std::size_t>(lab.rows) * lab.cols, edges, &arc_of_edge);
+  grid.graph = graph_from_edges(grid.pixel.size(), edges, &arc_of_edge);
   grid.capacity.resize(grid.graph.arcs());
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto c = static_cast<std::int32_t>(kScale * rest[e] * std::exp(-colour[e] / std::max(2 * mean, 1e-6f)) + 0.5f);
-    grid.capacity[arc_of_edge[e]] = grid.capacity[grid.graph.reverse_arc[arc_of_edge[e]]] = c;
-  }
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    grid.capacity[arc_of_edge[e]] = grid.capacity[grid.graph.reverse_arc[arc_of_edge[e]]] = weight[e];
   return grid;
 }
 
 cv::Mat pixel_cut(const Image<Rgb8>& picture, const Image<float>& depth, const Mask& prior, const cv::Mat& trimap, const PixelRect& rect,
                   const RefineOptions& options) {
-  cv::Mat rgb, lab;
-  as_const_mat(picture)(as_rect(rect)).convertTo(rgb, CV_32FC3, 1.0 / 255);
-  cv::cvtColor(rgb, lab, cv::COLOR_RGB2Lab);
-  const Grid grid = grid_of(lab, depth, rect, options);
+  const cv::Mat lab = lab_of(as_const_mat(picture)(as_rect(rect)));
+  const Grid grid = grid_of(lab, depth, trimap, rect, options);
   const cv::Mat side = side_of_prior(prior, rect, options.band_px + options.grow_px);
   cv::Mat labels = trimap.clone();
   MaxFlow flow(grid.graph, grid.capacity);
-  constexpr std::int64_t kSure = 1 << 20;  // far more than a pixel's own arcs hold
   for (int i = 0; i < options.iterations; ++i) {
     const ColourModel model(lab, labels);
-    for (int y = 0; y < lab.rows; ++y)
-      for (int x = 0; x < lab.cols; ++x) {
-        const std::uint8_t t = trimap.at<std::uint8_t>(y, x);
-        const float unary = model.log_ratio(x, y) + options.prior_weight * side.at<float>(y, x);
-        flow.set_terminal(static_cast<std::uint32_t>(y * lab.cols + x),
-                          is_sure(t) ? (is_object(t) ? kSure : -kSure) : static_cast<std::int64_t>(std::lround(kScale * unary)));
-      }
+    for (std::uint32_t n = 0; n < grid.pixel.size(); ++n) {
+      const cv::Point p = grid.pixel[n];
+      const float unary = model.log_ratio(p.x, p.y) + options.prior_weight * side.at<float>(p);
+      flow.set_terminal(n, static_cast<std::int64_t>(std::lround(kScale * unary)) + grid.pull[n]);
+    }
     flow.solve();
-    for (int y = 0; y < lab.rows; ++y)
-      for (int x = 0; x < lab.cols; ++x)
-        labels.at<std::uint8_t>(y, x) = flow.source_side(static_cast<std::uint32_t>(y * lab.cols + x)) ? kMaybeObject : kMaybeRest;
+    for (std::uint32_t n = 0; n < grid.pixel.size(); ++n)
+      labels.at<std::uint8_t>(grid.pixel[n]) = flow.source_side(n) ? kMaybeObject : kMaybeRest;
   }
   return labels;
 }

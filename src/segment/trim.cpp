@@ -16,14 +16,16 @@ Mask allowed_in(const Drawer& drawer, const TrimView& view, const TrimOptions& o
   raster.colour = false;
   raster.depth = true;
   raster.roi = rect;
-  const RasterOutput scene = drawer.draw(view.camera, raster, job);
+  Image<float> drawn;
+  if (!view.scene_depth) drawn = drawer.draw(view.camera, raster, job).median_depth;
+  const auto scene_depth = [&](int x, int y) { return view.scene_depth ? view.scene_depth->at(x, y) : drawn.at(x - rect.x0, y - rect.y0); };
   raster.shown = labels;
   const RasterOutput alone = drawer.draw(view.camera, raster, job);
   Mask allowed = dilated(*view.mask, options.margin_px);
   constexpr float kNearer = 0.99f;
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x) {
-      const float depth = scene.median_depth.at(x - rect.x0, y - rect.y0);
+      const float depth = scene_depth(x, y);
       if (depth > 0 && depth < kNearer * alone.expected_depth.at(x - rect.x0, y - rect.y0)) allowed.at(x, y) = kMaskObject;
     }
   return allowed;

@@ -3,7 +3,7 @@
 //
 // The object is rendered alone into the views; a Gaussian most of whose A_g then lies where the view's mask
 // says rest, and where no other part of the scene hides the object, leaves the object. What no view shows stays.
-// Cost: three small renderings per view, at most options.most_views of them.
+// Cost: two small renderings per view, and a third where the scene's depth is not at hand, in at most options.most_views.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,7 @@ namespace splatcut {
 struct TrimView {
   Camera camera;
   const Mask* mask = nullptr;  // of the camera's size, where the object is seen in the whole scene
+  const Image<float>* scene_depth = nullptr;  // RasterOutput::median_depth of the whole scene, of that size; null: drawn here
 };
 
 struct TrimOptions {
