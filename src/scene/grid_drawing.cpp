@@ -76,7 +76,7 @@ RasterOutput draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterO
 RasterOutput draw_kept_grid(KeptGrid* kept, const PixelRect& roi, const RasterOptions& options, const Job& job) {
   const PixelRect& all = kept->picture;
   const bool everything = roi.x0 == all.x0 && roi.y0 == all.y0 && roi.x1 == all.x1 && roi.y1 == all.y1;
-  return draw({.grid = kept->grid, .options = options, .roi = roi, .shown = options.shown, .lists = &kept->lists, .fill_lists = everything},
+  return draw({.grid = kept->grid, .options = options, .roi = roi, .shown = options.shown, .lists = &kept->lists, .picture = all},
               !everything || !options.shown.empty(), job);
 }
 

@@ -12,7 +12,7 @@ namespace splatcut {
 struct KeptGrid {
   TileGrid grid;
   PixelRect picture;
-  std::vector<TileLists> lists;  // per tile; the first drawing of everything completes them
+  std::vector<TileLists> lists;  // per tile; the first drawing that leaves no splat of it out completes them
 };
 
 // What is asked for, with nothing drawn.

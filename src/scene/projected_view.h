@@ -2,7 +2,7 @@
 // at the same view again and again, each time with other labels.
 //
 // In: cloud, camera. Out: what rasterize() gives, bit for bit. Cost: making one is the first half of rasterize() for the
-// whole picture, drawing the second half; after a first drawing of everything, others of the same splats cost half of
+// whole picture, drawing the second half; where all splats have been drawn once, drawing all of them again costs half of
 // that. Memory: 40 bytes a Gaussian, 20 a pair of splat and tile, and from that first drawing on 2 to 5 a pair.
 #pragma once
 

@@ -424,7 +424,11 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   TileLists* lists = what.lists && what.shown.empty() ? &(*what.lists)[static_cast<std::size_t>(tile)] : nullptr;
   std::optional<ListReader> known;
   if (lists && lists->complete) known.emplace(*lists);
-  const bool keep_lists = lists && !known && what.fill_lists;
+  const auto shows_whole = [](int tile_px, int roi_begin, int roi_end, int picture_end) {
+    return tile_px >= roi_begin && std::min(tile_px + kTilePx, picture_end) <= roi_end;
+  };
+  const bool keep_lists = lists && !known && shows_whole(tile_x, what.roi.x0, what.roi.x1, what.picture.x1) &&
+                          shows_whole(tile_y, what.roi.y0, what.roi.y1, what.picture.y1);
   work.found.splat.clear();
   work.found.count.clear();
   std::size_t done = 0;

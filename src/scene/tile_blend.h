@@ -27,7 +27,7 @@ struct TileBlend {
   PixelRect roi;
   std::span<const std::uint8_t> shown;      // empty, or per Gaussian whether it is drawn, where the grid holds more
   std::vector<TileLists>* lists = nullptr;  // per tile, where shown is empty: used once complete
-  bool fill_lists = false;                  // roi is all that the grid holds: lists are completed
+  PixelRect picture{};                      // all that the grid holds: lists of tiles that roi shows whole are completed
   PairSums* pair_sums = nullptr;            // null, or an element for each entry of the grid, set for those drawn
 };
 

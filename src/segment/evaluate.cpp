@@ -15,10 +15,6 @@ namespace {
 
 constexpr double kLeastTruthShare = 0.001;
 
-Mask picture_of(const GaussianCloud& cloud, const Camera& camera, const std::vector<std::uint8_t>& labels) {
-  return thresholded(render_labels(cloud, camera, labels), 0.5f);
-}
-
 Strokes first_strokes(const Strokes& strokes, int n) {
   return {strokes.begin(), strokes.begin() + std::min<std::ptrdiff_t>(n, std::ssize(strokes))};
 }
@@ -33,7 +29,7 @@ PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& op
   }
   if (options.truth_masks) {
     if (scene.truth_labels.empty()) throw Error(scene.name, "--masks truth needs truth labels");
-    pipeline.given_masks = [&scene](const Camera& camera) { return picture_of(*scene.cloud, camera, scene.truth_labels); };
+    pipeline.given_masks = [&scene](const Camera& camera) { return labels_seen(scene, camera, scene.truth_labels); };
   }
   return cut_out(*scene.cloud, scene.prepared, scene.reference, scene.up_world, strokes, pipeline, job, solver);
 }
@@ -56,13 +52,17 @@ double label_iou(const std::vector<std::uint8_t>& truth, const std::vector<std::
 
 bool counts(const Mask& truth) { return static_cast<double>(count(truth)) >= kLeastTruthShare * static_cast<double>(truth.size()); }
 
+Mask labels_seen(const EvaluationCase& scene, const Camera& camera, const std::vector<std::uint8_t>& labels) {
+  return thresholded(render_labels({*scene.cloud, scene.kept_views}, camera, labels), 0.5f);
+}
+
 ImageScore score_images(const EvaluationCase& scene, const std::vector<std::uint8_t>& labels) {
   ImageScore sum;
   int views = 0;
   for (std::size_t v = 0; v < scene.test_views.size(); ++v) {
     const Mask& truth = scene.truth_masks[v];
     if (!counts(truth)) continue;
-    const Mask seen = picture_of(*scene.cloud, scene.test_views[v], labels);
+    const Mask seen = labels_seen(scene, scene.test_views[v], labels);
     sum.iou += iou(truth, seen);
     sum.accuracy += pixel_accuracy(truth, seen);
     sum.boundary += boundary_iou(truth, seen);
@@ -78,7 +78,7 @@ RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& p
   const float to_reference = static_cast<float>(scene.reference.width_px) / static_cast<float>(work.width_px);
   if (scene.truth_labels.empty() && !scene.reference_truth) throw Error(scene.name, "the robot needs the truth of the reference view");
   const Mask truth = scene.truth_labels.empty() ? resized_mask(*scene.reference_truth, work.width_px, work.height_px)
-                                                : picture_of(*scene.cloud, work, scene.truth_labels);
+                                                : labels_seen(scene, work, scene.truth_labels);
   Mask mask(work.width_px, work.height_px);
   KeptViews kept(*scene.cloud);
   RobotSession session;
@@ -96,8 +96,8 @@ RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& p
 
 void render_truth(EvaluationCase* scene) {
   scene->truth_masks.clear();
-  for (const Camera& view : scene->test_views) scene->truth_masks.push_back(picture_of(*scene->cloud, view, scene->truth_labels));
-  scene->reference_truth = picture_of(*scene->cloud, scene->reference, scene->truth_labels);
+  for (const Camera& view : scene->test_views) scene->truth_masks.push_back(labels_seen(*scene, view, scene->truth_labels));
+  scene->reference_truth = labels_seen(*scene, scene->reference, scene->truth_labels);
 }
 
 SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& options, const Job& job) {
@@ -125,7 +125,7 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
   const PipelineReport report = cut_with(scene, options, first_strokes(strokes, options.clicks), job, &solver);
   score.total_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   score.stages = report.stages;
-  score.enough = looked_at(report);
+  score.enough = looked_at(report.views);
   score.nodes_touched = report.cut.touched;
   score.why_enough = report.enough;
   if (job.cancelled()) return score;

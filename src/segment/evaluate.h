@@ -30,6 +30,7 @@ struct EvaluationCase {
   std::vector<Camera> scene_cameras;          // of its photographs, where known
   std::optional<Mask> reference_truth;        // needed by the robot
   Strokes clicks;                             // where the truth of the reference is unknown
+  KeptViews* kept_views = nullptr;            // of the cloud, for measuring; null: each view is drawn afresh
 };
 
 struct EvaluationOptions {
@@ -68,6 +69,9 @@ int clicks_to(const std::vector<double>& iou_after, double goal);
 
 // Whether the truth covers enough of its view for the view to count.
 bool counts(const Mask& truth);
+
+// Where the view shows the labelled Gaussians.
+Mask labels_seen(const EvaluationCase& scene, const Camera& camera, const std::vector<std::uint8_t>& labels);
 
 // Means over the test views that count.
 struct ImageScore {

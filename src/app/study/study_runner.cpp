@@ -111,6 +111,9 @@ void StudyRunner::load(const PipelineOptions& pipeline, const Job& job) {
   if (loaded_) return;
   loaded_ = load_case(entry_, folder_, prepare_options(pipeline), job);
   loaded_neighbours_ = pipeline.neighbours;
+  constexpr std::size_t kMostBytes = std::size_t{768} << 20;  // the test views of a scene, at their own size
+  measured_views_.emplace(*loaded_->test.cloud, kMostBytes);
+  loaded_->test.kept_views = &*measured_views_;
 }
 
 const PreparedScene& StudyRunner::prepared_for(const PipelineOptions& pipeline, const Job& job) {
@@ -134,6 +137,7 @@ void StudyRunner::change_scene(const StudyCell& cell, const PipelineOptions& pip
   }
   *test = rescaled(*test, static_cast<float>(cell.scene_scale));
   test->cloud = &variant_.cloud;
+  test->kept_views = nullptr;
   test->prepared = &variant_.prepared;
   test->truth_labels = variant_.truth;
   if (cell.hidden > 0) render_truth(test);

@@ -56,6 +56,7 @@ class StudyRunner {
   int loaded_neighbours_ = 0;
   std::map<int, PreparedScene> prepared_;  // of other numbers of neighbours
   Variant variant_;                        // the last one; none is kept where there was none
+  std::optional<KeptViews> measured_views_;  // of the scene as it was loaded; cuts, which are timed, have their own
   std::map<std::uint64_t, ImageScore> scores_;
 };
 

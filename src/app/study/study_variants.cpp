@@ -55,10 +55,6 @@ void add_disc(const glm::vec3& at, float radius, const glm::quat& facing, Gaussi
 
 }  // namespace
 
-Mask labels_seen(const EvaluationCase& test, const Camera& camera, const std::vector<std::uint8_t>& labels) {
-  return thresholded(render_labels(*test.cloud, camera, labels), 0.5f);
-}
-
 GaussianCloud rescaled(const GaussianCloud& cloud, float scale) {
   GaussianCloud out = cloud;
   for (glm::vec3& p : out.position) p *= scale;

@@ -6,8 +6,6 @@
 
 namespace splatcut {
 
-Mask labels_seen(const EvaluationCase& test, const Camera& camera, const std::vector<std::uint8_t>& labels);
-
 // The same scene in other units.
 GaussianCloud rescaled(const GaussianCloud& cloud, float scale);
 EvaluationCase rescaled(EvaluationCase test, float scale);
