@@ -210,4 +210,16 @@ TEST_CASE("doubts: another size, masks left out, and a cutout that most masks sp
   report.views[1].disagreed = false;
   report.views[2].confidence = report.views[3].confidence = 0.1;
   CHECK(doubts(report) == std::vector<std::string>{"2 of 3 masks disagree with the cutout: it is not to be trusted, look at the masks"});
+
+  Mask& first = report.views.front().mask;
+  const auto of_first = [&](int x0, int y0, int x1, int y1) {
+    first = Mask(200, 100);
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) first.at(x, y) = kMaskObject;
+    return doubts_of_views(std::span(report.views).first(1));
+  };
+  CHECK(of_first(80, 40, 97, 57).empty());
+  CHECK(of_first(80, 40, 92, 52) == std::vector<std::string>{"the object is small in the first view, 6 % of its width: come nearer"});
+  CHECK(of_first(0, 0, 40, 20).empty());  // a corner: 60 of 596 pixels of the frame
+  CHECK(of_first(0, 0, 200, 20) == std::vector<std::string>{"the object runs out of the first view: step back"});
 }
