@@ -9,6 +9,7 @@
 
 #include "scene/rasterizer.h"
 #include "segment/energy.h"
+#include "segment/evaluate.h"
 #include "segment/knn_graph.h"
 #include "segment/likelihood.h"
 #include "segment/mask_tools.h"
@@ -157,6 +158,15 @@ TEST_CASE("pipeline: one click cuts a ball off its floor, the same on 1 and 2 th
   tbb::task_arena(1).execute([&] {
     CHECK(cut_out(cloud, nullptr, camera, {0, -1, 0}, strokes, preset("fast")).labels == report.labels);
   });
+
+  // Small in its first view: more pixels there, and no more than usual where cameras come near.
+  PipelineOptions coarse = preset("default");
+  coarse.work_width_px = 80;
+  const PipelineReport small = cut_out(cloud, nullptr, camera, {0, -1, 0}, strokes, coarse);
+  REQUIRE(small.views.size() > 1);
+  CHECK(small.views.front().camera.width_px > 150);
+  for (const ViewReport& view : std::span(small.views).subspan(1)) CHECK(view.camera.width_px == 80);
+  CHECK(label_iou(truth, small.labels) > 0.95);
 }
 
 TEST_CASE("trim: a faint splat that sticks out leaves the object, one behind something nearer and one unseen stay") {

@@ -132,7 +132,7 @@ nlohmann::json object_json(const PipelineReport& report) {
     if (!view.reason.empty()) views.back()["reason"] = view.reason;
   }
   for (const StageTime& stage : report.stages) stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
-  const LookedAt enough = looked_at(report);
+  const LookedAt enough = looked_at(report.views);
   return {{"object", {{"gaussians", std::ranges::count(report.labels, 1)}}},
           {"views", views},
           {"enough", {{"views", enough.views}, {"pixels", enough.pixels}, {"gaussians", report.cut.touched}, {"why", report.enough}}},

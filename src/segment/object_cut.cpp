@@ -281,11 +281,9 @@ ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& o
   }
   job.progress("cut", 0.9);
   settings.cut.energy.lambda = smoothness;
-  const Camera& view = out.views.front().camera;
-  const double pixels = static_cast<double>(view.width_px) * view.height_px;
-  const auto used = static_cast<int>(std::ranges::count_if(out.views, [](const ViewReport& v) { return v.used; }));
+  const LookedAt looked = looked_at(out.views);
   const auto report = clock.time("cut", [&] {
-    return solvers_->solver(settings, job).solve(weighed, used, pixels, job);
+    return solvers_->solver(settings, job).solve(weighed, looked.views, looked.pixels_per_view(), job);
   });
   if (job.cancelled())
     out.outcome = Outcome::kCancelled;

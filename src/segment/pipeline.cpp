@@ -77,7 +77,7 @@ class Run {
   bool find_object(const Camera& camera, const Strokes& strokes);
   bool too_small(const Mask& mask, const Camera& camera, const Camera& full);
   void add_given(const GivenView& given);
-  void add_view(const Camera& full, const glm::vec3& object_centre_world);
+  void add_view(const Camera& camera, const glm::vec3& object_centre_world);
   bool needs_pictures() const { return options_.propagate != Propagator::kLift || options_.refine.solver != MaskSolver::kNone; }
   Mask labels_in(const Camera& camera);
   Mask propagated(const Camera& camera, const Picture& picture);
@@ -110,9 +110,7 @@ class Run {
 
 void Run::solve() {
   clock_.time("cut", [&] {
-    const Camera& view = report_.views.front().camera;
-    report_.cut = solver_.solve(with_prior(likelihood(sums_), prior(), prior_px()), used_views_,
-                                static_cast<double>(view.width_px) * view.height_px, job_);
+    report_.cut = solver_.solve(with_prior(likelihood(sums_), prior(), prior_px()), used_views_, looked_at(report_.views).pixels_per_view(), job_);
     report_.labels = report_.cut.labels;
   });
   snapshot();
@@ -276,8 +274,8 @@ void Run::add_given(const GivenView& given) {
   solve();
 }
 
-void Run::add_view(const Camera& full, const glm::vec3& object_centre_world) {
-  ViewReport view{limited_to_width(full, work_width_px_), {}, false, 0, {}};
+void Run::add_view(const Camera& camera, const glm::vec3& object_centre_world) {
+  ViewReport view{camera, {}, false, 0, {}};
   if (options_.given_masks) {
     view.mask = options_.given_masks(view.camera);
     return use(std::move(view));
@@ -285,7 +283,7 @@ void Run::add_view(const Camera& full, const glm::vec3& object_centre_world) {
   constexpr double kHidden = 0.2;
   // Where a wall or another thing stands before the object, from nearer.
   for (const float share : {1.0f, 0.7f, 0.5f}) {
-    view.camera = approached(limited_to_width(full, work_width_px_), object_centre_world, share);
+    view.camera = approached(camera, object_centre_world, share);
     Picture picture;
     if (needs_pictures()) picture = clock_.time("view", [&] { return render(drawer_, view.camera, job_); });
     const Mask seen = propagated(view.camera, picture);
@@ -295,7 +293,7 @@ void Run::add_view(const Camera& full, const glm::vec3& object_centre_world) {
     use(std::move(view), std::move(picture));
     return solve();
   }
-  view.camera = limited_to_width(full, work_width_px_);
+  view.camera = camera;
   view.mask = Mask(view.camera.width_px, view.camera.height_px);
   view.reason = "the object is hidden here";
   report_.views.push_back(std::move(view));
@@ -309,14 +307,16 @@ void Run::other_views(const Camera& reference, const glm::vec3& up_world) {
     return;
   }
   const ObjectExtent extent = object_extent(cloud_, report_.labels);
-  const std::vector<Camera> cameras =
-      options_.view_cameras.empty() ? cameras_around(reference, up_world, extent, options_.scene_cameras, options_.orbit) : options_.view_cameras;
+  const bool given = !options_.view_cameras.empty();
+  const std::vector<Camera> cameras = given ? options_.view_cameras : cameras_around(reference, up_world, extent, options_.scene_cameras, options_.orbit);
+  // On a circle the object is large, however small it is in the first view. Flow compares pictures of one size.
+  const int width_px = given || options_.propagate != Propagator::kLift ? work_width_px_ : options_.work_width_px;
   int steady = 0;
   for (std::size_t i = 0; i < cameras.size() && !job_.cancelled(); ++i) {
     job_.progress("views", static_cast<double>(i) / static_cast<double>(cameras.size()));
     const std::vector<std::uint8_t> before = report_.labels;
     const int used_before = used_views_;
-    add_view(cameras[i], extent.centre_world);
+    add_view(limited_to_width(cameras[i], width_px), extent.centre_world);
     if (options_.given_masks || used_views_ == used_before) continue;
     steady = changed_share(before, report_.labels) < options_.settled_change ? steady + 1 : 0;
     if (steady < options_.settled_views) continue;
@@ -360,9 +360,9 @@ void Run::trim_labels() {
 
 }  // namespace
 
-LookedAt looked_at(const PipelineReport& report) {
+LookedAt looked_at(const std::vector<ViewReport>& views) {
   LookedAt sum;
-  for (const ViewReport& view : report.views)
+  for (const ViewReport& view : views)
     if (view.used) {
       ++sum.views;
       sum.pixels += view.mask.size();

@@ -116,8 +116,9 @@ struct PipelineReport {
 struct LookedAt {
   int views = 0;
   std::size_t pixels = 0;
+  double pixels_per_view() const { return views ? static_cast<double>(pixels) / views : 0; }
 };
-LookedAt looked_at(const PipelineReport& report);
+LookedAt looked_at(const std::vector<ViewReport>& views);
 
 // trim() by the views that count. Returns how many Gaussians left the object.
 std::size_t trim_to_views(const Drawer& drawer, const std::vector<ViewReport>& views, const PipelineOptions& options,
