@@ -122,7 +122,7 @@ struct Workspace {
   Chunk chunk;
   TilePixels pixels;
   BlockLists lists;
-  TileLists found;  // for TileBlend::fill_lists
+  TileLists found;  // on their way into TileBlend::lists
 };
 
 // Reads what TileLists keeps, row of blocks by row of blocks, in the order in which it was written.
@@ -355,7 +355,7 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
   return opaque;
 }
 
-// Blends the chunk into every block that still lets light through. known: null, or where its lists are kept.
+// Blends the chunk into every block that still lets light through. known: null, or its lists of an earlier drawing.
 template <Paint kPaint, bool kDepth, bool kSums>
 void blend_chunk(int tile_x, int tile_y, ListReader* known, bool keep_lists, Workspace* work) {
   constexpr std::uint32_t kRowOfBlocks = (1u << kBlocksAcross) - 1;
