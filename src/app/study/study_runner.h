@@ -4,9 +4,11 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/eval_suite.h"
 #include "app/study/study_cell.h"
+#include "scene/projected_view.h"
 
 namespace splatcut {
 
