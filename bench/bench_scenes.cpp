@@ -17,7 +17,8 @@ constexpr int kWidth = 1280, kHeight = 720;
 
 BenchScene make_still_life_scene(std::size_t gaussians) {
   testing::MugScene made = testing::still_life_with_mug(gaussians);
-  BenchScene scene{std::move(made.cloud), resized(made.cameras.front(), kWidth, kHeight), {}, std::move(made.mug)};
+  BenchScene scene{
+      std::move(made.cloud), resized(made.cameras.front(), kWidth, kHeight), {}, std::move(made.mug)};
   for (const Camera& camera : made.cameras) scene.cameras.push_back(limited_to_width(camera, 400));
   return scene;
 }

@@ -1,5 +1,6 @@
-// The exact cut, cold and warm, beside Boost and OpenCV on the same problems. Times are CPU milliseconds of the one
-// thread that solves, with building of the solver's own graph, and without loading, k-NN and capacities.
+// The exact cut, cold and warm, beside Boost and OpenCV on the same problems. Times are CPU milliseconds of
+// the one thread that solves, with building of the solver's own graph, and without loading, k-NN and
+// capacities.
 #include "cut_bench.h"
 
 #include <benchmark/benchmark.h>
@@ -32,7 +33,9 @@ void timed(benchmark::State& state, const Work& work) {
   state.SetIterationTime(cpu_seconds() - start);
 }
 
-std::int64_t expected_flow(const CutProblem& p) { return min_cut(p.graph, p.capacity, p.terminal).flow; }
+std::int64_t expected_flow(const CutProblem& p) {
+  return min_cut(p.graph, p.capacity, p.terminal).flow;
+}
 
 void demand(bool right) {
   if (!right) throw std::logic_error("the solvers disagree");
@@ -70,12 +73,14 @@ void cut_in_place(benchmark::State& state, const ProblemOf& problem_of) {
     });
   }
   demand(max_flow.flow() == expected_flow(p));
-  const double bytes = 4.0 * static_cast<double>(p.graph.nodes() + 1) + 12.0 * static_cast<double>(p.graph.arcs()) +
-                       17.0 * static_cast<double>(p.graph.nodes()) + 4.0 * static_cast<double>(p.graph.arcs());
+  const double bytes =
+      4.0 * static_cast<double>(p.graph.nodes() + 1) + 12.0 * static_cast<double>(p.graph.arcs()) +
+      17.0 * static_cast<double>(p.graph.nodes()) + 4.0 * static_cast<double>(p.graph.arcs());
   state.counters["bytes_per_node"] = bytes / static_cast<double>(p.graph.nodes());
 }
 
-void cut_other(benchmark::State& state, const ProblemOf& problem_of, std::int64_t (*solve)(const CutProblem&)) {
+void cut_other(benchmark::State& state, const ProblemOf& problem_of,
+               std::int64_t (*solve)(const CutProblem&)) {
   const CutProblem& p = problem_of();
   std::int64_t flow = 0;
   for (auto _ : state) timed(state, [&] { flow = solve(p); });
@@ -114,7 +119,9 @@ std::vector<std::vector<std::uint32_t>> strokes_on(const CutProblem& p, std::siz
   for (auto& stroke : strokes) {
     const glm::vec3 centre = p.position[border[random() % border.size()]];
     for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
-    const auto distance2 = [&](std::uint32_t v) { return glm::dot(p.position[v] - centre, p.position[v] - centre); };
+    const auto distance2 = [&](std::uint32_t v) {
+      return glm::dot(p.position[v] - centre, p.position[v] - centre);
+    };
     const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(nodes, all.size()));
     std::ranges::nth_element(all, end, {}, distance2);
     stroke.assign(all.begin(), end);
@@ -155,11 +162,13 @@ std::vector<std::int32_t> scaled_capacity(const CutProblem& p, double lambda) {
   return scaled;
 }
 
-// lambda from a quarter to 16 in 12 steps, rising or falling: the sum, each step from the one before or from nothing.
+// lambda from a quarter to 16 in 12 steps, rising or falling: the sum, each step from the one before or from
+// nothing.
 void lambda_sweep(benchmark::State& state, const ProblemOf& problem_of, bool rising, bool warm) {
   const CutProblem& p = problem_of();
   std::vector<std::vector<std::int32_t>> capacities;
-  for (int step = 0; step <= 12; ++step) capacities.push_back(scaled_capacity(p, 0.25 * std::exp2(step / 2.0)));
+  for (int step = 0; step <= 12; ++step)
+    capacities.push_back(scaled_capacity(p, 0.25 * std::exp2(step / 2.0)));
   if (!rising) std::ranges::reverse(capacities);
   std::size_t cold = 0;
   for (auto _ : state) {
@@ -199,7 +208,8 @@ void min_marginals_of_100(benchmark::State& state, const ProblemOf& problem_of) 
   std::mt19937 random(5);
   for (auto _ : state)
     timed(state, [&] {
-      for (int i = 0; i < 100; ++i) max_flow.min_marginal(static_cast<std::uint32_t>(random() % p.graph.nodes()));
+      for (int i = 0; i < 100; ++i)
+        max_flow.min_marginal(static_cast<std::uint32_t>(random() % p.graph.nodes()));
     });
 }
 
@@ -231,14 +241,21 @@ void register_problem(const std::string& name, const ProblemOf& problem, bool wi
     cut_in_place(s, [&]() -> const CutProblem& { return doubled; });
   });
   if (with_others) {
-    add("boost_boykov_kolmogorov", [=](benchmark::State& s) { cut_other(s, problem, boost_boykov_kolmogorov); });
+    add("boost_boykov_kolmogorov",
+        [=](benchmark::State& s) { cut_other(s, problem, boost_boykov_kolmogorov); });
     add("boost_push_relabel", [=](benchmark::State& s) { cut_other(s, problem, boost_push_relabel); });
     add("opencv_gcgraph", [=](benchmark::State& s) { cut_other(s, problem, opencv_gcgraph); });
   }
   add("cut_next_view", [=](benchmark::State& s) { cut_next_view(s, problem); });
   constexpr std::int64_t kMeant = 8 << 20;  // eight times what all views together can say
-  add("cut_after_object_stroke", [=](benchmark::State& s) { cut_after_stroke(s, problem, kMeant); })->RangeMultiplier(10)->Range(10, 10000)->Iterations(20);
-  add("cut_after_rest_stroke", [=](benchmark::State& s) { cut_after_stroke(s, problem, -kMeant); })->RangeMultiplier(10)->Range(10, 10000)->Iterations(20);
+  add("cut_after_object_stroke", [=](benchmark::State& s) { cut_after_stroke(s, problem, kMeant); })
+      ->RangeMultiplier(10)
+      ->Range(10, 10000)
+      ->Iterations(20);
+  add("cut_after_rest_stroke", [=](benchmark::State& s) { cut_after_stroke(s, problem, -kMeant); })
+      ->RangeMultiplier(10)
+      ->Range(10, 10000)
+      ->Iterations(20);
   for (const bool rising : {true, false})
     for (const bool warm : {true, false})
       add(fmt::format("lambda_{}_{}", rising ? "rising" : "falling", warm ? "warm" : "cold"),
@@ -253,12 +270,15 @@ void register_problem(const std::string& name, const ProblemOf& problem, bool wi
 void register_cut_benchmarks() {
   constexpr std::size_t kOthersUpTo = 1'000'000;  // Boost takes some 120 bytes an arc
   for (const std::size_t n : {200'000, 500'000, 1'000'000, 2'000'000, 5'000'000})
-    register_problem(fmt::format("still_life_{}k", n / 1000), [n]() -> const CutProblem& { return still_life_problem(n); },
-                     n <= kOthersUpTo);
+    register_problem(
+        fmt::format("still_life_{}k", n / 1000), [n]() -> const CutProblem& { return still_life_problem(n); },
+        n <= kOthersUpTo);
   const char* suite = std::getenv("SPLATCUT_BENCH_SUITE");
   if (!suite) return;
   static const std::vector<CutProblem> problems = suite_problems(suite);
-  for (const CutProblem& p : problems) register_problem(p.name, [&p]() -> const CutProblem& { return p; }, true);
+  for (const CutProblem& p : problems)
+    register_problem(
+        p.name, [&p]() -> const CutProblem& { return p; }, true);
 }
 
 }  // namespace splatcut::bench

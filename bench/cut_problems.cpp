@@ -40,7 +40,9 @@ CutProblem problem_from(std::string name, const GaussianCloud& cloud, std::vecto
   CutProblem problem;
   const double pixels = static_cast<double>(views.front().width_px) * views.front().height_px;
   MaskedSums sums(cloud.size());
-  const auto net = [&](std::size_t seen) { return terminals(cloud, likelihood(sums), static_cast<int>(seen), pixels, {}).net; };
+  const auto net = [&](std::size_t seen) {
+    return terminals(cloud, likelihood(sums), static_cast<int>(seen), pixels, {}).net;
+  };
   for (const Camera& view : views) {
     if (&view == &views.back()) problem.terminal_before = net(views.size() - 1);
     const Mask mask = noisy(thresholded(render_labels(cloud, view, truth), 0.5f), random);
@@ -63,7 +65,9 @@ std::vector<Camera> views_around(const GaussianCloud& cloud, const std::vector<s
   return views;
 }
 
-glm::vec3 vec3_of(const nlohmann::json& j) { return {j[0].get<float>(), j[1].get<float>(), j[2].get<float>()}; }
+glm::vec3 vec3_of(const nlohmann::json& j) {
+  return {j[0].get<float>(), j[1].get<float>(), j[2].get<float>()};
+}
 
 CutProblem problem_of(const nlohmann::json& entry, const std::filesystem::path& folder) {
   const Scene scene = load_scene(folder / entry.at("scene").get<std::string>());
@@ -72,8 +76,9 @@ CutProblem problem_of(const nlohmann::json& entry, const std::filesystem::path& 
   std::vector<std::uint8_t> truth;
   for (const std::uint32_t row : scene.cloud.file_row) truth.push_back(rows.at(row) == 1);
   const auto& r = entry.at("reference");
-  const Camera reference = look_at(vec3_of(r.at("position")), vec3_of(r.at("target")), vec3_of(r.at("up")),
-                                   glm::radians(r.at("fov_y_deg").get<float>()), r.at("size")[0], r.at("size")[1]);
+  const Camera reference =
+      look_at(vec3_of(r.at("position")), vec3_of(r.at("target")), vec3_of(r.at("up")),
+              glm::radians(r.at("fov_y_deg").get<float>()), r.at("size")[0], r.at("size")[1]);
   const std::vector<Camera> views = views_around(scene.cloud, truth, reference, vec3_of(r.at("up")));
   return problem_from(entry.at("name"), scene.cloud, std::move(truth), views);
 }
@@ -86,8 +91,8 @@ const CutProblem& still_life_problem(std::size_t gaussians) {
   if (it != problems.end()) return it->second;
   const BenchScene& scene = still_life(gaussians);
   const std::vector<Camera> views = views_around(scene.cloud, scene.mug, scene.cameras.front(), {0, -1, 0});
-  return problems[gaussians] =
-             problem_from("still_life_" + std::to_string(gaussians / 1000) + "k", scene.cloud, scene.mug, views);
+  return problems[gaussians] = problem_from("still_life_" + std::to_string(gaussians / 1000) + "k",
+                                            scene.cloud, scene.mug, views);
 }
 
 CutProblem with_twice_the_background(const CutProblem& p) {

@@ -14,7 +14,8 @@ namespace {
 using Row = boost::compressed_sparse_row_graph<boost::directedS>;
 using Edge = boost::graph_traits<Row>::edge_descriptor;
 
-// The problem with source and sink as nodes, in Boost's compressed rows, the fastest of its graphs to build and to walk.
+// The problem with source and sink as nodes, in Boost's compressed rows, the fastest of its graphs to build
+// and to walk.
 struct BoostGraph {
   Row graph;
   std::vector<long> capacity, residual;
@@ -73,15 +74,17 @@ std::int64_t boost_boykov_kolmogorov(const CutProblem& problem) {
   std::vector<Edge> predecessor(n);
   std::vector<boost::default_color_type> colour(n);
   std::vector<long> distance(n);
-  return boost::boykov_kolmogorov_max_flow(g.graph, g.edge_map(g.capacity), g.edge_map(g.residual), g.edge_map(g.reverse),
-                                           g.vertex_map(predecessor), g.vertex_map(colour), g.vertex_map(distance),
+  return boost::boykov_kolmogorov_max_flow(g.graph, g.edge_map(g.capacity), g.edge_map(g.residual),
+                                           g.edge_map(g.reverse), g.vertex_map(predecessor),
+                                           g.vertex_map(colour), g.vertex_map(distance),
                                            get(boost::vertex_index, g.graph), g.source, g.sink);
 }
 
 std::int64_t boost_push_relabel(const CutProblem& problem) {
   BoostGraph g(problem);
-  return boost::push_relabel_max_flow(g.graph, g.source, g.sink, g.edge_map(g.capacity), g.edge_map(g.residual),
-                                      g.edge_map(g.reverse), get(boost::vertex_index, g.graph));
+  return boost::push_relabel_max_flow(g.graph, g.source, g.sink, g.edge_map(g.capacity),
+                                      g.edge_map(g.residual), g.edge_map(g.reverse),
+                                      get(boost::vertex_index, g.graph));
 }
 
 std::int64_t opencv_gcgraph(const CutProblem& p) {
@@ -89,12 +92,14 @@ std::int64_t opencv_gcgraph(const CutProblem& p) {
   cv::detail::GCGraph<long long> g(n, static_cast<unsigned>(p.graph.arcs()));
   for (std::uint32_t v = 0; v < n; ++v) {
     g.addVtx();
-    g.addTermWeights(static_cast<int>(v), std::max<std::int64_t>(p.terminal[v], 0), std::max<std::int64_t>(-p.terminal[v], 0));
+    g.addTermWeights(static_cast<int>(v), std::max<std::int64_t>(p.terminal[v], 0),
+                     std::max<std::int64_t>(-p.terminal[v], 0));
   }
   for (std::uint32_t v = 0; v < n; ++v)
     for (std::uint32_t arc = p.graph.first_arc[v]; arc < p.graph.first_arc[v + 1]; ++arc)
       if (p.graph.head[arc] > v)
-        g.addEdges(static_cast<int>(v), static_cast<int>(p.graph.head[arc]), p.capacity[arc], p.capacity[p.graph.reverse_arc[arc]]);
+        g.addEdges(static_cast<int>(v), static_cast<int>(p.graph.head[arc]), p.capacity[arc],
+                   p.capacity[p.graph.reverse_arc[arc]]);
   return g.maxFlow();
 }
 

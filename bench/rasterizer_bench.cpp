@@ -39,8 +39,8 @@ void draw(benchmark::State& state, const BenchScene& scene, int threads, bool wi
 }
 
 void rasterize_still_life(benchmark::State& state) {
-  draw(state, still_life(static_cast<std::size_t>(state.range(0)) * 1000),
-       static_cast<int>(state.range(1)), state.range(2) != 0);
+  draw(state, still_life(static_cast<std::size_t>(state.range(0)) * 1000), static_cast<int>(state.range(1)),
+       state.range(2) != 0);
 }
 
 void rasterize_volume(benchmark::State& state) {
@@ -54,10 +54,15 @@ void rasterize_file(benchmark::State& state) {
 }
 
 // On a machine with other work, the least of some repetitions says most.
-double least(const std::vector<double>& times) { return *std::ranges::min_element(times); }
+double least(const std::vector<double>& times) {
+  return *std::ranges::min_element(times);
+}
 
 benchmark::internal::Benchmark* measured(benchmark::internal::Benchmark* bench) {
-  return bench->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->ComputeStatistics("min", least);
+  return bench->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->MeasureProcessCPUTime()
+      ->ComputeStatistics("min", least);
 }
 
 void sizes(benchmark::internal::Benchmark* bench) {

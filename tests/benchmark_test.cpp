@@ -1,4 +1,5 @@
-// NVOS and SPIn-NeRF folders: stand-ins in the released layout, drawn from a still life whose labels are known.
+// NVOS and SPIn-NeRF folders: stand-ins in the released layout, drawn from a still life whose labels are
+// known.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -35,7 +36,8 @@ struct StandIn {
 
   const Camera& camera(std::size_t i) const { return life->test.scene_cameras[i]; }
   Mask truth(std::size_t i, int width = 504, int height = 378) const {
-    return thresholded(render_labels(life->scene.cloud, resized(camera(i), width, height), life->test.truth_labels), 0.5f);
+    return thresholded(
+        render_labels(life->scene.cloud, resized(camera(i), width, height), life->test.truth_labels), 0.5f);
   }
   void save(const std::string& name, const Image<std::uint8_t>& grey) const {
     fs::create_directories((place / name).parent_path());
@@ -62,8 +64,10 @@ struct StandIn {
     touch(std::string("nvos/labels/llff/reference_image/apple/") + camera(0).name + ".JPG");
     save("nvos/labels/llff/scribbles/apple/pos_0_apple.png", spine(eroded(truth(0), 6)));
     Mask rest(504, 378);
-    const Mask around = dilated(truth(0), 12), near = dilated(truth(0), 10);  // as people draw it: about the object
-    for (std::size_t i = 0; i < rest.size(); ++i) rest.pixels()[i] = around.pixels()[i] && !near.pixels()[i] ? kMaskObject : 0;
+    const Mask around = dilated(truth(0), 12),
+               near = dilated(truth(0), 10);  // as people draw it: about the object
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      rest.pixels()[i] = around.pixels()[i] && !near.pixels()[i] ? kMaskObject : 0;
     save("nvos/labels/llff/scribbles/apple/neg_0_apple.png", rest);
     save("nvos/labels/llff/scribbles/apple/vis_0_apple.png", truth(0));
     touch(std::string("nvos/labels/llff/masks/apple/") + camera(3).name + ".JPG");
@@ -84,13 +88,15 @@ struct StandIn {
   void refused(const std::string& command, std::vector<std::string> words) const {
     const Result result = place.run(command);
     CHECK(result.code == 1);
-    for (const std::string& word : words) CHECK_MESSAGE(result.err.find(word) != std::string::npos, word << " in: " << result.err);
+    for (const std::string& word : words)
+      CHECK_MESSAGE(result.err.find(word) != std::string::npos, word << " in: " << result.err);
     CHECK(!place.exists("out"));
     CHECK(place.leftovers().empty());
   }
 };
 
-const std::string kNvos = "eval --nvos nvos --scenes scenes -o out --preset fast", kSpin = "eval --spin-nerf spin --scenes scenes -o out --preset fast";
+const std::string kNvos = "eval --nvos nvos --scenes scenes -o out --preset fast",
+                  kSpin = "eval --spin-nerf spin --scenes scenes -o out --preset fast";
 
 }  // namespace
 
@@ -107,9 +113,12 @@ TEST_CASE("a scribble's picture becomes discs that lie on it and cover it to the
     CHECK(drawn.at(static_cast<int>(s.points_px[0].x), static_cast<int>(s.points_px[0].y)) != 0);
     CHECK(s.radius_px <= 4);
   }
-  CHECK(std::ranges::any_of(strokes, [](const Stroke& s) { return s.points_px[0] == glm::vec2(5.5f, 90.5f); }));
+  CHECK(
+      std::ranges::any_of(strokes, [](const Stroke& s) { return s.points_px[0] == glm::vec2(5.5f, 90.5f); }));
   for (int x = 20; x < 180; ++x)  // 8 px: twice the half width
-    CHECK(std::ranges::any_of(strokes, [&](const Stroke& s) { return glm::distance(s.points_px[0], glm::vec2(static_cast<float>(x) + 0.5f, 43.5f)) <= 8.01f; }));
+    CHECK(std::ranges::any_of(strokes, [&](const Stroke& s) {
+      return glm::distance(s.points_px[0], glm::vec2(static_cast<float>(x) + 0.5f, 43.5f)) <= 8.01f;
+    }));
 }
 
 TEST_CASE("NVOS: scribbles become strokes in the reference, the mask is the truth of its own camera") {
@@ -139,7 +148,9 @@ TEST_CASE("NVOS: scribbles become strokes in the reference, the mask is the trut
   CHECK(negative >= 10);
 }
 
-TEST_CASE("NVOS by the command: measured, with the published figures beside it, in one folder or as a 3DGS output") {
+TEST_CASE(
+    "NVOS by the command: measured, with the published figures beside it, in one folder or as a 3DGS "
+    "output") {
   const StandIn made;
   made.make_nvos();
   const Result result = made.place.run(kNvos);
@@ -159,13 +170,16 @@ TEST_CASE("NVOS by the command: measured, with the published figures beside it, 
   made.place.make_folder("runs/apple_undistort/point_cloud/iteration_30000");
   made.place.make_folder("runs/apple_undistort/point_cloud/iteration_7000");
   made.place.write("runs/apple_undistort/point_cloud/iteration_7000/point_cloud.ply", "not a scene");
-  fs::copy(made.place / "scenes/apple/small.ply", made.place / "runs/apple_undistort/point_cloud/iteration_30000/point_cloud.ply");
+  fs::copy(made.place / "scenes/apple/small.ply",
+           made.place / "runs/apple_undistort/point_cloud/iteration_30000/point_cloud.ply");
   fs::copy(made.place / "scenes/apple/cameras.json", made.place / "runs/apple_undistort/cameras.json");
   REQUIRE(made.place.run("eval --nvos nvos --scenes runs -o again --preset fast").code == 0);
   CHECK(json::parse(made.place.text("again/eval.json"))["scenes"][0]["image_iou"] == scene["image_iou"]);
 }
 
-TEST_CASE("SPIn-NeRF: the first mask is given, the others scored, cut-outs are not looked at, numbers and prefixes are cameras") {
+TEST_CASE(
+    "SPIn-NeRF: the first mask is given, the others scored, cut-outs are not looked at, numbers and prefixes "
+    "are cameras") {
   const StandIn made;
   made.make_spin_nerf();
   const auto tasks = spin_nerf_tasks(made.place / "spin", made.place / "scenes");
@@ -196,11 +210,14 @@ TEST_CASE("SPIn-NeRF: the first mask is given, the others scored, cut-outs are n
   CHECK(json::parse(made.place.text("one_out/eval.json"))["scenes"][0]["image_iou"] == scene["image_iou"]);
 }
 
-TEST_CASE("what is wrong with a benchmark's folder is said in a sentence, with exit code 1, and nothing is written") {
+TEST_CASE(
+    "what is wrong with a benchmark's folder is said in a sentence, with exit code 1, and nothing is "
+    "written") {
   const StandIn made;
   made.make_nvos();
   made.make_spin_nerf();
-  const std::string spin = "spin/apple (stand-in)/", mask = "nvos/labels/llff/masks/apple/" + made.camera(3).name + "_mask.png";
+  const std::string spin = "spin/apple (stand-in)/",
+                    mask = "nvos/labels/llff/masks/apple/" + made.camera(3).name + "_mask.png";
   SUBCASE("a mask of no camera") {
     made.save(spin + "elsewhere.png", made.truth(0));
     made.refused(kSpin, {"elsewhere.png", "no camera is called", "There are 24"});
@@ -233,8 +250,12 @@ TEST_CASE("what is wrong with a benchmark's folder is said in a sentence, with e
     made.place.write(mask, "no picture");
     made.refused(kNvos, {"_mask.png"});
   }
-  SUBCASE("not that folder") { made.refused("eval --nvos spin --scenes scenes -o out", {"spin", "no folder \"scribbles\""}); }
-  SUBCASE("no reconstruction") { made.refused("eval --nvos nvos --scenes nvos -o out", {"no reconstruction of apple"}); }
+  SUBCASE("not that folder") {
+    made.refused("eval --nvos spin --scenes scenes -o out", {"spin", "no folder \"scribbles\""});
+  }
+  SUBCASE("no reconstruction") {
+    made.refused("eval --nvos nvos --scenes nvos -o out", {"no reconstruction of apple"});
+  }
   SUBCASE("two reconstructions") {
     fs::copy(made.place / "scenes/apple/small.ply", made.place / "scenes/apple/other.ply");
     made.refused(kNvos, {"holds 2 scenes", "other.ply"});
@@ -247,7 +268,9 @@ TEST_CASE("what is wrong with a benchmark's folder is said in a sentence, with e
 
 TEST_CASE("eval takes one way in, and says which") {
   const Workplace place;
-  for (const char* command : {"eval -o out", "eval --nvos a -o out", "eval suite.json --nvos a --scenes b -o out", "eval suite.json --scenes b -o out"}) {
+  for (const char* command :
+       {"eval -o out", "eval --nvos a -o out", "eval suite.json --nvos a --scenes b -o out",
+        "eval suite.json --scenes b -o out"}) {
     CHECK_MESSAGE(place.run(command).code == 2, command);
     CHECK(!place.exists("out"));
   }

@@ -140,7 +140,8 @@ TEST_CASE("transforms.json: OpenGL axes, lens by frame, by file or by angle") {
 
 TEST_CASE("lens distortion is left out with a warning that says how much it is") {
   const Folder folder;
-  const std::string pose = R"(, "transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])";
+  const std::string pose =
+      R"(, "transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])";
   const std::string lens = R"({"w": 600, "h": 800, "fl_x": 500, "fl_y": 500, )";
   write(folder / "plain.json", lens + R"("frames": [{"file_path": "a")" + pose + "}]}");
   std::string warning = "from before";
@@ -152,7 +153,8 @@ TEST_CASE("lens distortion is left out with a warning that says how much it is")
   CHECK_MESSAGE(warning.find("5.0 pixels") != warning.npos, warning);
   CHECK(warning.find("bent.json") != warning.npos);
   write(folder / "images.txt", "1 1 0 0 0 0 0 0 1 a.png\n\n");
-  for (const char* camera : {"1 RADIAL 600 800 500 300 400 0.015 -0.005\n", "1 OPENCV 600 800 500 500 300 400 0 0.01 0 0\n"}) {
+  for (const char* camera :
+       {"1 RADIAL 600 800 500 300 400 0.015 -0.005\n", "1 OPENCV 600 800 500 500 300 400 0 0.01 0 0\n"}) {
     write(folder / "cameras.txt", camera);
     CHECK(load_cameras(folder.path, &warning).size() == 1);
     CHECK_MESSAGE(warning.find("5.0 pixels") != warning.npos, warning);

@@ -28,9 +28,13 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   Workplace& place = life.place;
   CHECK(place.run("--version").code == 0);
   CHECK(place.run("cut --help").code == 0);
-  for (const char* usage : {"fly", "cut", "info", "render a.ply", "cut a.ply -o b --no-such-option", "info a.ply --threads -1"})
+  for (const char* usage :
+       {"fly", "cut", "info", "render a.ply", "cut a.ply -o b --no-such-option", "info a.ply --threads -1"})
     CHECK_MESSAGE(place.run(usage).code == 2, usage);
-  place.write("points.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n" + std::string(12, 'a'));
+  place.write("points.ply",
+              "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float "
+              "y\nproperty float z\nend_header\n" +
+                  std::string(12, 'a'));
   place.write("short.ply", place.text("made/small.ply").substr(0, 100000));
   place.write("bad.json", "{");
   place.write("empty.ply", "");
@@ -65,7 +69,8 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused("eval bad.json -o cut", {"bad.json", "suite"});
   place.write("no_truth.json", R"({"scenes": [{"name": "a", "scene": "made/small.ply"}]})");
   refused("eval no_truth.json -o cut", {"entry a", "reference"});
-  refused(life.cut("--click " + life.click + " -o cut --first-mask grabcut --parts-only"), {"parts", "pixels"});
+  refused(life.cut("--click " + life.click + " -o cut --first-mask grabcut --parts-only"),
+          {"parts", "pixels"});
   CHECK_FALSE(place.exists("cut"));
   CHECK_FALSE(place.exists("a.png"));
   CHECK(place.leftovers().empty());
@@ -75,11 +80,13 @@ TEST_CASE("cut writes every file of a cutout, by click, by seeds and by mask, an
   StillLife& life = still_life();
   Workplace& place = life.place;
   REQUIRE(place.run(life.cut("--click " + life.click + " -o by_click")).code == 0);
-  const std::set<std::string> files = {"labels.u8", "masks.png", "object.ply", "object.png", "report.json", "rest.ply", "rest.png", "tint.png"};
+  const std::set<std::string> files = {"labels.u8",   "masks.png", "object.ply", "object.png",
+                                       "report.json", "rest.ply",  "rest.png",   "tint.png"};
   CHECK(place.files_in("by_click") == files);
 
   const json report = json::parse(place.text("by_click/report.json"));
-  CHECK(has_keys(report, {"version", "settings", "scene", "object", "views", "cut", "stages", "total_ms", "peak_rss_mb"}));
+  CHECK(has_keys(report, {"version", "settings", "scene", "object", "views", "cut", "stages", "total_ms",
+                          "peak_rss_mb"}));
   CHECK(report["scene"]["gaussians"] == 20000);
   CHECK(has_keys(report["cut"], {"nodes", "arcs", "energy", "flow"}));
   CHECK(report["cut"]["energy"].get<double>() == report["cut"]["flow"].get<double>());
@@ -104,14 +111,19 @@ TEST_CASE("cut writes every file of a cutout, by click, by seeds and by mask, an
   CHECK(2 * ones < labels.size());
 
   const auto comma = life.click.find(',');
-  place.write("seeds.json", R"({"clicks": [{"x": )" + life.click.substr(0, comma) + R"(, "y": )" + life.click.substr(comma + 1) + "}]}");
+  place.write("seeds.json", R"({"clicks": [{"x": )" + life.click.substr(0, comma) + R"(, "y": )" +
+                                life.click.substr(comma + 1) + "}]}");
   REQUIRE(place.run(life.cut("--seeds seeds.json -o by_seeds")).code == 0);
   CHECK(place.text("by_seeds/labels.u8") == labels);
 
-  REQUIRE(place.run("render " + life.scene + " " + life.camera + " --what labels --labels by_click/labels.u8 -o mask.png").code == 0);
+  REQUIRE(place
+              .run("render " + life.scene + " " + life.camera +
+                   " --what labels --labels by_click/labels.u8 -o mask.png")
+              .code == 0);
   const Result by_mask = place.run(life.cut("--mask mask.png -o by_mask --json"));
   REQUIRE(by_mask.code == 0);
-  CHECK(json::parse(by_mask.out)["object"]["gaussians"].get<double>() == doctest::Approx(static_cast<double>(ones)).epsilon(0.2));
+  CHECK(json::parse(by_mask.out)["object"]["gaussians"].get<double>() ==
+        doctest::Approx(static_cast<double>(ones)).epsilon(0.2));
   CHECK(place.leftovers().empty());
 }
 
@@ -124,7 +136,8 @@ TEST_CASE("existing output is refused without --overwrite, and nothing in it cha
   place.write("view.png", "precious");
   place.write("copy.splat", "precious");
   const std::string cut = life.cut("--click " + life.click + " -o there");
-  for (const std::string& arguments : {cut, "render " + life.scene + " -o view.png", "convert " + life.scene + " -o copy.splat"}) {
+  for (const std::string& arguments :
+       {cut, "render " + life.scene + " -o view.png", "convert " + life.scene + " -o copy.splat"}) {
     const Result result = place.run(arguments);
     CHECK(result.code == 1);
     CHECK_MESSAGE(result.err.find("--overwrite") != std::string::npos, result.err);
@@ -141,8 +154,12 @@ TEST_CASE("the bytes of a cutout do not depend on --threads") {
   StillLife& life = still_life();
   Workplace& place = life.place;
   for (const char* threads : {"1", "2", "3"})
-    REQUIRE(place.run(life.cut("--click " + life.click + " --no-cache --threads " + threads + " -o on_" + threads)).code == 0);
-  for (const char* file : {"object.ply", "rest.ply", "labels.u8", "object.png", "rest.png", "tint.png", "masks.png"}) {
+    REQUIRE(
+        place
+            .run(life.cut("--click " + life.click + " --no-cache --threads " + threads + " -o on_" + threads))
+            .code == 0);
+  for (const char* file :
+       {"object.ply", "rest.ply", "labels.u8", "object.png", "rest.png", "tint.png", "masks.png"}) {
     CAPTURE(file);
     const std::string one = place.text(std::string("on_1/") + file);
     CHECK(place.text(std::string("on_2/") + file) == one);
@@ -150,7 +167,8 @@ TEST_CASE("the bytes of a cutout do not depend on --threads") {
   }
 }
 
-TEST_CASE("what was prepared is kept: the second run reads it and writes the same bytes, --no-cache does neither") {
+TEST_CASE(
+    "what was prepared is kept: the second run reads it and writes the same bytes, --no-cache does neither") {
   StillLife& life = still_life();
   Workplace place;  // its cache is empty
   const auto stages = [&](const std::string& folder) {
@@ -168,7 +186,8 @@ TEST_CASE("what was prepared is kept: the second run reads it and writes the sam
   REQUIRE(place.run(cut + " -o second").code == 0);
   CHECK(stages("second").contains("cache"));
   CHECK_FALSE(stages("second").contains("graph"));
-  for (const char* file : {"object.ply", "rest.ply", "labels.u8", "object.png", "rest.png", "tint.png", "masks.png"}) {
+  for (const char* file :
+       {"object.ply", "rest.ply", "labels.u8", "object.png", "rest.png", "tint.png", "masks.png"}) {
     CAPTURE(file);
     const std::string one = place.text(std::string("without/") + file);
     CHECK(place.text(std::string("first/") + file) == one);
@@ -195,10 +214,15 @@ TEST_CASE("--set sets what a switch sets, and refuses what it does not know with
   REQUIRE(place.run(life.cut("--click " + life.click + " --set energy.lambda=3 -o by_set")).code == 0);
   CHECK(place.text("by_set/labels.u8") == place.text("by_switch/labels.u8"));
   CHECK(json::parse(place.text("by_set/report.json"))["settings"]["set"] == json({"energy.lambda=3"}));
-  REQUIRE(place.run(life.cut("--click " + life.click + " --set energy.pairwise=paper --set energy.hard=1 -o other")).code == 0);
-  CHECK(json::parse(place.text("other/report.json"))["cut"]["energy"] != json::parse(place.text("by_set/report.json"))["cut"]["energy"]);
+  REQUIRE(place
+              .run(life.cut("--click " + life.click +
+                            " --set energy.pairwise=paper --set energy.hard=1 -o other"))
+              .code == 0);
+  CHECK(json::parse(place.text("other/report.json"))["cut"]["energy"] !=
+        json::parse(place.text("by_set/report.json"))["cut"]["energy"]);
   const auto refused = [&](const std::string& assignment, const char* says) {
-    const Result result = place.run(life.cut("--click " + life.click + " --set " + assignment + " -o refused"));
+    const Result result =
+        place.run(life.cut("--click " + life.click + " --set " + assignment + " -o refused"));
     CHECK_MESSAGE(result.code == 2, assignment);
     CHECK_MESSAGE(result.err.find(says) != std::string::npos, result.err);
   };
@@ -245,9 +269,18 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
   std::string apple_only = truth;
   for (char& label : apple_only) label = label == apple ? '\1' : '\0';
   place.write("made/apple.labels.u8", apple_only);
-  const json view = {{"position", {0.3, -1.2, -2.4}}, {"target", {0.3, -0.2, 0}}, {"up", {0, -1, 0}}, {"fov_y_deg", 45}, {"size", {240, 180}}};
-  json entry = {{"name", "apple"}, {"scene", "small.ply"}, {"cameras", "cameras.json"}, {"truth", {{"labels", "apple.labels.u8"}}},
-                {"reference", {{"camera", "view_00"}}}, {"clicks", "robot"}, {"test_views", {view}}};
+  const json view = {{"position", {0.3, -1.2, -2.4}},
+                     {"target", {0.3, -0.2, 0}},
+                     {"up", {0, -1, 0}},
+                     {"fov_y_deg", 45},
+                     {"size", {240, 180}}};
+  json entry = {{"name", "apple"},
+                {"scene", "small.ply"},
+                {"cameras", "cameras.json"},
+                {"truth", {{"labels", "apple.labels.u8"}}},
+                {"reference", {{"camera", "view_00"}}},
+                {"clicks", "robot"},
+                {"test_views", {view}}};
   place.write("made/suite.json", json{{"scenes", {entry}}}.dump());
   const Result result = place.run("eval made/suite.json --preset fast --draws 2 -o measured");
   REQUIRE_MESSAGE(result.code == 0, result.err);
@@ -257,8 +290,9 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
   REQUIRE(measured["scenes"].size() == 1);
   const json& scene = measured["scenes"][0];
   for (const json& scores : {scene, measured["mean"]}) {
-    CHECK(has_keys(scores, {"name", "image_iou", "accuracy", "boundary_iou", "gaussian_iou", "mask_iou_after_clicks",
-                            "image_iou_after_clicks", "noc85", "noc90", "ms", "total_ms"}));
+    CHECK(has_keys(scores,
+                   {"name", "image_iou", "accuracy", "boundary_iou", "gaussian_iou", "mask_iou_after_clicks",
+                    "image_iou_after_clicks", "noc85", "noc90", "ms", "total_ms"}));
     CHECK(has_keys(scores["image_iou_after_clicks"], {"1", "3", "5"}));
     CHECK(scores["mask_iou_after_clicks"].size() == 8);
   }
@@ -275,7 +309,8 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
   CHECK_FALSE(measured["mean"]["enough"].contains("why"));
   CHECK(place.run("eval made/suite.json --preset fast -o measured").code == 1);
 
-  // A scene known by masks of photographs only has no truth of the reference: such a scene is left out, by name.
+  // A scene known by masks of photographs only has no truth of the reference: such a scene is left out, by
+  // name.
   json photographed = entry;
   photographed["name"] = "photographed";
   photographed["truth"] = {{"masks", "photos"}};
@@ -284,7 +319,8 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
   REQUIRE(place.run("render " + life.scene + " --what alpha " + life.camera + " -o view_00.png").code == 0);
   place.write("made/photos/view_00.png", place.text("view_00.png"));
   place.write("made/both.json", json{{"scenes", {photographed, entry}}}.dump());
-  const Result truth_given = place.run("eval made/both.json --preset fast --first-mask truth --masks truth -o from_truth");
+  const Result truth_given =
+      place.run("eval made/both.json --preset fast --first-mask truth --masks truth -o from_truth");
   REQUIRE_MESSAGE(truth_given.code == 0, truth_given.err);
   CHECK(truth_given.err.find("photographed: left out") != std::string::npos);
   const json from_truth = json::parse(place.text("from_truth/eval.json"));
@@ -299,14 +335,18 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
 TEST_CASE("study measures, goes on where it was stopped, heals a line cut off, and draws charts and a page") {
   StillLife& life = still_life();
   Workplace& place = life.place;
-  const std::string command = "study made/suite.json -o studied --quick --draws 2 --cells 3 --only needed --only views --only trade-off";
+  const std::string command =
+      "study made/suite.json -o studied --quick --draws 2 --cells 3 --only needed --only views --only "
+      "trade-off";
   const Result stopped = place.run_interrupted(command, 1500);
   CHECK((stopped.code == 1 || stopped.signal == SIGINT || stopped.code == 0));
   if (stopped.code == 1) CHECK(stopped.err.find("goes on") != std::string::npos);
   const Result done = place.run(command);
   REQUIRE_MESSAGE(done.code == 0, done.err);
   const std::string cells = place.text("studied/cells.jsonl");
-  for (const char* file : {"results.csv", "results.json", "index.html", "charts/views.svg", "charts/trade_off.svg", "charts/stages.png", "charts/views.png", "charts/needed_width.svg"})
+  for (const char* file :
+       {"results.csv", "results.json", "index.html", "charts/views.svg", "charts/trade_off.svg",
+        "charts/stages.png", "charts/views.png", "charts/needed_width.svg"})
     CHECK_MESSAGE(place.exists(std::string("studied/") + file), file);
   CHECK(place.text("studied/index.html").find("data:image/svg+xml;base64,") != std::string::npos);
   const json results = json::parse(place.text("studied/results.json"));
@@ -336,11 +376,13 @@ TEST_CASE("Ctrl+C ends a run with 1 and leaves nothing half written") {
   StillLife& life = still_life();
   Workplace& place = life.place;
   REQUIRE(place.run("make-scene large -o large --gaussians 300000 --format ply").code == 0);
-  place.write("large/suite.json", R"({"scenes": [{"name": "a", "scene": "large.ply", "cameras": "cameras.json",
+  place.write("large/suite.json",
+              R"({"scenes": [{"name": "a", "scene": "large.ply", "cameras": "cameras.json",
       "truth": {"labels": "large.labels.u8"}, "reference": {"camera": "view_00"}, "clicks": "robot", "test_views": []}]})");
   for (const std::string& arguments :
        {"cut large/large.ply --cameras large/cameras.json --camera 0 --preset best --click " + life.click,
-        std::string("eval large/suite.json --preset best"), std::string("make-scene more --gaussians 3000000")})
+        std::string("eval large/suite.json --preset best"),
+        std::string("make-scene more --gaussians 3000000")})
     for (const int after_ms : {5, 60, 300, 700}) {
       CAPTURE(arguments);
       CAPTURE(after_ms);

@@ -56,7 +56,8 @@ TEST_CASE("spz: version 4, zstd streams, holds what version 3 of the same cloud 
     const std::size_t rest = 3 * static_cast<std::size_t>(sh_rest_coefficients(degree));
     std::string table, streams;
     std::size_t begin = 16;
-    for (const std::size_t bytes : {std::size_t{9}, std::size_t{1}, std::size_t{3}, std::size_t{3}, std::size_t{4}, rest}) {
+    for (const std::size_t bytes :
+         {std::size_t{9}, std::size_t{1}, std::size_t{3}, std::size_t{3}, std::size_t{4}, rest}) {
       if (bytes == 0) continue;
       const std::string packed = zstd(v3.substr(begin, 500 * bytes));
       table += bytes_of(std::uint64_t{packed.size()}) + bytes_of(std::uint64_t{500 * bytes});
@@ -87,23 +88,28 @@ TEST_CASE("spz: version 4, zstd streams, holds what version 3 of the same cloud 
   }
 }
 
-TEST_CASE("compressed ply by hand: old chunks of 12 numbers have colours in 0..1, newer ones of 18 their own range") {
+TEST_CASE(
+    "compressed ply by hand: old chunks of 12 numbers have colours in 0..1, newer ones of 18 their own "
+    "range") {
   const Folder folder;
   const auto file = [](bool with_colour) {
     std::string text = "ply\nformat binary_little_endian 1.0\nelement chunk 1\n";
-    for (const char* bound : {"min_x", "min_y", "min_z", "max_x", "max_y", "max_z", "min_scale_x", "min_scale_y",
-                              "min_scale_z", "max_scale_x", "max_scale_y", "max_scale_z"})
+    for (const char* bound : {"min_x", "min_y", "min_z", "max_x", "max_y", "max_z", "min_scale_x",
+                              "min_scale_y", "min_scale_z", "max_scale_x", "max_scale_y", "max_scale_z"})
       text += "property float " + std::string(bound) + "\n";
     if (with_colour)
       for (const char* bound : {"min_r", "min_g", "min_b", "max_r", "max_g", "max_b"})
         text += "property float " + std::string(bound) + "\n";
     text += "element vertex 2\n";
-    for (const char* field : {"position", "rotation", "scale", "color"}) text += "property uint packed_" + std::string(field) + "\n";
+    for (const char* field : {"position", "rotation", "scale", "color"})
+      text += "property uint packed_" + std::string(field) + "\n";
     text += "end_header\n";
-    for (const float v : {-1.0f, 0.0f, 2.0f, 3.0f, 4.0f, 6.0f, -5.0f, -5.0f, -5.0f, -1.0f, -3.0f, -2.0f}) text += bytes_of(v);
+    for (const float v : {-1.0f, 0.0f, 2.0f, 3.0f, 4.0f, 6.0f, -5.0f, -5.0f, -5.0f, -1.0f, -3.0f, -2.0f})
+      text += bytes_of(v);
     if (with_colour)
       for (const float v : {-0.5f, 0.0f, 0.0f, 1.5f, 1.0f, 2.0f}) text += bytes_of(v);
-    // The least of every range, no rotation (w the largest: 512 of 1023 in the rest), black, opacity 0x33 / 255.
+    // The least of every range, no rotation (w the largest: 512 of 1023 in the rest), black, opacity 0x33 /
+    // 255.
     const std::uint32_t none = 512u << 20 | 512u << 10 | 512u;
     for (const std::uint32_t v : {0u, none, 0u, 0x33u}) text += bytes_of(v);
     // The most of every range.

@@ -21,9 +21,10 @@ using namespace splatcut::testing;
 
 namespace {
 
-void add_view(const GaussianCloud& cloud, const Camera& camera, const std::vector<std::uint8_t>& object, int dilation_px,
-              MaskedSums& sums) {
-  add_masked_view(cloud, camera, dilated(thresholded(render_labels(cloud, camera, object), 0.5f), dilation_px), sums);
+void add_view(const GaussianCloud& cloud, const Camera& camera, const std::vector<std::uint8_t>& object,
+              int dilation_px, MaskedSums& sums) {
+  add_masked_view(cloud, camera,
+                  dilated(thresholded(render_labels(cloud, camera, object), 0.5f), dilation_px), sums);
 }
 
 struct Labelled {
@@ -39,7 +40,8 @@ Labelled labelled_mug(std::size_t gaussians) {
   return out;
 }
 
-// Views come one by one, as in the pipeline; after each, the solver that is kept must say what a fresh one says.
+// Views come one by one, as in the pipeline; after each, the solver that is kept must say what a fresh one
+// says.
 void check_view_by_view(const Labelled& scene, std::size_t views) {
   const FlowGraph graph = knn_graph(scene.cloud);
   const std::vector<std::int32_t> capacity = arc_capacities(scene.cloud, graph, {});
@@ -67,7 +69,8 @@ void check_view_by_view(const Labelled& scene, std::size_t views) {
   }
   const Confidence sure = kept.confidence();
   std::size_t out_of_order = 0;
-  for (std::size_t g = 0; g < scene.cloud.size(); ++g) out_of_order += !(0 <= sure.at_least[g] && sure.at_least[g] <= sure.at_most[g]);
+  for (std::size_t g = 0; g < scene.cloud.size(); ++g)
+    out_of_order += !(0 <= sure.at_least[g] && sure.at_least[g] <= sure.at_most[g]);
   CHECK(out_of_order == 0);
 }
 
@@ -107,7 +110,8 @@ TEST_CASE("weights of Gaussians of infinite size are zero, of identical ones lam
   GaussianCloud cloud;
   cloud.resize(3, 0);
   cloud.scale = {glm::vec3(0.1f), glm::vec3(0.1f), glm::vec3(std::numeric_limits<float>::infinity())};
-  const FlowGraph graph = graph_from_edges(3, std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}, {1, 2}});
+  const FlowGraph graph =
+      graph_from_edges(3, std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}, {1, 2}});
   const auto capacity = arc_capacities(cloud, graph, {});
   CHECK(capacity[graph.first_arc[0]] == doctest::Approx(kCapacityScale).epsilon(1e-6));
   CHECK(capacity[graph.first_arc[2]] == 0);
@@ -118,20 +122,25 @@ TEST_CASE("view by view, the kept solver's labels are a fresh solver's, and its 
 }
 
 TEST_CASE("the same on captured scenes") {
-  const std::filesystem::path scenes = std::filesystem::path(SPLATCUT_SOURCE_DIR) / ".." / "shared" / "scenes";
+  const std::filesystem::path scenes =
+      std::filesystem::path(SPLATCUT_SOURCE_DIR) / ".." / "shared" / "scenes";
   if (!std::filesystem::exists(scenes)) {
     MESSAGE("skipped: no scenes");
     return;
   }
-  for (const char* name : {"plant_flowers.ply", "guitar_room.ply", "skull_occl.ply", "flowers.ply", "cup/point_cloud.ply"}) {
+  for (const char* name :
+       {"plant_flowers.ply", "guitar_room.ply", "skull_occl.ply", "flowers.ply", "cup/point_cloud.ply"}) {
     CAPTURE(name);
     Labelled scene{load_scene(scenes / name).cloud, {}, {}};
     // The object: what lies near the middle. Any set will do, the cut must be exact for it.
     const Box box = robust_bounds(scene.cloud.position, 0.5);
     const float reach = 0.3f * glm::length(box.extent());
-    for (const glm::vec3& p : scene.cloud.position) scene.object.push_back(glm::distance(p, box.centre()) < reach);
-    for (const glm::vec3& from : {glm::vec3(0, -0.4f, -1), glm::vec3(0.7f, -0.4f, 0.7f), glm::vec3(-0.9f, -0.3f, 0.2f)})
-      scene.cameras.push_back(look_at(box.centre() + from * glm::length(box.extent()), box.centre(), {0, -1, 0}, 0.8f, 160, 120));
+    for (const glm::vec3& p : scene.cloud.position)
+      scene.object.push_back(glm::distance(p, box.centre()) < reach);
+    for (const glm::vec3& from :
+         {glm::vec3(0, -0.4f, -1), glm::vec3(0.7f, -0.4f, 0.7f), glm::vec3(-0.9f, -0.3f, 0.2f)})
+      scene.cameras.push_back(
+          look_at(box.centre() + from * glm::length(box.extent()), box.centre(), {0, -1, 0}, 0.8f, 160, 120));
     check_view_by_view(scene, scene.cameras.size());
   }
 }

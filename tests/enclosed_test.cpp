@@ -13,7 +13,8 @@ TEST_CASE("enclosed: hidden pieces join the object that they touch alone, by han
   cloud.resize(8, 0);
   std::ranges::fill(cloud.opacity, 0.9f);
   cloud.opacity[7] = 0.05f;
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>> edges = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}, {3, 7}};
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>> edges = {{0, 1}, {1, 2}, {2, 3}, {3, 4},
+                                                                      {4, 5}, {5, 6}, {3, 7}};
   const FlowGraph graph = graph_from_edges(8, edges);
   using Labels = std::vector<std::uint8_t>;
   const Labels shown = {1, 1, 0, 0, 1, 0, 1, 0}, before = {1, 1, 0, 0, 1, 0, 0, 0};

@@ -23,7 +23,8 @@ GaussianCloud three_on_a_line() {
 }
 
 // psi of an edge, from its capacity.
-double psi(const GaussianCloud& cloud, const FlowGraph& graph, const EnergyOptions& options, std::uint32_t from, std::uint32_t to) {
+double psi(const GaussianCloud& cloud, const FlowGraph& graph, const EnergyOptions& options,
+           std::uint32_t from, std::uint32_t to) {
   const auto capacity = arc_capacities(cloud, graph, options);
   for (std::uint32_t arc = graph.first_arc[from]; arc < graph.first_arc[from + 1]; ++arc)
     if (graph.head[arc] == to) {
@@ -48,7 +49,8 @@ TEST_CASE("overlap: every part of psi can be left out, and what is left is its f
   CHECK(psi(cloud, graph, options, 1, 2) == doctest::Approx(std::exp(-0.5 * 4)).epsilon(kRounded));
   options.gamma_position = 0.2f;
   // Two balls of variance 1/4 two apart: D = 1/4 * 4 / (1/4 + ridge of 3e-3 / 4).
-  CHECK(psi(cloud, graph, options, 1, 2) == doctest::Approx(std::exp(-0.5 * 4 - 0.2 * 4 / 1.003)).epsilon(1e-4));
+  CHECK(psi(cloud, graph, options, 1, 2) ==
+        doctest::Approx(std::exp(-0.5 * 4 - 0.2 * 4 / 1.003)).epsilon(1e-4));
 }
 
 TEST_CASE("concavity: the angle between the shortest axes, whichever way they point") {
@@ -58,11 +60,14 @@ TEST_CASE("concavity: the angle between the shortest axes, whichever way they po
   cloud.rotation[1] = glm::angleAxis(kSixtyDegrees, glm::vec3(1, 0, 0));
   cloud.rotation[2] = glm::angleAxis(4 * kSixtyDegrees, glm::vec3(1, 0, 0));  // the same plane turned over
   const FlowGraph graph = knn_graph(cloud, {2});
-  for (const Pairwise kind : {Pairwise::kOverlap, Pairwise::kDistance, Pairwise::kPaper, Pairwise::kPaperCode}) {
+  for (const Pairwise kind :
+       {Pairwise::kOverlap, Pairwise::kDistance, Pairwise::kPaper, Pairwise::kPaperCode}) {
     EnergyOptions with, without;
     with.pairwise = without.pairwise = kind;
     with.concavity = 3;
-    const auto ratio = [&](std::uint32_t g, std::uint32_t h) { return psi(cloud, graph, with, g, h) / psi(cloud, graph, without, g, h); };
+    const auto ratio = [&](std::uint32_t g, std::uint32_t h) {
+      return psi(cloud, graph, with, g, h) / psi(cloud, graph, without, g, h);
+    };
     CHECK(ratio(0, 1) == doctest::Approx(std::exp(-3 * 0.5)).epsilon(1e-4));
     CHECK(ratio(1, 2) == doctest::Approx(1).epsilon(1e-4));
   }
@@ -76,14 +81,17 @@ TEST_CASE("distance: lengths count in medians of the graph") {
   options.gamma_position = 0.5f;
   options.gamma_colour = 0.25f;
   CHECK(psi(cloud, graph, options, 0, 1) == doctest::Approx(std::exp(-0.5 / 4)).epsilon(kRounded));
-  CHECK(psi(cloud, graph, options, 0, 2) == doctest::Approx(std::exp(-0.5 * 9 / 4 - 0.25 * 4)).epsilon(kRounded));
+  CHECK(psi(cloud, graph, options, 0, 2) ==
+        doctest::Approx(std::exp(-0.5 * 9 / 4 - 0.25 * 4)).epsilon(kRounded));
 }
 
 TEST_CASE("paper-code: plain distances, half and half, mutual neighbours twice") {
   const GaussianCloud cloud = three_on_a_line();
   const FlowGraph graph = knn_graph(cloud, {1});  // 0 and 1 choose each other, 2 chooses 1
   const EnergyOptions options = paper_code_energy();
-  const auto weight = [&](std::uint32_t g, std::uint32_t h) { return static_cast<double>(options.lambda) * psi(cloud, graph, options, g, h); };
+  const auto weight = [&](std::uint32_t g, std::uint32_t h) {
+    return static_cast<double>(options.lambda) * psi(cloud, graph, options, g, h);
+  };
   CHECK(weight(0, 1) == doctest::Approx(2 * (0.5 * std::exp(-1.0) + 0.5)).epsilon(kRounded));
   CHECK(weight(1, 2) == doctest::Approx(0.5 * std::exp(-2.0) + 0.5 * std::exp(-2.0)).epsilon(kRounded));
 }
@@ -93,14 +101,16 @@ TEST_CASE("the largest lambda on the largest psi stays within what the maximum f
   cloud.resize(2, 0);
   EnergyOptions options = paper_code_energy();
   options.lambda = 500;
-  for (const std::int32_t c : arc_capacities(cloud, knn_graph(cloud, {1}), options)) CHECK(c == (1 << 30) - 1);
+  for (const std::int32_t c : arc_capacities(cloud, knn_graph(cloud, {1}), options))
+    CHECK(c == (1 << 30) - 1);
 }
 
 TEST_CASE("data term: visibility on and off, what no view has seen") {
   const GaussianCloud cloud = three_on_a_line();
   const Likelihood seen{{1.0f, 0.25f, 0.0f}, {1000, 4.8f, 0}};
   const auto net = [&](const EnergyOptions& options, std::size_t g) {
-    return static_cast<double>(terminals(cloud, seen, 12, 400.0 * 300.0, options).net[g]) / kCapacityScale;  // v0 = 9.6 px
+    return static_cast<double>(terminals(cloud, seen, 12, 400.0 * 300.0, options).net[g]) /
+           kCapacityScale;  // v0 = 9.6 px
   };
   EnergyOptions options;
   CHECK(net(options, 0) == doctest::Approx(1).epsilon(kRounded));
@@ -132,7 +142,8 @@ TEST_CASE("cluster term: the likest cluster of either side") {
   CHECK(net(paper) == doctest::Approx(std::exp(-9.0) - std::exp(-36.0)).epsilon(1e-4));
   paper.lambda_u = 0;
   CHECK(net(paper) == 0);
-  const EnergyOptions code = paper_code_energy();  // a cluster per Gaussian, mean colours (1/2, 0, 0) and (0, 1/2, 0)
+  const EnergyOptions code =
+      paper_code_energy();  // a cluster per Gaussian, mean colours (1/2, 0, 0) and (0, 1/2, 0)
   CHECK(net(code) == doctest::Approx(0.5 * (std::exp(-0.1 * 2) - std::exp(-0.1 * 6))).epsilon(1e-5));
 }
 

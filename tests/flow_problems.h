@@ -19,12 +19,14 @@ struct FlowProblem {
   std::vector<std::int64_t> terminal;
 };
 
-// Capacities in [0, range), terminals in [-range, range): small ranges make ties and zeros common, few edges leave
-// parts disconnected.
-inline FlowProblem random_problem(std::mt19937& random, std::uint32_t nodes, std::size_t edge_count, int range) {
+// Capacities in [0, range), terminals in [-range, range): small ranges make ties and zeros common, few edges
+// leave parts disconnected.
+inline FlowProblem random_problem(std::mt19937& random, std::uint32_t nodes, std::size_t edge_count,
+                                  int range) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (std::size_t e = 0; e < edge_count; ++e) {
-    const auto a = static_cast<std::uint32_t>(random() % nodes), b = static_cast<std::uint32_t>(random() % nodes);
+    const auto a = static_cast<std::uint32_t>(random() % nodes),
+               b = static_cast<std::uint32_t>(random() % nodes);
     if (a != b) edges.insert(std::minmax(a, b));
   }
   FlowProblem p;
@@ -36,7 +38,8 @@ inline FlowProblem random_problem(std::mt19937& random, std::uint32_t nodes, std
 }
 
 // A grid of width x height nodes with eight neighbours: a blob of sources in a field of sinks, noise on both.
-inline FlowProblem grid_problem(std::mt19937& random, std::uint32_t width, std::uint32_t height, int noise_percent) {
+inline FlowProblem grid_problem(std::mt19937& random, std::uint32_t width, std::uint32_t height,
+                                int noise_percent) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   const auto at = [&](std::uint32_t x, std::uint32_t y) { return y * width + x; };
   for (std::uint32_t y = 0; y < height; ++y)
@@ -51,7 +54,8 @@ inline FlowProblem grid_problem(std::mt19937& random, std::uint32_t width, std::
   p.capacity.resize(p.graph.arcs());
   for (std::uint32_t n = 0; n < p.graph.nodes(); ++n)
     for (std::uint32_t arc = p.graph.first_arc[n]; arc < p.graph.first_arc[n + 1]; ++arc)
-      if (p.graph.head[arc] > n) p.capacity[arc] = p.capacity[p.graph.reverse_arc[arc]] = static_cast<int>(random() % 400);
+      if (p.graph.head[arc] > n)
+        p.capacity[arc] = p.capacity[p.graph.reverse_arc[arc]] = static_cast<int>(random() % 400);
   for (std::uint32_t y = 0; y < height; ++y)
     for (std::uint32_t x = 0; x < width; ++x) {
       const double dx = (x + 0.5) / width - 0.5, dy = (y + 0.5) / height - 0.5;
@@ -77,8 +81,10 @@ inline BruteForceCut brute_force(const FlowProblem& p, std::uint32_t fixed = 0, 
     if ((cut & fixed) != (sides & fixed)) continue;
     for (std::uint32_t n = 0; n < nodes; ++n) side[n] = cut >> n & 1;
     const std::int64_t energy = cut_energy(p.graph, p.capacity, p.terminal, side);
-    if (energy < best.energy) best = {energy, cut};
-    else if (energy == best.energy) best.source_set &= cut;  // minimum cuts are closed under intersection
+    if (energy < best.energy)
+      best = {energy, cut};
+    else if (energy == best.energy)
+      best.source_set &= cut;  // minimum cuts are closed under intersection
   }
   return best;
 }
@@ -87,10 +93,12 @@ inline std::int64_t boost_flow(const FlowProblem& p) {
   using namespace boost;
   using Traits = adjacency_list_traits<vecS, vecS, directedS>;
   using Predecessor = property<vertex_predecessor_t, Traits::edge_descriptor>;
-  using Vertex = property<vertex_index_t, long,
-                          property<vertex_color_t, default_color_type, property<vertex_distance_t, long, Predecessor>>>;
-  using Edge = property<edge_capacity_t, long,
-                        property<edge_residual_capacity_t, long, property<edge_reverse_t, Traits::edge_descriptor>>>;
+  using Vertex =
+      property<vertex_index_t, long,
+               property<vertex_color_t, default_color_type, property<vertex_distance_t, long, Predecessor>>>;
+  using Edge =
+      property<edge_capacity_t, long,
+               property<edge_residual_capacity_t, long, property<edge_reverse_t, Traits::edge_descriptor>>>;
   const std::size_t nodes = p.graph.nodes();
   adjacency_list<vecS, vecS, directedS, Vertex, Edge> g(nodes + 2);
   auto capacity = get(edge_capacity, g);
@@ -106,7 +114,8 @@ inline std::int64_t boost_flow(const FlowProblem& p) {
     if (p.terminal[n] > 0) add(nodes, n, p.terminal[n], 0);
     if (p.terminal[n] < 0) add(n, nodes + 1, -p.terminal[n], 0);
     for (std::uint32_t arc = p.graph.first_arc[n]; arc < p.graph.first_arc[n + 1]; ++arc)
-      if (p.graph.head[arc] > n) add(n, p.graph.head[arc], p.capacity[arc], p.capacity[p.graph.reverse_arc[arc]]);
+      if (p.graph.head[arc] > n)
+        add(n, p.graph.head[arc], p.capacity[arc], p.capacity[p.graph.reverse_arc[arc]]);
   }
   return boykov_kolmogorov_max_flow(g, nodes, nodes + 1);
 }

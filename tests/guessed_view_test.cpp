@@ -96,9 +96,11 @@ TEST_CASE(
   CHECK_FALSE(better_first_view(object, around, {0, -1, 0}, outside_of(around)));
 }
 
-TEST_CASE("view of all: the box lies in the picture with air around it, upright, seen from above, whatever is up") {
+TEST_CASE(
+    "view of all: the box lies in the picture with air around it, upright, seen from above, whatever is up") {
   const Box bounds{{-2, -1, -3}, {4, 1, 2}};
-  for (const glm::vec3 up : {glm::vec3(0, -1, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 2), glm::vec3(1, 0, 0)}) {
+  for (const glm::vec3 up :
+       {glm::vec3(0, -1, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 2), glm::vec3(1, 0, 0)}) {
     CAPTURE(up.x);
     CAPTURE(up.y);
     const Camera view = view_of_all(bounds, up, 0.87f, 640, 480);

@@ -1,4 +1,5 @@
-// The whole program over Mesa's software rasteriser in memory (or another context), driven by the events a window would send.
+// The whole program over Mesa's software rasteriser in memory (or another context), driven by the events a
+// window would send.
 #pragma once
 
 #include <unistd.h>

@@ -15,7 +15,9 @@ const std::map<std::string, std::vector<std::string>> kForbidden = {
     {"render", {"segment/", "app/", "opencv2/", "imgui"}},
 };
 
-bool header(const std::filesystem::path& path) { return path.extension() == ".h"; }
+bool header(const std::filesystem::path& path) {
+  return path.extension() == ".h";
+}
 
 }  // namespace
 
@@ -46,10 +48,12 @@ TEST_CASE("no layer includes a layer above it") {
   CHECK(files > 20);
 }
 
-// CMake takes a semicolon for the end of a list's item: such a case would be found by doctest and run by nobody.
+// CMake takes a semicolon for the end of a list's item: such a case would be found by doctest and run by
+// nobody.
 TEST_CASE("no test case has a semicolon in its name") {
   int names = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SPLATCUT_SOURCE_DIR) / "tests")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(SPLATCUT_SOURCE_DIR) / "tests")) {
     std::ifstream in(entry.path());
     for (std::string line; std::getline(in, line);) {
       if (!line.starts_with("TEST_CASE(\"")) continue;

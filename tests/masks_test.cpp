@@ -1,4 +1,5 @@
-// Masks settled by pixels and carried between views, trajectories, disturbances: by hand, by geometry, by brute force.
+// Masks settled by pixels and carried between views, trajectories, disturbances: by hand, by geometry, by
+// brute force.
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
@@ -8,8 +9,8 @@
 #include <set>
 
 #include "scene/error.h"
-#include "scene/rasterizer.h"
 #include "scene/png_file.h"
+#include "scene/rasterizer.h"
 #include "segment/doubts.h"
 #include "segment/mask_disturbance.h"
 #include "segment/mask_tools.h"
@@ -27,7 +28,8 @@ namespace {
 Mask disc(int width, int height, float cx, float cy, float radius) {
   Mask mask(width, height);
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) mask.at(x, y) = std::hypot(x + 0.5 - cx, y + 0.5 - cy) <= radius ? kMaskObject : 0;
+    for (int x = 0; x < width; ++x)
+      mask.at(x, y) = std::hypot(x + 0.5 - cx, y + 0.5 - cy) <= radius ? kMaskObject : 0;
   return mask;
 }
 
@@ -35,24 +37,29 @@ Mask disc(int width, int height, float cx, float cy, float radius) {
 Image<Rgb8> painted(const Mask& mask, unsigned seed) {
   std::mt19937 random(seed);
   Image<Rgb8> picture(mask.width(), mask.height());
-  const auto byte = [&](int middle) { return static_cast<std::uint8_t>(middle + static_cast<int>(random() % 31) - 15); };
+  const auto byte = [&](int middle) {
+    return static_cast<std::uint8_t>(middle + static_cast<int>(random() % 31) - 15);
+  };
   for (std::size_t i = 0; i < mask.size(); ++i)
-    picture.pixels()[i] = mask.pixels()[i] ? Rgb8{byte(190), byte(60), byte(50)} : Rgb8{byte(110), byte(120), byte(125)};
+    picture.pixels()[i] =
+        mask.pixels()[i] ? Rgb8{byte(190), byte(60), byte(50)} : Rgb8{byte(110), byte(120), byte(125)};
   return picture;
 }
-
 
 // What a view of the mug scene shows, with the true mask.
 SeenView look(const MugScene& scene, const Camera& camera) {
   RasterOptions options;
   options.depth = true;
   const RasterOutput out = rasterize(scene.cloud, camera, options);
-  return {camera, rgb8_from_linear(out.colour), out.expected_depth, thresholded(render_labels(scene.cloud, camera, scene.mug), 0.5f)};
+  return {camera, rgb8_from_linear(out.colour), out.expected_depth,
+          thresholded(render_labels(scene.cloud, camera, scene.mug), 0.5f)};
 }
 
 }  // namespace
 
-TEST_CASE("masks: both solvers find a painted disc from a prior two pixels off, and keep what is outside of the band") {
+TEST_CASE(
+    "masks: both solvers find a painted disc from a prior two pixels off, and keep what is outside of the "
+    "band") {
   const Mask truth = disc(120, 90, 60, 45, 25);
   const Image<Rgb8> picture = painted(truth, 5);
   const Image<float> depth(120, 90, 1.0f);
@@ -111,7 +118,8 @@ TEST_CASE("masks: through depth and along flow into a view some degrees on, the 
   orbit.elevation_swing_rad = 0;
   orbit.distance_sizes = glm::distance(first.centre_world(), mug.centre_world) / (2 * mug.radius);
   const std::vector<Camera> around = orbit_cameras(first, {0, -1, 0}, mug, orbit);
-  const SeenView aimed = look(scene, look_at(first.centre_world(), mug.centre_world, {0, -1, 0}, 0.8f, 320, 240));
+  const SeenView aimed =
+      look(scene, look_at(first.centre_world(), mug.centre_world, {0, -1, 0}, 0.8f, 320, 240));
   const SeenView to = look(scene, limited_to_width(around[0], 320));
   REQUIRE(count(to.mask) > 200);
   CHECK(iou(warped_by_depth(from, to.camera, to.depth), to.mask) > 0.85);
@@ -119,17 +127,22 @@ TEST_CASE("masks: through depth and along flow into a view some degrees on, the 
   near.camera_from_world_translation += glm::vec3(0.05f, 0, 0) * mug.radius;
   const SeenView beside = look(scene, near);
   CHECK(iou(warped_by_flow(aimed, beside.picture), beside.mask) > 0.9);
-  tbb::task_arena(1).execute([&] { CHECK(warped_by_flow(aimed, beside.picture) == warped_by_flow(aimed, beside.picture)); });
+  tbb::task_arena(1).execute(
+      [&] { CHECK(warped_by_flow(aimed, beside.picture) == warped_by_flow(aimed, beside.picture)); });
   // Into itself: everything comes back but what its own depth cannot vouch for.
   CHECK(iou(warped_by_depth(from, first, from.depth), from.mask) > 0.999);
 }
 
-TEST_CASE("trajectories: a circle of cameras is no front, cameras side by side are, the spiral stays within their angles") {
+TEST_CASE(
+    "trajectories: a circle of cameras is no front, cameras side by side are, the spiral stays within their "
+    "angles") {
   std::vector<Camera> ring, row;
   for (int i = 0; i < 12; ++i) {
     const float angle = glm::two_pi<float>() * static_cast<float>(i) / 12;
-    ring.push_back(look_at({4 * std::cos(angle), -2, 4 * std::sin(angle)}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120));
-    row.push_back(look_at({0.2f * static_cast<float>(i) - 1.1f, -0.3f, -4}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120));
+    ring.push_back(
+        look_at({4 * std::cos(angle), -2, 4 * std::sin(angle)}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120));
+    row.push_back(
+        look_at({0.2f * static_cast<float>(i) - 1.1f, -0.3f, -4}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120));
   }
   CHECK_FALSE(front_facing(ring));
   CHECK(front_facing(row));
@@ -137,7 +150,9 @@ TEST_CASE("trajectories: a circle of cameras is no front, cameras side by side a
   const ObjectExtent object{{0, 0, 0}, 0.5f};
   OrbitOptions options;
   options.views = 10;
-  const auto sideways = [](const Camera& c) { return std::abs(std::atan2(c.centre_world().x, -c.centre_world().z)); };
+  const auto sideways = [](const Camera& c) {
+    return std::abs(std::atan2(c.centre_world().x, -c.centre_world().z));
+  };
   float widest = 0;
   for (const Camera& camera : row) widest = std::max(widest, sideways(camera));
   for (const Camera& camera : cameras_around(row[5], {0, -1, 0}, object, row, options)) {
@@ -149,7 +164,8 @@ TEST_CASE("trajectories: a circle of cameras is no front, cameras side by side a
   options.elevation_swing_rad = 0;
   const Camera low = look_at({0, 0, -4}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120);
   for (const Camera& camera : cameras_around(low, {0, -1, 0}, object, ring, options))
-    CHECK(std::asin(-camera.centre_world().y / glm::length(camera.centre_world())) == doctest::Approx(std::atan(0.5f)).epsilon(0.01));
+    CHECK(std::asin(-camera.centre_world().y / glm::length(camera.centre_world())) ==
+          doctest::Approx(std::atan(0.5f)).epsilon(0.01));
 }
 
 TEST_CASE("trajectories: an approached camera keeps its direction at its share of the distance") {
@@ -159,7 +175,8 @@ TEST_CASE("trajectories: an approached camera keeps its direction at its share o
   CHECK(nearer.forward_world() == camera.forward_world());
 }
 
-TEST_CASE("the unsteady robot clicks the same region as the steady one, elsewhere, the same for the same draw") {
+TEST_CASE(
+    "the unsteady robot clicks the same region as the steady one, elsewhere, the same for the same draw") {
   const Mask truth = disc(120, 90, 60, 45, 25), nothing(120, 90);
   std::set<std::pair<float, float>> places;
   for (std::uint64_t draw = 1; draw <= 20; ++draw) {
@@ -200,16 +217,20 @@ TEST_CASE("doubts: another size, masks left out, and a cutout that most masks sp
   report.ambiguous = true;
   report.first_sizes = 5;
   report.first_size = 1;
-  CHECK(doubts(report) == std::vector<std::string>{"the first click could mean a part of another size: this is size 2 of 5"});
+  CHECK(doubts(report) ==
+        std::vector<std::string>{"the first click could mean a part of another size: this is size 2 of 5"});
   report.ambiguous = false;
   report.views[1].used = false;
   report.views[1].reason = "the object is hidden here";
   CHECK(doubts(report).empty());
   report.views[1].disagreed = true;
-  CHECK(doubts(report) == std::vector<std::string>{"1 of 4 masks were left out, they disagree with the others"});
+  CHECK(doubts(report) ==
+        std::vector<std::string>{"1 of 4 masks were left out, they disagree with the others"});
   report.views[1].disagreed = false;
   report.views[2].confidence = report.views[3].confidence = 0.1;
-  CHECK(doubts(report) == std::vector<std::string>{"2 of 3 masks disagree with the cutout: it is not to be trusted, look at the masks"});
+  CHECK(doubts(report) ==
+        std::vector<std::string>{
+            "2 of 3 masks disagree with the cutout: it is not to be trusted, look at the masks"});
 
   Mask& first = report.views.front().mask;
   const auto of_first = [&](int x0, int y0, int x1, int y1) {
@@ -219,7 +240,9 @@ TEST_CASE("doubts: another size, masks left out, and a cutout that most masks sp
     return doubts_of_views(std::span(report.views).first(1));
   };
   CHECK(of_first(80, 40, 97, 57).empty());
-  CHECK(of_first(80, 40, 92, 52) == std::vector<std::string>{"the object is small in the first view, 6 % of its width: come nearer"});
+  CHECK(of_first(80, 40, 92, 52) ==
+        std::vector<std::string>{"the object is small in the first view, 6 % of its width: come nearer"});
   CHECK(of_first(0, 0, 40, 20).empty());  // a corner: 60 of 596 pixels of the frame
-  CHECK(of_first(0, 0, 200, 20) == std::vector<std::string>{"the object runs out of the first view: step back"});
+  CHECK(of_first(0, 0, 200, 20) ==
+        std::vector<std::string>{"the object runs out of the first view: step back"});
 }

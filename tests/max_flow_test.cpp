@@ -48,8 +48,10 @@ TEST_CASE("min_cut finds the least energy, and its smallest source set, of all c
   std::mt19937 random(5);
   for (int trial = 0; trial < 1000; ++trial) {
     CAPTURE(trial);
-    const auto nodes = static_cast<std::uint32_t>(2 + random() % (trial % 20 == 0 ? 13 : 9));  // 2^14 cuts are slow to list
-    const FlowProblem p = random_problem(random, nodes, random() % (3 * nodes), 1 + static_cast<int>(random() % 12));
+    const auto nodes =
+        static_cast<std::uint32_t>(2 + random() % (trial % 20 == 0 ? 13 : 9));  // 2^14 cuts are slow to list
+    const FlowProblem p =
+        random_problem(random, nodes, random() % (3 * nodes), 1 + static_cast<int>(random() % 12));
     const BruteForceCut best = brute_force(p);
     const MinCutReport report = min_cut(p.graph, p.capacity, p.terminal);
     REQUIRE(report.energy == best.energy);
@@ -61,8 +63,11 @@ TEST_CASE("min_cut finds the least energy, and its smallest source set, of all c
 TEST_CASE("min_cut has the flow of Boost's solver on 110 graphs of up to 200,000 nodes") {
   std::mt19937 random(9);
   std::vector<FlowProblem> problems;
-  for (int i = 0; i < 50; ++i) problems.push_back(random_problem(random, 200 + static_cast<std::uint32_t>(random() % 1000), 2500, 1 + 1000 * (i % 2)));
-  for (std::uint32_t i = 0; i < 57; ++i) problems.push_back(grid_problem(random, 20 + i, 30, static_cast<int>(i) % 40));
+  for (int i = 0; i < 50; ++i)
+    problems.push_back(
+        random_problem(random, 200 + static_cast<std::uint32_t>(random() % 1000), 2500, 1 + 1000 * (i % 2)));
+  for (std::uint32_t i = 0; i < 57; ++i)
+    problems.push_back(grid_problem(random, 20 + i, 30, static_cast<int>(i) % 40));
   problems.push_back(random_problem(random, 30000, 120000, 1000));
   problems.push_back(grid_problem(random, 200, 200, 20));
   problems.push_back(grid_problem(random, 500, 400, 5));
@@ -97,7 +102,8 @@ TEST_CASE("after each of 1000 changes of one graph the warm solve is the cold on
   constexpr int kRange = 1000;
   for (int change = 0; change < 1000; ++change) {
     CAPTURE(change);
-    change_terminals(random, 1 + static_cast<int>(random() % (change % 50 == 0 ? 800 : 12)), kRange, p, max_flow);
+    change_terminals(random, 1 + static_cast<int>(random() % (change % 50 == 0 ? 800 : 12)), kRange, p,
+                     max_flow);
     check_as_cold(max_flow, p);
   }
   CHECK(max_flow.cold_starts() < 20);
@@ -166,7 +172,8 @@ TEST_CASE("other capacities, arc by arc at random, against brute force") {
       REQUIRE(max_flow.flow() == best.energy);
       REQUIRE(max_flow.energy() == best.energy);
       REQUIRE(max_flow.source_set() == bits(best.source_set, 8));
-      for (std::int32_t& c : p.capacity) c = static_cast<std::int32_t>(random() % static_cast<unsigned>(1 + graph % 6));
+      for (std::int32_t& c : p.capacity)
+        c = static_cast<std::int32_t>(random() % static_cast<unsigned>(1 + graph % 6));
       kept.push_back(p.capacity);
       max_flow.set_capacity(kept.back());
       change_terminals(random, static_cast<int>(random() % 3), 1 + graph % 6, p, max_flow);
@@ -256,7 +263,8 @@ TEST_CASE("confidence: the bounds hold the min-marginal, which brute force confi
   for (int trial = 0; trial < 100; ++trial) {
     CAPTURE(trial);
     const auto nodes = static_cast<std::uint32_t>(3 + random() % 7);
-    const FlowProblem p = random_problem(random, nodes, random() % (3 * nodes), 1 + static_cast<int>(random() % 12));
+    const FlowProblem p =
+        random_problem(random, nodes, random() % (3 * nodes), 1 + static_cast<int>(random() % 12));
     MaxFlow max_flow = cold(p);
     REQUIRE(max_flow.solve());
     const BruteForceCut best = brute_force(p);

@@ -1,4 +1,5 @@
-// What the window runs after every stroke: the same labels whatever was cut before, and a heat map of what was weighed.
+// What the window runs after every stroke: the same labels whatever was cut before, and a heat map of what
+// was weighed.
 #include "segment/object_cut.h"
 
 #include <doctest/doctest.h>
@@ -40,7 +41,8 @@ ObjectCutInput click_on(const std::string& object) {
   const auto seed = std::ranges::find(scene.seeds, object, &LabelledScene::SeedClick::object);
   REQUIRE(seed != scene.seeds.end());
   ObjectCutInput input;
-  input.views = {{scene.cameras[static_cast<std::size_t>(seed->camera)], {click(seed->pixel, SeedLabel::kObject)}}};
+  input.views = {
+      {scene.cameras[static_cast<std::size_t>(seed->camera)], {click(seed->pixel, SeedLabel::kObject)}}};
   return input;
 }
 

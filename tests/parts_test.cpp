@@ -175,9 +175,12 @@ TEST_CASE("parts: clicks on four stripes, worked out by hand") {
   const PartView view = view_parts(parts, four_stripes());
   PickOptions options;
   options.cut_weight = 1;
-  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty = options.large_penalty = 0;
+  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty =
+      options.large_penalty = 0;
   using Leaves = std::vector<std::uint8_t>;
-  const auto leaves = [&](const Strokes& strokes) { return pick_parts(parts, view, strokes, options).leaves; };
+  const auto leaves = [&](const Strokes& strokes) {
+    return pick_parts(parts, view, strokes, options).leaves;
+  };
   const auto object = [](float x) { return click({x, 5}, SeedLabel::kObject); };
   const auto rest = [](float x) { return click({x, 5}, SeedLabel::kRest); };
   // The pair has the least border for its size: ln(0.001 / sqrt 2) against ln 1 of a leaf.
@@ -195,7 +198,8 @@ TEST_CASE("parts: clicks on four stripes, worked out by hand") {
   options.scale_steps = 0;
   CHECK(leaves({object(5), object(7)}) == Leaves{1, 1, 0, 0});
   // One size smaller and larger; beyond the last there is none.
-  for (const auto& [steps, expected] : std::map<int, Leaves>{{-1, {1, 0, 0, 0}}, {-9, {1, 0, 0, 0}}, {1, {1, 1, 1, 1}}, {9, {1, 1, 1, 1}}}) {
+  for (const auto& [steps, expected] :
+       std::map<int, Leaves>{{-1, {1, 0, 0, 0}}, {-9, {1, 0, 0, 0}}, {1, {1, 1, 1, 1}}, {9, {1, 1, 1, 1}}}) {
     options.scale_steps = steps;
     CHECK(leaves({object(5)}) == expected);
   }
@@ -208,14 +212,18 @@ TEST_CASE("parts: clicks on four stripes, worked out by hand") {
   CHECK(count(mask_of(view, pick.leaves)) == 200);
 }
 
-TEST_CASE("parts: an object click just beside what is selected is not lost, a rest click just inside takes no more than it means") {
+TEST_CASE(
+    "parts: an object click just beside what is selected is not lost, a rest click just inside takes no more "
+    "than it means") {
   const PartHierarchy parts = four_leaves();
   const PartView view = view_parts(parts, four_stripes());
   PickOptions options;
   options.scale_steps = -10;  // the first click takes its leaf alone
   using Leaves = std::vector<std::uint8_t>;
   const auto leaves = [&](float x) {
-    return pick_parts(parts, view, {click({5, 5}, SeedLabel::kObject), click({x, 5}, SeedLabel::kObject)}, options).leaves;
+    return pick_parts(parts, view, {click({5, 5}, SeedLabel::kObject), click({x, 5}, SeedLabel::kObject)},
+                      options)
+        .leaves;
   };
   CHECK(leaves(12.5f) == Leaves{1, 1, 0, 0});
   // At the very border, a stripe of a hundred pixels looks like a slip.
@@ -225,7 +233,8 @@ TEST_CASE("parts: an object click just beside what is selected is not lost, a re
   options.change_most_of_selected = 0;
   CHECK(leaves(10.5f) == Leaves{1, 0, 0, 0});
   const Strokes slip = {click({5, 5}, SeedLabel::kObject), click({9, 5}, SeedLabel::kRest)};
-  CHECK(pick_parts(parts, view, slip, PickOptions{.scale_steps = -10}).leaves == std::vector<std::uint8_t>{1, 0, 0, 0});
+  CHECK(pick_parts(parts, view, slip, PickOptions{.scale_steps = -10}).leaves ==
+        std::vector<std::uint8_t>{1, 0, 0, 0});
 }
 
 TEST_CASE("parts: a correction that brings much of what the view hides is not meant") {
@@ -234,7 +243,8 @@ TEST_CASE("parts: a correction that brings much of what the view hides is not me
   parts.trees[0].cut = {1, 1, 1, 1, 1, 0.5f, 1};  // the right pair looks a little likelier than its stripes
   PickOptions options;
   options.cut_weight = 1;
-  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty = options.large_penalty = 0;
+  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty =
+      options.large_penalty = 0;
   options.joint_bonus = 0;
   options.scale_steps = -10;
   const Strokes strokes = {click({5, 5}, SeedLabel::kObject), click({25, 5}, SeedLabel::kObject)};
@@ -250,10 +260,13 @@ TEST_CASE("parts: a correction that brings much of what the view hides is not me
 TEST_CASE("parts: a part that holds all object clicks is likelier meant than one that holds the last alone") {
   PartHierarchy parts = four_leaves();
   const PartView view = view_parts(parts, four_stripes());
-  parts.trees[0].cut = {1, 1, 1, 1, 2, 2, 2.5f};  // the whole looks a little less likely than a stripe: ln(2.5 / 2) against ln 1
+  parts.trees[0].cut = {
+      1, 1, 1,   1,
+      2, 2, 2.5f};  // the whole looks a little less likely than a stripe: ln(2.5 / 2) against ln 1
   PickOptions options;
   options.cut_weight = 1;
-  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty = options.large_penalty = options.change_small = 0;
+  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty =
+      options.large_penalty = options.change_small = 0;
   options.scale_steps = -10;  // the first click takes its stripe
   const Strokes strokes = {click({5, 5}, SeedLabel::kObject), click({25, 5}, SeedLabel::kObject)};
   using Leaves = std::vector<std::uint8_t>;
@@ -271,7 +284,8 @@ TEST_CASE("parts: from the third object click on, a part much larger than what i
   const PartView view = view_parts(parts, four_stripes());
   parts.trees[0].cut = {1, 1, 1, 1, 2, 2, 2};
   PickOptions options;
-  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty = options.large_penalty = options.change_small = 0;
+  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty =
+      options.large_penalty = options.change_small = 0;
   options.scale_steps = -10;
   const Strokes two = {click({5, 5}, SeedLabel::kObject), click({25, 5}, SeedLabel::kObject)};
   Strokes three = two;
@@ -307,7 +321,8 @@ TEST_CASE("parts: the true mask of one view selects the whole object of the stil
   for (const std::string object : {"apple", "pot", "books"}) {
     const Target on = target(t, object);
     const auto index = std::ranges::find(t.scene.label_name, object) - t.scene.label_name.begin();
-    const std::vector<std::uint8_t> labels = labels_of(t.prepared.parts, parts_of_mask(t.prepared.parts, on.view, on.truth));
+    const std::vector<std::uint8_t> labels =
+        labels_of(t.prepared.parts, parts_of_mask(t.prepared.parts, on.view, on.truth));
     double both = 0, either = 0;
     for (std::size_t g = 0; g < labels.size(); ++g) {
       both += labels[g] && t.label[g] == index;
@@ -331,7 +346,8 @@ TEST_CASE("parts: object clicks only add, rest clicks only remove, wherever they
                               object ? SeedLabel::kObject : SeedLabel::kRest));
       const std::vector<std::uint8_t> after = pick_parts(t.prepared.parts, on.view, strokes).leaves;
       bool monotone = true;
-      for (std::size_t l = 0; l < after.size(); ++l) monotone &= object ? after[l] >= before[l] : after[l] <= before[l];
+      for (std::size_t l = 0; l < after.size(); ++l)
+        monotone &= object ? after[l] >= before[l] : after[l] <= before[l];
       CHECK(monotone);
       before = after;
     }
@@ -371,7 +387,8 @@ TEST_CASE("parts: cancelled before, or at any step that reports progress, withou
   job.stop = stopped.get_token();
   CHECK(prepare_scene(cloud, camera, {0, -1, 0}, {}, {}, job).parts.trees.empty());
   const PreparedScene prepared = prepare_scene(cloud, camera, {0, -1, 0}, {});
-  const Mask none = first_mask_of(cloud, prepared, camera, {click({80, 60}, SeedLabel::kObject)}, preset("default"), job);
+  const Mask none =
+      first_mask_of(cloud, prepared, camera, {click({80, 60}, SeedLabel::kObject)}, preset("default"), job);
   CHECK(none.width() == 160);
   CHECK(count(none) == 0);
 }

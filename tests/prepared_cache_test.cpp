@@ -19,19 +19,23 @@ using namespace splatcut::testing;
 namespace {
 
 struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("splatcut_cache_test_" + std::to_string(::getpid()));
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("splatcut_cache_test_" + std::to_string(::getpid()));
   Folder() { std::filesystem::create_directories(path); }
   ~Folder() { std::filesystem::remove_all(path); }
 };
 
 bool same(const PreparedScene& a, const PreparedScene& b) {
-  if (a.graph.first_arc != b.graph.first_arc || a.graph.head != b.graph.head || a.graph.reverse_arc != b.graph.reverse_arc ||
-      a.graph.listed != b.graph.listed || a.parts.leaves != b.parts.leaves || a.parts.leaf_of != b.parts.leaf_of ||
+  if (a.graph.first_arc != b.graph.first_arc || a.graph.head != b.graph.head ||
+      a.graph.reverse_arc != b.graph.reverse_arc || a.graph.listed != b.graph.listed ||
+      a.parts.leaves != b.parts.leaves || a.parts.leaf_of != b.parts.leaf_of ||
       a.parts.trees.size() != b.parts.trees.size())
     return false;
   for (std::size_t t = 0; t < a.parts.trees.size(); ++t) {
     const PartTree &x = a.parts.trees[t], &y = b.parts.trees[t];
-    if (x.parent != y.parent || x.children != y.children || x.area != y.area || x.cut != y.cut || x.merge_cost != y.merge_cost) return false;
+    if (x.parent != y.parent || x.children != y.children || x.area != y.area || x.cut != y.cut ||
+        x.merge_cost != y.merge_cost)
+      return false;
   }
   return true;
 }
@@ -41,7 +45,9 @@ std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-void write_bytes(const std::filesystem::path& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
+void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
 
 struct Example {
   GaussianCloud cloud = random_cloud(2000, 4);
@@ -74,7 +80,8 @@ TEST_CASE("a file cut short, with a byte changed anywhere, or with bytes to spar
   write_prepared(file, e.key, e.prepared);
   const std::string whole = bytes_of(file);
   std::mt19937 random(7);
-  for (const std::size_t size : {std::size_t{0}, std::size_t{7}, std::size_t{40}, std::size_t{200}, whole.size() / 2, whole.size() - 1}) {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{7}, std::size_t{40}, std::size_t{200},
+                                 whole.size() / 2, whole.size() - 1}) {
     CAPTURE(size);
     write_bytes(file, whole.substr(0, size));
     CHECK_FALSE(read_prepared(file, e.key, e.cloud.size()));
@@ -105,18 +112,22 @@ TEST_CASE("indices that lead outside are refused even with a right checksum") {
   };
   CHECK_FALSE(refused([](PreparedScene&) {}));
   CHECK(refused([&](PreparedScene& s) { s.graph.head[5] = static_cast<std::uint32_t>(e.cloud.size()); }));
-  CHECK(refused([](PreparedScene& s) { s.graph.reverse_arc[5] = static_cast<std::uint32_t>(s.graph.arcs()); }));
+  CHECK(
+      refused([](PreparedScene& s) { s.graph.reverse_arc[5] = static_cast<std::uint32_t>(s.graph.arcs()); }));
   CHECK(refused([](PreparedScene& s) { s.graph.first_arc[3] = s.graph.first_arc.back() + 1; }));
   CHECK(refused([](PreparedScene& s) { s.graph.first_arc.pop_back(); }));
   CHECK(refused([](PreparedScene& s) { s.parts.leaf_of[0] = s.parts.leaves; }));
   CHECK(refused([](PreparedScene& s) { s.parts.trees[1].parent[0] = 0; }));
-  CHECK(refused([](PreparedScene& s) { s.parts.trees[1].children.back()[0] = static_cast<std::uint32_t>(s.parts.trees[1].nodes()); }));
+  CHECK(refused([](PreparedScene& s) {
+    s.parts.trees[1].children.back()[0] = static_cast<std::uint32_t>(s.parts.trees[1].nodes());
+  }));
   CHECK(refused([](PreparedScene& s) { s.parts.trees[4].area.pop_back(); }));
 }
 
 TEST_CASE("the key changes with all that the preparation depends on") {
   Example e;
-  const auto key = [&](const GaussianCloud& cloud, const Camera& camera, std::span<const Camera> given, const PrepareOptions& options) {
+  const auto key = [&](const GaussianCloud& cloud, const Camera& camera, std::span<const Camera> given,
+                       const PrepareOptions& options) {
     return prepared_key(cloud, camera, {0, -1, 0}, given, options);
   };
   CHECK(key(e.cloud, e.reference, {}, {}) == e.key);

@@ -22,7 +22,7 @@
 namespace splatcut::testing {
 
 struct Result {
-  int code = -1;   // exit code, -1 where a signal ended the program
+  int code = -1;  // exit code, -1 where a signal ended the program
   int signal = 0;
   std::string out, err;
 };
@@ -56,7 +56,8 @@ class Workplace {
   }
   std::set<std::string> files_in(const std::string& name) const {
     std::set<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_ / name)) names.insert(entry.path().filename());
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / name))
+      names.insert(entry.path().filename());
     return names;
   }
   // Temporary files and folders that nobody renamed or removed.
@@ -67,7 +68,8 @@ class Workplace {
     return names;
   }
 
-  // arguments: separated by blanks, no quoting; whole_arguments may hold blanks. The program's current folder is this one.
+  // arguments: separated by blanks, no quoting; whole_arguments may hold blanks. The program's current folder
+  // is this one.
   Result run(const std::string& arguments) const { return finish(start(words_of(arguments))); }
   Result run(const std::string& arguments, const std::vector<std::string>& whole_arguments) const {
     return finish(start(words_of(arguments, whole_arguments)));
@@ -80,15 +82,18 @@ class Workplace {
     return finish(child);
   }
   // Interrupted once the file is there; the program is ended where that takes half a minute.
-  Result run_until(const std::string& file, const std::string& arguments, const std::vector<std::string>& whole_arguments) const {
+  Result run_until(const std::string& file, const std::string& arguments,
+                   const std::vector<std::string>& whole_arguments) const {
     const pid_t child = start(words_of(arguments, whole_arguments));
-    for (int tenths = 0; tenths < 300 && !exists(file); ++tenths) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    for (int tenths = 0; tenths < 300 && !exists(file); ++tenths)
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
     ::kill(child, exists(file) ? SIGINT : SIGKILL);
     return finish(child);
   }
 
  private:
-  static std::vector<std::string> words_of(const std::string& arguments, const std::vector<std::string>& whole_arguments = {}) {
+  static std::vector<std::string> words_of(const std::string& arguments,
+                                           const std::vector<std::string>& whole_arguments = {}) {
     std::istringstream in(arguments);
     std::vector<std::string> words = {SPLATCUT_PROGRAM};
     for (std::string word; in >> word;) words.push_back(word);
@@ -113,7 +118,8 @@ class Workplace {
     ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), kFlags, kMode);
     ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), kFlags, kMode);
     pid_t child = 0;
-    const int failed = ::posix_spawn(&child, SPLATCUT_PROGRAM, &actions, nullptr, argv.data(), environment.data());
+    const int failed =
+        ::posix_spawn(&child, SPLATCUT_PROGRAM, &actions, nullptr, argv.data(), environment.data());
     ::posix_spawn_file_actions_destroy(&actions);
     REQUIRE(failed == 0);
     return child;

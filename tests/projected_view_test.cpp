@@ -19,9 +19,10 @@ struct Drawn {
 
 bool same(const Drawn& a, const Drawn& b) {
   const auto equal = [](const auto& x, const auto& y) { return std::ranges::equal(x.pixels(), y.pixels()); };
-  return equal(a.out.colour, b.out.colour) && equal(a.out.alpha, b.out.alpha) && equal(a.out.label_share, b.out.label_share) &&
-         equal(a.out.expected_depth, b.out.expected_depth) && equal(a.out.median_depth, b.out.median_depth) &&
-         equal(a.out.first_hit, b.out.first_hit) && a.sums.total == b.sums.total && a.sums.inside == b.sums.inside;
+  return equal(a.out.colour, b.out.colour) && equal(a.out.alpha, b.out.alpha) &&
+         equal(a.out.label_share, b.out.label_share) && equal(a.out.expected_depth, b.out.expected_depth) &&
+         equal(a.out.median_depth, b.out.median_depth) && equal(a.out.first_hit, b.out.first_hit) &&
+         a.sums.total == b.sums.total && a.sums.inside == b.sums.inside;
 }
 
 std::vector<std::uint8_t> every(std::size_t n, std::size_t nth) {
@@ -35,7 +36,8 @@ std::vector<std::uint8_t> every(std::size_t n, std::size_t nth) {
 TEST_CASE("a projected view draws what a fresh picture shows, bit for bit, with any options") {
   const GaussianCloud cloud = random_cloud(3000, 5, 2, 0.1f);
   const Camera camera = front_camera(123, 77);
-  // The first drawing of everything leaves lists for those after it: once the first of all, once the last but few.
+  // The first drawing of everything leaves lists for those after it: once the first of all, once the last but
+  // few.
   const ProjectedView view(cloud, camera, true), backwards(cloud, camera, true);
   const std::vector<std::uint8_t> labels = every(cloud.size(), 3), shown = every(cloud.size(), 2);
   Mask mask(camera.width_px, camera.height_px);
@@ -72,14 +74,17 @@ TEST_CASE("the share of a label: what white for the label and black for the rest
   options = {};
   options.colour = false;
   options.labels = labels;
-  const RasterOutput fast = rasterize(cloud, front_camera(), options), slow = rasterize_reference(cloud, front_camera(), options);
+  const RasterOutput fast = rasterize(cloud, front_camera(), options),
+                     slow = rasterize_reference(cloud, front_camera(), options);
   for (std::size_t i = 0; i < fast.label_share.size(); ++i) {
     REQUIRE(fast.label_share.pixels()[i] == expected.colour.pixels()[i].r);
     REQUIRE(slow.label_share.pixels()[i] == doctest::Approx(fast.label_share.pixels()[i]).epsilon(2e-3));
   }
 }
 
-TEST_CASE("kept views: the last ones that fit, colours when they are asked for, and nothing of what was cancelled") {
+TEST_CASE(
+    "kept views: the last ones that fit, colours when they are asked for, and nothing of what was "
+    "cancelled") {
   const GaussianCloud cloud = random_cloud(2000, 8, 1, 0.1f);
   const auto camera = [](int i) { return front_camera(80 + i, 60); };
   const std::size_t bytes = ProjectedView(cloud, camera(0), false).bytes();
@@ -101,8 +106,10 @@ TEST_CASE("kept views: the last ones that fit, colours when they are asked for, 
   CHECK_FALSE(kept.view(camera(3), false, cancelled).complete());
   CHECK(kept.view(camera(3), false, {}).complete());
   const Drawer drawer(cloud, &kept);
-  CHECK(std::ranges::equal(drawer.draw(camera(3), {}).colour.pixels(), rasterize(cloud, camera(3)).colour.pixels()));
+  CHECK(std::ranges::equal(drawer.draw(camera(3), {}).colour.pixels(),
+                           rasterize(cloud, camera(3)).colour.pixels()));
   RasterOptions nearer;
   nearer.near_plane = 2;  // not what views are kept with
-  CHECK(std::ranges::equal(drawer.draw(camera(3), nearer).alpha.pixels(), rasterize(cloud, camera(3), nearer).alpha.pixels()));
+  CHECK(std::ranges::equal(drawer.draw(camera(3), nearer).alpha.pixels(),
+                           rasterize(cloud, camera(3), nearer).alpha.pixels()));
 }

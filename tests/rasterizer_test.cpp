@@ -183,8 +183,8 @@ TEST_CASE("weights plus remaining transmittance sum to 1") {
 }
 
 TEST_CASE("whole pixels: sums count where a Gaussian shows, however little") {
-  // Alpha 0.5 falls below 1/255 at d^2 = 2 ln 127.5 variances; sigma 0.05 at depth 1 is 5 px, its variance 25.3 px^2 with
-  // the low-pass.
+  // Alpha 0.5 falls below 1/255 at d^2 = 2 ln 127.5 variances; sigma 0.05 at depth 1 is 5 px, its
+  // variance 25.3 px^2 with the low-pass.
   const GaussianCloud cloud = single_splat(1, 0.05f, 0.5f, glm::vec3(1));
   const Camera camera = axis_camera();
   std::int64_t expected = 0, expected_left = 0;
@@ -195,8 +195,11 @@ TEST_CASE("whole pixels: sums count where a Gaussian shows, however little") {
         expected_left += x < camera.width_px / 2;
       }
   const Mask mask = left_half(camera);
-  for (auto* draw : {+[](const GaussianCloud& c, const Camera& v, const RasterOptions& o) { rasterize(c, v, o); },
-                     +[](const GaussianCloud& c, const Camera& v, const RasterOptions& o) { rasterize_reference(c, v, o); }}) {
+  for (auto* draw :
+       {+[](const GaussianCloud&c, const Camera&v, const RasterOptions&o) { rasterize(c, v, o); },
+        +[](const GaussianCloud&c, const Camera&v, const RasterOptions&o) {
+          rasterize_reference(c, v, o);
+        }}) {
     MaskedSums sums(1);
     RasterOptions options;
     options.sum_mask = &mask;

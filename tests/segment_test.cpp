@@ -29,8 +29,10 @@ TEST_CASE("k-NN graph: the edges of brute force, each once, the same on 1, 2, 3 
     std::vector<std::uint32_t> others;
     for (std::uint32_t h = 0; h < cloud.size(); ++h)
       if (h != g) others.push_back(h);
-    std::ranges::sort(others, {}, [&](std::uint32_t h) { return glm::distance(cloud.position[g], cloud.position[h]); });
-    for (int i = 0; i < kNeighbours; ++i) expected.insert(std::minmax(g, others[static_cast<std::size_t>(i)]));
+    std::ranges::sort(others, {},
+                      [&](std::uint32_t h) { return glm::distance(cloud.position[g], cloud.position[h]); });
+    for (int i = 0; i < kNeighbours; ++i)
+      expected.insert(std::minmax(g, others[static_cast<std::size_t>(i)]));
   }
   const FlowGraph graph = knn_graph(cloud, {kNeighbours});
   std::set<std::pair<std::uint32_t, std::uint32_t>> found;
@@ -131,7 +133,8 @@ TEST_CASE("pipeline: one click cuts a ball off its floor, the same on 1 and 2 th
   cloud.resize(kBall + kFloor, 0);
   std::vector<std::uint8_t> truth(cloud.size(), 0);
   for (std::size_t g = 0; g < cloud.size(); ++g) {
-    const double t = (static_cast<double>(g % kBall) + 0.5) / kBall, turn = std::fmod(static_cast<double>(g) * 0.6180339887, 1.0);
+    const double t = (static_cast<double>(g % kBall) + 0.5) / kBall,
+                 turn = std::fmod(static_cast<double>(g) * 0.6180339887, 1.0);
     if (g < kBall) {
       const double z = 1 - 2 * t, r = std::sqrt(1 - z * z), angle = 2 * std::numbers::pi * turn;
       cloud.position[g] = glm::vec3(0.5 * r * std::cos(angle), -0.52 + 0.5 * z, 0.5 * r * std::sin(angle));
@@ -169,9 +172,11 @@ TEST_CASE("pipeline: one click cuts a ball off its floor, the same on 1 and 2 th
   CHECK(label_iou(truth, small.labels) > 0.95);
 }
 
-TEST_CASE("trim: a faint splat that sticks out leaves the object, one behind something nearer and one unseen stay") {
-  // Depth 4: the object, solid (0); haze beside it in the open (1), haze beside it behind a nearer solid (2, 3);
-  // outside of the picture (4).
+TEST_CASE(
+    "trim: a faint splat that sticks out leaves the object, one behind something nearer and one unseen "
+    "stay") {
+  // Depth 4: the object, solid (0); haze beside it in the open (1), haze beside it behind a nearer solid (2,
+  // 3); outside of the picture (4).
   GaussianCloud cloud;
   cloud.resize(5, 0);
   cloud.position = {{0, 0, 4}, {1.2f, 0, 4}, {-1.2f, 0, 4}, {-0.6f, 0, 2}, {50, 0, 4}};
@@ -193,7 +198,8 @@ TEST_CASE("trim: a faint splat that sticks out leaves the object, one behind som
   whole_scene.depth = true;
   const Image<float> depth = rasterize(cloud, camera, whole_scene).median_depth;
   CHECK(trimmed({camera, &mask, &depth}) == std::vector<std::uint8_t>{1, 0, 1, 0, 1});
-  const Image<float> open(camera.width_px, camera.height_px);  // nothing is nearer: what sticks out leaves everywhere
+  const Image<float> open(camera.width_px,
+                          camera.height_px);  // nothing is nearer: what sticks out leaves everywhere
   std::vector<std::uint8_t> left = labels;
   const TrimView view{camera, &mask, &open};
   CHECK(trim(cloud, {&view, 1}, {}, &left) == 2);
@@ -212,7 +218,8 @@ TEST_CASE("labelled rectangle: every pixel that shows a labelled Gaussian lies i
     bool all_inside = true;
     for (int y = 0; y < 120; ++y)
       for (int x = 0; x < 160; ++x)
-        all_inside &= alone.alpha.at(x, y) == 0 || (x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1);
+        all_inside &=
+            alone.alpha.at(x, y) == 0 || (x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1);
     CHECK(all_inside);
     // The picture of labels is that of a rendering without a rectangle, bit for bit.
     std::vector<glm::vec3> white(cloud.size());

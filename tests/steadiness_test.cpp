@@ -29,12 +29,15 @@ TEST_CASE("parts: a scene in other units is cut the same") {
     cloud.near_plane = natural_near_plane(cloud.position);
     Camera camera = mug.camera;
     camera.camera_from_world_translation *= scale;
-    const glm::vec2 middle = robot_click(mug.truth, Mask(mug.truth.width(), mug.truth.height()))->points_px[0];
-    return cut_out(cloud, nullptr, camera, {0, 1, 0}, {click(middle, SeedLabel::kObject)}, preset("fast")).labels;
+    const glm::vec2 middle =
+        robot_click(mug.truth, Mask(mug.truth.width(), mug.truth.height()))->points_px[0];
+    return cut_out(cloud, nullptr, camera, {0, 1, 0}, {click(middle, SeedLabel::kObject)}, preset("fast"))
+        .labels;
   };
   const std::vector<std::uint8_t> one = labels_at(1);
   CHECK(std::ranges::count(one, 1) > 1000);
-  for (const float scale : {1.0f / 64, 64.0f}) CHECK(labels_at(scale) == one);  // powers of two: the same bits
+  for (const float scale : {1.0f / 64, 64.0f})
+    CHECK(labels_at(scale) == one);  // powers of two: the same bits
   std::size_t differ = 0;
   const std::vector<std::uint8_t> hundredth = labels_at(0.01f);
   for (std::size_t g = 0; g < one.size(); ++g) differ += one[g] != hundredth[g];

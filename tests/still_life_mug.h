@@ -28,7 +28,8 @@ inline MugScene still_life_with_mug(std::size_t gaussians) {
   return scene;
 }
 
-inline void add_masked_view(const GaussianCloud& cloud, const Camera& camera, const Mask& mask, MaskedSums& sums) {
+inline void add_masked_view(const GaussianCloud& cloud, const Camera& camera, const Mask& mask,
+                            MaskedSums& sums) {
   RasterOptions options;
   options.colour = false;
   options.sum_mask = &mask;

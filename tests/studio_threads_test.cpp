@@ -1,5 +1,5 @@
-// The whole program while its threads work, on a scene small enough for the thread sanitizer: what is asked for in haste
-// must come out as if every step had been waited for.
+// The whole program while its threads work, on a scene small enough for the thread sanitizer: what is asked
+// for in haste must come out as if every step had been waited for.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -64,7 +64,9 @@ void a_moment(HeadlessApp& app, int frames) {
 
 }  // namespace
 
-TEST_CASE("threads: strokes, undo, smoothness and another object, all in haste, leave the same work as one after the other") {
+TEST_CASE(
+    "threads: strokes, undo, smoothness and another object, all in haste, leave the same work as one after "
+    "the other") {
   const TwoScenes scenes;
   const auto work_after = [&](bool haste) {
     HeadlessApp app(kWidth, kHeight);
@@ -94,7 +96,8 @@ TEST_CASE("threads: strokes, undo, smoothness and another object, all in haste, 
     then(Undo{});
     REQUIRE(app.settle());
     CHECK(app.studio().document().objects.size() == 2);
-    for (const ObjectItem& object : app.studio().document().objects) CHECK(app.studio().gaussians_of(object.id) > 0);
+    for (const ObjectItem& object : app.studio().document().objects)
+      CHECK(app.studio().gaussians_of(object.id) > 0);
     return bytes_of(app.studio().document());
   };
   CHECK(work_after(true) == work_after(false));
@@ -121,7 +124,8 @@ TEST_CASE("threads: exports wait for each other, of any other kind the latest re
     tasks.deliver();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  CHECK(done == std::vector<std::string>{"turntable done", "snapshot done", "second autosave done", "second cut done"});
+  CHECK(done == std::vector<std::string>{"turntable done", "snapshot done", "second autosave done",
+                                         "second cut done"});
 }
 
 TEST_CASE("threads: another scene is opened while the first is read, prepared and cut") {

@@ -253,7 +253,9 @@ TEST_CASE("far limit: what lies beyond is neither drawn nor picked nor selected"
   REQUIRE(app.studio().pick(wall));
   REQUIRE(app.studio().pick(apple));
   const Camera camera = app.studio().viewport_camera();
-  const auto depth = [&](const glm::vec2& at) { return camera.camera_from_world(app.studio().pick(at)->position_world).z; };
+  const auto depth = [&](const glm::vec2& at) {
+    return camera.camera_from_world(app.studio().pick(at)->position_world).z;
+  };
   const float near_z = depth(apple), far_z = depth(wall), limit = 0.5f * (near_z + far_z);
   REQUIRE(near_z < far_z);
   ViewState view = app.studio().view();
@@ -267,7 +269,8 @@ TEST_CASE("far limit: what lies beyond is neither drawn nor picked nor selected"
   const GaussianCloud& cloud = *app.studio().scene()->cloud;
   float farthest = 0;
   for (const std::int32_t g : frame.first_hit.pixels())
-    if (g >= 0) farthest = std::max(farthest, camera.camera_from_world(cloud.position[static_cast<std::size_t>(g)]).z);
+    if (g >= 0)
+      farthest = std::max(farthest, camera.camera_from_world(cloud.position[static_cast<std::size_t>(g)]).z);
   CHECK(farthest <= limit);
   CHECK(farthest > near_z);
   view.far_share = 0;
@@ -276,7 +279,8 @@ TEST_CASE("far limit: what lies beyond is neither drawn nor picked nor selected"
   CHECK(app.studio().pick(wall));
 }
 
-TEST_CASE("a scene without cameras: the commands stand where the window opens it, whatever is up in the file") {
+TEST_CASE(
+    "a scene without cameras: the commands stand where the window opens it, whatever is up in the file") {
   const ScratchFolder folder("no_cameras");
   Scene scene = load_scene(kSample);
   const glm::quat stood_up = glm::angleAxis(-glm::half_pi<float>(), glm::vec3(1, 0, 0));  // -y to +z

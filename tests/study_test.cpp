@@ -1,5 +1,5 @@
-// The study: its arithmetic by hand, what it does to scenes, that every experiment runs, and that the shipped presets
-// are those it chose.
+// The study: its arithmetic by hand, what it does to scenes, that every experiment runs, and that the shipped
+// presets are those it chose.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -19,8 +19,19 @@ using nlohmann::json;
 namespace {
 
 json result(const std::string& series, double x, double iou, double ms, const std::string& warned = "") {
-  return {{"experiment", "e"}, {"series", series}, {"x", x}, {"preset", "default"}, {"set", json::array()}, {"scene", "s"}, {"image_iou", iou},
-          {"boundary_iou", 0.5}, {"gaussian_iou", nullptr}, {"ms", ms}, {"looked_at_mpx", ms / 100}, {"warned", warned}, {"stages", {{"cut", ms}}}};
+  return {{"experiment", "e"},
+          {"series", series},
+          {"x", x},
+          {"preset", "default"},
+          {"set", json::array()},
+          {"scene", "s"},
+          {"image_iou", iou},
+          {"boundary_iou", 0.5},
+          {"gaussian_iou", nullptr},
+          {"ms", ms},
+          {"looked_at_mpx", ms / 100},
+          {"warned", warned},
+          {"stages", {{"cut", ms}}}};
 }
 
 // The apple of a still life of 8,000 Gaussians, loaded.
@@ -41,7 +52,8 @@ double share_seen(const EvaluationCase& test, int width) {
 
 TEST_CASE("scores over scenes and draws: quantiles, failures, and whether they were said") {
   StudyResults results;
-  for (int i = 1; i <= 20; ++i) results.push_back(result("a", 1, 0.05 * i, i, i == 3 || i == 20 ? "another size" : ""));
+  for (int i = 1; i <= 20; ++i)
+    results.push_back(result("a", 1, 0.05 * i, i, i == 3 || i == 20 ? "another size" : ""));
   results.push_back(result("a", 2, 1, 5));
   const std::vector<SettingScore> scores = scores_of(results);
   REQUIRE(scores.size() == 2);
@@ -60,7 +72,9 @@ TEST_CASE("scores over scenes and draws: quantiles, failures, and whether they w
 }
 
 TEST_CASE("the front: what nothing cheaper beats, and how far others are behind it") {
-  const std::vector<SettingScore> scores = scores_of({result("slow", 0, 0.9, 400), result("quick", 0, 0.7, 100), result("worse", 0, 0.6, 200), result("middle", 0, 0.8, 200)});
+  const std::vector<SettingScore> scores =
+      scores_of({result("slow", 0, 0.9, 400), result("quick", 0, 0.7, 100), result("worse", 0, 0.6, 200),
+                 result("middle", 0, 0.8, 200)});
   const std::vector<SettingScore> front = pareto_front(scores);
   REQUIRE(front.size() == 3);
   CHECK(front[0].series == "quick");
@@ -82,7 +96,8 @@ TEST_CASE("a board hides the stated share of the object in the first view, and n
     test.truth_labels.resize(cloud.size(), 0);
     CHECK(share_seen(test, 320) / whole == doctest::Approx(1 - hidden).epsilon(0.12));
     CHECK(cloud.sh_rest.size() == cloud.size() * cloud.sh_stride());
-    CHECK(std::equal(loaded->scene.cloud.position.begin(), loaded->scene.cloud.position.end(), cloud.position.begin()));
+    CHECK(std::equal(loaded->scene.cloud.position.begin(), loaded->scene.cloud.position.end(),
+                     cloud.position.begin()));
   }
   CHECK(with_board(loaded->test, 0).size() == loaded->scene.cloud.size());
 }
@@ -105,7 +120,8 @@ TEST_CASE("the first view is aimed so that the object fills the stated share of 
   CHECK(score_images(half, half.truth_labels).iou == 1);
 }
 
-TEST_CASE("every experiment of the study runs on still lifes of its own, is drawn, and shows its worst case") {
+TEST_CASE(
+    "every experiment of the study runs on still lifes of its own, is drawn, and shows its worst case") {
   const Workplace place;
   const Result done = place.run("study -o study --quick --cells 1 --draws 1 --gaussians 2500");
   REQUIRE_MESSAGE(done.code == 0, done.err);
@@ -119,11 +135,13 @@ TEST_CASE("every experiment of the study runs on still lifes of its own, is draw
   }
   CHECK(planned == measured);
   for (const StabilityAxis& axis : stability_axes())
-    for (const char* ending : {".svg", ".png"}) CHECK_MESSAGE(place.exists("study/charts/" + axis.file + ending), axis.file);
+    for (const char* ending : {".svg", ".png"})
+      CHECK_MESSAGE(place.exists("study/charts/" + axis.file + ending), axis.file);
   CHECK(planned.size() >= stability_axes().size() + 12);
   const std::string page = place.text("study/index.html");
   std::size_t pictures = 0;
-  for (std::size_t at = 0; (at = page.find("data:image/png;base64,", at)) != std::string::npos; ++at) ++pictures;
+  for (std::size_t at = 0; (at = page.find("data:image/png;base64,", at)) != std::string::npos; ++at)
+    ++pictures;
   CHECK(pictures == planned.size());
   CHECK(page.find("The paper's tables") != std::string::npos);
   CHECK(place.run("study -o study --quick --cells 1 --draws 1 --gaussians 2500 --no-charts").code == 0);
@@ -141,21 +159,25 @@ TEST_CASE("the presets that are shipped are those of the study, and near its fro
     some.push_back(entry);
   }
   place.write("made/some.json", json{{"scenes", some}}.dump());
-  REQUIRE(place.run("study made/some.json -o study --quick --only trade-off --cells 13 --no-charts").code == 0);
+  REQUIRE(place.run("study made/some.json -o study --quick --only trade-off --cells 13 --no-charts").code ==
+          0);
   const json results = json::parse(place.text("study/results.json"))["results"];
   const std::vector<SettingScore> all = scores_of({results.begin(), results.end()});
   for (const std::string name : {"fast", "default", "best"}) {
-    const auto shipped = std::ranges::find_if(all, [&](const SettingScore& s) { return s.series == "preset" && s.label == name; });
+    const auto shipped = std::ranges::find_if(
+        all, [&](const SettingScore& s) { return s.series == "preset" && s.label == name; });
     REQUIRE_MESSAGE(shipped != all.end(), name);
     // By what it looks at, which is the same on every machine: seconds are not.
-    // Parts alone are hard to beat on clean still lifes: default and best pay .01 to .02 there for what captures and
-    // straddling splats gain (docs/study.md).
+    // Parts alone are hard to beat on clean still lifes: default and best pay .01 to .02 there for what
+    // captures and straddling splats gain (docs/study.md).
     const double behind = behind_front(*shipped, all, &SettingScore::looked_at_mpx);
     CHECK_MESSAGE(behind <= (name == "fast" ? 0.005 : 0.02), name << " " << behind);
     // What the study measured is what the command does: nothing is set beside the preset.
     REQUIRE(place.run("eval made/some.json -o " + name + " --no-curve --preset " + name).code == 0);
     for (const json& scene : json::parse(place.text(name + "/eval.json"))["scenes"]) {
-      const auto own = std::ranges::find_if(results, [&](const json& r) { return r["series"] == "preset" && r["preset"] == name && r["scene"] == scene["name"]; });
+      const auto own = std::ranges::find_if(results, [&](const json& r) {
+        return r["series"] == "preset" && r["preset"] == name && r["scene"] == scene["name"];
+      });
       REQUIRE(own != results.end());
       CHECK((*own)["set"].empty());
       CHECK((*own)["image_iou"] == scene["image_iou"]);

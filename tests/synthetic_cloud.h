@@ -20,7 +20,8 @@ inline GaussianCloud random_cloud(std::size_t n, unsigned seed, int sh_degree = 
   for (std::size_t g = 0; g < n; ++g) {
     cloud.position[g] = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
     for (int axis = 0; axis < 3; ++axis) cloud.scale[g][axis] = size * std::exp(uniform(-2, 0));
-    cloud.rotation[g] = glm::normalize(glm::quat(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(0.1f, 1)));
+    cloud.rotation[g] =
+        glm::normalize(glm::quat(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(0.1f, 1)));
     cloud.opacity[g] = uniform(0, 1);
     for (int channel = 0; channel < 3; ++channel) cloud.f_dc[g][channel] = uniform(-1.5f, 1.5f);
     cloud.file_row[g] = static_cast<std::uint32_t>(g);

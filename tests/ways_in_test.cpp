@@ -34,15 +34,20 @@ std::string apple_mask(int view, const std::string& size = kSize) {
   const std::string name = "truth_" + std::to_string(view) + (size.empty() ? "_full" : "") + ".png";
   if (place.exists(name)) return name;
   place.write("apple.labels.u8", still_life().truth_of("apple"));
-  REQUIRE(place.run("render " + still_life().scene + " " + still_life().cameras + " --camera " + std::to_string(view) + size +
-                    " --what labels --labels apple.labels.u8 -o " + name).code == 0);
+  REQUIRE(place
+              .run("render " + still_life().scene + " " + still_life().cameras + " --camera " +
+                   std::to_string(view) + size + " --what labels --labels apple.labels.u8 -o " + name)
+              .code == 0);
   return name;
 }
 
-void copy(const std::string& from, const std::string& to) { still_life().place.write(to, still_life().place.text(from)); }
+void copy(const std::string& from, const std::string& to) {
+  still_life().place.write(to, still_life().place.text(from));
+}
 
 // A folder with the apple's masks: view and name of each.
-void mask_folder(const std::string& folder, const std::vector<std::pair<int, std::string>>& masks, const std::string& size = kSize) {
+void mask_folder(const std::string& folder, const std::vector<std::pair<int, std::string>>& masks,
+                 const std::string& size = kSize) {
   const Workplace& place = still_life().place;
   std::filesystem::remove_all(place / folder);
   place.make_folder(folder);
@@ -55,12 +60,18 @@ void mask_folder(const std::string& folder, const std::vector<std::pair<int, std
 void black_mask(const std::string& name) {  // nothing is labelled
   const Workplace& place = still_life().place;
   place.write("none.labels.u8", std::string(20000, '\0'));
-  REQUIRE(place.run("render " + still_life().scene + " " + still_life().camera + kSize + " --what labels --labels none.labels.u8 --overwrite -o " + name).code == 0);
+  REQUIRE(place
+              .run("render " + still_life().scene + " " + still_life().camera + kSize +
+                   " --what labels --labels none.labels.u8 --overwrite -o " + name)
+              .code == 0);
 }
 
-std::string cut_with(const std::string& rest) { return "cut " + still_life().scene + " " + still_life().cameras + " --preset fast" + rest; }
+std::string cut_with(const std::string& rest) {
+  return "cut " + still_life().scene + " " + still_life().cameras + " --preset fast" + rest;
+}
 
-void refused(const std::string& arguments, const std::vector<std::string>& whole, std::initializer_list<const char*> parts, int code = 1) {
+void refused(const std::string& arguments, const std::vector<std::string>& whole,
+             std::initializer_list<const char*> parts, int code = 1) {
   const Workplace& place = still_life().place;
   const Result result = place.run(arguments + " -o refused", whole);
   CAPTURE(arguments);
@@ -113,7 +124,8 @@ TEST_CASE("--masks: masks of several cameras, found by name, are all used, the o
   for (const json& view : report["views"]) CHECK(view["used"] == true);
   CHECK(iou(place.text("by_masks/labels.u8"), still_life().truth_of("apple")) > 0.8);
 
-  // --camera chooses the reference where that camera has a mask; otherwise the first with one is taken, and said so.
+  // --camera chooses the reference where that camera has a mask; otherwise the first with one is taken, and
+  // said so.
   REQUIRE(place.run(cut_with(std::string(kSize) + " --masks masks --camera view_07 -o from_7")).code == 0);
   CHECK(json::parse(place.text("from_7/report.json"))["settings"]["reference"] == "view_07");
   const Result other = place.run(cut_with(std::string(kSize) + " --masks masks --camera 1 -o from_1"));
@@ -130,8 +142,10 @@ TEST_CASE("--masks: masks larger than any view is looked at serve as well") {
   for (const int view : {0, 3}) {
     const std::string to = "large_masks/view_0" + std::to_string(view) + ".png";
     apple_mask(view);
-    REQUIRE(place.run("render " + still_life().scene + " " + still_life().cameras + " --camera " + std::to_string(view) + large +
-                      " --what labels --labels apple.labels.u8 -o " + to).code == 0);
+    REQUIRE(place
+                .run("render " + still_life().scene + " " + still_life().cameras + " --camera " +
+                     std::to_string(view) + large + " --what labels --labels apple.labels.u8 -o " + to)
+                .code == 0);
   }
   REQUIRE(place.run(cut_with(large + " --masks large_masks -o by_large")).code == 0);
   const json report = json::parse(place.text("by_large/report.json"));
@@ -146,7 +160,8 @@ TEST_CASE("--masks with one mask is --mask, in the camera's own size, too") {
   REQUIRE(place.run(cut_with(" --masks one -o by_folder")).code == 0);
   REQUIRE(place.run(cut_with(" --camera view_03 --mask one/view_03.png -o by_file")).code == 0);
   for (const char* file : {"labels.u8", "object.ply", "object.png", "tint.png", "masks.png"})
-    CHECK_MESSAGE(place.text(std::string("by_folder/") + file) == place.text(std::string("by_file/") + file), file);
+    CHECK_MESSAGE(place.text(std::string("by_folder/") + file) == place.text(std::string("by_file/") + file),
+                  file);
 }
 
 TEST_CASE("masks that cannot be used are refused, with the file and the reason, and nothing is written") {
@@ -176,7 +191,8 @@ TEST_CASE("masks that cannot be used are refused, with the file and the reason, 
   json cameras = json::parse(place.text("made/cameras.json"));
   cameras[1]["img_name"] = "view_00";
   place.write("twins.json", cameras.dump());
-  refused("cut " + still_life().scene + " --cameras twins.json --masks bad" + kSize, {}, {"2 cameras", "view_00"});
+  refused("cut " + still_life().scene + " --cameras twins.json --masks bad" + kSize, {},
+          {"2 cameras", "view_00"});
 }
 
 TEST_CASE("--text: the program gets the picture and the words, and its mask is used as --mask") {
@@ -184,22 +200,29 @@ TEST_CASE("--text: the program gets the picture and the words, and its mask is u
   place.make_folder("tmp");
   place.make_folder("my tools");
   apple_mask(0);
-  script("my tools/segment.sh", "for a; do echo \"[$a]\"; done > arguments.txt\ncp \"$2\" seen.png\necho looking >&2\necho printed\ncp truth_0.png \"${4#--out=}\"\n");
+  script("my tools/segment.sh",
+         "for a; do echo \"[$a]\"; done > arguments.txt\ncp \"$2\" seen.png\necho looking >&2\necho "
+         "printed\ncp truth_0.png \"${4#--out=}\"\n");
   const Variable tmp("TMPDIR", (place / "tmp").string());
   const std::string cut = cut_with(std::string(kSize) + " --camera 0");
-  const Result result = place.run(cut + " --json -o by_text", {"--text", "the {mask} \"red\" apple; $HOME",
-                                  "--segmenter", R"('./my tools/segment.sh'  -i\ "a b" {image} "{text}" --out={mask} '')"});
+  const Result result = place.run(cut + " --json -o by_text",
+                                  {"--text", "the {mask} \"red\" apple; $HOME", "--segmenter",
+                                   R"('./my tools/segment.sh'  -i\ "a b" {image} "{text}" --out={mask} '')"});
   REQUIRE_MESSAGE(result.code == 0, result.err);
   REQUIRE(place.run(cut + " --mask truth_0.png -o by_its_mask").code == 0);
   CHECK(place.text("by_text/labels.u8") == place.text("by_its_mask/labels.u8"));
   CHECK(place.text("by_text/tint.png") == place.text("by_its_mask/tint.png"));
   CHECK(result.err.find("looking") != std::string::npos);
-  CHECK(json::parse(result.out)["settings"]["text"] == "the {mask} \"red\" apple; $HOME");  // stdout is the report alone
+  CHECK(json::parse(result.out)["settings"]["text"] ==
+        "the {mask} \"red\" apple; $HOME");  // stdout is the report alone
   const std::string arguments = place.text("arguments.txt");
   CHECK(arguments.starts_with("[-i a b]\n"));
   CHECK(arguments.find("\n[the {mask} \"red\" apple; $HOME]\n[--out=/") != std::string::npos);
   CHECK(arguments.ends_with("/mask.png]\n[]\n"));
-  REQUIRE(place.run("render " + still_life().scene + " " + still_life().camera + kSize + " -o view.png --overwrite").code == 0);
+  REQUIRE(place
+              .run("render " + still_life().scene + " " + still_life().camera + kSize +
+                   " -o view.png --overwrite")
+              .code == 0);
   CHECK(place.text("seen.png") == place.text("view.png"));
   CHECK(place.files_in("tmp").empty());
 
@@ -216,12 +239,15 @@ TEST_CASE("--text that gets no mask is refused with what to do, and leaves no te
   const Variable tmp("TMPDIR", (place / "tmp").string());
   const Variable none("SPLATCUT_SEGMENTER", "");
   const std::string cut = cut_with(std::string(kSize) + " --camera 0 --text apple");
-  const auto with = [](const std::string& command) { return std::vector<std::string>{"--segmenter", command}; };
+  const auto with = [](const std::string& command) {
+    return std::vector<std::string>{"--segmenter", command};
+  };
   refused(cut, {}, {"--segmenter", "{image}", "SPLATCUT_SEGMENTER"});
   refused(cut, with("run {image} {mask}"), {"{text} is missing"});
   refused(cut, with("run {image} {text}"), {"{mask} is missing"});
   refused(cut, with("run '{image} {text} {mask}"), {"quote"});
-  refused(cut, with("no-such-program {image} {text} {mask}"), {"no-such-program", "cannot be started", "PATH"});
+  refused(cut, with("no-such-program {image} {text} {mask}"),
+          {"no-such-program", "cannot be started", "PATH"});
   script("fails.sh", "echo out of memory >&2\nexit 3\n");
   refused(cut, with("./fails.sh {image} {text} {mask}"), {"out of memory", "exit code 3"});
   script("dies.sh", "kill -9 $$\n");
@@ -264,9 +290,11 @@ TEST_CASE("Ctrl+C ends the segmenter and what it started") {
   // The first ends when asked to, with its child; the second does not hear.
   for (const std::string ears : {"", "trap '' TERM\n"}) {
     std::filesystem::remove(place / "pids.txt");
-    script("slow.sh", ears + "sleep 300 &\necho $$ $! > pids.part.txt\nmv pids.part.txt pids.txt\nwait\nsleep 300\n");
-    const Result result = place.run_until("pids.txt", cut_with(std::string(kSize) + " --camera 0 -o stopped"),
-                                          {"--text", "apple", "--segmenter", "./slow.sh {image} {text} {mask}"});
+    script("slow.sh",
+           ears + "sleep 300 &\necho $$ $! > pids.part.txt\nmv pids.part.txt pids.txt\nwait\nsleep 300\n");
+    const Result result =
+        place.run_until("pids.txt", cut_with(std::string(kSize) + " --camera 0 -o stopped"),
+                        {"--text", "apple", "--segmenter", "./slow.sh {image} {text} {mask}"});
     CAPTURE(ears);
     CHECK(result.code == 1);
     CHECK(result.err.find("cancelled, nothing was written") != std::string::npos);
@@ -291,21 +319,33 @@ json one_click(const std::string& thing) {
 
 }  // namespace
 
-TEST_CASE("several objects: each is what it is alone, less what later ones claim, and everything lies in one file") {
+TEST_CASE(
+    "several objects: each is what it is alone, less what later ones claim, and everything lies in one "
+    "file") {
   const Workplace& place = still_life().place;
-  for (const char* thing : {"apple", "mug"}) REQUIRE(place.run(still_life().cut("--click " + still_life().click_on(thing) + " -o alone_" + thing)).code == 0);
+  for (const char* thing : {"apple", "mug"})
+    REQUIRE(
+        place.run(still_life().cut("--click " + still_life().click_on(thing) + " -o alone_" + thing)).code ==
+        0);
   const std::string apple = place.text("alone_apple/labels.u8"), mug = place.text("alone_mug/labels.u8");
   // The second claims what the first does; the third has a camera of its own.
-  place.write("three.json", json{{"objects", {{{"name", "red apple"}, {"clicks", one_click("apple")}},
-                                              {{"object", "mug"}, {"camera", 0}, {"clicks", one_click("mug")}},
-                                              {{"name", "again"}, {"camera", "view_00"}, {"clicks", one_click("mug")}}}}}.dump());
+  place.write("three.json", json{{"objects",
+                                  {{{"name", "red apple"}, {"clicks", one_click("apple")}},
+                                   {{"object", "mug"}, {"camera", 0}, {"clicks", one_click("mug")}},
+                                   {{"name", "again"}, {"camera", "view_00"}, {"clicks", one_click("mug")}}}}}
+                                .dump());
   refused(still_life().cut("--seeds three.json"), {}, {"\"mug\"", "objects after it"});
-  place.write("two.json", json{{"objects", {{{"name", "red apple"}, {"clicks", one_click("apple")}},
-                                            {{"object", "mug"}, {"camera", "view_00"}, {"clicks", one_click("mug")}}}}}.dump());
-  const Result result = place.run("cut " + still_life().scene + " " + still_life().cameras + " --preset fast --seeds two.json --json -o both");
+  place.write("two.json", json{{"objects",
+                                {{{"name", "red apple"}, {"clicks", one_click("apple")}},
+                                 {{"object", "mug"}, {"camera", "view_00"}, {"clicks", one_click("mug")}}}}}
+                              .dump());
+  const Result result = place.run("cut " + still_life().scene + " " + still_life().cameras +
+                                  " --preset fast --seeds two.json --json -o both");
   REQUIRE_MESSAGE(result.code == 0, result.err);
-  CHECK(place.files_in("both") == std::set<std::string>{"labels.u8", "mug.labels.u8", "mug.masks.png", "mug.ply", "mug.png", "mug.tint.png", "red_apple.labels.u8",
-                                                       "red_apple.masks.png", "red_apple.ply", "red_apple.png", "red_apple.tint.png", "report.json", "rest.ply", "rest.png"});
+  CHECK(place.files_in("both") ==
+        std::set<std::string>{"labels.u8", "mug.labels.u8", "mug.masks.png", "mug.ply", "mug.png",
+                              "mug.tint.png", "red_apple.labels.u8", "red_apple.masks.png", "red_apple.ply",
+                              "red_apple.png", "red_apple.tint.png", "report.json", "rest.ply", "rest.png"});
   std::string owner(20000, '\0'), first = apple;
   for (std::size_t g = 0; g < owner.size(); ++g) owner[g] = mug[g] ? '\2' : apple[g] ? '\1' : '\0';
   for (std::size_t g = 0; g < owner.size(); ++g) first[g] = owner[g] == '\1';
@@ -319,7 +359,8 @@ TEST_CASE("several objects: each is what it is alone, less what later ones claim
   std::size_t in_files = json::parse(place.run("info both/rest.ply --json").out)["gaussians"];
   CHECK(report["rest"]["gaussians"] == in_files);
   for (const json& object : report["objects"]) {
-    const std::size_t gaussians = json::parse(place.run("info both/" + object["file"].get<std::string>() + " --json").out)["gaussians"];
+    const std::size_t gaussians =
+        json::parse(place.run("info both/" + object["file"].get<std::string>() + " --json").out)["gaussians"];
     CHECK(object["gaussians"] == gaussians);
     CHECK(object["camera"] == "view_00");
     CHECK(object["views"].size() >= 1);
@@ -328,7 +369,8 @@ TEST_CASE("several objects: each is what it is alone, less what later ones claim
   CHECK(in_files == 20000);
   CHECK(report["objects"][0]["name"] == "red apple");
   CHECK(report["objects"][0]["index"] == 1);
-  CHECK(report["objects"][0]["left_to_later"] == std::count(apple.begin(), apple.end(), '\1') - std::count(first.begin(), first.end(), '\1'));
+  CHECK(report["objects"][0]["left_to_later"] ==
+        std::count(apple.begin(), apple.end(), '\1') - std::count(first.begin(), first.end(), '\1'));
   int prepared = 0;
   for (const json& stage : report["stages"]) prepared += stage["name"] == "graph" || stage["name"] == "cache";
   CHECK(report["stages"][0]["name"] == "load");
@@ -342,10 +384,14 @@ TEST_CASE("what is claimed by two is the later one's") {
   // Two clicks, so the first is both things; the second takes its own back.
   json both = one_click("apple");
   both.push_back(one_click("mug")[0]);
-  place.write("overlap.json", json{{"objects", {{{"name", "both"}, {"clicks", both}}, {{"name", "mug"}, {"clicks", one_click("mug")}}}}}.dump());
+  place.write("overlap.json",
+              json{{"objects",
+                    {{{"name", "both"}, {"clicks", both}}, {{"name", "mug"}, {"clicks", one_click("mug")}}}}}
+                  .dump());
   const Result result = place.run(still_life().cut("--seeds overlap.json --json -o overlap"));
   REQUIRE_MESSAGE(result.code == 0, result.err);
-  const std::string mug = place.text("overlap/mug.labels.u8"), owner = place.text("overlap/labels.u8"), first = place.text("overlap/both.labels.u8");
+  const std::string mug = place.text("overlap/mug.labels.u8"), owner = place.text("overlap/labels.u8"),
+                    first = place.text("overlap/both.labels.u8");
   const json report = json::parse(result.out);
   CHECK(report["objects"][0]["left_to_later"].get<int>() > 100);
   CHECK(iou(mug, still_life().truth_of("mug")) > 0.7);
@@ -362,7 +408,8 @@ TEST_CASE("what is claimed by two is the later one's") {
 TEST_CASE("files of objects that cannot be used are refused") {
   const Workplace& place = still_life().place;
   const json clicks = one_click("apple");
-  const auto with = [&](const json& objects, std::initializer_list<const char*> parts, const std::string& more = "") {
+  const auto with = [&](const json& objects, std::initializer_list<const char*> parts,
+                        const std::string& more = "") {
     place.write("objects.json", json{{"objects", objects}}.dump());
     refused(still_life().cut("--seeds objects.json" + more), {}, parts);
   };
@@ -375,9 +422,14 @@ TEST_CASE("files of objects that cannot be used are refused") {
   with(json::array({json{{"name", "rest"}, {"clicks", clicks}}}), {"rest.ply", "taken"});
   with(json::array({json{{"name", "apple"}, {"camera", "none"}, {"clicks", clicks}}}), {"camera \"none\""});
   with(json::array({json{{"name", "apple"}, {"camera", 1.5}, {"clicks", clicks}}}), {"\"camera\""});
-  with(json::array({json{{"name", "apple"}, {"clicks", json::array({json{{"x", 5000}, {"y", 3}}})}}}), {"5000", "outside"});
-  with(json::array({json{{"name", "apple"}, {"clicks", json::array({json{{"x", "left"}}})}}}), {"object 0", "form"});
+  with(json::array({json{{"name", "apple"}, {"clicks", json::array({json{{"x", 5000}, {"y", 3}}})}}}),
+       {"5000", "outside"});
+  with(json::array({json{{"name", "apple"}, {"clicks", json::array({json{{"x", "left"}}})}}}),
+       {"object 0", "form"});
   with(json::array({apple}), {"--click", "in the file"}, " --click 5,5");
-  place.write("objects.json", json{{"objects", json::array({json{{"name", "apple"}, {"camera", "view_00"}, {"clicks", clicks}}})}}.dump());
+  place.write(
+      "objects.json",
+      json{{"objects", json::array({json{{"name", "apple"}, {"camera", "view_00"}, {"clicks", clicks}}})}}
+          .dump());
   refused("cut " + still_life().scene + " --seeds objects.json", {}, {"\"apple\"", "--cameras"});
 }

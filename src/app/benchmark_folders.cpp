@@ -16,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -38,11 +39,15 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
 
 std::vector<fs::path> pngs_in(const fs::path& folder) {
   std::vector<fs::path> paths = sorted_entries(folder);
-  std::erase_if(paths, [](const fs::path& p) { return !fs::is_regular_file(p) || lower(p.extension().string()) != ".png"; });
+  std::erase_if(paths, [](const fs::path& p) {
+    return !fs::is_regular_file(p) || lower(p.extension().string()) != ".png";
+  });
   return paths;
 }
 
-bool is_picture(const fs::path& path) { return fs::is_regular_file(path) && without_picture_ending(path.filename()) != path.filename().string(); }
+bool is_picture(const fs::path& path) {
+  return fs::is_regular_file(path) && without_picture_ending(path.filename()) != path.filename().string();
+}
 
 // The reconstruction in a folder of it, or an empty path.
 fs::path scene_in(const fs::path& folder) {
@@ -53,7 +58,8 @@ fs::path scene_in(const fs::path& folder) {
     for (const fs::path& at : folders_in(folder / "point_cloud")) {
       const std::string name = at.filename().string();
       int iteration = -1;
-      if (name.starts_with(kIteration)) std::from_chars(name.data() + kIteration.size(), name.data() + name.size(), iteration);
+      if (name.starts_with(kIteration))
+        std::from_chars(name.data() + kIteration.size(), name.data() + name.size(), iteration);
       if (iteration <= last_iteration || !fs::exists(at / "point_cloud.ply")) continue;
       last = at / "point_cloud.ply";
       last_iteration = iteration;
@@ -62,10 +68,14 @@ fs::path scene_in(const fs::path& folder) {
   std::vector<fs::path> files = sorted_entries(folder);
   std::erase_if(files, [](const fs::path& p) {
     const std::string ending = lower(p.extension().string());
-    return !fs::is_regular_file(p) || p.filename() == "input.ply" || p.filename() == "points3D.ply" || (ending != ".ply" && ending != ".splat" && ending != ".spz");
+    return !fs::is_regular_file(p) || p.filename() == "input.ply" || p.filename() == "points3D.ply" ||
+           (ending != ".ply" && ending != ".splat" && ending != ".spz");
   });
   if (files.size() > 1)
-    throw Error(folder.string(), fmt::format("holds {} scenes, {} and {} among them", files.size(), files[0].filename().string(), files[1].filename().string()), "Leave one of them");
+    throw Error(folder.string(),
+                fmt::format("holds {} scenes, {} and {} among them", files.size(),
+                            files[0].filename().string(), files[1].filename().string()),
+                "Leave one of them");
   return files.empty() ? fs::path{} : files.front();
 }
 
@@ -89,7 +99,8 @@ void find_scene(const fs::path& scenes, bool only_task, BenchmarkTask* task) {
   fs::path folder;
   const std::vector<fs::path> there = folders_in(scenes);
   for (const std::string& name : scene_names(task->name)) {
-    const auto found = std::ranges::find_if(there, [&](const fs::path& p) { return lower(p.filename().string()) == lower(name); });
+    const auto found = std::ranges::find_if(
+        there, [&](const fs::path& p) { return lower(p.filename().string()) == lower(name); });
     if (found == there.end()) continue;
     folder = *found;
     break;
@@ -97,12 +108,16 @@ void find_scene(const fs::path& scenes, bool only_task, BenchmarkTask* task) {
   if (folder.empty() && only_task) folder = scenes;
   if (!folder.empty()) task->scene = scene_in(folder);
   if (task->scene.empty())
-    throw Error(scenes.string(), "holds no reconstruction of " + task->name, "Put a folder " + task->name + " there, with a .ply and cameras.json");
+    throw Error(scenes.string(), "holds no reconstruction of " + task->name,
+                "Put a folder " + task->name + " there, with a .ply and cameras.json");
   task->cameras = cameras_in(folder);
 }
 
-const fs::path& only_one(const std::vector<fs::path>& files, const fs::path& folder, const std::string& what) {
-  if (files.size() != 1) throw Error(folder.string(), fmt::format("holds {} {}, where one is expected", files.empty() ? "no" : std::to_string(files.size()), what));
+const fs::path& only_one(const std::vector<fs::path>& files, const fs::path& folder,
+                         const std::string& what) {
+  if (files.size() != 1)
+    throw Error(folder.string(), fmt::format("holds {} {}, where one is expected",
+                                             files.empty() ? "no" : std::to_string(files.size()), what));
   return files.front();
 }
 
@@ -120,22 +135,28 @@ std::vector<fs::path> base_masks_in(const fs::path& folder) {
 std::vector<fs::path> masks_of_scene(const fs::path& folder) {
   const auto says_so = [](const fs::path& p) {
     const std::string name = lower(p.filename().string());
-    return name == "label" || name == "mask" || name == "masks" || name.ends_with("_mask") || name.ends_with("_masks");
+    return name == "label" || name == "mask" || name == "masks" || name.ends_with("_mask") ||
+           name.ends_with("_masks");
   };
   std::vector<fs::path> places;
   for (const fs::path& child : folders_in(folder)) {
-    if (says_so(child)) places.push_back(child);
-    else if (lower(child.filename().string()).starts_with("images") && fs::is_directory(child / "label")) places.push_back(child / "label");
+    if (says_so(child))
+      places.push_back(child);
+    else if (lower(child.filename().string()).starts_with("images") && fs::is_directory(child / "label"))
+      places.push_back(child / "label");
   }
   if (places.size() > 1)
-    throw Error(folder.string(), fmt::format("has masks in {} and in {}", places[0].string(), places[1].string()), "Leave one of them");
+    throw Error(folder.string(),
+                fmt::format("has masks in {} and in {}", places[0].string(), places[1].string()),
+                "Leave one of them");
   return base_masks_in(places.empty() ? folder : places.front());
 }
 
 fs::path labels_folder(const fs::path& given) {
   for (const char* inner : {"", "llff", "labels/llff", "labels"})
     if (fs::is_directory(given / inner / "scribbles")) return given / inner;
-  throw Error(given.string(), "holds no folder \"scribbles\"", "Give the folder of NVOS that holds scribbles, masks and reference_image");
+  throw Error(given.string(), "holds no folder \"scribbles\"",
+              "Give the folder of NVOS that holds scribbles, masks and reference_image");
 }
 
 }  // namespace
@@ -151,10 +172,12 @@ std::vector<BenchmarkTask> nvos_tasks(const fs::path& given, const fs::path& sce
       if (file.filename().string().starts_with("pos_")) task.positive.push_back(file);
       if (file.filename().string().starts_with("neg_")) task.negative.push_back(file);
     }
-    if (task.positive.empty()) throw Error(scribbles.string(), "holds no scribble on the object", "pos_*.png is expected");
+    if (task.positive.empty())
+      throw Error(scribbles.string(), "holds no scribble on the object", "pos_*.png is expected");
     std::vector<fs::path> references = sorted_entries(labels / "reference_image" / task.name);
     std::erase_if(references, [](const fs::path& p) { return !is_picture(p); });
-    task.reference = without_picture_ending(only_one(references, labels / "reference_image" / task.name, "reference pictures").filename());
+    task.reference = without_picture_ending(
+        only_one(references, labels / "reference_image" / task.name, "reference pictures").filename());
     std::vector<fs::path> masks = pngs_in(labels / "masks" / task.name);
     std::erase_if(masks, [](const fs::path& p) { return !p.stem().string().ends_with("_mask"); });
     task.masks = {only_one(masks, labels / "masks" / task.name, "masks NAME_mask.png")};
@@ -174,14 +197,19 @@ std::vector<BenchmarkTask> spin_nerf_tasks(const fs::path& masks, const fs::path
     BenchmarkTask& task = tasks.emplace_back();
     const fs::path whole = fs::absolute(folder).lexically_normal();
     task.name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
-    if (const std::size_t bracket = task.name.find(" ("); bracket != std::string::npos) task.name.resize(bracket);
+    if (const std::size_t bracket = task.name.find(" ("); bracket != std::string::npos)
+      task.name.resize(bracket);
     task.masks = masks_of_scene(folder);
-    if (task.masks.size() < 2) throw Error(folder.string(), "holds one mask", "One is given, the others are scored: two are the least");
+    if (task.masks.size() < 2)
+      throw Error(folder.string(), "holds one mask",
+                  "One is given, the others are scored: two are the least");
     task.reference_mask = task.masks.front();
     task.masks.erase(task.masks.begin());
     find_scene(scenes, folders.size() == 1, &task);
   }
-  if (tasks.empty()) throw Error(masks.string(), "holds no masks", "Put NAME.png of each scene's cameras into a folder of the scene's name");
+  if (tasks.empty())
+    throw Error(masks.string(), "holds no masks",
+                "Put NAME.png of each scene's cameras into a folder of the scene's name");
   return tasks;
 }
 

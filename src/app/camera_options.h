@@ -1,5 +1,5 @@
-// The camera part of the command line: given cameras, a look-at camera, or the view in which the window opens a scene
-// without cameras.
+// The camera part of the command line: given cameras, a look-at camera, or the view in which the window opens
+// a scene without cameras.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,9 +16,9 @@ namespace splatcut {
 struct CameraOptions {
   std::string position, target, up;  // "x,y,z"
   float fov_y_deg = 50;
-  std::string size;                  // "WxH"
-  std::filesystem::path cameras;     // file or COLMAP folder
-  std::string camera;                // name, or index
+  std::string size;               // "WxH"
+  std::filesystem::path cameras;  // file or COLMAP folder
+  std::string camera;             // name, or index
 
   void add_to(CLI::App& command);
 };
@@ -36,7 +36,8 @@ ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cl
 // The mean up direction of cameras held by a person; where they are rolled, what they agree on most.
 glm::vec3 common_up(const std::vector<Camera>& cameras);
 
-const Camera& find_camera(const std::vector<Camera>& cameras, const std::string& name, const std::string& where);
+const Camera& find_camera(const std::vector<Camera>& cameras, const std::string& name,
+                          const std::string& where);
 
 glm::vec3 parse_vec3(const std::string& text, const std::string& where);
 

@@ -40,7 +40,8 @@ void watch_interrupts() {
 void draw_bar(std::string_view stage, double fraction) {
   constexpr int kCells = 30;
   const int full = static_cast<int>(fraction * kCells + 0.5);
-  fmt::print(stderr, "\r{:<16} [{:#<{}}{:.<{}}] {:3.0f} %", stage, "", full, "", kCells - full, 100 * fraction);
+  fmt::print(stderr, "\r{:<16} [{:#<{}}{:.<{}}] {:3.0f} %", stage, "", full, "", kCells - full,
+             100 * fraction);
   std::fflush(stderr);
   g_bar_drawn = true;
 }

@@ -51,43 +51,70 @@ void stop_if_cancelled(const Job& job) {
 void print_summary(const CutArguments& args, const Scene& scene, const nlohmann::json& report) {
   if (report.contains("objects")) {
     for (const auto& o : report["objects"])
-      fmt::print("{}: {} of {} Gaussians\n", o["file"].get<std::string>(), o["gaussians"].get<std::size_t>(), scene.cloud.size());
-    fmt::print("{}: NAME.ply NAME.labels.u8 NAME.png NAME.tint.png NAME.masks.png of each, rest.ply rest.png labels.u8 report.json\n", args.output.string());
+      fmt::print("{}: {} of {} Gaussians\n", o["file"].get<std::string>(), o["gaussians"].get<std::size_t>(),
+                 scene.cloud.size());
+    fmt::print(
+        "{}: NAME.ply NAME.labels.u8 NAME.png NAME.tint.png NAME.masks.png of each, rest.ply rest.png "
+        "labels.u8 report.json\n",
+        args.output.string());
     return;
   }
-  fmt::print("{} of {} Gaussians cut out in {:.0f} ms\n", report["object"]["gaussians"].get<std::size_t>(), scene.cloud.size(),
-             report["total_ms"].get<double>());
-  for (const auto& stage : report["stages"]) fmt::print("  {:<16} {:8.0f} ms\n", stage["name"].get<std::string>(), stage["ms"].get<double>());
-  fmt::print("{}: object.ply rest.ply labels.u8 object.png rest.png tint.png masks.png report.json\n", args.output.string());
+  fmt::print("{} of {} Gaussians cut out in {:.0f} ms\n", report["object"]["gaussians"].get<std::size_t>(),
+             scene.cloud.size(), report["total_ms"].get<double>());
+  for (const auto& stage : report["stages"])
+    fmt::print("  {:<16} {:8.0f} ms\n", stage["name"].get<std::string>(), stage["ms"].get<double>());
+  fmt::print("{}: object.ply rest.ply labels.u8 object.png rest.png tint.png masks.png report.json\n",
+             args.output.string());
 }
 
-nlohmann::json settings_json(const CutArguments& args, const Meant& meant, const ChosenCamera& chosen, const PipelineOptions& options) {
-  nlohmann::json settings = {{"preset", args.preset}, {"reference", chosen.camera.name}, {"views", options.orbit.views}, {"work_width_px", options.work_width_px},
-                             {"neighbours", options.neighbours}, {"lambda", options.cut.energy.lambda}, {"set", args.set}, {"coarse", options.cut.coarse},
-                             {"first_mask", args.masks.first_mask.empty() ? "as the preset" : args.masks.first_mask}, {"scale", args.scale}, {"parts_only", args.masks.parts_only}};
+nlohmann::json settings_json(const CutArguments& args, const Meant& meant, const ChosenCamera& chosen,
+                             const PipelineOptions& options) {
+  nlohmann::json settings = {
+      {"preset", args.preset},
+      {"reference", chosen.camera.name},
+      {"views", options.orbit.views},
+      {"work_width_px", options.work_width_px},
+      {"neighbours", options.neighbours},
+      {"lambda", options.cut.energy.lambda},
+      {"set", args.set},
+      {"coarse", options.cut.coarse},
+      {"first_mask", args.masks.first_mask.empty() ? "as the preset" : args.masks.first_mask},
+      {"scale", args.scale},
+      {"parts_only", args.masks.parts_only}};
   if (!meant.mask.empty()) settings["mask"] = meant.mask.string();
   if (!meant.masks_folder.empty()) settings["masks"] = meant.masks_folder.string();
-  if (meant.segmenter) settings.update({{"text", meant.segmenter->text}, {"segmenter", meant.segmenter->words}});
+  if (meant.segmenter)
+    settings.update({{"text", meant.segmenter->text}, {"segmenter", meant.segmenter->words}});
   return settings;
 }
 
-PipelineReport cut_one_object(const Scene& scene, const ChosenCamera& chosen, const Strokes& strokes, const PipelineOptions& options, const Job& job) {
+PipelineReport cut_one_object(const Scene& scene, const ChosenCamera& chosen, const Strokes& strokes,
+                              const PipelineOptions& options, const Job& job) {
   check_inside(strokes, chosen.camera);
-  PipelineReport report = cut_out(scene.cloud, nullptr, chosen.camera, chosen.up_world, strokes, options, job);
+  PipelineReport report =
+      cut_out(scene.cloud, nullptr, chosen.camera, chosen.up_world, strokes, options, job);
   end_progress();
   stop_if_cancelled(job);
-  if (report.outcome == Outcome::kNothingFound) throw Error("splatcut cut", "no object was found: " + (options.given_first_mask ? "the mask covers nothing of the scene" : report.reason));
+  if (report.outcome == Outcome::kNothingFound)
+    throw Error("splatcut cut",
+                "no object was found: " +
+                    (options.given_first_mask ? "the mask covers nothing of the scene" : report.reason));
   return report;
 }
 
 void run_cut(const CutArguments& args, const CommonOptions& common) {
-  if (!args.work.empty()) return run_work_cut({args.work, args.output, args.overwrite, args.json, common.quiet, prepared_cache(common)});
+  if (!args.work.empty())
+    return run_work_cut(
+        {args.work, args.output, args.overwrite, args.json, common.quiet, prepared_cache(common)});
   if (args.scene.empty()) throw CLI::RequiredError("scene, or --work FILE.splatcut.json,");
   const Meant meant = args.ways_in.read(args.camera);
-  const Job job = console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
+  const Job job =
+      console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
   OutputFolder folder(args.output, args.overwrite);
   const auto start = std::chrono::steady_clock::now();
-  const auto ms_since_start = [&] { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(); };
+  const auto ms_since_start = [&] {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  };
   const Scene scene = load_scene(args.scene, job);
   stop_if_cancelled(job);
   const double load_ms = ms_since_start();
@@ -115,7 +142,8 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
     stop_if_cancelled(job);
     for (const auto& object : json["objects"])
       for (const auto& sentence : object["doubts"])
-        warn(fmt::format("{}: {}", object["name"].get<std::string>(), sentence.get<std::string>()), common.quiet);
+        warn(fmt::format("{}: {}", object["name"].get<std::string>(), sentence.get<std::string>()),
+             common.quiet);
     const nlohmann::json load = {{"name", "load"}, {"ms", load_ms}};
     json["stages"].insert(json["stages"].begin(), load);
     json.update(run_json(scene, settings, ms_since_start()));
@@ -133,18 +161,28 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
 
 void add_cut_command(CLI::App& program, const CommonOptions& common) {
   auto args = std::make_shared<CutArguments>();
-  CLI::App& command = *program.add_subcommand("cut", "Cut the object that clicks, strokes, masks or words point at");
-  command.footer("Example: splatcut cut scene.ply --camera-pos 0,-1,-4 --camera-target 0,0,0 --click 512,384 --click 40,40:rest -o cutout");
+  CLI::App& command =
+      *program.add_subcommand("cut", "Cut the object that clicks, strokes, masks or words point at");
+  command.footer(
+      "Example: splatcut cut scene.ply --camera-pos 0,-1,-4 --camera-target 0,0,0 --click 512,384 --click "
+      "40,40:rest -o cutout");
   command.add_option("scene", args->scene, "Scene file");
   args->camera.add_to(command);
   args->ways_in.add_to(command);
-  command.add_option("--work", args->work, "Work saved by the window (.splatcut.json): computes all its objects again")->check(CLI::ExistingFile);
+  command
+      .add_option("--work", args->work,
+                  "Work saved by the window (.splatcut.json): computes all its objects again")
+      ->check(CLI::ExistingFile);
   command.add_option("-o,--output", args->output, "Folder to write")->required();
   command.add_option("--preset", args->preset, "fast, default, best, paper or paper-code");
   args->masks.add_to(command, false);
   command.get_option("--parts-only")->excludes("--masks");
-  command.add_option("--smoothness", args->lambda, "Weight of the neighbour term")->check(CLI::Range(0.0, 500.0));
-  command.add_option("--scale", args->scale, "Next larger (+1, +2, ...) or smaller (-1, ...) part for the first click")->check(CLI::Range(-100, 100));
+  command.add_option("--smoothness", args->lambda, "Weight of the neighbour term")
+      ->check(CLI::Range(0.0, 500.0));
+  command
+      .add_option("--scale", args->scale,
+                  "Next larger (+1, +2, ...) or smaller (-1, ...) part for the first click")
+      ->check(CLI::Range(-100, 100));
   add_tuning_options(command, &args->set);
   command.add_flag("--coarse", args->coarse, "Threshold the likelihood instead of the cut");
   command.add_flag("--json", args->json, "Print the report as JSON");

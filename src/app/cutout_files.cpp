@@ -23,7 +23,8 @@ std::vector<std::uint8_t> inverted(const std::vector<std::uint8_t>& labels) {
 }
 
 // Colour with straight alpha: the cutout on nothing.
-Image<Rgba8> cutout_picture(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> shown) {
+Image<Rgba8> cutout_picture(const GaussianCloud& cloud, const Camera& camera,
+                            std::span<const std::uint8_t> shown) {
   RasterOptions options;
   options.shown = shown;
   const RasterOutput out = rasterize(cloud, camera, options);
@@ -45,7 +46,8 @@ void tint(const Mask& mask, Image<Rgb8>* picture) {
     const Rgb8 orange{255, 140, 30};
     const int share = !mask.pixels()[i] ? 0 : core.pixels()[i] ? 90 : 230;  // of 256
     for (int c = 0; c < 3; ++c)
-      p[c] = static_cast<std::uint8_t>(share ? (p[c] * (256 - share) + orange[c] * share) >> 8 : p[c] * 3 / 5);
+      p[c] =
+          static_cast<std::uint8_t>(share ? (p[c] * (256 - share) + orange[c] * share) >> 8 : p[c] * 3 / 5);
   }
 }
 
@@ -65,11 +67,14 @@ Image<Rgb8> contact_sheet(const GaussianCloud& cloud, const std::vector<ViewRepo
   for (std::size_t v = 0; v < views.size(); ++v) {
     const ViewReport& view = views[v];
     const Image<Rgb8> picture = tinted_view(cloud, view.camera, view.mask);
-    const int x0 = static_cast<int>(v) % columns * (width + kGap), y0 = static_cast<int>(v) / columns * (height + kGap);
+    const int x0 = static_cast<int>(v) % columns * (width + kGap),
+              y0 = static_cast<int>(v) / columns * (height + kGap);
     for (int y = 0; y < std::min(height, picture.height()); ++y)
       for (int x = 0; x < std::min(width, picture.width()); ++x) {
         Rgb8 p = picture.at(x, y);
-        if (!view.used) p = {static_cast<std::uint8_t>(p[0] / 3), static_cast<std::uint8_t>(p[1] / 3), static_cast<std::uint8_t>(p[2] / 3)};
+        if (!view.used)
+          p = {static_cast<std::uint8_t>(p[0] / 3), static_cast<std::uint8_t>(p[1] / 3),
+               static_cast<std::uint8_t>(p[2] / 3)};
         sheet.at(x0 + x, y0 + y) = p;
       }
   }
@@ -83,8 +88,8 @@ void write_cutout_picture(const std::filesystem::path& path, const GaussianCloud
   write_png(path, cutout_picture(cloud, camera, shown));
 }
 
-void write_object_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera, const PipelineReport& report,
-                           const PictureNames& names) {
+void write_object_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
+                           const PipelineReport& report, const PictureNames& names) {
   write_cutout_picture(folder.file(names.object), cloud, camera, report.labels);
   const Mask seen = thresholded(render_labels(cloud, camera, report.labels), 0.5f);
   write_png(folder.file(names.tint), tinted_view(cloud, camera, seen));
@@ -97,7 +102,8 @@ void write_cutout_pictures(const OutputFolder& folder, const GaussianCloud& clou
   write_cutout_picture(folder.file("rest.png"), cloud, camera, inverted(report.labels));
 }
 
-void write_labels(const std::filesystem::path& path, const Scene& scene, const std::vector<std::uint8_t>& labels) {
+void write_labels(const std::filesystem::path& path, const Scene& scene,
+                  const std::vector<std::uint8_t>& labels) {
   std::vector<std::uint8_t> in_file_order(scene.file_rows, 0);
   for (std::size_t g = 0; g < labels.size(); ++g) in_file_order[scene.cloud.file_row[g]] = labels[g];
   AtomicFile file(path);
@@ -105,7 +111,8 @@ void write_labels(const std::filesystem::path& path, const Scene& scene, const s
   file.commit();
 }
 
-void write_cutout_scenes(const OutputFolder& folder, const Scene& scene, const std::vector<std::uint8_t>& labels) {
+void write_cutout_scenes(const OutputFolder& folder, const Scene& scene,
+                         const std::vector<std::uint8_t>& labels) {
   save_scene(folder.file("object.ply"), scene, labels, SceneFormat::kPly);
   save_scene(folder.file("rest.ply"), scene, inverted(labels), SceneFormat::kPly);
   write_labels(folder.file("labels.u8"), scene, labels);
@@ -120,7 +127,8 @@ double peak_rss_mb() {
 nlohmann::json run_json(const Scene& scene, const nlohmann::json& settings, double total_ms) {
   return {{"version", SPLATCUT_VERSION},
           {"settings", settings},
-          {"scene", {{"gaussians", scene.cloud.size()}, {"file_rows", scene.file_rows}, {"dropped", scene.dropped}}},
+          {"scene",
+           {{"gaussians", scene.cloud.size()}, {"file_rows", scene.file_rows}, {"dropped", scene.dropped}}},
           {"total_ms", total_ms},
           {"peak_rss_mb", peak_rss_mb()}};
 }
@@ -135,13 +143,22 @@ nlohmann::json object_json(const PipelineReport& report) {
   const LookedAt enough = looked_at(report.views);
   return {{"object", {{"gaussians", std::ranges::count(report.labels, 1)}}},
           {"views", views},
-          {"enough", {{"views", enough.views}, {"pixels", enough.pixels}, {"gaussians", report.cut.touched}, {"why", report.enough}}},
-          {"cut", {{"nodes", report.cut.nodes}, {"arcs", report.cut.arcs}, {"energy", report.cut.energy}, {"flow", report.cut.flow}}},
+          {"enough",
+           {{"views", enough.views},
+            {"pixels", enough.pixels},
+            {"gaussians", report.cut.touched},
+            {"why", report.enough}}},
+          {"cut",
+           {{"nodes", report.cut.nodes},
+            {"arcs", report.cut.arcs},
+            {"energy", report.cut.energy},
+            {"flow", report.cut.flow}}},
           {"doubts", doubts(report)},
           {"stages", stages}};
 }
 
-nlohmann::json report_json(const Scene& scene, const PipelineReport& report, const nlohmann::json& settings, double total_ms) {
+nlohmann::json report_json(const Scene& scene, const PipelineReport& report, const nlohmann::json& settings,
+                           double total_ms) {
   nlohmann::json json = run_json(scene, settings, total_ms);
   json.update(object_json(report));
   return json;

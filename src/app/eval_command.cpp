@@ -31,15 +31,26 @@ struct EvalArguments {
 };
 
 nlohmann::json score_json(const SceneScore& s) {
-  nlohmann::json j = {{"name", s.name}, {"image_iou", s.image_iou}, {"accuracy", s.accuracy}, {"boundary_iou", s.boundary_iou}, {"psnr_db", s.psnr_db}, {"ssim", s.ssim},
-                      {"mask_iou_after_clicks", s.mask_iou_after_clicks}, {"total_ms", s.total_ms}, {"ms", nlohmann::json::object()}};
+  nlohmann::json j = {{"name", s.name},
+                      {"image_iou", s.image_iou},
+                      {"accuracy", s.accuracy},
+                      {"boundary_iou", s.boundary_iou},
+                      {"psnr_db", s.psnr_db},
+                      {"ssim", s.ssim},
+                      {"mask_iou_after_clicks", s.mask_iou_after_clicks},
+                      {"total_ms", s.total_ms},
+                      {"ms", nlohmann::json::object()}};
   j["gaussian_iou"] = s.gaussian_iou ? nlohmann::json(*s.gaussian_iou) : nullptr;
   j["noc85"] = s.noc85 ? nlohmann::json(*s.noc85) : nullptr;
   j["noc90"] = s.noc90 ? nlohmann::json(*s.noc90) : nullptr;
   j["image_iou_after_clicks"] = nlohmann::json::object();
-  for (const auto& [n, value] : s.image_iou_after_clicks) j["image_iou_after_clicks"][std::to_string(n)] = value;
+  for (const auto& [n, value] : s.image_iou_after_clicks)
+    j["image_iou_after_clicks"][std::to_string(n)] = value;
   for (const StageTime& stage : s.stages) j["ms"][stage.name] = stage.ms;
-  j["enough"] = {{"views", s.enough.views}, {"pixels", s.enough.pixels}, {"gaussians", s.nodes_touched}, {"why", s.why_enough}};
+  j["enough"] = {{"views", s.enough.views},
+                 {"pixels", s.enough.pixels},
+                 {"gaussians", s.nodes_touched},
+                 {"why", s.why_enough}};
   return j;
 }
 
@@ -62,19 +73,22 @@ nlohmann::json mean_json(const std::vector<nlohmann::json>& scores) {
   for (const auto& s : scores) {
     const nlohmann::json flat = s.flatten();  // named: items() only refers to it
     for (const auto& [at, value] : flat.items())
-      if (value.is_number()) mean[nlohmann::json::json_pointer(at)] = mean_of(nlohmann::json::json_pointer(at));
+      if (value.is_number())
+        mean[nlohmann::json::json_pointer(at)] = mean_of(nlohmann::json::json_pointer(at));
   }
   return mean;
 }
 
 void print_heads() {
-  fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>5} {:>5} {:>8}\n", "scene", "img IoU", "acc", "bnd IoU", "gau IoU", "PSNR", "SSIM",
-             "1 click", "3", "5", "NoC90", "views", "Mpx", "ms");
+  fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>5} {:>5} {:>8}\n",
+             "scene", "img IoU", "acc", "bnd IoU", "gau IoU", "PSNR", "SSIM", "1 click", "3", "5", "NoC90",
+             "views", "Mpx", "ms");
 }
 
 void print_row(const nlohmann::json& s) {
   const auto number = [&s](const char* key, const char* form) {
-    return s.contains(key) && s.at(key).is_number() ? fmt::format(fmt::runtime(form), s.at(key).get<double>()) : std::string("-");
+    return s.contains(key) && s.at(key).is_number() ? fmt::format(fmt::runtime(form), s.at(key).get<double>())
+                                                    : std::string("-");
   };
   const auto after = [&s](const char* n) {
     const auto& curve = s.value("image_iou_after_clicks", nlohmann::json::object());
@@ -82,15 +96,19 @@ void print_row(const nlohmann::json& s) {
   };
   const nlohmann::json none, &enough = s.contains("enough") ? s.at("enough") : none;
   const auto looked = [&enough](const char* key, double unit, const char* form) {
-    return enough.is_object() ? fmt::format(fmt::runtime(form), enough.at(key).get<double>() / unit) : std::string("-");
+    return enough.is_object() ? fmt::format(fmt::runtime(form), enough.at(key).get<double>() / unit)
+                              : std::string("-");
   };
-  fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>5} {:>5} {:>8}\n", s.value("name", ""), number("image_iou", "{:.3f}"),
-             number("accuracy", "{:.4f}"), number("boundary_iou", "{:.3f}"), number("gaussian_iou", "{:.3f}"), number("psnr_db", "{:.2f}"),
-             number("ssim", "{:.4f}"), after("1"), after("3"), after("5"), number("noc90", "{:.1f}"), looked("views", 1, "{:.0f}"), looked("pixels", 1e6, "{:.2f}"), number("total_ms", "{:.0f}"));
+  fmt::print("{:<16} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>5} {:>5} {:>8}\n",
+             s.value("name", ""), number("image_iou", "{:.3f}"), number("accuracy", "{:.4f}"),
+             number("boundary_iou", "{:.3f}"), number("gaussian_iou", "{:.3f}"), number("psnr_db", "{:.2f}"),
+             number("ssim", "{:.4f}"), after("1"), after("3"), after("5"), number("noc90", "{:.1f}"),
+             looked("views", 1, "{:.0f}"), looked("pixels", 1e6, "{:.2f}"), number("total_ms", "{:.0f}"));
 }
 
 nlohmann::json draws_json(const ClickDraws& d) {
-  return {{"median", d.median}, {"least", d.least}, {"mean_noc85", d.mean_noc85}, {"mean_noc90", d.mean_noc90},
+  return {{"median", d.median},         {"least", d.least},
+          {"mean_noc85", d.mean_noc85}, {"mean_noc90", d.mean_noc90},
           {"most_noc90", d.most_noc90}, {"least_from_second_click", d.least_from_second}};
 }
 
@@ -106,14 +124,16 @@ void print_draws(const nlohmann::json& result, int draws) {
     for (std::size_t k = 0; k < d.at("median").size(); ++k)
       fmt::print(" {:.3f}/{:.3f}", d.at("median")[k].get<double>(), d.at("least")[k].get<double>());
     if (d.contains("mean_noc90"))
-      fmt::print("  NoC85 {:.2f} NoC90 {:.2f}, most {}", d.at("mean_noc85").get<double>(), d.at("mean_noc90").get<double>(), d.at("most_noc90").get<double>());
+      fmt::print("  NoC85 {:.2f} NoC90 {:.2f}, most {}", d.at("mean_noc85").get<double>(),
+                 d.at("mean_noc90").get<double>(), d.at("most_noc90").get<double>());
     fmt::print("\n");
   }
 }
 
 // --first-mask truth needs the truth of the reference view, --masks truth that of any view.
 bool lacks_truth(const EvaluationCase& test, const EvaluationOptions& options) {
-  return (options.truth_first_mask && !test.reference_truth) || (options.truth_masks && test.truth_labels.empty());
+  return (options.truth_first_mask && !test.reference_truth) ||
+         (options.truth_masks && test.truth_labels.empty());
 }
 
 // A scene to measure, loaded when its turn comes.
@@ -123,12 +143,16 @@ std::vector<Loader> loaders(const EvalArguments& args) {
   std::vector<Loader> all;
   if (!args.suite.empty())
     for (const nlohmann::json& entry : read_suite(args.suite))
-      all.push_back([entry, folder = args.suite.parent_path()](const PrepareOptions& prepare, const Job& job) { return load_case(entry, folder, prepare, job); });
+      all.push_back(
+          [entry, folder = args.suite.parent_path()](const PrepareOptions& prepare, const Job& job) {
+            return load_case(entry, folder, prepare, job);
+          });
   std::vector<BenchmarkTask> tasks;
   if (!args.nvos.empty()) tasks = nvos_tasks(args.nvos, args.scenes);
   if (!args.spin_nerf.empty()) tasks = spin_nerf_tasks(args.spin_nerf, args.scenes);
   for (const BenchmarkTask& task : tasks)
-    all.push_back([task](const PrepareOptions& prepare, const Job& job) { return load_task(task, prepare, job); });
+    all.push_back(
+        [task](const PrepareOptions& prepare, const Job& job) { return load_task(task, prepare, job); });
   return all;
 }
 
@@ -151,7 +175,8 @@ void stop_if_cancelled(const Job& job) {
 }
 
 // The measures of each scene that has the truth it takes; prints a row each.
-std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationOptions& options, bool quiet, const Job& job) {
+std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationOptions& options, bool quiet,
+                                    const Job& job) {
   std::vector<nlohmann::json> scores;
   const std::vector<Loader> scenes = loaders(args);
   if (!args.json) print_heads();
@@ -161,7 +186,8 @@ std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationO
     warn(loaded->warning, quiet);
     if (lacks_truth(loaded->test, options)) {
       end_progress();
-      fmt::print(stderr, "{}: left out, it has no truth where --first-mask or --masks asks for it\n", loaded->test.name);
+      fmt::print(stderr, "{}: left out, it has no truth where --first-mask or --masks asks for it\n",
+                 loaded->test.name);
       continue;
     }
     SceneScore score = evaluate(loaded->test, options, job);
@@ -185,18 +211,23 @@ std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationO
 void check_ways_in(const EvalArguments& args) {
   const int ways = !args.suite.empty() + !args.nvos.empty() + !args.spin_nerf.empty();
   if (ways != 1) throw CLI::ValidationError("give one of suite, --nvos and --spin-nerf");
-  if (args.suite.empty() == args.scenes.empty()) throw CLI::ValidationError("--scenes goes with --nvos and --spin-nerf, and they with it");
-  if (!args.nvos.empty() && args.mask.first_mask == "truth") throw CLI::ValidationError("--first-mask truth: NVOS has no true mask of the reference view");
+  if (args.suite.empty() == args.scenes.empty())
+    throw CLI::ValidationError("--scenes goes with --nvos and --spin-nerf, and they with it");
+  if (!args.nvos.empty() && args.mask.first_mask == "truth")
+    throw CLI::ValidationError("--first-mask truth: NVOS has no true mask of the reference view");
 }
 
 void run_eval(const EvalArguments& args, const CommonOptions& common) {
   check_ways_in(args);
-  const Job job = console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
+  const Job job =
+      console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
   OutputFolder folder(args.output, args.overwrite);
-  const std::vector<nlohmann::json> scores = measure(args, evaluation_options(args, common), common.quiet, job);
+  const std::vector<nlohmann::json> scores =
+      measure(args, evaluation_options(args, common), common.quiet, job);
   if (scores.empty()) throw Error("splatcut eval", "no scene of the suite is left to measure");
-  nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"set", args.set}, {"clicks", args.clicks}, {"draws", args.draws},
-                           {"scenes", scores}, {"mean", mean_json(scores)}};
+  nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"set", args.set},
+                           {"clicks", args.clicks},       {"draws", args.draws},   {"scenes", scores},
+                           {"mean", mean_json(scores)}};
   const std::string benchmark = !args.nvos.empty() ? "NVOS" : !args.spin_nerf.empty() ? "SPIn-NeRF" : "";
   if (!benchmark.empty()) result["published"] = published_json(benchmark);
   write_text_file(folder.file("eval.json"), result.dump(2) + "\n");
@@ -209,7 +240,9 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
   if (args.draws > 0) print_draws(result, args.draws);
   if (common.quiet) return;
   for (const PublishedScore& p : published_scores())
-    if (p.benchmark == benchmark) fmt::print("published: {:<40} img IoU {}, acc {}\n", p.method, p.iou, p.accuracy.empty() ? "-" : p.accuracy);
+    if (p.benchmark == benchmark)
+      fmt::print("published: {:<40} img IoU {}, acc {}\n", p.method, p.iou,
+                 p.accuracy.empty() ? "-" : p.accuracy);
 }
 
 }  // namespace
@@ -220,21 +253,30 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.footer(
       "One command a table of the GaussianCut paper, where RUNS holds a 3DGS output per scene:\n"
       "  Tables 1, 3 (NVOS):       splatcut eval --nvos nvos/labels/llff --scenes RUNS -o OUT\n"
-      "  Table 2 (SPIn-NeRF):      splatcut eval --spin-nerf Multiview-Segmentation-Data --scenes RUNS -o OUT\n"
-      "  Table 4 (Shiny):          splatcut eval --spin-nerf YOUR_MASKS --scenes RUNS -o OUT    (a folder of masks per scene)\n"
-      "RUNS/SCENE: point_cloud/iteration_N/point_cloud.ply or one .ply, and cameras.json, sparse/0 or transforms.json.\n"
-      "NVOS: reference_image/SCENE/NAME.JPG, scribbles/SCENE/pos_*.png neg_*.png, masks/SCENE/NAME_mask.png.\n"
-      "SPIn-NeRF: SCENE/NAME.png, or in SCENE/label, masks or images_N/label; the first by name is given, the others are scored.");
+      "  Table 2 (SPIn-NeRF):      splatcut eval --spin-nerf Multiview-Segmentation-Data --scenes RUNS -o "
+      "OUT\n"
+      "  Table 4 (Shiny):          splatcut eval --spin-nerf YOUR_MASKS --scenes RUNS -o OUT    (a folder of "
+      "masks per scene)\n"
+      "RUNS/SCENE: point_cloud/iteration_N/point_cloud.ply or one .ply, and cameras.json, sparse/0 or "
+      "transforms.json.\n"
+      "NVOS: reference_image/SCENE/NAME.JPG, scribbles/SCENE/pos_*.png neg_*.png, "
+      "masks/SCENE/NAME_mask.png.\n"
+      "SPIn-NeRF: SCENE/NAME.png, or in SCENE/label, masks or images_N/label; the first by name is given, "
+      "the others are scored.");
   command.add_option("suite", args->suite, "suite.json");
-  command.add_option("--nvos", args->nvos, "Folder with scribbles, masks and reference_image, as NVOS is released; wants --scenes");
-  command.add_option("--spin-nerf", args->spin_nerf, "Folder with a mask per picture and scene, as SPIn-NeRF is released; wants --scenes");
+  command.add_option("--nvos", args->nvos,
+                     "Folder with scribbles, masks and reference_image, as NVOS is released; wants --scenes");
+  command.add_option("--spin-nerf", args->spin_nerf,
+                     "Folder with a mask per picture and scene, as SPIn-NeRF is released; wants --scenes");
   command.add_option("--scenes", args->scenes, "Folder of the reconstructions, one folder a scene");
   command.add_option("-o,--output", args->output, "Folder for eval.json")->required();
   command.add_option("--preset", args->preset, "fast, default, best, paper or paper-code");
   command.add_option("--clicks", args->clicks, "Clicks for the final cut")->check(CLI::Range(1, 8));
-  command.add_option("--draws", args->draws, "The first mask again with that many draws of unsteady clicks")->check(CLI::Range(0, 1000));
+  command.add_option("--draws", args->draws, "The first mask again with that many draws of unsteady clicks")
+      ->check(CLI::Range(0, 1000));
   args->mask.add_to(command, true);
-  command.add_option("--masks", args->masks, "truth: the true masks in all orbit views")->check(CLI::IsMember({"truth"}));
+  command.add_option("--masks", args->masks, "truth: the true masks in all orbit views")
+      ->check(CLI::IsMember({"truth"}));
   add_tuning_options(command, &args->set);
   command.add_flag("!--no-curve", args->curve, "Leave out the figures after 1..8 clicks");
   command.add_flag("--json", args->json, "Print JSON");

@@ -1,6 +1,7 @@
 // Reads a suite of scenes with truth, as `splatcut eval` takes it.
 //
-// {"scenes": [{"name", "scene", "cameras"?, "truth": {"labels": FILE, "label": 1} | {"masks": FOLDER}, "reference":
+// {"scenes": [{"name", "scene", "cameras"?, "truth": {"labels": FILE, "label": 1} | {"masks": FOLDER},
+// "reference":
 // {"position","target","up","fov_y_deg","size"} | {"camera": NAME}, "clicks": "robot" | [...],
 // "scribbles": [...], "test_views": [as reference]}]}, paths relative to the suite's folder.
 #pragma once
@@ -29,6 +30,7 @@ struct LoadedCase {
 std::vector<nlohmann::json> read_suite(const std::filesystem::path& path);
 
 // Scene, graph, parts, cameras and truth of one entry.
-std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder, const PrepareOptions& prepare, const Job& job);
+std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder,
+                                      const PrepareOptions& prepare, const Job& job);
 
 }  // namespace splatcut

@@ -35,12 +35,16 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.fallthrough();
   CommonOptions common;
-  program.add_option("--threads", common.threads, "Worker threads (0: all cores); results do not depend on it")->check(CLI::NonNegativeNumber);
+  program
+      .add_option("--threads", common.threads, "Worker threads (0: all cores); results do not depend on it")
+      ->check(CLI::NonNegativeNumber);
   program.add_flag("--quiet", common.quiet, "Print errors only");
-  program.add_flag("!--no-cache", common.cache, "Keep nothing of scenes that were prepared, and use nothing that was kept");
+  program.add_flag("!--no-cache", common.cache,
+                   "Keep nothing of scenes that were prepared, and use nothing that was kept");
   std::optional<tbb::global_control> limit;
   program.parse_complete_callback([&] {
-    if (common.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
+    if (common.threads > 0)
+      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
   });
   add_info_command(program, common);
   add_render_command(program, common);

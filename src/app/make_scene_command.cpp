@@ -29,7 +29,9 @@ void run_make_scene(const MakeSceneArguments& args, const CommonOptions& common)
   write_still_life(folder, made, args.name, args.format);
   if (job.cancelled()) throw Error("splatcut make-scene", "cancelled, nothing was written");
   folder.commit();
-  if (!common.quiet) fmt::print("{}: {} Gaussians in {}, labels, cameras.json, seeds.json, suite.json\n", args.output.string(), made.cloud.size(), args.name + "." + args.format);
+  if (!common.quiet)
+    fmt::print("{}: {} Gaussians in {}, labels, cameras.json, seeds.json, suite.json\n", args.output.string(),
+               made.cloud.size(), args.name + "." + args.format);
 }
 
 }  // namespace
@@ -40,11 +42,14 @@ void add_make_scene_command(CLI::App& program, const CommonOptions& common) {
   CLI::App& command = *program.add_subcommand("make-scene", "Make a labelled still life");
   command.add_option("name", args->name, "Name of the files")->required();
   command.add_option("-o,--output", args->output, "Folder to write")->required();
-  command.add_option("--gaussians", options.gaussians, "How many")->check(CLI::Range(std::size_t{1000}, std::size_t{10000000}));
+  command.add_option("--gaussians", options.gaussians, "How many")
+      ->check(CLI::Range(std::size_t{1000}, std::size_t{10000000}));
   command.add_option("--seed", options.seed, "Random seed");
   command.add_option("--sh-degree", options.sh_degree, "Spherical harmonics")->check(CLI::Range(0, 3));
-  command.add_option("--format", args->format, "ply, compressed.ply, splat or spz")->check(CLI::IsMember({"ply", "compressed.ply", "splat", "spz"}));
-  command.add_option("--thin-width-scale", options.thin_width_scale, "Width of leaves, handle and cable")->check(CLI::Range(0.01f, 10.0f));
+  command.add_option("--format", args->format, "ply, compressed.ply, splat or spz")
+      ->check(CLI::IsMember({"ply", "compressed.ply", "splat", "spz"}));
+  command.add_option("--thin-width-scale", options.thin_width_scale, "Width of leaves, handle and cable")
+      ->check(CLI::Range(0.01f, 10.0f));
   command.add_flag("--straddling", options.straddling, "Splats across object borders");
   command.add_flag("--floaters", options.floaters, "Faint blobs in the air");
   command.add_flag("--unseen-interior", options.unseen_interior, "Splats inside the objects");

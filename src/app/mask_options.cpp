@@ -9,10 +9,15 @@ namespace splatcut {
 void MaskOptions::add_to(CLI::App& command, bool truth_too) {
   std::vector<std::string> ways = {"parts", "grabcut", "pixelcut"};
   if (truth_too) ways.push_back("truth");
-  command.add_option("--first-mask", first_mask,
-                     std::string("parts: the hierarchy of parts; grabcut, pixelcut: from the one picture") + (truth_too ? "; truth: the true mask" : ""))
+  command
+      .add_option("--first-mask", first_mask,
+                  std::string("parts: the hierarchy of parts; grabcut, pixelcut: from the one picture") +
+                      (truth_too ? "; truth: the true mask" : ""))
       ->check(CLI::IsMember(ways));
-  command.add_option("--propagate", propagate, "lift: labels of the cut rendered into the next view; warp: masks through depth; dis: along optical flow")
+  command
+      .add_option("--propagate", propagate,
+                  "lift: labels of the cut rendered into the next view; warp: masks through depth; dis: "
+                  "along optical flow")
       ->check(CLI::IsMember({"lift", "warp", "dis"}));
   command.add_option("--refine", refine, "What settles masks in the other views: none, grabcut or pixelcut")
       ->check(CLI::IsMember({"none", "grabcut", "pixelcut"}));

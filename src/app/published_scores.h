@@ -1,4 +1,5 @@
-// Figures that were published for the benchmarks, to stand beside ours. Only what could be read at a source is here.
+// Figures that were published for the benchmarks, to stand beside ours. Only what could be read at a source
+// is here.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -28,7 +29,12 @@ inline const std::vector<PublishedScore>& published_scores() {
 inline nlohmann::json published_json(const std::string& benchmark) {
   nlohmann::json list = nlohmann::json::array();
   for (const PublishedScore& p : published_scores())
-    if (p.benchmark == benchmark) list.push_back({{"method", p.method}, {"source", p.source}, {"image_iou", p.iou}, {"accuracy", p.accuracy}, {"seconds", p.seconds}});
+    if (p.benchmark == benchmark)
+      list.push_back({{"method", p.method},
+                      {"source", p.source},
+                      {"image_iou", p.iou},
+                      {"accuracy", p.accuracy},
+                      {"seconds", p.seconds}});
   return list;
 }
 

@@ -30,9 +30,11 @@ struct SceneArguments {
 nlohmann::json info_json(const Scene& scene) {
   const Box box = robust_bounds(scene.cloud.position);
   const auto list = [](const glm::vec3& v) { return nlohmann::json{v.x, v.y, v.z}; };
-  return {{"file", scene.path.string()}, {"format", name_of(scene.format)}, {"file_bytes", scene.file_bytes},
-          {"file_rows", scene.file_rows}, {"gaussians", scene.cloud.size()}, {"dropped", scene.dropped},
-          {"sh_degree", scene.cloud.sh_degree}, {"bounds_98", {{"min", list(box.min)}, {"max", list(box.max)}}}};
+  return {
+      {"file", scene.path.string()},        {"format", name_of(scene.format)},
+      {"file_bytes", scene.file_bytes},     {"file_rows", scene.file_rows},
+      {"gaussians", scene.cloud.size()},    {"dropped", scene.dropped},
+      {"sh_degree", scene.cloud.sh_degree}, {"bounds_98", {{"min", list(box.min)}, {"max", list(box.max)}}}};
 }
 
 void run_info(const SceneArguments& args, const CommonOptions& common) {
@@ -43,7 +45,8 @@ void run_info(const SceneArguments& args, const CommonOptions& common) {
     fmt::print("{}\n", info.dump(2));
     return;
   }
-  for (const auto& [key, value] : info.items()) fmt::print("{:<10} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+  for (const auto& [key, value] : info.items())
+    fmt::print("{:<10} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
 }
 
 // Labels in file order, as `cut` writes them, for the Gaussians of the cloud.
@@ -52,7 +55,8 @@ std::vector<std::uint8_t> load_labels(const std::filesystem::path& path, const S
   if (!in) throw Error(path.string(), "cannot be opened");
   const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
   if (bytes.size() != scene.file_rows)
-    throw Error(path.string(), fmt::format("holds {} labels, the scene {} rows", bytes.size(), scene.file_rows));
+    throw Error(path.string(),
+                fmt::format("holds {} labels, the scene {} rows", bytes.size(), scene.file_rows));
   std::vector<std::uint8_t> labels(scene.cloud.size());
   for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = bytes[scene.cloud.file_row[g]] != 0;
   return labels;
@@ -96,7 +100,8 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
     write_depth(args.output, out.expected_depth);
   } else if (args.what == "alpha") {
     Image<std::uint8_t> grey(out.alpha.width(), out.alpha.height());
-    std::ranges::transform(out.alpha.pixels(), grey.pixels().begin(), [](float a) { return static_cast<std::uint8_t>(a * 255 + 0.5f); });
+    std::ranges::transform(out.alpha.pixels(), grey.pixels().begin(),
+                           [](float a) { return static_cast<std::uint8_t>(a * 255 + 0.5f); });
     write_png(args.output, grey);
   } else {
     write_png(args.output, rgb8_from_linear(out.colour));
@@ -133,7 +138,8 @@ void add_render_command(CLI::App& program, const CommonOptions& common) {
   command.footer("Example: splatcut render scene.ply --camera-pos 0,-1,-4 --camera-target 0,0,0 -o view.png");
   command.add_option("scene", args->scene, "Scene file")->required();
   args->camera.add_to(command);
-  command.add_option("--what", args->what, "colour, depth, alpha or labels")->check(CLI::IsMember({"colour", "depth", "alpha", "labels"}));
+  command.add_option("--what", args->what, "colour, depth, alpha or labels")
+      ->check(CLI::IsMember({"colour", "depth", "alpha", "labels"}));
   command.add_option("--labels", args->labels, "labels.u8 of a cut, for --what labels");
   command.add_option("--background", args->background, "r,g,b from 0 to 1");
   command.add_option("-o,--output", args->output, "PNG to write")->required();
@@ -143,7 +149,8 @@ void add_render_command(CLI::App& program, const CommonOptions& common) {
 
 void add_convert_command(CLI::App& program, const CommonOptions& common) {
   auto args = std::make_shared<SceneArguments>();
-  CLI::App& command = *program.add_subcommand("convert", "Write a scene in another format (.ply, .compressed.ply, .splat, .spz)");
+  CLI::App& command = *program.add_subcommand(
+      "convert", "Write a scene in another format (.ply, .compressed.ply, .splat, .spz)");
   command.add_option("scene", args->scene, "Scene file")->required();
   command.add_option("-o,--output", args->output, "File to write; its ending names the format")->required();
   command.add_flag("--overwrite", args->overwrite, "Replace an existing file");

@@ -23,11 +23,13 @@ Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where)
   try {
     if (seeds.contains("clicks") && seeds.at("clicks").is_array())
       for (const auto& c : seeds.at("clicks"))
-        strokes.push_back(click({c.at("x").get<float>(), c.at("y").get<float>()}, label_from(c.value("label", "object"), where)));
+        strokes.push_back(click({c.at("x").get<float>(), c.at("y").get<float>()},
+                                label_from(c.value("label", "object"), where)));
     if (seeds.contains("scribbles"))
       for (const auto& s : seeds.at("scribbles")) {
         Stroke stroke{label_from(s.at("label"), where), s.value("radius_px", 3.0f), {}};
-        for (const auto& p : s.at("points")) stroke.points_px.emplace_back(p.at(0).get<float>(), p.at(1).get<float>());
+        for (const auto& p : s.at("points"))
+          stroke.points_px.emplace_back(p.at(0).get<float>(), p.at(1).get<float>());
         strokes.push_back(std::move(stroke));
       }
   } catch (const nlohmann::json::exception& error) {
@@ -54,7 +56,8 @@ Stroke parse_click(const std::string& text) {
   float x = 0, y = 0;
   int used = 0;
   const std::string where = "--click " + text;
-  if (std::sscanf(text.c_str(), "%f,%f%n", &x, &y, &used) != 2) throw Error(where, "is not a pixel", "Write it as x,y or x,y:rest");
+  if (std::sscanf(text.c_str(), "%f,%f%n", &x, &y, &used) != 2)
+    throw Error(where, "is not a pixel", "Write it as x,y or x,y:rest");
   const std::string tail = text.substr(static_cast<std::size_t>(used));
   if (tail.empty()) return click({x, y}, SeedLabel::kObject);
   if (tail[0] != ':') throw Error(where, "is not a pixel", "Write it as x,y or x,y:rest");

@@ -17,28 +17,34 @@ namespace {
 nlohmann::json seeds_json(const LabelledScene& made) {
   nlohmann::json objects = nlohmann::json::array();
   for (const auto& seed : made.seeds)
-    objects.push_back({{"object", seed.object}, {"camera", seed.camera},
+    objects.push_back({{"object", seed.object},
+                       {"camera", seed.camera},
                        {"clicks", {{{"x", seed.pixel.x}, {"y", seed.pixel.y}, {"label", "object"}}}}});
   return {{"labels", made.label_name}, {"objects", objects}};
 }
 
 // One entry per object, as `splatcut eval` takes them: clicks by the robot, every camera a test view.
-nlohmann::json suite_json(const LabelledScene& made, const std::string& file, const std::string& labels_file) {
+nlohmann::json suite_json(const LabelledScene& made, const std::string& file,
+                          const std::string& labels_file) {
   nlohmann::json views = nlohmann::json::array(), scenes = nlohmann::json::array();
   for (const Camera& camera : made.cameras) views.push_back({{"camera", camera.name}});
   for (const auto& seed : made.seeds) {
     const auto label = std::ranges::find(made.label_name, seed.object) - made.label_name.begin();
-    scenes.push_back({{"name", seed.object}, {"scene", file}, {"cameras", "cameras.json"},
+    scenes.push_back({{"name", seed.object},
+                      {"scene", file},
+                      {"cameras", "cameras.json"},
                       {"truth", {{"labels", labels_file}, {"label", label}}},
                       {"reference", {{"camera", made.cameras[static_cast<std::size_t>(seed.camera)].name}}},
-                      {"clicks", "robot"}, {"test_views", views}});
+                      {"clicks", "robot"},
+                      {"test_views", views}});
   }
   return {{"scenes", scenes}};
 }
 
 }  // namespace
 
-void write_still_life(const OutputFolder& folder, const LabelledScene& made, const std::string& name, const std::string& format) {
+void write_still_life(const OutputFolder& folder, const LabelledScene& made, const std::string& name,
+                      const std::string& format) {
   Scene scene;
   scene.file_rows = made.cloud.size();
   scene.format = SceneFormat::kSplat;  // no file behind it: every row is written from the cloud

@@ -9,6 +9,7 @@
 namespace splatcut {
 
 // NAME.FORMAT, NAME.labels.u8, cameras.json, seeds.json, suite.json.
-void write_still_life(const OutputFolder& folder, const LabelledScene& made, const std::string& name, const std::string& format);
+void write_still_life(const OutputFolder& folder, const LabelledScene& made, const std::string& name,
+                      const std::string& format);
 
 }  // namespace splatcut

@@ -17,7 +17,8 @@ template <class Number>
 bool read(std::string_view text, Number low, Number high, Number* value) {
   Number read{};
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), read);
-  if (failure != std::errc() || end != text.data() + text.size() || !(read >= low && read <= high)) return false;
+  if (failure != std::errc() || end != text.data() + text.size() || !(read >= low && read <= high))
+    return false;
   *value = read;
   return true;
 }
@@ -25,8 +26,10 @@ bool read(std::string_view text, Number low, Number high, Number* value) {
 // `field`: a function from PipelineOptions& to a reference to what is set.
 template <class Field, class Number>
 TuningOption number(std::string name, Number low, Number high, Field field) {
-  return {std::move(name), fmt::format("a {} from {} to {}", std::is_integral_v<Number> ? "whole number" : "number", low, high),
-          [=](std::string_view text, PipelineOptions* o) { return read(text, low, high, &field(*o)); }};
+  return {
+      std::move(name),
+      fmt::format("a {} from {} to {}", std::is_integral_v<Number> ? "whole number" : "number", low, high),
+      [=](std::string_view text, PipelineOptions* o) { return read(text, low, high, &field(*o)); }};
 }
 
 template <class Field>
@@ -70,12 +73,16 @@ auto of_cut(Member CutOptions::*member) {
 std::vector<TuningOption> make_table() {
   using E = EnergyOptions;
   constexpr float kLargestGamma = 1000;
-  const std::vector<std::pair<std::string_view, Pairwise>> kinds = {
-      {"overlap", Pairwise::kOverlap}, {"distance", Pairwise::kDistance}, {"paper", Pairwise::kPaper}, {"paper-code", Pairwise::kPaperCode}};
-  const std::vector<std::pair<std::string_view, Propagator>> propagators = {{"lift", Propagator::kLift}, {"warp", Propagator::kWarp}, {"dis", Propagator::kFlow}};
+  const std::vector<std::pair<std::string_view, Pairwise>> kinds = {{"overlap", Pairwise::kOverlap},
+                                                                    {"distance", Pairwise::kDistance},
+                                                                    {"paper", Pairwise::kPaper},
+                                                                    {"paper-code", Pairwise::kPaperCode}};
+  const std::vector<std::pair<std::string_view, Propagator>> propagators = {
+      {"lift", Propagator::kLift}, {"warp", Propagator::kWarp}, {"dis", Propagator::kFlow}};
   const std::vector<std::pair<std::string_view, MaskSolver>> solvers = {
       {"none", MaskSolver::kNone}, {"grabcut", MaskSolver::kGrabCut}, {"pixelcut", MaskSolver::kPixelCut}};
-  const std::vector<std::pair<std::string_view, FirstMaskFrom>> ways_in = {{"parts", FirstMaskFrom::kParts}, {"pixels", FirstMaskFrom::kPixels}};
+  const std::vector<std::pair<std::string_view, FirstMaskFrom>> ways_in = {
+      {"parts", FirstMaskFrom::kParts}, {"pixels", FirstMaskFrom::kPixels}};
   return {
       choice("energy.pairwise", kinds, of_energy(&E::pairwise)),
       number("energy.gamma_position", 0.0f, kLargestGamma, of_energy(&E::gamma_position)),
@@ -98,22 +105,30 @@ std::vector<TuningOption> make_table() {
       choice("views.refine", solvers, [](PipelineOptions& o) -> MaskSolver& { return o.refine.solver; }),
       number("views.refine_band_px", 1, 100, [](PipelineOptions& o) -> int& { return o.refine.band_px; }),
       number("views.refine_grow_px", 0, 100, [](PipelineOptions& o) -> int& { return o.refine.grow_px; }),
-      number("views.refine_lambda", 0.0f, 1000.0f, [](PipelineOptions& o) -> float& { return o.refine.lambda; }),
-      number("views.refine_prior", 0.0f, 1000.0f, [](PipelineOptions& o) -> float& { return o.refine.prior_weight; }),
+      number("views.refine_lambda", 0.0f, 1000.0f,
+             [](PipelineOptions& o) -> float& { return o.refine.lambda; }),
+      number("views.refine_prior", 0.0f, 1000.0f,
+             [](PipelineOptions& o) -> float& { return o.refine.prior_weight; }),
       flag("views.hidden_test", of_pipeline(&PipelineOptions::hidden_test)),
       number("views.most", 0, 400, [](PipelineOptions& o) -> int& { return o.orbit.views; }),
-      number("views.distance_sizes", 0.5f, 10.0f, [](PipelineOptions& o) -> float& { return o.orbit.distance_sizes; }),
+      number("views.distance_sizes", 0.5f, 10.0f,
+             [](PipelineOptions& o) -> float& { return o.orbit.distance_sizes; }),
       number("views.settled_change", 0.0, 1.0, of_pipeline(&PipelineOptions::settled_change)),
       number("views.settled", 1, 400, of_pipeline(&PipelineOptions::settled_views)),
       number("views.agreement", 0.0, 1.0, of_pipeline(&PipelineOptions::view_agreement)),
       number("work_width_px", 32, 8192, of_pipeline(&PipelineOptions::work_width_px)),
       number("least_object_px", 0, 4096, of_pipeline(&PipelineOptions::least_object_px)),
       choice("first.from", ways_in, of_pipeline(&PipelineOptions::first_mask_from)),
-      choice("first.solver", solvers, [](PipelineOptions& o) -> MaskSolver& { return o.first_mask.refine.solver; }),
-      number("pick.late_growth_penalty", 0.0f, 100.0f, [](PipelineOptions& o) -> float& { return o.pick.late_growth_penalty; }),
-      number("pick.joint_bonus", 0.0f, 100.0f, [](PipelineOptions& o) -> float& { return o.pick.joint_bonus; }),
-      number("pick.rest_most_of_selected", 0.0f, 100.0f, [](PipelineOptions& o) -> float& { return o.pick.rest_most_of_selected; }),
-      number("pick.change_most_of_selected", 0.0f, 100.0f, [](PipelineOptions& o) -> float& { return o.pick.change_most_of_selected; }),
+      choice("first.solver", solvers,
+             [](PipelineOptions& o) -> MaskSolver& { return o.first_mask.refine.solver; }),
+      number("pick.late_growth_penalty", 0.0f, 100.0f,
+             [](PipelineOptions& o) -> float& { return o.pick.late_growth_penalty; }),
+      number("pick.joint_bonus", 0.0f, 100.0f,
+             [](PipelineOptions& o) -> float& { return o.pick.joint_bonus; }),
+      number("pick.rest_most_of_selected", 0.0f, 100.0f,
+             [](PipelineOptions& o) -> float& { return o.pick.rest_most_of_selected; }),
+      number("pick.change_most_of_selected", 0.0f, 100.0f,
+             [](PipelineOptions& o) -> float& { return o.pick.change_most_of_selected; }),
       flag("pick.join_enclosed", of_pipeline(&PipelineOptions::join_enclosed)),
       flag("first.feedback", of_pipeline(&PipelineOptions::feedback)),
       number("neighbours", 1, 254, of_pipeline(&PipelineOptions::neighbours)),
@@ -136,7 +151,8 @@ void set_tuning_option(std::string_view assignment, PipelineOptions* options) {
   if (it == tuning_options().end()) {
     std::string names;
     for (const TuningOption& option : tuning_options()) names += (names.empty() ? "" : ", ") + option.name;
-    throw Error(assignment, fmt::format("there is no setting \"{}\"", name), "Take NAME=VALUE with one of " + names);
+    throw Error(assignment, fmt::format("there is no setting \"{}\"", name),
+                "Take NAME=VALUE with one of " + names);
   }
   if (equals == assignment.size() || !it->set(assignment.substr(equals + 1), options))
     throw Error(assignment, fmt::format("{} takes {}", name, it->values));
@@ -152,8 +168,12 @@ void add_tuning_options(CLI::App& command, std::vector<std::string>* assignments
     }
     return {};
   };
-  command.add_option("--set", *assignments, "NAME=VALUE: a setting of the energy or the pipeline by its name (a wrong one lists them)")
-      ->type_name("NAME=VALUE")->allow_extra_args(false)->check(problem_with);
+  command
+      .add_option("--set", *assignments,
+                  "NAME=VALUE: a setting of the energy or the pipeline by its name (a wrong one lists them)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false)
+      ->check(problem_with);
 }
 
 }  // namespace splatcut

@@ -16,11 +16,12 @@ namespace splatcut {
 
 struct TuningOption {
   std::string name;
-  std::string values;  // which ones it takes, in words
+  std::string values;                                                 // which ones it takes, in words
   std::function<bool(std::string_view value, PipelineOptions*)> set;  // false for any other value
 };
 
-// All of them, in the order in which they are listed to the user. One line of the table in the .cpp file each.
+// All of them, in the order in which they are listed to the user. One line of the table in the .cpp file
+// each.
 const std::vector<TuningOption>& tuning_options();
 
 // assignment: NAME=VALUE. Throws Error that lists the names, or the values, where it is none.

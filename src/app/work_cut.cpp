@@ -26,7 +26,8 @@ std::string free_file_name(const nlohmann::json& written, const ObjectItem& obje
 
 }  // namespace
 
-Document computed_again(const OpenedScene& scene, Document document, const Job& job, const PreparedCache& cache) {
+Document computed_again(const OpenedScene& scene, Document document, const Job& job,
+                        const PreparedCache& cache) {
   const auto solvers = std::make_shared<SceneSolvers>(scene.cloud, prepare(scene, job, cache));
   for (ObjectItem& object : document.objects) {
     if (object.views.empty() || job.cancelled()) continue;
@@ -46,8 +47,8 @@ void run_work_cut(const WorkCutOptions& options) {
   const Job job = console_job(options.quiet);
   const auto scene = open_scene(read_work_header(options.work).scene, job);
   if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
-  const Document document =
-      computed_again(*scene, read_work_file(options.work, *scene->scene, scene->hash).document, job, options.cache);
+  const Document document = computed_again(
+      *scene, read_work_file(options.work, *scene->scene, scene->hash).document, job, options.cache);
   end_progress();
   if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
   nlohmann::json objects = nlohmann::json::array();

@@ -10,7 +10,8 @@ namespace splatcut {
 
 // Every object's labels from its strokes; the result's labels are the window's, bit for bit. Throws Error
 // where an object's strokes find nothing. Cancelled: the document is incomplete.
-Document computed_again(const OpenedScene& scene, Document document, const Job& job = {}, const PreparedCache& cache = {});
+Document computed_again(const OpenedScene& scene, Document document, const Job& job = {},
+                        const PreparedCache& cache = {});
 
 struct WorkCutOptions {
   std::filesystem::path work, output;

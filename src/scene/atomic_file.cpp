@@ -28,7 +28,8 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::write(std::span<const std::byte> bytes) {
   if (bytes.empty()) return;
   if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size())
-    throw Error(path_.string(), fmt::format("writing failed ({})", std::strerror(errno)), "Is the disk full?");
+    throw Error(path_.string(), fmt::format("writing failed ({})", std::strerror(errno)),
+                "Is the disk full?");
 }
 
 void AtomicFile::commit() {

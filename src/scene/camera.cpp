@@ -21,7 +21,8 @@ Camera look_at(const glm::vec3& position, const glm::vec3& target, const glm::ve
   const glm::vec3 z = glm::normalize(forward);
   const glm::vec3 right = glm::cross(z, up);
   if (!(glm::length(right) > 1e-6f * glm::length(up)))
-    throw Error("camera", "the up direction is zero or parallel to the view direction", "Give another --camera-up");
+    throw Error("camera", "the up direction is zero or parallel to the view direction",
+                "Give another --camera-up");
   const glm::vec3 x = glm::normalize(right);
   const glm::vec3 y = glm::cross(z, x);
   Camera camera;
@@ -40,7 +41,8 @@ Camera resized(const Camera& camera, int width_px, int height_px) {
   Camera out = camera;
   const float sx = static_cast<float>(width_px) / static_cast<float>(camera.width_px);
   const float sy = static_cast<float>(height_px) / static_cast<float>(camera.height_px);
-  const bool same_aspect = std::abs(static_cast<float>(camera.width_px) * sy - static_cast<float>(width_px)) <= 1.0f;
+  const bool same_aspect =
+      std::abs(static_cast<float>(camera.width_px) * sy - static_cast<float>(width_px)) <= 1.0f;
   out.width_px = width_px;
   out.height_px = height_px;
   out.fy_px = camera.fy_px * sy;

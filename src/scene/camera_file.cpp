@@ -132,13 +132,12 @@ std::vector<Camera> load_json_cameras(const fs::path& path, double& largest_shif
   const json file = parse_json(path);
   if (file.is_array()) return each_entry(path, file, "camera", inria_camera);
   if (file.is_object() && file.contains("frames") && file["frames"].is_array())
-    return each_entry(path, file["frames"], "frame",
-                      [&](const json& frame) {
-                        const Camera camera = transforms_camera(path, file, frame);
-                        const double shift_px = corner_shift_px(camera, distortion_of(frame, file));
-                        largest_shift_px = std::max(largest_shift_px, shift_px);
-                        return camera;
-                      });
+    return each_entry(path, file["frames"], "frame", [&](const json& frame) {
+      const Camera camera = transforms_camera(path, file, frame);
+      const double shift_px = corner_shift_px(camera, distortion_of(frame, file));
+      largest_shift_px = std::max(largest_shift_px, shift_px);
+      return camera;
+    });
   throw Error(path.string(), "is neither a list of cameras (Inria) nor an object with \"frames\" (NeRF)");
 }
 

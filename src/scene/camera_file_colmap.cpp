@@ -153,7 +153,8 @@ Lenses read_lenses_bin(const fs::path& path, double& largest_shift_px) {
     std::vector<double> params;
     for (std::size_t p = 0; p < model.params; ++p) params.push_back(in.read<double>());
     lenses[id] = lens_from(path, id, model, width, height, params);
-    largest_shift_px = std::max(largest_shift_px, corner_shift_px(lenses[id], distortion_from(model, params)));
+    largest_shift_px =
+        std::max(largest_shift_px, corner_shift_px(lenses[id], distortion_from(model, params)));
   }
   return lenses;
 }
@@ -211,7 +212,8 @@ Lenses read_lenses_txt(const fs::path& path, double& largest_shift_px) {
       throw Error(path.string(),
                   fmt::format("line {}: the model {} has {} parameters", number, name, model.params));
     lenses[id] = lens_from(path, id, model, width, height, params);
-    largest_shift_px = std::max(largest_shift_px, corner_shift_px(lenses[id], distortion_from(model, params)));
+    largest_shift_px =
+        std::max(largest_shift_px, corner_shift_px(lenses[id], distortion_from(model, params)));
   }
   return lenses;
 }
@@ -254,8 +256,7 @@ bool has_colmap_cameras(const fs::path& folder) {
 
 std::vector<Camera> load_colmap_cameras(const fs::path& folder, double& largest_shift_px) {
   if (has_pair(folder, ".bin"))
-    return read_images_bin(folder / "images.bin",
-                           read_lenses_bin(folder / "cameras.bin", largest_shift_px));
+    return read_images_bin(folder / "images.bin", read_lenses_bin(folder / "cameras.bin", largest_shift_px));
   return read_images_txt(folder / "images.txt", read_lenses_txt(folder / "cameras.txt", largest_shift_px));
 }
 

@@ -15,8 +15,8 @@ struct Distortion {
 // How far the distortion moves the corner of the picture that it moves farthest, pixels.
 double corner_shift_px(const Camera& camera, const Distortion& distortion);
 
-// folder holds cameras and images, both .bin or both .txt (.bin is preferred). largest_shift_px: raised to the
-// largest corner shift of its lenses.
+// folder holds cameras and images, both .bin or both .txt (.bin is preferred). largest_shift_px: raised to
+// the largest corner shift of its lenses.
 std::vector<Camera> load_colmap_cameras(const std::filesystem::path& folder, double& largest_shift_px);
 bool has_colmap_cameras(const std::filesystem::path& folder);
 

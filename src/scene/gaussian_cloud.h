@@ -11,19 +11,21 @@
 namespace splatcut {
 
 // SH coefficients per channel beyond the constant one: 0, 3, 8, 15 for degree 0..3.
-constexpr int sh_rest_coefficients(int degree) { return (degree + 1) * (degree + 1) - 1; }
+constexpr int sh_rest_coefficients(int degree) {
+  return (degree + 1) * (degree + 1) - 1;
+}
 
 struct GaussianCloud {
-  std::vector<glm::vec3> position;   // world, scene units, finite
-  std::vector<glm::vec3> scale;      // standard deviations along the local axes, scene units, >= 0 (linear)
-  std::vector<glm::quat> rotation;   // world from local, unit length
-  std::vector<float> opacity;        // [0, 1]
-  std::vector<glm::vec3> f_dc;       // constant SH coefficient; base colour = 0.5 + 0.28209479 f_dc
-  std::vector<float> sh_rest;        // per Gaussian 3 * sh_rest_coefficients values, channel-major as in .ply:
-                                     // all of red, then green, then blue
-  int sh_degree = 0;                 // 0..3
+  std::vector<glm::vec3> position;  // world, scene units, finite
+  std::vector<glm::vec3> scale;     // standard deviations along the local axes, scene units, >= 0 (linear)
+  std::vector<glm::quat> rotation;  // world from local, unit length
+  std::vector<float> opacity;       // [0, 1]
+  std::vector<glm::vec3> f_dc;      // constant SH coefficient; base colour = 0.5 + 0.28209479 f_dc
+  std::vector<float> sh_rest;       // per Gaussian 3 * sh_rest_coefficients values, channel-major as in .ply:
+                                    // all of red, then green, then blue
+  int sh_degree = 0;                // 0..3
   std::vector<std::uint32_t> file_row;  // row of each Gaussian in the file it came from
-  float near_plane = 0.2f;           // scene units: pictures leave out what is nearer; see natural_near_plane()
+  float near_plane = 0.2f;  // scene units: pictures leave out what is nearer; see natural_near_plane()
 
   std::size_t size() const { return position.size(); }
   bool empty() const { return position.empty(); }
@@ -46,8 +48,8 @@ struct Box {
 };
 Box robust_bounds(std::span<const glm::vec3> positions, double inside = 0.98);
 
-// That share of the diagonal of robust_bounds(): about the 0.2 units that scenes are trained with where those have
-// the usual units, and the same picture where they have others. load_scene() sets it. A scene without
+// That share of the diagonal of robust_bounds(): about the 0.2 units that scenes are trained with where those
+// have the usual units, and the same picture where they have others. load_scene() sets it. A scene without
 // extent has GaussianCloud's own.
 constexpr float kNaturalNearShare = 0.01f;
 float natural_near_plane(std::span<const glm::vec3> positions);

@@ -69,14 +69,21 @@ PixelRect drawn_region(const GaussianCloud& cloud, const Camera& camera, const R
   return roi;
 }
 
-RasterOutput draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterOptions& options, const Job& job) {
+RasterOutput draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterOptions& options,
+                       const Job& job) {
   return draw({.grid = grid, .options = options, .roi = roi, .shown = {}}, false, job);
 }
 
-RasterOutput draw_kept_grid(KeptGrid* kept, const PixelRect& roi, const RasterOptions& options, const Job& job) {
+RasterOutput draw_kept_grid(KeptGrid* kept, const PixelRect& roi, const RasterOptions& options,
+                            const Job& job) {
   const PixelRect& all = kept->picture;
   const bool everything = roi.x0 == all.x0 && roi.y0 == all.y0 && roi.x1 == all.x1 && roi.y1 == all.y1;
-  return draw({.grid = kept->grid, .options = options, .roi = roi, .shown = options.shown, .lists = &kept->lists, .picture = all},
+  return draw({.grid = kept->grid,
+               .options = options,
+               .roi = roi,
+               .shown = options.shown,
+               .lists = &kept->lists,
+               .picture = all},
               !everything || !options.shown.empty(), job);
 }
 

@@ -22,9 +22,11 @@ RasterOutput empty_output(const RasterOptions& options, const PixelRect& roi);
 PixelRect drawn_region(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options);
 
 // grid: holds what is drawn and nothing else.
-RasterOutput draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterOptions& options, const Job& job);
+RasterOutput draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterOptions& options,
+                       const Job& job);
 
 // roi and options.shown choose what is drawn.
-RasterOutput draw_kept_grid(KeptGrid* kept, const PixelRect& roi, const RasterOptions& options, const Job& job);
+RasterOutput draw_kept_grid(KeptGrid* kept, const PixelRect& roi, const RasterOptions& options,
+                            const Job& job);
 
 }  // namespace splatcut

@@ -148,14 +148,16 @@ glm::vec3 guessed_up(const GaussianCloud& cloud) {
   return best;
 }
 
-Camera view_of_all(const Box& bounds, const glm::vec3& up_world, float fov_y_rad, int width_px, int height_px) {
+Camera view_of_all(const Box& bounds, const glm::vec3& up_world, float fov_y_rad, int width_px,
+                   int height_px) {
   constexpr float kFramesPerRadius = 1.15f;
   constexpr float kDown = 0.35f;
-  const glm::vec3 up = glm::normalize(up_world), ahead = std::abs(up.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+  const glm::vec3 up = glm::normalize(up_world),
+                  ahead = std::abs(up.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
   const glm::vec3 forward = glm::normalize(ahead - glm::dot(ahead, up) * up - kDown * up);
   const float radius = std::max(1e-6f, 0.5f * glm::length(bounds.extent()));
-  return look_at(bounds.centre() - kFramesPerRadius * radius / std::sin(0.5f * fov_y_rad) * forward, bounds.centre(), up,
-                 fov_y_rad, width_px, height_px);
+  return look_at(bounds.centre() - kFramesPerRadius * radius / std::sin(0.5f * fov_y_rad) * forward,
+                 bounds.centre(), up, fov_y_rad, width_px, height_px);
 }
 
 std::optional<Camera> better_first_view(const GaussianCloud& cloud, const Box& bounds,

@@ -29,7 +29,8 @@ namespace splatcut {
 glm::vec3 guessed_up(const GaussianCloud& cloud);
 
 // From a little above, all of `bounds` in the picture with some air: how a scene is first framed.
-Camera view_of_all(const Box& bounds, const glm::vec3& up_world, float fov_y_rad, int width_px, int height_px);
+Camera view_of_all(const Box& bounds, const glm::vec3& up_world, float fov_y_rad, int width_px,
+                   int height_px);
 
 // bounds: of the scene without its outliers. outside: the usual view. None where that shows the scene well.
 std::optional<Camera> better_first_view(const GaussianCloud& cloud, const Box& bounds,

@@ -34,7 +34,9 @@ class Image {
     return pixels_[static_cast<std::size_t>(y) * width_ + x];
   }
   std::span<T> row(int y) { return pixels().subspan(static_cast<std::size_t>(y) * width_, width_); }
-  std::span<const T> row(int y) const { return pixels().subspan(static_cast<std::size_t>(y) * width_, width_); }
+  std::span<const T> row(int y) const {
+    return pixels().subspan(static_cast<std::size_t>(y) * width_, width_);
+  }
   std::span<T> pixels() { return pixels_; }
   std::span<const T> pixels() const { return pixels_; }
   T* data() { return pixels_.data(); }

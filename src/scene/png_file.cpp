@@ -14,7 +14,8 @@ namespace splatcut {
 namespace {
 
 // libpng's simplified API does the whole job from memory, so a failure leaves nothing half written.
-void write_pixels(const std::filesystem::path& path, const void* pixels, int width, int height, png_uint_32 format) {
+void write_pixels(const std::filesystem::path& path, const void* pixels, int width, int height,
+                  png_uint_32 format) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   png.width = static_cast<png_uint_32>(width);
@@ -35,7 +36,8 @@ Image<Pixel> read_pixels(const std::filesystem::path& path, png_uint_32 format) 
     throw Error(path.string(), fmt::format("cannot be read as PNG ({})", png.message));
   if (png.width > kMaxSide || png.height > kMaxSide) {
     png_image_free(&png);
-    throw Error(path.string(), fmt::format("the picture is {} x {} pixels, more than {} a side", png.width, png.height, kMaxSide));
+    throw Error(path.string(), fmt::format("the picture is {} x {} pixels, more than {} a side", png.width,
+                                           png.height, kMaxSide));
   }
   png.format = format;
   Image<Pixel> image(static_cast<int>(png.width), static_cast<int>(png.height));
@@ -63,7 +65,9 @@ void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& gr
   write_pixels(path, grey16.data(), grey16.width(), grey16.height(), PNG_FORMAT_LINEAR_Y);
 }
 
-Image<Rgb8> read_png_rgb(const std::filesystem::path& path) { return read_pixels<Rgb8>(path, PNG_FORMAT_RGB); }
+Image<Rgb8> read_png_rgb(const std::filesystem::path& path) {
+  return read_pixels<Rgb8>(path, PNG_FORMAT_RGB);
+}
 
 Image<std::uint8_t> read_png_grey(const std::filesystem::path& path) {
   return read_pixels<std::uint8_t>(path, PNG_FORMAT_GRAY);
@@ -71,10 +75,12 @@ Image<std::uint8_t> read_png_grey(const std::filesystem::path& path) {
 
 Image<Rgb8> rgb8_from_linear(const Image<glm::vec3>& colour) {
   Image<Rgb8> out(colour.width(), colour.height());
-  std::transform(colour.pixels().begin(), colour.pixels().end(), out.pixels().begin(), [](const glm::vec3& c) {
-    const glm::vec3 v = glm::clamp(c, 0.0f, 1.0f) * 255.0f + 0.5f;
-    return Rgb8{static_cast<std::uint8_t>(v.r), static_cast<std::uint8_t>(v.g), static_cast<std::uint8_t>(v.b)};
-  });
+  std::transform(colour.pixels().begin(), colour.pixels().end(), out.pixels().begin(),
+                 [](const glm::vec3& c) {
+                   const glm::vec3 v = glm::clamp(c, 0.0f, 1.0f) * 255.0f + 0.5f;
+                   return Rgb8{static_cast<std::uint8_t>(v.r), static_cast<std::uint8_t>(v.g),
+                               static_cast<std::uint8_t>(v.b)};
+                 });
   return out;
 }
 

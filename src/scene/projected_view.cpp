@@ -11,7 +11,9 @@ ProjectedView::ProjectedView(const GaussianCloud& cloud, const Camera& camera, b
     : cloud_(cloud), camera_(camera), coloured_(coloured) {
   RasterOptions options;
   options.colour = coloured;
-  KeptGrid kept{.grid = bin_splats(cloud, camera, options, job), .picture = {0, 0, camera.width_px, camera.height_px}, .lists = {}};
+  KeptGrid kept{.grid = bin_splats(cloud, camera, options, job),
+                .picture = {0, 0, camera.width_px, camera.height_px},
+                .lists = {}};
   if (!job.cancelled()) sort_tiles(&kept.grid, job);
   if (job.cancelled()) return;
   kept.lists.resize(static_cast<std::size_t>(kept.grid.tiles()));
@@ -23,9 +25,11 @@ ProjectedView::~ProjectedView() = default;
 std::size_t ProjectedView::bytes() const {
   if (!grid_) return 0;
   const TileGrid& grid = grid_->grid;
-  std::size_t bytes = grid.splats.size() * sizeof(BlendSplat) + grid.entries.size() * (sizeof(TileEntry) + sizeof(std::uint32_t));
+  std::size_t bytes = grid.splats.size() * sizeof(BlendSplat) +
+                      grid.entries.size() * (sizeof(TileEntry) + sizeof(std::uint32_t));
   for (const std::vector<SplatTile>& run : grid.runs) bytes += run.capacity() * sizeof(SplatTile);
-  for (const TileLists& lists : grid_->lists) bytes += lists.splat.capacity() + lists.count.capacity() * sizeof(std::uint16_t);
+  for (const TileLists& lists : grid_->lists)
+    bytes += lists.splat.capacity() + lists.count.capacity() * sizeof(std::uint16_t);
   return bytes;
 }
 
@@ -37,7 +41,8 @@ RasterOutput ProjectedView::draw(const RasterOptions& options, const Job& job) c
 }
 
 const ProjectedView& KeptViews::view(const Camera& camera, bool coloured, const Job& job) {
-  const auto found = std::ranges::find_if(views_, [&](const auto& v) { return same_camera(v->camera(), camera); });
+  const auto found =
+      std::ranges::find_if(views_, [&](const auto& v) { return same_camera(v->camera(), camera); });
   if (found != views_.end() && (*found)->complete() && ((*found)->coloured() || !coloured)) {
     std::rotate(found, found + 1, views_.end());
     return *views_.back();
@@ -54,7 +59,8 @@ const ProjectedView& KeptViews::view(const Camera& camera, bool coloured, const 
 }
 
 RasterOutput Drawer::draw(const Camera& camera, const RasterOptions& options, const Job& job) const {
-  if (!kept_ || options.near_plane || !options.colour_override.empty()) return rasterize(*cloud_, camera, options, job);
+  if (!kept_ || options.near_plane || !options.colour_override.empty())
+    return rasterize(*cloud_, camera, options, job);
   return kept_->view(camera, options.colour, job).draw(options, job);
 }
 

@@ -1,9 +1,10 @@
-// A cloud in one view, projected, listed per tile and sorted once, then drawn any number of times: for stages that look
-// at the same view again and again, each time with other labels.
+// A cloud in one view, projected, listed per tile and sorted once, then drawn any number of times: for stages
+// that look at the same view again and again, each time with other labels.
 //
-// In: cloud, camera. Out: what rasterize() gives, bit for bit. Cost: making one is the first half of rasterize() for the
-// whole picture, drawing the second half; where all splats have been drawn once, drawing all of them again costs half of
-// that. Memory: 40 bytes a Gaussian, 20 a pair of splat and tile, and from that first drawing on 2 to 5 a pair.
+// In: cloud, camera. Out: what rasterize() gives, bit for bit. Cost: making one is the first half of
+// rasterize() for the whole picture, drawing the second half; where all splats have been drawn once, drawing
+// all of them again costs half of that. Memory: 40 bytes a Gaussian, 20 a pair of splat and tile, and from
+// that first drawing on 2 to 5 a pair.
 #pragma once
 
 #include <cstddef>
@@ -41,9 +42,11 @@ class ProjectedView {
 // The views drawn last, as many as fit.
 class KeptViews {
  public:
-  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;  // ten views of 300,000 Gaussians at 320 pixels
+  static constexpr std::size_t kMostBytes = std::size_t{256}
+                                            << 20;  // ten views of 300,000 Gaussians at 320 pixels
 
-  explicit KeptViews(const GaussianCloud& cloud, std::size_t most_bytes = kMostBytes) : cloud_(cloud), most_bytes_(most_bytes) {}
+  explicit KeptViews(const GaussianCloud& cloud, std::size_t most_bytes = kMostBytes)
+      : cloud_(cloud), most_bytes_(most_bytes) {}
 
   const ProjectedView& view(const Camera& camera, bool coloured, const Job& job);  // until the next call
   std::size_t size() const { return views_.size(); }
@@ -57,7 +60,8 @@ class KeptViews {
 // Draws a cloud, by kept views where there are any. Passed by value; a cloud is one that keeps nothing.
 class Drawer {
  public:
-  Drawer(const GaussianCloud& cloud, KeptViews* kept = nullptr) : cloud_(&cloud), kept_(kept) {}  // NOLINT: a cloud is a drawer
+  Drawer(const GaussianCloud& cloud, KeptViews* kept = nullptr)
+      : cloud_(&cloud), kept_(kept) {}  // NOLINT: a cloud is a drawer
 
   const GaussianCloud& cloud() const { return *cloud_; }
   RasterOutput draw(const Camera& camera, const RasterOptions& options, const Job& job = {}) const;

@@ -37,7 +37,8 @@ struct RasterOptions {
   bool colour = true;
   bool depth = false;  // expected depth, median depth and first-hit id
   glm::vec3 background{0};
-  std::optional<float> near_plane;  // scene units; Gaussians with camera z below are skipped; empty: the cloud's
+  std::optional<float>
+      near_plane;                // scene units; Gaussians with camera z below are skipped; empty: the cloud's
   std::optional<PixelRect> roi;  // draw these pixels only; outputs have the size of the rectangle
   std::span<const glm::vec3> colour_override;  // size of the cloud: replaces SH colour, >= 0
   std::span<const std::uint8_t> labels;        // size of the cloud, with colour = false: gives label_share

@@ -14,7 +14,8 @@ struct DepthSplat {
   glm::vec3 colour;
 };
 
-std::vector<DepthSplat> front_to_back(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options) {
+std::vector<DepthSplat> front_to_back(const GaussianCloud& cloud, const Camera& camera,
+                                      const RasterOptions& options) {
   std::vector<DepthSplat> splats;
   const glm::vec3 eye_world = camera.centre_world();
   for (std::size_t g = 0; g < cloud.size(); ++g) {
@@ -40,7 +41,8 @@ float alpha_at(const Splat& splat, float opacity, const glm::vec2& pixel) {
 
 }  // namespace
 
-RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options) {
+RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camera,
+                                 const RasterOptions& options) {
   const PixelRect roi = options.roi.value_or(PixelRect{0, 0, camera.width_px, camera.height_px});
   RasterOutput out;
   if (options.colour) out.colour = Image<glm::vec3>(roi.width(), roi.height());
@@ -57,14 +59,16 @@ RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camer
       float transmittance = 1, weighted_depth = 0;
       glm::vec3 colour(0);
       for (const DepthSplat& s : splats) {
-        const float alpha = alpha_at(s.splat, cloud.opacity[s.gaussian], {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+        const float alpha = alpha_at(s.splat, cloud.opacity[s.gaussian],
+                                     {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
         if (!(alpha >= kAlphaMin)) continue;
         const float weight = alpha * transmittance;
         colour += weight * s.colour;
         weighted_depth += weight * s.splat.depth;
         if (!options.labels.empty() && options.labels[s.gaussian]) out.label_share.at(ox, oy) += weight;
         if (options.sums) {
-          const auto units = std::llrint((options.sum_whole_pixels ? 1 : weight) * MaskedSums::kUnitsPerPixel);
+          const auto units =
+              std::llrint((options.sum_whole_pixels ? 1 : weight) * MaskedSums::kUnitsPerPixel);
           options.sums->total[s.gaussian] += units;
           if (options.sum_mask->at(x, y)) options.sums->inside[s.gaussian] += units;
         }
@@ -78,7 +82,8 @@ RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camer
       }
       out.alpha.at(ox, oy) = 1 - transmittance;
       if (options.colour) out.colour.at(ox, oy) = colour + transmittance * options.background;
-      if (options.depth && transmittance < 1) out.expected_depth.at(ox, oy) = weighted_depth / (1 - transmittance);
+      if (options.depth && transmittance < 1)
+        out.expected_depth.at(ox, oy) = weighted_depth / (1 - transmittance);
     }
   out.visible = splats.size();
   return out;

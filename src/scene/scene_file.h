@@ -18,11 +18,11 @@ enum class SceneFormat { kPly, kCompressedPly, kSplat, kSpz };
 const char* name_of(SceneFormat format);
 
 struct Scene {
-  GaussianCloud cloud;          // Morton order
-  std::filesystem::path path;   // where it came from; reopened to copy rows
+  GaussianCloud cloud;         // Morton order
+  std::filesystem::path path;  // where it came from; reopened to copy rows
   SceneFormat format = SceneFormat::kPly;
-  std::size_t file_rows = 0;    // Gaussians in the file, dropped ones included
-  std::size_t dropped = 0;      // NaN or zero-quaternion rows left out
+  std::size_t file_rows = 0;     // Gaussians in the file, dropped ones included
+  std::size_t dropped = 0;       // NaN or zero-quaternion rows left out
   std::uint64_t file_bytes = 0;  // with modified_ns: to notice that the file changed since
   std::int64_t modified_ns = 0;
 };
@@ -38,10 +38,10 @@ struct SaveReport {
   std::string loss;  // empty, or a sentence: "spherical harmonics of degree 2 are dropped"
 };
 
-// Writes the Gaussians with keep[g] != 0 (empty: all), in file order; compressed .ply in Morton order, because
-// neighbours must share a chunk for its bounds to be narrow. From .ply to .ply the rows are
-// copied byte for byte from scene.path (Error if that file changed since it was loaded).
-SaveReport save_scene(const std::filesystem::path& path, const Scene& scene, std::span<const std::uint8_t> keep,
-                      SceneFormat format);
+// Writes the Gaussians with keep[g] != 0 (empty: all), in file order; compressed .ply in Morton order,
+// because neighbours must share a chunk for its bounds to be narrow. From .ply to .ply the rows are copied
+// byte for byte from scene.path (Error if that file changed since it was loaded).
+SaveReport save_scene(const std::filesystem::path& path, const Scene& scene,
+                      std::span<const std::uint8_t> keep, SceneFormat format);
 
 }  // namespace splatcut

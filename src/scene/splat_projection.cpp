@@ -162,8 +162,8 @@ HWY_INLINE void project_vector(const Attributes& a, M wanted, std::uint32_t firs
   const V pixels_x = hn::Mul(set(camera.fx_px), inverse_z), pixels_y = hn::Mul(set(camera.fy_px), inverse_z);
   const V x = hn::Add(hn::Mul(set(camera.fx_px), slope_x), set(camera.cx_px));
   const V y = hn::Add(hn::Mul(set(camera.fy_px), slope_y), set(camera.cy_px));
-  // Neighbours in space are neighbours in the cloud: mostly all of a vector lie far from a small region. No splat
-  // reaches farther than sqrt(2 ln 255) of its longest axis, seen at full length, and of the low-pass.
+  // Neighbours in space are neighbours in the cloud: mostly all of a vector lie far from a small region. No
+  // splat reaches farther than sqrt(2 ln 255) of its longest axis, seen at full length, and of the low-pass.
   const V longest = hn::Max(hn::Max(a.scale.x, a.scale.y), a.scale.z);
   const V reach_x = hn::MulAdd(hn::Mul(longest, pixels_x), set(frame.reach_x), set(kLowPassReachPx));
   const V reach_y = hn::MulAdd(hn::Mul(longest, pixels_y), set(frame.reach_y), set(kLowPassReachPx));

@@ -172,7 +172,8 @@ void derive_ellipses(Chunk* chunk) {
 }
 
 // ellipses: what list_row() needs.
-void gather(const TileBlend& what, const TileEntry* entries, std::span<const std::uint32_t> order, bool ellipses, Chunk* chunk) {
+void gather(const TileBlend& what, const TileEntry* entries, std::span<const std::uint32_t> order,
+            bool ellipses, Chunk* chunk) {
   constexpr int kAhead = 16;  // splats lie apart in memory: asked for early
   const int count = static_cast<int>(order.size());
   const auto gaussian_of = [&](int i) { return entries[order[static_cast<std::size_t>(i)]].gaussian; };
@@ -263,7 +264,8 @@ template <Paint kPaint, bool kDepth, bool kSums>
 bool blend_block(float x0, float y0, int block, const std::int32_t* list, int count, TilePixels* pixels,
                  Chunk* chunk) {
   const int begin = block * kBlockPixels;
-  const bool some_object = kSums && pixels->object_pixels[block] != 0, whole_pixels = kSums && pixels->whole_pixels;
+  const bool some_object = kSums && pixels->object_pixels[block] != 0,
+             whole_pixels = kSums && pixels->whole_pixels;
   V px[kVectors], py[kVectors], transmittance[kVectors], red[kVectors], green[kVectors], blue[kVectors],
       depth[kVectors], median[kVectors];
   hn::Vec<IntLanes> hit[kVectors], object[kVectors];
@@ -322,8 +324,8 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
       }
       if constexpr (kSums) {
         const V share = whole_pixels ? hn::IfThenElseZero(counts, hn::Set(kF, 1.0f)) : weight;
-        const V shifted = fma(share, hn::Set(kF, static_cast<float>(MaskedSums::kUnitsPerPixel)),
-                              hn::Set(kF, kRoundShift));
+        const V shifted =
+            fma(share, hn::Set(kF, static_cast<float>(MaskedSums::kUnitsPerPixel)), hn::Set(kF, kRoundShift));
         const auto u = hn::Sub(hn::BitCast(kI, shifted), hn::Set(kI, kRoundShiftBits));
         units = hn::Add(units, u);
         if (some_object) units_inside = hn::Add(units_inside, hn::And(u, object[v]));
@@ -355,7 +357,8 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
   return opaque;
 }
 
-// Blends the chunk into every block that still lets light through. known: null, or its lists of an earlier drawing.
+// Blends the chunk into every block that still lets light through. known: null, or its lists of an earlier
+// drawing.
 template <Paint kPaint, bool kDepth, bool kSums>
 void blend_chunk(int tile_x, int tile_y, ListReader* known, bool keep_lists, Workspace* work) {
   constexpr std::uint32_t kRowOfBlocks = (1u << kBlocksAcross) - 1;
@@ -374,8 +377,8 @@ void blend_chunk(int tile_x, int tile_y, ListReader* known, bool keep_lists, Wor
       if (!(alive >> b & 1)) continue;
       const int block = row * kBlocksAcross + b;
       if (blend_block<kPaint, kDepth, kSums>(x0 + static_cast<float>(b * kBlockPx), y0, block,
-                                              work->lists.splat[b].data(), work->lists.count[b], &pixels,
-                                              &work->chunk))
+                                             work->lists.splat[b].data(), work->lists.count[b], &pixels,
+                                             &work->chunk))
         pixels.alive &= ~(1u << block);
     }
   }
@@ -421,7 +424,8 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   const TileEntry* entries = grid.entries.data() + first;
   start_pixels(what, tile_x, tile_y, &work.pixels);
   const std::span<const std::uint32_t> order = drawn_order(grid, tile, what.shown, &work.sort_space);
-  TileLists* lists = what.lists && what.shown.empty() ? &(*what.lists)[static_cast<std::size_t>(tile)] : nullptr;
+  TileLists* lists =
+      what.lists && what.shown.empty() ? &(*what.lists)[static_cast<std::size_t>(tile)] : nullptr;
   std::optional<ListReader> known;
   if (lists && lists->complete) known.emplace(*lists);
   const auto shows_whole = [](int tile_px, int roi_begin, int roi_end, int picture_end) {
@@ -454,13 +458,16 @@ DrawTile draw_tile_with(bool depth, bool sums) {
 }
 
 void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
-  const DrawTile draw = (what.options.colour            ? draw_tile_with<Paint::kColour>
-                         : !what.options.labels.empty() ? draw_tile_with<Paint::kLabel>
-                                                        : draw_tile_with<Paint::kNone>)(what.options.depth, what.pair_sums != nullptr);
+  const DrawTile draw = (what.options.colour ? draw_tile_with<Paint::kColour>
+                         : !what.options.labels.empty()
+                             ? draw_tile_with<Paint::kLabel>
+                             : draw_tile_with<Paint::kNone>)(what.options.depth, what.pair_sums != nullptr);
   const TileGrid& grid = what.grid;
   const PixelRect& roi = what.roi;
-  const int left = roi.x0 / kTilePx - grid.first_tile_x, right = (roi.x1 + kTilePx - 1) / kTilePx - grid.first_tile_x;
-  const int top = roi.y0 / kTilePx - grid.first_tile_y, bottom = (roi.y1 + kTilePx - 1) / kTilePx - grid.first_tile_y;
+  const int left = roi.x0 / kTilePx - grid.first_tile_x,
+            right = (roi.x1 + kTilePx - 1) / kTilePx - grid.first_tile_x;
+  const int top = roi.y0 / kTilePx - grid.first_tile_y,
+            bottom = (roi.y1 + kTilePx - 1) / kTilePx - grid.first_tile_y;
   const int across = right - left;
   tbb::parallel_for(0, across * (bottom - top), [&](int i) {
     if (!job.cancelled()) draw(what, (top + i / across) * grid.tiles_x + left + i % across, out);

@@ -191,7 +191,8 @@ TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const Rast
   return grid;
 }
 
-std::span<const std::uint32_t> drawn_order(const TileGrid& grid, int tile, std::span<const std::uint8_t> shown, SortSpace* space) {
+std::span<const std::uint32_t> drawn_order(const TileGrid& grid, int tile,
+                                           std::span<const std::uint8_t> shown, SortSpace* space) {
   const std::span<const TileEntry> entries = entries_of(grid, tile);
   std::span<const std::uint32_t> order;
   if (grid.order.size() != 0) {
@@ -213,7 +214,8 @@ void sort_tiles(TileGrid* grid, const Job& job) {
   tbb::parallel_for(0, grid->tiles(), [&](int tile) {
     thread_local SortSpace space;
     if (!job.cancelled())
-      sort_front_to_back(entries_of(*grid, tile), &space, grid->order.data() + grid->first_entry[static_cast<std::size_t>(tile)]);
+      sort_front_to_back(entries_of(*grid, tile), &space,
+                         grid->order.data() + grid->first_entry[static_cast<std::size_t>(tile)]);
   });
 }
 

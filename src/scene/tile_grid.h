@@ -61,9 +61,10 @@ struct SortSpace {
   std::vector<std::uint32_t> order, shown;
 };
 
-// The entries of a tile that are shown (empty: all), front to back, ties in cloud order: offsets from the tile's first
-// entry. Good until the next call with that space.
-std::span<const std::uint32_t> drawn_order(const TileGrid& grid, int tile, std::span<const std::uint8_t> shown, SortSpace* space);
+// The entries of a tile that are shown (empty: all), front to back, ties in cloud order: offsets from the
+// tile's first entry. Good until the next call with that space.
+std::span<const std::uint32_t> drawn_order(const TileGrid& grid, int tile,
+                                           std::span<const std::uint8_t> shown, SortSpace* space);
 
 // Sorts all tiles, for a grid that is drawn more than once.
 void sort_tiles(TileGrid* grid, const Job& job);

@@ -26,11 +26,13 @@ double median_of(std::vector<double> values) {
 
 }  // namespace
 
-ClickDraws draw_clicks(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks, int draws, const Job& job) {
+ClickDraws draw_clicks(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks, int draws,
+                       const Job& job) {
   ClickDraws result;
   for (const EvaluationCase& view : clicked_views(scene))
     for (int draw = 0; draw < draws && !job.cancelled(); ++draw)
-      result.iou_after.push_back(robot_session(view, pipeline, clicks, static_cast<std::uint64_t>(draw), job).iou_after);
+      result.iou_after.push_back(
+          robot_session(view, pipeline, clicks, static_cast<std::uint64_t>(draw), job).iou_after);
   if (result.iou_after.empty() || job.cancelled()) return result;
   const auto n = static_cast<double>(result.iou_after.size());
   for (std::size_t k = 0; k < static_cast<std::size_t>(clicks); ++k) {

@@ -24,13 +24,15 @@ struct CutReport {
 };
 
 // How sure the labels are: by how much the energy rises, at least and at most, if this Gaussian changes side
-// and all others may follow (its min-marginal lies between). In units of the energy; 0 = could as well be otherwise.
+// and all others may follow (its min-marginal lies between). In units of the energy; 0 = could as well be
+// otherwise.
 struct Confidence {
   std::vector<float> at_least, at_most;
 };
 
-// The cut of one scene, solved again and again while the likelihood grows: flow and forests stay from one solve to
-// the next. Labels are those of a fresh solver, bit for bit. cloud and graph must outlive this and stay as they are.
+// The cut of one scene, solved again and again while the likelihood grows: flow and forests stay from one
+// solve to the next. Labels are those of a fresh solver, bit for bit. cloud and graph must outlive this and
+// stay as they are.
 class CutSolver {
  public:
   CutSolver(const GaussianCloud& cloud, const FlowGraph& graph, CutOptions options);
@@ -44,7 +46,8 @@ class CutSolver {
   // views, pixels_per_view: what the likelihood was summed over. Cancelled: the labels are unspecified.
   CutReport solve(const Likelihood& likelihood, int views, double pixels_per_view, const Job& job = {});
 
-  // Of the last solve (not coarse). Cost: one pass over all arcs on all cores, some 15 ms of CPU time for a million.
+  // Of the last solve (not coarse). Cost: one pass over all arcs on all cores, some 15 ms of CPU time for a
+  // million.
   Confidence confidence() const;
 
  private:

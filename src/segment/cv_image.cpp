@@ -11,6 +11,8 @@ cv::Mat lab_of(const cv::Mat& rgb) {
   return lab;
 }
 
-void make_lab_ready() { lab_of(cv::Mat(1, 1, CV_8UC3, cv::Scalar::all(0))); }
+void make_lab_ready() {
+  lab_of(cv::Mat(1, 1, CV_8UC3, cv::Scalar::all(0)));
+}
 
 }  // namespace splatcut

@@ -24,11 +24,15 @@ double share_of_frame(const Mask& mask) {
 
 // Whether the view that was clicked in shows the object large enough, and whole.
 void add_doubts_of_first(const ViewReport& view, std::vector<std::string>* sentences) {
-  constexpr double kSmall = 0.08, kMuchOfFrame = 0.15;  // docs/study.md: what fails is beyond these, what does not, mostly is not
+  constexpr double kSmall = 0.08,
+                   kMuchOfFrame =
+                       0.15;  // docs/study.md: what fails is beyond these, what does not, mostly is not
   const double across = std::sqrt(static_cast<double>(count(view.mask))) / std::max(1, view.mask.width());
   if (across > 0 && across < kSmall)
-    sentences->push_back(fmt::format("the object is small in the first view, {:.0f} % of its width: come nearer", 100 * across));
-  if (share_of_frame(view.mask) > kMuchOfFrame) sentences->push_back("the object runs out of the first view: step back");
+    sentences->push_back(fmt::format(
+        "the object is small in the first view, {:.0f} % of its width: come nearer", 100 * across));
+  if (share_of_frame(view.mask) > kMuchOfFrame)
+    sentences->push_back("the object runs out of the first view: step back");
 }
 
 }  // namespace
@@ -37,7 +41,8 @@ std::vector<std::string> doubts(const PipelineReport& report, double view_agreem
   std::vector<std::string> sentences = doubts_of_views(report.views, view_agreement);
   if (report.ambiguous)
     sentences.insert(sentences.begin(),
-                     fmt::format("the first click could mean a part of another size: this is size {} of {}", report.first_size + 1, report.first_sizes));
+                     fmt::format("the first click could mean a part of another size: this is size {} of {}",
+                                 report.first_size + 1, report.first_sizes));
   return sentences;
 }
 
@@ -45,11 +50,16 @@ std::vector<std::string> doubts_of_views(std::span<const ViewReport> views, doub
   std::vector<std::string> sentences;
   if (!views.empty()) add_doubts_of_first(views.front(), &sentences);
   const auto left_out = std::ranges::count_if(views, &ViewReport::disagreed);
-  if (left_out) sentences.push_back(fmt::format("{} of {} masks were left out, they disagree with the others", left_out, views.size()));
+  if (left_out)
+    sentences.push_back(
+        fmt::format("{} of {} masks were left out, they disagree with the others", left_out, views.size()));
   const auto used = std::ranges::count_if(views, &ViewReport::used);
-  const auto against = std::ranges::count_if(views, [&](const ViewReport& v) { return v.used && v.confidence < view_agreement; });
+  const auto against = std::ranges::count_if(
+      views, [&](const ViewReport& v) { return v.used && v.confidence < view_agreement; });
   if (used > 1 && against)
-    sentences.push_back(fmt::format("{} of {} masks disagree with the cutout: it is not to be trusted, look at the masks", against, used));
+    sentences.push_back(
+        fmt::format("{} of {} masks disagree with the cutout: it is not to be trusted, look at the masks",
+                    against, used));
   return sentences;
 }
 

@@ -9,12 +9,18 @@ namespace {
 
 enum class Visit : std::uint8_t { kNot, kThisPiece, kOpen };
 
-// Collects one piece after the other. Pieces that turn out open stay marked, so that each Gaussian is visited once.
+// Collects one piece after the other. Pieces that turn out open stay marked, so that each Gaussian is visited
+// once.
 class Pieces {
  public:
-  Pieces(const GaussianCloud& cloud, const FlowGraph& graph, std::span<const std::uint8_t> shown, const EnclosedOptions& options,
-         std::span<const std::uint8_t> labels)
-      : cloud_(cloud), graph_(graph), shown_(shown), options_(options), labels_(labels), visit_(cloud.size(), Visit::kNot) {
+  Pieces(const GaussianCloud& cloud, const FlowGraph& graph, std::span<const std::uint8_t> shown,
+         const EnclosedOptions& options, std::span<const std::uint8_t> labels)
+      : cloud_(cloud),
+        graph_(graph),
+        shown_(shown),
+        options_(options),
+        labels_(labels),
+        visit_(cloud.size(), Visit::kNot) {
     const auto object = static_cast<float>(std::ranges::count(labels, 1));
     most_ = static_cast<std::size_t>(options.most_size * object);
   }
@@ -24,7 +30,9 @@ class Pieces {
   const std::vector<std::uint32_t>& piece() const { return piece_; }
 
  private:
-  bool may_join(std::uint32_t g) const { return !labels_[g] && !shown_[g] && cloud_.opacity[g] > options_.faint; }
+  bool may_join(std::uint32_t g) const {
+    return !labels_[g] && !shown_[g] && cloud_.opacity[g] > options_.faint;
+  }
 
   const GaussianCloud& cloud_;
   const FlowGraph& graph_;
@@ -63,7 +71,8 @@ bool Pieces::enclosed(std::uint32_t start) {
 
 }  // namespace
 
-std::size_t join_enclosed(const GaussianCloud& cloud, const FlowGraph& graph, std::span<const std::uint8_t> shown, const EnclosedOptions& options,
+std::size_t join_enclosed(const GaussianCloud& cloud, const FlowGraph& graph,
+                          std::span<const std::uint8_t> shown, const EnclosedOptions& options,
                           std::vector<std::uint8_t>* labels) {
   assert(shown.size() == cloud.size() && labels->size() == cloud.size() && graph.nodes() == cloud.size());
   const std::vector<std::uint8_t> before = *labels;

@@ -12,14 +12,18 @@ namespace splatcut {
 
 namespace {
 
-float distance2(const glm::vec3& a, const glm::vec3& b) { return glm::dot(a - b, a - b); }
+float distance2(const glm::vec3& a, const glm::vec3& b) {
+  return glm::dot(a - b, a - b);
+}
 
 struct Cluster {
   glm::vec3 position, colour;
 };
 
-// k-means of the Gaussians named, over position and, unless left out, colour; starts spread over their (Morton) order.
-std::vector<Cluster> clusters_of(const GaussianCloud& cloud, const std::vector<std::uint32_t>& members, int k, bool over_colour) {
+// k-means of the Gaussians named, over position and, unless left out, colour; starts spread over their
+// (Morton) order.
+std::vector<Cluster> clusters_of(const GaussianCloud& cloud, const std::vector<std::uint32_t>& members, int k,
+                                 bool over_colour) {
   std::vector<Cluster> clusters;
   const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(k), members.size());
   for (std::size_t c = 0; c < count; ++c) {
@@ -51,7 +55,8 @@ std::vector<Cluster> clusters_of(const GaussianCloud& cloud, const std::vector<s
   return clusters;
 }
 
-void share_mean_colour(const GaussianCloud& cloud, const std::vector<std::uint32_t>& members, std::vector<Cluster>* clusters) {
+void share_mean_colour(const GaussianCloud& cloud, const std::vector<std::uint32_t>& members,
+                       std::vector<Cluster>* clusters) {
   glm::dvec3 sum(0);
   for (const std::uint32_t g : members) sum += glm::dvec3(cloud.f_dc[g]);
   for (Cluster& c : *clusters) c.colour = glm::vec3(sum / static_cast<double>(members.size()));
@@ -84,7 +89,8 @@ class ClusterTerm {
     for (const Cluster& c : clusters) {
       const float d2 = distance2(cloud_.position[g], c.position), c2 = distance2(cloud_.f_dc[g], c.colour);
       best = std::max(best, std::exp(-options_.gamma_cluster_position * (squared_ ? d2 : std::sqrt(d2))) +
-                                options_.lambda_n * std::exp(-options_.gamma_cluster_colour * (squared_ ? c2 : std::sqrt(c2))));
+                                options_.lambda_n * std::exp(-options_.gamma_cluster_colour *
+                                                             (squared_ ? c2 : std::sqrt(c2))));
     }
     return static_cast<double>(options_.lambda_u * best);
   }
@@ -118,17 +124,20 @@ EnergyOptions paper_code_energy() {
   return options;
 }
 
-Terminals terminals(const GaussianCloud& cloud, const Likelihood& likelihood, int views, double pixels_per_view,
-                    const EnergyOptions& options) {
+Terminals terminals(const GaussianCloud& cloud, const Likelihood& likelihood, int views,
+                    double pixels_per_view, const EnergyOptions& options) {
   const ClusterTerm clusters(cloud, likelihood, options);
   constexpr double kPixelsAt400 = 400.0 * 300.0;
-  const double v0 = static_cast<double>(options.v0_px_per_view_at_400) * static_cast<double>(std::max(1, views)) * pixels_per_view / kPixelsAt400;
+  const double v0 = static_cast<double>(options.v0_px_per_view_at_400) *
+                    static_cast<double>(std::max(1, views)) * pixels_per_view / kPixelsAt400;
   Terminals out;
   out.net.resize(cloud.size());
   std::atomic<std::int64_t> base_flow = 0;  // an integer: the order of the sum does not matter
   const auto net_of = [&](std::size_t g) {
     const bool seen = likelihood.seen_px[g] > 0;
-    const double v = !seen ? 0.0 : options.visibility && v0 > 0 ? std::min(1.0, likelihood.seen_px[g] / v0) : 1.0;
+    const double v = !seen                          ? 0.0
+                     : options.visibility && v0 > 0 ? std::min(1.0, likelihood.seen_px[g] / v0)
+                                                    : 1.0;
     double source = v * likelihood.w[g], sink = v * (1.0 - likelihood.w[g]);
     if (!seen) sink = static_cast<double>(options.unseen_rest);
     if (options.lambda_u > 0) {

@@ -1,20 +1,21 @@
 // The energy that the cut minimises: E(y) = sum_g phi_g(y_g) + lambda sum_{g,h} psi(g,h) [y_g != y_h].
 //
-// psi by `pairwise`, beta = f_dc, each times exp(-concavity (1 - |n_g . n_h|)), n the shortest axis (0 leaves that out):
+// psi by `pairwise`, beta = f_dc, each times exp(-concavity (1 - |n_g . n_h|)), n the shortest axis (0 leaves
+// that out):
 //   kOverlap    exp(-gamma_position D - gamma_colour |dbeta|^2), ours, where
 //               D = 1/4 d^T S^-1 d + ln(det S / sqrt(det Sigma_g det Sigma_h)),  S = (Sigma_g + Sigma_h) / 2,
-//               twice the Bhattacharyya distance of the two Gaussians, which needs no scene scale (1e-3 of S's trace
-//               is added to all three)
-//   kDistance   exp(-gamma_position |dmu|^2 / d0^2 - gamma_colour |dbeta|^2), d0 = median length of the graph's arcs
-//   kPaper      exp(-gamma_position |dmu|^2) + lambda_n exp(-gamma_colour |dbeta|^2)
-//   kPaperCode  exp(-gamma_position |dmu|) + lambda_n exp(-gamma_colour |dbeta|), twice that between Gaussians that
+//               twice the Bhattacharyya distance of the two Gaussians, which needs no scene scale (1e-3 of
+//               S's trace is added to all three)
+//   kDistance   exp(-gamma_position |dmu|^2 / d0^2 - gamma_colour |dbeta|^2), d0 = median length of the
+//   graph's arcs kPaper      exp(-gamma_position |dmu|^2) + lambda_n exp(-gamma_colour |dbeta|^2) kPaperCode
+//   exp(-gamma_position |dmu|) + lambda_n exp(-gamma_colour |dbeta|), twice that between Gaussians that
 //               are both among the other's k nearest
-// Source capacity v_g w_g + lambda_u psi_u(g, object clusters), sink capacity v_g (1 - w_g) + lambda_u psi_u(g, rest
-// clusters), with the visibility v_g = min(1, A_g / v0), or 1 without it; what was never seen has unseen_rest as its
-// sink capacity. psi_u is kPaper's psi (kPaperCode's there) of the likest cluster with the gammas of clusters; clusters
-// by k-means over confident Gaussians, in kPaperCode over positions alone with one mean colour per side.
-// Source: Jain et al., GaussianCut, NeurIPS 2024, eq. 3-5, and their published code; Bhattacharyya 1943.
-// Capacities are integers of 2^-20.
+// Source capacity v_g w_g + lambda_u psi_u(g, object clusters), sink capacity v_g (1 - w_g) + lambda_u
+// psi_u(g, rest clusters), with the visibility v_g = min(1, A_g / v0), or 1 without it; what was never seen
+// has unseen_rest as its sink capacity. psi_u is kPaper's psi (kPaperCode's there) of the likest cluster with
+// the gammas of clusters; clusters by k-means over confident Gaussians, in kPaperCode over positions alone
+// with one mean colour per side. Source: Jain et al., GaussianCut, NeurIPS 2024, eq. 3-5, and their published
+// code; Bhattacharyya 1943. Capacities are integers of 2^-20.
 #pragma once
 
 #include <cstdint>
@@ -30,17 +31,18 @@ enum class Pairwise { kOverlap, kDistance, kPaper, kPaperCode };
 
 struct EnergyOptions {
   Pairwise pairwise = Pairwise::kOverlap;
-  float gamma_position = 0.1f;         // 0 leaves the term out, as with all gammas
+  float gamma_position = 0.1f;  // 0 leaves the term out, as with all gammas
   float gamma_colour = 1;
-  float concavity = 0;                 // weight of the angle between the shortest axes
-  float lambda = 1;                    // [0, 500]
+  float concavity = 0;  // weight of the angle between the shortest axes
+  float lambda = 1;     // [0, 500]
   bool visibility = true;
-  float v0_px_per_view_at_400 = 0.8f;  // for a 400 x 300 picture; scales with its pixels and the number of views
-  float lambda_n = 1;                  // paper: weight of colour in psi
-  float lambda_u = 0;                  // weight of the cluster term; 0 leaves it out
+  float v0_px_per_view_at_400 =
+      0.8f;            // for a 400 x 300 picture; scales with its pixels and the number of views
+  float lambda_n = 1;  // paper: weight of colour in psi
+  float lambda_u = 0;  // weight of the cluster term; 0 leaves it out
   float gamma_cluster_position = 1, gamma_cluster_colour = 1;
   int object_clusters = 1, rest_clusters = 4;
-  float unseen_rest = 0;               // sink capacity of what no view has seen
+  float unseen_rest = 0;  // sink capacity of what no view has seen
 };
 
 // GaussianCut's literal weights, and those of its authors' published code.
@@ -52,7 +54,8 @@ inline constexpr double kCapacityScale = 1 << 20;
 float overlap_distance(const GaussianCloud& cloud, std::size_t g, std::size_t h);  // D
 
 // lambda psi per arc; both arcs of an edge the same.
-std::vector<std::int32_t> arc_capacities(const GaussianCloud& cloud, const FlowGraph& graph, const EnergyOptions& options);
+std::vector<std::int32_t> arc_capacities(const GaussianCloud& cloud, const FlowGraph& graph,
+                                         const EnergyOptions& options);
 
 // True where arc_capacities() gives the same for both.
 bool same_neighbour_term(const EnergyOptions& a, const EnergyOptions& b);
@@ -63,7 +66,7 @@ struct Terminals {
 };
 
 // views and pixels_per_view: what the likelihood was summed over.
-Terminals terminals(const GaussianCloud& cloud, const Likelihood& likelihood, int views, double pixels_per_view,
-                    const EnergyOptions& options);
+Terminals terminals(const GaussianCloud& cloud, const Likelihood& likelihood, int views,
+                    double pixels_per_view, const EnergyOptions& options);
 
 }  // namespace splatcut

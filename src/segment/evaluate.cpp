@@ -19,19 +19,23 @@ Strokes first_strokes(const Strokes& strokes, int n) {
   return {strokes.begin(), strokes.begin() + std::min<std::ptrdiff_t>(n, std::ssize(strokes))};
 }
 
-PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& options, const Strokes& strokes, const Job& job,
-                        CutSolver* solver = nullptr) {
+PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& options, const Strokes& strokes,
+                        const Job& job, CutSolver* solver = nullptr) {
   PipelineOptions pipeline = options.pipeline;
   pipeline.scene_cameras = scene.scene_cameras;
   if (options.truth_first_mask) {
-    if (!scene.reference_truth) throw Error(scene.name, "--first-mask truth needs the truth of the reference view");
+    if (!scene.reference_truth)
+      throw Error(scene.name, "--first-mask truth needs the truth of the reference view");
     pipeline.given_first_mask = scene.reference_truth;
   }
   if (options.truth_masks) {
     if (scene.truth_labels.empty()) throw Error(scene.name, "--masks truth needs truth labels");
-    pipeline.given_masks = [&scene](const Camera& camera) { return labels_seen(scene, camera, scene.truth_labels); };
+    pipeline.given_masks = [&scene](const Camera& camera) {
+      return labels_seen(scene, camera, scene.truth_labels);
+    };
   }
-  return cut_out(*scene.cloud, scene.prepared, scene.reference, scene.up_world, strokes, pipeline, job, solver);
+  return cut_out(*scene.cloud, scene.prepared, scene.reference, scene.up_world, strokes, pipeline, job,
+                 solver);
 }
 
 }  // namespace
@@ -50,7 +54,9 @@ double label_iou(const std::vector<std::uint8_t>& truth, const std::vector<std::
   return either ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
 }
 
-bool counts(const Mask& truth) { return static_cast<double>(count(truth)) >= kLeastTruthShare * static_cast<double>(truth.size()); }
+bool counts(const Mask& truth) {
+  return static_cast<double>(count(truth)) >= kLeastTruthShare * static_cast<double>(truth.size());
+}
 
 Mask labels_seen(const EvaluationCase& scene, const Camera& camera, const std::vector<std::uint8_t>& labels) {
   return thresholded(render_labels({*scene.cloud, scene.kept_views}, camera, labels), 0.5f);
@@ -73,12 +79,15 @@ ImageScore score_images(const EvaluationCase& scene, const std::vector<std::uint
 }
 
 // The robot works on the mask's own picture size.
-RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks, std::uint64_t draw, const Job& job) {
+RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks,
+                           std::uint64_t draw, const Job& job) {
   const Camera work = limited_to_width(scene.reference, pipeline.work_width_px);
   const float to_reference = static_cast<float>(scene.reference.width_px) / static_cast<float>(work.width_px);
-  if (scene.truth_labels.empty() && !scene.reference_truth) throw Error(scene.name, "the robot needs the truth of the reference view");
-  const Mask truth = scene.truth_labels.empty() ? resized_mask(*scene.reference_truth, work.width_px, work.height_px)
-                                                : labels_seen(scene, work, scene.truth_labels);
+  if (scene.truth_labels.empty() && !scene.reference_truth)
+    throw Error(scene.name, "the robot needs the truth of the reference view");
+  const Mask truth = scene.truth_labels.empty()
+                         ? resized_mask(*scene.reference_truth, work.width_px, work.height_px)
+                         : labels_seen(scene, work, scene.truth_labels);
   Mask mask(work.width_px, work.height_px);
   KeptViews kept(*scene.cloud);
   RobotSession session;
@@ -86,7 +95,8 @@ RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& p
     if (const auto next = robot_click(truth, mask, draw ? draw * 16 + static_cast<std::uint64_t>(i) : 0)) {
       const Strokes scaled_click = scaled({*next}, to_reference);
       session.strokes.push_back(scaled_click.front());
-      const Mask found = first_mask_of(*scene.cloud, *scene.prepared, scene.reference, session.strokes, pipeline, job, &kept);
+      const Mask found = first_mask_of(*scene.cloud, *scene.prepared, scene.reference, session.strokes,
+                                       pipeline, job, &kept);
       mask = resized_mask(found, work.width_px, work.height_px);
     }
     session.iou_after.push_back(iou(truth, mask));
@@ -96,7 +106,8 @@ RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& p
 
 void render_truth(EvaluationCase* scene) {
   scene->truth_masks.clear();
-  for (const Camera& view : scene->test_views) scene->truth_masks.push_back(labels_seen(*scene, view, scene->truth_labels));
+  for (const Camera& view : scene->test_views)
+    scene->truth_masks.push_back(labels_seen(*scene, view, scene->truth_labels));
   scene->reference_truth = labels_seen(*scene, scene->reference, scene->truth_labels);
 }
 
@@ -106,7 +117,8 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
   Strokes strokes = scene.clicks;
   if (strokes.empty() && !options.truth_first_mask) {
     const RobotSession robot =
-        robot_session(scene, options.pipeline, options.click_curve ? std::max(kRobotClicks, options.clicks) : options.clicks, 0, job);
+        robot_session(scene, options.pipeline,
+                      options.click_curve ? std::max(kRobotClicks, options.clicks) : options.clicks, 0, job);
     strokes = robot.strokes;
     score.mask_iou_after_clicks = robot.iou_after;
     if (options.click_curve) {
@@ -120,10 +132,13 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
       if (job.cancelled()) return score;
       score.image_iou_after_clicks[n] = score_images(scene, report.labels).iou;
     }
-  CutSolver solver = ready_solver(*scene.cloud, *scene.prepared, options.pipeline);  // belongs to loading, as in the window
+  CutSolver solver =
+      ready_solver(*scene.cloud, *scene.prepared, options.pipeline);  // belongs to loading, as in the window
   const auto start = std::chrono::steady_clock::now();
-  const PipelineReport report = cut_with(scene, options, first_strokes(strokes, options.clicks), job, &solver);
-  score.total_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const PipelineReport report =
+      cut_with(scene, options, first_strokes(strokes, options.clicks), job, &solver);
+  score.total_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   score.stages = report.stages;
   score.enough = looked_at(report.views);
   score.nodes_touched = report.cut.touched;

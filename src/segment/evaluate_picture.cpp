@@ -23,11 +23,14 @@ Image<Rgb8> true_picture(const EvaluationCase& scene, std::size_t view) {
 
 }  // namespace
 
-Image<Rgb8> object_on_black(const GaussianCloud& cloud, const Camera& camera, const std::vector<std::uint8_t>& labels) {
+Image<Rgb8> object_on_black(const GaussianCloud& cloud, const Camera& camera,
+                            const std::vector<std::uint8_t>& labels) {
   std::vector<glm::vec3> colour(cloud.size());
   const glm::vec3 eye = camera.centre_world();
   for (std::size_t g = 0; g < cloud.size(); ++g)
-    if (labels[g]) colour[g] = sh_colour(cloud.f_dc[g], cloud.sh_rest_of(g), cloud.sh_degree, glm::normalize(cloud.position[g] - eye));
+    if (labels[g])
+      colour[g] = sh_colour(cloud.f_dc[g], cloud.sh_rest_of(g), cloud.sh_degree,
+                            glm::normalize(cloud.position[g] - eye));
   RasterOptions options;
   options.colour_override = colour;
   return rgb8_from_linear(rasterize(cloud, camera, options).colour);
@@ -38,7 +41,8 @@ PictureScore score_pictures(const EvaluationCase& scene, const std::vector<std::
   int views = 0;
   for (std::size_t v = 0; v < scene.test_views.size(); ++v) {
     if (!counts(scene.truth_masks[v])) continue;
-    const PictureDifference d = picture_difference(true_picture(scene, v), object_on_black(*scene.cloud, scene.test_views[v], labels));
+    const PictureDifference d = picture_difference(
+        true_picture(scene, v), object_on_black(*scene.cloud, scene.test_views[v], labels));
     sum.psnr_db += std::min(d.psnr_db, kEqualPicturesDb);
     sum.ssim += d.ssim;
     ++views;

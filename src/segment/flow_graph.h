@@ -12,7 +12,7 @@ struct FlowGraph {
   std::vector<std::uint32_t> first_arc;    // nodes + 1
   std::vector<std::uint32_t> head;         // per arc: the node it leads to
   std::vector<std::uint32_t> reverse_arc;  // per arc: the arc the other way
-  std::uint32_t listed = 0;                // k-NN graphs: so many first arcs of a node lead to its own neighbours
+  std::uint32_t listed = 0;  // k-NN graphs: so many first arcs of a node lead to its own neighbours
   std::size_t nodes() const { return first_arc.empty() ? 0 : first_arc.size() - 1; }
   std::size_t arcs() const { return head.size(); }
 };
@@ -24,7 +24,8 @@ FlowGraph graph_from_edges(std::size_t nodes, std::span<const std::pair<std::uin
 // The energy of a labelling:
 //   sum over arcs from the source side to the rest of capacity
 //   + sum over the rest of max(b, 0) + sum over the source side of max(-b, 0).
-// arc_capacity: per arc, >= 0. terminal: b per node, source arc minus sink arc. source_side: per node, 0 or 1.
+// arc_capacity: per arc, >= 0. terminal: b per node, source arc minus sink arc. source_side: per node, 0
+// or 1.
 std::int64_t cut_energy(const FlowGraph& graph, std::span<const std::int32_t> arc_capacity,
                         std::span<const std::int64_t> terminal, std::span<const std::uint8_t> source_side);
 

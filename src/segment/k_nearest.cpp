@@ -20,7 +20,8 @@ struct PointSource {
   }
 };
 
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointSource>, PointSource, 3, std::uint32_t>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointSource>,
+                                                 PointSource, 3, std::uint32_t>;
 
 constexpr std::size_t kLeafSize = 16;
 
@@ -47,7 +48,9 @@ std::vector<std::uint32_t> k_nearest(const std::vector<glm::vec3>& points, std::
   return neighbour;
 }
 
-std::vector<std::uint32_t> k_nearest_of(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& queries, std::size_t k, const Job& job) {
+std::vector<std::uint32_t> k_nearest_of(const std::vector<glm::vec3>& points,
+                                        const std::vector<glm::vec3>& queries, std::size_t k,
+                                        const Job& job) {
   std::vector<std::uint32_t> neighbour(queries.size() * k, kNoNeighbour);
   if (points.empty() || k == 0) return neighbour;
   const PointSource source{points};

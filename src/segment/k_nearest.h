@@ -15,10 +15,12 @@ inline constexpr std::uint32_t kNoNeighbour = std::numeric_limits<std::uint32_t>
 
 // k entries per point, nearest first, without the point itself; kNoNeighbour where there are fewer than k
 // others. Finite points only.
-std::vector<std::uint32_t> k_nearest(const std::vector<glm::vec3>& points, std::size_t k, const Job& job = {});
+std::vector<std::uint32_t> k_nearest(const std::vector<glm::vec3>& points, std::size_t k,
+                                     const Job& job = {});
 
 // The same for places that are not among the points: k entries per query.
-std::vector<std::uint32_t> k_nearest_of(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& queries, std::size_t k,
+std::vector<std::uint32_t> k_nearest_of(const std::vector<glm::vec3>& points,
+                                        const std::vector<glm::vec3>& queries, std::size_t k,
                                         const Job& job = {});
 
 }  // namespace splatcut

@@ -4,8 +4,8 @@
 
 namespace splatcut {
 
-void add_masked_sums(const Drawer& drawer, const Camera& camera, const Mask& mask, bool whole_pixels, const Job& job,
-                     MaskedSums* sums) {
+void add_masked_sums(const Drawer& drawer, const Camera& camera, const Mask& mask, bool whole_pixels,
+                     const Job& job, MaskedSums* sums) {
   RasterOptions options;
   options.colour = false;
   options.sum_whole_pixels = whole_pixels;

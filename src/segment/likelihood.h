@@ -16,8 +16,8 @@ struct Likelihood {
 };
 
 // Adds one view's A_g and M_g to `sums`. mask: of the camera's size. whole_pixels: see RasterOptions.
-void add_masked_sums(const Drawer& drawer, const Camera& camera, const Mask& mask, bool whole_pixels, const Job& job,
-                     MaskedSums* sums);
+void add_masked_sums(const Drawer& drawer, const Camera& camera, const Mask& mask, bool whole_pixels,
+                     const Job& job, MaskedSums* sums);
 
 Likelihood likelihood(const MaskedSums& sums);
 

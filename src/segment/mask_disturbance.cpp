@@ -23,7 +23,8 @@ Mask with_holes(Mask mask, int radius_px, std::uint64_t seed) {
       if (random.below(3) != 0) continue;
       for (int y = cy - radius_px; y <= cy + radius_px; ++y)
         for (int x = cx - radius_px; x <= cx + radius_px; ++x)
-          if (mask.contains(x, y) && (x - cx) * (x - cx) + (y - cy) * (y - cy) <= radius_px * radius_px) mask.at(x, y) = 0;
+          if (mask.contains(x, y) && (x - cx) * (x - cx) + (y - cy) * (y - cy) <= radius_px * radius_px)
+            mask.at(x, y) = 0;
     }
   return mask;
 }
@@ -38,7 +39,8 @@ Mask disturbed(const Mask& mask, const MaskDisturbance& d, std::uint64_t seed) {
   if (d.kind == "holes") return with_holes(mask, d.px, seed);
   if (d.kind == "empty") return Mask(mask.width(), mask.height());
   if (d.kind == "full") return Mask(mask.width(), mask.height(), kMaskObject);
-  throw Error("mask disturbance " + d.kind, "there is no such kind", "Take none, erode, dilate, shift, holes, empty or full");
+  throw Error("mask disturbance " + d.kind, "there is no such kind",
+              "Take none, erode, dilate, shift, holes, empty or full");
 }
 
 }  // namespace splatcut

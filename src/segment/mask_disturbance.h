@@ -9,7 +9,8 @@
 namespace splatcut {
 
 struct MaskDisturbance {
-  // none, erode, dilate, shift (to the right), holes (a third of the discs of that radius on a grid), empty, full
+  // none, erode, dilate, shift (to the right), holes (a third of the discs of that radius on a grid), empty,
+  // full
   std::string kind = "none";
   int px = 0;
 };

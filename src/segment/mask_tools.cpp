@@ -1,9 +1,9 @@
 #include "segment/mask_tools.h"
 
 #include <algorithm>
-#include <limits>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "scene/rasterizer.h"
@@ -31,7 +31,8 @@ Mask border_band(const Mask& mask) {
 }  // namespace
 
 std::size_t count(const Mask& mask) {
-  return static_cast<std::size_t>(std::ranges::count_if(mask.pixels(), [](std::uint8_t m) { return m != 0; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(mask.pixels(), [](std::uint8_t m) { return m != 0; }));
 }
 
 double iou(const Mask& a, const Mask& b) {
@@ -50,7 +51,9 @@ double pixel_accuracy(const Mask& a, const Mask& b) {
   return a.empty() ? 1.0 : static_cast<double>(equal) / static_cast<double>(a.size());
 }
 
-double boundary_iou(const Mask& a, const Mask& b) { return iou(border_band(a), border_band(b)); }
+double boundary_iou(const Mask& a, const Mask& b) {
+  return iou(border_band(a), border_band(b));
+}
 
 Mask dilated(const Mask& mask, int radius_px) {
   Mask out(mask.width(), mask.height());
@@ -70,7 +73,8 @@ Mask resized_mask(const Mask& mask, int width_px, int height_px) {
   Mask out(width_px, height_px);
   for (int y = 0; y < height_px; ++y)
     for (int x = 0; x < width_px; ++x)
-      out.at(x, y) = mask.at(static_cast<int>((x + 0.5) * mask.width() / width_px), static_cast<int>((y + 0.5) * mask.height() / height_px));
+      out.at(x, y) = mask.at(static_cast<int>((x + 0.5) * mask.width() / width_px),
+                             static_cast<int>((y + 0.5) * mask.height() / height_px));
   return out;
 }
 
@@ -78,13 +82,14 @@ PixelRect bounds(const Mask& mask) {
   PixelRect r{mask.width(), mask.height(), 0, 0};
   for (int y = 0; y < mask.height(); ++y)
     for (int x = 0; x < mask.width(); ++x)
-      if (mask.at(x, y)) r = {std::min(r.x0, x), std::min(r.y0, y), std::max(r.x1, x + 1), std::max(r.y1, y + 1)};
+      if (mask.at(x, y))
+        r = {std::min(r.x0, x), std::min(r.y0, y), std::max(r.x1, x + 1), std::max(r.y1, y + 1)};
   return r.empty() ? PixelRect{} : r;
 }
 
 PixelRect grown(const PixelRect& rect, int margin_px, int width, int height) {
-  return {std::max(0, rect.x0 - margin_px), std::max(0, rect.y0 - margin_px), std::min(width, rect.x1 + margin_px),
-          std::min(height, rect.y1 + margin_px)};
+  return {std::max(0, rect.x0 - margin_px), std::max(0, rect.y0 - margin_px),
+          std::min(width, rect.x1 + margin_px), std::min(height, rect.y1 + margin_px)};
 }
 
 Image<float> distance_inside(const Mask& mask) {
@@ -101,7 +106,8 @@ Mask largest_region(const Mask& mask) {
   const int regions = cv::connectedComponentsWithStats(as_const_mat(mask), region, statistics, centroids, 8);
   int best = 0;
   for (int r = 1; r < regions; ++r)
-    if (best == 0 || statistics.at<int>(r, cv::CC_STAT_AREA) > statistics.at<int>(best, cv::CC_STAT_AREA)) best = r;
+    if (best == 0 || statistics.at<int>(r, cv::CC_STAT_AREA) > statistics.at<int>(best, cv::CC_STAT_AREA))
+      best = r;
   Mask out(mask.width(), mask.height());
   if (best == 0) return out;
   for (int y = 0; y < mask.height(); ++y)
@@ -109,7 +115,8 @@ Mask largest_region(const Mask& mask) {
   return out;
 }
 
-PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> labels) {
+PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera,
+                             std::span<const std::uint8_t> labels) {
   constexpr float kCutoffSigmas = 3.34f;  // sqrt(2 ln 255): beyond it alpha is below 1/255
   const float slope_x = kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px;
   const float slope_y = kFrustumSlack * 0.5f * static_cast<float>(camera.height_px) / camera.fy_px;
@@ -121,7 +128,8 @@ PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera, s
     const glm::vec3 at = camera.camera_from_world(cloud.position[g]);
     if (at.z < cloud.near_plane) continue;
     const glm::vec3& scale = cloud.scale[g];
-    const float sigma_px = std::max(camera.fx_px, camera.fy_px) / at.z * bend * std::max({scale.x, scale.y, scale.z});
+    const float sigma_px =
+        std::max(camera.fx_px, camera.fy_px) / at.z * bend * std::max({scale.x, scale.y, scale.z});
     const float radius_px = kCutoffSigmas * std::sqrt(sigma_px * sigma_px + kLowPassPx2) + 1;
     const glm::vec2 centre = camera.pixel_from_camera(at);
     low = glm::min(low, centre - radius_px);
@@ -130,7 +138,8 @@ PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera, s
   const glm::vec2 size(camera.width_px, camera.height_px);
   low = glm::clamp(low, glm::vec2(0), size);
   high = glm::clamp(high, glm::vec2(0), size);
-  const PixelRect rect{static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(std::ceil(high.x)), static_cast<int>(std::ceil(high.y))};
+  const PixelRect rect{static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(std::ceil(high.x)),
+                       static_cast<int>(std::ceil(high.y))};
   return rect.empty() ? PixelRect{} : rect;
 }
 

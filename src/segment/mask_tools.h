@@ -23,7 +23,7 @@ double boundary_iou(const Mask& a, const Mask& b);
 Mask dilated(const Mask& mask, int radius_px);
 Mask eroded(const Mask& mask, int radius_px);
 Mask resized_mask(const Mask& mask, int width_px, int height_px);  // the nearest pixel of the mask
-PixelRect bounds(const Mask& mask);  // empty where the mask is
+PixelRect bounds(const Mask& mask);                                // empty where the mask is
 PixelRect grown(const PixelRect& rect, int margin_px, int width, int height);  // clipped to the picture
 
 // Distance of each object pixel to the nearest other pixel or to the frame, px.
@@ -33,7 +33,8 @@ Image<float> distance_inside(const Mask& mask);
 Mask largest_region(const Mask& mask);
 
 // Pixels outside of it show nothing of the labelled Gaussians; empty where none is in view.
-PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera, std::span<const std::uint8_t> labels);
+PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera,
+                             std::span<const std::uint8_t> labels);
 
 // Object white, everything else black and occluding; the share of white, before a threshold.
 Image<float> render_labels(const Drawer& drawer, const Camera& camera, std::span<const std::uint8_t> labels,

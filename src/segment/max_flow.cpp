@@ -11,8 +11,8 @@ namespace splatcut {
 
 namespace {
 
-// Sinks hang on each other no deeper than this: a shallow forest is cheap to mend, and where it ends the source forest
-// takes over. 5 to 10 were the best of 2 to 1000 on captured scenes.
+// Sinks hang on each other no deeper than this: a shallow forest is cheap to mend, and where it ends the
+// source forest takes over. 5 to 10 were the best of 2 to 1000 on captured scenes.
 constexpr std::int32_t kDeepestSink = 8;
 
 constexpr std::size_t kScansBetweenLooks = 4096;  // at the stop token
@@ -155,8 +155,8 @@ void MaxFlow::adopt_source(std::uint32_t node) {
     parent = arc;
     if (lowest < old_label) break;
   }
-  // Above the label being scanned growth comes by soon and gives the right one at once, where adoption might have to
-  // raise it step by step.
+  // Above the label being scanned growth comes by soon and gives the right one at once, where adoption might
+  // have to raise it step by step.
   if (lowest >= highest_label_) {
     leave_source_forest(node);
     node_[node].label = 0;

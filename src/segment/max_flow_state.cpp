@@ -11,13 +11,18 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::int32_t kLargestExcess = MaxFlow::kLargestTerminal;  // that a change of capacities may leave at a node
+constexpr std::int32_t kLargestExcess =
+    MaxFlow::kLargestTerminal;  // that a change of capacities may leave at a node
 
 }  // namespace
 
 MaxFlow::MaxFlow(const FlowGraph& graph, std::span<const std::int32_t> capacity)
-    : graph_(graph), capacity_(capacity), residual_(capacity.begin(), capacity.end()), node_(graph.nodes()),
-      b_(graph.nodes(), 0), flags_(graph.nodes(), 0) {
+    : graph_(graph),
+      capacity_(capacity),
+      residual_(capacity.begin(), capacity.end()),
+      node_(graph.nodes()),
+      b_(graph.nodes(), 0),
+      flags_(graph.nodes(), 0) {
   assert(capacity.size() == graph.arcs());
 }
 
@@ -46,15 +51,19 @@ void MaxFlow::set_terminal(std::uint32_t node, std::int64_t b) {
   positive_excess_ += std::max(n.excess, 0);
   if (n.excess > 0) {
     if (n.label < 0) leave_sink_forest(node);
-    if (n.label > 0) n.parent = kRoot;
-    else plant(node);
+    if (n.label > 0)
+      n.parent = kRoot;
+    else
+      plant(node);
   } else if (n.excess < 0) {
     if (n.label > 0) {
       touch(node);
       leave_source_forest(node);
     }
-    if (n.label < 0) n.parent = kRoot;
-    else plant(node);
+    if (n.label < 0)
+      n.parent = kRoot;
+    else
+      plant(node);
   } else if (n.parent == kRoot && n.label != 0) {
     n.label > 0 ? orphan_source(node) : orphan_sink(node);
   }
@@ -95,11 +104,13 @@ void MaxFlow::restart() {
   warm_ = false;
 }
 
-// The part of the arc's flow that its capacity no longer holds goes back to its node. False where that is too much.
+// The part of the arc's flow that its capacity no longer holds goes back to its node. False where that is too
+// much.
 bool MaxFlow::take_back(std::uint32_t node, std::uint32_t arc) {
   const std::int32_t beyond = -residual_[arc];
   const std::uint32_t other = graph_.head[arc];
-  if (node_[node].excess > kLargestExcess - beyond || node_[other].excess < beyond - kLargestExcess) return false;
+  if (node_[node].excess > kLargestExcess - beyond || node_[other].excess < beyond - kLargestExcess)
+    return false;
   residual_[arc] = 0;
   residual_[graph_.reverse_arc[arc]] -= beyond;
   node_[node].excess += beyond;
@@ -117,10 +128,12 @@ void MaxFlow::set_capacity(std::span<const std::int32_t> capacity) {
     least = std::min(least, residual_[arc]);
   }
   capacity_ = capacity;
-  for (std::size_t i = 0; least < 0 && i < touched_.size(); ++i)  // touched_ grows: flow lies on arcs of touched nodes
+  for (std::size_t i = 0; least < 0 && i < touched_.size();
+       ++i)  // touched_ grows: flow lies on arcs of touched nodes
     for (std::uint32_t arc = graph_.first_arc[touched_[i]]; arc < graph_.first_arc[touched_[i] + 1]; ++arc) {
       const std::uint32_t back = graph_.reverse_arc[arc];
-      if ((residual_[arc] < 0 && !take_back(touched_[i], arc)) || (residual_[back] < 0 && !take_back(graph_.head[arc], back)))
+      if ((residual_[arc] < 0 && !take_back(touched_[i], arc)) ||
+          (residual_[back] < 0 && !take_back(graph_.head[arc], back)))
         return restart();
     }
   // Arcs that were full may be open: the forests are planted anew on the flow that is kept.
@@ -134,7 +147,8 @@ void MaxFlow::set_capacity(std::span<const std::int32_t> capacity) {
 
 std::vector<std::uint8_t> MaxFlow::source_set() const {
   std::vector<std::uint8_t> side(node_.size());
-  std::ranges::transform(node_, side.begin(), [](const Node& n) { return static_cast<std::uint8_t>(n.label > 0); });
+  std::ranges::transform(node_, side.begin(),
+                         [](const Node& n) { return static_cast<std::uint8_t>(n.label > 0); });
   return side;
 }
 
@@ -181,12 +195,14 @@ FlipCost MaxFlow::flip_cost(std::uint32_t node) const {
 std::int64_t MaxFlow::min_marginal(std::uint32_t node) {
   const std::int64_t old_flow = flow(), b = b_[node], beyond = flip_cost(node).at_most + 1;
   const bool source = source_side(node);
-  const std::int64_t forced = std::clamp(source ? b - beyond : b + beyond, -kLargestTerminal, kLargestTerminal);
+  const std::int64_t forced =
+      std::clamp(source ? b - beyond : b + beyond, -kLargestTerminal, kLargestTerminal);
   set_terminal(node, forced);
   solve();
   // What the forced node itself pays in the two energies.
   const std::int64_t pays = source ? std::max<std::int64_t>(b, 0) : std::max<std::int64_t>(-b, 0);
-  const std::int64_t pays_forced = source ? std::max<std::int64_t>(forced, 0) : std::max<std::int64_t>(-forced, 0);
+  const std::int64_t pays_forced =
+      source ? std::max<std::int64_t>(forced, 0) : std::max<std::int64_t>(-forced, 0);
   const std::int64_t rise = flow() - pays_forced + pays - old_flow;
   set_terminal(node, b);
   solve();

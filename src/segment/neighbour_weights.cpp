@@ -13,7 +13,9 @@ namespace splatcut {
 
 namespace {
 
-float distance2(const glm::vec3& a, const glm::vec3& b) { return glm::dot(a - b, a - b); }
+float distance2(const glm::vec3& a, const glm::vec3& b) {
+  return glm::dot(a - b, a - b);
+}
 
 Symmetric3 covariance_of(const GaussianCloud& cloud, std::size_t g) {
   const glm::mat3 sigma = covariance_world(cloud.scale[g], cloud.rotation[g]);
@@ -23,7 +25,8 @@ Symmetric3 covariance_of(const GaussianCloud& cloud, std::size_t g) {
 // lambda psi as an integer capacity.
 std::int32_t capacity_of(float psi, float lambda) {
   constexpr double kLargest = (1 << 30) - 1;  // of the maximum flow
-  const double capacity = static_cast<double>(lambda) * static_cast<double>(std::isfinite(psi) ? psi : 0.0f) * kCapacityScale;
+  const double capacity =
+      static_cast<double>(lambda) * static_cast<double>(std::isfinite(psi) ? psi : 0.0f) * kCapacityScale;
   return static_cast<std::int32_t>(std::llround(std::min(capacity, kLargest)));
 }
 
@@ -44,18 +47,20 @@ struct Unlikeness {
   Unlikeness(const GaussianCloud& of, const EnergyOptions& with) : cloud(of), options(with) {
     if (options.concavity == 0) return;
     axis.resize(cloud.size());
-    for_each_index(cloud.size(), [&](std::size_t g) { axis[g] = shortest_axis(cloud.scale[g], cloud.rotation[g]); });
+    for_each_index(cloud.size(),
+                   [&](std::size_t g) { axis[g] = shortest_axis(cloud.scale[g], cloud.rotation[g]); });
   }
   float turn(std::size_t g, std::size_t h) const {
-    return axis.empty() ? 0.0f : options.concavity * (1 - std::min(1.0f, std::abs(glm::dot(axis[g], axis[h]))));
+    return axis.empty() ? 0.0f
+                        : options.concavity * (1 - std::min(1.0f, std::abs(glm::dot(axis[g], axis[h]))));
   }
   float operator()(std::size_t g, std::size_t h) const {
     return options.gamma_colour * distance2(cloud.f_dc[g], cloud.f_dc[h]) + turn(g, h);
   }
 };
 
-void overlap_capacities(const Unlikeness& unlike, const FlowGraph& graph, std::span<const Symmetric3> sigma, std::size_t from,
-                        std::size_t to, std::vector<std::int32_t>& capacity) {
+void overlap_capacities(const Unlikeness& unlike, const FlowGraph& graph, std::span<const Symmetric3> sigma,
+                        std::size_t from, std::size_t to, std::vector<std::int32_t>& capacity) {
   OverlapBlock block{};
   std::array<std::uint32_t, OverlapBlock::kPairs> arc_of{};
   int pairs = 0;
@@ -90,7 +95,8 @@ float median_arc_length2(const GaussianCloud& cloud, const FlowGraph& graph) {
 
 // Both are among the other's k nearest, not one of them only.
 bool mutual(const FlowGraph& graph, std::uint32_t arc, std::size_t g, std::size_t h) {
-  return arc - graph.first_arc[g] < graph.listed && graph.reverse_arc[arc] - graph.first_arc[h] < graph.listed;
+  return arc - graph.first_arc[g] < graph.listed &&
+         graph.reverse_arc[arc] - graph.first_arc[h] < graph.listed;
 }
 
 }  // namespace
@@ -103,23 +109,29 @@ float overlap_distance(const GaussianCloud& cloud, std::size_t g, std::size_t h)
 }
 
 bool same_neighbour_term(const EnergyOptions& a, const EnergyOptions& b) {
-  return a.pairwise == b.pairwise && a.gamma_position == b.gamma_position && a.gamma_colour == b.gamma_colour &&
-         a.concavity == b.concavity && a.lambda == b.lambda && a.lambda_n == b.lambda_n;
+  return a.pairwise == b.pairwise && a.gamma_position == b.gamma_position &&
+         a.gamma_colour == b.gamma_colour && a.concavity == b.concavity && a.lambda == b.lambda &&
+         a.lambda_n == b.lambda_n;
 }
 
-std::vector<std::int32_t> arc_capacities(const GaussianCloud& cloud, const FlowGraph& graph, const EnergyOptions& options) {
+std::vector<std::int32_t> arc_capacities(const GaussianCloud& cloud, const FlowGraph& graph,
+                                         const EnergyOptions& options) {
   std::vector<std::int32_t> capacity(graph.arcs());
   const Unlikeness unlike(cloud, options);
   if (options.pairwise == Pairwise::kOverlap) {
     std::vector<Symmetric3> sigma(cloud.size());
     for_each_index(cloud.size(), [&](std::size_t g) { sigma[g] = covariance_of(cloud, g); });
-    for_chunks(cloud.size(), [&](std::size_t from, std::size_t to) { overlap_capacities(unlike, graph, sigma, from, to, capacity); });
+    for_chunks(cloud.size(), [&](std::size_t from, std::size_t to) {
+      overlap_capacities(unlike, graph, sigma, from, to, capacity);
+    });
     return capacity;
   }
   const float d0_2 = options.pairwise == Pairwise::kDistance ? median_arc_length2(cloud, graph) : 1.0f;
   const auto psi = [&](std::uint32_t arc, std::size_t g, std::size_t h) {
-    const float d2 = distance2(cloud.position[g], cloud.position[h]), c2 = distance2(cloud.f_dc[g], cloud.f_dc[h]);
-    if (options.pairwise == Pairwise::kDistance) return std::exp(-options.gamma_position * d2 / d0_2 - unlike(g, h));
+    const float d2 = distance2(cloud.position[g], cloud.position[h]),
+                c2 = distance2(cloud.f_dc[g], cloud.f_dc[h]);
+    if (options.pairwise == Pairwise::kDistance)
+      return std::exp(-options.gamma_position * d2 / d0_2 - unlike(g, h));
     const bool squared = options.pairwise == Pairwise::kPaper;
     const float times = (!squared && mutual(graph, arc, g, h) ? 2.0f : 1.0f) * std::exp(-unlike.turn(g, h));
     return times * (std::exp(-options.gamma_position * (squared ? d2 : std::sqrt(d2))) +

@@ -78,9 +78,8 @@ struct Correction {
   Mask mask, added, removed;
 };
 
-Correction corrected(const Drawer& drawer, const StrokedView& view,
-                     const std::vector<std::uint8_t>& labels, const PipelineOptions& options,
-                     const Job& job) {
+Correction corrected(const Drawer& drawer, const StrokedView& view, const std::vector<std::uint8_t>& labels,
+                     const PipelineOptions& options, const Job& job) {
   Correction out;
   out.camera = limited_to_width(view.camera, options.work_width_px);
   const int width = out.camera.width_px, height = out.camera.height_px;
@@ -113,8 +112,8 @@ Correction corrected(const Drawer& drawer, const StrokedView& view,
   return out;
 }
 
-void add_weighted(const Drawer& drawer, const Correction& correction, std::int64_t weight,
-                  bool whole_pixels, const Job& job, MaskedSums* sums) {
+void add_weighted(const Drawer& drawer, const Correction& correction, std::int64_t weight, bool whole_pixels,
+                  const Job& job, MaskedSums* sums) {
   const std::size_t n = drawer.cloud().size();
   MaskedSums added(n), removed(n);
   add_masked_sums(drawer, correction.camera, correction.added, whole_pixels, job, &added);
@@ -137,13 +136,15 @@ std::string key_of(const ObjectCutInput& input) {
   return key;
 }
 
-SceneSolvers::SceneSolvers(std::shared_ptr<const GaussianCloud> cloud, std::shared_ptr<const PreparedScene> prepared)
+SceneSolvers::SceneSolvers(std::shared_ptr<const GaussianCloud> cloud,
+                           std::shared_ptr<const PreparedScene> prepared)
     : cloud_(std::move(cloud)), prepared_(std::move(prepared)), views_(*cloud_) {}
 
 const PreparedScene& SceneSolvers::prepared(const PipelineOptions& options, const Job& job) {
   const auto as_prepared = static_cast<int>(prepared_->graph.listed);
   // A cloud of fewer Gaussians than neighbours asked for, or parts wanted: what is there.
-  if (options.neighbours >= as_prepared || options.first_mask_from == FirstMaskFrom::kParts) return *prepared_;
+  if (options.neighbours >= as_prepared || options.first_mask_from == FirstMaskFrom::kParts)
+    return *prepared_;
   if (other_ && static_cast<int>(other_->graph.listed) == options.neighbours) return *other_;
   other_solver_.reset();
   other_.emplace().graph = knn_graph(*cloud_, prepare_options(options).graph, job);
@@ -183,15 +184,16 @@ const PipelineReport& ObjectCutter::first_cut(const ObjectCutInput& input, const
   PipelineReport report;
   report.outcome = Outcome::kCancelled;
   if (!job.cancelled())
-    report = cut_out(*cloud_, &solvers_->prepared(options, job), reference.camera, input.up_world, reference.strokes, options, job,
-                     &solver, &solvers_->views());
+    report = cut_out(*cloud_, &solvers_->prepared(options, job), reference.camera, input.up_world,
+                     reference.strokes, options, job, &solver, &solvers_->views());
   first_key_ = report.outcome == Outcome::kCancelled ? std::string() : std::move(key);
   first_ = std::move(report);
   return *first_;
 }
 
 // Sums of the views that count, kept until those differ. False: cancelled.
-bool ObjectCutter::add_up_views(const ObjectCutReport& out, const PipelineOptions& settings, StageClock* clock, const Job& job) {
+bool ObjectCutter::add_up_views(const ObjectCutReport& out, const PipelineOptions& settings,
+                                StageClock* clock, const Job& job) {
   std::string key = key_of_views(out.views);
   append(&key, settings.hard_counts);
   if (sums_ && key == sums_key_) return !job.cancelled();
@@ -209,10 +211,12 @@ bool ObjectCutter::add_up_views(const ObjectCutReport& out, const PipelineOption
   return true;
 }
 
-// What the last cut weighs: the views that count, corrected by strokes in other views, and what the parts say. `out`
-// holds the first cut's views and labels; those left out are marked, those of the corrections appended.
-Likelihood ObjectCutter::evidence(const ObjectCutInput& input, const PipelineReport& first, const PipelineOptions& settings,
-                                  StageClock* clock, const Job& job, ObjectCutReport* out) {
+// What the last cut weighs: the views that count, corrected by strokes in other views, and what the parts
+// say. `out` holds the first cut's views and labels; those left out are marked, those of the corrections
+// appended.
+Likelihood ObjectCutter::evidence(const ObjectCutInput& input, const PipelineReport& first,
+                                  const PipelineOptions& settings, StageClock* clock, const Job& job,
+                                  ObjectCutReport* out) {
   for (const int view : input.left_out)
     if (view > 0 && view < static_cast<int>(out->views.size())) {
       out->views[static_cast<std::size_t>(view)].used = false;
@@ -226,7 +230,8 @@ Likelihood ObjectCutter::evidence(const ObjectCutInput& input, const PipelineRep
   for (const StrokedView& view : input.views) {
     if (&view == &*reference || view.strokes.empty() || job.cancelled()) continue;
     if (!sums) sums = sums_;
-    const Correction c = clock->time("masks", [&] { return corrected(drawer, view, first.labels, settings, job); });
+    const Correction c =
+        clock->time("masks", [&] { return corrected(drawer, view, first.labels, settings, job); });
     clock->time("likelihood", [&] {
       add_masked_sums(drawer, c.camera, c.mask, settings.hard_counts, job, &*sums);
       add_weighted(drawer, c, kCorrectionWeight * first_used, settings.hard_counts, job, &*sums);
@@ -234,7 +239,8 @@ Likelihood ObjectCutter::evidence(const ObjectCutInput& input, const PipelineRep
     out->views.push_back({.camera = c.camera, .mask = c.mask, .used = true, .confidence = 1, .reason = {}});
   }
   const auto used = std::ranges::count_if(out->views, [](const ViewReport& v) { return v.used; });
-  return with_prior(likelihood(sums ? *sums : *sums_), first.prior, settings.prior_px_per_view * static_cast<float>(used));
+  return with_prior(likelihood(sums ? *sums : *sums_), first.prior,
+                    settings.prior_px_per_view * static_cast<float>(used));
 }
 
 std::vector<float> ObjectCutter::likelihood_of(const ObjectCutInput& input, const Job& job) {
@@ -290,7 +296,9 @@ ObjectCutReport ObjectCutter::cut(const ObjectCutInput& input, const Snapshot& o
   else
     out.labels = report.labels;
   if (settings.trim && out.outcome == Outcome::kDone)
-    clock.time("trim", [&] { trim_to_views({*cloud_, &solvers_->views()}, out.views, settings, &out.labels, job); });
+    clock.time("trim", [&] {
+      trim_to_views({*cloud_, &solvers_->views()}, out.views, settings, &out.labels, job);
+    });
   if (job.cancelled()) out.outcome = Outcome::kCancelled;
   return out;
 }

@@ -52,14 +52,15 @@ struct ObjectCutReport {
   std::vector<StageTime> stages;     // what was done this time; kept steps cost nothing and are not listed
 };
 
-// The solvers of a scene, for all its objects, one cut at a time: what they know of the graph, and mostly the flow, is of
-// use to the next cut, and so are the views drawn last. Labels do not depend on what was done before.
+// The solvers of a scene, for all its objects, one cut at a time: what they know of the graph, and mostly the
+// flow, is of use to the next cut, and so are the views drawn last. Labels do not depend on what was done
+// before.
 class SceneSolvers {
  public:
   SceneSolvers(std::shared_ptr<const GaussianCloud> cloud, std::shared_ptr<const PreparedScene> prepared);
 
-  // As the options want it: with another number of neighbours than was prepared, a graph is made and kept. Cancelled:
-  // what is returned must not be used.
+  // As the options want it: with another number of neighbours than was prepared, a graph is made and kept.
+  // Cancelled: what is returned must not be used.
   const PreparedScene& prepared(const PipelineOptions& options, const Job& job);
   CutSolver& solver(const PipelineOptions& options, const Job& job);
   void make_ready(const Job& job);  // for the default preset: the first click then waits for less
@@ -81,16 +82,18 @@ class ObjectCutter {
 
   ObjectCutReport cut(const ObjectCutInput& input, const Snapshot& on_snapshot = {}, const Job& job = {});
 
-  // w_g as the last cut of `input` weighed it, for display: soft or hard, with corrections and what the parts say.
-  // Cancelled, or nothing marked: unspecified.
+  // w_g as the last cut of `input` weighed it, for display: soft or hard, with corrections and what the parts
+  // say. Cancelled, or nothing marked: unspecified.
   std::vector<float> likelihood_of(const ObjectCutInput& input, const Job& job = {});
 
  private:
   const PipelineReport& first_cut(const ObjectCutInput& input, const StrokedView& reference,
                                   const Snapshot& on_snapshot, const Job& job, bool* fresh);
-  bool add_up_views(const ObjectCutReport& out, const PipelineOptions& settings, StageClock* clock, const Job& job);
-  Likelihood evidence(const ObjectCutInput& input, const PipelineReport& first, const PipelineOptions& settings,
-                      StageClock* clock, const Job& job, ObjectCutReport* out);
+  bool add_up_views(const ObjectCutReport& out, const PipelineOptions& settings, StageClock* clock,
+                    const Job& job);
+  Likelihood evidence(const ObjectCutInput& input, const PipelineReport& first,
+                      const PipelineOptions& settings, StageClock* clock, const Job& job,
+                      ObjectCutReport* out);
 
   std::shared_ptr<const GaussianCloud> cloud_;
   std::shared_ptr<SceneSolvers> solvers_;

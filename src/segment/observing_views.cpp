@@ -27,11 +27,13 @@ float depth_looked_at(const GaussianCloud& cloud, const Camera& camera, const Jo
 
 }  // namespace
 
-std::vector<Camera> observing_views(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world,
-                                    std::span<const Camera> given, const ObservingOptions& options, const Job& job) {
+std::vector<Camera> observing_views(const GaussianCloud& cloud, const Camera& reference,
+                                    const glm::vec3& up_world, std::span<const Camera> given,
+                                    const ObservingOptions& options, const Job& job) {
   std::vector<Camera> views{limited_to_width(reference, options.width_px)};
   const std::size_t n = std::min<std::size_t>(given.size(), static_cast<std::size_t>(options.most_given));
-  for (std::size_t i = 0; i < n; ++i) views.push_back(limited_to_width(given[i * given.size() / n], options.width_px));
+  for (std::size_t i = 0; i < n; ++i)
+    views.push_back(limited_to_width(given[i * given.size() / n], options.width_px));
   if (n > 0) return views;
   const float depth = depth_looked_at(cloud, views.front(), job);
   if (!(depth > 0)) return views;
@@ -40,7 +42,8 @@ std::vector<Camera> observing_views(const GaussianCloud& cloud, const Camera& re
   orbit.elevation_swing_rad = options.elevation_swing_rad;
   const glm::vec3 target = views.front().world_from_pixel({views.front().cx_px, views.front().cy_px}, depth);
   const ObjectExtent at_that_distance{target, depth / (2 * orbit.distance_sizes)};
-  std::ranges::copy(orbit_cameras(views.front(), up_world, at_that_distance, orbit), std::back_inserter(views));
+  std::ranges::copy(orbit_cameras(views.front(), up_world, at_that_distance, orbit),
+                    std::back_inserter(views));
   return views;
 }
 

@@ -1,8 +1,8 @@
 // Small pictures that say which side of a surface is looked at, and which Gaussians are seen at all.
 //
 // Where photographs were taken from is the best that is known; without that, the reference view and a ring of
-// views around what it looks at. (Views spread over the scene's free space were worse: .64 against .66-.80 mean
-// first-click IoU on 43 objects.)
+// views around what it looks at. (Views spread over the scene's free space were worse: .64 against .66-.80
+// mean first-click IoU on 43 objects.)
 #pragma once
 
 #include <glm/glm.hpp>
@@ -23,7 +23,8 @@ struct ObservingOptions {
 };
 
 // given: cameras of the scene's photographs, may be empty. The reference is always among the views.
-std::vector<Camera> observing_views(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world,
-                                    std::span<const Camera> given, const ObservingOptions& options = {}, const Job& job = {});
+std::vector<Camera> observing_views(const GaussianCloud& cloud, const Camera& reference,
+                                    const glm::vec3& up_world, std::span<const Camera> given,
+                                    const ObservingOptions& options = {}, const Job& job = {});
 
 }  // namespace splatcut

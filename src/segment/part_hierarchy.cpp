@@ -18,11 +18,14 @@ namespace {
 constexpr std::uint64_t kTreeSeed = 20241;
 
 // A number of mean 0 and variance 1.
-float spread(CounterRng& rng) { return rng.between(-1.7320508f, 1.7320508f); }
+float spread(CounterRng& rng) {
+  return rng.between(-1.7320508f, 1.7320508f);
+}
 
 MergingOptions jittered(MergingOptions options, float jitter, CounterRng rng) {
-  for (float* weight : {&options.base, &options.border_colour, &options.region_colour, &options.concavity, &options.convexity,
-                        &options.normal, &options.gap, &options.area_power, &options.border_power})
+  for (float* weight :
+       {&options.base, &options.border_colour, &options.region_colour, &options.concavity, &options.convexity,
+        &options.normal, &options.gap, &options.area_power, &options.border_power})
     *weight *= std::exp(jitter * spread(rng));
   return options;
 }
@@ -65,8 +68,8 @@ struct Candidate {
 
 class Merging {
  public:
-  Merging(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges, const Superpoints& leaves, const MergingOptions& options,
-          float noise, std::uint64_t tree);
+  Merging(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges, const Superpoints& leaves,
+          const MergingOptions& options, float noise, std::uint64_t tree);
   PartTree run(const Job& job);
 
  private:
@@ -82,8 +85,8 @@ class Merging {
   float median_area_ = 1;
 };
 
-Merging::Merging(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges, const Superpoints& leaves, const MergingOptions& options, float noise,
-                 std::uint64_t tree)
+Merging::Merging(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges, const Superpoints& leaves,
+                 const MergingOptions& options, float noise, std::uint64_t tree)
     : options_(options), noise_(noise), tree_(tree), parts_(leaves.count) {
   for (std::size_t i = 0; i < f.core.size(); ++i) {
     Part& part = parts_[leaves.of[i]];
@@ -118,8 +121,10 @@ float Merging::difference(const Part& a, const Part& b, const Link& l) const {
 float Merging::cost(std::uint32_t ia, std::uint32_t ib, const Link& l) const {
   const Part &a = parts_[ia], &b = parts_[ib];
   const float area = std::max(std::min(a.area, b.area) / median_area_, 1e-6f);
-  const float shared = std::clamp(l.length / std::max(std::min(a.perimeter, b.perimeter), 1e-30f), 1e-6f, 1.0f);
-  const float cost = difference(a, b, l) * std::pow(area, options_.area_power) / std::pow(shared, options_.border_power);
+  const float shared =
+      std::clamp(l.length / std::max(std::min(a.perimeter, b.perimeter), 1e-30f), 1e-6f, 1.0f);
+  const float cost =
+      difference(a, b, l) * std::pow(area, options_.area_power) / std::pow(shared, options_.border_power);
   if (noise_ == 0) return cost;
   CounterRng rng(kTreeSeed + tree_, (std::uint64_t{std::min(ia, ib)} << 32) + std::max(ia, ib));
   return cost * std::exp(noise_ * spread(rng));
@@ -128,7 +133,8 @@ float Merging::cost(std::uint32_t ia, std::uint32_t ib, const Link& l) const {
 // Border towards everything around, little where that is unlike.
 float Merging::cut_of(const Part& part) const {
   float cut = 0;
-  for (const auto& [other, link] : part.links) cut += link.length * std::exp(-difference(part, parts_[other], link) / options_.cut_scale);
+  for (const auto& [other, link] : part.links)
+    cut += link.length * std::exp(-difference(part, parts_[other], link) / options_.cut_scale);
   return cut;
 }
 
@@ -189,7 +195,8 @@ PartTree Merging::run(const Job& job) {
 }
 
 // Gaussians outside of the core go with most of their nearest core Gaussians; ties to the nearest.
-void attach_others(const GaussianCloud& cloud, const SurfaceFeatures& f, const Superpoints& leaves, int votes, const Job& job, PartHierarchy* out) {
+void attach_others(const GaussianCloud& cloud, const SurfaceFeatures& f, const Superpoints& leaves, int votes,
+                   const Job& job, PartHierarchy* out) {
   out->leaf_of.assign(cloud.size(), kNoPart);
   for (std::size_t i = 0; i < f.core.size(); ++i) out->leaf_of[f.core[i]] = leaves.of[i];
   if (f.core.empty()) return;
@@ -221,7 +228,8 @@ void attach_others(const GaussianCloud& cloud, const SurfaceFeatures& f, const S
 
 }  // namespace
 
-PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeatures& features, const PartOptions& options, const Job& job) {
+PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeatures& features,
+                                   const PartOptions& options, const Job& job) {
   PartHierarchy out;
   if (job.cancelled()) return out;
   const std::vector<SurfaceEdge> edges = surface_edges(cloud, features);
@@ -230,7 +238,8 @@ PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeat
   out.leaves = leaves.count;
   out.trees.resize(static_cast<std::size_t>(std::max(1, options.trees)));
   tbb::parallel_for(std::size_t{0}, out.trees.size(), [&](std::size_t t) {
-    const MergingOptions merging = t ? jittered(options.merging, options.jitter, CounterRng(kTreeSeed, t)) : options.merging;
+    const MergingOptions merging =
+        t ? jittered(options.merging, options.jitter, CounterRng(kTreeSeed, t)) : options.merging;
     out.trees[t] = Merging(features, edges, leaves, merging, t ? options.noise : 0, t).run(job);
   });
   job.progress("parts", 0.9);
@@ -239,7 +248,8 @@ PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeat
   return out;
 }
 
-PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, std::span<const Camera> observing, const PartOptions& options, const Job& job) {
+PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, std::span<const Camera> observing,
+                                   const PartOptions& options, const Job& job) {
   job.progress("parts", 0);
   const SurfaceFeatures features = surface_features(cloud, observing, options.surface, job);
   job.progress("parts", 0.4);

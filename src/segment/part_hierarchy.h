@@ -1,13 +1,16 @@
 // A training-free hierarchy of parts over the Gaussians: what a click can mean.
 //
 // In: cloud. Out: a binary forest whose leaves are superpoints (some 40 Gaussians of one surface) and whose
-// inner nodes are unions of two neighbouring parts, least different first. Every Gaussian belongs to one leaf.
-// Which unions appear hangs on weights that nobody knows exactly; so there are several trees over the same
-// leaves, merged with slightly different weights: a part that most of them hold is an object more likely.
-//   superpoints: Felzenszwalb and Huttenlocher, Efficient Graph-Based Image Segmentation, IJCV 2004, over k-NN
+// inner nodes are unions of two neighbouring parts, least different first. Every Gaussian belongs to one
+// leaf. Which unions appear hangs on weights that nobody knows exactly; so there are several trees over the
+// same leaves, merged with slightly different weights: a part that most of them hold is an object more
+// likely.
+//   superpoints: Felzenszwalb and Huttenlocher, Efficient Graph-Based Image Segmentation, IJCV 2004, over
+//   k-NN
 //     edges with w = |dc| / 0.1 + 0.6 (1 - n.n') + max(0, concavity) + 0.3 min(3, 0.3 gap) + 0.1 d / spacing
 //   merging: cost = difference (least area / median leaf area)^0.3 / (shared border / lesser perimeter)^0.3
-//   concavity = (n - n').(mu' - mu) / |mu' - mu|; gap: Mahalanobis distance of two Gaussians in their mean covariance
+//   concavity = (n - n').(mu' - mu) / |mu' - mu|; gap: Mahalanobis distance of two Gaussians in their mean
+//   covariance
 // Built once per scene; depends on the scene and on the observing views alone. Same input, same bits.
 // Cost: about 2 s per 300,000 Gaussians on two cores.
 #pragma once
@@ -23,8 +26,8 @@ namespace splatcut {
 
 struct SuperpointOptions {
   float k = 3.2f;           // larger: larger superpoints
-  std::uint32_t cap = 40;  // most core Gaussians in one
-  std::uint32_t least = 2; // smaller ones join their likest neighbour
+  std::uint32_t cap = 40;   // most core Gaussians in one
+  std::uint32_t least = 2;  // smaller ones join their likest neighbour
 };
 
 struct MergingOptions {
@@ -47,7 +50,7 @@ struct PartOptions {
   int trees = 5;
   float jitter = 0.3f;  // spread of the logarithms of the weights from tree to tree; the first has none
   float noise = 0.1f;   // of the logarithm of each cost, in all trees but the first
-  int votes = 10;  // neighbours that vote where a Gaussian outside of the core belongs
+  int votes = 10;       // neighbours that vote where a Gaussian outside of the core belongs
 };
 
 inline constexpr std::uint32_t kNoPart = 0xffffffffu;
@@ -69,10 +72,11 @@ struct PartHierarchy {
 };
 
 // Cancelled: what comes back is incomplete and must not be used.
-PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, std::span<const Camera> observing, const PartOptions& options = {},
-                                   const Job& job = {});
+PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, std::span<const Camera> observing,
+                                   const PartOptions& options = {}, const Job& job = {});
 
 // The same from features that are known.
-PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeatures& features, const PartOptions& options = {}, const Job& job = {});
+PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeatures& features,
+                                   const PartOptions& options = {}, const Job& job = {});
 
 }  // namespace splatcut

@@ -20,7 +20,8 @@ std::vector<std::uint32_t> ancestors(const PartTree& tree, std::uint32_t leaf) {
 constexpr std::uint32_t kNoLevel = 0xffffffffu;
 
 // Per leaf: the index in `chain` from which on the chain's nodes hold it; kNoLevel for none.
-std::vector<std::uint32_t> levels(const PartTree& tree, std::size_t leaves, std::span<const std::uint32_t> chain) {
+std::vector<std::uint32_t> levels(const PartTree& tree, std::size_t leaves,
+                                  std::span<const std::uint32_t> chain) {
   std::vector<std::uint32_t> level(tree.nodes(), kNoLevel);
   for (std::size_t i = 0; i < chain.size(); ++i) level[chain[i]] = static_cast<std::uint32_t>(i);
   for (std::size_t node = tree.nodes(); node-- > 0;)  // parents before their children
@@ -61,7 +62,8 @@ struct Candidate {
 
 class Picker {
  public:
-  Picker(const PartHierarchy& parts, const PartView& view, const PickOptions& options) : parts_(parts), view_(view), options_(options) {
+  Picker(const PartHierarchy& parts, const PartView& view, const PickOptions& options)
+      : parts_(parts), view_(view), options_(options) {
     pick_.leaves.assign(parts.leaves, 0);
     for (auto& clicked : clicked_) clicked.resize(parts.trees.size());
     for (std::size_t t = 0; t < parts.trees.size(); ++t)
@@ -73,7 +75,8 @@ class Picker {
 
  private:
   std::vector<Proposals> proposals(std::uint32_t leaf, bool object) const;
-  std::size_t note_first(const std::vector<Proposals>& all, std::span<const Candidate> candidates, const Candidate& best);
+  std::size_t note_first(const std::vector<Proposals>& all, std::span<const Candidate> candidates,
+                         const Candidate& best);
   void measure_stability(bool object, std::vector<Proposals>* all) const;
   float log_cut(const PartTree& tree, std::uint32_t node) const;
   float odd_look(std::size_t tree, std::uint32_t node) const;
@@ -88,8 +91,9 @@ class Picker {
   const PartHierarchy& parts_;
   const PartView& view_;
   const PickOptions& options_;
-  std::vector<std::vector<std::uint32_t>> clicked_[2];  // per sign, tree and node: clicks of that sign that it holds
-  std::uint32_t clicks_[2] = {0, 0};                    // of that sign
+  std::vector<std::vector<std::uint32_t>>
+      clicked_[2];                    // per sign, tree and node: clicks of that sign that it holds
+  std::uint32_t clicks_[2] = {0, 0};  // of that sign
   bool any_ = false;
   Pick pick_;
 };
@@ -107,10 +111,14 @@ float Picker::odd_look(std::size_t t, std::uint32_t node) const {
   const std::uint32_t up = tree.parent[node];
   const float rise = up == kNoPart ? 0 : std::clamp(log_cut(tree, up) - own, 0.0f, 10.0f);
   const float jump =
-      up == kNoPart ? 0 : std::clamp(std::log(std::max(tree.merge_cost[up], 1e-6f) / std::max(tree.merge_cost[node], 0.1f)), 0.0f, 2.0f);
+      up == kNoPart
+          ? 0
+          : std::clamp(std::log(std::max(tree.merge_cost[up], 1e-6f) / std::max(tree.merge_cost[node], 0.1f)),
+                       0.0f, 2.0f);
   float look = options_.cut_weight * own - options_.rise_bonus * rise - options_.jump_bonus * jump;
   if (up == kNoPart) look += options_.root_penalty;
-  return look + options_.frame_penalty * view_.trees[t].frame_pixels[node] / std::sqrt(std::max(view_.trees[t].pixels[node], 1.0f));
+  return look + options_.frame_penalty * view_.trees[t].frame_pixels[node] /
+                    std::sqrt(std::max(view_.trees[t].pixels[node], 1.0f));
 }
 
 float Picker::odd_size(float pixels) const {
@@ -124,12 +132,15 @@ float Picker::odd_change(float changed_px, float radius_px, float selected_px) c
   const float folds = std::log(std::max(changed_px, 1.0f) / (3.14159265f * radius_px * radius_px));
   const float growth = std::log(std::max(changed_px, 1.0f) / std::max(selected_px, 1.0f));
   // The second click may find that the first took a crumb; what two clicks have made is not outgrown lightly.
-  const float late = clicks_[1] > 2 ? options_.late_growth_penalty * std::max(0.0f, growth - options_.late_growth_slack) : 0;
-  return options_.change_small * std::max(0.0f, -folds) + options_.change_large * std::max(0.0f, folds - options_.change_slack) +
+  const float late =
+      clicks_[1] > 2 ? options_.late_growth_penalty * std::max(0.0f, growth - options_.late_growth_slack) : 0;
+  return options_.change_small * std::max(0.0f, -folds) +
+         options_.change_large * std::max(0.0f, folds - options_.change_slack) +
          options_.growth_penalty * std::max(0.0f, growth - options_.growth_slack) + late;
 }
 
-// More pixels than that are not meant by a click so near to the border, unless they are few beside what is selected.
+// More pixels than that are not meant by a click so near to the border, unless they are few beside what is
+// selected.
 float Picker::largest_change(float radius_px, bool object) const {
   const float disc = options_.change_most * 3.14159265f * (radius_px + 1) * (radius_px + 1);
   if (radius_px < options_.border_px) return disc;
@@ -137,7 +148,8 @@ float Picker::largest_change(float radius_px, bool object) const {
   return std::max(disc, share * selected_sum(view_.trees[0].pixels));
 }
 
-// A correction that brings along much more of what the view hides than the selection has, per pixel, is not meant.
+// A correction that brings along much more of what the view hides than the selection has, per pixel, is not
+// meant.
 float Picker::odd_hidden(float changed_px, float changed_area, float selected_area_per_px) const {
   if (selected_area_per_px <= 0) return 0;
   const float folds = changed_area / std::max(changed_px, 1.0f) / selected_area_per_px;
@@ -168,7 +180,8 @@ float Picker::distance_to_border(const glm::vec2& pixel, bool selected) const {
     same.pixels()[i] = (leaf != kNoPart && pick_.leaves[leaf]) == selected ? kMaskObject : 0;
   }
   const Image<float> inside = distance_inside(same);
-  const int x = std::clamp(static_cast<int>(pixel.x), 0, same.width() - 1), y = std::clamp(static_cast<int>(pixel.y), 0, same.height() - 1);
+  const int x = std::clamp(static_cast<int>(pixel.x), 0, same.width() - 1),
+            y = std::clamp(static_cast<int>(pixel.y), 0, same.height() - 1);
   return std::max(inside.at(x, y), 1.0f);
 }
 
@@ -176,7 +189,8 @@ std::vector<Proposals> Picker::proposals(std::uint32_t leaf, bool object) const 
   std::vector<Proposals> all(parts_.trees.size());
   for (std::size_t t = 0; t < all.size(); ++t) {
     const PartTree& tree = parts_.trees[t];
-    const std::vector<float> changed = on_side(t, view_.trees[t].pixels, !object), area = on_side(t, tree.area, !object);
+    const std::vector<float> changed = on_side(t, view_.trees[t].pixels, !object),
+                             area = on_side(t, tree.area, !object);
     for (const std::uint32_t node : ancestors(tree, leaf)) {
       if (node != leaf && clicked_[!object][t][node]) break;
       all[t].chain.push_back(node);
@@ -201,14 +215,17 @@ void Picker::measure_stability(bool object, std::vector<Proposals>* all) const {
       const std::size_t rows = a.chain.size(), columns = b.chain.size();
       std::vector<float> both(rows * columns, 0);
       for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf)
-        if (pick_.leaves[leaf] != object && pixels[leaf] > 0 && a.level[leaf] != kNoLevel && b.level[leaf] != kNoLevel)
+        if (pick_.leaves[leaf] != object && pixels[leaf] > 0 && a.level[leaf] != kNoLevel &&
+            b.level[leaf] != kNoLevel)
           both[a.level[leaf] * columns + b.level[leaf]] += pixels[leaf];
       for (std::size_t i = 0; i < rows; ++i) {
         float row = 0, best = 0;
         for (std::size_t j = 0; j < columns; ++j) {
           row += both[i * columns + j];
           both[i * columns + j] = row + (i ? both[(i - 1) * columns + j] : 0);
-          best = std::max(best, both[i * columns + j] / std::max(a.changed_px[i] + b.changed_px[j] - both[i * columns + j], 1.0f));
+          best =
+              std::max(best, both[i * columns + j] /
+                                 std::max(a.changed_px[i] + b.changed_px[j] - both[i * columns + j], 1.0f));
         }
         a.stability[i] += best / static_cast<float>(all->size() - 1);
       }
@@ -225,15 +242,19 @@ void Picker::apply(const glm::vec2& pixel, SeedLabel label) {
   ++clicks_[object];
   if (pick_.leaves[leaf] == object) return;  // already on that side
   const float radius = any_ ? distance_to_border(pixel, !object) : 0;
-  const float selected_px = object && any_ ? selected_sum(view_.trees[0].pixels) : std::numeric_limits<float>::max();
+  const float selected_px =
+      object && any_ ? selected_sum(view_.trees[0].pixels) : std::numeric_limits<float>::max();
   if (any_ && view_.trees[0].pixels[leaf] > largest_change(radius, object)) return;
   const std::vector<Proposals> all = proposals(leaf, object);
-  const float area_per_px = selected_sum(parts_.trees[0].area) / std::max(selected_sum(view_.trees[0].pixels), 1.0f);
+  const float area_per_px =
+      selected_sum(parts_.trees[0].area) / std::max(selected_sum(view_.trees[0].pixels), 1.0f);
   std::vector<Candidate> candidates;
   for (std::size_t t = 0; t < all.size(); ++t)
     for (std::size_t i = 0; i < all[t].chain.size(); ++i) {
       const float px = all[t].changed_px[i];
-      const float size = any_ ? odd_change(px, radius, selected_px) + odd_hidden(px, all[t].changed_area[i], area_per_px) : odd_size(px);
+      const float size =
+          any_ ? odd_change(px, radius, selected_px) + odd_hidden(px, all[t].changed_area[i], area_per_px)
+               : odd_size(px);
       const float rare = -std::log(std::max(all[t].stability[i], 0.01f));
       const std::uint32_t node = all[t].chain[i];
       const float joint = any_ && object && clicked_[1][t][node] == clicks_[1] ? options_.joint_bonus : 0;
@@ -243,23 +264,27 @@ void Picker::apply(const glm::vec2& pixel, SeedLabel label) {
   if (!any_) best.index = note_first(all, candidates, best);
   any_ = true;
   for (std::uint32_t l = 0; l < parts_.leaves; ++l)
-    if (all[best.tree].level[l] != kNoLevel && all[best.tree].level[l] <= best.index) pick_.leaves[l] = object;
+    if (all[best.tree].level[l] != kNoLevel && all[best.tree].level[l] <= best.index)
+      pick_.leaves[l] = object;
 }
 
 // Keeps the sizes that the first click could mean; returns the index of the one that is wanted.
-std::size_t Picker::note_first(const std::vector<Proposals>& all, std::span<const Candidate> candidates, const Candidate& best) {
+std::size_t Picker::note_first(const std::vector<Proposals>& all, std::span<const Candidate> candidates,
+                               const Candidate& best) {
   constexpr float kNextSize = 1.15f;  // in pixels; less is not told apart
   const Proposals& own = all[best.tree];
   const float chosen_px = own.changed_px[best.index];
   std::vector<std::size_t> distinct{best.index};
   for (std::size_t i = best.index; i-- > 0;)
-    if (own.changed_px[i] * kNextSize <= own.changed_px[distinct.front()]) distinct.insert(distinct.begin(), i);
+    if (own.changed_px[i] * kNextSize <= own.changed_px[distinct.front()])
+      distinct.insert(distinct.begin(), i);
   const std::size_t chosen = distinct.size() - 1;
   for (std::size_t i = best.index + 1; i < own.chain.size(); ++i)
     if (own.changed_px[i] >= kNextSize * own.changed_px[distinct.back()]) distinct.push_back(i);
   for (const std::size_t i : distinct) pick_.first_chain.push_back({best.tree, own.chain[i]});
   const auto wanted = static_cast<std::ptrdiff_t>(chosen) + options_.scale_steps;
-  pick_.first_chosen = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(wanted, 0, std::ssize(distinct) - 1));
+  pick_.first_chosen =
+      static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(wanted, 0, std::ssize(distinct) - 1));
   constexpr float kAlike = 1.5f;
   pick_.ambiguous = std::ranges::any_of(candidates, [&](const Candidate& c) {
     const float folds = std::max(all[c.tree].changed_px[c.index], 1.0f) / std::max(chosen_px, 1.0f);
@@ -280,7 +305,8 @@ PartView view_parts(const PartHierarchy& parts, const Image<std::int32_t>& first
       view.leaf.at(x, y) = leaf;
       if (leaf == kNoPart) continue;
       leaves.pixels[leaf] += 1;
-      if (x == 0 || y == 0 || x == first_hit.width() - 1 || y == first_hit.height() - 1) leaves.frame_pixels[leaf] += 1;
+      if (x == 0 || y == 0 || x == first_hit.width() - 1 || y == first_hit.height() - 1)
+        leaves.frame_pixels[leaf] += 1;
     }
   for (const PartTree& tree : parts.trees) {
     PartView::Tree& of = view.trees.emplace_back(leaves);
@@ -295,12 +321,14 @@ PartView view_parts(const PartHierarchy& parts, const Image<std::int32_t>& first
   return view;
 }
 
-Pick pick_parts(const PartHierarchy& parts, const PartView& view, const Strokes& strokes, const PickOptions& options) {
+Pick pick_parts(const PartHierarchy& parts, const PartView& view, const Strokes& strokes,
+                const PickOptions& options) {
   Picker picker(parts, view, options);
   const auto apply = [&](const Stroke& stroke) {
     for (const glm::vec2& point : stroke.points_px) picker.apply(point, stroke.label);
   };
-  // A rest click corrects an object. One told before there is any would keep every part out that holds its leaf.
+  // A rest click corrects an object. One told before there is any would keep every part out that holds its
+  // leaf.
   const auto first = std::ranges::find(strokes, SeedLabel::kObject, &Stroke::label);
   if (first != strokes.end()) apply(*first);
   for (auto stroke = strokes.begin(); stroke != strokes.end(); ++stroke)
@@ -310,7 +338,8 @@ Pick pick_parts(const PartHierarchy& parts, const PartView& view, const Strokes&
 
 std::vector<std::uint8_t> labels_of(const PartHierarchy& parts, const std::vector<std::uint8_t>& leaves) {
   std::vector<std::uint8_t> labels(parts.leaf_of.size(), 0);
-  for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = parts.leaf_of[g] != kNoPart && leaves[parts.leaf_of[g]];
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    labels[g] = parts.leaf_of[g] != kNoPart && leaves[parts.leaf_of[g]];
   return labels;
 }
 

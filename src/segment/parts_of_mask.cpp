@@ -9,7 +9,8 @@ namespace {
 std::vector<float> inside_pixels(const PartHierarchy& parts, const PartView& view, const Mask& mask) {
   std::vector<float> inside(parts.leaves, 0);
   for (std::size_t i = 0; i < mask.size(); ++i)
-    if (const std::uint32_t leaf = view.leaf.pixels()[i]; leaf != kNoPart && mask.pixels()[i]) inside[leaf] += 1;
+    if (const std::uint32_t leaf = view.leaf.pixels()[i]; leaf != kNoPart && mask.pixels()[i])
+      inside[leaf] += 1;
   return inside;
 }
 
@@ -22,8 +23,10 @@ std::vector<float> summed(const PartTree& tree, std::vector<float> of_leaves) {
 }
 
 // Per node: 1 where it or an ancestor is chosen whole.
-std::vector<std::uint8_t> chosen_nodes(const PartTree& tree, std::size_t leaves, const std::vector<float>& pixels,
-                                       const std::vector<float>& inside_of_leaves, const MaskToPartsOptions& options) {
+std::vector<std::uint8_t> chosen_nodes(const PartTree& tree, std::size_t leaves,
+                                       const std::vector<float>& pixels,
+                                       const std::vector<float>& inside_of_leaves,
+                                       const MaskToPartsOptions& options) {
   const std::vector<float> inside = summed(tree, inside_of_leaves);
   std::vector<float> shown_area(leaves, 0);
   for (std::size_t leaf = 0; leaf < leaves; ++leaf) shown_area[leaf] = pixels[leaf] > 0 ? tree.area[leaf] : 0;
@@ -54,7 +57,9 @@ std::vector<std::uint8_t> parts_of_mask(const PartHierarchy& parts, const PartVi
     for (std::uint32_t leaf = 0; leaf < parts.leaves; ++leaf) votes[leaf] += chosen[leaf];
   }
   std::vector<std::uint8_t> leaves(parts.leaves);
-  std::ranges::transform(votes, leaves.begin(), [&](std::size_t v) { return static_cast<std::uint8_t>(2 * v > parts.trees.size()); });
+  std::ranges::transform(votes, leaves.begin(), [&](std::size_t v) {
+    return static_cast<std::uint8_t>(2 * v > parts.trees.size());
+  });
   return leaves;
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 struct Picture {
   Image<Rgb8> rgb;
-  Image<float> depth;         // expected
+  Image<float> depth;  // expected
   Image<float> median_depth;
 };
 
@@ -42,8 +42,9 @@ Picture render(const Drawer& drawer, const Camera& camera, const Job& job) {
   return {rgb8_from_linear(out.colour), std::move(out.expected_depth), std::move(out.median_depth)};
 }
 
-std::size_t trim_by(const Drawer& drawer, const std::vector<ViewReport>& views, std::span<const Image<float>> scene_depths,
-                    const PipelineOptions& options, std::vector<std::uint8_t>* labels, const Job& job) {
+std::size_t trim_by(const Drawer& drawer, const std::vector<ViewReport>& views,
+                    std::span<const Image<float>> scene_depths, const PipelineOptions& options,
+                    std::vector<std::uint8_t>* labels, const Job& job) {
   std::vector<TrimView> seen;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!views[i].used) continue;
@@ -58,8 +59,17 @@ class Run {
  public:
   Run(const Drawer& drawer, const PreparedScene& prepared, const PipelineOptions& options, const Job& job,
       PipelineReport* report, CutSolver& solver)
-      : drawer_(drawer), cloud_(drawer.cloud()), graph_(prepared.graph), parts_(prepared.parts), options_(options), job_(job),
-        report_(*report), clock_(&report->stages), sums_(cloud_.size()), solver_(solver), work_width_px_(options.work_width_px) {}
+      : drawer_(drawer),
+        cloud_(drawer.cloud()),
+        graph_(prepared.graph),
+        parts_(prepared.parts),
+        options_(options),
+        job_(job),
+        report_(*report),
+        clock_(&report->stages),
+        sums_(cloud_.size()),
+        solver_(solver),
+        work_width_px_(options.work_width_px) {}
 
   bool answered_by_parts() const { return !prior().empty() && !options_.cut_parts; }
   void reference_view(const Camera& full, const Strokes& strokes);
@@ -78,7 +88,9 @@ class Run {
   bool too_small(const Mask& mask, const Camera& camera, const Camera& full);
   void add_given(const GivenView& given);
   void add_view(const Camera& camera, const glm::vec3& object_centre_world);
-  bool needs_pictures() const { return options_.propagate != Propagator::kLift || options_.refine.solver != MaskSolver::kNone; }
+  bool needs_pictures() const {
+    return options_.propagate != Propagator::kLift || options_.refine.solver != MaskSolver::kNone;
+  }
   Mask labels_in(const Camera& camera);
   Mask propagated(const Camera& camera, const Picture& picture);
   bool hidden(const Camera& camera, const Mask& seen, double share);
@@ -101,8 +113,8 @@ class Run {
   StageClock clock_;
   MaskedSums sums_;
   CutSolver& solver_;
-  std::vector<SeenView> seen_;  // in two dimensions; empty for kLift
-  Image<float> reference_depth_;            // median, of the whole scene in the view that find_object() looked at last
+  std::vector<SeenView> seen_;    // in two dimensions; empty for kLift
+  Image<float> reference_depth_;  // median, of the whole scene in the view that find_object() looked at last
   std::vector<Image<float>> scene_depths_;  // the same of report_.views; empty where a view was not drawn
   int work_width_px_;
   int used_views_ = 0;
@@ -110,30 +122,35 @@ class Run {
 
 void Run::solve() {
   clock_.time("cut", [&] {
-    report_.cut = solver_.solve(with_prior(likelihood(sums_), prior(), prior_px()), used_views_, looked_at(report_.views).pixels_per_view(), job_);
+    report_.cut = solver_.solve(with_prior(likelihood(sums_), prior(), prior_px()), used_views_,
+                                looked_at(report_.views).pixels_per_view(), job_);
     report_.labels = report_.cut.labels;
   });
   snapshot();
 }
 
 Mask Run::labels_in(const Camera& camera) {
-  return clock_.time("labels in views", [&] { return thresholded(render_labels(drawer_, camera, report_.labels, job_), 0.5f); });
+  return clock_.time("labels in views",
+                     [&] { return thresholded(render_labels(drawer_, camera, report_.labels, job_), 0.5f); });
 }
 
 void Run::use(ViewReport view, Picture picture) {
   view.used = true;
   if (options_.propagate != Propagator::kLift) {
-    if (picture.rgb.empty()) picture = clock_.time("view", [&] { return render(drawer_, view.camera, job_); });
+    if (picture.rgb.empty())
+      picture = clock_.time("view", [&] { return render(drawer_, view.camera, job_); });
     seen_.push_back({view.camera, std::move(picture.rgb), std::move(picture.depth), view.mask});
   }
-  clock_.time("likelihood", [&] { add_masked_sums(drawer_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
+  clock_.time("likelihood",
+              [&] { add_masked_sums(drawer_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
   ++used_views_;
   scene_depths_.resize(report_.views.size());
   scene_depths_.push_back(std::move(picture.median_depth));
   report_.views.push_back(std::move(view));
 }
 
-Mask Run::with_feedback(const Camera& camera, const Picture& picture, const Mask& mask, const Strokes& strokes) {
+Mask Run::with_feedback(const Camera& camera, const Picture& picture, const Mask& mask,
+                        const Strokes& strokes) {
   ViewReport view{camera, mask, true, 0, {}};
   use(view);
   solve();
@@ -145,7 +162,9 @@ Mask Run::with_feedback(const Camera& camera, const Picture& picture, const Mask
   constexpr double kSaneChange = 0.5;  // a cut that keeps less than this of the mask is no correction
   if (iou(seen, mask) < kSaneChange) return mask;
   const Image<std::uint8_t> seeds = draw_seeds(strokes, camera.width_px, camera.height_px);
-  return clock_.time("first mask", [&] { return refine_mask(picture.rgb, picture.depth, seen, options_.first_mask.refine, seeds); });
+  return clock_.time("first mask", [&] {
+    return refine_mask(picture.rgb, picture.depth, seen, options_.first_mask.refine, seeds);
+  });
 }
 
 PartView Run::parts_in(const Camera& camera) {
@@ -192,8 +211,11 @@ void Run::complete(const Camera& camera, const Mask& mask) {
 Mask Run::mask_from_pixels(const Camera& camera, const Strokes& strokes) {
   const Picture picture = clock_.time("view", [&] { return render(drawer_, camera, job_); });
   reference_depth_ = picture.median_depth;
-  Mask mask = clock_.time("first mask", [&] { return first_mask(picture.rgb, picture.depth, strokes, options_.first_mask, job_); });
-  if (options_.feedback && count(mask) > 0 && !job_.cancelled()) mask = with_feedback(camera, picture, mask, strokes);
+  Mask mask = clock_.time("first mask", [&] {
+    return first_mask(picture.rgb, picture.depth, strokes, options_.first_mask, job_);
+  });
+  if (options_.feedback && count(mask) > 0 && !job_.cancelled())
+    mask = with_feedback(camera, picture, mask, strokes);
   return mask;
 }
 
@@ -223,17 +245,20 @@ bool Run::find_object(const Camera& camera, const Strokes& strokes) {
 bool Run::too_small(const Mask& mask, const Camera& camera, const Camera& full) {
   const double side = std::sqrt(static_cast<double>(count(mask)));
   if (side == 0 || side >= options_.least_object_px || camera.width_px >= full.width_px) return false;
-  work_width_px_ = std::min(full.width_px, static_cast<int>(std::ceil(camera.width_px * options_.least_object_px / side)));
+  work_width_px_ =
+      std::min(full.width_px, static_cast<int>(std::ceil(camera.width_px * options_.least_object_px / side)));
   return true;
 }
 
 void Run::reference_view(const Camera& full, const Strokes& strokes) {
   const auto look = [&] {
     const Camera camera = limited_to_width(full, work_width_px_);
-    return find_object(camera, scaled(strokes, static_cast<float>(camera.width_px) / static_cast<float>(full.width_px)));
+    return find_object(
+        camera, scaled(strokes, static_cast<float>(camera.width_px) / static_cast<float>(full.width_px)));
   };
   if (!look()) return report_.views.clear();
-  if (too_small(report_.views.front().mask, report_.views.front().camera, full) && !look()) return report_.views.clear();
+  if (too_small(report_.views.front().mask, report_.views.front().camera, full) && !look())
+    return report_.views.clear();
   ViewReport view = std::move(report_.views.front());
   report_.views.clear();
   const bool anything = count(view.mask) > 0;
@@ -248,7 +273,8 @@ bool Run::hidden(const Camera& camera, const Mask& seen, double share) {
     const PixelRect rect = labelled_rectangle(cloud_, camera, report_.labels);
     if (rect.empty()) return true;
     const auto shown = static_cast<double>(count(seen));
-    if (shown / (rect.width() * rect.height()) >= share) return false;  // alone it has no more pixels than these: no need to draw
+    if (shown / (rect.width() * rect.height()) >= share)
+      return false;  // alone it has no more pixels than these: no need to draw
     RasterOptions options;
     options.colour = false;
     options.shown = report_.labels;
@@ -261,10 +287,12 @@ bool Run::hidden(const Camera& camera, const Mask& seen, double share) {
 // What is object in this view, before the picture has its say.
 Mask Run::propagated(const Camera& camera, const Picture& picture) {
   if (options_.propagate == Propagator::kLift) return labels_in(camera);
-  const SeenView& nearest = *std::ranges::min_element(
-      seen_, {}, [&](const SeenView& v) { return glm::distance(v.camera.centre_world(), camera.centre_world()); });
+  const SeenView& nearest = *std::ranges::min_element(seen_, {}, [&](const SeenView& v) {
+    return glm::distance(v.camera.centre_world(), camera.centre_world());
+  });
   return clock_.time("masks", [&] {
-    return options_.propagate == Propagator::kWarp ? warped_by_depth(nearest, camera, picture.depth) : warped_by_flow(nearest, picture.rgb);
+    return options_.propagate == Propagator::kWarp ? warped_by_depth(nearest, camera, picture.depth)
+                                                   : warped_by_flow(nearest, picture.rgb);
   });
 }
 
@@ -289,7 +317,8 @@ void Run::add_view(const Camera& camera, const glm::vec3& object_centre_world) {
     const Mask seen = propagated(view.camera, picture);
     if (job_.cancelled()) return;
     if (options_.hidden_test && hidden(view.camera, seen, kHidden)) continue;
-    view.mask = clock_.time("masks", [&] { return refine_mask(picture.rgb, picture.depth, seen, options_.refine); });
+    view.mask =
+        clock_.time("masks", [&] { return refine_mask(picture.rgb, picture.depth, seen, options_.refine); });
     use(std::move(view), std::move(picture));
     return solve();
   }
@@ -308,9 +337,13 @@ void Run::other_views(const Camera& reference, const glm::vec3& up_world) {
   }
   const ObjectExtent extent = object_extent(cloud_, report_.labels);
   const bool given = !options_.view_cameras.empty();
-  const std::vector<Camera> cameras = given ? options_.view_cameras : cameras_around(reference, up_world, extent, options_.scene_cameras, options_.orbit);
-  // On a circle the object is large, however small it is in the first view. Flow compares pictures of one size.
-  const int width_px = given || options_.propagate != Propagator::kLift ? work_width_px_ : options_.work_width_px;
+  const std::vector<Camera> cameras =
+      given ? options_.view_cameras
+            : cameras_around(reference, up_world, extent, options_.scene_cameras, options_.orbit);
+  // On a circle the object is large, however small it is in the first view. Flow compares pictures of one
+  // size.
+  const int width_px =
+      given || options_.propagate != Propagator::kLift ? work_width_px_ : options_.work_width_px;
   int steady = 0;
   for (std::size_t i = 0; i < cameras.size() && !job_.cancelled(); ++i) {
     job_.progress("views", static_cast<double>(i) / static_cast<double>(cameras.size()));
@@ -320,10 +353,12 @@ void Run::other_views(const Camera& reference, const glm::vec3& up_world) {
     if (options_.given_masks || used_views_ == used_before) continue;
     steady = changed_share(before, report_.labels) < options_.settled_change ? steady + 1 : 0;
     if (steady < options_.settled_views) continue;
-    report_.enough = fmt::format("labels changed by less than {:.1f} % in {} views running", 100 * options_.settled_change, steady);
+    report_.enough = fmt::format("labels changed by less than {:.1f} % in {} views running",
+                                 100 * options_.settled_change, steady);
     return;
   }
-  report_.enough = cameras.empty() ? "no view beside the first was asked for" : fmt::format("all {} views were looked at", cameras.size() + 1);
+  report_.enough = cameras.empty() ? "no view beside the first was asked for"
+                                   : fmt::format("all {} views were looked at", cameras.size() + 1);
 }
 
 void Run::measure_agreement() {
@@ -335,7 +370,9 @@ void Run::measure_agreement() {
 void Run::settle() {
   solve();
   measure_agreement();
-  const auto disagrees = [&](const ViewReport& v) { return v.used && v.confidence < options_.view_agreement; };
+  const auto disagrees = [&](const ViewReport& v) {
+    return v.used && v.confidence < options_.view_agreement;
+  };
   const auto bad = std::ranges::count_if(report_.views, disagrees);
   if (bad == 0 || 2 * bad >= used_views_) return;
   sums_ = MaskedSums(cloud_.size());
@@ -347,7 +384,9 @@ void Run::settle() {
       view.reason = "its mask disagrees with the others";
     }
     if (!view.used) continue;
-    clock_.time("likelihood", [&] { add_masked_sums(drawer_, view.camera, view.mask, options_.hard_counts, job_, &sums_); });
+    clock_.time("likelihood", [&] {
+      add_masked_sums(drawer_, view.camera, view.mask, options_.hard_counts, job_, &sums_);
+    });
     ++used_views_;
   }
   solve();
@@ -355,7 +394,9 @@ void Run::settle() {
 }
 
 void Run::trim_labels() {
-  clock_.time("trim", [&] { report_.trimmed = trim_by(drawer_, report_.views, scene_depths_, options_, &report_.labels, job_); });
+  clock_.time("trim", [&] {
+    report_.trimmed = trim_by(drawer_, report_.views, scene_depths_, options_, &report_.labels, job_);
+  });
 }
 
 }  // namespace
@@ -370,16 +411,17 @@ LookedAt looked_at(const std::vector<ViewReport>& views) {
   return sum;
 }
 
-std::size_t trim_to_views(const Drawer& drawer, const std::vector<ViewReport>& views, const PipelineOptions& options,
-                          std::vector<std::uint8_t>* labels, const Job& job) {
+std::size_t trim_to_views(const Drawer& drawer, const std::vector<ViewReport>& views,
+                          const PipelineOptions& options, std::vector<std::uint8_t>* labels, const Job& job) {
   return trim_by(drawer, views, {}, options, labels, job);
 }
 
 PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,
-                       const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options, const Job& job,
-                       CutSolver* solver, KeptViews* kept) {
+                       const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options,
+                       const Job& job, CutSolver* solver, KeptViews* kept) {
   if (!options.cut_parts && options.first_mask_from != FirstMaskFrom::kParts)
-    throw Error("settings", "the parts cannot be the answer where the first mask comes from pixels", "Leave one of the two out");
+    throw Error("settings", "the parts cannot be the answer where the first mask comes from pixels",
+                "Leave one of the two out");
   PipelineReport report;
   PreparedScene made;
   if (!prepared) {
@@ -401,7 +443,8 @@ PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared
   if (cancelled()) return report;
   if (report.labels.empty() || std::ranges::none_of(report.labels, [](std::uint8_t l) { return l != 0; })) {
     report.outcome = Outcome::kNothingFound;
-    report.reason = "the strokes mark nothing that stands out in this view; click on the object itself, or scribble";
+    report.reason =
+        "the strokes mark nothing that stands out in this view; click on the object itself, or scribble";
     report.labels.assign(cloud.size(), 0);
     return report;
   }
@@ -414,15 +457,16 @@ PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared
   return report;
 }
 
-CutSolver ready_solver(const GaussianCloud& cloud, const PreparedScene& prepared, const PipelineOptions& options) {
+CutSolver ready_solver(const GaussianCloud& cloud, const PreparedScene& prepared,
+                       const PipelineOptions& options) {
   CutSolver solver(cloud, prepared.graph, options.cut);
   solver.make_ready();
   make_lab_ready();
   return solver;
 }
 
-Mask first_mask_of(const GaussianCloud& cloud, const PreparedScene& prepared, const Camera& reference, const Strokes& strokes,
-                   const PipelineOptions& options, const Job& job, KeptViews* kept) {
+Mask first_mask_of(const GaussianCloud& cloud, const PreparedScene& prepared, const Camera& reference,
+                   const Strokes& strokes, const PipelineOptions& options, const Job& job, KeptViews* kept) {
   PipelineReport report;
   CutSolver solver(cloud, prepared.graph, options.cut);
   std::optional<KeptViews> own;

@@ -47,41 +47,41 @@ enum class FirstMaskFrom {
 struct PipelineReport;
 
 struct PipelineOptions {
-  int work_width_px = 320;           // views are rendered no wider than this
+  int work_width_px = 320;  // views are rendered no wider than this
   OrbitOptions orbit;
-  std::vector<Camera> view_cameras;  // empty: see cameras_around()
+  std::vector<Camera> view_cameras;   // empty: see cameras_around()
   std::vector<Camera> scene_cameras;  // of its photographs, where known
-  int neighbours = 10;               // k of the graph
-  PreparedCache cache;               // where the scene is not prepared yet
+  int neighbours = 10;                // k of the graph
+  PreparedCache cache;                // where the scene is not prepared yet
   FirstMaskFrom first_mask_from = FirstMaskFrom::kParts;
-  PickOptions pick;                  // kParts
-  FirstMaskOptions first_mask;       // kPixels
-  bool feedback = true;              // kPixels: cut from the one view in 3D, rendered back, corrects the mask
-  float prior_px_per_view = 0.1f;    // kParts: what the parts say counts as that many pixels of each Gaussian
-  bool join_enclosed = true;         // kParts: hidden pieces that touch the object alone belong to it
+  PickOptions pick;                // kParts
+  FirstMaskOptions first_mask;     // kPixels
+  bool feedback = true;            // kPixels: cut from the one view in 3D, rendered back, corrects the mask
+  float prior_px_per_view = 0.1f;  // kParts: what the parts say counts as that many pixels of each Gaussian
+  bool join_enclosed = true;       // kParts: hidden pieces that touch the object alone belong to it
   EnclosedOptions enclosed;
-  bool cut_parts = true;             // kParts: the graph cut settles what the parts say; false: they are the answer
-  bool hard_counts = false;          // the likelihood counts pixels, not weights (the paper's hard variant)
+  bool cut_parts = true;     // kParts: the graph cut settles what the parts say; false: they are the answer
+  bool hard_counts = false;  // the likelihood counts pixels, not weights (the paper's hard variant)
   Propagator propagate = Propagator::kLift;
   RefineOptions refine{.solver = MaskSolver::kNone};  // of propagated masks: thin parts suffer from it
-  bool hidden_test = true;           // views in which something hides the object are taken from nearer or left out
-  double settled_change = 0.003;     // no more views once the labels change by less (share of the object) ...
-  int settled_views = 2;             // ... in that many views running
-  int least_object_px = 48;          // square root of its pixels: smaller ones are looked at with more pixels
-  double view_agreement = 0.6;       // views whose mask agrees less with the solution are left out
+  bool hidden_test = true;  // views in which something hides the object are taken from nearer or left out
+  double settled_change = 0.003;  // no more views once the labels change by less (share of the object) ...
+  int settled_views = 2;          // ... in that many views running
+  int least_object_px = 48;       // square root of its pixels: smaller ones are looked at with more pixels
+  double view_agreement = 0.6;    // views whose mask agrees less with the solution are left out
   CutOptions cut;
-  bool trim = true;                  // see trim.h
+  bool trim = true;  // see trim.h
   TrimOptions trim_options;
   std::optional<Mask> given_first_mask;  // size of the reference camera
   MaskSource given_masks;                // of every orbit view
   std::vector<GivenView> given_views;    // these in place of an orbit
-  // Called on the running thread when a mask was found and after each cut; the report is as far as it has come.
+  // Called on the running thread when a mask was found and after each cut; the report is as far as it has
+  // come.
   std::function<void(const PipelineReport&)> on_snapshot;
 };
 
-// Settings by name: fast (the first view alone), default, best, paper (GaussianCut's literal energy and counts),
-// paper-code (those of its published code).
-// Throws Error for any other name.
+// Settings by name: fast (the first view alone), default, best, paper (GaussianCut's literal energy and
+// counts), paper-code (those of its published code). Throws Error for any other name.
 PipelineOptions preset(const std::string& name);
 
 // What a scene must be prepared with for these options.
@@ -105,11 +105,11 @@ struct PipelineReport {
   std::vector<std::uint8_t> prior;   // kParts: what the parts say, per Gaussian; it counts in every cut
   CutReport cut;
   std::size_t first_sizes = 0, first_size = 0;  // kParts: sizes that the first click can mean; the one taken
-  bool ambiguous = false;            // kParts: another size was nearly as likely
-  std::size_t trimmed = 0;           // Gaussians that left the object after the cut
-  std::vector<ViewReport> views;     // the reference first
-  std::string enough;                // why there are no more views
-  std::vector<StageTime> stages;     // in order, same names added up
+  bool ambiguous = false;                       // kParts: another size was nearly as likely
+  std::size_t trimmed = 0;                      // Gaussians that left the object after the cut
+  std::vector<ViewReport> views;                // the reference first
+  std::string enough;                           // why there are no more views
+  std::vector<StageTime> stages;                // in order, same names added up
 };
 
 // What was enough: views that count, and their pixels.
@@ -121,22 +121,25 @@ struct LookedAt {
 LookedAt looked_at(const std::vector<ViewReport>& views);
 
 // trim() by the views that count. Returns how many Gaussians left the object.
-std::size_t trim_to_views(const Drawer& drawer, const std::vector<ViewReport>& views, const PipelineOptions& options,
-                          std::vector<std::uint8_t>* labels, const Job& job = {});
+std::size_t trim_to_views(const Drawer& drawer, const std::vector<ViewReport>& views,
+                          const PipelineOptions& options, std::vector<std::uint8_t>* labels,
+                          const Job& job = {});
 
-// `prepared` may be null: it is then made here. up_world: which way is up, for the orbit. solver: of this cloud and the
-// prepared graph, with options.cut, used in place of a fresh one; the labels are the same. kept: views to draw by, else
-// its own.
-// Throws Error for parts as the answer (cut_parts = false) without parts (kPixels).
+// `prepared` may be null: it is then made here. up_world: which way is up, for the orbit. solver: of this
+// cloud and the prepared graph, with options.cut, used in place of a fresh one; the labels are the same.
+// kept: views to draw by, else its own. Throws Error for parts as the answer (cut_parts = false) without
+// parts (kPixels).
 PipelineReport cut_out(const GaussianCloud& cloud, const PreparedScene* prepared, const Camera& reference,
                        const glm::vec3& up_world, const Strokes& strokes, const PipelineOptions& options,
                        const Job& job = {}, CutSolver* solver = nullptr, KeptViews* kept = nullptr);
 
 // What a program that waits for strokes has ready: a solver whose arcs are weighed, and OpenCV's tables.
-CutSolver ready_solver(const GaussianCloud& cloud, const PreparedScene& prepared, const PipelineOptions& options);
+CutSolver ready_solver(const GaussianCloud& cloud, const PreparedScene& prepared,
+                       const PipelineOptions& options);
 
 // The first mask alone (after feedback), in the size of limited_to_width(reference, work_width_px).
-Mask first_mask_of(const GaussianCloud& cloud, const PreparedScene& prepared, const Camera& reference, const Strokes& strokes,
-                   const PipelineOptions& options, const Job& job = {}, KeptViews* kept = nullptr);
+Mask first_mask_of(const GaussianCloud& cloud, const PreparedScene& prepared, const Camera& reference,
+                   const Strokes& strokes, const PipelineOptions& options, const Job& job = {},
+                   KeptViews* kept = nullptr);
 
 }  // namespace splatcut

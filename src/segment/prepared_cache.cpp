@@ -21,7 +21,8 @@ namespace splatcut {
 namespace {
 
 constexpr std::uint32_t kFormatVersion = 1;
-constexpr std::uint64_t kMagic = 0x50455250544c5053;  // "SPLTPREP", read backwards on a machine of the other byte order
+constexpr std::uint64_t kMagic =
+    0x50455250544c5053;  // "SPLTPREP", read backwards on a machine of the other byte order
 constexpr const char* kEnding = ".prepared";
 
 struct Header {
@@ -103,27 +104,35 @@ bool all_of_range(std::size_t n, const Body& body) {
 }
 
 bool sound(const FlowGraph& g, std::size_t gaussians) {
-  if (g.first_arc.size() != gaussians + 1 || g.first_arc.front() != 0 || g.first_arc.back() != g.head.size() ||
-      g.reverse_arc.size() != g.head.size())
+  if (g.first_arc.size() != gaussians + 1 || g.first_arc.front() != 0 ||
+      g.first_arc.back() != g.head.size() || g.reverse_arc.size() != g.head.size())
     return false;
   return all_of_range(gaussians, [&](std::size_t i) { return g.first_arc[i] <= g.first_arc[i + 1]; }) &&
-         all_of_range(g.head.size(), [&](std::size_t a) { return g.head[a] < gaussians && g.reverse_arc[a] < g.head.size(); });
+         all_of_range(g.head.size(), [&](std::size_t a) {
+           return g.head[a] < gaussians && g.reverse_arc[a] < g.head.size();
+         });
 }
 
 bool sound(const PartTree& t, std::uint32_t leaves) {
   const std::size_t n = t.nodes();
-  if (n < leaves || t.children.size() != n || t.area.size() != n || t.cut.size() != n || t.merge_cost.size() != n) return false;
+  if (n < leaves || t.children.size() != n || t.area.size() != n || t.cut.size() != n ||
+      t.merge_cost.size() != n)
+    return false;
   return all_of_range(n, [&](std::size_t i) {
     const auto below = [&](std::uint32_t child) { return child == kNoPart || child < i; };
-    return (t.parent[i] == kNoPart || (t.parent[i] > i && t.parent[i] < n)) && below(t.children[i][0]) && below(t.children[i][1]);
+    return (t.parent[i] == kNoPart || (t.parent[i] > i && t.parent[i] < n)) && below(t.children[i][0]) &&
+           below(t.children[i][1]);
   });
 }
 
 // No index of the scene leads outside of it: what is read may be used without looking again.
 bool sound(const PreparedScene& scene, std::size_t gaussians) {
   const PartHierarchy& parts = scene.parts;
-  if (!sound(scene.graph, gaussians) || (!parts.leaf_of.empty() && parts.leaf_of.size() != gaussians)) return false;
-  return all_of_range(parts.leaf_of.size(), [&](std::size_t g) { return parts.leaf_of[g] == kNoPart || parts.leaf_of[g] < parts.leaves; }) &&
+  if (!sound(scene.graph, gaussians) || (!parts.leaf_of.empty() && parts.leaf_of.size() != gaussians))
+    return false;
+  return all_of_range(
+             parts.leaf_of.size(),
+             [&](std::size_t g) { return parts.leaf_of[g] == kNoPart || parts.leaf_of[g] < parts.leaves; }) &&
          std::ranges::all_of(parts.trees, [&](const PartTree& t) { return sound(t, parts.leaves); });
 }
 
@@ -139,13 +148,36 @@ void add_options(const PrepareOptions& o, Hasher* hash) {
   const SurfaceOptions& s = o.parts.surface;
   const SuperpointOptions& p = o.parts.superpoints;
   const MergingOptions& m = o.parts.merging;
-  for (const double value : {static_cast<double>(o.graph.neighbours), static_cast<double>(o.with_parts), static_cast<double>(o.observing.width_px), static_cast<double>(o.observing.most_given),
-                             static_cast<double>(o.observing.ring), static_cast<double>(o.observing.elevation_swing_rad), static_cast<double>(s.neighbours), static_cast<double>(s.least_opacity),
-                             static_cast<double>(s.size_quantile), static_cast<double>(s.least_seen_px), static_cast<double>(s.normal_rounds), static_cast<double>(s.colour_rounds),
-                             static_cast<double>(s.like_colour), static_cast<double>(p.k), static_cast<double>(p.cap), static_cast<double>(p.least), static_cast<double>(m.base), static_cast<double>(m.border_colour),
-                             static_cast<double>(m.region_colour), static_cast<double>(m.concavity), static_cast<double>(m.convexity), static_cast<double>(m.normal), static_cast<double>(m.gap),
-                             static_cast<double>(m.area_power), static_cast<double>(m.border_power), static_cast<double>(m.cut_scale), static_cast<double>(o.parts.trees),
-                             static_cast<double>(o.parts.jitter), static_cast<double>(o.parts.noise), static_cast<double>(o.parts.votes)})
+  for (const double value : {static_cast<double>(o.graph.neighbours),
+                             static_cast<double>(o.with_parts),
+                             static_cast<double>(o.observing.width_px),
+                             static_cast<double>(o.observing.most_given),
+                             static_cast<double>(o.observing.ring),
+                             static_cast<double>(o.observing.elevation_swing_rad),
+                             static_cast<double>(s.neighbours),
+                             static_cast<double>(s.least_opacity),
+                             static_cast<double>(s.size_quantile),
+                             static_cast<double>(s.least_seen_px),
+                             static_cast<double>(s.normal_rounds),
+                             static_cast<double>(s.colour_rounds),
+                             static_cast<double>(s.like_colour),
+                             static_cast<double>(p.k),
+                             static_cast<double>(p.cap),
+                             static_cast<double>(p.least),
+                             static_cast<double>(m.base),
+                             static_cast<double>(m.border_colour),
+                             static_cast<double>(m.region_colour),
+                             static_cast<double>(m.concavity),
+                             static_cast<double>(m.convexity),
+                             static_cast<double>(m.normal),
+                             static_cast<double>(m.gap),
+                             static_cast<double>(m.area_power),
+                             static_cast<double>(m.border_power),
+                             static_cast<double>(m.cut_scale),
+                             static_cast<double>(o.parts.trees),
+                             static_cast<double>(o.parts.jitter),
+                             static_cast<double>(o.parts.noise),
+                             static_cast<double>(o.parts.votes)})
     hash->number(value);
 }
 
@@ -189,15 +221,19 @@ std::filesystem::path prepared_file(const std::filesystem::path& folder, std::ui
   return folder / fmt::format("{:016x}{}", key, kEnding);
 }
 
-std::optional<PreparedScene> read_prepared(const std::filesystem::path& path, std::uint64_t key, std::size_t gaussians) {
+std::optional<PreparedScene> read_prepared(const std::filesystem::path& path, std::uint64_t key,
+                                           std::size_t gaussians) {
   Reader file(path);
   std::vector<Header> header;
   std::vector<std::uint64_t> counts, sizes;
   if (!file.read(1, &header)) return {};
   const Header& h = header.front();
-  if (h.magic != kMagic || h.version != kFormatVersion || h.key != key || h.payload_bytes != file.left()) return {};
+  if (h.magic != kMagic || h.version != kFormatVersion || h.key != key || h.payload_bytes != file.left())
+    return {};
   constexpr std::uint64_t kCounts = 3, kMostTrees = 1000, kArraysBefore = 4, kArraysOfTree = 5;
-  if (!file.read(kCounts, &counts) || counts[2] > kMostTrees || !file.read(kArraysBefore + kArraysOfTree * counts[2], &sizes)) return {};
+  if (!file.read(kCounts, &counts) || counts[2] > kMostTrees ||
+      !file.read(kArraysBefore + kArraysOfTree * counts[2], &sizes))
+    return {};
   PreparedScene scene;
   scene.graph.listed = static_cast<std::uint32_t>(counts[0]);
   scene.parts.leaves = static_cast<std::uint32_t>(counts[1]);
@@ -206,7 +242,8 @@ std::optional<PreparedScene> read_prepared(const std::filesystem::path& path, st
   std::size_t next = 0;
   visit_arrays(scene, [&](auto& array) { whole = whole && file.read(sizes[next++], &array); });
   counts.insert(counts.end(), sizes.begin(), sizes.end());
-  if (!whole || file.left() != 0 || checksum_of(scene, counts) != h.checksum || !sound(scene, gaussians)) return {};
+  if (!whole || file.left() != 0 || checksum_of(scene, counts) != h.checksum || !sound(scene, gaussians))
+    return {};
   return scene;
 }
 
@@ -233,13 +270,15 @@ void trim_cache(const std::filesystem::path& folder, std::uintmax_t most_bytes) 
   std::uintmax_t sum = 0;
   std::error_code failure;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {
-    const bool interrupted = entry.path().extension() == ".part" && entry.path().string().find(kEnding) != std::string::npos;
+    const bool interrupted =
+        entry.path().extension() == ".part" && entry.path().string().find(kEnding) != std::string::npos;
     if (!entry.is_regular_file(failure) || (!interrupted && entry.path().extension() != kEnding)) continue;
     const auto used = entry.last_write_time(failure);
     constexpr std::chrono::hours kLongestWrite(1);
     if (failure) continue;
     if (interrupted) {
-      if (std::filesystem::file_time_type::clock::now() - used > kLongestWrite) std::filesystem::remove(entry.path(), failure);
+      if (std::filesystem::file_time_type::clock::now() - used > kLongestWrite)
+        std::filesystem::remove(entry.path(), failure);
       continue;
     }
     files.push_back({used, entry.file_size(failure), entry.path()});

@@ -8,8 +8,8 @@ namespace splatcut {
 
 namespace {
 
-PreparedScene made(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world, std::span<const Camera> given,
-                   const PrepareOptions& options, const Job& job) {
+PreparedScene made(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world,
+                   std::span<const Camera> given, const PrepareOptions& options, const Job& job) {
   PreparedScene prepared;
   StageClock clock(&prepared.stages);
   job.progress("graph", 0);
@@ -48,7 +48,8 @@ PreparedScene prepare_scene(const GaussianCloud& cloud, const Camera& reference,
   });
   if (kept) {
     std::error_code ignored;  // used now: the last to be removed
-    std::filesystem::last_write_time(prepared_file(options.cache.folder, key), std::filesystem::file_time_type::clock::now(), ignored);
+    std::filesystem::last_write_time(prepared_file(options.cache.folder, key),
+                                     std::filesystem::file_time_type::clock::now(), ignored);
     kept->stages = std::move(stages);
     kept->from_cache = true;
     return std::move(*kept);

@@ -47,6 +47,7 @@ struct PreparedScene {
 // reference: a view from where the scene is looked at; given: cameras of its photographs, may be empty.
 // Cancelled: the result is incomplete and must not be used.
 PreparedScene prepare_scene(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world,
-                            std::span<const Camera> given, const PrepareOptions& options = {}, const Job& job = {});
+                            std::span<const Camera> given, const PrepareOptions& options = {},
+                            const Job& job = {});
 
 }  // namespace splatcut

@@ -27,7 +27,8 @@ PipelineOptions preset(const std::string& name) {
     if (code) options.neighbours = 9;
     options.trim = false;
   } else {
-    throw Error("--preset " + name, "there is no such preset", "Take fast, default, best, paper or paper-code");
+    throw Error("--preset " + name, "there is no such preset",
+                "Take fast, default, best, paper or paper-code");
   }
   return options;
 }

@@ -10,7 +10,8 @@ namespace splatcut {
 
 namespace {
 
-// DISOpticalFlow hands its search from row to row inside a stripe, one stripe a thread: one thread, one result.
+// DISOpticalFlow hands its search from row to row inside a stripe, one stripe a thread: one thread, one
+// result.
 class OneOpenCvThread {
  public:
   OneOpenCvThread() : before_(cv::getNumThreads()) { cv::setNumThreads(1); }
@@ -50,12 +51,14 @@ Mask warped_by_depth(const SeenView& from, const Camera& to, const Image<float>&
 Mask warped_by_flow(const SeenView& from, const Image<Rgb8>& to_picture) {
   const OneOpenCvThread one_thread;
   cv::Mat flow;  // from a pixel of `to` to its place in `from`
-  cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)->calc(grey(to_picture), grey(from.picture), flow);
+  cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)
+      ->calc(grey(to_picture), grey(from.picture), flow);
   Mask mask(from.mask.width(), from.mask.height());
   for (int y = 0; y < mask.height(); ++y)
     for (int x = 0; x < mask.width(); ++x) {
       const auto& move = flow.at<cv::Vec2f>(y, x);
-      const int u = static_cast<int>(std::lround(static_cast<float>(x) + move[0])), v = static_cast<int>(std::lround(static_cast<float>(y) + move[1]));
+      const int u = static_cast<int>(std::lround(static_cast<float>(x) + move[0])),
+                v = static_cast<int>(std::lround(static_cast<float>(y) + move[1]));
       if (from.mask.contains(u, v)) mask.at(x, y) = from.mask.at(u, v);
     }
   return mask;

@@ -8,7 +8,9 @@
 
 namespace splatcut {
 
-std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask) { return robot_click(truth, mask, 0); }
+std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask) {
+  return robot_click(truth, mask, 0);
+}
 
 std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask, std::uint64_t draw) {
   Mask missing(truth.width(), truth.height()), extra(truth.width(), truth.height());
@@ -30,7 +32,8 @@ std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask, std::uint
       if (depth.pixels()[i] >= deep_enough) pixels.push_back(static_cast<std::ptrdiff_t>(i));
     deepest = pixels[CounterRng(draw, pixels.size()).below(pixels.size())];
   }
-  const glm::vec2 pixel(static_cast<float>(deepest % region.width()) + 0.5f, static_cast<float>(deepest / region.width()) + 0.5f);
+  const glm::vec2 pixel(static_cast<float>(deepest % region.width()) + 0.5f,
+                        static_cast<float>(deepest / region.width()) + 0.5f);
   return click(pixel, positive ? SeedLabel::kObject : SeedLabel::kRest);
 }
 

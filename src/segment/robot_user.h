@@ -14,8 +14,8 @@ namespace splatcut {
 // of the largest wrong region; an empty mask gives the middle of the truth. None where nothing is wrong.
 std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask);
 
-// The same robot with an unsteady hand: any pixel of that region that is at least half as deep inside as its middle, by
-// chance. draw: which chance; 0 is the steady robot.
+// The same robot with an unsteady hand: any pixel of that region that is at least half as deep inside as its
+// middle, by chance. draw: which chance; 0 is the steady robot.
 std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask, std::uint64_t draw);
 
 }  // namespace splatcut

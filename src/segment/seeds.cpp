@@ -8,19 +8,24 @@ namespace splatcut {
 namespace {
 
 void draw_disc(const glm::vec2& centre, float radius, std::uint8_t value, Image<std::uint8_t>* seeds) {
-  const int x0 = static_cast<int>(std::floor(centre.x - radius)), x1 = static_cast<int>(std::ceil(centre.x + radius));
-  const int y0 = static_cast<int>(std::floor(centre.y - radius)), y1 = static_cast<int>(std::ceil(centre.y + radius));
+  const int x0 = static_cast<int>(std::floor(centre.x - radius)),
+            x1 = static_cast<int>(std::ceil(centre.x + radius));
+  const int y0 = static_cast<int>(std::floor(centre.y - radius)),
+            y1 = static_cast<int>(std::ceil(centre.y + radius));
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x) {
       const glm::vec2 d = glm::vec2(x, y) + 0.5f - centre;
-      const bool own_pixel = x == static_cast<int>(std::floor(centre.x)) && y == static_cast<int>(std::floor(centre.y));
+      const bool own_pixel =
+          x == static_cast<int>(std::floor(centre.x)) && y == static_cast<int>(std::floor(centre.y));
       if (seeds->contains(x, y) && (own_pixel || glm::dot(d, d) <= radius * radius)) seeds->at(x, y) = value;
     }
 }
 
 }  // namespace
 
-Stroke click(const glm::vec2& pixel, SeedLabel label) { return {label, 2, {pixel}}; }
+Stroke click(const glm::vec2& pixel, SeedLabel label) {
+  return {label, 2, {pixel}};
+}
 
 Strokes scaled(const Strokes& strokes, float factor) {
   Strokes out = strokes;
@@ -39,7 +44,8 @@ Image<std::uint8_t> draw_seeds(const Strokes& strokes, int width, int height) {
       const glm::vec2 from = stroke.points_px[i > 0 ? i - 1 : 0], to = stroke.points_px[i];
       const int steps = std::max(1, static_cast<int>(std::ceil(glm::length(to - from))));
       for (int s = 0; s <= steps; ++s)
-        draw_disc(glm::mix(from, to, static_cast<float>(s) / static_cast<float>(steps)), stroke.radius_px, value, &seeds);
+        draw_disc(glm::mix(from, to, static_cast<float>(s) / static_cast<float>(steps)), stroke.radius_px,
+                  value, &seeds);
     }
   }
   return seeds;

@@ -26,7 +26,8 @@ class StageClock {
     std::string_view name;
     std::chrono::steady_clock::time_point start;
     ~Booking() {
-      clock->book(name, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+      clock->book(
+          name, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     }
   };
 

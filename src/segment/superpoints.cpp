@@ -16,7 +16,8 @@ namespace {
 
 float mahalanobis(const GaussianCloud& cloud, std::size_t g, std::size_t h) {
   const glm::vec3 d = cloud.position[h] - cloud.position[g];
-  glm::mat3 s = 0.5f * (covariance_world(cloud.scale[g], cloud.rotation[g]) + covariance_world(cloud.scale[h], cloud.rotation[h]));
+  glm::mat3 s = 0.5f * (covariance_world(cloud.scale[g], cloud.rotation[g]) +
+                        covariance_world(cloud.scale[h], cloud.rotation[h]));
   const float ridge = 1e-3f * (s[0][0] + s[1][1] + s[2][2]) + 1e-30f;
   for (int i = 0; i < 3; ++i) s[i][i] += ridge;
   const float q = glm::dot(d, glm::inverse(s) * d);
@@ -36,12 +37,15 @@ void measure(const GaussianCloud& cloud, const SurfaceFeatures& f, SurfaceEdge* 
 }
 
 float weight(const SurfaceEdge& e) {
-  return e.colour / 0.1f + 0.6f * e.normal + std::max(0.0f, e.concavity) + 0.3f * std::min(3.0f, 0.3f * e.gap) + 0.1f * e.distance;
+  return e.colour / 0.1f + 0.6f * e.normal + std::max(0.0f, e.concavity) +
+         0.3f * std::min(3.0f, 0.3f * e.gap) + 0.1f * e.distance;
 }
 
 class UnionFind {
  public:
-  explicit UnionFind(std::size_t n) : parent_(n), size_(n, 1) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  explicit UnionFind(std::size_t n) : parent_(n), size_(n, 1) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
   std::uint32_t find(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -60,7 +64,8 @@ class UnionFind {
 
 std::vector<KeyValue<std::uint32_t>> by_weight(std::span<const SurfaceEdge> edges) {
   std::vector<KeyValue<std::uint32_t>> order(edges.size()), scratch(edges.size());
-  for (std::uint32_t i = 0; i < edges.size(); ++i) order[i] = {std::bit_cast<std::uint32_t>(weight(edges[i])), i};  // weights >= 0 sort as bits
+  for (std::uint32_t i = 0; i < edges.size(); ++i)
+    order[i] = {std::bit_cast<std::uint32_t>(weight(edges[i])), i};  // weights >= 0 sort as bits
   radix_sort<11>(std::span(order), std::span(scratch), 0, 32);
   return order;
 }
@@ -72,7 +77,8 @@ std::vector<SurfaceEdge> surface_edges(const GaussianCloud& cloud, const Surface
   edges.reserve(f.core.size() * f.k * 2 / 3);
   const auto lists = [&](std::uint32_t i, std::uint32_t j) {
     const auto first = f.neighbour.begin() + static_cast<std::ptrdiff_t>(i * f.k);
-    return std::find(first, first + static_cast<std::ptrdiff_t>(f.k), j) != first + static_cast<std::ptrdiff_t>(f.k);
+    return std::find(first, first + static_cast<std::ptrdiff_t>(f.k), j) !=
+           first + static_cast<std::ptrdiff_t>(f.k);
   };
   for (std::uint32_t i = 0; i < f.core.size(); ++i)
     for (std::size_t e = i * f.k; e < (i + 1) * f.k; ++e) {
@@ -83,7 +89,8 @@ std::vector<SurfaceEdge> surface_edges(const GaussianCloud& cloud, const Surface
   return edges;
 }
 
-Superpoints superpoints(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges, const SuperpointOptions& options) {
+Superpoints superpoints(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges,
+                        const SuperpointOptions& options) {
   const std::size_t n = f.core.size();
   UnionFind sets(n);
   std::vector<float> internal(n);  // largest weight inside a superpoint
@@ -92,7 +99,9 @@ Superpoints superpoints(const SurfaceFeatures& f, std::span<const SurfaceEdge> e
     const std::uint32_t a = sets.find(edges[i].a), b = sets.find(edges[i].b);
     if (a == b || sets.size(a) + sets.size(b) > options.cap) continue;
     const float w = std::bit_cast<float>(key);
-    if (w > std::min(internal[a] + options.k / static_cast<float>(sets.size(a)), internal[b] + options.k / static_cast<float>(sets.size(b)))) continue;
+    if (w > std::min(internal[a] + options.k / static_cast<float>(sets.size(a)),
+                     internal[b] + options.k / static_cast<float>(sets.size(b))))
+      continue;
     internal[sets.join(a, b)] = w;
   }
   for (const auto& [key, i] : order) {

@@ -23,6 +23,7 @@ struct Superpoints {
   std::uint32_t count = 0;
   std::vector<std::uint32_t> of;  // per core Gaussian
 };
-Superpoints superpoints(const SurfaceFeatures& features, std::span<const SurfaceEdge> edges, const SuperpointOptions& options);
+Superpoints superpoints(const SurfaceFeatures& features, std::span<const SurfaceEdge> edges,
+                        const SuperpointOptions& options);
 
 }  // namespace splatcut

@@ -13,7 +13,7 @@ namespace splatcut {
 namespace {
 
 struct Observation {
-  std::vector<float> seen_px;           // A_g over all views
+  std::vector<float> seen_px;            // A_g over all views
   std::vector<glm::vec3> towards_views;  // sum of A_g times the direction to the view's centre
 };
 
@@ -39,7 +39,9 @@ Observation observe(const GaussianCloud& cloud, std::span<const Camera> views, c
   return o;
 }
 
-float largest_sigma(const glm::vec3& scale) { return std::max({scale.x, scale.y, scale.z}); }
+float largest_sigma(const glm::vec3& scale) {
+  return std::max({scale.x, scale.y, scale.z});
+}
 
 float quantile(std::vector<float> values, float q) {
   if (values.empty()) return 0;
@@ -48,13 +50,15 @@ float quantile(std::vector<float> values, float q) {
   return *at;
 }
 
-std::vector<std::uint32_t> core_of(const GaussianCloud& cloud, const Observation& seen, bool observed, const SurfaceOptions& options) {
+std::vector<std::uint32_t> core_of(const GaussianCloud& cloud, const Observation& seen, bool observed,
+                                   const SurfaceOptions& options) {
   std::vector<float> size(cloud.size());
   for_each_index(cloud.size(), [&](std::size_t g) { size[g] = largest_sigma(cloud.scale[g]); });
   const float too_large = quantile(size, options.size_quantile);
   std::vector<std::uint32_t> core;
   for (std::uint32_t g = 0; g < cloud.size(); ++g)
-    if (cloud.opacity[g] > options.least_opacity && size[g] <= too_large && (!observed || seen.seen_px[g] > options.least_seen_px))
+    if (cloud.opacity[g] > options.least_opacity && size[g] <= too_large &&
+        (!observed || seen.seen_px[g] > options.least_seen_px))
       core.push_back(g);
   return core;
 }
@@ -80,7 +84,9 @@ std::vector<Value> averaged(const std::vector<Value>& value, const SurfaceFeatur
 
 void smooth_normals(const SurfaceFeatures& f, int rounds, std::vector<glm::vec3>* normal) {
   for (int round = 0; round < rounds; ++round) {
-    auto next = averaged(*normal, f, [&](std::size_t i, std::size_t j) { return glm::dot((*normal)[i], (*normal)[j]) < 0 ? -1.0f : 1.0f; });
+    auto next = averaged(*normal, f, [&](std::size_t i, std::size_t j) {
+      return glm::dot((*normal)[i], (*normal)[j]) < 0 ? -1.0f : 1.0f;
+    });
     for_each_index(next.size(), [&](std::size_t i) {
       const float length = glm::length(next[i]);
       (*normal)[i] = length > 1e-6f ? next[i] / length : (*normal)[i];
@@ -90,8 +96,8 @@ void smooth_normals(const SurfaceFeatures& f, int rounds, std::vector<glm::vec3>
 
 }  // namespace
 
-SurfaceFeatures surface_features(const GaussianCloud& cloud, std::span<const Camera> observing, const SurfaceOptions& options,
-                                 const Job& job) {
+SurfaceFeatures surface_features(const GaussianCloud& cloud, std::span<const Camera> observing,
+                                 const SurfaceOptions& options, const Job& job) {
   const Observation seen = observe(cloud, observing, job);
   SurfaceFeatures f;
   f.core = core_of(cloud, seen, !observing.empty(), options);
@@ -111,7 +117,8 @@ SurfaceFeatures surface_features(const GaussianCloud& cloud, std::span<const Cam
   for_each_index(n, [&](std::size_t i) {
     const std::uint32_t last = f.k ? f.neighbour[(i + 1) * f.k - 1] : kNoNeighbour;
     if (last == kNoNeighbour) return;
-    f.spacing[i] = glm::distance(f.position_world[i], f.position_world[last]) * std::sqrt(3.14159265f / static_cast<float>(f.k));
+    f.spacing[i] = glm::distance(f.position_world[i], f.position_world[last]) *
+                   std::sqrt(3.14159265f / static_cast<float>(f.k));
   });
   for (int round = 0; round < options.colour_rounds; ++round)
     f.colour = averaged(f.colour, f, [&](std::size_t i, std::size_t j) {
@@ -120,7 +127,8 @@ SurfaceFeatures surface_features(const GaussianCloud& cloud, std::span<const Cam
     });
   smooth_normals(f, options.normal_rounds, &f.normal_world);
   for_each_index(n, [&](std::size_t i) {
-    if (glm::dot(f.normal_world[i], seen.towards_views[f.core[i]]) < 0) f.normal_world[i] = -f.normal_world[i];
+    if (glm::dot(f.normal_world[i], seen.towards_views[f.core[i]]) < 0)
+      f.normal_world[i] = -f.normal_world[i];
   });
   return f;
 }

@@ -21,10 +21,10 @@ namespace splatcut {
 struct SurfaceOptions {
   int neighbours = 10;
   float least_opacity = 0.1f;
-  float size_quantile = 0.985f;    // Gaussians whose largest sigma lies above are no core
-  float least_seen_px = 0.02f;      // A_g summed over the observing views
+  float size_quantile = 0.985f;  // Gaussians whose largest sigma lies above are no core
+  float least_seen_px = 0.02f;   // A_g summed over the observing views
   int normal_rounds = 3, colour_rounds = 3;
-  float like_colour = 0.1f;        // sigma of the bilateral weight, RGB in [0, 1]
+  float like_colour = 0.1f;  // sigma of the bilateral weight, RGB in [0, 1]
 };
 
 // Arrays of core.size(), unless said otherwise.
@@ -33,12 +33,12 @@ struct SurfaceFeatures {
   std::vector<std::uint32_t> neighbour;  // core.size() * k, indices into core, kNoNeighbour for none
   std::size_t k = 0;
   std::vector<glm::vec3> position_world;
-  std::vector<glm::vec3> normal_world;   // unit
-  std::vector<glm::vec3> colour;         // linear in f_dc, about [0, 1]
-  std::vector<float> spacing;            // side of the piece of surface that one Gaussian stands for, scene units
+  std::vector<glm::vec3> normal_world;  // unit
+  std::vector<glm::vec3> colour;        // linear in f_dc, about [0, 1]
+  std::vector<float> spacing;  // side of the piece of surface that one Gaussian stands for, scene units
 };
 
-SurfaceFeatures surface_features(const GaussianCloud& cloud, std::span<const Camera> observing, const SurfaceOptions& options,
-                                 const Job& job = {});
+SurfaceFeatures surface_features(const GaussianCloud& cloud, std::span<const Camera> observing,
+                                 const SurfaceOptions& options, const Job& job = {});
 
 }  // namespace splatcut

@@ -10,15 +10,17 @@ namespace splatcut {
 namespace {
 
 // Where the object may be: its mask, and where something nearer hides it.
-Mask allowed_in(const Drawer& drawer, const TrimView& view, const TrimOptions& options, const std::vector<std::uint8_t>& labels,
-                const PixelRect& rect, const Job& job) {
+Mask allowed_in(const Drawer& drawer, const TrimView& view, const TrimOptions& options,
+                const std::vector<std::uint8_t>& labels, const PixelRect& rect, const Job& job) {
   RasterOptions raster;
   raster.colour = false;
   raster.depth = true;
   raster.roi = rect;
   Image<float> drawn;
   if (!view.scene_depth) drawn = drawer.draw(view.camera, raster, job).median_depth;
-  const auto scene_depth = [&](int x, int y) { return view.scene_depth ? view.scene_depth->at(x, y) : drawn.at(x - rect.x0, y - rect.y0); };
+  const auto scene_depth = [&](int x, int y) {
+    return view.scene_depth ? view.scene_depth->at(x, y) : drawn.at(x - rect.x0, y - rect.y0);
+  };
   raster.shown = labels;
   const RasterOutput alone = drawer.draw(view.camera, raster, job);
   Mask allowed = dilated(*view.mask, options.margin_px);
@@ -26,7 +28,8 @@ Mask allowed_in(const Drawer& drawer, const TrimView& view, const TrimOptions& o
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x) {
       const float depth = scene_depth(x, y);
-      if (depth > 0 && depth < kNearer * alone.expected_depth.at(x - rect.x0, y - rect.y0)) allowed.at(x, y) = kMaskObject;
+      if (depth > 0 && depth < kNearer * alone.expected_depth.at(x - rect.x0, y - rect.y0))
+        allowed.at(x, y) = kMaskObject;
     }
   return allowed;
 }
@@ -54,7 +57,8 @@ std::size_t trim(const Drawer& drawer, std::span<const TrimView> views, const Tr
   std::size_t left = 0;
   for (std::size_t g = 0; g < labels->size(); ++g) {
     if (!(*labels)[g] || sums.total[g] == 0) continue;
-    if (static_cast<double>(sums.inside[g]) >= options.least_inside * static_cast<double>(sums.total[g])) continue;
+    if (static_cast<double>(sums.inside[g]) >= options.least_inside * static_cast<double>(sums.total[g]))
+      continue;
     (*labels)[g] = 0;
     ++left;
   }

@@ -2,8 +2,9 @@
 // lawn, shadow or haze that hide in the scene's own pictures.
 //
 // The object is rendered alone into the views; a Gaussian most of whose A_g then lies where the view's mask
-// says rest, and where no other part of the scene hides the object, leaves the object. What no view shows stays.
-// Cost: two small renderings per view, and a third where the scene's depth is not at hand, in at most options.most_views.
+// says rest, and where no other part of the scene hides the object, leaves the object. What no view shows
+// stays. Cost: two small renderings per view, and a third where the scene's depth is not at hand, in at most
+// options.most_views.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,8 @@ namespace splatcut {
 struct TrimView {
   Camera camera;
   const Mask* mask = nullptr;  // of the camera's size, where the object is seen in the whole scene
-  const Image<float>* scene_depth = nullptr;  // RasterOutput::median_depth of the whole scene, of that size; null: drawn here
+  const Image<float>* scene_depth =
+      nullptr;  // RasterOutput::median_depth of the whole scene, of that size; null: drawn here
 };
 
 struct TrimOptions {

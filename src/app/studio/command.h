@@ -160,7 +160,8 @@ using Command =
                  ShowFloaters, StepScale, ClearStrokes, NewObject, RemoveObject, RenameObject, RecolourObject,
                  ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject, DuplicateObject,
                  SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness, SetPreset,
-                 SetBackground, SetUp, Undo, Redo, JumpHistory, Cancel, Recompute, SetView, GoToCamera, SetFieldOfView,
-                 OpenScene, SaveWork, RestoreAutosave, DropAutosave, Export, SaveSnapshot, SaveTurntable>;
+                 SetBackground, SetUp, Undo, Redo, JumpHistory, Cancel, Recompute, SetView, GoToCamera,
+                 SetFieldOfView, OpenScene, SaveWork, RestoreAutosave, DropAutosave, Export, SaveSnapshot,
+                 SaveTurntable>;
 
 }  // namespace splatcut

@@ -37,7 +37,8 @@ ObjectItem* Document::find(ObjectId id) {
 }
 
 ObjectCutInput cut_input(const Document& document, const ObjectItem& object) {
-  return {object.views, document.up_world, document.preset, object.smoothness, object.part_step, object.left_out};
+  return {object.views,      document.up_world, document.preset,
+          object.smoothness, object.part_step,  object.left_out};
 }
 
 bool is_stale(const Document& document, const ObjectItem& object) {
@@ -87,10 +88,10 @@ std::size_t count_flags(std::span<const std::uint8_t> flags) {
 }
 
 std::string bytes_of(const Document& document) {
-  std::string bytes = fmt::format("{},{},{},{},{},{},{},{},{};", document.active, document.next_id,
-                                  document.preset, document.up_world.x, document.up_world.y,
-                                  document.up_world.z, document.background.r, document.background.g,
-                                  document.background.b);
+  std::string bytes =
+      fmt::format("{},{},{},{},{},{},{},{},{};", document.active, document.next_id, document.preset,
+                  document.up_world.x, document.up_world.y, document.up_world.z, document.background.r,
+                  document.background.g, document.background.b);
   append_flags(&bytes, document.deleted);
   for (const ObjectItem& o : document.objects) {
     bytes += fmt::format("{},{},{},{},{},{},{},{};", o.id, o.name, o.colour[0], o.colour[1], o.colour[2],

@@ -22,7 +22,8 @@ bool same_views(const FrameRequest& a, const FrameRequest& b) {
 
 }  // namespace
 
-Flags within_far_plane(const GaussianCloud& cloud, const Camera& camera, const Flags& shown, float far_plane) {
+Flags within_far_plane(const GaussianCloud& cloud, const Camera& camera, const Flags& shown,
+                       float far_plane) {
   if (far_plane >= DepthRange{}.far_plane) return shown;
   std::vector<std::uint8_t> set(cloud.size());
   for (std::size_t g = 0; g < set.size(); ++g)
@@ -32,8 +33,8 @@ Flags within_far_plane(const GaussianCloud& cloud, const Camera& camera, const F
 
 namespace {
 
-std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera,
-                                const Flags& visible, const DepthRange& range, const Job& job) {
+std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera, const Flags& visible,
+                                const DepthRange& range, const Job& job) {
   const auto start = std::chrono::steady_clock::now();
   RasterOptions options;
   options.depth = true;
@@ -114,8 +115,8 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
   for (std::size_t i = 0; i < request.panes.size(); ++i) {
     const PaneRequest& pane = request.panes[i];
     Kept& kept = kept_[i];
-    const bool reusable = kept.frame && (kept.full || !request.full) && kept.scene == request.scene && kept.shown == pane.shown &&
-                          kept.range == request.range &&
+    const bool reusable = kept.frame && (kept.full || !request.full) && kept.scene == request.scene &&
+                          kept.shown == pane.shown && kept.range == request.range &&
                           same_camera(kept.frame->camera, pane.camera);
     if (!reusable) {
       const bool coarse = request.coarse && !request.full;

@@ -2,8 +2,8 @@
 //
 // The latest request wins. A request that asks for another view while a full picture is being drawn stops it;
 // one for a reduced picture lets the reduced picture before it finish, so that something moves. Requests that
-// differ in style only are shaded again, not rasterised. Pictures come before the work of other threads; reduced ones
-// are drawn of a coarse stand-in where there is one.
+// differ in style only are shaded again, not rasterised. Pictures come before the work of other threads;
+// reduced ones are drawn of a coarse stand-in where there is one.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -42,7 +42,7 @@ struct FrameRequest {
   std::uint64_t scene = 0;  // changes with the cloud
   std::shared_ptr<const GaussianCloud> cloud;
   std::shared_ptr<const CoarseCloud> coarse;  // may be null: what reduced pictures are drawn of
-  std::vector<PaneRequest> panes;  // 1 or 2, left to right
+  std::vector<PaneRequest> panes;             // 1 or 2, left to right
   DepthRange range;
   bool full = true;  // full resolution; may be stopped by the next request
 };

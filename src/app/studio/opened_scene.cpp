@@ -58,7 +58,8 @@ std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const
   return opened;
 }
 
-std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job& job, const PreparedCache& cache) {
+std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job& job,
+                                             const PreparedCache& cache) {
   const Camera reference = !scene.cameras.empty() ? scene.cameras.front()
                            : scene.first_view     ? *scene.first_view
                                                   : view_of_all(scene);

@@ -28,7 +28,8 @@ struct OpenedScene {
 std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const Job& job = {});
 
 // Graph and parts. A function of the scene and its cameras alone, so that saved work computes the same again.
-std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job& job = {}, const PreparedCache& cache = {});
+std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job& job = {},
+                                             const PreparedCache& cache = {});
 
 // Capture cameras beside a scene: cameras.json, transforms.json or a COLMAP folder in its folder or the two
 // above.

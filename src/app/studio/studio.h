@@ -64,9 +64,9 @@ struct CutRun {
   Outcome outcome = Outcome::kDone;
   std::string reason;
   double started_s = 0, first_mask_ms = 0, total_ms = 0;
-  std::size_t sizes = 0, size = 0;  // that the first click can mean; the one taken
-  bool ambiguous = false;           // another size was nearly as likely
-  std::vector<std::string> doubts;  // about the masks, a sentence each
+  std::size_t sizes = 0, size = 0;                       // that the first click can mean; the one taken
+  bool ambiguous = false;                                // another size was nearly as likely
+  std::vector<std::string> doubts;                       // about the masks, a sentence each
   std::shared_ptr<const std::vector<float>> likelihood;  // of `key`; null until asked for
 };
 
@@ -216,7 +216,7 @@ class Studio {
   PointerTools tools_;
   std::shared_ptr<const OpenedScene> scene_;
   std::shared_ptr<const PreparedScene> prepared_;
-  std::shared_ptr<SceneSolvers> solvers_;  // for the worker
+  std::shared_ptr<SceneSolvers> solvers_;      // for the worker
   std::shared_ptr<const CoarseCloud> coarse_;  // of large scenes, for pictures while the view moves
   std::map<ObjectId, CutRun> runs_;
   std::vector<std::pair<ObjectId, std::shared_ptr<ObjectCutter>>> cutters_;  // most recent last

@@ -116,8 +116,9 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
   std::string text = fmt::format("{}: {} Gaussians, SH degree {}", s.path.filename().string(), s.cloud.size(),
                                  s.cloud.sh_degree);
   if (s.dropped) text += fmt::format(", {} unusable rows left out", s.dropped);
-  text += scene->cameras.empty() ? std::string(". Does it lean or stand on its head? Set what is up under View")
-                                 : fmt::format(", {} cameras (N, P)", scene->cameras.size());
+  text += scene->cameras.empty()
+              ? std::string(". Does it lean or stand on its head? Set what is up under View")
+              : fmt::format(", {} cameras (N, P)", scene->cameras.size());
   say(Message::Kind::kDone, text);
   tasks_.submit(TaskKind::kPrepare, [this, scene](const Job& job) {
     if (scene->cloud->size() >= kCoarseFrom)
@@ -255,8 +256,9 @@ void Studio::start_cut(const ObjectItem& object) {
         say(doubts.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
             fmt::format(
                 "{}: {} Gaussians cut out in {:.1f} s{}", item->name, gaussians_of(id), total_ms / 1000,
-                !doubts.empty() ? ". But " + doubts.front()
-                : ambiguous && tools_.scale_armed() ? ". Not all of it? Turn the wheel for another size" : ""));
+                !doubts.empty()                     ? ". But " + doubts.front()
+                : ambiguous && tools_.scale_armed() ? ". Not all of it? Turn the wheel for another size"
+                                                    : ""));
     });
     // The cutout is on the screen; the rest is for looking at.
     std::shared_ptr<const std::vector<float>> likelihood;
@@ -288,19 +290,19 @@ void Studio::request_likelihood() {
   if (run.likelihood && run.key == object->cut_key) return;
   if (is_stale(document(), *object)) return;
   run.key = object->cut_key;
-  tasks_.submit(TaskKind::kCut, [this, input = cut_input(document(), *object),
-                                 cutter = cutter_for(object->id), id = object->id, key = object->cut_key,
-                                 scene = scene_](const Job& job) {
-    job.progress("likelihood", 0);
-    // Kept from the last cut, or computed again.
-    auto likelihood = std::make_shared<const std::vector<float>>(cutter->likelihood_of(input, job));
-    if (job.cancelled()) return;
-    tasks_.post([this, id, key, scene, likelihood] {
-      if (scene != scene_ || runs_[id].key != key) return;
-      runs_[id].likelihood = likelihood;
-      ++view_serial_;
-    });
-  });
+  tasks_.submit(
+      TaskKind::kCut, [this, input = cut_input(document(), *object), cutter = cutter_for(object->id),
+                       id = object->id, key = object->cut_key, scene = scene_](const Job& job) {
+        job.progress("likelihood", 0);
+        // Kept from the last cut, or computed again.
+        auto likelihood = std::make_shared<const std::vector<float>>(cutter->likelihood_of(input, job));
+        if (job.cancelled()) return;
+        tasks_.post([this, id, key, scene, likelihood] {
+          if (scene != scene_ || runs_[id].key != key) return;
+          runs_[id].likelihood = likelihood;
+          ++view_serial_;
+        });
+      });
   if (options_.inline_tasks) tasks_.deliver();
 }
 
@@ -318,13 +320,14 @@ void Studio::autosave(double seconds) {
     if (!trouble) restorable_ = options_.state_folder / kAutosaveBefore;
   }
   const auto before = options_.state_folder / kAutosaveBefore;
-  tasks_.submit(TaskKind::kAutosave, [path, restored = restorable_ == before ? std::filesystem::path() : before,
-                                      document = document(), scene = scene_](const Job&) {
-    std::filesystem::create_directories(path.parent_path());
-    write_work_file(path, *scene->scene, scene->hash, document);
-    std::error_code ignored;  // what was restored is in the file now
-    if (!restored.empty()) std::filesystem::remove(restored, ignored);
-  });
+  tasks_.submit(TaskKind::kAutosave,
+                [path, restored = restorable_ == before ? std::filesystem::path() : before,
+                 document = document(), scene = scene_](const Job&) {
+                  std::filesystem::create_directories(path.parent_path());
+                  write_work_file(path, *scene->scene, scene->hash, document);
+                  std::error_code ignored;  // what was restored is in the file now
+                  if (!restored.empty()) std::filesystem::remove(restored, ignored);
+                });
 }
 
 }  // namespace splatcut

@@ -156,12 +156,15 @@ void Studio::refresh_style() {
 // Outlines what a click would take, as long as the active object has no strokes yet.
 void Studio::refresh_hover() {
   const ObjectItem* active = document().active_object();
-  const bool wanted = pointer_inside_ && prepared_ && view_.tool == Tool::kClick && panes() == 1 && !view_.heat &&
-                      !tools_.dragging() && !highlight_floaters_ && (!active || active->views.empty());
+  const bool wanted = pointer_inside_ && prepared_ && view_.tool == Tool::kClick && panes() == 1 &&
+                      !view_.heat && !tools_.dragging() && !highlight_floaters_ &&
+                      (!active || active->views.empty());
   std::optional<PickedPoint> point;
-  if (wanted && picture_ && picture_->full && same_camera(picture_->frames.front()->camera, viewport_camera()))
+  if (wanted && picture_ && picture_->full &&
+      same_camera(picture_->frames.front()->camera, viewport_camera()))
     point = pick(tools_.pointer_px());
-  const std::uint32_t leaf = point ? prepared_->parts.leaf_of[static_cast<std::size_t>(point->gaussian)] : kNoPart;
+  const std::uint32_t leaf =
+      point ? prepared_->parts.leaf_of[static_cast<std::size_t>(point->gaussian)] : kNoPart;
   if (leaf == hover_leaf_) return;
   hover_leaf_ = leaf;
   ++style_version_;
@@ -226,7 +229,8 @@ bool Studio::moving() const {
 
 bool Studio::idle() const {
   return tasks_.idle() && frames_.idle() &&
-         (!scene_ || (picture_ && picture_->full && requested_full_ && requested_style_ == style_version_ && !moving()));
+         (!scene_ ||
+          (picture_ && picture_->full && requested_full_ && requested_style_ == style_version_ && !moving()));
 }
 
 bool Studio::update(double seconds) {

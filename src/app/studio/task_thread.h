@@ -1,10 +1,10 @@
 // One worker for everything that takes long: load, prepare, cut, select, export. Work runs on snapshots; what
 // it finds comes back as closures that the main thread runs in deliver().
 //
-// A task of a kind replaces the waiting and stops the running task of the same kind: the latest request wins. Exports
-// alone wait for each other: each is a file that somebody asked for.
-// Preparing runs at a lower priority: pictures of the scene come first, also where there are few cores.
-// Cancel is a normal end. Shutdown: stop is requested, what waits is dropped, the thread is joined.
+// A task of a kind replaces the waiting and stops the running task of the same kind: the latest request wins.
+// Exports alone wait for each other: each is a file that somebody asked for. Preparing runs at a lower
+// priority: pictures of the scene come first, also where there are few cores. Cancel is a normal end.
+// Shutdown: stop is requested, what waits is dropped, the thread is joined.
 #pragma once
 
 #include <condition_variable>

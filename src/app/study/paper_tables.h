@@ -1,6 +1,6 @@
-// The tables of Jain et al., GaussianCut, NeurIPS 2024, on the scenes of the study: rows and columns as there, what it
-// states beside what was measured. Its scenes are others, and of its figures only those are quoted that could be read at
-// a source (published_scores.h).
+// The tables of Jain et al., GaussianCut, NeurIPS 2024, on the scenes of the study: rows and columns as
+// there, what it states beside what was measured. Its scenes are others, and of its figures only those are
+// quoted that could be read at a source (published_scores.h).
 #pragma once
 
 #include <string>

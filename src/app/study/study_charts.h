@@ -13,7 +13,8 @@ struct StudyChart {
   std::string name, title;  // name.svg, name.png, name.gp in the folder
 };
 
-// Charts for which there are results. Throws Error where a file cannot be written, or gnuplot is not there or fails.
+// Charts for which there are results. Throws Error where a file cannot be written, or gnuplot is not there or
+// fails.
 std::vector<StudyChart> draw_study_charts(const StudyResults& results, const std::filesystem::path& folder);
 
 }  // namespace splatcut

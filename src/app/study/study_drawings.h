@@ -20,7 +20,8 @@ std::string quoted(const std::string& text);  // a gnuplot string
 Drawing draw_trade_off(const StudyResults& results);
 Drawing draw_stages(const StudyResults& results);  // shares of the time
 // IoU over x, one line a series: the mean.
-Drawing draw_lines(const StudyResults& results, StudyChart chart, const std::string& x_label, const std::string& more);
+Drawing draw_lines(const StudyResults& results, StudyChart chart, const std::string& x_label,
+                   const std::string& more);
 // Of scenes and draws: the median, and the band from the 10th to the 90th percentile; the least dotted.
 Drawing draw_bands(const StudyResults& results, const StabilityAxis& axis);
 // The 10th percentile, one line a kind of wrong mask, with the cut and with a threshold.

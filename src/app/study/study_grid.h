@@ -38,7 +38,8 @@ class StudyGrid {
 
   // One cell a draw of an unsteady hand, changed by `change`.
   template <class Change>
-  void drawn(const std::string& experiment, const std::string& series, double x, const Settings& set, Change change) {
+  void drawn(const std::string& experiment, const std::string& series, double x, const Settings& set,
+             Change change) {
     for (int draw = 1; draw <= draws_; ++draw) {
       StudyCell& cell = add(experiment, series, x, set);
       cell.draw = static_cast<std::uint64_t>(draw);
@@ -53,7 +54,7 @@ class StudyGrid {
 };
 
 void plan_trade_off(StudyGrid* grid);
-void plan_tables(StudyGrid* grid);     // those of the paper
+void plan_tables(StudyGrid* grid);  // those of the paper
 void plan_needed(StudyGrid* grid);
 void plan_stability(StudyGrid* grid);
 

@@ -10,7 +10,11 @@ namespace splatcut {
 
 inline std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) out += c == '<' ? std::string("&lt;") : c == '"' ? std::string("&quot;") : c == '&' ? std::string("&amp;") : std::string(1, c);
+  for (const char c : text)
+    out += c == '<'   ? std::string("&lt;")
+           : c == '"' ? std::string("&quot;")
+           : c == '&' ? std::string("&amp;")
+                      : std::string(1, c);
   return out;
 }
 
@@ -20,6 +24,8 @@ inline std::string row_of(const std::vector<std::string>& cells, const char* tag
   return html + "</tr>\n";
 }
 
-inline std::string iou_text(double iou) { return fmt::format("{:.3f}", iou); }
+inline std::string iou_text(double iou) {
+  return fmt::format("{:.3f}", iou);
+}
 
 }  // namespace splatcut

@@ -19,7 +19,8 @@ struct WorstCase {
 std::string study_csv(const StudyResults& results);
 
 // charts and pictures are put into the page itself. machine: a sentence.
-std::string study_page(const StudyResults& results, const std::vector<StudyChart>& charts, const std::filesystem::path& chart_folder,
-                       const std::vector<WorstCase>& worst, const std::string& machine);
+std::string study_page(const StudyResults& results, const std::vector<StudyChart>& charts,
+                       const std::filesystem::path& chart_folder, const std::vector<WorstCase>& worst,
+                       const std::string& machine);
 
 }  // namespace splatcut

@@ -16,18 +16,27 @@ struct EnergyChoice {
 
 // As the functions of energy.h have them.
 Settings settings_of(const char* pairwise, const EnergyOptions& e) {
-  return {fmt::format("energy.pairwise={}", pairwise), fmt::format("energy.gamma_position={}", e.gamma_position), fmt::format("energy.gamma_colour={}", e.gamma_colour),
-          fmt::format("energy.lambda={}", e.lambda), fmt::format("energy.visibility={:d}", e.visibility), fmt::format("energy.lambda_n={}", e.lambda_n),
-          fmt::format("energy.lambda_u={}", e.lambda_u), fmt::format("energy.gamma_cluster_position={}", e.gamma_cluster_position),
-          fmt::format("energy.gamma_cluster_colour={}", e.gamma_cluster_colour), fmt::format("energy.object_clusters={}", e.object_clusters),
-          fmt::format("energy.rest_clusters={}", e.rest_clusters), fmt::format("energy.unseen_rest={}", e.unseen_rest), "trim=0"};
+  return {fmt::format("energy.pairwise={}", pairwise),
+          fmt::format("energy.gamma_position={}", e.gamma_position),
+          fmt::format("energy.gamma_colour={}", e.gamma_colour),
+          fmt::format("energy.lambda={}", e.lambda),
+          fmt::format("energy.visibility={:d}", e.visibility),
+          fmt::format("energy.lambda_n={}", e.lambda_n),
+          fmt::format("energy.lambda_u={}", e.lambda_u),
+          fmt::format("energy.gamma_cluster_position={}", e.gamma_cluster_position),
+          fmt::format("energy.gamma_cluster_colour={}", e.gamma_cluster_colour),
+          fmt::format("energy.object_clusters={}", e.object_clusters),
+          fmt::format("energy.rest_clusters={}", e.rest_clusters),
+          fmt::format("energy.unseen_rest={}", e.unseen_rest),
+          "trim=0"};
 }
 
 const std::vector<EnergyChoice>& energies() {
-  static const std::vector<EnergyChoice> all = {{"ours", {}},
-                                                {"threshold", {"energy.coarse=1", "energy.tau=0.5", "trim=0"}},
-                                                {"paper's energy", settings_of("paper", paper_energy())},
-                                                {"its code's energy", settings_of("paper-code", paper_code_energy())}};
+  static const std::vector<EnergyChoice> all = {
+      {"ours", {}},
+      {"threshold", {"energy.coarse=1", "energy.tau=0.5", "trim=0"}},
+      {"paper's energy", settings_of("paper", paper_energy())},
+      {"its code's energy", settings_of("paper-code", paper_code_energy())}};
   return all;
 }
 
@@ -37,8 +46,10 @@ struct Carry {
 
 // First mask x views x resolution x propagator x energy.
 void plan_trade_off_grid(StudyGrid* grid) {
-  const std::vector<Carry> carries = grid->quick() ? std::vector<Carry>{{"lift", "none"}, {"dis", "grabcut"}}
-                                                   : std::vector<Carry>{{"lift", "none"}, {"lift", "pixelcut"}, {"warp", "pixelcut"}, {"dis", "grabcut"}};
+  const std::vector<Carry> carries =
+      grid->quick() ? std::vector<Carry>{{"lift", "none"}, {"dis", "grabcut"}}
+                    : std::vector<Carry>{
+                          {"lift", "none"}, {"lift", "pixelcut"}, {"warp", "pixelcut"}, {"dis", "grabcut"}};
   for (const char* first : {"parts", "grabcut", "pixelcut"})
     for (const double views : grid->some({0, 6, 2, 12}))
       for (const double width : grid->quick() ? std::vector<double>{256} : std::vector<double>{256, 400})
@@ -47,9 +58,12 @@ void plan_trade_off_grid(StudyGrid* grid) {
           for (const EnergyChoice& energy : energies()) {
             if (grid->quick() && views == 0 && energy.name != energies().front().name) continue;
             Settings set = energy.set;
-            if (first != std::string("parts")) set.insert(set.end(), {"first.from=pixels", std::string("first.solver=") + first});
-            set.insert(set.end(), {fmt::format("views.propagate={}", carry.propagate), fmt::format("views.refine={}", carry.refine), fmt::format("views.most={}", views),
-                                   fmt::format("work_width_px={}", width), "views.settled_change=0"});
+            if (first != std::string("parts"))
+              set.insert(set.end(), {"first.from=pixels", std::string("first.solver=") + first});
+            set.insert(set.end(),
+                       {fmt::format("views.propagate={}", carry.propagate),
+                        fmt::format("views.refine={}", carry.refine), fmt::format("views.most={}", views),
+                        fmt::format("work_width_px={}", width), "views.settled_change=0"});
             grid->add("trade-off", fmt::format("{}; {}", first, energy.name), views, set);
           }
         }
@@ -65,8 +79,9 @@ void plan_trade_off(StudyGrid* grid) {
     if (grid->quick() && std::string(views) == "40") continue;
     for (const char* tau : {"0.5", "0.3"})
       grid->add("trade-off", "usual pipeline", std::stod(views),
-                {"first.from=pixels", "first.solver=grabcut", "views.propagate=dis", "views.refine=grabcut", "energy.coarse=1", std::string("energy.tau=") + tau,
-                 std::string("views.most=") + views, "views.settled_change=0", "trim=0"});
+                {"first.from=pixels", "first.solver=grabcut", "views.propagate=dis", "views.refine=grabcut",
+                 "energy.coarse=1", std::string("energy.tau=") + tau, std::string("views.most=") + views,
+                 "views.settled_change=0", "trim=0"});
   }
   for (const char* preset : {"paper", "paper-code"}) grid->add("trade-off", "preset", 0).preset = preset;
 }
@@ -77,7 +92,9 @@ void plan_views(StudyGrid* grid) {
   for (const double views : grid->some({4, 20, 2, 8, 40}))
     for (const char* series : {"threshold", "paper", "ours"}) {
       const std::string name = series;
-      StudyCell& cell = grid->add("views", name, views, {fmt::format("views.most={}", views), "views.settled_change=0", "first.from=pixels", "trim=0"});
+      StudyCell& cell = grid->add(
+          "views", name, views,
+          {fmt::format("views.most={}", views), "views.settled_change=0", "first.from=pixels", "trim=0"});
       if (name == "paper") cell.preset = name;  // its energy as it is shipped
       if (name == "threshold") cell.set.push_back("energy.coarse=1");
       cell.first = "truth";
@@ -86,7 +103,8 @@ void plan_views(StudyGrid* grid) {
 }
 
 // One setting at a time, asked by clicks and with true masks.
-void sweep(StudyGrid* grid, const char* table, const char* name, std::initializer_list<double> values, const Settings& base = {}) {
+void sweep(StudyGrid* grid, const char* table, const char* name, std::initializer_list<double> values,
+           const Settings& base = {}) {
   for (const double v : grid->some(values))
     for (const bool true_masks : {false, true}) {
       StudyCell& cell = grid->add(table, true_masks ? "true masks of 6 views" : "from 3 clicks", v, base);
@@ -122,10 +140,14 @@ void plan_terms(StudyGrid* grid) {
 // What little input does, with and without the cut.
 void plan_sparse(StudyGrid* grid) {
   for (const char* coarse : {"1", "0"}) {
-    const std::string with = std::string(coarse) == "0" ? "cut" : "threshold", set = std::string("energy.coarse=") + coarse;
-    grid->add("sparse input", with, 0, {set, "first.from=pixels", "views.most=0", "trim=0"}).first = "strokes";
+    const std::string with = std::string(coarse) == "0" ? "cut" : "threshold",
+                      set = std::string("energy.coarse=") + coarse;
+    grid->add("sparse input", with, 0, {set, "first.from=pixels", "views.most=0", "trim=0"}).first =
+        "strokes";
     grid->add("sparse input", with, 1, {set, "first.from=pixels", "views.most=0", "trim=0"}).first = "truth";
-    StudyCell& many = grid->add("sparse input", with, 2, {set, "first.from=pixels", "views.most=12", "views.settled_change=0", "trim=0"});
+    StudyCell& many =
+        grid->add("sparse input", with, 2,
+                  {set, "first.from=pixels", "views.most=12", "views.settled_change=0", "trim=0"});
     many.first = "truth";
     many.true_masks = true;
   }
@@ -151,7 +173,8 @@ void plan_tables(StudyGrid* grid) {
 
 // The smallest of each that loses nothing.
 void plan_needed(StudyGrid* grid) {
-  const auto one = [&](const char* series, const char* name, std::initializer_list<double> values, const Settings& more) {
+  const auto one = [&](const char* series, const char* name, std::initializer_list<double> values,
+                       const Settings& more) {
     for (const double v : grid->some(values)) {
       StudyCell& cell = grid->add("needed", series, v, more);
       cell.set.push_back(fmt::format("{}={}", name, v));

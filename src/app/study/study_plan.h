@@ -8,7 +8,8 @@
 
 namespace splatcut {
 
-// draws: of all that is left to chance, per scene and setting. quick: few cells of each experiment, for ten minutes.
+// draws: of all that is left to chance, per scene and setting. quick: few cells of each experiment, for ten
+// minutes.
 std::vector<StudyCell> study_plan(int draws, bool quick);
 
 // Those whose result is a distribution over draws: how steady the shipped program is.

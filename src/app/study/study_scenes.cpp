@@ -16,7 +16,8 @@ namespace {
 constexpr const char* kPlain = "plain";
 
 // The same options give the same bytes: a folder of that name holds that still life.
-std::filesystem::path made_still_life(const StudyScenesOptions& options, const HardStillLife& hard, const Job& job) {
+std::filesystem::path made_still_life(const StudyScenesOptions& options, const HardStillLife& hard,
+                                      const Job& job) {
   const std::filesystem::path place = options.folder / fmt::format("{}, {}", hard.name, options.gaussians);
   if (std::filesystem::exists(place / "suite.json")) return place;
   std::filesystem::create_directories(place.parent_path());
@@ -24,7 +25,8 @@ std::filesystem::path made_still_life(const StudyScenesOptions& options, const H
   made_of.gaussians = options.gaussians;
   OutputFolder folder(place, true);
   const LabelledScene made = make_still_life(made_of);
-  if (job.cancelled()) throw Error("splatcut study", "cancelled; what is finished is kept, the same command goes on");
+  if (job.cancelled())
+    throw Error("splatcut study", "cancelled; what is finished is kept, the same command goes on");
   write_still_life(folder, made, "scene", "ply");
   folder.commit();
   return place;
@@ -32,7 +34,9 @@ std::filesystem::path made_still_life(const StudyScenesOptions& options, const H
 
 // Objects that show what the still life is for come first.
 bool shows(const HardStillLife& hard, const std::string& object) {
-  const auto one_of = [&](std::initializer_list<const char*> names) { return std::ranges::find(names, object) != names.end(); };
+  const auto one_of = [&](std::initializer_list<const char*> names) {
+    return std::ranges::find(names, object) != names.end();
+  };
   if (hard.thin_width > 0) return one_of({"lamp", "plant", "mug"});
   if (hard.options.twins) return one_of({"apple", "apple twin", "orange"});
   if (hard.options.occluder) return one_of({"mug"});
@@ -49,7 +53,8 @@ void keep_some_views(bool quick, nlohmann::json* entry) {
   (*entry)["test_views"] = some;
 }
 
-void add_scenes(const std::filesystem::path& suite, const HardStillLife* hard, bool main, bool quick, std::vector<StudyScene>* scenes) {
+void add_scenes(const std::filesystem::path& suite, const HardStillLife* hard, bool main, bool quick,
+                std::vector<StudyScene>* scenes) {
   std::size_t taken = 0;
   for (nlohmann::json entry : read_suite(suite)) {
     const std::string name = entry.value("name", "?");
@@ -57,7 +62,8 @@ void add_scenes(const std::filesystem::path& suite, const HardStillLife* hard, b
     if (quick && taken++ == 2) break;
     if (hard) keep_some_views(quick, &entry);
     scenes->push_back({entry, suite.parent_path(), hard ? hard->name + ", " + name : name,
-                       hard ? suite.parent_path().filename().string() + ", " + name : name, main ? "" : hard->name});
+                       hard ? suite.parent_path().filename().string() + ", " + name : name,
+                       main ? "" : hard->name});
   }
 }
 
@@ -83,7 +89,9 @@ const std::vector<HardStillLife>& hard_still_lifes() {
 std::vector<StudyScene> study_scenes(const StudyScenesOptions& options, const Job& job) {
   std::vector<StudyScene> scenes;
   for (const auto& suite : options.suites) add_scenes(suite, nullptr, true, options.quick, &scenes);
-  if (options.suites.empty()) add_scenes(made_still_life(options, hard_still_lifes().front(), job) / "suite.json", &hard_still_lifes().front(), true, options.quick, &scenes);
+  if (options.suites.empty())
+    add_scenes(made_still_life(options, hard_still_lifes().front(), job) / "suite.json",
+               &hard_still_lifes().front(), true, options.quick, &scenes);
   for (const HardStillLife& hard : hard_still_lifes())
     if (std::ranges::find(options.still_lifes, hard.name) != options.still_lifes.end())
       add_scenes(made_still_life(options, hard, job) / "suite.json", &hard, false, options.quick, &scenes);

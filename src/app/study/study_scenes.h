@@ -1,4 +1,5 @@
-// What the study runs on: the user's suites, and still lifes it makes where there is none or where one has what is hard.
+// What the study runs on: the user's suites, and still lifes it makes where there is none or where one has
+// what is hard.
 #pragma once
 
 #include <filesystem>
@@ -28,11 +29,11 @@ struct StudyScene {
 };
 
 struct StudyScenesOptions {
-  std::vector<std::filesystem::path> suites;    // empty: the plain still life is the main scene
-  std::vector<std::string> still_lifes;         // those that are asked
-  std::filesystem::path folder;                 // where still lifes are kept
-  std::size_t gaussians = 80000;                // of each
-  bool quick = false;                           // two scenes of each suite, two objects of each still life
+  std::vector<std::filesystem::path> suites;  // empty: the plain still life is the main scene
+  std::vector<std::string> still_lifes;       // those that are asked
+  std::filesystem::path folder;               // where still lifes are kept
+  std::size_t gaussians = 80000;              // of each
+  bool quick = false;                         // two scenes of each suite, two objects of each still life
 };
 
 // Still lifes are made where they are not there yet. Throws Error where the job was cancelled.

@@ -15,7 +15,8 @@ StudyStore::StudyStore(const std::filesystem::path& file) : path_(file) {
   if (std::ifstream in(file, std::ios::binary); in) {
     for (std::string line; std::getline(in, line) && !in.eof(); whole += line.size() + 1) {
       nlohmann::json result = nlohmann::json::parse(line, nullptr, false);
-      if (result.is_discarded() || !result.contains("key")) throw Error(file.string(), "is not a list of measurements", "Take another -o");
+      if (result.is_discarded() || !result.contains("key"))
+        throw Error(file.string(), "is not a list of measurements", "Take another -o");
       keys_.insert(result.at("key").get<std::string>());
       results_.push_back(std::move(result));
     }
@@ -26,13 +27,17 @@ StudyStore::StudyStore(const std::filesystem::path& file) : path_(file) {
   if (!file_) throw Error(file.string(), std::string("cannot be written (") + std::strerror(errno) + ")");
 }
 
-StudyStore::~StudyStore() { std::fclose(file_); }
+StudyStore::~StudyStore() {
+  std::fclose(file_);
+}
 
 void StudyStore::add(const std::string& key, nlohmann::json result) {
   result["key"] = key;
   const std::string line = result.dump() + "\n";
-  if (std::fwrite(line.data(), 1, line.size(), file_) != line.size() || std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0)
-    throw Error(path_.string(), std::string("cannot be written (") + std::strerror(errno) + ")", "Make room on the disk; what is finished is kept");
+  if (std::fwrite(line.data(), 1, line.size(), file_) != line.size() || std::fflush(file_) != 0 ||
+      ::fsync(::fileno(file_)) != 0)
+    throw Error(path_.string(), std::string("cannot be written (") + std::strerror(errno) + ")",
+                "Make room on the disk; what is finished is kept");
   keys_.insert(key);
   results_.push_back(std::move(result));
 }

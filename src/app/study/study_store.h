@@ -12,7 +12,8 @@ namespace splatcut {
 
 class StudyStore {
  public:
-  // Reads what is there; a last line that was cut off is dropped. Throws Error where the file cannot be read or added to.
+  // Reads what is there; a last line that was cut off is dropped. Throws Error where the file cannot be read
+  // or added to.
   explicit StudyStore(const std::filesystem::path& file);
   StudyStore(const StudyStore&) = delete;
   StudyStore& operator=(const StudyStore&) = delete;
@@ -21,7 +22,9 @@ class StudyStore {
   bool holds(const std::string& key) const { return keys_.contains(key); }
   // Written to the disk before it returns. Throws Error where that fails.
   void add(const std::string& key, nlohmann::json result);
-  const std::vector<nlohmann::json>& results() const { return results_; }  // in the order in which they were finished
+  const std::vector<nlohmann::json>& results() const {
+    return results_;
+  }  // in the order in which they were finished
 
  private:
   std::filesystem::path path_;

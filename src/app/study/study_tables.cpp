@@ -11,7 +11,8 @@ namespace {
 std::string label_of(const nlohmann::json& result) {
   if (result.at("preset") != "default") return result.at("preset").get<std::string>();
   std::string label;
-  for (const auto& assignment : result.at("set")) label.append(label.empty() ? "" : " ").append(assignment.get<std::string>());
+  for (const auto& assignment : result.at("set"))
+    label.append(label.empty() ? "" : " ").append(assignment.get<std::string>());
   return label.empty() ? "default" : label;
 }
 
@@ -59,7 +60,8 @@ SettingScore finished(Group g) {
 
 StudyResults of_experiment(const StudyResults& all, const std::string& experiment) {
   StudyResults some;
-  std::ranges::copy_if(all, std::back_inserter(some), [&](const nlohmann::json& r) { return r.at("experiment") == experiment; });
+  std::ranges::copy_if(all, std::back_inserter(some),
+                       [&](const nlohmann::json& r) { return r.at("experiment") == experiment; });
   return some;
 }
 
@@ -74,7 +76,9 @@ std::vector<SettingScore> scores_of(const StudyResults& results) {
   for (const nlohmann::json& r : results) {
     const std::string label = label_of(r), series = r.at("series");
     const double x = r.at("x");
-    auto it = std::ranges::find_if(groups, [&](const Group& g) { return g.score.series == series && g.score.x == x && g.score.label == label; });
+    auto it = std::ranges::find_if(groups, [&](const Group& g) {
+      return g.score.series == series && g.score.x == x && g.score.label == label;
+    });
     if (it == groups.end()) {
       groups.emplace_back();
       it = groups.end() - 1;
@@ -90,14 +94,17 @@ std::vector<SettingScore> scores_of(const StudyResults& results) {
 }
 
 std::vector<SettingScore> pareto_front(std::vector<SettingScore> scores) {
-  std::ranges::sort(scores, [](const SettingScore& a, const SettingScore& b) { return a.ms != b.ms ? a.ms < b.ms : a.iou > b.iou; });
+  std::ranges::sort(scores, [](const SettingScore& a, const SettingScore& b) {
+    return a.ms != b.ms ? a.ms < b.ms : a.iou > b.iou;
+  });
   std::vector<SettingScore> front;
   for (SettingScore& s : scores)
     if (front.empty() || s.iou > front.back().iou) front.push_back(std::move(s));
   return front;
 }
 
-double behind_front(const SettingScore& score, const std::vector<SettingScore>& all, double SettingScore::*cost) {
+double behind_front(const SettingScore& score, const std::vector<SettingScore>& all,
+                    double SettingScore::*cost) {
   double best = score.iou;
   for (const SettingScore& other : all)
     if (other.*cost <= score.*cost) best = std::max(best, other.iou);
@@ -107,7 +114,8 @@ double behind_front(const SettingScore& score, const std::vector<SettingScore>& 
 std::vector<std::string> experiments_of(const StudyResults& all) {
   std::vector<std::string> names;
   for (const nlohmann::json& r : all)
-    if (const std::string name = r.at("experiment"); std::ranges::find(names, name) == names.end()) names.push_back(name);
+    if (const std::string name = r.at("experiment"); std::ranges::find(names, name) == names.end())
+      names.push_back(name);
   return names;
 }
 

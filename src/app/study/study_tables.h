@@ -27,8 +27,9 @@ struct SettingScore {
   double ms = 0;                                   // median
   double looked_at_mpx = 0;                        // mean
   int runs = 0;                                    // scenes x draws
-  int failed = 0, failed_warned = 0, fine_warned = 0;  // how many fail, of those how many with a word; words without need
-  std::map<std::string, double> stages;            // mean ms
+  int failed = 0, failed_warned = 0,
+      fine_warned = 0;                   // how many fail, of those how many with a word; words without need
+  std::map<std::string, double> stages;  // mean ms
 };
 
 // One score per setting (series, x, and what was set), in order of first appearance.
@@ -38,7 +39,8 @@ std::vector<SettingScore> scores_of(const StudyResults& results);
 std::vector<SettingScore> pareto_front(std::vector<SettingScore> scores);
 
 // By how much the best IoU that costs no more is better; 0 on the front. cost: see the presets' test.
-double behind_front(const SettingScore& score, const std::vector<SettingScore>& all, double SettingScore::*cost);
+double behind_front(const SettingScore& score, const std::vector<SettingScore>& all,
+                    double SettingScore::*cost);
 
 // The names of the experiments, in order of first appearance.
 std::vector<std::string> experiments_of(const StudyResults& all);

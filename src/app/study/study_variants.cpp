@@ -20,7 +20,9 @@ Camera rescaled(Camera camera, float scale) {
   return camera;
 }
 
-double share_of(const Mask& mask) { return static_cast<double>(count(mask)) / static_cast<double>(mask.size()); }
+double share_of(const Mask& mask) {
+  return static_cast<double>(count(mask)) / static_cast<double>(mask.size());
+}
 
 // The pixels that the board covers: the mask's rectangle up to the column left of which the share lies.
 PixelRect board_rectangle(const Mask& object, double share) {
@@ -75,13 +77,15 @@ GaussianCloud with_board(const EvaluationCase& test, double hidden_share) {
   const Camera camera = limited_to_width(test.reference, kLookWidthPx);
   const Mask object = labels_seen(test, camera, test.truth_labels);
   if (hidden_share <= 0 || count(object) == 0) return cloud;
-  constexpr float kNearness = 0.6f, kStepPx = 4, kOverlap = 0.75f;  // standard deviation over the discs' distance
+  constexpr float kNearness = 0.6f, kStepPx = 4,
+                  kOverlap = 0.75f;  // standard deviation over the discs' distance
   RasterOptions options;
   options.depth = true;
   const float z = kNearness * nearest_depth(rasterize(*test.cloud, camera, options).median_depth, object);
   const PixelRect rect = board_rectangle(object, hidden_share);
   const glm::quat facing = glm::quat_cast(glm::transpose(camera.camera_from_world_rotation));
-  const float step = kStepPx * z / camera.fx_px, edge_px = kOverlap * kStepPx;  // discs reach about that far beyond their centres
+  const float step = kStepPx * z / camera.fx_px,
+              edge_px = kOverlap * kStepPx;  // discs reach about that far beyond their centres
   for (float y = static_cast<float>(rect.y0); y <= static_cast<float>(rect.y1); y += kStepPx)
     for (float x = static_cast<float>(rect.x1) - edge_px; x >= static_cast<float>(rect.x0); x -= kStepPx)
       add_disc(camera.world_from_pixel({x, y}, z), kOverlap * step, facing, &cloud);
@@ -102,8 +106,10 @@ void fill_picture(EvaluationCase* test, double share) {
   constexpr int kTries = 4;  // the area grows with the focal length's square, but for the picture's edge
   for (int i = 0; i < kTries; ++i) {
     const float height = static_cast<float>(camera.height_px);
-    camera = look_at(camera.centre_world(), centre, -test->reference.down_world(), 2 * std::atan(0.5f * height / focal_px), camera.width_px, camera.height_px);
-    const double now = share_of(labels_seen(*test, limited_to_width(camera, kLookWidthPx), test->truth_labels));
+    camera = look_at(camera.centre_world(), centre, -test->reference.down_world(),
+                     2 * std::atan(0.5f * height / focal_px), camera.width_px, camera.height_px);
+    const double now =
+        share_of(labels_seen(*test, limited_to_width(camera, kLookWidthPx), test->truth_labels));
     if (i + 1 == kTries || now <= 0) break;
     focal_px = std::clamp(focal_px * static_cast<float>(std::sqrt(share / now)), 0.2f * height, 60 * height);
   }
@@ -116,7 +122,9 @@ void resize_tests(EvaluationCase* test, double factor) {
     Camera& view = test->test_views[v];
     const auto pixels = [factor](int n) { return std::max(1, static_cast<int>(std::lround(factor * n))); };
     view = resized(view, pixels(view.width_px), pixels(view.height_px));
-    test->truth_masks[v] = test->truth_labels.empty() ? resized_mask(test->truth_masks[v], view.width_px, view.height_px) : labels_seen(*test, view, test->truth_labels);
+    test->truth_masks[v] = test->truth_labels.empty()
+                               ? resized_mask(test->truth_masks[v], view.width_px, view.height_px)
+                               : labels_seen(*test, view, test->truth_labels);
   }
 }
 

@@ -211,7 +211,9 @@ void open_anyway_dialog(UiContext& ui) {
   centre_next_window({430, 150});
   if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
   const std::string name = ui.state.open_asked ? ui.state.open_asked->filename().string() : "";
-  wrapped_muted(ui, fmt::format("The objects and strokes were not saved since they changed; opening {} ends that work.", name));
+  wrapped_muted(
+      ui, fmt::format("The objects and strokes were not saved since they changed; opening {} ends that work.",
+                      name));
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
   const bool stays = ImGui::Button("Stay", {100, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
   ImGui::SameLine();

@@ -1,4 +1,5 @@
-// The file dialog, the desktop's own or the one inside the window: opening, saving work, pictures, and choosing where an export goes.
+// The file dialog, the desktop's own or the one inside the window: opening, saving work, pictures, and
+// choosing where an export goes.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -114,8 +115,8 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
                               : std::filesystem::current_path();
   files.enter(start);
   files.open = !ui.state.native_wanted ||
-               !ui.state.native_files.ask({files.title, files.saving, files.saving ? start / files.name : start,
-                                           files.extensions});
+               !ui.state.native_files.ask(
+                   {files.title, files.saving, files.saving ? start / files.name : start, files.extensions});
 }
 
 void file_dialog(UiContext& ui) {

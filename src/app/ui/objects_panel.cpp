@@ -59,7 +59,8 @@ void object_menu(UiContext& ui, const ObjectItem& object) {
   if (entry("New part of this object")) ui.ask(NewObject{object.id});
   if (entry("Duplicate")) ui.ask(DuplicateObject{object.id});
   merge_menu(ui, object, locked);
-  if (entry("Split into connected parts", first_of({locked, empty, neighbours}))) ui.ask(SplitObject{object.id});
+  if (entry("Split into connected parts", first_of({locked, empty, neighbours})))
+    ui.ask(SplitObject{object.id});
   if (entry("Separate in place", empty)) ui.ask(SeparateObject{object.id});
   ImGui::Separator();
   const bool active = object.id == ui.studio.document().active;

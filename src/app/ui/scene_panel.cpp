@@ -58,9 +58,11 @@ void scene_panel(UiContext& ui) {
     if (ImGui::SliderFloat("##near", &view.near_share, 0.0005f, 0.2f, "%.4f", ImGuiSliderFlags_Logarithmic))
       ui.ask(SetView{view});
   });
-  slider_row("Far limit", "What is farther than this is not drawn, in shares of the scene's size; 0 is no limit", [&] {
-    if (ImGui::SliderFloat("##far", &view.far_share, 0, 3, view.far_share > 0 ? "%.2f" : "none")) ui.ask(SetView{view});
-  });
+  slider_row("Far limit",
+             "What is farther than this is not drawn, in shares of the scene's size; 0 is no limit", [&] {
+               if (ImGui::SliderFloat("##far", &view.far_share, 0, 3, view.far_share > 0 ? "%.2f" : "none"))
+                 ui.ask(SetView{view});
+             });
   up_buttons(ui);
   const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
   action_button(ui, Action::kFrameScene, "Frame scene", false, half);

@@ -37,11 +37,11 @@ Settings load_settings(const std::filesystem::path& file) {
 void save_settings(const std::filesystem::path& file, const Settings& s) {
   nlohmann::json recent = nlohmann::json::array();
   for (const auto& path : s.recent) recent.push_back(path.string());
-  nlohmann::json json = {
-      {"width", s.width},      {"height", s.height},        {"dark", s.dark},
-      {"hint", s.hint_wanted}, {"ui_scale", s.ui_scale},    {"brush_px", s.view.brush_px},
-      {"tint", s.view.tint},   {"outline", s.view.outline}, {"recent", recent},
-      {"maximized", s.maximized}};
+  nlohmann::json json = {{"width", s.width},       {"height", s.height},
+                         {"dark", s.dark},         {"hint", s.hint_wanted},
+                         {"ui_scale", s.ui_scale}, {"brush_px", s.view.brush_px},
+                         {"tint", s.view.tint},    {"outline", s.view.outline},
+                         {"recent", recent},       {"maximized", s.maximized}};
   if (s.position) json["position"] = {s.position->x, s.position->y};
   std::filesystem::create_directories(file.parent_path());
   write_text_file(file, json.dump(2) + "\n");

@@ -11,8 +11,8 @@
 namespace splatcut {
 
 struct Settings {
-  int width = 1440, height = 900;         // screen coordinates, as GLFW has them
-  std::optional<glm::ivec2> position;     // of the window's contents; where the system likes without
+  int width = 1440, height = 900;      // screen coordinates, as GLFW has them
+  std::optional<glm::ivec2> position;  // of the window's contents; where the system likes without
   bool maximized = false;
   bool dark = true, hint_wanted = true;
   float ui_scale = 1;

@@ -84,7 +84,8 @@ void region_options(UiContext& ui) {
 // Where there is room for it beside the display buttons.
 void hint(UiContext& ui, const char* text) {
   ImGui::AlignTextToFramePadding();
-  if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x <= ImGui::GetWindowWidth() - kDisplayWidth) muted_text(ui, text);
+  if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x <= ImGui::GetWindowWidth() - kDisplayWidth)
+    muted_text(ui, text);
 }
 
 void tool_options(UiContext& ui) {

@@ -42,8 +42,8 @@ std::vector<ImVec2> rounded(std::vector<ImVec2> path) {
   return path;
 }
 
-// Half a disc beyond the end of a path that comes from `before`: a whole one would show twice where the path is
-// see-through.
+// Half a disc beyond the end of a path that comes from `before`: a whole one would show twice where the path
+// is see-through.
 void end_cap(ImDrawList& list, const ImVec2& before, const ImVec2& end, float radius, ImU32 colour) {
   constexpr float kQuarter = 1.5707963f;
   const float angle = std::atan2(end.y - before.y, end.x - before.x);
@@ -204,7 +204,8 @@ const char* mode_label(const Studio& studio) {
   }
 }
 
-// At the picture's lower edge, where a scene has its floor and no object; a small window has more room at the upper one.
+// At the picture's lower edge, where a scene has its floor and no object; a small window has more room at the
+// upper one.
 std::optional<UiRect> hint(UiContext& ui, const UiRect& area, float bottom) {
   if (!ui.state.hint_wanted || !ui.studio.document().objects.empty()) return {};
   constexpr std::array<std::pair<const char*, const char*>, 4> kLines = {
@@ -216,14 +217,17 @@ std::optional<UiRect> hint(UiContext& ui, const UiRect& area, float bottom) {
   const bool wide = area.size().x >= 630;  // two columns, or one
   const std::size_t rows = wide ? 2 : 4;
   const ImVec2 size = {wide ? 600.0f : 376.0f, kRow * static_cast<float>(rows) + 20};
-  const ImVec2 at = {area.min.x + kMargin, wide ? area.max.y - bottom - size.y - kMargin : area.min.y + kMargin};
+  const ImVec2 at = {area.min.x + kMargin,
+                     wide ? area.max.y - bottom - size.y - kMargin : area.min.y + kMargin};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, packed(ui.theme.colour.panel, 0.94f), 9);
   list.AddRect(at, {at.x + size.x, at.y + size.y}, packed(ui.theme.colour.accent, 0.7f), 9, 0, 1.5f);
   for (std::size_t i = 0; i < kLines.size(); ++i) {
     const bool second = i >= rows;
-    const ImVec2 from = {at.x + (second ? kSecondColumn : kPad), at.y + 14 + kRow * static_cast<float>(i % rows)};
-    list.AddText(ui.theme.strong, ImGui::GetFontSize(), from, packed(ui.theme.colour.accent), kLines[i].first);
+    const ImVec2 from = {at.x + (second ? kSecondColumn : kPad),
+                         at.y + 14 + kRow * static_cast<float>(i % rows)};
+    list.AddText(ui.theme.strong, ImGui::GetFontSize(), from, packed(ui.theme.colour.accent),
+                 kLines[i].first);
     list.AddText({from.x + (second ? 44.0f : 82.0f), from.y}, packed(ui.theme.colour.text), kLines[i].second);
   }
   ImGui::SetCursorScreenPos({at.x + size.x - 32, at.y + 6});
@@ -278,7 +282,8 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   }
   if (const auto rect = hint(ui, area, bottom)) {
     covered.push_back(*rect);
-    if (rect->max.y > 0.5f * (area.min.y + area.max.y)) bottom = area.max.y - rect->min.y;  // messages come above it
+    if (rect->max.y > 0.5f * (area.min.y + area.max.y))
+      bottom = area.max.y - rect->min.y;  // messages come above it
   }
   draw_message(ui, area, bottom);
   return covered;

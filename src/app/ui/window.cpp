@@ -230,11 +230,14 @@ void run_window(const WindowOptions& options) {
   const bool as_remembered = options.width <= 0 && options.height <= 0;
   const GlfwWindow window(options.width > 0 ? options.width : settings.width,
                           options.height > 0 ? options.height : settings.height,
-                          as_remembered ? settings.position : std::nullopt, as_remembered && settings.maximized);
+                          as_remembered ? settings.position : std::nullopt,
+                          as_remembered && settings.maximized);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   const float ui_scale = options.ui_scale > 0 ? options.ui_scale : settings.ui_scale;
   {
-    Application app({{glfwPostEmptyEvent, false, state_folder(), options.cache}, options.renderer, sample_beside_program()});
+    Application app({{glfwPostEmptyEvent, false, state_folder(), options.cache},
+                     options.renderer,
+                     sample_beside_program()});
     Loop loop{window.handle, app, ui_scale};
     UiState& state = app.interface().state();
     state.dark = settings.dark;
