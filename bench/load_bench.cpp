@@ -8,7 +8,7 @@
 #include <string>
 
 #include "scene/scene_file.h"
-#include "scene/still_life.h"
+#include "scene/still_life/still_life.h"
 
 namespace splatcut::bench {
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/benchmark_folders.h"
-#include "app/published_scores.h"
-#include "app/scribble_picture.h"
+#include "app/lab/benchmark_folders.h"
+#include "app/lab/evaluate_picture.h"
+#include "app/lab/published_scores.h"
+#include "app/lab/scribble_picture.h"
 #include "program_runner.h"
 #include "scene/error.h"
 #include "scene/png_file.h"
-#include "segment/evaluate_picture.h"
 #include "segment/mask_tools.h"
 
 using namespace splatcut;
@@ -166,6 +166,8 @@ TEST_CASE(
   CHECK(scene["ssim"].get<double>() > 0.9);
   CHECK(measured["mean"]["ssim"] == scene["ssim"]);
   CHECK(measured["published"].size() == 3);
+  CHECK(measured["clicks"] == "all");
+  CHECK(made.place.run(kNvos + " --clicks 2").code == 2);  // all scribbles count: no number of clicks
   // The same reconstruction as 3DGS leaves it; the last iteration counts.
   made.place.make_folder("runs/apple_undistort/point_cloud/iteration_30000");
   made.place.make_folder("runs/apple_undistort/point_cloud/iteration_7000");
@@ -200,7 +202,8 @@ TEST_CASE(
   const Result result = made.place.run(kSpin);
   REQUIRE_MESSAGE(result.code == 0, result.err);
   CHECK(result.out.find(".929") != std::string::npos);
-  const json scene = json::parse(made.place.text("out/eval.json"))["scenes"][0];
+  const json measured = json::parse(made.place.text("out/eval.json")), &scene = measured["scenes"][0];
+  CHECK(measured["clicks"] == 0);  // its mask is given
   CHECK(scene["image_iou"].get<double>() > 0.9);
   // One scene of it, its masks in a folder beside the pictures: the same answer.
   fs::create_directories(made.place / "one/images_2");

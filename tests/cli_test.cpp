@@ -43,7 +43,7 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
     CAPTURE(arguments);
     CAPTURE(result.err);
     CHECK(result.code == 1);
-    CHECK(result.err.starts_with("splatcut: "));
+    CHECK((result.err.starts_with("splatcut: ") || result.err.starts_with("splatcut-lab: ")));
     CHECK(result.err.ends_with(".\n"));
     for (const char* part : parts) CHECK(result.err.find(part) != std::string::npos);
   };
@@ -74,6 +74,22 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   CHECK_FALSE(place.exists("cut"));
   CHECK_FALSE(place.exists("a.png"));
   CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("what became the laboratory's is said to be there, whatever the options") {
+  const Workplace place;
+  for (const std::string command : {"eval", "study", "make-scene"})
+    for (const char* rest :
+         {"", " suite.json -o out --preset fast", " --help", " --only views --no-such-option"}) {
+      const Result result = place.run_program(SPLATCUT_PROGRAM, command + rest);
+      CAPTURE(command);
+      CHECK(result.code == 1);
+      CHECK(result.err.find("splatcut-lab " + command) != std::string::npos);
+      CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
+      CHECK_FALSE(place.exists("out"));
+    }
+  CHECK(place.run("--help").out.find("make-scene") == std::string::npos);
+  CHECK(place.run_program(SPLATCUT_LAB_PROGRAM, "cut").code == 2);
 }
 
 TEST_CASE("cut writes every file of a cutout, by click, by seeds and by mask, and a complete report") {
@@ -332,6 +348,49 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
   CHECK(nothing_left.err.find("no scene of the suite") != std::string::npos);
 }
 
+TEST_CASE("scribbles of a suite are an answer of their own, beside clicks or alone") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  json entry;
+  const json suite = json::parse(place.text("made/suite.json"));
+  for (const json& e : suite["scenes"])
+    if (e["name"] == "apple") entry = e;
+  REQUIRE(entry.is_object());
+  const auto comma = life.click.find(',');
+  const int x = std::stoi(life.click.substr(0, comma)), y = std::stoi(life.click.substr(comma + 1));
+  const auto line = [](int x0, int y0, int x1, int y1) {
+    return json::array({{{"label", "object"}, {"radius_px", 4}, {"points", {{x0, y0}, {x1, y1}}}}});
+  };
+  entry["test_views"] = json::array({entry["test_views"][0]});
+  const auto measured = [&](const json& e, const std::string& name) {
+    place.write("made/" + name + ".json", json{{"scenes", {e}}}.dump());
+    const Result result = place.run("eval made/" + name + ".json --preset fast --no-curve -o " + name);
+    REQUIRE_MESSAGE(result.code == 0, result.err);
+    return json::parse(place.text(name + "/eval.json"))["scenes"][0];
+  };
+  CHECK(measured(entry, "robot_only")["image_iou_by_scribbles"].is_null());
+  json both = entry;
+  both["scribbles"] = line(x - 10, y, x + 10, y);
+  const json of_both = measured(both, "robot_and_scribbles");
+  CHECK(of_both["mask_iou_after_clicks"].size() == 3);
+  json alone = both;
+  alone.erase("clicks");
+  const json of_alone = measured(alone, "scribbles_alone");
+  CHECK(of_alone["mask_iou_after_clicks"].empty());
+  CHECK(of_alone["image_iou"] == of_alone["image_iou_by_scribbles"]);
+  CHECK(of_alone["image_iou"] == of_both["image_iou_by_scribbles"]);
+  CHECK(of_alone["image_iou"].get<double>() > 0.4);  // a part of it, as the hierarchy has it
+  alone["clicks"] = json::array();
+  CHECK(measured(alone, "no_clicks")["image_iou"] == of_alone["image_iou"]);
+  alone["scribbles"] = line(5, 5, 25, 5);  // a corner: not the apple
+  CHECK(measured(alone, "corner")["image_iou"].get<double>() < 0.2);
+  alone.erase("scribbles");
+  place.write("made/neither.json", json{{"scenes", {alone}}}.dump());
+  const Result neither = place.run("eval made/neither.json -o neither");
+  CHECK(neither.code == 1);
+  CHECK(neither.err.find("neither clicks nor scribbles") != std::string::npos);
+}
+
 TEST_CASE("study measures, goes on where it was stopped, heals a line cut off, and draws charts and a page") {
   StillLife& life = still_life();
   Workplace& place = life.place;
@@ -345,10 +404,10 @@ TEST_CASE("study measures, goes on where it was stopped, heals a line cut off, a
   REQUIRE_MESSAGE(done.code == 0, done.err);
   const std::string cells = place.text("studied/cells.jsonl");
   for (const char* file :
-       {"results.csv", "results.json", "index.html", "charts/views.svg", "charts/trade_off.svg",
-        "charts/stages.png", "charts/views.png", "charts/needed_width.svg"})
+       {"results.csv", "results.json", "study.md", "charts/views.svg", "charts/views.csv",
+        "charts/trade_off.svg", "charts/stages.png", "charts/views.png", "charts/needed_width.svg"})
     CHECK_MESSAGE(place.exists(std::string("studied/") + file), file);
-  CHECK(place.text("studied/index.html").find("data:image/svg+xml;base64,") != std::string::npos);
+  CHECK(place.text("studied/study.md").find("](charts/views.svg)") != std::string::npos);
   const json results = json::parse(place.text("studied/results.json"));
   const auto lines = static_cast<std::size_t>(std::count(cells.begin(), cells.end(), '\n'));
   CHECK(results["results"].size() == lines);

@@ -9,7 +9,7 @@
 #include "scene/picture_difference.h"
 #include "scene/png_file.h"
 #include "scene/rasterizer.h"
-#include "scene/still_life.h"
+#include "scene/still_life/still_life.h"
 #include "synthetic_cloud.h"
 
 using namespace splatcut;

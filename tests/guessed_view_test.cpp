@@ -4,7 +4,7 @@
 
 #include <glm/gtc/constants.hpp>
 
-#include "scene/still_life.h"
+#include "scene/still_life/still_life.h"
 #include "synthetic_cloud.h"
 
 using namespace splatcut;

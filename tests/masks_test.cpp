@@ -8,16 +8,16 @@
 #include <random>
 #include <set>
 
+#include "app/lab/mask_disturbance.h"
+#include "app/lab/robot_user.h"
 #include "scene/error.h"
 #include "scene/png_file.h"
 #include "scene/rasterizer.h"
 #include "segment/doubts.h"
-#include "segment/mask_disturbance.h"
 #include "segment/mask_tools.h"
 #include "segment/orbit.h"
 #include "segment/propagate.h"
 #include "segment/refine_mask.h"
-#include "segment/robot_user.h"
 #include "still_life_mug.h"
 
 using namespace splatcut;

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "scene/still_life.h"
+#include "scene/still_life/still_life.h"
 
 using namespace splatcut;
 

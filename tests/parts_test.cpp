@@ -6,13 +6,13 @@
 #include <cmath>
 #include <map>
 
+#include "app/lab/robot_user.h"
 #include "scene/counter_rng.h"
 #include "scene/rasterizer.h"
 #include "segment/mask_tools.h"
 #include "segment/part_picker.h"
 #include "segment/pipeline.h"
 #include "segment/prepared_scene.h"
-#include "segment/robot_user.h"
 #include "still_life_table.h"
 #include "synthetic_cloud.h"
 

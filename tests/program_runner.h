@@ -1,4 +1,5 @@
-// Runs the built program in a folder of its own and looks at what it leaves there.
+// Runs the built programs in a folder of its own and looks at what they leave there. eval, study and
+// make-scene are commands of splatcut-lab, all others of splatcut.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -75,6 +76,12 @@ class Workplace {
     return finish(start(words_of(arguments, whole_arguments)));
   }
 
+  Result run_program(const std::string& program, const std::string& arguments) const {
+    std::vector<std::string> words = words_of(arguments);
+    words.front() = program;
+    return finish(start(words));
+  }
+
   Result run_interrupted(const std::string& arguments, int after_ms) const {
     const pid_t child = start(words_of(arguments));
     std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
@@ -97,6 +104,8 @@ class Workplace {
     std::istringstream in(arguments);
     std::vector<std::string> words = {SPLATCUT_PROGRAM};
     for (std::string word; in >> word;) words.push_back(word);
+    for (const char* command : {"eval", "study", "make-scene"})
+      if (words.size() > 1 && words[1] == command) words.front() = SPLATCUT_LAB_PROGRAM;
     words.insert(words.end(), whole_arguments.begin(), whole_arguments.end());
     return words;
   }
@@ -119,7 +128,7 @@ class Workplace {
     ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), kFlags, kMode);
     pid_t child = 0;
     const int failed =
-        ::posix_spawn(&child, SPLATCUT_PROGRAM, &actions, nullptr, argv.data(), environment.data());
+        ::posix_spawn(&child, words.front().c_str(), &actions, nullptr, argv.data(), environment.data());
     ::posix_spawn_file_actions_destroy(&actions);
     REQUIRE(failed == 0);
     return child;

@@ -7,14 +7,14 @@
 #include <numbers>
 #include <set>
 
+#include "app/lab/evaluate.h"
+#include "app/lab/robot_user.h"
 #include "scene/rasterizer.h"
 #include "segment/energy.h"
-#include "segment/evaluate.h"
 #include "segment/knn_graph.h"
 #include "segment/likelihood.h"
 #include "segment/mask_tools.h"
 #include "segment/pipeline.h"
-#include "segment/robot_user.h"
 #include "segment/trim.h"
 #include "synthetic_cloud.h"
 

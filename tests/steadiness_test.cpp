@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "app/lab/click_draws.h"
+#include "app/lab/robot_user.h"
 #include "scene/error.h"
-#include "segment/click_draws.h"
 #include "segment/pipeline.h"
-#include "segment/robot_user.h"
 #include "still_life_table.h"
 
 using namespace splatcut;

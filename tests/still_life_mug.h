@@ -7,7 +7,7 @@
 
 #include "scene/morton.h"
 #include "scene/rasterizer.h"
-#include "scene/still_life.h"
+#include "scene/still_life/still_life.h"
 
 namespace splatcut::testing {
 

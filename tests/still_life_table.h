@@ -7,7 +7,7 @@
 
 #include "scene/morton.h"
 #include "scene/rasterizer.h"
-#include "scene/still_life.h"
+#include "scene/still_life/still_life.h"
 #include "segment/mask_tools.h"
 #include "segment/part_picker.h"
 #include "segment/prepared_scene.h"

@@ -1,4 +1,4 @@
-#include "scene/still_life.h"
+#include "scene/still_life/still_life.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "scene/error.h"
-#include "scene/surface_sampler.h"
+#include "scene/still_life/surface_sampler.h"
 
 using namespace splatcut;
 

@@ -8,11 +8,11 @@
 #include <thread>
 #include <vector>
 
+#include "app/lab/still_life_files.h"
 #include "app/output_folder.h"
-#include "app/still_life_files.h"
 #include "app/studio/task_thread.h"
 #include "headless_app.h"
-#include "scene/still_life.h"
+#include "scene/still_life/still_life.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;

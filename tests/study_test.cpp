@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/eval_suite.h"
-#include "app/study/study_plan.h"
-#include "app/study/study_scenes.h"
-#include "app/study/study_tables.h"
-#include "app/study/study_variants.h"
+#include "app/lab/eval_suite.h"
+#include "app/lab/study/study_plan.h"
+#include "app/lab/study/study_scenes.h"
+#include "app/lab/study/study_tables.h"
+#include "app/lab/study/study_variants.h"
 #include "program_runner.h"
 #include "segment/mask_tools.h"
 
@@ -135,17 +135,48 @@ TEST_CASE(
   }
   CHECK(planned == measured);
   for (const StabilityAxis& axis : stability_axes())
-    for (const char* ending : {".svg", ".png"})
+    for (const char* ending : {".csv", ".svg", ".png"})
       CHECK_MESSAGE(place.exists("study/charts/" + axis.file + ending), axis.file);
   CHECK(planned.size() >= stability_axes().size() + 12);
-  const std::string page = place.text("study/index.html");
-  std::size_t pictures = 0;
-  for (std::size_t at = 0; (at = page.find("data:image/png;base64,", at)) != std::string::npos; ++at)
-    ++pictures;
-  CHECK(pictures == planned.size());
+  const std::string page = place.text("study/study.md");
+  std::size_t pictures = 0, named = 0;
+  for (std::size_t at = 0; (at = page.find("](", at)) != std::string::npos; at += 2) {
+    const std::string file = page.substr(at + 2, page.find(')', at) - at - 2);
+    CHECK_MESSAGE(place.exists("study/" + file), file);
+    pictures += file.ends_with(".svg");
+    named += file.starts_with("worst_");
+  }
+  CHECK(named == planned.size());
+  CHECK(pictures >= stability_axes().size() + 4);
   CHECK(page.find("The paper's tables") != std::string::npos);
   CHECK(place.run("study -o study --quick --cells 1 --draws 1 --gaussians 2500 --no-charts").code == 0);
   CHECK(json::parse(place.text("study/results.json"))["results"] == results);  // nothing was left to measure
+}
+
+TEST_CASE("a study counts what its own program measured, not what another one left in the folder") {
+  const Workplace place;
+  const std::string command =
+      "study -o study --quick --cells 1 --draws 1 --gaussians 2500 --only views --no-charts";
+  const auto lines = [&] {
+    const std::string cells = place.text("study/cells.jsonl");
+    return std::ranges::count(cells, '\n');
+  };
+  const auto results = [&] { return std::ssize(json::parse(place.text("study/results.json"))["results"]); };
+  REQUIRE(place.run(command).code == 0);
+  const auto own = lines();
+  REQUIRE(own > 0);
+  CHECK(results() == own);
+  // The same program but for a byte that nobody reads.
+  std::filesystem::copy(SPLATCUT_LAB_PROGRAM, place / "other-lab");
+  std::ofstream(place / "other-lab", std::ios::binary | std::ios::app) << 'x';
+  const Result other = place.run_program((place / "other-lab").string(), command);
+  CHECK(other.code == 0);
+  CHECK(other.err.find("measurements of another program") != std::string::npos);
+  CHECK(lines() == 2 * own);
+  CHECK(results() == own);
+  REQUIRE(place.run(command).code == 0);  // its own are still there
+  CHECK(lines() == 2 * own);
+  CHECK(results() == own);
 }
 
 TEST_CASE("the presets that are shipped are those of the study, and near its front") {

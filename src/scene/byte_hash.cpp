@@ -7,6 +7,9 @@
 #include <cstring>
 #include <vector>
 
+#include "scene/error.h"
+#include "scene/mapped_file.h"
+
 namespace splatcut {
 
 namespace {
@@ -56,6 +59,17 @@ std::uint64_t hash_bytes(std::span<const std::byte> bytes, std::uint64_t seed) {
   });
   return hash_piece(reinterpret_cast<const std::byte*>(of_piece.data()),
                     of_piece.size() * sizeof(std::uint64_t), seed);
+}
+
+std::uint64_t hash_of_program() {
+  static const std::uint64_t hash = [] {
+    try {
+      return hash_bytes(MappedFile("/proc/self/exe").bytes());
+    } catch (const Error&) {
+      return std::uint64_t{0};
+    }
+  }();
+  return hash;
 }
 
 }  // namespace splatcut

@@ -12,6 +12,10 @@ namespace splatcut {
 
 std::uint64_t hash_bytes(std::span<const std::byte> bytes, std::uint64_t seed = 0);
 
+// Of the file of the running program; 0 where it cannot be read. Results kept by another build are told by
+// it.
+std::uint64_t hash_of_program();
+
 // Adds things up to one hash, in order.
 class Hasher {
  public:

@@ -181,17 +181,6 @@ void add_options(const PrepareOptions& o, Hasher* hash) {
     hash->number(value);
 }
 
-std::uint64_t hash_of_program() {
-  static const std::uint64_t hash = [] {
-    try {
-      return hash_bytes(MappedFile("/proc/self/exe").bytes());
-    } catch (const Error&) {
-      return std::uint64_t{0};
-    }
-  }();
-  return hash;
-}
-
 }  // namespace
 
 std::uint64_t prepared_key(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world,

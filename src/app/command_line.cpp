@@ -1,0 +1,64 @@
+#include "app/command_line.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "app/console.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr int kCouldNot = 1, kWrongUsage = 2;
+
+int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
+  CLI::App program{line.description};
+  program.name(line.program);
+  program.footer("Example: " + line.example);
+  program.set_version_flag("--version", line.program + " " + SPLATCUT_VERSION);
+  program.require_subcommand(1);
+  program.fallthrough();
+  CommonOptions common;
+  program
+      .add_option("--threads", common.threads, "Worker threads (0: all cores); results do not depend on it")
+      ->check(CLI::NonNegativeNumber);
+  program.add_flag("--quiet", common.quiet, "Print errors only");
+  program.add_flag("!--no-cache", common.cache,
+                   "Keep nothing of scenes that were prepared, and use nothing that was kept");
+  std::optional<tbb::global_control> limit;
+  program.parse_complete_callback([&] {
+    if (common.threads > 0)
+      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
+  });
+  line.add_commands(program, common);
+  std::ranges::reverse(words);  // as CLI11 wants them
+  try {
+    program.parse(std::move(words));
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : kWrongUsage;
+  }
+}
+
+}  // namespace
+
+int run_command_line(const CommandLine& line, std::vector<std::string> words) {
+  try {
+    return parse_and_run(line, std::move(words));
+  } catch (const std::bad_alloc&) {
+    end_progress();
+    fmt::print(stderr, "{}: not enough memory for this scene. Try fewer views or a smaller scene.\n",
+               line.program);
+  } catch (const std::exception& error) {
+    end_progress();
+    fmt::print(stderr, "{}: {}\n", line.program, error.what());
+  }
+  return kCouldNot;
+}
+
+}  // namespace splatcut

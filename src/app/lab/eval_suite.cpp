@@ -1,0 +1,137 @@
+#include "app/lab/eval_suite.h"
+
+#include <fmt/format.h>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "app/camera_options.h"
+#include "app/seeds_file.h"
+#include "scene/camera_file.h"
+#include "scene/error.h"
+#include "scene/png_file.h"
+
+namespace splatcut {
+
+namespace {
+
+glm::vec3 vec3_of(const nlohmann::json& j) {
+  return {j.at(0).get<float>(), j.at(1).get<float>(), j.at(2).get<float>()};
+}
+
+Camera look_at_of(const nlohmann::json& j) {
+  return look_at(vec3_of(j.at("position")), vec3_of(j.at("target")), vec3_of(j.at("up")),
+                 glm::radians(j.at("fov_y_deg").get<float>()), j.at("size").at(0).get<int>(),
+                 j.at("size").at(1).get<int>());
+}
+
+std::vector<std::uint8_t> truth_labels(const std::filesystem::path& path, const Scene& scene, int wanted) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error(path.string(), "cannot be opened");
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+  if (bytes.size() != scene.file_rows)
+    throw Error(path.string(),
+                fmt::format("holds {} labels, the scene {} rows", bytes.size(), scene.file_rows));
+  std::vector<std::uint8_t> labels(scene.cloud.size());
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    labels[g] = static_cast<std::uint8_t>(bytes[scene.cloud.file_row[g]]) == wanted;
+  return labels;
+}
+
+void load_mask_truth(const std::filesystem::path& folder, const std::vector<Camera>& cameras,
+                     EvaluationCase* test) {
+  for (const Camera& camera : cameras) {
+    const std::filesystem::path file = folder / (camera.name + ".png");
+    if (!std::filesystem::exists(file)) continue;
+    Mask mask = read_png_grey(file);
+    for (auto& m : mask.pixels()) m = m >= 128 ? kMaskObject : 0;
+    test->test_views.push_back(resized(camera, mask.width(), mask.height()));
+    test->truth_masks.push_back(std::move(mask));
+  }
+  if (test->test_views.empty()) throw Error(folder.string(), "holds no mask named after a camera");
+}
+
+// Clicks, "robot" for the robot's, and scribbles: one of them at least.
+void fill_strokes(const nlohmann::json& entry, EvaluationCase* test) {
+  const nlohmann::json none = nlohmann::json::array();
+  const nlohmann::json clicks = entry.value("clicks", none);
+  test->scribbles = strokes_from_json({{"scribbles", entry.value("scribbles", none)}}, test->name);
+  if (clicks.is_array())
+    test->clicks = strokes_from_json({{"clicks", clicks}}, test->name);
+  else if (clicks != "robot")
+    throw Error(test->name, "its clicks are neither a list nor \"robot\"");
+  else if (test->truth_labels.empty())
+    throw Error(test->name, "robot clicks need truth labels");
+  test->scribbles_alone = clicks.is_array() && clicks.empty();
+  if (test->scribbles_alone && test->scribbles.empty())
+    throw Error(test->name, "has neither clicks nor scribbles",
+                "Write \"clicks\": \"robot\" for the robot's");
+}
+
+// Returns the given cameras.
+std::vector<Camera> fill_case(const nlohmann::json& entry, const std::filesystem::path& folder,
+                              LoadedCase* loaded) {
+  EvaluationCase& test = loaded->test;
+  test.name = entry.at("name");
+  test.cloud = &loaded->scene.cloud;
+  test.prepared = &loaded->prepared;
+  std::vector<Camera> cameras;
+  if (entry.contains("cameras"))
+    cameras = load_cameras(folder / entry.at("cameras").get<std::string>(), &loaded->warning);
+  test.scene_cameras = cameras;
+  const auto& reference = entry.at("reference");
+  if (reference.contains("camera")) {
+    test.reference = find_camera(cameras, reference.at("camera"), test.name);
+    test.up_world = common_up(cameras);
+  } else {
+    test.reference = look_at_of(reference);
+    test.up_world = vec3_of(reference.at("up"));
+  }
+  const auto& truth = entry.at("truth");
+  if (truth.contains("labels")) {
+    for (const auto& view : entry.at("test_views"))
+      test.test_views.push_back(view.contains("camera") ? find_camera(cameras, view.at("camera"), test.name)
+                                                        : look_at_of(view));
+    test.truth_labels =
+        truth_labels(folder / truth.at("labels").get<std::string>(), loaded->scene, truth.value("label", 1));
+    render_truth(&test);
+  } else {
+    load_mask_truth(folder / truth.at("masks").get<std::string>(), cameras, &test);
+  }
+  fill_strokes(entry, &test);
+  return cameras;
+}
+
+}  // namespace
+
+std::vector<nlohmann::json> read_suite(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  if (!in) throw Error(path.string(), "cannot be opened");
+  const nlohmann::json suite = nlohmann::json::parse(in, nullptr, false);
+  if (suite.is_discarded() || !suite.is_object() || !suite.contains("scenes") ||
+      !suite.at("scenes").is_array())
+    throw Error(path.string(), "is not a suite: a JSON object with \"scenes\" is expected");
+  return {suite.at("scenes").begin(), suite.at("scenes").end()};
+}
+
+std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder,
+                                      const PrepareOptions& prepare, const Job& job) {
+  auto loaded = std::make_unique<LoadedCase>();
+  const auto ms = [](auto a, auto b) { return std::chrono::duration<double, std::milli>(b - a).count(); };
+  try {
+    const auto start = std::chrono::steady_clock::now();
+    loaded->scene = load_scene(folder / entry.at("scene").get<std::string>(), job);
+    const auto loaded_at = std::chrono::steady_clock::now();
+    loaded->load_ms = ms(start, loaded_at);
+    if (job.cancelled()) return loaded;
+    const std::vector<Camera> cameras = fill_case(entry, folder, loaded.get());
+    loaded->prepared = prepare_scene(loaded->scene.cloud, loaded->test.reference, loaded->test.up_world,
+                                     cameras, prepare, job);
+  } catch (const nlohmann::json::exception& error) {
+    throw Error("suite", "the entry " + entry.value("name", "?") + " lacks something (" + error.what() + ")");
+  }
+  return loaded;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,37 @@
+// Reads a suite of scenes with truth, as `splatcut-lab eval` takes it.
+//
+// {"scenes": [{"name", "scene", "cameras"?, "truth": {"labels": FILE, "label": 1} | {"masks": FOLDER},
+// "reference":
+// {"position","target","up","fov_y_deg","size"} | {"camera": NAME}, "clicks": "robot" | [...],
+// "scribbles": [...], "test_views": [as reference]}]}, paths relative to the suite's folder. Clicks are told
+// one after the other, scribbles are an answer of their own; one of both is needed.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "app/lab/evaluate.h"
+#include "scene/scene_file.h"
+
+namespace splatcut {
+
+// A case and what it points into.
+struct LoadedCase {
+  Scene scene;
+  PreparedScene prepared;
+  double load_ms = 0;
+  std::string warning;  // a sentence about its cameras, or empty
+  EvaluationCase test;
+};
+
+// The entries of the suite, checked for their form. Throws Error naming file and entry.
+std::vector<nlohmann::json> read_suite(const std::filesystem::path& path);
+
+// Scene, graph, parts, cameras and truth of one entry.
+std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder,
+                                      const PrepareOptions& prepare, const Job& job);
+
+}  // namespace splatcut

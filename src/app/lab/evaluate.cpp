@@ -1,0 +1,164 @@
+#include "app/lab/evaluate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+#include "app/lab/evaluate_picture.h"
+#include "app/lab/robot_user.h"
+#include "scene/error.h"
+#include "segment/mask_tools.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr double kLeastTruthShare = 0.001;
+
+Strokes first_strokes(const Strokes& strokes, int n) {
+  return {strokes.begin(), strokes.begin() + std::min<std::ptrdiff_t>(n, std::ssize(strokes))};
+}
+
+PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& options, const Strokes& strokes,
+                        const Job& job, CutSolver* solver = nullptr) {
+  PipelineOptions pipeline = options.pipeline;
+  pipeline.scene_cameras = scene.scene_cameras;
+  if (options.truth_first_mask) {
+    if (!scene.reference_truth)
+      throw Error(scene.name, "--first-mask truth needs the truth of the reference view");
+    pipeline.given_first_mask = scene.reference_truth;
+  }
+  if (options.truth_masks) {
+    if (scene.truth_labels.empty()) throw Error(scene.name, "--masks truth needs truth labels");
+    pipeline.given_masks = [&scene](const Camera& camera) {
+      return labels_seen(scene, camera, scene.truth_labels);
+    };
+  }
+  return cut_out(*scene.cloud, scene.prepared, scene.reference, scene.up_world, strokes, pipeline, job,
+                 solver);
+}
+
+}  // namespace
+
+int clicks_to(const std::vector<double>& iou_after, double goal) {
+  const auto reached = std::ranges::find_if(iou_after, [&](double v) { return v >= goal; });
+  return reached == iou_after.end() ? kClicksNotReached : static_cast<int>(reached - iou_after.begin()) + 1;
+}
+
+double label_iou(const std::vector<std::uint8_t>& truth, const std::vector<std::uint8_t>& labels) {
+  std::size_t both = 0, either = 0;
+  for (std::size_t g = 0; g < truth.size(); ++g) {
+    both += truth[g] && labels[g];
+    either += truth[g] || labels[g];
+  }
+  return either ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
+}
+
+bool counts(const Mask& truth) {
+  return static_cast<double>(count(truth)) >= kLeastTruthShare * static_cast<double>(truth.size());
+}
+
+Mask labels_seen(const EvaluationCase& scene, const Camera& camera, const std::vector<std::uint8_t>& labels) {
+  return thresholded(render_labels({*scene.cloud, scene.kept_views}, camera, labels), 0.5f);
+}
+
+ImageScore score_images(const EvaluationCase& scene, const std::vector<std::uint8_t>& labels) {
+  ImageScore sum;
+  int views = 0;
+  for (std::size_t v = 0; v < scene.test_views.size(); ++v) {
+    const Mask& truth = scene.truth_masks[v];
+    if (!counts(truth)) continue;
+    const Mask seen = labels_seen(scene, scene.test_views[v], labels);
+    sum.iou += iou(truth, seen);
+    sum.accuracy += pixel_accuracy(truth, seen);
+    sum.boundary += boundary_iou(truth, seen);
+    ++views;
+  }
+  if (views == 0) throw Error(scene.name, "the truth shows in none of its test views");
+  return {sum.iou / views, sum.accuracy / views, sum.boundary / views};
+}
+
+// The robot works on the mask's own picture size.
+RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks,
+                           std::uint64_t draw, const Job& job) {
+  const Camera work = limited_to_width(scene.reference, pipeline.work_width_px);
+  const float to_reference = static_cast<float>(scene.reference.width_px) / static_cast<float>(work.width_px);
+  if (scene.truth_labels.empty() && !scene.reference_truth)
+    throw Error(scene.name, "the robot needs the truth of the reference view");
+  const Mask truth = scene.truth_labels.empty()
+                         ? resized_mask(*scene.reference_truth, work.width_px, work.height_px)
+                         : labels_seen(scene, work, scene.truth_labels);
+  Mask mask(work.width_px, work.height_px);
+  KeptViews kept(*scene.cloud);
+  RobotSession session;
+  for (int i = 0; i < clicks && !job.cancelled(); ++i) {
+    if (const auto next = robot_click(truth, mask, draw ? draw * 16 + static_cast<std::uint64_t>(i) : 0)) {
+      const Strokes scaled_click = scaled({*next}, to_reference);
+      session.strokes.push_back(scaled_click.front());
+      const Mask found = first_mask_of(*scene.cloud, *scene.prepared, scene.reference, session.strokes,
+                                       pipeline, job, &kept);
+      mask = resized_mask(found, work.width_px, work.height_px);
+    }
+    session.iou_after.push_back(iou(truth, mask));
+  }
+  return session;
+}
+
+void render_truth(EvaluationCase* scene) {
+  scene->truth_masks.clear();
+  for (const Camera& view : scene->test_views)
+    scene->truth_masks.push_back(labels_seen(*scene, view, scene->truth_labels));
+  scene->reference_truth = labels_seen(*scene, scene->reference, scene->truth_labels);
+}
+
+SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& options, const Job& job) {
+  SceneScore score;
+  score.name = scene.name;
+  const bool scribbles_alone = scene.scribbles_alone && !options.truth_first_mask;
+  Strokes strokes = scribbles_alone ? scene.scribbles : scene.clicks;
+  if (strokes.empty() && !options.truth_first_mask) {
+    const RobotSession robot =
+        robot_session(scene, options.pipeline,
+                      options.click_curve ? std::max(kRobotClicks, options.clicks) : options.clicks, 0, job);
+    strokes = robot.strokes;
+    score.mask_iou_after_clicks = robot.iou_after;
+    if (options.click_curve) {
+      score.noc85 = clicks_to(robot.iou_after, 0.85);
+      score.noc90 = clicks_to(robot.iou_after, 0.90);
+    }
+  }
+  if (options.click_curve && !options.truth_first_mask && !scribbles_alone)
+    for (const int n : {1, 3, 5}) {
+      const PipelineReport report = cut_with(scene, options, first_strokes(strokes, n), job);
+      if (job.cancelled()) return score;
+      score.image_iou_after_clicks[n] = score_images(scene, report.labels).iou;
+    }
+  CutSolver solver =
+      ready_solver(*scene.cloud, *scene.prepared, options.pipeline);  // belongs to loading, as in the window
+  const auto start = std::chrono::steady_clock::now();
+  const PipelineReport report = cut_with(
+      scene, options, scribbles_alone ? strokes : first_strokes(strokes, options.clicks), job, &solver);
+  score.total_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  score.stages = report.stages;
+  score.enough = looked_at(report.views);
+  score.nodes_touched = report.cut.touched;
+  score.why_enough = report.enough;
+  if (job.cancelled()) return score;
+  const ImageScore images = score_images(scene, report.labels);
+  score.image_iou = images.iou;
+  score.accuracy = images.accuracy;
+  score.boundary_iou = images.boundary;
+  const PictureScore pictures = score_pictures(scene, report.labels);
+  score.psnr_db = pictures.psnr_db;
+  score.ssim = pictures.ssim;
+  if (scribbles_alone) score.image_iou_by_scribbles = score.image_iou;
+  if (!scribbles_alone && !scene.scribbles.empty() && !options.truth_first_mask) {
+    const PipelineReport by_scribbles = cut_with(scene, options, scene.scribbles, job);
+    if (!job.cancelled()) score.image_iou_by_scribbles = score_images(scene, by_scribbles.labels).iou;
+  }
+  if (!scene.truth_labels.empty()) score.gaussian_iou = label_iou(scene.truth_labels, report.labels);
+  return score;
+}
+
+}  // namespace splatcut

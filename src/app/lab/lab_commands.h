@@ -1,0 +1,12 @@
+// The subcommands of splatcut-lab. Each adds itself to the command line; its work runs from the callback.
+#pragma once
+
+#include "app/command_line.h"
+
+namespace splatcut {
+
+void add_make_scene_command(CLI::App& program, const CommonOptions& common);
+void add_eval_command(CLI::App& program, const CommonOptions& common);
+void add_study_command(CLI::App& program, const CommonOptions& common);
+
+}  // namespace splatcut

@@ -1,0 +1,40 @@
+#include "app/lab/robot_user.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "scene/counter_rng.h"
+#include "segment/mask_tools.h"
+
+namespace splatcut {
+
+std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask) {
+  return robot_click(truth, mask, 0);
+}
+
+std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask, std::uint64_t draw) {
+  Mask missing(truth.width(), truth.height()), extra(truth.width(), truth.height());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const bool is = truth.pixels()[i], said = mask.pixels()[i];
+    missing.pixels()[i] = is && !said ? kMaskObject : 0;
+    extra.pixels()[i] = !is && said ? kMaskObject : 0;
+  }
+  const Mask most_missing = largest_region(missing), most_extra = largest_region(extra);
+  const bool positive = count(most_missing) >= count(most_extra);
+  const Mask& region = positive ? most_missing : most_extra;
+  if (count(region) == 0) return std::nullopt;
+  const Image<float> depth = distance_inside(region);
+  auto deepest = std::ranges::max_element(depth.pixels()) - depth.pixels().begin();
+  if (draw != 0) {
+    const float deep_enough = 0.5f * depth.pixels()[static_cast<std::size_t>(deepest)];
+    std::vector<std::ptrdiff_t> pixels;
+    for (std::size_t i = 0; i < depth.size(); ++i)
+      if (depth.pixels()[i] >= deep_enough) pixels.push_back(static_cast<std::ptrdiff_t>(i));
+    deepest = pixels[CounterRng(draw, pixels.size()).below(pixels.size())];
+  }
+  const glm::vec2 pixel(static_cast<float>(deepest % region.width()) + 0.5f,
+                        static_cast<float>(deepest / region.width()) + 0.5f);
+  return click(pixel, positive ? SeedLabel::kObject : SeedLabel::kRest);
+}
+
+}  // namespace splatcut

@@ -1,0 +1,101 @@
+#include "app/lab/study/study_scenes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/lab/eval_suite.h"
+#include "app/lab/still_life_files.h"
+#include "app/output_folder.h"
+#include "scene/error.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr const char* kPlain = "plain";
+
+// The same options give the same bytes: a folder of that name holds that still life.
+std::filesystem::path made_still_life(const StudyScenesOptions& options, const HardStillLife& hard,
+                                      const Job& job) {
+  const std::filesystem::path place = options.folder / fmt::format("{}, {}", hard.name, options.gaussians);
+  if (std::filesystem::exists(place / "suite.json")) return place;
+  std::filesystem::create_directories(place.parent_path());
+  StillLifeOptions made_of = hard.options;
+  made_of.gaussians = options.gaussians;
+  OutputFolder folder(place, true);
+  const LabelledScene made = make_still_life(made_of);
+  if (job.cancelled())
+    throw Error("splatcut-lab study", "cancelled; what is finished is kept, the same command goes on");
+  write_still_life(folder, made, "scene", "ply");
+  folder.commit();
+  return place;
+}
+
+// Objects that show what the still life is for come first.
+bool shows(const HardStillLife& hard, const std::string& object) {
+  const auto one_of = [&](std::initializer_list<const char*> names) {
+    return std::ranges::find(names, object) != names.end();
+  };
+  if (hard.thin_width > 0) return one_of({"lamp", "plant", "mug"});
+  if (hard.options.twins) return one_of({"apple", "apple twin", "orange"});
+  if (hard.options.occluder) return one_of({"mug"});
+  if (hard.options.low_contrast) return one_of({"mug", "apple", "pot"});
+  return true;
+}
+
+// Scored in a few of the circle's views, at both elevations: 24 would take longer than all that is measured.
+void keep_some_views(bool quick, nlohmann::json* entry) {
+  const std::size_t step = quick ? 9 : 5;
+  nlohmann::json some = nlohmann::json::array();
+  const nlohmann::json& all = entry->at("test_views");
+  for (std::size_t v = 0; v < all.size(); v += step) some.push_back(all[v]);
+  (*entry)["test_views"] = some;
+}
+
+void add_scenes(const std::filesystem::path& suite, const HardStillLife* hard, bool main, bool quick,
+                std::vector<StudyScene>* scenes) {
+  std::size_t taken = 0;
+  for (nlohmann::json entry : read_suite(suite)) {
+    const std::string name = entry.value("name", "?");
+    if (hard && !shows(*hard, name)) continue;
+    if (quick && taken++ == 2) break;
+    if (hard) keep_some_views(quick, &entry);
+    scenes->push_back({entry, suite.parent_path(), hard ? hard->name + ", " + name : name,
+                       hard ? suite.parent_path().filename().string() + ", " + name : name,
+                       main ? "" : hard->name});
+  }
+}
+
+}  // namespace
+
+const std::vector<HardStillLife>& hard_still_lifes() {
+  static const std::vector<HardStillLife> all = {
+      {kPlain, {}, 0, true},
+      {"twins in contact", {.twins = true, .contact = true}, 0, true},
+      {"straddling splats", {.straddling = true}, 0, true},
+      {"low contrast", {.low_contrast = true}, 0, true},
+      {"floaters", {.seed = 4, .floaters = true, .unseen_interior = true}, 0, true},
+      {"half hidden", {.occluder = true}, 0, false},
+      {"thin 0.25", {.thin_width_scale = 0.25f}, 0.25, true},
+      {"thin 0.4", {.thin_width_scale = 0.4f}, 0.4, false},
+      {"thin 0.6", {.thin_width_scale = 0.6f}, 0.6, false},
+      {"thin 1", {}, 1, true},
+      {"thin 1.6", {.thin_width_scale = 1.6f}, 1.6, false},
+  };
+  return all;
+}
+
+std::vector<StudyScene> study_scenes(const StudyScenesOptions& options, const Job& job) {
+  std::vector<StudyScene> scenes;
+  for (const auto& suite : options.suites) add_scenes(suite, nullptr, true, options.quick, &scenes);
+  if (options.suites.empty())
+    add_scenes(made_still_life(options, hard_still_lifes().front(), job) / "suite.json",
+               &hard_still_lifes().front(), true, options.quick, &scenes);
+  for (const HardStillLife& hard : hard_still_lifes())
+    if (std::ranges::find(options.still_lifes, hard.name) != options.still_lifes.end())
+      add_scenes(made_still_life(options, hard, job) / "suite.json", &hard, false, options.quick, &scenes);
+  return scenes;
+}
+
+}  // namespace splatcut
