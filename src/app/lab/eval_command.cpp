@@ -1,12 +1,14 @@
 // splatcut-lab eval: the measures of a suite, as a table and as JSON.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/console.h"
+#include "app/lab/any_view_report.h"
 #include "app/lab/benchmark_folders.h"
 #include "app/lab/click_draws.h"
 #include "app/lab/eval_suite.h"
@@ -25,9 +27,12 @@ struct EvalArguments {
   std::filesystem::path suite, nvos, spin_nerf, scenes, output;
   std::string preset = "default", masks;
   MaskOptions mask;
-  std::vector<std::string> set;
+  std::vector<std::string> set, only;
   int clicks = 3, draws = 0;
+  bool any_view = false;
+  AnyViewOptions robot;
   bool curve = true, json = false, overwrite = false, clicks_given = false;
+  bool robot_asked = false;  // an option that only the any-view robot has
 };
 
 nlohmann::json score_json(const SceneScore& s) {
@@ -49,11 +54,19 @@ nlohmann::json score_json(const SceneScore& s) {
   for (const auto& [n, value] : s.image_iou_after_clicks)
     j["image_iou_after_clicks"][std::to_string(n)] = value;
   for (const StageTime& stage : s.stages) j["ms"][stage.name] = stage.ms;
+  j["doubts"] = s.doubts;
   j["enough"] = {{"views", s.enough.views},
                  {"pixels", s.enough.pixels},
                  {"gaussians", s.nodes_touched},
                  {"why", s.why_enough}};
   return j;
+}
+
+// What has no mean: sentences, and sessions of which each scene has its own number.
+nlohmann::json without_lists(nlohmann::json score) {
+  score.erase("doubts");
+  if (score.contains("any_view")) score["any_view"].erase("sessions");
+  return score;
 }
 
 // The mean over the scenes of each number; scenes that lack one do not count in its mean.
@@ -69,11 +82,11 @@ nlohmann::json mean_json(const std::vector<nlohmann::json>& scores) {
     return n ? nlohmann::json(sum / n) : nullptr;
   };
   // The first score is the mould: a pointer into nothing would make an array of the keys "1", "3", "5".
-  nlohmann::json mean = scores.empty() ? nlohmann::json::object() : scores.front();
+  nlohmann::json mean = scores.empty() ? nlohmann::json::object() : without_lists(scores.front());
   mean["name"] = "mean";
   if (mean.contains("enough")) mean["enough"].erase("why");
   for (const auto& s : scores) {
-    const nlohmann::json flat = s.flatten();  // named: items() only refers to it
+    const nlohmann::json flat = without_lists(s).flatten();  // named: items() only refers to it
     for (const auto& [at, value] : flat.items())
       if (value.is_number())
         mean[nlohmann::json::json_pointer(at)] = mean_of(nlohmann::json::json_pointer(at));
@@ -146,10 +159,11 @@ std::vector<Loader> loaders(const EvalArguments& args) {
   std::vector<Loader> all;
   if (!args.suite.empty())
     for (const nlohmann::json& entry : read_suite(args.suite))
-      all.push_back(
-          [entry, folder = args.suite.parent_path()](const PrepareOptions& prepare, const Job& job) {
-            return load_case(entry, folder, prepare, job);
-          });
+      if (args.only.empty() || std::ranges::find(args.only, entry.value("name", "")) != args.only.end())
+        all.push_back(
+            [entry, folder = args.suite.parent_path()](const PrepareOptions& prepare, const Job& job) {
+              return load_case(entry, folder, prepare, job);
+            });
   std::vector<BenchmarkTask> tasks;
   if (!args.nvos.empty()) tasks = nvos_tasks(args.nvos, args.scenes);
   if (!args.spin_nerf.empty()) tasks = spin_nerf_tasks(args.spin_nerf, args.scenes);
@@ -202,9 +216,15 @@ std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationO
     score.stages.insert(score.stages.begin(), loaded->prepared.stages.begin(), loaded->prepared.stages.end());
     score.stages.insert(score.stages.begin(), {"load", loaded->load_ms});
     scores.push_back(score_json(score));
-    if (args.draws > 0) {
+    if (args.any_view) {
+      AnyViewOptions robot = args.robot;
+      robot.preset = args.preset;
+      robot.draws = std::max(1, args.draws);
+      scores.back().update(any_view_json(*loaded, robot, prepare_options(options.pipeline), job));
+      stop_if_cancelled(job);
+    } else if (args.draws > 0) {
       const ClickDraws draws = draw_clicks(loaded->test, options.pipeline, kRobotClicks, args.draws, job);
-      if (job.cancelled()) throw Error("splatcut-lab eval", "cancelled, nothing was written");
+      stop_if_cancelled(job);
       if (!draws.median.empty()) scores.back()["draws"] = draws_json(draws);
     }
     end_progress();
@@ -233,8 +253,25 @@ void check_ways_in(const EvalArguments& args) {
         "--clicks: all scribbles of NVOS count, and a given mask leaves no click to make");
 }
 
+// The robot's cut is the window's, which knows presets and nothing else.
+void check_any_view(const EvalArguments& args) {
+  if (!args.any_view) {
+    if (args.robot_asked)
+      throw CLI::ValidationError("--robot-clicks, --starts, --zoom and --perturb go with --any-view");
+    return;
+  }
+  const MaskOptions& mask = args.mask;
+  const bool masks_set = !mask.first_mask.empty() || !mask.propagate.empty() || !mask.refine.empty() ||
+                         mask.views >= 0 || mask.parts_only || !args.masks.empty();
+  if (masks_set || !args.set.empty())
+    throw CLI::ValidationError(
+        "--any-view runs a preset as the window does: no --set and no choice of masks");
+  if (!args.spin_nerf.empty()) throw CLI::ValidationError("--any-view clicks, SPIn-NeRF gives masks");
+}
+
 void run_eval(const EvalArguments& args, const CommonOptions& common) {
   check_ways_in(args);
+  check_any_view(args);
   const Job job =
       console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
   OutputFolder folder(args.output, args.overwrite);
@@ -253,7 +290,10 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
     return;
   }
   print_row(result["mean"]);
-  if (args.draws > 0) print_draws(result, args.draws);
+  if (args.any_view)
+    print_any_view(result);
+  else if (args.draws > 0)
+    print_draws(result, args.draws);
   if (common.quiet) return;
   for (const PublishedScore& p : published_scores())
     if (p.benchmark == benchmark)
@@ -292,6 +332,22 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--clicks", args->clicks, "Clicks for the final cut")->check(CLI::Range(1, 8));
   command.add_option("--draws", args->draws, "The first mask again with that many draws of unsteady clicks")
       ->check(CLI::Range(0, 1000));
+  command.add_flag(
+      "--any-view", args->any_view,
+      "The any-view robot, too: on the window's own cut it clicks the middle of the largest error of any "
+      "view whose truth is known; each such view is a start in turn. --draws then are its own");
+  command.add_option("--robot-clicks", args->robot.clicks, "Its clicks a session")->check(CLI::Range(1, 50));
+  command.add_option("--starts", args->robot.starts, "Its first so many starts; 0: all")
+      ->check(CLI::NonNegativeNumber);
+  command.add_flag("--zoom", args->robot.zoom,
+                   "Its first click again with the camera at .4, .6, 1, 2 and 4 times the distance");
+  command
+      .add_option(
+          "--perturb", args->robot.copies,
+          "Its clicks again on so many copies of the scene: rounded .ply, .compressed.ply, .splat, .spz, "
+          "rows shuffled, splats moved by a hundredth of their size, and so on")
+      ->check(CLI::Range(1, 100));
+  command.add_option("--only", args->only, "Scenes of the suite, by name");
   args->mask.add_to(command, true);
   command.add_option("--masks", args->masks, "truth: the true masks in all orbit views")
       ->check(CLI::IsMember({"truth"}));
@@ -301,6 +357,8 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
   command.callback([args, &command, &common] {
     args->clicks_given = command.count("--clicks") > 0;
+    for (const char* option : {"--robot-clicks", "--starts", "--zoom", "--perturb"})
+      args->robot_asked |= command.count(option) > 0;
     run_eval(*args, common);
   });
 }

@@ -52,6 +52,16 @@ void load_mask_truth(const std::filesystem::path& folder, const std::vector<Came
   if (test->test_views.empty()) throw Error(folder.string(), "holds no mask named after a camera");
 }
 
+// "reference", then "references": one of them at least.
+std::vector<nlohmann::json> references_of(const nlohmann::json& entry) {
+  std::vector<nlohmann::json> all;
+  if (entry.contains("reference")) all.push_back(entry.at("reference"));
+  if (entry.contains("references"))
+    all.insert(all.end(), entry.at("references").begin(), entry.at("references").end());
+  if (all.empty()) all.push_back(entry.at("reference"));  // says what is missing
+  return all;
+}
+
 // Clicks, "robot" for the robot's, and scribbles: one of them at least.
 void fill_strokes(const nlohmann::json& entry, EvaluationCase* test) {
   const nlohmann::json none = nlohmann::json::array();
@@ -80,19 +90,18 @@ std::vector<Camera> fill_case(const nlohmann::json& entry, const std::filesystem
   if (entry.contains("cameras"))
     cameras = load_cameras(folder / entry.at("cameras").get<std::string>(), &loaded->warning);
   test.scene_cameras = cameras;
-  const auto& reference = entry.at("reference");
-  if (reference.contains("camera")) {
-    test.reference = find_camera(cameras, reference.at("camera"), test.name);
-    test.up_world = common_up(cameras);
-  } else {
-    test.reference = look_at_of(reference);
-    test.up_world = vec3_of(reference.at("up"));
-  }
+  const std::vector<nlohmann::json> references = references_of(entry);
+  const auto camera_of = [&](const nlohmann::json& view) {
+    return view.contains("camera") ? find_camera(cameras, view.at("camera"), test.name) : look_at_of(view);
+  };
+  test.reference = camera_of(references.front());
+  test.up_world =
+      references.front().contains("camera") ? common_up(cameras) : vec3_of(references.front().at("up"));
+  for (auto more = references.begin() + 1; more != references.end(); ++more)
+    test.more_references.push_back({camera_of(*more), strokes_from_json(*more, test.name)});
   const auto& truth = entry.at("truth");
   if (truth.contains("labels")) {
-    for (const auto& view : entry.at("test_views"))
-      test.test_views.push_back(view.contains("camera") ? find_camera(cameras, view.at("camera"), test.name)
-                                                        : look_at_of(view));
+    for (const auto& view : entry.at("test_views")) test.test_views.push_back(camera_of(view));
     test.truth_labels =
         truth_labels(folder / truth.at("labels").get<std::string>(), loaded->scene, truth.value("label", 1));
     render_truth(&test);

@@ -7,6 +7,7 @@
 #include "app/lab/evaluate_picture.h"
 #include "app/lab/robot_user.h"
 #include "scene/error.h"
+#include "segment/doubts.h"
 #include "segment/mask_tools.h"
 
 namespace splatcut {
@@ -144,6 +145,7 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
   score.enough = looked_at(report.views);
   score.nodes_touched = report.cut.touched;
   score.why_enough = report.enough;
+  score.doubts = doubts(report);
   if (job.cancelled()) return score;
   const ImageScore images = score_images(scene, report.labels);
   score.image_iou = images.iou;

@@ -18,6 +18,12 @@ namespace splatcut {
 inline constexpr int kRobotClicks = 8;
 inline constexpr int kClicksNotReached = 20;  // NoC where kRobotClicks are not enough
 
+// A view in which the object may be clicked, with the clicks that are given there; none: the robot's.
+struct GivenReference {
+  Camera camera;
+  Strokes clicks;
+};
+
 struct EvaluationCase {
   std::string name;
   const GaussianCloud* cloud = nullptr;
@@ -26,6 +32,7 @@ struct EvaluationCase {
   std::vector<Camera> test_views;
   std::vector<Mask> truth_masks;  // per test view
   Camera reference;
+  std::vector<GivenReference> more_references;  // of the same object, for the any-view robot
   glm::vec3 up_world{0, -1, 0};
   std::vector<Camera> scene_cameras;    // of its photographs, where known
   std::optional<Mask> reference_truth;  // needed by the robot
@@ -52,9 +59,10 @@ struct SceneScore {
   std::map<int, double> image_iou_after_clicks;  // 1, 3, 5
   std::optional<double> image_iou_by_scribbles;  // where the scene has some
   std::optional<int> noc85, noc90;
-  LookedAt enough;                // views and pixels of the final cut,
-  std::size_t nodes_touched = 0;  // Gaussians that its solver looked at,
-  std::string why_enough;         // and why there were no more views
+  LookedAt enough;                  // views and pixels of the final cut,
+  std::size_t nodes_touched = 0;    // Gaussians that its solver looked at,
+  std::string why_enough;           // and why there were no more views
+  std::vector<std::string> doubts;  // what is said of the final cut
   std::vector<StageTime> stages;
   double total_ms = 0;
 };

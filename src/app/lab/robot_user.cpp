@@ -1,6 +1,7 @@
 #include "app/lab/robot_user.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "scene/counter_rng.h"
@@ -8,22 +9,22 @@
 
 namespace splatcut {
 
-std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask) {
-  return robot_click(truth, mask, 0);
-}
-
-std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask, std::uint64_t draw) {
+WrongRegion wrong_region(const Mask& truth, const Mask& mask) {
   Mask missing(truth.width(), truth.height()), extra(truth.width(), truth.height());
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const bool is = truth.pixels()[i], said = mask.pixels()[i];
     missing.pixels()[i] = is && !said ? kMaskObject : 0;
     extra.pixels()[i] = !is && said ? kMaskObject : 0;
   }
-  const Mask most_missing = largest_region(missing), most_extra = largest_region(extra);
-  const bool positive = count(most_missing) >= count(most_extra);
-  const Mask& region = positive ? most_missing : most_extra;
-  if (count(region) == 0) return std::nullopt;
-  const Image<float> depth = distance_inside(region);
+  Mask most_missing = largest_region(missing), most_extra = largest_region(extra);
+  const std::size_t missing_px = count(most_missing), extra_px = count(most_extra);
+  if (missing_px >= extra_px) return {std::move(most_missing), missing_px, SeedLabel::kObject};
+  return {std::move(most_extra), extra_px, SeedLabel::kRest};
+}
+
+std::optional<Stroke> click_in(const WrongRegion& wrong, std::uint64_t draw) {
+  if (wrong.pixels == 0) return std::nullopt;
+  const Image<float> depth = distance_inside(wrong.region);
   auto deepest = std::ranges::max_element(depth.pixels()) - depth.pixels().begin();
   if (draw != 0) {
     const float deep_enough = 0.5f * depth.pixels()[static_cast<std::size_t>(deepest)];
@@ -32,9 +33,17 @@ std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask, std::uint
       if (depth.pixels()[i] >= deep_enough) pixels.push_back(static_cast<std::ptrdiff_t>(i));
     deepest = pixels[CounterRng(draw, pixels.size()).below(pixels.size())];
   }
-  const glm::vec2 pixel(static_cast<float>(deepest % region.width()) + 0.5f,
-                        static_cast<float>(deepest / region.width()) + 0.5f);
-  return click(pixel, positive ? SeedLabel::kObject : SeedLabel::kRest);
+  const glm::vec2 pixel(static_cast<float>(deepest % depth.width()) + 0.5f,
+                        static_cast<float>(deepest / depth.width()) + 0.5f);
+  return click(pixel, wrong.label);
+}
+
+std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask) {
+  return robot_click(truth, mask, 0);
+}
+
+std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask, std::uint64_t draw) {
+  return click_in(wrong_region(truth, mask), draw);
 }
 
 }  // namespace splatcut

@@ -10,6 +10,19 @@
 
 namespace splatcut {
 
+// The largest wrong region of a picture and what its pixels should be; an empty mask of no pixels where
+// nothing is wrong. Missing before extra where both are as large.
+struct WrongRegion {
+  Mask region;
+  std::size_t pixels = 0;
+  SeedLabel label = SeedLabel::kObject;
+};
+WrongRegion wrong_region(const Mask& truth, const Mask& mask);
+
+// The middle of the region, the pixel farthest from its border, the first one where there are several; with
+// an unsteady hand (draw != 0) any pixel at least half as deep inside, by chance. None for an empty region.
+std::optional<Stroke> click_in(const WrongRegion& wrong, std::uint64_t draw = 0);
+
 // The next click on the way from `mask` to `truth`, in their pixels: the middle (farthest from the border)
 // of the largest wrong region; an empty mask gives the middle of the truth. None where nothing is wrong.
 std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask);

@@ -1,0 +1,209 @@
+#include "app/lab/any_view.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "app/lab/robot_user.h"
+#include "scene/error.h"
+#include "scene/rasterizer.h"
+#include "segment/doubts.h"
+#include "segment/mask_tools.h"
+#include "segment/orbit.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr std::uint64_t kDrawStep = 64;  // clicks of one draw are draws of their own
+constexpr float kNearPx = 2;             // a click's own pixel may be the border of something thin
+
+std::uint64_t draw_of(std::uint64_t draw, std::size_t click) {
+  return draw ? draw * kDrawStep + click : 0;
+}
+
+double mean_iou(const AnyViewWorld& world, const std::vector<Mask>& shown) {
+  double sum = 0;
+  for (std::size_t v = 0; v < world.views.size(); ++v) sum += iou(world.views[v].truth, shown[v]);
+  return sum / static_cast<double>(world.views.size());
+}
+
+std::vector<Mask> pictures(const AnyViewWorld& world, const std::vector<std::uint8_t>& labels) {
+  std::vector<Mask> shown;
+  for (const TruthView& view : world.views) shown.push_back(world.picture(view.camera, labels));
+  return shown;
+}
+
+std::optional<ViewClick> next_click(const AnyViewWorld& world, const std::vector<Mask>& shown,
+                                    std::uint64_t draw) {
+  WrongRegion largest;
+  const TruthView* where = nullptr;
+  for (std::size_t v = 0; v < world.views.size(); ++v) {
+    WrongRegion wrong = wrong_region(world.views[v].truth, shown[v]);
+    if (wrong.pixels <= largest.pixels) continue;
+    largest = std::move(wrong);
+    where = &world.views[v];
+  }
+  if (!where) return std::nullopt;
+  return ViewClick{where->camera, *click_in(largest, draw)};
+}
+
+// Whether the mask shows the stroke's label at a pixel within that distance of it.
+bool shows(const Mask& mask, const Stroke& stroke, float within_px) {
+  const glm::vec2 at = stroke.points_px.front();
+  const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y)),
+            r = static_cast<int>(within_px);
+  for (int dy = -r; dy <= r; ++dy)
+    for (int dx = -r; dx <= r; ++dx)
+      if (static_cast<float>(dx * dx + dy * dy) <= within_px * within_px && mask.contains(x + dx, y + dy) &&
+          (mask.at(x + dx, y + dy) != 0) == (stroke.label == SeedLabel::kObject))
+        return true;
+  return false;
+}
+
+template <class T>
+std::shared_ptr<const T> borrowed(const T* value) {
+  return {std::shared_ptr<void>(), value};
+}
+
+// Clicks by camera, in the order in which each was first clicked: as the window keeps them.
+std::vector<StrokedView> by_view(std::span<const ViewClick> clicks) {
+  std::vector<StrokedView> views;
+  for (const ViewClick& c : clicks) {
+    const auto known =
+        std::ranges::find_if(views, [&](const StrokedView& v) { return same_camera(v.camera, c.camera); });
+    StrokedView& view = known != views.end() ? *known : views.emplace_back(StrokedView{c.camera, {}});
+    view.strokes.push_back(c.stroke);
+  }
+  return views;
+}
+
+bool holds(std::span<const TruthView> views, const Camera& camera) {
+  return std::ranges::any_of(views, [&](const TruthView& v) { return same_camera(v.camera, camera); });
+}
+
+std::vector<GivenReference> references_of(const EvaluationCase& scene) {
+  std::vector<GivenReference> all = {{scene.reference, scene.clicks}};
+  all.insert(all.end(), scene.more_references.begin(), scene.more_references.end());
+  return all;
+}
+
+}  // namespace
+
+double AnyViewSession::obeyed_share() const {
+  return obeyed.empty()
+             ? 1
+             : static_cast<double>(std::ranges::count(obeyed, true)) / static_cast<double>(obeyed.size());
+}
+
+double AnyViewSession::worst_fall() const {
+  double worst = 0;
+  for (std::size_t i = 1; i < iou_after.size(); ++i) worst = std::max(worst, iou_after[i - 1] - iou_after[i]);
+  return worst;
+}
+
+AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& start, int clicks,
+                                std::uint64_t draw, const Job& job) {
+  using Clock = std::chrono::steady_clock;
+  AnyViewSession session{.start = start.name, .draw = draw};
+  std::vector<Mask> shown;
+  double ms = 0;
+  for (int i = 0; i < clicks && !job.cancelled(); ++i) {
+    std::optional<ViewClick> next = ViewClick{start.camera, start.first};
+    if (i > 0) next = next_click(world, shown, draw_of(draw, static_cast<std::size_t>(i)));
+    if (next) {
+      session.clicks.push_back(*next);
+      const auto began = Clock::now();
+      CutAnswer answer = world.cut(session.clicks, job);
+      ms += std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+      if (job.cancelled()) break;
+      shown = pictures(world, answer.labels);
+      const Mask here = world.picture(next->camera, answer.labels);
+      session.obeyed.push_back(shows(here, next->stroke, kNearPx));
+      session.obeyed_pixel.push_back(shows(here, next->stroke, 0));
+      session.doubts.push_back(std::move(answer.doubts));
+    }
+    session.iou_after.push_back(mean_iou(world, shown));
+  }
+  session.ms_per_click = ms / std::max(1.0, static_cast<double>(session.clicks.size()));
+  return session;
+}
+
+double iou_of_clicks(const AnyViewWorld& world, std::span<const ViewClick> clicks, const Job& job) {
+  const CutAnswer answer = world.cut(clicks, job);
+  return job.cancelled() ? 0 : mean_iou(world, pictures(world, answer.labels));
+}
+
+WindowCut::WindowCut(const EvaluationCase& scene, std::string preset, const Job& job)
+    : cloud_(borrowed(scene.cloud)),
+      solvers_(std::make_shared<SceneSolvers>(cloud_, borrowed(scene.prepared))),
+      cutter_(cloud_, solvers_),
+      up_world_(scene.up_world),
+      preset_(std::move(preset)) {
+  solvers_->make_ready(job);  // belongs to loading, as in the window
+}
+
+CutAnswer WindowCut::operator()(std::span<const ViewClick> in_order, const Job& job) {
+  ObjectCutInput input;
+  input.views = by_view(in_order);
+  input.up_world = up_world_;
+  input.preset = preset_;
+  ObjectCutReport report = cutter_.cut(input, {}, {job.stop, {}});
+  PipelineReport said;
+  said.views = std::move(report.views);
+  said.ambiguous = report.ambiguous;
+  said.first_size = report.size;
+  said.first_sizes = report.sizes;
+  CutAnswer answer{std::move(report.labels), doubts(said)};
+  if (report.outcome == Outcome::kNothingFound) answer.doubts.insert(answer.doubts.begin(), report.reason);
+  return answer;
+}
+
+std::vector<TruthView> truth_views(const EvaluationCase& scene) {
+  std::vector<TruthView> views;
+  for (std::size_t v = 0; v < scene.test_views.size(); ++v)
+    if (counts(scene.truth_masks[v]) && !holds(views, scene.test_views[v]))
+      views.push_back({scene.test_views[v], scene.truth_masks[v]});
+  for (const GivenReference& reference : references_of(scene)) {
+    if (scene.truth_labels.empty() || holds(views, reference.camera)) continue;
+    Mask truth = labels_seen(scene, reference.camera, scene.truth_labels);
+    if (counts(truth)) views.push_back({reference.camera, std::move(truth)});
+  }
+  if (views.empty()) throw Error(scene.name, "the truth shows in none of its views");
+  return views;
+}
+
+std::vector<AnyViewStart> any_view_starts(const EvaluationCase& scene, std::span<const TruthView> views,
+                                          std::uint64_t draw) {
+  std::vector<AnyViewStart> starts;
+  const auto middle = [&](const TruthView& view) {
+    return *robot_click(view.truth, Mask(view.truth.width(), view.truth.height()), draw_of(draw, 0));
+  };
+  const std::vector<GivenReference> references = references_of(scene);
+  for (const GivenReference& reference : references)
+    if (!holds(views, reference.camera) && !reference.clicks.empty())
+      starts.push_back({"reference " + reference.camera.name, reference.camera, reference.clicks.front()});
+  for (const TruthView& view : views) {
+    const bool named = std::ranges::any_of(
+        references, [&](const GivenReference& r) { return same_camera(r.camera, view.camera); });
+    const std::string name =
+        view.camera.name.empty() ? std::to_string(&view - views.data()) : view.camera.name;
+    starts.push_back({(named ? "reference " : "view ") + name, view.camera, middle(view)});
+  }
+  return starts;
+}
+
+std::optional<ViewClick> zoomed_click(const GaussianCloud& cloud, const AnyViewStart& start, float factor) {
+  if (factor == 1) return ViewClick{start.camera, start.first};
+  RasterOptions options;
+  options.depth = true;
+  const Image<float> depth = rasterize(cloud, start.camera, options).median_depth;
+  const glm::vec2 pixel = start.first.points_px.front();
+  const float z = depth.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
+  if (!(z > 0)) return std::nullopt;
+  return ViewClick{approached(start.camera, start.camera.world_from_pixel(pixel, z), factor), start.first};
+}
+
+}  // namespace splatcut

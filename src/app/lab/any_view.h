@@ -1,0 +1,102 @@
+// The any-view robot: a simulated user who corrects the largest error of any view whose truth is known, again
+// and again, on the cut that the window runs.
+//
+// In: views with their true masks, a start, a cut (all clicks so far, in order, to labels) and a picture of
+// labels. First click: the middle of the truth in the start's view, or the click that the scene gives where
+// no truth of that view is known. Every further one: the middle (largest distance to its border; ties: the
+// lowest pixel) of the largest wrong region over all views (pixels; ties: the lowest view, missing before
+// extra). All clicks stay. After each the mean image IoU over all views is taken; where nothing is wrong any
+// more it stays as it is. Source: the protocol of Xu et al., Deep Interactive Object Selection, 2016, over
+// several views. Cost: one cut and one picture a view each click. Cancelled: incomplete, must not be used.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/lab/evaluate.h"
+#include "segment/object_cut.h"
+
+namespace splatcut {
+
+struct ViewClick {
+  Camera camera;
+  Stroke stroke;  // in the camera's pixels
+};
+using ViewClicks = std::vector<ViewClick>;
+
+struct CutAnswer {
+  std::vector<std::uint8_t> labels;  // per Gaussian, 1 = object
+  std::vector<std::string> doubts;   // sentences
+};
+
+struct TruthView {
+  Camera camera;
+  Mask truth;
+};
+
+struct AnyViewWorld {
+  std::vector<TruthView> views;
+  std::function<CutAnswer(std::span<const ViewClick> in_order, const Job&)> cut;
+  std::function<Mask(const Camera&, const std::vector<std::uint8_t>& labels)> picture;
+};
+
+struct AnyViewStart {
+  std::string name;
+  Camera camera;
+  Stroke first;
+};
+
+struct AnyViewSession {
+  std::string start;
+  std::uint64_t draw = 0;          // 0: a steady hand
+  ViewClicks clicks;               // fewer than asked where nothing was wrong any more
+  std::vector<double> iou_after;   // mean over the views after 1, 2, ... clicks
+  std::vector<bool> obeyed;        // per click: its label shows within 2 px of it, at the end of its own cut
+  std::vector<bool> obeyed_pixel;  // the same of the clicked pixel itself
+  std::vector<std::vector<std::string>> doubts;  // per click
+  double ms_per_click = 0;                       // of the cuts, mean
+
+  double obeyed_share() const;
+  double worst_fall() const;  // of the IoU by a further click, at least 0
+};
+
+AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& start, int clicks,
+                                std::uint64_t draw = 0, const Job& job = {});
+
+// Mean image IoU over the views of these clicks.
+double iou_of_clicks(const AnyViewWorld& world, std::span<const ViewClick> clicks, const Job& job = {});
+
+// The cut of the window on one scene: what is prepared, the solver and the views drawn last serve all
+// sessions.
+class WindowCut {
+ public:
+  WindowCut(const EvaluationCase& scene, std::string preset, const Job& job = {});
+  CutAnswer operator()(std::span<const ViewClick> in_order, const Job& job);
+
+ private:
+  std::shared_ptr<const GaussianCloud> cloud_;
+  std::shared_ptr<SceneSolvers> solvers_;
+  ObjectCutter cutter_;
+  glm::vec3 up_world_;
+  std::string preset_;
+};
+
+// Test views whose truth counts, then references whose truth is known, each camera once. Throws Error where
+// there is none.
+std::vector<TruthView> truth_views(const EvaluationCase& scene);
+
+// The references, then the truth views, each camera once; with an unsteady hand other first clicks. A
+// reference without truth starts with the first click that is given there; without that, it is none.
+std::vector<AnyViewStart> any_view_starts(const EvaluationCase& scene, std::span<const TruthView> views,
+                                          std::uint64_t draw = 0);
+
+// The start's first click with the camera at `factor` of its distance from what the click hits, along the
+// same ray: the same pixel. None where the click hits nothing.
+std::optional<ViewClick> zoomed_click(const GaussianCloud& cloud, const AnyViewStart& start, float factor);
+
+}  // namespace splatcut

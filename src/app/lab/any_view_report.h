@@ -1,0 +1,42 @@
+// What the any-view robot finds on a scene, as JSON and as rows of a table.
+//
+// "any_view": {"iou_after_clicks": {"1", "2", "3", "5", "8", "10"}, "noc85", "noc90", "obeyed",
+// "obeyed_pixel", "worst_fall", "ms_per_click"}: means over sessions (starts times draws); "least" and "p10":
+// of iou_after_clicks over sessions, the least and the 10th percentile; "most_fall": the largest worst_fall;
+// "views", "clicks", "sessions": [{"start", "draw", "iou_after", "obeyed", "clicks", "doubts"}]. NoC: 20
+// where the IoU is never reached. "zoom": {"0.4", "0.6", "1", "2", "4"}: image IoU of the first click alone
+// with the camera at so many times the distance, mean over starts. "perturb": {"copies", "1" | "3" | "5" |
+// "10": {"median", "least", "spread", "difference", "most_difference"}}: the same clicks on copies of the
+// scene: mean over starts of the IoU's median, least and spread (largest less least) over the copies; the
+// median and the largest of |IoU of a copy - IoU of the scene| over starts and copies.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/lab/any_view.h"
+#include "app/lab/eval_suite.h"
+
+namespace splatcut {
+
+struct AnyViewOptions {
+  std::string preset = "default";
+  int clicks = 10;
+  int draws = 1;   // sessions a start; the first with a steady hand
+  int starts = 0;  // the first so many; 0: all
+  bool zoom = false;
+  int copies = 0;  // of the scene, for "perturb"
+};
+
+// {"any_view": ..., and "zoom", "perturb" where asked}. Cancelled: incomplete.
+nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& options,
+                             const PrepareOptions& prepare, const Job& job);
+
+// "any_view" of these sessions.
+nlohmann::json sessions_json(const std::vector<AnyViewSession>& sessions, int clicks);
+
+// A table of all scenes and their mean: result as eval.json has it.
+void print_any_view(const nlohmann::json& result);
+
+}  // namespace splatcut
