@@ -150,6 +150,7 @@ CutAnswer WindowCut::operator()(std::span<const ViewClick> in_order, const Job& 
   input.views = by_view(in_order);
   input.up_world = up_world_;
   input.preset = preset_;
+  input.smoothness = smoothness_;
   ObjectCutReport report = cutter_.cut(input, {}, {job.stop, {}});
   PipelineReport said;
   said.views = std::move(report.views);

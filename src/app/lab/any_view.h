@@ -12,7 +12,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -77,6 +77,7 @@ class WindowCut {
  public:
   WindowCut(const EvaluationCase& scene, std::string preset, const Job& job = {});
   CutAnswer operator()(std::span<const ViewClick> in_order, const Job& job);
+  void set_smoothness(float smoothness) { smoothness_ = smoothness; }  // else the preset's own
 
  private:
   std::shared_ptr<const GaussianCloud> cloud_;
@@ -84,6 +85,7 @@ class WindowCut {
   ObjectCutter cutter_;
   glm::vec3 up_world_;
   std::string preset_;
+  std::optional<float> smoothness_;
 };
 
 // Test views whose truth counts, then references whose truth is known, each camera once. Throws Error where

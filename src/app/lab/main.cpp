@@ -6,6 +6,7 @@ int main(int argc, char** argv) {
       "splatcut-lab eval suite.json -o measured",
       [](CLI::App& program, const splatcut::CommonOptions& common) {
         add_eval_command(program, common);
+        add_fit_command(program, common);
         add_study_command(program, common);
         add_make_scene_command(program, common);
       }};
