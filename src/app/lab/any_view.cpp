@@ -162,6 +162,17 @@ CutAnswer WindowCut::operator()(std::span<const ViewClick> in_order, const Job& 
   return answer;
 }
 
+AnyViewWorld window_world(const EvaluationCase& scene, std::vector<TruthView> views,
+                          std::shared_ptr<WindowCut> cut) {
+  return {std::move(views),
+          [cut = std::move(cut)](std::span<const ViewClick> clicks, const Job& job) {
+            return (*cut)(clicks, job);
+          },
+          [&scene](const Camera& camera, const std::vector<std::uint8_t>& labels) {
+            return labels_seen(scene, camera, labels);
+          }};
+}
+
 std::vector<TruthView> truth_views(const EvaluationCase& scene) {
   std::vector<TruthView> views;
   for (std::size_t v = 0; v < scene.test_views.size(); ++v)

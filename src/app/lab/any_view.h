@@ -88,6 +88,10 @@ class WindowCut {
   std::optional<float> smoothness_;
 };
 
+// The scene must outlive what is returned; views: of the scene, or of the one it is a copy of.
+AnyViewWorld window_world(const EvaluationCase& scene, std::vector<TruthView> views,
+                          std::shared_ptr<WindowCut> cut);
+
 // Test views whose truth counts, then references whose truth is known, each camera once. Throws Error where
 // there is none.
 std::vector<TruthView> truth_views(const EvaluationCase& scene);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <map>
+#include <memory>
 
 #include "app/lab/scene_copies.h"
 #include "app/lab/study/study_tables.h"
@@ -15,6 +15,8 @@ namespace splatcut {
 
 namespace {
 
+// All views of a scene with truth are drawn after each click: nine of 1008 pixels and 300,000 Gaussians.
+constexpr std::size_t kMostKeptBytes = std::size_t{2} << 30;
 constexpr std::array kCounts = {1, 2, 3, 5, 8, 10};
 constexpr std::array kReplayed = {1, 3, 5, 10};
 constexpr std::array kZooms = {0.4f, 0.6f, 1.0f, 2.0f, 4.0f};
@@ -43,16 +45,6 @@ nlohmann::json session_json(const AnyViewSession& s) {
           {"worst_fall", s.worst_fall()},
           {"clicks", clicks},
           {"doubts", s.doubts}};
-}
-
-AnyViewWorld world_of(const EvaluationCase& scene, std::vector<TruthView> views, const std::string& preset,
-                      const Job& job) {
-  const auto cut = std::make_shared<WindowCut>(scene, preset, job);
-  return {std::move(views),
-          [cut](std::span<const ViewClick> clicks, const Job& j) { return (*cut)(clicks, j); },
-          [&scene](const Camera& camera, const std::vector<std::uint8_t>& labels) {
-            return labels_seen(scene, camera, labels);
-          }};
 }
 
 // Steps of one scene's work, for the bar.
@@ -98,51 +90,129 @@ EvaluationCase on_copy(const EvaluationCase& test, const SceneCopy& copy, const 
   return there;
 }
 
+// IoU by number of clicks told, session and copy.
+using CopiesIou = std::map<int, std::vector<std::vector<double>>>;
+
+// The sessions' clicks on one copy of the scene; adds a value to each list.
+void replay_on_copy(const LoadedCase& loaded, int number, const std::vector<TruthView>& views,
+                    const std::vector<AnyViewSession>& sessions, const std::string& preset,
+                    const PrepareOptions& prepare, Steps* steps, const Job& job, CopiesIou* iou) {
+  const SceneCopy copy = scene_copy(loaded.scene, number, job);
+  if (job.cancelled()) return;
+  const EvaluationCase& test = loaded.test;
+  const PreparedScene prepared =
+      prepare_scene(copy.scene.cloud, test.reference, test.up_world, test.scene_cameras, prepare, job);
+  if (job.cancelled()) return;
+  EvaluationCase there = on_copy(test, copy, prepared);
+  KeptViews kept(copy.scene.cloud, kMostKeptBytes);
+  there.kept_views = &kept;
+  const AnyViewWorld world = window_world(there, views, std::make_shared<WindowCut>(there, preset, job));
+  for (std::size_t s = 0; s < sessions.size(); ++s)
+    for (auto& [clicks, of_sessions] : *iou) {
+      if (job.cancelled()) return;
+      steps->next();
+      const std::size_t told = std::min(static_cast<std::size_t>(clicks), sessions[s].clicks.size());
+      of_sessions[s].push_back(iou_of_clicks(world, std::span(sessions[s].clicks).first(told), job));
+    }
+}
+
+// of_sessions: IoU on each copy, by session; on_scene: on the scene itself.
+nlohmann::json spread_json(const std::vector<std::vector<double>>& of_sessions,
+                           const std::vector<double>& on_scene) {
+  double median = 0, least = 0, spread = 0;
+  std::vector<double> differences;
+  for (std::size_t s = 0; s < of_sessions.size(); ++s) {
+    const auto [low, high] = std::ranges::minmax(of_sessions[s]);
+    median += quantile(of_sessions[s], 0.5);
+    least += low;
+    spread += high - low;
+    for (const double v : of_sessions[s]) differences.push_back(std::abs(v - on_scene[s]));
+  }
+  const auto n = static_cast<double>(of_sessions.size());
+  return {{"median", median / n},
+          {"least", least / n},
+          {"spread", spread / n},
+          {"difference", quantile(differences, 0.5)},
+          {"most_difference", std::ranges::max(differences)}};
+}
+
 nlohmann::json perturb_json(const LoadedCase& loaded, const std::vector<TruthView>& views,
                             const std::vector<AnyViewSession>& sessions, const AnyViewOptions& options,
                             PrepareOptions prepare, Steps* steps, const Job& job) {
   prepare.cache = {};  // nobody opens a copy again
-  const EvaluationCase& test = loaded.test;
-  std::map<int, std::vector<std::vector<double>>> iou;  // clicks -> session -> copy
-  for (const int k : kReplayed)
-    if (k <= options.clicks) iou[k].resize(sessions.size());
-  for (int c = 0; c < options.copies; ++c) {
-    const SceneCopy copy = scene_copy(loaded.scene, c, {job.stop, {}});
-    if (job.cancelled()) return {};
-    const PreparedScene prepared = prepare_scene(copy.scene.cloud, test.reference, test.up_world,
-                                                 test.scene_cameras, prepare, {job.stop, {}});
-    if (job.cancelled()) return {};
-    const EvaluationCase there = on_copy(test, copy, prepared);
-    const AnyViewWorld world = world_of(there, views, options.preset, {job.stop, {}});
-    for (std::size_t s = 0; s < sessions.size(); ++s)
-      for (auto& [k, of_sessions] : iou) {
-        if (job.cancelled()) return {};
-        steps->next();
-        const std::size_t told = std::min(static_cast<std::size_t>(k), sessions[s].clicks.size());
-        of_sessions[s].push_back(iou_of_clicks(world, std::span(sessions[s].clicks).first(told), job));
-      }
-  }
+  CopiesIou iou;
+  for (const int clicks : kReplayed)
+    if (clicks <= options.clicks) iou[clicks].resize(sessions.size());
+  for (int c = 0; c < options.copies && !job.cancelled(); ++c)
+    replay_on_copy(loaded, c, views, sessions, options.preset, prepare, steps, job, &iou);
+  if (job.cancelled()) return {};
   nlohmann::json perturb = {{"copies", options.copies}};
-  for (const auto& [k, of_sessions] : iou) {
-    double median = 0, least = 0, spread = 0;
-    std::vector<double> differences;
-    for (std::size_t s = 0; s < sessions.size(); ++s) {
-      const std::vector<double>& values = of_sessions[s];
-      const auto [low, high] = std::ranges::minmax(values);
-      median += quantile(values, 0.5);
-      least += low;
-      spread += high - low;
-      for (const double v : values)
-        differences.push_back(std::abs(v - sessions[s].iou_after[static_cast<std::size_t>(k) - 1]));
-    }
-    const auto n = static_cast<double>(sessions.size());
-    perturb[std::to_string(k)] = {{"median", median / n},
-                                  {"least", least / n},
-                                  {"spread", spread / n},
-                                  {"difference", quantile(differences, 0.5)},
-                                  {"most_difference", std::ranges::max(differences)}};
+  for (const auto& [clicks, of_sessions] : iou) {
+    std::vector<double> on_scene;
+    for (const AnyViewSession& s : sessions)
+      on_scene.push_back(s.iou_after[static_cast<std::size_t>(clicks) - 1]);
+    perturb[std::to_string(clicks)] = spread_json(of_sessions, on_scene);
   }
   return perturb;
+}
+
+// The number at a pointer, or a dash.
+std::string text(const nlohmann::json& j, const std::string& at, const char* form) {
+  const nlohmann::json::json_pointer pointer(at);
+  return j.contains(pointer) && j.at(pointer).is_number()
+             ? fmt::format(fmt::runtime(form), j.at(pointer).get<double>())
+             : std::string("-");
+}
+
+void print_sessions(const std::vector<nlohmann::json>& rows) {
+  fmt::print(
+      "\nany view: image IoU over all views after n clicks, mean over sessions; 10 %, least: of sessions\n");
+  fmt::print("{:<16} {:>5}", "scene", "views");
+  for (const int k : kCounts) fmt::print(" {:>5}", k);
+  for (const char* head :
+       {"10 % 3", "least3", "10 %10", "leas10", "NoC85", "NoC90", "obeyed", "fall", "most", "ms"})
+    fmt::print(" {:>6}", head);
+  fmt::print("\n");
+  for (const nlohmann::json& r : rows) {
+    fmt::print("{:<16} {:>5}", r.value("name", ""), text(r, "/any_view/views", "{:.3g}"));
+    for (const int k : kCounts)
+      fmt::print(" {:>5}", text(r, fmt::format("/any_view/iou_after_clicks/{}", k), "{:.3f}"));
+    for (const char* k : {"3", "10"})
+      for (const char* which : {"p10", "least"})
+        fmt::print(" {:>6}", text(r, fmt::format("/any_view/{}/iou_after_clicks/{}", which, k), "{:.3f}"));
+    for (const auto& [key, form] : {std::pair{"noc85", "{:.1f}"},
+                                    {"noc90", "{:.1f}"},
+                                    {"obeyed", "{:.2f}"},
+                                    {"worst_fall", "{:.3f}"},
+                                    {"most_fall", "{:.3f}"},
+                                    {"ms_per_click", "{:.0f}"}})
+      fmt::print(" {:>6}", text(r, std::string("/any_view/") + key, form));
+    fmt::print("\n");
+  }
+}
+
+void print_zoom(const std::vector<nlohmann::json>& rows) {
+  fmt::print("\nzoom: the first click alone from so many times the distance\n{:<16}", "scene");
+  for (const float f : kZooms) fmt::print(" {:>6g}", f);
+  fmt::print("\n");
+  for (const nlohmann::json& r : rows) {
+    fmt::print("{:<16}", r.value("name", ""));
+    for (const float f : kZooms) fmt::print(" {:>6}", text(r, fmt::format("/zoom/{:g}", f), "{:.3f}"));
+    fmt::print("\n");
+  }
+}
+
+void print_copies(const std::vector<nlohmann::json>& rows) {
+  fmt::print(
+      "\nthe same clicks on copies of the scene: median, least, spread; median and largest difference\n");
+  for (const nlohmann::json& r : rows)
+    for (const int k : kReplayed) {
+      if (!r.at("perturb").contains(std::to_string(k))) continue;
+      fmt::print("{:<16} {:>2} clicks", r.value("name", ""), k);
+      for (const char* what : {"median", "least", "spread", "difference", "most_difference"})
+        fmt::print(" {:>6}", text(r, fmt::format("/perturb/{}/{}", k, what), "{:.3f}"));
+      fmt::print("\n");
+    }
 }
 
 }  // namespace
@@ -183,11 +253,12 @@ nlohmann::json sessions_json(const std::vector<AnyViewSession>& sessions, int cl
 nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& options,
                              const PrepareOptions& prepare, const Job& job) {
   EvaluationCase scene = loaded.test;
-  KeptViews kept(*scene.cloud);
+  KeptViews kept(*scene.cloud, kMostKeptBytes);
   scene.kept_views = &kept;
   const Job silent{job.stop, {}};
   const std::vector<TruthView> views = truth_views(scene);
-  const AnyViewWorld world = world_of(scene, views, options.preset, silent);
+  const AnyViewWorld world =
+      window_world(scene, views, std::make_shared<WindowCut>(scene, options.preset, silent));
   const auto starts_of_draw = [&](int draw) {
     std::vector<AnyViewStart> starts = any_view_starts(scene, views, static_cast<std::uint64_t>(draw));
     if (options.starts > 0 && std::ssize(starts) > options.starts)
@@ -220,52 +291,9 @@ nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& opt
 void print_any_view(const nlohmann::json& result) {
   std::vector<nlohmann::json> rows = result.at("scenes");
   rows.push_back(result.at("mean"));
-  const auto text = [](const nlohmann::json& j, const std::string& at, const char* form) {
-    const nlohmann::json::json_pointer pointer(at);
-    return j.contains(pointer) && j.at(pointer).is_number()
-               ? fmt::format(fmt::runtime(form), j.at(pointer).get<double>())
-               : std::string("-");
-  };
-  fmt::print(
-      "\nany view: image IoU over all views after n clicks, mean over sessions; 10 %, least: of sessions\n");
-  fmt::print("{:<16} {:>5}", "scene", "views");
-  for (const int k : kCounts) fmt::print(" {:>5}", k);
-  fmt::print(" {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7}\n", "10 % 3", "least3", "10 %10",
-             "leas10", "NoC85", "NoC90", "obeyed", "fall", "most", "ms");
-  for (const nlohmann::json& r : rows) {
-    fmt::print("{:<16} {:>5}", r.value("name", ""), text(r, "/any_view/views", "{:.3g}"));
-    for (const int k : kCounts)
-      fmt::print(" {:>5}", text(r, fmt::format("/any_view/iou_after_clicks/{}", k), "{:.3f}"));
-    for (const char* k : {"3", "10"})
-      for (const char* which : {"p10", "least"})
-        fmt::print(" {:>6}", text(r, fmt::format("/any_view/{}/iou_after_clicks/{}", which, k), "{:.3f}"));
-    fmt::print(" {:>6} {:>6} {:>6} {:>6} {:>6} {:>7}\n", text(r, "/any_view/noc85", "{:.1f}"),
-               text(r, "/any_view/noc90", "{:.1f}"), text(r, "/any_view/obeyed", "{:.2f}"),
-               text(r, "/any_view/worst_fall", "{:.3f}"), text(r, "/any_view/most_fall", "{:.3f}"),
-               text(r, "/any_view/ms_per_click", "{:.0f}"));
-  }
-  if (result.at("mean").contains("zoom")) {
-    fmt::print("\nzoom: the first click alone from so many times the distance\n{:<16}", "scene");
-    for (const float f : kZooms) fmt::print(" {:>6g}", f);
-    fmt::print("\n");
-    for (const nlohmann::json& r : rows) {
-      fmt::print("{:<16}", r.value("name", ""));
-      for (const float f : kZooms) fmt::print(" {:>6}", text(r, fmt::format("/zoom/{:g}", f), "{:.3f}"));
-      fmt::print("\n");
-    }
-  }
-  if (result.at("mean").contains("perturb")) {
-    fmt::print(
-        "\nthe same clicks on copies of the scene: median, least, spread; median and largest difference\n");
-    for (const nlohmann::json& r : rows)
-      for (const int k : kReplayed) {
-        if (!r.at("perturb").contains(std::to_string(k))) continue;
-        fmt::print("{:<16} {:>2} clicks", r.value("name", ""), k);
-        for (const char* what : {"median", "least", "spread", "difference", "most_difference"})
-          fmt::print(" {:>6}", text(r, fmt::format("/perturb/{}/{}", k, what), "{:.3f}"));
-        fmt::print("\n");
-      }
-  }
+  print_sessions(rows);
+  if (rows.back().contains("zoom")) print_zoom(rows);
+  if (rows.back().contains("perturb")) print_copies(rows);
 }
 
 }  // namespace splatcut

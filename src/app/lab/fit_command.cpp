@@ -51,11 +51,7 @@ struct FittedScene {
     EvaluationCase& test = loaded->test;
     test.kept_views = kept.get();
     cut = std::make_shared<WindowCut>(test, args.preset, job);
-    world = {truth_views(test),
-             [c = cut](std::span<const ViewClick> clicks, const Job& j) { return (*c)(clicks, j); },
-             [&test](const Camera& camera, const std::vector<std::uint8_t>& labels) {
-               return labels_seen(test, camera, labels);
-             }};
+    world = window_world(test, truth_views(test), cut);
     starts = any_view_starts(test, world.views);
     if (std::ssize(starts) > args.starts) starts.resize(static_cast<std::size_t>(args.starts));
   }
