@@ -227,9 +227,9 @@ TEST_CASE("--set sets what a switch sets, and refuses what it does not know with
   StillLife& life = still_life();
   Workplace& place = life.place;
   REQUIRE(place.run(life.cut("--click " + life.click + " --smoothness 3 -o by_switch")).code == 0);
-  REQUIRE(place.run(life.cut("--click " + life.click + " --set energy.lambda=3 -o by_set")).code == 0);
+  REQUIRE(place.run(life.cut("--click " + life.click + " --set smoothness=3 -o by_set")).code == 0);
   CHECK(place.text("by_set/labels.u8") == place.text("by_switch/labels.u8"));
-  CHECK(json::parse(place.text("by_set/report.json"))["settings"]["set"] == json({"energy.lambda=3"}));
+  CHECK(json::parse(place.text("by_set/report.json"))["settings"]["set"] == json({"smoothness=3"}));
   REQUIRE(place
               .run(life.cut("--click " + life.click +
                             " --set energy.pairwise=paper --set energy.hard=1 -o other"))

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "segment/knn_graph.h"
-#include "segment/pipeline.h"
+#include "segment/session/session.h"
 
 using namespace splatcut;
 
@@ -148,7 +148,7 @@ TEST_CASE("cluster term: the likest cluster of either side") {
 }
 
 TEST_CASE("presets: paper-code has the settings of the published code") {
-  const PipelineOptions options = preset("paper-code");
+  const CutSettings options = preset("paper-code");
   CHECK(options.neighbours == 9);
   CHECK(options.cut.energy.pairwise == Pairwise::kPaperCode);
   CHECK(options.cut.energy.object_clusters == 5);

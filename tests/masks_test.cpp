@@ -207,7 +207,7 @@ TEST_CASE("disturbed masks: shifted, emptied, filled, with holes only inside, an
 }
 
 TEST_CASE("doubts: another size, masks left out, and a cutout that most masks speak against, in words") {
-  PipelineReport report;
+  CutResult report;
   report.views.resize(4);
   for (ViewReport& view : report.views) {
     view.used = true;
@@ -215,8 +215,8 @@ TEST_CASE("doubts: another size, masks left out, and a cutout that most masks sp
   }
   CHECK(doubts(report).empty());
   report.ambiguous = true;
-  report.first_sizes = 5;
-  report.first_size = 1;
+  report.sizes = 5;
+  report.size = 1;
   CHECK(doubts(report) ==
         std::vector<std::string>{"the first click could mean a part of another size: this is size 2 of 5"});
   report.ambiguous = false;

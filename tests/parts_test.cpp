@@ -11,8 +11,8 @@
 #include "scene/rasterizer.h"
 #include "segment/mask_tools.h"
 #include "segment/part_picker.h"
-#include "segment/pipeline.h"
 #include "segment/prepared_scene.h"
+#include "segment/session/session.h"
 #include "still_life_table.h"
 #include "synthetic_cloud.h"
 
@@ -386,15 +386,17 @@ TEST_CASE("parts: cancelled before, or at any step that reports progress, withou
   Job job;
   job.stop = stopped.get_token();
   CHECK(prepare_scene(cloud, camera, {0, -1, 0}, {}, {}, job).parts.trees.empty());
-  const PreparedScene prepared = prepare_scene(cloud, camera, {0, -1, 0}, {});
-  const Mask none =
-      first_mask_of(cloud, prepared, camera, {click({80, 60}, SeedLabel::kObject)}, preset("default"), job);
+  const auto prepared = std::make_shared<const PreparedScene>(prepare_scene(cloud, camera, {0, -1, 0}, {}));
+  Session session({{std::shared_ptr<void>(), &cloud}, prepared, {0, -1, 0}, {}});
+  CutRequest request;
+  request.strokes = {{camera, {click({80, 60}, SeedLabel::kObject)}}};
+  const Mask none = session.first_mask(request, preset("default"), job);
   CHECK(none.width() == 160);
   CHECK(count(none) == 0);
 }
 
 TEST_CASE("parts: a scene prepared for masks from pixels has none") {
-  PipelineOptions options = preset("default");
+  CutSettings options = preset("default");
   CHECK(prepare_options(options).with_parts);
   options.first_mask_from = FirstMaskFrom::kPixels;
   const GaussianCloud cloud = random_cloud(1000, 8);

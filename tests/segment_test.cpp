@@ -9,12 +9,13 @@
 
 #include "app/lab/evaluate.h"
 #include "app/lab/robot_user.h"
+#include "cut_in_view.h"
 #include "scene/rasterizer.h"
 #include "segment/energy.h"
 #include "segment/knn_graph.h"
 #include "segment/likelihood.h"
 #include "segment/mask_tools.h"
-#include "segment/pipeline.h"
+#include "segment/session/session.h"
 #include "segment/trim.h"
 #include "synthetic_cloud.h"
 
@@ -153,19 +154,19 @@ TEST_CASE("pipeline: one click cuts a ball off its floor, the same on 1 and 2 th
   const Camera camera = look_at({0, -1.2f, -3}, {0, -0.4f, 0}, {0, -1, 0}, 0.8f, 320, 240);
   const glm::vec3 ball_camera = camera.camera_from_world({0, -0.52f, 0});
   const Strokes strokes = {click(camera.pixel_from_camera(ball_camera), SeedLabel::kObject)};
-  const PipelineReport report = cut_out(cloud, nullptr, camera, {0, -1, 0}, strokes, preset("fast"));
+  const CutResult report = cut_in_view(cloud, camera, {0, -1, 0}, strokes, preset("fast"));
   REQUIRE(report.outcome == Outcome::kDone);
   std::size_t wrong = 0;
   for (std::size_t g = 0; g < cloud.size(); ++g) wrong += report.labels[g] != truth[g];
   CHECK(wrong < cloud.size() / 100);
   tbb::task_arena(1).execute([&] {
-    CHECK(cut_out(cloud, nullptr, camera, {0, -1, 0}, strokes, preset("fast")).labels == report.labels);
+    CHECK(cut_in_view(cloud, camera, {0, -1, 0}, strokes, preset("fast")).labels == report.labels);
   });
 
   // Small in its first view: more pixels there, and no more than usual where cameras come near.
-  PipelineOptions coarse = preset("default");
+  CutSettings coarse = preset("default");
   coarse.work_width_px = 80;
-  const PipelineReport small = cut_out(cloud, nullptr, camera, {0, -1, 0}, strokes, coarse);
+  const CutResult small = cut_in_view(cloud, camera, {0, -1, 0}, strokes, coarse);
   REQUIRE(small.views.size() > 1);
   CHECK(small.views.front().camera.width_px > 150);
   for (const ViewReport& view : std::span(small.views).subspan(1)) CHECK(view.camera.width_px == 80);

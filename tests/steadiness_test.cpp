@@ -5,8 +5,8 @@
 
 #include "app/lab/click_draws.h"
 #include "app/lab/robot_user.h"
+#include "cut_in_view.h"
 #include "scene/error.h"
-#include "segment/pipeline.h"
 #include "still_life_table.h"
 
 using namespace splatcut;
@@ -31,8 +31,7 @@ TEST_CASE("parts: a scene in other units is cut the same") {
     camera.camera_from_world_translation *= scale;
     const glm::vec2 middle =
         robot_click(mug.truth, Mask(mug.truth.width(), mug.truth.height()))->points_px[0];
-    return cut_out(cloud, nullptr, camera, {0, 1, 0}, {click(middle, SeedLabel::kObject)}, preset("fast"))
-        .labels;
+    return cut_in_view(cloud, camera, {0, 1, 0}, {click(middle, SeedLabel::kObject)}, preset("fast")).labels;
   };
   const std::vector<std::uint8_t> one = labels_at(1);
   CHECK(std::ranges::count(one, 1) > 1000);
@@ -55,10 +54,11 @@ TEST_CASE("parts: draws of unsteady clicks, their median, their least and the cl
   render_truth(&scene);
   const ClickDraws draws = draw_clicks(scene, preset("default"), 3, 4);
   REQUIRE(draws.iou_after.size() == 4);
-  CHECK(draws.iou_after[0] == robot_session(scene, preset("default"), 3).iou_after);
+  Session session = session_of(scene);
+  CHECK(draws.iou_after[0] == robot_session(scene, &session, preset("default"), 3).iou_after);
   for (std::size_t k = 0; k < 3; ++k) {
     std::vector<double> at;
-    for (const auto& session : draws.iou_after) at.push_back(session[k]);
+    for (const auto& ious : draws.iou_after) at.push_back(ious[k]);
     std::ranges::sort(at);
     CHECK(draws.least[k] == at.front());
     CHECK(draws.median[k] == doctest::Approx((at[1] + at[2]) / 2));
@@ -75,5 +75,5 @@ TEST_CASE("parts: draws of unsteady clicks, their median, their least and the cl
   CHECK(draw_clicks(photographs, preset("default"), 3, 2).iou_after.size() == 4);
   photographs.test_views.clear();
   CHECK(draw_clicks(photographs, preset("default"), 3, 2).iou_after.empty());
-  CHECK_THROWS_AS(robot_session(photographs, preset("default"), 1), Error);
+  CHECK_THROWS_AS(robot_session(photographs, &session, preset("default"), 1), Error);
 }

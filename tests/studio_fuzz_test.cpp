@@ -75,7 +75,7 @@ class Fuzz {
       case 23:
         return chance(30) ? studio_.apply(DeleteSelected{}) : studio_.apply(RestoreDeleted{});
       case 24:
-        return studio_.apply(LeaveOutView{object(), static_cast<int>(whole(14)) - 1, chance(60)});
+        return studio_.apply(LeaveOutView{object(), view(), chance(60)});
       case 25:
         return studio_.apply(SetSmoothness{object(), 20 * real() - 1});
       case 26:
@@ -97,6 +97,11 @@ class Fuzz {
   bool chance(unsigned percent) { return random_() % 100 < percent; }
   glm::vec2 pixel() { return {64 * real(), 48 * real()}; }
   Camera camera() { return front_camera(64, 48); }
+  // Mostly one that the cut looked from.
+  Camera view() {
+    const CutRun* run = studio_.cut_run(studio_.document().active);
+    return run && !run->views.empty() && chance(80) ? run->views[whole(run->views.size())].camera : camera();
+  }
   Stroke stroke() {
     Stroke s = click(pixel(), chance(60) ? SeedLabel::kObject : SeedLabel::kRest);
     for (std::size_t i = whole(4); i > 0; --i) s.points_px.push_back(pixel());

@@ -17,6 +17,7 @@
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "segment/doubts.h"
+#include "segment/session/session.h"
 
 namespace splatcut {
 
@@ -30,18 +31,17 @@ struct CutArguments {
   CameraOptions camera;
   MaskOptions masks;
   int scale = 0;
-  float lambda = -1;
+  float smoothness = -1;
   bool coarse = false, json = false, overwrite = false;
 };
 
-PipelineOptions pipeline_of(const CutArguments& args) {
-  PipelineOptions options = preset(args.preset);
-  if (args.lambda >= 0) options.cut.energy.lambda = args.lambda;
-  options.cut.coarse = args.coarse;
-  options.pick.scale_steps = args.scale;
-  args.masks.apply(&options);
-  for (const std::string& assignment : args.set) set_tuning_option(assignment, &options);
-  return options;
+CutSettings settings_of(const CutArguments& args) {
+  CutSettings settings = preset(args.preset);
+  if (args.smoothness >= 0) settings.smoothness = args.smoothness;
+  settings.cut.coarse = args.coarse;
+  args.masks.apply(&settings);
+  for (const std::string& assignment : args.set) set_tuning_option(assignment, &settings);
+  return settings;
 }
 
 void stop_if_cancelled(const Job& job) {
@@ -68,38 +68,44 @@ void print_summary(const CutArguments& args, const Scene& scene, const nlohmann:
 }
 
 nlohmann::json settings_json(const CutArguments& args, const Meant& meant, const ChosenCamera& chosen,
-                             const PipelineOptions& options) {
-  nlohmann::json settings = {
+                             const CutSettings& settings) {
+  nlohmann::json json = {
       {"preset", args.preset},
       {"reference", chosen.camera.name},
-      {"views", options.orbit.views},
-      {"work_width_px", options.work_width_px},
-      {"neighbours", options.neighbours},
-      {"lambda", options.cut.energy.lambda},
+      {"views", settings.orbit.views},
+      {"work_width_px", settings.work_width_px},
+      {"neighbours", settings.neighbours},
+      {"lambda", settings.smoothness.value_or(settings.cut.energy.lambda)},
       {"set", args.set},
-      {"coarse", options.cut.coarse},
+      {"coarse", settings.cut.coarse},
       {"first_mask", args.masks.first_mask.empty() ? "as the preset" : args.masks.first_mask},
       {"scale", args.scale},
       {"parts_only", args.masks.parts_only}};
-  if (!meant.mask.empty()) settings["mask"] = meant.mask.string();
-  if (!meant.masks_folder.empty()) settings["masks"] = meant.masks_folder.string();
-  if (meant.segmenter)
-    settings.update({{"text", meant.segmenter->text}, {"segmenter", meant.segmenter->words}});
-  return settings;
+  if (!meant.mask.empty()) json["mask"] = meant.mask.string();
+  if (!meant.masks_folder.empty()) json["masks"] = meant.masks_folder.string();
+  if (meant.segmenter) json.update({{"text", meant.segmenter->text}, {"segmenter", meant.segmenter->words}});
+  return json;
 }
 
-PipelineReport cut_one_object(const Scene& scene, const ChosenCamera& chosen, const Strokes& strokes,
-                              const PipelineOptions& options, const Job& job) {
-  check_inside(strokes, chosen.camera);
-  PipelineReport report =
-      cut_out(scene.cloud, nullptr, chosen.camera, chosen.up_world, strokes, options, job);
+// The scene, ready to be cut as the settings want it.
+Session session_of(const std::shared_ptr<const Scene>& scene, const ChosenCamera& chosen,
+                   const CutSettings& settings, const PreparedCache& cache, const Job& job) {
+  auto prepared = std::make_shared<const PreparedScene>(prepare_scene(
+      scene->cloud, chosen.camera, chosen.up_world, chosen.given, prepare_options(settings, cache), job));
+  stop_if_cancelled(job);
+  return Session({{scene, &scene->cloud}, std::move(prepared), chosen.up_world, chosen.given});
+}
+
+CutResult cut_one_object(Session* session, const CutRequest& request, const CutSettings& settings,
+                         const Job& job) {
+  CutResult result = session->cut(request, settings, job);
   end_progress();
   stop_if_cancelled(job);
-  if (report.outcome == Outcome::kNothingFound)
-    throw Error("splatcut cut",
-                "no object was found: " +
-                    (options.given_first_mask ? "the mask covers nothing of the scene" : report.reason));
-  return report;
+  if (result.outcome == Outcome::kNothingFound)
+    throw Error("splatcut cut", "no object was found: " + result.reason);
+  const std::vector<StageTime>& before = session->scene().prepared->stages;
+  result.stages.insert(result.stages.begin(), before.begin(), before.end());
+  return result;
 }
 
 void run_cut(const CutArguments& args, const CommonOptions& common) {
@@ -115,29 +121,34 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   const auto ms_since_start = [&] {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   };
-  const Scene scene = load_scene(args.scene, job);
+  const auto scene = std::make_shared<const Scene>(load_scene(args.scene, job));
   stop_if_cancelled(job);
   const double load_ms = ms_since_start();
-  ChosenCamera chosen = choose_camera(args.camera, scene.cloud);
+  ChosenCamera chosen = choose_camera(args.camera, scene->cloud);
   warn(chosen.warning, common.quiet);
-  PipelineOptions options = pipeline_of(args);
+  const CutSettings settings = settings_of(args);
   if (meant.segmenter) end_progress();  // the program prints to the same place
-  warn(take_masks(meant, args.camera, scene.cloud, job, &chosen, &options), common.quiet);
+  std::string warning;
+  CutRequest request = request_of(meant, args.camera, scene->cloud, job, &chosen, &warning);
+  request.part_step = args.scale;
+  warn(warning, common.quiet);
   stop_if_cancelled(job);
-  options.scene_cameras = chosen.given;
-  options.cache = prepared_cache(common);
-  const nlohmann::json settings = settings_json(args, meant, chosen, options);
+  for (const StrokedView& view : request.strokes) check_inside(view.strokes, view.camera);
+  const ManyObjects many{*scene, chosen, args.camera, settings, args.scale, meant.objects};
+  check_objects(many);
+  const nlohmann::json said = settings_json(args, meant, chosen, settings);
+  Session session = session_of(scene, chosen, settings, prepared_cache(common), job);
   nlohmann::json json;
   if (meant.objects.empty()) {
-    PipelineReport report = cut_one_object(scene, chosen, meant.strokes, options, job);
-    for (const std::string& sentence : doubts(report)) warn(sentence, common.quiet);
-    if (report.ambiguous && !common.quiet) fmt::print(stderr, "--scale takes a smaller or a larger one\n");
-    report.stages.insert(report.stages.begin(), {"load", load_ms});
-    json = report_json(scene, report, settings, ms_since_start());
-    write_cutout_scenes(folder, scene, report.labels);
-    write_cutout_pictures(folder, scene.cloud, chosen.camera, report);
+    CutResult result = cut_one_object(&session, request, settings, job);
+    for (const std::string& sentence : doubts(result)) warn(sentence, common.quiet);
+    if (result.ambiguous && !common.quiet) fmt::print(stderr, "--scale takes a smaller or a larger one\n");
+    result.stages.insert(result.stages.begin(), {"load", load_ms});
+    json = report_json(*scene, result, said, ms_since_start());
+    write_cutout_scenes(folder, *scene, result.labels);
+    write_cutout_pictures(folder, scene->cloud, chosen.camera, result);
   } else {
-    json = cut_many_objects({scene, chosen, args.camera, options, meant.objects}, folder, job);
+    json = cut_many_objects(many, &session, folder, job);
     end_progress();
     stop_if_cancelled(job);
     for (const auto& object : json["objects"])
@@ -146,7 +157,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
              common.quiet);
     const nlohmann::json load = {{"name", "load"}, {"ms", load_ms}};
     json["stages"].insert(json["stages"].begin(), load);
-    json.update(run_json(scene, settings, ms_since_start()));
+    json.update(run_json(*scene, said, ms_since_start()));
   }
   write_text_file(folder.file("report.json"), json.dump(2) + "\n");
   stop_if_cancelled(job);
@@ -154,7 +165,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   if (args.json)
     fmt::print("{}\n", json.dump(2));
   else if (!common.quiet)
-    print_summary(args, scene, json);
+    print_summary(args, *scene, json);
 }
 
 }  // namespace
@@ -177,7 +188,7 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--preset", args->preset, "fast, default, best, paper or paper-code");
   args->masks.add_to(command, false);
   command.get_option("--parts-only")->excludes("--masks");
-  command.add_option("--smoothness", args->lambda, "Weight of the neighbour term")
+  command.add_option("--smoothness", args->smoothness, "Weight of the neighbour term")
       ->check(CLI::Range(0.0, 500.0));
   command
       .add_option("--scale", args->scale,

@@ -89,7 +89,7 @@ void write_cutout_picture(const std::filesystem::path& path, const GaussianCloud
 }
 
 void write_object_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
-                           const PipelineReport& report, const PictureNames& names) {
+                           const CutResult& report, const PictureNames& names) {
   write_cutout_picture(folder.file(names.object), cloud, camera, report.labels);
   const Mask seen = thresholded(render_labels(cloud, camera, report.labels), 0.5f);
   write_png(folder.file(names.tint), tinted_view(cloud, camera, seen));
@@ -97,7 +97,7 @@ void write_object_pictures(const OutputFolder& folder, const GaussianCloud& clou
 }
 
 void write_cutout_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
-                           const PipelineReport& report) {
+                           const CutResult& report) {
   write_object_pictures(folder, cloud, camera, report);
   write_cutout_picture(folder.file("rest.png"), cloud, camera, inverted(report.labels));
 }
@@ -133,7 +133,7 @@ nlohmann::json run_json(const Scene& scene, const nlohmann::json& settings, doub
           {"peak_rss_mb", peak_rss_mb()}};
 }
 
-nlohmann::json object_json(const PipelineReport& report) {
+nlohmann::json object_json(const CutResult& report) {
   nlohmann::json views = nlohmann::json::array(), stages = nlohmann::json::array();
   for (const ViewReport& view : report.views) {
     views.push_back({{"used", view.used}, {"confidence", view.confidence}, {"mask_px", count(view.mask)}});
@@ -147,7 +147,7 @@ nlohmann::json object_json(const PipelineReport& report) {
            {{"views", enough.views},
             {"pixels", enough.pixels},
             {"gaussians", report.cut.touched},
-            {"why", report.enough}}},
+            {"why", report.why_enough}}},
           {"cut",
            {{"nodes", report.cut.nodes},
             {"arcs", report.cut.arcs},
@@ -157,7 +157,7 @@ nlohmann::json object_json(const PipelineReport& report) {
           {"stages", stages}};
 }
 
-nlohmann::json report_json(const Scene& scene, const PipelineReport& report, const nlohmann::json& settings,
+nlohmann::json report_json(const Scene& scene, const CutResult& report, const nlohmann::json& settings,
                            double total_ms) {
   nlohmann::json json = run_json(scene, settings, total_ms);
   json.update(object_json(report));

@@ -9,20 +9,20 @@
 
 #include "app/output_folder.h"
 #include "scene/scene_file.h"
-#include "segment/pipeline.h"
+#include "segment/session/cut_result.h"
 
 namespace splatcut {
 
 // object.png, rest.png, tint.png from `camera`, masks.png of the views.
 void write_cutout_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
-                           const PipelineReport& report);
+                           const CutResult& report);
 
 struct PictureNames {
   std::string object = "object.png", tint = "tint.png", masks = "masks.png";
 };
 // The same without rest.png.
 void write_object_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
-                           const PipelineReport& report, const PictureNames& names = {});
+                           const CutResult& report, const PictureNames& names = {});
 
 // The Gaussians whose flag in `shown` is 1, on nothing.
 void write_cutout_picture(const std::filesystem::path& path, const GaussianCloud& cloud, const Camera& camera,
@@ -39,9 +39,9 @@ void write_cutout_scenes(const OutputFolder& folder, const Scene& scene,
 // What a report says of the run as a whole: version, settings, scene, time, memory.
 nlohmann::json run_json(const Scene& scene, const nlohmann::json& settings, double total_ms);
 // What it says of one object: views, cut, stages.
-nlohmann::json object_json(const PipelineReport& report);
+nlohmann::json object_json(const CutResult& report);
 // Both.
-nlohmann::json report_json(const Scene& scene, const PipelineReport& report, const nlohmann::json& settings,
+nlohmann::json report_json(const Scene& scene, const CutResult& report, const nlohmann::json& settings,
                            double total_ms);
 
 double peak_rss_mb();

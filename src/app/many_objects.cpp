@@ -60,7 +60,7 @@ Camera camera_for(const ManyObjects& in, const NamedSeeds& object) {
 struct CutObject {
   const NamedSeeds* seeds;
   Camera camera;
-  PipelineReport report;
+  CutResult result;
   std::size_t found = 0;  // Gaussians, before later objects took theirs
 };
 
@@ -70,9 +70,9 @@ std::vector<std::uint8_t> settle_claims(std::vector<CutObject>* objects, std::si
   std::vector<std::uint8_t> owner(gaussians, 0);
   for (std::size_t o = 0; o < objects->size(); ++o)
     for (std::size_t g = 0; g < gaussians; ++g)
-      if ((*objects)[o].report.labels[g]) owner[g] = static_cast<std::uint8_t>(o + 1);
+      if ((*objects)[o].result.labels[g]) owner[g] = static_cast<std::uint8_t>(o + 1);
   for (std::size_t o = 0; o < objects->size(); ++o) {
-    std::vector<std::uint8_t>& labels = (*objects)[o].report.labels;
+    std::vector<std::uint8_t>& labels = (*objects)[o].result.labels;
     (*objects)[o].found = static_cast<std::size_t>(std::ranges::count(labels, 1));
     for (std::size_t g = 0; g < gaussians; ++g) labels[g] = owner[g] == o + 1;
     if (std::ranges::count(labels, 1) == 0)
@@ -84,7 +84,7 @@ std::vector<std::uint8_t> settle_claims(std::vector<CutObject>* objects, std::si
 
 json entry_of(const CutObject& object, std::size_t index) {
   const std::string file = file_name_of(object.seeds->name);
-  json entry = object_json(object.report);
+  json entry = object_json(object.result);
   const auto gaussians = entry["object"]["gaussians"].get<std::size_t>();
   entry.erase("object");
   entry.update({{"name", object.seeds->name},
@@ -94,15 +94,15 @@ json entry_of(const CutObject& object, std::size_t index) {
                 {"camera", object.camera.name},
                 {"gaussians", gaussians},
                 {"left_to_later", object.found - gaussians},
-                {"ambiguous", object.report.ambiguous}});
+                {"ambiguous", object.result.ambiguous}});
   return entry;
 }
 
 void write_object(const OutputFolder& folder, const Scene& scene, const CutObject& object) {
   const std::string file = file_name_of(object.seeds->name);
-  save_scene(folder.file(file + ".ply"), scene, object.report.labels, SceneFormat::kPly);
-  write_labels(folder.file(file + ".labels.u8"), scene, object.report.labels);
-  write_object_pictures(folder, scene.cloud, object.camera, object.report,
+  save_scene(folder.file(file + ".ply"), scene, object.result.labels, SceneFormat::kPly);
+  write_labels(folder.file(file + ".labels.u8"), scene, object.result.labels);
+  write_object_pictures(folder, scene.cloud, object.camera, object.result,
                         {file + ".png", file + ".tint.png", file + ".masks.png"});
 }
 
@@ -136,28 +136,28 @@ std::vector<NamedSeeds> load_named_seeds(const std::filesystem::path& path) {
   return objects;
 }
 
-json cut_many_objects(const ManyObjects& in, const OutputFolder& folder, const Job& job) {
+void check_objects(const ManyObjects& in) {
+  for (const NamedSeeds& seeds : in.objects) check_inside(seeds.strokes, camera_for(in, seeds));
+}
+
+json cut_many_objects(const ManyObjects& in, Session* session, const OutputFolder& folder, const Job& job) {
   const Scene& scene = in.scene;
   std::vector<CutObject> objects;
-  for (const NamedSeeds& seeds : in.objects) {
-    objects.push_back({&seeds, camera_for(in, seeds), {}});
-    check_inside(seeds.strokes, objects.back().camera);
-  }
-  const PreparedScene prepared = prepare_scene(scene.cloud, in.chosen.camera, in.chosen.up_world,
-                                               in.chosen.given, prepare_options(in.options), job);
-  CutSolver solver(scene.cloud, prepared.graph, in.options.cut);
-  KeptViews kept(scene.cloud);
+  for (const NamedSeeds& seeds : in.objects) objects.push_back({&seeds, camera_for(in, seeds), {}});
   for (CutObject& object : objects) {
     if (job.cancelled()) return {};
-    object.report = cut_out(scene.cloud, &prepared, object.camera, in.chosen.up_world, object.seeds->strokes,
-                            in.options, job, &solver, &kept);
-    if (object.report.outcome == Outcome::kCancelled) return {};
-    if (object.report.outcome == Outcome::kNothingFound)
-      throw Error(fmt::format("object \"{}\"", object.seeds->name), "was not found: " + object.report.reason);
+    CutRequest request;
+    request.strokes = {{object.camera, object.seeds->strokes}};
+    request.part_step = in.part_step;
+    object.result = session->cut(request, in.settings, job);
+    if (object.result.outcome == Outcome::kCancelled) return {};
+    if (object.result.outcome == Outcome::kNothingFound)
+      throw Error(fmt::format("object \"{}\"", object.seeds->name), "was not found: " + object.result.reason);
   }
   const std::vector<std::uint8_t> owner = settle_claims(&objects, scene.cloud.size());
   json entries = json::array(), stages = json::array();
-  for (const StageTime& stage : prepared.stages) stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
+  for (const StageTime& stage : session->scene().prepared->stages)
+    stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
   for (const CutObject& object : objects) {
     if (job.cancelled()) return {};
     write_object(folder, scene, object);

@@ -14,8 +14,8 @@
 #include "app/output_folder.h"
 #include "scene/job.h"
 #include "scene/scene_file.h"
-#include "segment/pipeline.h"
 #include "segment/seeds.h"
+#include "segment/session/session.h"
 
 namespace splatcut {
 
@@ -37,14 +37,19 @@ struct ManyObjects {
   const Scene& scene;
   const ChosenCamera& chosen;
   const CameraOptions& camera;
-  const PipelineOptions& options;
+  const CutSettings& settings;
+  int part_step;  // of each object, see CutRequest
   const std::vector<NamedSeeds>& objects;
 };
 
-// Writes NAME.ply, NAME.labels.u8, NAME.png, NAME.tint.png and NAME.masks.png of each object, rest.ply,
-// rest.png and labels.u8 (0 = rest, 1 = the first object, ...). Returns "objects", "rest" and "stages" of the
-// report. Throws Error where an object is not found or left with nothing. Cancelled: the result is
-// incomplete.
-nlohmann::json cut_many_objects(const ManyObjects& in, const OutputFolder& folder, const Job& job);
+// Throws Error where an object's camera is not known or its strokes lie outside of the picture.
+void check_objects(const ManyObjects& in);
+
+// Of objects that pass check_objects(). Writes NAME.ply, NAME.labels.u8, NAME.png, NAME.tint.png and
+// NAME.masks.png of each object, rest.ply, rest.png and labels.u8 (0 = rest, 1 = the first object, ...).
+// Returns "objects", "rest" and "stages" of the report. Throws Error where an object is not found or left
+// with nothing. Cancelled: the result is incomplete.
+nlohmann::json cut_many_objects(const ManyObjects& in, Session* session, const OutputFolder& folder,
+                                const Job& job);
 
 }  // namespace splatcut

@@ -12,7 +12,7 @@
 
 #include "scene/camera.h"
 #include "scene/image.h"
-#include "segment/pipeline.h"
+#include "segment/session/cut_request.h"
 
 namespace splatcut {
 

@@ -25,7 +25,7 @@ void MaskOptions::add_to(CLI::App& command, bool truth_too) {
   command.add_flag("--parts-only", parts_only, "The parts are the answer: no other views, no graph cut");
 }
 
-void MaskOptions::apply(PipelineOptions* options) const {
+void MaskOptions::apply(CutSettings* options) const {
   const auto set = [options](const std::string& name, const std::string& value) {
     if (!value.empty()) set_tuning_option(name + "=" + value, options);
   };

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "segment/pipeline.h"
+#include "segment/session/cut_settings.h"
 
 namespace splatcut {
 
@@ -15,7 +15,7 @@ struct MaskOptions {
 
   // truth_too: --first-mask takes truth as well, for measuring.
   void add_to(CLI::App& command, bool truth_too);
-  void apply(PipelineOptions* options) const;
+  void apply(CutSettings* options) const;
 };
 
 }  // namespace splatcut

@@ -55,20 +55,23 @@ Meant WaysIn::read(const CameraOptions& camera) const {
   return meant;
 }
 
-std::string take_masks(const Meant& meant, const CameraOptions& camera, const GaussianCloud& cloud,
-                       const Job& job, ChosenCamera* chosen, PipelineOptions* options) {
-  if (!meant.mask.empty()) options->given_first_mask = read_given_mask(meant.mask, chosen->camera);
+CutRequest request_of(const Meant& meant, const CameraOptions& camera, const GaussianCloud& cloud,
+                      const Job& job, ChosenCamera* chosen, std::string* warning) {
+  CutRequest request;
+  if (!meant.strokes.empty()) request.strokes = {{chosen->camera, meant.strokes}};
+  if (!meant.mask.empty()) request.first_mask = {chosen->camera, read_given_mask(meant.mask, chosen->camera)};
   if (meant.segmenter)
-    options->given_first_mask = mask_from_text(*meant.segmenter, cloud, chosen->camera, job);
-  if (meant.masks_folder.empty()) return {};
+    request.first_mask = {chosen->camera, mask_from_text(*meant.segmenter, cloud, chosen->camera, job)};
+  if (meant.masks_folder.empty()) return request;
   MaskFolderOptions wanted{meant.masks_folder, {}, {}};
   if (!camera.camera.empty()) wanted.reference = chosen->camera.name;
   if (!camera.size.empty()) wanted.size_px = {chosen->camera.width_px, chosen->camera.height_px};
   MaskFolder found = load_mask_folder(chosen->given, wanted);
   chosen->camera = found.reference.camera;
-  options->given_first_mask = std::move(found.reference.mask);
-  options->given_views = std::move(found.others);
-  return found.warning;
+  request.first_mask = std::move(found.reference);
+  request.masks = std::move(found.others);
+  *warning = found.warning;
+  return request;
 }
 
 }  // namespace splatcut

@@ -11,8 +11,8 @@
 #include "app/camera_options.h"
 #include "app/many_objects.h"
 #include "app/segmenter.h"
-#include "segment/pipeline.h"
 #include "segment/seeds.h"
+#include "segment/session/cut_request.h"
 
 namespace splatcut {
 
@@ -36,10 +36,9 @@ struct WaysIn {
   Meant read(const CameraOptions& camera) const;
 };
 
-// The masks that are given, in place of strokes. With a folder of them the reference may become another
-// camera; returns a sentence about that, or nothing. Throws Error for masks that cannot be used. Cancelled:
-// incomplete.
-std::string take_masks(const Meant& meant, const CameraOptions& camera, const GaussianCloud& cloud,
-                       const Job& job, ChosenCamera* chosen, PipelineOptions* options);
+// What is meant, of one object. With a folder of masks the reference may become another camera; `warning` is
+// then a sentence about that. Throws Error for masks that cannot be used. Cancelled: incomplete.
+CutRequest request_of(const Meant& meant, const CameraOptions& camera, const GaussianCloud& cloud,
+                      const Job& job, ChosenCamera* chosen, std::string* warning);
 
 }  // namespace splatcut

@@ -28,16 +28,14 @@ std::string free_file_name(const nlohmann::json& written, const ObjectItem& obje
 
 Document computed_again(const OpenedScene& scene, Document document, const Job& job,
                         const PreparedCache& cache) {
-  const auto solvers = std::make_shared<SceneSolvers>(scene.cloud, prepare(scene, job, cache));
+  Session session(session_scene(scene, prepare(scene, job, cache)));
   for (ObjectItem& object : document.objects) {
     if (object.views.empty() || job.cancelled()) continue;
-    const ObjectCutInput input = cut_input(document, object);
-    ObjectCutter cutter(scene.cloud, solvers);
-    ObjectCutReport report = cutter.cut(input, {}, job);
-    if (report.outcome == Outcome::kNothingFound)
-      throw Error(object.name, "is not found again: " + report.reason);
-    object.cut = make_flags(std::move(report.labels));
-    object.cut_key = key_of(input);
+    CutResult result = session.cut(cut_request(document, object), cut_settings(document, object), job);
+    if (result.outcome == Outcome::kNothingFound)
+      throw Error(object.name, "is not found again: " + result.reason);
+    object.cut = make_flags(std::move(result.labels));
+    object.cut_key = cut_key(document, object);
   }
   return document;
 }
@@ -47,8 +45,9 @@ void run_work_cut(const WorkCutOptions& options) {
   const Job job = console_job(options.quiet);
   const auto scene = open_scene(read_work_header(options.work).scene, job);
   if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
-  const Document document = computed_again(
-      *scene, read_work_file(options.work, *scene->scene, scene->hash).document, job, options.cache);
+  WorkFile work = read_work_file(options.work, *scene->scene, scene->hash);
+  warn(work.warning, options.quiet);
+  const Document document = computed_again(*scene, std::move(work.document), job, options.cache);
   end_progress();
   if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
   nlohmann::json objects = nlohmann::json::array();

@@ -36,6 +36,10 @@ struct Camera {
 
 bool same_camera(const Camera& a, const Camera& b);  // names apart
 
+// The same up to 1e-5 of what is compared: a view that is known again after it went through a file or was
+// computed another way.
+bool same_view(const Camera& a, const Camera& b);
+
 // A camera at `position` that sees `target` in the middle, `up` pointing up in the picture.
 // fov_y_rad: vertical field of view, (0, pi). Throws Error where position equals target or up is parallel.
 Camera look_at(const glm::vec3& position, const glm::vec3& target, const glm::vec3& up, float fov_y_rad,

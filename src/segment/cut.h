@@ -14,13 +14,17 @@ struct CutOptions {
   EnergyOptions energy;
   bool coarse = false;  // label = w_g > tau instead of the cut
   float tau = 0.5f;
+  bool operator==(const CutOptions&) const = default;
 };
 
-struct CutReport {
+struct CutFigures {
+  std::size_t nodes = 0, arcs = 0;  // 0 for coarse
+  std::size_t touched = 0;          // nodes of the sub-graph that proves the cut, see max_flow.h
+  double energy = 0, flow = 0;      // in units of the energy; equal, for coarse 0
+};
+
+struct CutReport : CutFigures {
   std::vector<std::uint8_t> labels;  // 1 = object
-  std::size_t nodes = 0, arcs = 0;   // 0 for coarse
-  std::size_t touched = 0;           // nodes of the sub-graph that proves the cut, see max_flow.h
-  double energy = 0, flow = 0;       // in units of the energy; equal, for coarse 0
 };
 
 // How sure the labels are: by how much the energy rises, at least and at most, if this Gaussian changes side

@@ -37,12 +37,12 @@ void add_doubts_of_first(const ViewReport& view, std::vector<std::string>* sente
 
 }  // namespace
 
-std::vector<std::string> doubts(const PipelineReport& report, double view_agreement) {
-  std::vector<std::string> sentences = doubts_of_views(report.views, view_agreement);
-  if (report.ambiguous)
+std::vector<std::string> doubts(const CutResult& result, double view_agreement) {
+  std::vector<std::string> sentences = doubts_of_views(result.views, view_agreement);
+  if (result.ambiguous)
     sentences.insert(sentences.begin(),
                      fmt::format("the first click could mean a part of another size: this is size {} of {}",
-                                 report.first_size + 1, report.first_sizes));
+                                 result.size + 1, result.sizes));
   return sentences;
 }
 

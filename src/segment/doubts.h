@@ -5,18 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "segment/pipeline.h"
+#include "segment/session/cut_result.h"
+#include "segment/session/cut_settings.h"
 
 namespace splatcut {
 
 // A sentence each, none where nothing is in doubt: the first click means another size nearly as likely; the
 // object is small in the first view, or runs out of it; masks were left out because they disagree with the
 // others; so many masks that count disagree with the cutout that no majority was left.
-std::vector<std::string> doubts(const PipelineReport& report,
-                                double view_agreement = PipelineOptions{}.view_agreement);
+std::vector<std::string> doubts(const CutResult& result,
+                                double view_agreement = CutSettings{}.view_agreement);
 
 // Those that the views raise.
 std::vector<std::string> doubts_of_views(std::span<const ViewReport> views,
-                                         double view_agreement = PipelineOptions{}.view_agreement);
+                                         double view_agreement = CutSettings{}.view_agreement);
 
 }  // namespace splatcut

@@ -20,6 +20,7 @@ struct EnclosedOptions {
   float least_object = 0.9f;  // share of the arcs that leave the piece
   float most_size = 0.25f;    // Gaussians of one piece, share of the object's
   float faint = 0.1f;         // opacity; fainter Gaussians neither join nor connect
+  bool operator==(const EnclosedOptions&) const = default;
 };
 
 // shown: per Gaussian, 1 = the view shows its part. labels: per Gaussian, 1 = object. Returns how many

@@ -43,6 +43,7 @@ struct EnergyOptions {
   float gamma_cluster_position = 1, gamma_cluster_colour = 1;
   int object_clusters = 1, rest_clusters = 4;
   float unseen_rest = 0;  // sink capacity of what no view has seen
+  bool operator==(const EnergyOptions&) const = default;
 };
 
 // GaussianCut's literal weights, and those of its authors' published code.

@@ -144,8 +144,7 @@ Mask first_mask(const Image<Rgb8>& picture, const Image<float>& depth, const Str
                 const FirstMaskOptions& options, const Job& job) {
   const Image<std::uint8_t> seeds = draw_seeds(strokes, picture.width(), picture.height());
   if (std::ranges::none_of(seeds.pixels(), [](std::uint8_t s) { return s == kObjectSeed; }))
-    throw Error("strokes", "none of them marks the object inside the picture",
-                "Click the object at least once");
+    return Mask(picture.width(), picture.height());
   const Mask prior = geodesic_prior(picture, depth, seeds, options);
   if (job.cancelled()) return prior;
   const double size = std::sqrt(static_cast<double>(count(prior)));

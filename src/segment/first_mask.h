@@ -19,9 +19,10 @@ struct FirstMaskOptions {
   float depth_weight = 40;     // Lab units per relative depth jump of 1 %: 0.4
   float length_weight = 0.2f;  // Lab units per pixel: keeps flat regions from costing nothing
   RefineOptions refine;        // its band follows from the size of the mask
+  bool operator==(const FirstMaskOptions&) const = default;
 };
 
-// Throws Error when no stroke marks the object.
+// Empty where no stroke marks the object inside the picture.
 Mask first_mask(const Image<Rgb8>& picture, const Image<float>& depth, const Strokes& strokes,
                 const FirstMaskOptions& options = {}, const Job& job = {});
 

@@ -26,6 +26,7 @@ struct OrbitOptions {
   int views = 12;                       // without the reference
   float distance_sizes = 1.6f;          // distance over object size (2 radius)
   float elevation_swing_rad = 0.1745f;  // alternately above and below the reference's elevation
+  bool operator==(const OrbitOptions&) const = default;
 };
 
 // Cameras on a circle about the object's centre, around the reference's up axis, in order outward from

@@ -58,6 +58,7 @@ struct PickOptions {
   float joint_bonus = 1;                // of later object clicks, for a part that holds all of them
   float hidden_penalty = 1,
         hidden_slack = 2;  // of later clicks that bring much of what the view hides, per pixel
+  bool operator==(const PickOptions&) const = default;
 };
 
 struct PartNode {

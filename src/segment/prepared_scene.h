@@ -15,13 +15,9 @@
 #include "segment/knn_graph.h"
 #include "segment/observing_views.h"
 #include "segment/part_hierarchy.h"
+#include "segment/stage_clock.h"
 
 namespace splatcut {
-
-struct StageTime {
-  std::string name;
-  double ms = 0;
-};
 
 // Where scenes once prepared are kept, see prepared_cache.h. The result is the same bits.
 struct PreparedCache {

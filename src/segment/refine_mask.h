@@ -29,6 +29,7 @@ struct RefineOptions {
   float lambda = 4;  // kPixelCut, in units of the unary's logarithms
   float prior_weight = 1;
   float depth_weight = 20;
+  bool operator==(const RefineOptions&) const = default;
 };
 
 // Returns the prior where there is nothing to do: empty, all of one side, kNone.

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "segment/prepared_scene.h"
-
 namespace splatcut {
+
+struct StageTime {
+  std::string name;
+  double ms = 0;
+};
 
 class StageClock {
  public:

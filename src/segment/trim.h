@@ -30,6 +30,7 @@ struct TrimOptions {
   float least_inside = 0.5f;  // share of A_g inside of the masks that keeps a Gaussian
   int margin_px = 1;          // masks are right up to about that
   int most_views = 6;         // evenly chosen; more cost time and change little
+  bool operator==(const TrimOptions&) const = default;
 };
 
 // labels: per Gaussian, 1 = object. Returns how many Gaussians left the object.

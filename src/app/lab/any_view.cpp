@@ -68,18 +68,6 @@ std::shared_ptr<const T> borrowed(const T* value) {
   return {std::shared_ptr<void>(), value};
 }
 
-// Clicks by camera, in the order in which each was first clicked: as the window keeps them.
-std::vector<StrokedView> by_view(std::span<const ViewClick> clicks) {
-  std::vector<StrokedView> views;
-  for (const ViewClick& c : clicks) {
-    const auto known =
-        std::ranges::find_if(views, [&](const StrokedView& v) { return same_camera(v.camera, c.camera); });
-    StrokedView& view = known != views.end() ? *known : views.emplace_back(StrokedView{c.camera, {}});
-    view.strokes.push_back(c.stroke);
-  }
-  return views;
-}
-
 bool holds(std::span<const TruthView> views, const Camera& camera) {
   return std::ranges::any_of(views, [&](const TruthView& v) { return same_camera(v.camera, camera); });
 }
@@ -136,29 +124,18 @@ double iou_of_clicks(const AnyViewWorld& world, std::span<const ViewClick> click
   return job.cancelled() ? 0 : mean_iou(world, pictures(world, answer.labels));
 }
 
-WindowCut::WindowCut(const EvaluationCase& scene, std::string preset, const Job& job)
-    : cloud_(borrowed(scene.cloud)),
-      solvers_(std::make_shared<SceneSolvers>(cloud_, borrowed(scene.prepared))),
-      cutter_(cloud_, solvers_),
-      up_world_(scene.up_world),
-      preset_(std::move(preset)) {
-  solvers_->make_ready(job);  // belongs to loading, as in the window
+WindowCut::WindowCut(const EvaluationCase& scene, const std::string& preset, const Job& job)
+    : session_({borrowed(scene.cloud), borrowed(scene.prepared), scene.up_world, {}}),
+      settings_(splatcut::preset(preset)) {
+  session_.make_ready(settings_, job);  // belongs to loading, as in the window
 }
 
 CutAnswer WindowCut::operator()(std::span<const ViewClick> in_order, const Job& job) {
-  ObjectCutInput input;
-  input.views = by_view(in_order);
-  input.up_world = up_world_;
-  input.preset = preset_;
-  input.smoothness = smoothness_;
-  ObjectCutReport report = cutter_.cut(input, {}, {job.stop, {}});
-  PipelineReport said;
-  said.views = std::move(report.views);
-  said.ambiguous = report.ambiguous;
-  said.first_size = report.size;
-  said.first_sizes = report.sizes;
-  CutAnswer answer{std::move(report.labels), doubts(said)};
-  if (report.outcome == Outcome::kNothingFound) answer.doubts.insert(answer.doubts.begin(), report.reason);
+  CutRequest request;
+  for (const ViewClick& click : in_order) request.strokes.push_back({click.camera, {click.stroke}});
+  CutResult result = session_.cut(request, settings_, {job.stop, {}});
+  CutAnswer answer{std::move(result.labels), doubts(result)};
+  if (result.outcome == Outcome::kNothingFound) answer.doubts.insert(answer.doubts.begin(), result.reason);
   return answer;
 }
 

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "app/lab/evaluate.h"
-#include "segment/object_cut.h"
+#include "segment/session/session.h"
 
 namespace splatcut {
 
@@ -75,17 +75,13 @@ double iou_of_clicks(const AnyViewWorld& world, std::span<const ViewClick> click
 // sessions.
 class WindowCut {
  public:
-  WindowCut(const EvaluationCase& scene, std::string preset, const Job& job = {});
+  WindowCut(const EvaluationCase& scene, const std::string& preset, const Job& job = {});
   CutAnswer operator()(std::span<const ViewClick> in_order, const Job& job);
-  void set_smoothness(float smoothness) { smoothness_ = smoothness; }  // else the preset's own
+  void set_smoothness(float smoothness) { settings_.smoothness = smoothness; }  // else the preset's own
 
  private:
-  std::shared_ptr<const GaussianCloud> cloud_;
-  std::shared_ptr<SceneSolvers> solvers_;
-  ObjectCutter cutter_;
-  glm::vec3 up_world_;
-  std::string preset_;
-  std::optional<float> smoothness_;
+  Session session_;
+  CutSettings settings_;
 };
 
 // The scene must outlive what is returned; views: of the scene, or of the one it is a copy of.

@@ -26,25 +26,26 @@ double median_of(std::vector<double> values) {
 
 }  // namespace
 
-ClickDraws draw_clicks(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks, int draws,
+ClickDraws draw_clicks(const EvaluationCase& scene, const CutSettings& settings, int clicks, int draws,
                        const Job& job) {
   ClickDraws result;
+  Session session = session_of(scene);
   for (const EvaluationCase& view : clicked_views(scene))
     for (int draw = 0; draw < draws && !job.cancelled(); ++draw)
       result.iou_after.push_back(
-          robot_session(view, pipeline, clicks, static_cast<std::uint64_t>(draw), job).iou_after);
+          robot_session(view, &session, settings, clicks, static_cast<std::uint64_t>(draw), job).iou_after);
   if (result.iou_after.empty() || job.cancelled()) return result;
   const auto n = static_cast<double>(result.iou_after.size());
   for (std::size_t k = 0; k < static_cast<std::size_t>(clicks); ++k) {
     std::vector<double> at;
-    for (const auto& session : result.iou_after) at.push_back(session[k]);
+    for (const auto& ious : result.iou_after) at.push_back(ious[k]);
     result.median.push_back(median_of(at));
     result.least.push_back(std::ranges::min(at));
     if (k > 0) result.least_from_second = std::min(result.least_from_second, result.least.back());
   }
-  for (const auto& session : result.iou_after) {
-    const int noc90 = clicks_to(session, 0.90);
-    result.mean_noc85 += clicks_to(session, 0.85) / n;
+  for (const auto& ious : result.iou_after) {
+    const int noc90 = clicks_to(ious, 0.90);
+    result.mean_noc85 += clicks_to(ious, 0.85) / n;
     result.mean_noc90 += noc90 / n;
     result.most_noc90 = std::max(result.most_noc90, noc90);
   }

@@ -21,7 +21,7 @@ struct ClickDraws {
 
 // draws sessions of `clicks` clicks, the first with a steady hand. Empty where the truth of no view is known.
 // Cancelled: incomplete, must not be used.
-ClickDraws draw_clicks(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks, int draws,
+ClickDraws draw_clicks(const EvaluationCase& scene, const CutSettings& settings, int clicks, int draws,
                        const Job& job = {});
 
 }  // namespace splatcut

@@ -177,17 +177,16 @@ bool first_mask_is_truth(const EvalArguments& args) {
   return args.mask.first_mask == "truth" || !args.spin_nerf.empty();
 }
 
-EvaluationOptions evaluation_options(const EvalArguments& args, const CommonOptions& common) {
+EvaluationOptions evaluation_options(const EvalArguments& args) {
   EvaluationOptions options;
-  options.pipeline = preset(args.preset);
-  options.pipeline.cache = prepared_cache(common);
+  options.settings = preset(args.preset);
   options.clicks = args.clicks;
   options.truth_first_mask = first_mask_is_truth(args);
   options.truth_masks = args.masks == "truth";
   options.click_curve = args.curve && args.nvos.empty();
   if (!args.nvos.empty()) options.clicks = std::numeric_limits<int>::max();  // all scribbles at once
-  args.mask.apply(&options.pipeline);
-  for (const std::string& assignment : args.set) set_tuning_option(assignment, &options.pipeline);
+  args.mask.apply(&options.settings);
+  for (const std::string& assignment : args.set) set_tuning_option(assignment, &options.settings);
   return options;
 }
 
@@ -196,15 +195,15 @@ void stop_if_cancelled(const Job& job) {
 }
 
 // The measures of each scene that has the truth it takes; prints a row each.
-std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationOptions& options, bool quiet,
-                                    const Job& job) {
+std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationOptions& options,
+                                    const CommonOptions& common, const Job& job) {
   std::vector<nlohmann::json> scores;
   const std::vector<Loader> scenes = loaders(args);
   if (!args.json) print_heads();
   for (const Loader& load : scenes) {
-    const auto loaded = load(prepare_options(options.pipeline), job);
+    const auto loaded = load(prepare_options(options.settings, prepared_cache(common)), job);
     stop_if_cancelled(job);
-    warn(loaded->warning, quiet);
+    warn(loaded->warning, common.quiet);
     if (lacks_truth(loaded->test, options)) {
       end_progress();
       fmt::print(stderr, "{}: left out, it has no truth where --first-mask or --masks asks for it\n",
@@ -220,10 +219,11 @@ std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationO
       AnyViewOptions robot = args.robot;
       robot.preset = args.preset;
       robot.draws = std::max(1, args.draws);
-      scores.back().update(any_view_json(*loaded, robot, prepare_options(options.pipeline), job));
+      scores.back().update(
+          any_view_json(*loaded, robot, prepare_options(options.settings, prepared_cache(common)), job));
       stop_if_cancelled(job);
     } else if (args.draws > 0) {
-      const ClickDraws draws = draw_clicks(loaded->test, options.pipeline, kRobotClicks, args.draws, job);
+      const ClickDraws draws = draw_clicks(loaded->test, options.settings, kRobotClicks, args.draws, job);
       stop_if_cancelled(job);
       if (!draws.median.empty()) scores.back()["draws"] = draws_json(draws);
     }
@@ -275,8 +275,7 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
   const Job job =
       console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
   OutputFolder folder(args.output, args.overwrite);
-  const std::vector<nlohmann::json> scores =
-      measure(args, evaluation_options(args, common), common.quiet, job);
+  const std::vector<nlohmann::json> scores = measure(args, evaluation_options(args), common, job);
   if (scores.empty()) throw Error("splatcut-lab eval", "no scene of the suite is left to measure");
   nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"set", args.set},
                            {"clicks", clicks_json(args)}, {"draws", args.draws},   {"scenes", scores},

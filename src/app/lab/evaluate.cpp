@@ -20,26 +20,37 @@ Strokes first_strokes(const Strokes& strokes, int n) {
   return {strokes.begin(), strokes.begin() + std::min<std::ptrdiff_t>(n, std::ssize(strokes))};
 }
 
-PipelineReport cut_with(const EvaluationCase& scene, const EvaluationOptions& options, const Strokes& strokes,
-                        const Job& job, CutSolver* solver = nullptr) {
-  PipelineOptions pipeline = options.pipeline;
-  pipeline.scene_cameras = scene.scene_cameras;
+CutRequest request_with(const EvaluationCase& scene, const EvaluationOptions& options,
+                        const Strokes& strokes) {
+  CutRequest request = request_of(scene, strokes);
   if (options.truth_first_mask) {
     if (!scene.reference_truth)
       throw Error(scene.name, "--first-mask truth needs the truth of the reference view");
-    pipeline.given_first_mask = scene.reference_truth;
+    request.strokes.clear();
+    request.first_mask = {scene.reference, *scene.reference_truth};
   }
   if (options.truth_masks) {
     if (scene.truth_labels.empty()) throw Error(scene.name, "--masks truth needs truth labels");
-    pipeline.given_masks = [&scene](const Camera& camera) {
+    request.mask_source = [&scene](const Camera& camera) {
       return labels_seen(scene, camera, scene.truth_labels);
     };
   }
-  return cut_out(*scene.cloud, scene.prepared, scene.reference, scene.up_world, strokes, pipeline, job,
-                 solver);
+  return request;
 }
 
 }  // namespace
+
+Session session_of(const EvaluationCase& scene) {
+  const std::shared_ptr<void> elsewhere;  // the case's owner owns them
+  return Session(
+      {{elsewhere, scene.cloud}, {elsewhere, scene.prepared}, scene.up_world, scene.scene_cameras});
+}
+
+CutRequest request_of(const EvaluationCase& scene, const Strokes& strokes) {
+  CutRequest request;
+  request.strokes = {{scene.reference, strokes}};
+  return request;
+}
 
 int clicks_to(const std::vector<double>& iou_after, double goal) {
   const auto reached = std::ranges::find_if(iou_after, [&](double v) { return v >= goal; });
@@ -80,9 +91,9 @@ ImageScore score_images(const EvaluationCase& scene, const std::vector<std::uint
 }
 
 // The robot works on the mask's own picture size.
-RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks,
-                           std::uint64_t draw, const Job& job) {
-  const Camera work = limited_to_width(scene.reference, pipeline.work_width_px);
+RobotSession robot_session(const EvaluationCase& scene, Session* session, const CutSettings& settings,
+                           int clicks, std::uint64_t draw, const Job& job) {
+  const Camera work = limited_to_width(scene.reference, settings.work_width_px);
   const float to_reference = static_cast<float>(scene.reference.width_px) / static_cast<float>(work.width_px);
   if (scene.truth_labels.empty() && !scene.reference_truth)
     throw Error(scene.name, "the robot needs the truth of the reference view");
@@ -90,19 +101,17 @@ RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& p
                          ? resized_mask(*scene.reference_truth, work.width_px, work.height_px)
                          : labels_seen(scene, work, scene.truth_labels);
   Mask mask(work.width_px, work.height_px);
-  KeptViews kept(*scene.cloud);
-  RobotSession session;
+  RobotSession robot;
   for (int i = 0; i < clicks && !job.cancelled(); ++i) {
     if (const auto next = robot_click(truth, mask, draw ? draw * 16 + static_cast<std::uint64_t>(i) : 0)) {
       const Strokes scaled_click = scaled({*next}, to_reference);
-      session.strokes.push_back(scaled_click.front());
-      const Mask found = first_mask_of(*scene.cloud, *scene.prepared, scene.reference, session.strokes,
-                                       pipeline, job, &kept);
+      robot.strokes.push_back(scaled_click.front());
+      const Mask found = session->first_mask(request_of(scene, robot.strokes), settings, job);
       mask = resized_mask(found, work.width_px, work.height_px);
     }
-    session.iou_after.push_back(iou(truth, mask));
+    robot.iou_after.push_back(iou(truth, mask));
   }
-  return session;
+  return robot;
 }
 
 void render_truth(EvaluationCase* scene) {
@@ -117,9 +126,10 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
   score.name = scene.name;
   const bool scribbles_alone = scene.scribbles_alone && !options.truth_first_mask;
   Strokes strokes = scribbles_alone ? scene.scribbles : scene.clicks;
+  Session session = session_of(scene);
   if (strokes.empty() && !options.truth_first_mask) {
     const RobotSession robot =
-        robot_session(scene, options.pipeline,
+        robot_session(scene, &session, options.settings,
                       options.click_curve ? std::max(kRobotClicks, options.clicks) : options.clicks, 0, job);
     strokes = robot.strokes;
     score.mask_iou_after_clicks = robot.iou_after;
@@ -130,36 +140,39 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
   }
   if (options.click_curve && !options.truth_first_mask && !scribbles_alone)
     for (const int n : {1, 3, 5}) {
-      const PipelineReport report = cut_with(scene, options, first_strokes(strokes, n), job);
+      const CutResult result =
+          session.cut(request_with(scene, options, first_strokes(strokes, n)), options.settings, job);
       if (job.cancelled()) return score;
-      score.image_iou_after_clicks[n] = score_images(scene, report.labels).iou;
+      score.image_iou_after_clicks[n] = score_images(scene, result.labels).iou;
     }
-  CutSolver solver =
-      ready_solver(*scene.cloud, *scene.prepared, options.pipeline);  // belongs to loading, as in the window
+  Session timed = session_of(scene);  // that knows nothing yet but what belongs to loading, as in the window
+  timed.make_ready(options.settings, job);
+  const CutRequest request =
+      request_with(scene, options, scribbles_alone ? strokes : first_strokes(strokes, options.clicks));
   const auto start = std::chrono::steady_clock::now();
-  const PipelineReport report = cut_with(
-      scene, options, scribbles_alone ? strokes : first_strokes(strokes, options.clicks), job, &solver);
+  const CutResult result = timed.cut(request, options.settings, job);
   score.total_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  score.stages = report.stages;
-  score.enough = looked_at(report.views);
-  score.nodes_touched = report.cut.touched;
-  score.why_enough = report.enough;
-  score.doubts = doubts(report);
+  score.stages = result.stages;
+  score.enough = looked_at(result.views);
+  score.nodes_touched = result.cut.touched;
+  score.why_enough = result.why_enough;
+  score.doubts = doubts(result);
   if (job.cancelled()) return score;
-  const ImageScore images = score_images(scene, report.labels);
+  const ImageScore images = score_images(scene, result.labels);
   score.image_iou = images.iou;
   score.accuracy = images.accuracy;
   score.boundary_iou = images.boundary;
-  const PictureScore pictures = score_pictures(scene, report.labels);
+  const PictureScore pictures = score_pictures(scene, result.labels);
   score.psnr_db = pictures.psnr_db;
   score.ssim = pictures.ssim;
   if (scribbles_alone) score.image_iou_by_scribbles = score.image_iou;
   if (!scribbles_alone && !scene.scribbles.empty() && !options.truth_first_mask) {
-    const PipelineReport by_scribbles = cut_with(scene, options, scene.scribbles, job);
+    const CutResult by_scribbles =
+        session.cut(request_with(scene, options, scene.scribbles), options.settings, job);
     if (!job.cancelled()) score.image_iou_by_scribbles = score_images(scene, by_scribbles.labels).iou;
   }
-  if (!scene.truth_labels.empty()) score.gaussian_iou = label_iou(scene.truth_labels, report.labels);
+  if (!scene.truth_labels.empty()) score.gaussian_iou = label_iou(scene.truth_labels, result.labels);
   return score;
 }
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "segment/pipeline.h"
+#include "segment/session/session.h"
 
 namespace splatcut {
 
@@ -42,8 +42,14 @@ struct EvaluationCase {
   KeptViews* kept_views = nullptr;      // of the cloud, for measuring; null: each view is drawn afresh
 };
 
+// A session on the case's scene, which must outlive it. Nothing is kept yet.
+Session session_of(const EvaluationCase& scene);
+
+// The strokes, as they are made in the reference.
+CutRequest request_of(const EvaluationCase& scene, const Strokes& strokes);
+
 struct EvaluationOptions {
-  PipelineOptions pipeline;
+  CutSettings settings;
   int clicks = 3;  // for the final cut
   bool truth_first_mask = false;
   bool truth_masks = false;  // in orbit views; needs truth_labels
@@ -67,15 +73,15 @@ struct SceneScore {
   double total_ms = 0;
 };
 
-// The robot's strokes on the first mask, in reference pixels, and the mask's IoU after each. draw: see
-// robot_click.
+// The robot's strokes on the first mask, in reference pixels, and the mask's IoU after each. session: of the
+// case's scene. draw: see robot_click.
 struct RobotSession {
   Strokes strokes;                // fewer than clicks where nothing was wrong any more
   std::vector<double> iou_after;  // clicks values
 };
 // Throws Error where the truth of the reference is unknown.
-RobotSession robot_session(const EvaluationCase& scene, const PipelineOptions& pipeline, int clicks,
-                           std::uint64_t draw = 0, const Job& job = {});
+RobotSession robot_session(const EvaluationCase& scene, Session* session, const CutSettings& settings,
+                           int clicks, std::uint64_t draw = 0, const Job& job = {});
 
 // Clicks until the IoU reaches the goal; kClicksNotReached where it does not.
 int clicks_to(const std::vector<double>& iou_after, double goal);

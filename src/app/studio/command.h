@@ -94,7 +94,7 @@ struct DeleteSelected {};
 struct RestoreDeleted {};
 struct LeaveOutView {
   ObjectId object;
-  int view;
+  Camera view;
   bool left_out;
 };
 

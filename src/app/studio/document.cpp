@@ -36,16 +36,35 @@ ObjectItem* Document::find(ObjectId id) {
   return const_cast<ObjectItem*>(std::as_const(*this).find(id));
 }
 
-ObjectCutInput cut_input(const Document& document, const ObjectItem& object) {
-  return {object.views,      document.up_world, document.preset,
-          object.smoothness, object.part_step,  object.left_out};
+CutRequest cut_request(const Document& document, const ObjectItem& object) {
+  CutRequest request;
+  request.strokes = object.views;
+  request.left_out = object.left_out;
+  request.part_step = object.part_step;
+  request.up_world = document.up_world;
+  return request;
+}
+
+CutSettings cut_settings(const Document& document, const ObjectItem& object) {
+  CutSettings settings = preset(document.preset);
+  settings.smoothness = object.smoothness;
+  return settings;
+}
+
+std::string cut_key(const Document& document, const ObjectItem& object) {
+  const std::string smoothness = object.smoothness ? fmt::format("{}", *object.smoothness) : "its own";
+  return fmt::format("{};{};", document.preset, smoothness) + key_of(cut_request(document, object));
 }
 
 bool is_stale(const Document& document, const ObjectItem& object) {
+  return is_stale(object, cut_key(document, object));
+}
+
+bool is_stale(const ObjectItem& object, const std::string& key) {
   const bool marks =
       std::ranges::any_of(object.views, [](const StrokedView& v) { return !v.strokes.empty(); });
   if (!marks) return object.cut != nullptr && !object.cut_key.empty();
-  return object.cut_key != key_of(cut_input(document, object));
+  return object.cut_key != key;
 }
 
 std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& object,
@@ -96,7 +115,7 @@ std::string bytes_of(const Document& document) {
   for (const ObjectItem& o : document.objects) {
     bytes += fmt::format("{},{},{},{},{},{},{},{};", o.id, o.name, o.colour[0], o.colour[1], o.colour[2],
                          o.visible, o.locked, o.within);
-    bytes += key_of(cut_input(document, o)) + o.cut_key;
+    bytes += cut_key(document, o) + o.cut_key;
     append_flags(&bytes, o.cut);
     append_flags(&bytes, o.hand);
   }

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "scene/image.h"
-#include "segment/object_cut.h"
+#include "segment/session/cut_request.h"
+#include "segment/session/cut_settings.h"
 
 namespace splatcut {
 
@@ -30,13 +31,13 @@ struct ObjectItem {
   Rgb8 colour{255, 140, 30};
   bool visible = true;
   bool locked = false;
-  ObjectId within = 0;  // part of that object: labels outside of it do not count
-  std::vector<StrokedView> views;
+  ObjectId within = 0;              // part of that object: labels outside of it do not count
+  std::vector<StrokedView> views;   // in the order in which they were stroked, see CutRequest
   int part_step = 0;                // sizes above or below what the first click chose
-  std::vector<int> left_out;        // orbit views that do not count, see ObjectCutInput
+  std::vector<Camera> left_out;     // views that do not count, see CutRequest
   std::optional<float> smoothness;  // the preset's own where not given
   Flags cut;                        // labels from the strokes, 1 = object
-  std::string cut_key;              // key_of() the input they were computed from; empty: none yet
+  std::string cut_key;              // cut_key() of what they were computed from; empty: none yet
   Flags hand;                       // HandMark
 };
 
@@ -54,11 +55,16 @@ struct Document {
   const ObjectItem* active_object() const { return find(active); }
 };
 
-// Strokes and settings of an object, as the cut wants them.
-ObjectCutInput cut_input(const Document& document, const ObjectItem& object);
+// What the document says of an object, and how it is to be cut.
+CutRequest cut_request(const Document& document, const ObjectItem& object);
+CutSettings cut_settings(const Document& document, const ObjectItem& object);
+
+// Both as bytes: equal exactly where the labels must be. For keys, not for files.
+std::string cut_key(const Document& document, const ObjectItem& object);
 
 // True where the strokes say something else than `cut` was computed from.
 bool is_stale(const Document& document, const ObjectItem& object);
+bool is_stale(const ObjectItem& object, const std::string& key);  // where its cut_key() is known
 
 // Final labels (1 = object): cut, hand marks, `within` and deleted together. Size: `gaussians`.
 std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& object,

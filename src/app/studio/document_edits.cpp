@@ -44,10 +44,11 @@ std::string counted(const Document& document, const ObjectItem& object, const Ed
                      context.cloud.size());
 }
 
+// Where the next stroke goes: strokes stay in order, so another view in between starts a new entry.
 StrokedView& view_for(ObjectItem* object, const Camera& camera) {
-  const auto found = std::ranges::find_if(
-      object->views, [&](const StrokedView& v) { return same_camera(v.camera, camera); });
-  return found != object->views.end() ? *found : object->views.emplace_back(StrokedView{camera, {}});
+  std::vector<StrokedView>& views = object->views;
+  if (views.empty() || !same_camera(views.back().camera, camera)) views.push_back({camera, {}});
+  return views.back();
 }
 
 std::string free_name(const Document& document, const std::string& base) {
@@ -303,11 +304,9 @@ std::string edit(Document* document, const StepScale& command, const EditContext
 
 std::string edit(Document* document, const LeaveOutView& command, const EditContext&) {
   ObjectItem& object = unlocked(document, command.object);
-  std::erase(object.left_out, command.view);
+  std::erase_if(object.left_out, [&](const Camera& c) { return same_view(c, command.view); });
   if (command.left_out) object.left_out.push_back(command.view);
-  std::ranges::sort(object.left_out);
-  return fmt::format("View {} of {} {}", command.view, object.name,
-                     command.left_out ? "left out" : "counts again");
+  return fmt::format("A view of {} {}", object.name, command.left_out ? "left out" : "counts again");
 }
 
 std::string edit(Document* document, const SetSmoothness& command, const EditContext&) {

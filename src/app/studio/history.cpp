@@ -78,7 +78,7 @@ void History::jump(std::size_t entry) {
 void History::set_cut(ObjectId object, const std::string& cut_key, const Flags& labels) {
   for (Entry& entry : entries_) {
     ObjectItem* item = entry.document.find(object);
-    if (!item || key_of(cut_input(entry.document, *item)) != cut_key) continue;
+    if (!item || splatcut::cut_key(entry.document, *item) != cut_key) continue;
     item->cut = labels;
     item->cut_key = cut_key;
   }

@@ -69,4 +69,8 @@ std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job
       prepare_scene(*scene.cloud, reference, scene.up_world, scene.cameras, options, job));
 }
 
+SessionScene session_scene(const OpenedScene& scene, std::shared_ptr<const PreparedScene> prepared) {
+  return {scene.cloud, std::move(prepared), scene.up_world, {}};
+}
+
 }  // namespace splatcut

@@ -8,7 +8,7 @@
 
 #include "scene/camera.h"
 #include "scene/scene_file.h"
-#include "segment/prepared_scene.h"
+#include "segment/session/session.h"
 
 namespace splatcut {
 
@@ -30,6 +30,9 @@ std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const
 // Graph and parts. A function of the scene and its cameras alone, so that saved work computes the same again.
 std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job& job = {},
                                              const PreparedCache& cache = {});
+
+// What a session is made of. The prepared scene: of this scene.
+SessionScene session_scene(const OpenedScene& scene, std::shared_ptr<const PreparedScene> prepared);
 
 // Capture cameras beside a scene: cameras.json, transforms.json or a COLMAP folder in its folder or the two
 // above.

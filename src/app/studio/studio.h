@@ -57,15 +57,12 @@ struct ViewCard {
 // The last cut of an object, or the one that runs.
 struct CutRun {
   bool running = false;
-  std::string key;  // key_of() its input
-  std::vector<StageTime> stages;
+  std::string key;                          // cut_key() of what it cuts
+  std::shared_ptr<const CutResult> result;  // null until it is done
+  std::vector<StageTime> stages;            // so far
   std::vector<ViewCard> views;
   Flags preview;  // labels so far
-  Outcome outcome = Outcome::kDone;
-  std::string reason;
   double started_s = 0, first_mask_ms = 0, total_ms = 0;
-  std::size_t sizes = 0, size = 0;                       // that the first click can mean; the one taken
-  bool ambiguous = false;                                // another size was nearly as likely
   std::vector<std::string> doubts;                       // about the masks, a sentence each
   std::shared_ptr<const std::vector<float>> likelihood;  // of `key`; null until asked for
 };
@@ -196,7 +193,7 @@ class Studio {
   void schedule_cut();
   void start_cut(const ObjectItem& object);
   void request_likelihood();
-  std::shared_ptr<ObjectCutter> cutter_for(ObjectId object);
+  const std::string& wanted_key(const ObjectItem& object);
   void autosave(double seconds);
 
   // studio_view.cpp
@@ -216,10 +213,11 @@ class Studio {
   PointerTools tools_;
   std::shared_ptr<const OpenedScene> scene_;
   std::shared_ptr<const PreparedScene> prepared_;
-  std::shared_ptr<SceneSolvers> solvers_;      // for the worker
+  std::shared_ptr<Session> session_;           // for the worker
   std::shared_ptr<const CoarseCloud> coarse_;  // of large scenes, for pictures while the view moves
   std::map<ObjectId, CutRun> runs_;
-  std::vector<std::pair<ObjectId, std::shared_ptr<ObjectCutter>>> cutters_;  // most recent last
+  std::map<ObjectId, std::string> wanted_keys_;  // cut_key() of the document with wanted_serial_
+  std::uint64_t wanted_serial_ = 0;
   ObjectId cutting_object_ = 0;
   std::string cutting_key_;
   std::set<std::string> given_up_;  // keys that were cancelled or failed: not tried again by themselves

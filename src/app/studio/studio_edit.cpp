@@ -104,8 +104,7 @@ void Studio::push(std::string title, Document after, std::string merge_key, cons
   }
   history_.push(std::move(title), std::move(after), std::move(merge_key));
   // Asking again for what was cancelled means that it is wanted now.
-  if (const ObjectItem* active = document().active_object())
-    given_up_.erase(key_of(cut_input(document(), *active)));
+  if (const ObjectItem* active = document().active_object()) given_up_.erase(cut_key(document(), *active));
   document_changed();
   say(Message::Kind::kDone, message);
 }
@@ -280,8 +279,9 @@ void Studio::perform(const Recompute&) {
   const ObjectItem* object = document().active_object();
   if (!object || object->views.empty())
     throw Error("cutout", "the object has no strokes", "Click on it first");
-  given_up_.erase(key_of(cut_input(document(), *object)));
-  std::erase_if(cutters_, [&](const auto& c) { return c.first == object->id; });
+  if (!session_) throw Error("cutout", "the scene is still being prepared", "Try again in a moment");
+  given_up_.erase(cut_key(document(), *object));
+  session_ = std::make_shared<Session>(session_->scene());  // that keeps nothing yet
   start_cut(*object);
 }
 

@@ -14,7 +14,6 @@ namespace splatcut {
 namespace {
 
 constexpr int kThumbnailWidth = 160;
-constexpr std::size_t kCuttersKept = 3;  // each remembers its first cut: about 20 bytes a Gaussian
 constexpr double kAutosaveAfterSeconds = 2;
 constexpr std::size_t kCoarseFrom = 300000;  // Gaussians; fewer are drawn fast enough as they are
 
@@ -71,9 +70,15 @@ void Studio::perform(const OpenScene& c) {
     if (job.cancelled()) return;
     opened_scene->serial = serial;
     std::optional<Document> document;
-    if (work) document = read_work_file(path, *opened_scene->scene, opened_scene->hash).document;
-    tasks_.post([this, opened_scene, document, work_path = work ? path : std::filesystem::path()] {
+    std::string warning;
+    if (work) {
+      WorkFile read = read_work_file(path, *opened_scene->scene, opened_scene->hash);
+      document = std::move(read.document);
+      warning = std::move(read.warning);
+    }
+    tasks_.post([this, opened_scene, document, warning, work_path = work ? path : std::filesystem::path()] {
       opened(opened_scene, document, work_path);
+      if (!warning.empty()) say(Message::Kind::kInfo, warning);
     });
   });
   if (options_.inline_tasks) tasks_.deliver();
@@ -83,10 +88,9 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
                     const std::filesystem::path& work_path) {
   tasks_.cancel(TaskKind::kPrepare);
   prepared_ = nullptr;
-  solvers_ = nullptr;
+  session_ = nullptr;
   coarse_ = nullptr;
   runs_.clear();
-  cutters_.clear();
   given_up_.clear();
   cutting_object_ = 0;
   picture_.reset();
@@ -127,12 +131,12 @@ void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> 
       });
     auto prepared = prepare(*scene, job, options_.cache);
     if (job.cancelled()) return;
-    auto solvers = std::make_shared<SceneSolvers>(scene->cloud, prepared);
-    solvers->make_ready(job);
-    tasks_.post([this, scene, prepared, solvers] {
+    auto session = std::make_shared<Session>(session_scene(*scene, prepared));
+    session->make_ready(preset("default"), job);
+    tasks_.post([this, scene, prepared, session] {
       if (scene != scene_) return;
       prepared_ = prepared;
-      solvers_ = solvers;
+      session_ = session;
     });
   });
   if (options_.inline_tasks) tasks_.deliver();
@@ -143,12 +147,21 @@ const CutRun* Studio::cut_run(ObjectId object) const {
   return found == runs_.end() ? nullptr : &found->second;
 }
 
+// Made once per state of the document: it holds all strokes.
+const std::string& Studio::wanted_key(const ObjectItem& object) {
+  if (wanted_serial_ != document_serial_) wanted_keys_.clear();
+  wanted_serial_ = document_serial_;
+  std::string& key = wanted_keys_[object.id];
+  if (key.empty()) key = cut_key(document(), object);
+  return key;
+}
+
 // What should be computed follows from the document: a stale object is cut, a cut nobody needs is stopped.
 void Studio::schedule_cut() {
   if (!scene_ || !prepared_) return;
   if (cutting_object_ != 0) {
     const ObjectItem* object = document().find(cutting_object_);
-    if (object && key_of(cut_input(document(), *object)) == cutting_key_) return;
+    if (object && wanted_key(*object) == cutting_key_) return;
     tasks_.cancel(TaskKind::kCut);
     runs_[cutting_object_].running = false;
     runs_[cutting_object_].preview = nullptr;
@@ -156,29 +169,16 @@ void Studio::schedule_cut() {
     ++view_serial_;
   }
   for (const ObjectItem& object : document().objects) {
-    if (!is_stale(document(), object)) continue;
-    if (given_up_.contains(key_of(cut_input(document(), object)))) continue;
+    const std::string& key = wanted_key(object);
+    if (!is_stale(object, key) || given_up_.contains(key)) continue;
     start_cut(object);
     return;
   }
 }
 
-std::shared_ptr<ObjectCutter> Studio::cutter_for(ObjectId object) {
-  const auto found =
-      std::ranges::find(cutters_, object, &std::pair<ObjectId, std::shared_ptr<ObjectCutter>>::first);
-  if (found != cutters_.end()) {
-    std::rotate(found, found + 1, cutters_.end());
-  } else {
-    cutters_.emplace_back(object, std::make_shared<ObjectCutter>(scene_->cloud, solvers_));
-    if (cutters_.size() > kCuttersKept) cutters_.erase(cutters_.begin());
-  }
-  return cutters_.back().second;
-}
-
 void Studio::start_cut(const ObjectItem& object) {
-  ObjectCutInput input = cut_input(document(), object);
   cutting_object_ = object.id;
-  cutting_key_ = key_of(input);
+  cutting_key_ = wanted_key(object);
   CutRun& run = runs_[object.id];
   std::vector<ViewCard> before = std::move(run.views);
   run = CutRun{};
@@ -186,35 +186,29 @@ void Studio::start_cut(const ObjectItem& object) {
   run.key = cutting_key_;
   run.views = std::move(before);
   run.started_s = clock_s_;
-  struct Seen {
-    std::size_t views = 0;
-  };
-  tasks_.submit(TaskKind::kCut, [this, input = std::move(input), cutter = cutter_for(object.id),
+  tasks_.submit(TaskKind::kCut, [this, request = cut_request(document(), object),
+                                 settings = cut_settings(document(), object), session = session_,
                                  id = object.id, key = cutting_key_, colour = object.colour, scene = scene_,
                                  heat = view_.heat](const Job& job) {
     const auto start = std::chrono::steady_clock::now();
     const auto ms = [start] {
       return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     };
-    Seen seen;
-    bool first = true;
-    const auto snapshot = [&](const PipelineReport& report) {
-      if (report.labels.empty()) return;
+    std::size_t shown = 0;  // views of this cut
+    const auto snapshot = [&](CutPhase, const CutResult& result) {
+      if (result.labels.empty()) return;
+      const double first_ms = shown == 0 ? ms() : 0;
       std::vector<ViewCard> fresh;
-      if (report.views.size() < seen.views) seen.views = 0;
-      for (; seen.views < report.views.size(); ++seen.views)
-        fresh.push_back(card_of(report.views[seen.views], mask_card(report.views[seen.views], colour)));
-      const double first_ms = first ? ms() : 0;
-      first = false;
-      tasks_.post([this, id, key, first_ms, scene, fresh = std::move(fresh), stages = report.stages,
-                   count = report.views.size(), labels = make_flags(report.labels)] {
+      for (; shown < result.views.size(); ++shown)
+        fresh.push_back(card_of(result.views[shown], mask_card(result.views[shown], colour)));
+      tasks_.post([this, id, key, first_ms, scene, fresh = std::move(fresh), stages = result.stages,
+                   labels = make_flags(result.labels)] {
         if (scene != scene_ || cutting_object_ != id || cutting_key_ != key) return;
         CutRun& now = runs_[id];
         if (first_ms > 0) {
           now.first_mask_ms = first_ms;
-          now.views.clear();
+          now.views.clear();  // those of the cut before
         }
-        now.views.resize(std::min(now.views.size(), count - std::min(count, fresh.size())));
         for (const ViewCard& card : fresh) {
           now.views.push_back(card);
           now.views.back().serial = next_card_serial_++;
@@ -224,50 +218,46 @@ void Studio::start_cut(const ObjectItem& object) {
         ++view_serial_;
       });
     };
-    ObjectCutReport report = cutter->cut(input, snapshot, job);
-    if (report.outcome == Outcome::kCancelled || job.cancelled()) return;
+    const auto result = std::make_shared<const CutResult>(session->cut(request, settings, job, snapshot));
+    if (result->outcome == Outcome::kCancelled || job.cancelled()) return;
     const double total_ms = ms();
-    auto labels = make_flags(report.labels);
-    tasks_.post([this, id, key, scene, labels, total_ms, stages = report.stages, outcome = report.outcome,
-                 sizes = report.sizes, size = report.size, ambiguous = report.ambiguous,
-                 doubts = doubts_of_views(report.views), reason = report.reason] {
+    tasks_.post([this, id, key, scene, result, labels = make_flags(result->labels), total_ms,
+                 doubts = doubts_of_views(result->views)] {
       if (scene != scene_) return;
       CutRun& now = runs_[id];
       if (now.key != key) return;
       now.running = false;
       now.preview = nullptr;
-      if (!stages.empty()) now.stages = stages;
+      now.result = result;
+      if (!result->stages.empty()) now.stages = result->stages;
       now.total_ms = total_ms;
-      now.sizes = sizes;
-      now.size = size;
-      now.ambiguous = ambiguous;
       now.doubts = doubts;
       if (now.first_mask_ms == 0) now.first_mask_ms = total_ms;
-      now.outcome = outcome;
-      now.reason = reason;
       if (cutting_object_ == id && cutting_key_ == key) cutting_object_ = 0;
       history_.set_cut(id, key, labels);
       document_changed();
       const ObjectItem* item = document().find(id);
       if (!item) return;
-      if (outcome == Outcome::kNothingFound)
-        say(Message::Kind::kRefused, item->name + ": " + reason);
+      if (result->outcome == Outcome::kNothingFound)
+        say(Message::Kind::kRefused, item->name + ": " + result->reason);
       else
         say(doubts.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
-            fmt::format(
-                "{}: {} Gaussians cut out in {:.1f} s{}", item->name, gaussians_of(id), total_ms / 1000,
-                !doubts.empty()                     ? ". But " + doubts.front()
-                : ambiguous && tools_.scale_armed() ? ". Not all of it? Turn the wheel for another size"
-                                                    : ""));
+            fmt::format("{}: {} Gaussians cut out in {:.1f} s{}", item->name, gaussians_of(id),
+                        total_ms / 1000,
+                        !doubts.empty() ? ". But " + doubts.front()
+                        : result->ambiguous && tools_.scale_armed()
+                            ? ". Not all of it? Turn the wheel for another size"
+                            : ""));
     });
     // The cutout is on the screen; the rest is for looking at.
     std::shared_ptr<const std::vector<float>> likelihood;
-    if (heat) likelihood = std::make_shared<const std::vector<float>>(cutter->likelihood_of(input, job));
+    if (heat)
+      likelihood = std::make_shared<const std::vector<float>>(session->likelihood_of(request, settings, job));
     std::vector<ViewCard> cards;
-    for (const ViewReport& view : report.views) {
+    for (const ViewReport& view : result->views) {
       if (job.cancelled()) return;
       job.progress("pictures of the views",
-                   static_cast<double>(cards.size()) / static_cast<double>(report.views.size()));
+                   static_cast<double>(cards.size()) / static_cast<double>(result->views.size()));
       cards.push_back(card_of(view, thumbnail(*scene->cloud, view, colour, job)));
     }
     tasks_.post([this, id, key, scene, cards = std::move(cards), likelihood]() mutable {
@@ -288,21 +278,22 @@ void Studio::request_likelihood() {
     return;
   CutRun& run = runs_[object->id];
   if (run.likelihood && run.key == object->cut_key) return;
-  if (is_stale(document(), *object)) return;
+  if (is_stale(*object, wanted_key(*object))) return;
   run.key = object->cut_key;
-  tasks_.submit(
-      TaskKind::kCut, [this, input = cut_input(document(), *object), cutter = cutter_for(object->id),
-                       id = object->id, key = object->cut_key, scene = scene_](const Job& job) {
-        job.progress("likelihood", 0);
-        // Kept from the last cut, or computed again.
-        auto likelihood = std::make_shared<const std::vector<float>>(cutter->likelihood_of(input, job));
-        if (job.cancelled()) return;
-        tasks_.post([this, id, key, scene, likelihood] {
-          if (scene != scene_ || runs_[id].key != key) return;
-          runs_[id].likelihood = likelihood;
-          ++view_serial_;
-        });
-      });
+  tasks_.submit(TaskKind::kCut, [this, request = cut_request(document(), *object),
+                                 settings = cut_settings(document(), *object), session = session_,
+                                 id = object->id, key = object->cut_key, scene = scene_](const Job& job) {
+    job.progress("likelihood", 0);
+    // Kept from the last cut, or computed again.
+    auto likelihood =
+        std::make_shared<const std::vector<float>>(session->likelihood_of(request, settings, job));
+    if (job.cancelled()) return;
+    tasks_.post([this, id, key, scene, likelihood] {
+      if (scene != scene_ || runs_[id].key != key) return;
+      runs_[id].likelihood = likelihood;
+      ++view_serial_;
+    });
+  });
   if (options_.inline_tasks) tasks_.deliver();
 }
 

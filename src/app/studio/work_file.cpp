@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;  // 1 knew views that are left out by their number
 
 json list(const glm::vec3& v) {
   return {v.x, v.y, v.z};
@@ -126,6 +126,8 @@ json object_json(const Document& document, const ObjectItem& o, const Scene& sce
   json views = json::array();
   for (const StrokedView& view : o.views)
     views.push_back({{"camera", camera_json(view.camera)}, {"strokes", strokes_json(view.strokes)}});
+  json left_out = json::array();
+  for (const Camera& camera : o.left_out) left_out.push_back(camera_json(camera));
   json out = {{"id", o.id},
               {"name", o.name},
               {"colour", {o.colour[0], o.colour[1], o.colour[2]}},
@@ -134,7 +136,7 @@ json object_json(const Document& document, const ObjectItem& o, const Scene& sce
               {"within", o.within},
               {"views", views},
               {"part_step", o.part_step},
-              {"left_out", o.left_out},
+              {"left_out", left_out},
               {"cut", runs_json(o.cut, scene)},
               {"cut_is_current", o.cut != nullptr && !is_stale(document, o)},
               {"hand", runs_json(o.hand, scene)}};
@@ -154,7 +156,8 @@ ObjectItem object_from(const json& j, const Scene& scene) {
   for (const json& view : j.at("views"))
     o.views.push_back({camera_from(view.at("camera")), strokes_from(view.at("strokes"))});
   o.part_step = j.value("part_step", 0);
-  o.left_out = j.value("left_out", std::vector<int>{});
+  for (const json& camera : j.value("left_out", json::array()))
+    if (camera.is_object()) o.left_out.push_back(camera_from(camera));
   if (j.contains("smoothness")) o.smoothness = j.at("smoothness").get<float>();
   o.cut = flags_from(j.value("cut", json()), scene, 1);
   o.hand = flags_from(j.value("hand", json()), scene, kHandRest);
@@ -167,7 +170,7 @@ json parse(const std::filesystem::path& path) {
   json work = json::parse(in, nullptr, false);
   if (work.is_discarded() || !work.is_object() || !work.contains("splatcut_work"))
     throw Error(path.string(), "is no work file of splatcut");
-  if (work["splatcut_work"] != kVersion)
+  if (work["splatcut_work"] != 1 && work["splatcut_work"] != kVersion)
     throw Error(path.string(), "was written by a newer splatcut", "Update splatcut");
   return work;
 }
@@ -217,8 +220,12 @@ WorkFile read_work_file(const std::filesystem::path& path, const Scene& scene, s
       ObjectItem& o = d.objects[i];
       if (o.id == 0 || o.id >= d.next_id || d.find(o.id) != &o)
         throw Error("objects", fmt::format("the id {} is used twice or out of range", o.id));
-      if (o.cut && work.at("objects").at(i).value("cut_is_current", false))
-        o.cut_key = key_of(cut_input(d, o));
+      const json& said = work.at("objects").at(i);
+      const bool forgotten = said.value("left_out", json::array()).size() != o.left_out.size();
+      if (forgotten)
+        out.warning = "which views were left out of " + o.name +
+                      " is not known any more: the file is of an older splatcut. Leave them out again";
+      if (o.cut && !forgotten && said.value("cut_is_current", false)) o.cut_key = cut_key(d, o);
     }
     return out;
   } catch (const Error& error) {

@@ -19,6 +19,7 @@ struct WorkFile {
   std::filesystem::path scene;  // absolute
   std::uint64_t scene_hash = 0;
   Document document;
+  std::string warning;  // a sentence about what the file could not say, or empty
 };
 
 bool is_work_file(const std::filesystem::path& path);  // by its name

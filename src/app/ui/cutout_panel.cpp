@@ -99,14 +99,15 @@ void cutout_panel(UiContext& ui) {
   if (!run->running && run->total_ms > 0 && !ui.state.steady)
     muted_text(ui,
                fmt::format("first mask {}, cutout {}", ms_text(run->first_mask_ms), ms_text(run->total_ms)));
-  if (!run->running && run->sizes > 1) {
-    muted_text(ui, fmt::format("size {} of {}", run->size + 1, run->sizes));
+  const CutResult* result = run->running ? nullptr : run->result.get();
+  if (result && result->sizes > 1) {
+    muted_text(ui, fmt::format("size {} of {}", result->size + 1, result->sizes));
     tooltip(
         "What the first click can mean, from small to large: the wheel right after the click, Page Up or "
         "Page Down");
   }
-  if (run->running) return;
-  if (run->outcome == Outcome::kNothingFound) wrapped_warning(ui, run->reason);
+  if (!result) return;
+  if (result->outcome == Outcome::kNothingFound) wrapped_warning(ui, result->reason);
   for (const std::string& doubt : run->doubts) wrapped_warning(ui, doubt);
 }
 

@@ -40,7 +40,8 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
                        c.used ? 0xffffffffu : 0x70ffffffu, 4);
   list.AddRect(at, end, packed(hovered ? ui.theme.colour.accent : ui.theme.colour.line), 4, 0,
                hovered ? 2.0f : 1.0f);
-  const bool left_out = std::ranges::find(object.left_out, static_cast<int>(index)) != object.left_out.end();
+  const bool left_out =
+      std::ranges::any_of(object.left_out, [&](const Camera& v) { return same_view(v, c.camera); });
   if (index == 0) {
     list.AddRectFilled({at.x + 4, end.y - 21}, {at.x + 68, end.y - 4}, packed({0, 0, 0, 1}, 0.6f), 3);
     list.AddText({at.x + 8, end.y - 21}, 0xffffffffu, "your view");
@@ -50,7 +51,7 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
     if (button(ui, left_out ? icon::kCheck : icon::kClose,
                left_out ? "Use this view again" : "Leave this view out of the cut",
                object.locked ? object.name + " is locked" : ""))
-      ui.ask(LeaveOutView{object.id, static_cast<int>(index), !left_out});
+      ui.ask(LeaveOutView{object.id, c.camera, !left_out});
     ImGui::PopStyleVar();
     ImGui::SetCursorScreenPos(at);
     ImGui::Dummy({width, kCardHeight});

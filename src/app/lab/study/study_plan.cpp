@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/lab/study/study_grid.h"
-#include "segment/pipeline.h"
+#include "segment/session/cut_settings.h"
 
 namespace splatcut {
 

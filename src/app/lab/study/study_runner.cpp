@@ -92,7 +92,7 @@ MaskSource true_masks(const EvaluationCase& test, const StudyCell& cell, int vie
 }
 
 // What `splatcut cut` says of such a run.
-std::string warning_of(const PipelineReport& report) {
+std::string warning_of(const CutResult& report) {
   std::vector<std::string> sentences = doubts(report);
   if (!report.reason.empty()) sentences.insert(sentences.begin(), report.reason);
   return fmt::format("{}", fmt::join(sentences, "; "));
@@ -110,7 +110,7 @@ void paint(bool is, bool said, Rgb8* pixel) {
 }
 
 // What the first view and the others cost to look at, whatever the machine.
-double looked_at_megapixels(const PipelineReport& report) {
+double looked_at_megapixels(const CutResult& report) {
   double pixels = 0;
   for (const ViewReport& v : report.views)
     pixels += static_cast<double>(v.camera.width_px) * v.camera.height_px;
@@ -122,26 +122,15 @@ double looked_at_megapixels(const PipelineReport& report) {
 StudyRunner::StudyRunner(nlohmann::json entry, std::filesystem::path folder, PreparedCache cache)
     : entry_(std::move(entry)), folder_(std::move(folder)), cache_(std::move(cache)) {}
 
-void StudyRunner::load(const PipelineOptions& pipeline, const Job& job) {
+void StudyRunner::load(const CutSettings& settings, const Job& job) {
   if (loaded_) return;
-  loaded_ = load_case(entry_, folder_, prepare_options(pipeline), job);
-  loaded_neighbours_ = pipeline.neighbours;
+  loaded_ = load_case(entry_, folder_, prepare_options(settings, cache_), job);
   constexpr std::size_t kMostBytes = std::size_t{768} << 20;  // the test views of a scene, at their own size
   measured_views_.emplace(*loaded_->test.cloud, kMostBytes);
   loaded_->test.kept_views = &*measured_views_;
 }
 
-const PreparedScene& StudyRunner::prepared_for(const PipelineOptions& pipeline, const Job& job) {
-  if (pipeline.neighbours == loaded_neighbours_) return loaded_->prepared;
-  const auto [it, added] = prepared_.try_emplace(pipeline.neighbours);
-  const EvaluationCase& test = loaded_->test;
-  if (added)
-    it->second = prepare_scene(*test.cloud, test.reference, test.up_world, test.scene_cameras,
-                               prepare_options(pipeline), job);
-  return it->second;
-}
-
-void StudyRunner::change_scene(const StudyCell& cell, const PipelineOptions& pipeline, const Job& job,
+void StudyRunner::change_scene(const StudyCell& cell, const CutSettings& settings, const Job& job,
                                EvaluationCase* test) {
   if (cell.scene_scale == 1 && cell.hidden == 0) return;
   if (variant_.scale != cell.scene_scale || variant_.hidden != cell.hidden) {
@@ -152,11 +141,9 @@ void StudyRunner::change_scene(const StudyCell& cell, const PipelineOptions& pip
                 loaded_->test.truth_labels};
     variant_.truth.resize(test->truth_labels.empty() ? 0 : variant_.cloud.size(), 0);
     variant_.cloud = rescaled(variant_.cloud, static_cast<float>(cell.scene_scale));
-    PrepareOptions prepare = prepare_options(pipeline);
-    prepare.cache = {};  // nobody opens it again
     const EvaluationCase there = rescaled(*test, static_cast<float>(cell.scene_scale));
-    variant_.prepared =
-        prepare_scene(variant_.cloud, there.reference, there.up_world, there.scene_cameras, prepare, job);
+    variant_.prepared = prepare_scene(variant_.cloud, there.reference, there.up_world, there.scene_cameras,
+                                      prepare_options(settings), job);  // no cache: nobody opens it again
   }
   *test = rescaled(*test, static_cast<float>(cell.scene_scale));
   test->cloud = &variant_.cloud;
@@ -166,58 +153,58 @@ void StudyRunner::change_scene(const StudyCell& cell, const PipelineOptions& pip
   if (cell.hidden > 0) render_truth(test);
 }
 
-void StudyRunner::choose_strokes(const StudyCell& cell, const Job& job, Setup* setup) const {
-  const bool scribbles = setup->test.scribbles_alone;  // one answer: all of them
-  const Strokes& given = scribbles ? setup->test.scribbles : setup->test.clicks;
+void StudyRunner::say(const StudyCell& cell, const Job& job, Setup* setup) const {
+  const EvaluationCase& test = setup->test;
+  if (cell.true_masks) setup->request.mask_source = true_masks(test, cell, setup->settings.orbit.views);
   if (cell.first == "truth") {
-    setup->pipeline.given_first_mask = setup->test.reference_truth;
-  } else if (!given.empty()) {
-    constexpr double kHandPx = 6;
-    const auto told =
-        scribbles ? std::ssize(given) : std::min<std::ptrdiff_t>(cell.clicks, std::ssize(given));
-    setup->strokes = Strokes(given.begin(), given.begin() + told);
-    if (cell.draw) shake(&setup->strokes, kHandPx, cell.draw);
-  } else {
-    setup->strokes = robot_session(setup->test, setup->pipeline, cell.clicks, cell.draw, job).strokes;
+    setup->request.first_mask = {test.reference, test.reference_truth.value()};
+    return;
   }
-  if (cell.order) shuffle(&setup->strokes, cell.order);
-  if (cell.stroke_px > 0) draw_out(&setup->strokes, cell.stroke_px, cell.draw);
+  Strokes strokes;
+  const Strokes& given = test.scribbles_alone ? test.scribbles : test.clicks;
+  if (!given.empty()) {
+    constexpr double kHandPx = 6;
+    const auto told = test.scribbles_alone ? std::ssize(given)  // one answer: all of them
+                                           : std::min<std::ptrdiff_t>(cell.clicks, std::ssize(given));
+    strokes = Strokes(given.begin(), given.begin() + told);
+    if (cell.draw) shake(&strokes, kHandPx, cell.draw);
+  } else {
+    Session session = session_of(test);
+    strokes = robot_session(test, &session, setup->settings, cell.clicks, cell.draw, job).strokes;
+  }
+  if (cell.order) shuffle(&strokes, cell.order);
+  if (cell.stroke_px > 0) draw_out(&strokes, cell.stroke_px, cell.draw);
   if (cell.first == "strokes")
-    setup->pipeline.given_first_mask = mask_of_strokes(setup->strokes, setup->test.reference);
+    setup->request.first_mask = {test.reference, mask_of_strokes(strokes, test.reference)};
+  else
+    setup->request.strokes = {{test.reference, std::move(strokes)}};
 }
 
-StudyRunner::Setup StudyRunner::set_up(const StudyCell& cell, const Job& job) {
-  Setup setup;
-  setup.pipeline = preset(cell.preset);
-  for (const std::string& assignment : cell.set) set_tuning_option(assignment, &setup.pipeline);
-  setup.pipeline.cut_parts = !cell.parts_only;
-  setup.pipeline.cache = cache_;
-  PipelineOptions with_parts = setup.pipeline;  // one prepared scene for all cells
+std::unique_ptr<StudyRunner::Setup> StudyRunner::set_up(const StudyCell& cell, const Job& job) {
+  auto setup = std::make_unique<Setup>();
+  setup->settings = preset(cell.preset);
+  for (const std::string& assignment : cell.set) set_tuning_option(assignment, &setup->settings);
+  setup->settings.cut_parts = !cell.parts_only;
+  CutSettings with_parts = setup->settings;  // one prepared scene for all cells
   with_parts.first_mask_from = FirstMaskFrom::kParts;
   load(with_parts, job);
-  setup.test = loaded_->test;
-  setup.possible = !job.cancelled() && can_run(cell, setup.test);
-  if (!setup.possible) return setup;
-  setup.test.prepared = &prepared_for(with_parts, job);
-  change_scene(cell, with_parts, job, &setup.test);
-  if (cell.step_back != 1) step_back(&setup.test, static_cast<float>(cell.step_back));
-  if (cell.object_share > 0) fill_picture(&setup.test, cell.object_share);
-  if (cell.score_scale != 1) resize_tests(&setup.test, cell.score_scale);
-  setup.test.up_world = tilted(setup.test.up_world, setup.test.reference, cell.up_tilt_deg);
-  setup.pipeline.scene_cameras = setup.test.scene_cameras;
-  choose_strokes(cell, job, &setup);
-  return setup;
+  EvaluationCase& test = setup->test = loaded_->test;
+  if (job.cancelled() || !can_run(cell, test)) return nullptr;
+  change_scene(cell, with_parts, job, &test);
+  if (cell.step_back != 1) step_back(&test, static_cast<float>(cell.step_back));
+  if (cell.object_share > 0) fill_picture(&test, cell.object_share);
+  if (cell.score_scale != 1) resize_tests(&test, cell.score_scale);
+  test.up_world = tilted(test.up_world, test.reference, cell.up_tilt_deg);
+  if (!job.cancelled()) say(cell, job, setup.get());
+  return job.cancelled() ? nullptr : std::move(setup);
 }
 
-StudyRunner::Timed StudyRunner::cut(const StudyCell& cell, Setup* setup, const Job& job) const {
-  const EvaluationCase& test = setup->test;
-  CutSolver solver =
-      ready_solver(*test.cloud, *test.prepared, setup->pipeline);  // belongs to loading, as in the window
+StudyRunner::Timed StudyRunner::cut(const Setup& setup, const Job& job) const {
+  Session session = session_of(setup.test);
+  session.make_ready(setup.settings, job);  // belongs to loading, as in the window
   const auto start = std::chrono::steady_clock::now();
-  if (cell.true_masks) setup->pipeline.given_masks = true_masks(test, cell, setup->pipeline.orbit.views);
-  PipelineReport report = cut_out(*test.cloud, test.prepared, test.reference, test.up_world, setup->strokes,
-                                  setup->pipeline, job, &solver);
-  return {std::move(report),
+  CutResult result = session.cut(setup.request, setup.settings, job);
+  return {std::move(result),
           std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()};
 }
 
@@ -235,10 +222,10 @@ ImageScore StudyRunner::score_of(const StudyCell& cell, const EvaluationCase& te
 }
 
 nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
-  Setup setup = set_up(cell, job);
-  if (!setup.possible || job.cancelled()) return nullptr;
-  const EvaluationCase& test = setup.test;
-  const auto [report, ms] = cut(cell, &setup, job);
+  const auto setup = set_up(cell, job);
+  if (!setup) return nullptr;
+  const EvaluationCase& test = setup->test;
+  const auto [report, ms] = cut(*setup, job);
   if (job.cancelled()) return nullptr;
   const ImageScore score = score_of(cell, test, report.labels);
   nlohmann::json result = to_json(cell);
@@ -262,10 +249,10 @@ nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
 }
 
 Image<Rgb8> StudyRunner::picture(const StudyCell& cell, const Job& job) {
-  Setup setup = set_up(cell, job);
-  if (!setup.possible || job.cancelled()) return {};
-  const EvaluationCase& test = setup.test;
-  const PipelineReport report = cut(cell, &setup, job).report;
+  const auto setup = set_up(cell, job);
+  if (!setup) return {};
+  const EvaluationCase& test = setup->test;
+  const CutResult report = cut(*setup, job).result;
   if (job.cancelled()) return {};
   constexpr int kWidthPx = 360;
   const bool labelled = !test.truth_labels.empty();

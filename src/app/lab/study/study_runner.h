@@ -29,9 +29,8 @@ class StudyRunner {
  private:
   struct Setup {
     EvaluationCase test;
-    PipelineOptions pipeline;
-    Strokes strokes;
-    bool possible = true;
+    CutSettings settings;
+    CutRequest request;  // its mask source refers to `test`
   };
   // The scene in other units, or with a board in it.
   struct Variant {
@@ -43,24 +42,21 @@ class StudyRunner {
   ImageScore score_of(const StudyCell& cell, const EvaluationCase& test,
                       const std::vector<std::uint8_t>& labels);
   struct Timed {
-    PipelineReport report;
+    CutResult result;
     double ms = 0;  // from the strokes to the labels
   };
-  Timed cut(const StudyCell& cell, Setup* setup, const Job& job) const;
-  void load(const PipelineOptions& pipeline, const Job& job);
-  Setup set_up(const StudyCell& cell, const Job& job);
-  void choose_strokes(const StudyCell& cell, const Job& job, Setup* setup) const;
-  const PreparedScene& prepared_for(const PipelineOptions& pipeline, const Job& job);
-  void change_scene(const StudyCell& cell, const PipelineOptions& pipeline, const Job& job,
-                    EvaluationCase* test);
+  Timed cut(const Setup& setup, const Job& job) const;
+  void load(const CutSettings& settings, const Job& job);
+  // Null where the scene cannot be asked this, or the job was cancelled. The cell must outlive it.
+  std::unique_ptr<Setup> set_up(const StudyCell& cell, const Job& job);
+  void say(const StudyCell& cell, const Job& job, Setup* setup) const;
+  void change_scene(const StudyCell& cell, const CutSettings& settings, const Job& job, EvaluationCase* test);
 
   nlohmann::json entry_;
   std::filesystem::path folder_;
   PreparedCache cache_;
   std::unique_ptr<LoadedCase> loaded_;
-  int loaded_neighbours_ = 0;
-  std::map<int, PreparedScene> prepared_;  // of other numbers of neighbours
-  Variant variant_;                        // the last one; none is kept where there was none
+  Variant variant_;  // the last one; none is kept where there was none
   std::optional<KeptViews>
       measured_views_;  // of the scene as it was loaded; cuts, which are timed, have their own
   std::map<std::uint64_t, ImageScore> scores_;

@@ -1,10 +1,11 @@
+#include "segment/session/cut_settings.h"
+
 #include "scene/error.h"
-#include "segment/pipeline.h"
 
 namespace splatcut {
 
-PipelineOptions preset(const std::string& name) {
-  PipelineOptions options;
+CutSettings preset(const std::string& name) {
+  CutSettings options;
   // Smoother than the energy's own defaults: better on photographs and straddling splats (docs/study.md).
   options.cut.energy.lambda = 2;
   options.cut.energy.v0_px_per_view_at_400 = 3;
@@ -33,11 +34,17 @@ PipelineOptions preset(const std::string& name) {
   return options;
 }
 
-PrepareOptions prepare_options(const PipelineOptions& options) {
+void check(const CutSettings& settings) {
+  if (!settings.cut_parts && settings.first_mask_from != FirstMaskFrom::kParts)
+    throw Error("settings", "the parts cannot be the answer where the first mask comes from pixels",
+                "Leave one of the two out");
+}
+
+PrepareOptions prepare_options(const CutSettings& settings, const PreparedCache& cache) {
   PrepareOptions prepare;
-  prepare.graph.neighbours = options.neighbours;
-  prepare.cache = options.cache;
-  prepare.with_parts = options.first_mask_from == FirstMaskFrom::kParts;
+  prepare.graph.neighbours = settings.neighbours;
+  prepare.cache = cache;
+  prepare.with_parts = settings.first_mask_from == FirstMaskFrom::kParts;
   return prepare;
 }
 

@@ -1,0 +1,116 @@
+#include "segment/session/cut_request.h"
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "scene/byte_hash.h"
+
+namespace splatcut {
+
+namespace {
+
+// Bytes in which every list says its length first, so that no two requests share them.
+class Key {
+ public:
+  template <class Number>
+  void number(Number value) {
+    static_assert(std::is_arithmetic_v<Number> || std::is_enum_v<Number>);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  }
+  void numbers(std::span<const float> values) {
+    for (const float value : values) number(value);
+  }
+  template <class List, class Add>
+  void list(const List& list, const Add& add) {
+    number(std::uint64_t{list.size()});
+    for (const auto& item : list) add(item);
+  }
+  void camera(const Camera& c) {
+    for (const int v : {c.width_px, c.height_px}) number(v);
+    for (const float v : {c.fx_px, c.fy_px, c.cx_px, c.cy_px}) number(v);
+    numbers({&c.camera_from_world_rotation[0][0], 9});
+    numbers({&c.camera_from_world_translation.x, 3});
+  }
+  void cameras(const std::vector<Camera>& cameras) {
+    list(cameras, [this](const Camera& c) { camera(c); });
+  }
+  void strokes(const Strokes& strokes) {
+    list(strokes, [this](const Stroke& stroke) {
+      number(stroke.label);
+      number(stroke.radius_px);
+      list(stroke.points_px, [this](const glm::vec2& p) { numbers({&p.x, 2}); });
+    });
+  }
+  void given(const GivenView& view) {
+    camera(view.camera);
+    number(view.mask.width());
+    number(view.mask.height());
+    number(hash_bytes(std::as_bytes(view.mask.pixels())));
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+// All but the strokes and the views left out.
+void add_given(const CutRequest& request, Key* key) {
+  key->number(request.first_mask.has_value());
+  if (request.first_mask) key->given(*request.first_mask);
+  key->list(request.masks, [key](const GivenView& view) { key->given(view); });
+  key->number(static_cast<bool>(request.mask_source));
+  key->cameras(request.views);
+  key->number(request.part_step);
+  key->number(request.up_world.has_value());
+  if (request.up_world) key->numbers({&request.up_world->x, 3});
+}
+
+}  // namespace
+
+std::vector<StrokedView> strokes_by_view(const std::vector<StrokedView>& strokes) {
+  std::vector<StrokedView> views;
+  for (const StrokedView& entry : strokes) {
+    const auto known = std::ranges::find_if(
+        views, [&](const StrokedView& view) { return same_view(view.camera, entry.camera); });
+    if (known == views.end())
+      views.push_back(entry);
+    else
+      known->strokes.insert(known->strokes.end(), entry.strokes.begin(), entry.strokes.end());
+  }
+  return views;
+}
+
+bool marks_object(const StrokedView& view) {
+  return std::ranges::any_of(view.strokes, [](const Stroke& s) { return s.label == SeedLabel::kObject; });
+}
+
+std::optional<ReferenceView> reference_of(const CutRequest& request,
+                                          const std::vector<StrokedView>& by_view) {
+  if (request.first_mask) return ReferenceView{request.first_mask->camera, {}};
+  const auto reference = std::ranges::find_if(by_view, marks_object);
+  if (reference == by_view.end()) return std::nullopt;
+  return ReferenceView{reference->camera, reference->strokes};
+}
+
+std::string key_of(const CutRequest& request) {
+  Key key;
+  key.list(request.strokes, [&key](const StrokedView& view) {
+    key.camera(view.camera);
+    key.strokes(view.strokes);
+  });
+  key.cameras(request.left_out);
+  add_given(request, &key);
+  return key.take();
+}
+
+std::string key_of_reference(const CutRequest& request, const ReferenceView& reference) {
+  Key key;
+  key.camera(reference.camera);
+  key.strokes(reference.strokes);
+  add_given(request, &key);
+  return key.take();
+}
+
+}  // namespace splatcut

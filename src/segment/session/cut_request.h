@@ -1,0 +1,66 @@
+// What is said about one object: strokes, masks, views. No settings.
+//
+// The same request, settings and session give the same labels, bit for bit.
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/camera.h"
+#include "scene/image.h"
+#include "segment/seeds.h"
+
+namespace splatcut {
+
+// Strokes of one view, in order. Strokes: in the camera's pixels.
+struct StrokedView {
+  Camera camera;
+  Strokes strokes;
+};
+
+// A view whose mask is known. Mask: any size of the camera's aspect ratio.
+struct GivenView {
+  Camera camera;
+  Mask mask;
+};
+
+// Gives the mask of a view in place of the cut's own (truth in experiments, masks of other tools).
+using MaskSource = std::function<Mask(const Camera&)>;
+
+struct CutRequest {
+  // In the order in which they were made; a camera may come more than once. The first view with an object
+  // stroke is the reference.
+  std::vector<StrokedView> strokes;
+  std::optional<GivenView> first_mask;  // its camera is then the reference
+  std::vector<GivenView> masks;         // of other views, in place of an orbit
+  MaskSource mask_source;               // of every orbit view
+  std::vector<Camera> views;            // to look from beside the reference; empty: an orbit
+  std::vector<Camera> left_out;         // views that do not count, the reference apart
+  int part_step = 0;                    // sizes above or below what the first click means most likely
+  std::optional<glm::vec3> up_world;    // where the user says which way is up; the session's otherwise
+};
+
+// The strokes by view, as they are told apart by same_view(): each view once, in order of its first stroke.
+std::vector<StrokedView> strokes_by_view(const std::vector<StrokedView>& strokes);
+
+bool marks_object(const StrokedView& view);
+
+// What is clicked in: the camera of the first mask, or the first view with an object stroke; null: nothing
+// marks the object. Strokes: those of `by_view` there.
+struct ReferenceView {
+  Camera camera;
+  Strokes strokes;
+};
+std::optional<ReferenceView> reference_of(const CutRequest& request, const std::vector<StrokedView>& by_view);
+
+// The request as bytes: equal exactly where the result must be, but for a mask source, whose masks nobody
+// knows before they are asked for. Masks count by their 64-bit hash. For keys, not for files.
+std::string key_of(const CutRequest& request);
+
+// The part of the key that the cut from the reference depends on, see session.h.
+std::string key_of_reference(const CutRequest& request, const ReferenceView& reference);
+
+}  // namespace splatcut

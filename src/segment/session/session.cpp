@@ -1,0 +1,256 @@
+#include "segment/session/session.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "scene/error.h"
+#include "segment/cv_image.h"
+#include "segment/knn_graph.h"
+#include "segment/likelihood.h"
+#include "segment/session/correction.h"
+#include "segment/session/pipeline.h"
+#include "segment/stage_clock.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr std::size_t kMostKept = 3;  // cuts from a reference: each takes about 20 bytes a Gaussian
+
+// Times the views used: a correction must win against all that missed it.
+constexpr int kCorrectionWeight = 4;
+
+bool left_out(const CutRequest& request, const Camera& camera) {
+  return std::ranges::any_of(request.left_out, [&](const Camera& c) { return same_view(c, camera); });
+}
+
+// Of the views but the reference those that the user leaves out no longer count. Returns how many.
+std::size_t leave_out(const CutRequest& request, std::vector<ViewReport>* views) {
+  std::size_t count = 0;
+  for (std::size_t v = 1; v < views->size(); ++v) {
+    ViewReport& view = (*views)[v];
+    if (!left_out(request, view.camera)) continue;
+    view.used = false;
+    view.reason = "left out";
+    ++count;
+  }
+  return count;
+}
+
+std::ptrdiff_t views_used(const CutResult& result) {
+  return std::ranges::count_if(result.views, &ViewReport::used);
+}
+
+std::string key_of_views(const std::vector<ViewReport>& views, bool hard_counts) {
+  CutRequest request;  // its key says which masks there are
+  for (const ViewReport& view : views)
+    if (view.used) request.masks.push_back({view.camera, view.mask});
+  return key_of(request) + (hard_counts ? 'h' : 's');
+}
+
+CutSettings without_smoothness(CutSettings settings) {
+  settings.smoothness.reset();
+  return settings;
+}
+
+}  // namespace
+
+// A request, looked through.
+struct Session::Asked {
+  const CutRequest& request;
+  const CutSettings& settings;
+  std::vector<StrokedView> by_view;
+  std::optional<ReferenceView> reference;
+  CutSettings first_settings;  // of the cut from the reference
+  std::string first_key;
+
+  // Strokes in other views than the reference.
+  std::vector<const StrokedView*> corrections() const {
+    std::vector<const StrokedView*> views;
+    for (const StrokedView& view : by_view)
+      if (!view.strokes.empty() && (request.first_mask || !same_view(view.camera, reference->camera)))
+        views.push_back(&view);
+    return views;
+  }
+  float smoothness() const { return settings.smoothness.value_or(settings.cut.energy.lambda); }
+  bool smoother() const { return smoothness() != settings.cut.energy.lambda; }
+};
+
+Session::Session(SessionScene scene) : scene_(std::move(scene)), views_(*scene_.cloud) {}
+
+const FlowGraph& Session::graph(const CutSettings& settings, const Job& job) {
+  const std::size_t most = scene_.cloud->size() > 0 ? scene_.cloud->size() - 1 : 0;
+  const auto wanted =
+      static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(settings.neighbours), most));
+  if (scene_.prepared->graph.listed == wanted) return scene_.prepared->graph;
+  if (other_graph_ && other_graph_->listed == wanted) return *other_graph_;
+  other_solver_.reset();
+  other_graph_ = knn_graph(*scene_.cloud, {settings.neighbours}, job);
+  return *other_graph_;
+}
+
+CutSolver& Session::solver(const CutSettings& settings, const Job& job) {
+  const FlowGraph& neighbours = graph(settings, job);
+  std::optional<CutSolver>& solver = &neighbours == &scene_.prepared->graph ? solver_ : other_solver_;
+  if (solver)
+    solver->set_options(settings.cut);
+  else
+    solver.emplace(*scene_.cloud, neighbours, settings.cut);
+  return *solver;
+}
+
+void Session::make_ready(const CutSettings& settings, const Job& job) {
+  if (job.cancelled()) return;
+  solver(settings, job).make_ready();
+  make_lab_ready();
+}
+
+CutScene Session::scene_for(const CutRequest& request, const CutSettings& settings, const Job& job) {
+  const PartHierarchy& parts = scene_.prepared->parts;
+  if (settings.first_mask_from == FirstMaskFrom::kParts && parts.leaf_of.size() != scene_.cloud->size())
+    throw Error("first mask", "the scene was prepared without parts", "Prepare it with the same settings");
+  return {{*scene_.cloud, &views_},
+          graph(settings, job),
+          parts,
+          solver(settings, job),
+          request.up_world.value_or(scene_.up_world),
+          scene_.photographs};
+}
+
+Session::Asked Session::asked(const CutRequest& request, const CutSettings& settings) const {
+  check(settings);
+  Asked asked{request, settings, strokes_by_view(request.strokes), {}, without_smoothness(settings), {}};
+  asked.reference = reference_of(request, asked.by_view);
+  if (asked.reference) asked.first_key = key_of_reference(request, *asked.reference);
+  return asked;
+}
+
+Session::Kept* Session::kept(const Asked& asked) {
+  if (asked.request.mask_source) return nullptr;  // nobody knows what it would say now
+  const auto found = std::ranges::find_if(
+      kept_, [&](const Kept& k) { return k.key == asked.first_key && k.settings == asked.first_settings; });
+  if (found == kept_.end()) return nullptr;
+  kept_.splice(kept_.begin(), kept_, found);
+  return &kept_.front();
+}
+
+Session::Kept& Session::from_reference(const Asked& asked, const Job& job, const OnSnapshot& on_snapshot,
+                                       bool* fresh) {
+  Kept* known = kept(asked);
+  *fresh = known == nullptr;
+  if (known) return *known;
+  job.progress("first mask", 0);
+  Kept made{asked.first_key, asked.first_settings, {}, {}, {}};
+  made.result.outcome = Outcome::kCancelled;
+  const CutScene scene = scene_for(asked.request, asked.first_settings, job);
+  if (!job.cancelled())
+    made.result =
+        cut_from_reference(scene, *asked.reference, asked.request, asked.first_settings, job, on_snapshot);
+  if (made.result.outcome == Outcome::kCancelled) return cancelled_ = std::move(made);
+  kept_.push_front(std::move(made));
+  if (kept_.size() > kMostKept) kept_.pop_back();
+  return kept_.front();
+}
+
+// Sums of the views that count, kept until those differ. False: cancelled.
+bool Session::add_up_views(const CutResult& result, const CutSettings& settings, const Job& job,
+                           Kept* first) {
+  std::string key = key_of_views(result.views, settings.hard_counts);
+  if (first->sums && key == first->sums_key) return !job.cancelled();
+  first->sums.reset();
+  MaskedSums sums(scene_.cloud->size());
+  for (const ViewReport& view : result.views)
+    if (view.used && !job.cancelled())
+      add_masked_sums({*scene_.cloud, &views_}, view.camera, view.mask, settings.hard_counts, job, &sums);
+  if (job.cancelled()) return false;
+  first->sums = std::move(sums);
+  first->sums_key = std::move(key);
+  return true;
+}
+
+// What the last cut weighs: the views that count, corrected by strokes in other views, and what the parts
+// say. The result's views are those of the first cut; views of corrections are appended.
+Likelihood Session::evidence(const Asked& asked, const Job& job, Kept* first, CutResult* result) {
+  const CutSettings& settings = asked.settings;
+  StageClock clock(&result->stages);
+  if (!clock.time("likelihood", [&] { return add_up_views(*result, settings, job, first); })) return {};
+  const std::ptrdiff_t first_used = views_used(*result);
+  const Drawer drawer(*scene_.cloud, &views_);
+  MaskedSums sums = *first->sums;
+  for (const StrokedView* view : asked.corrections()) {
+    if (job.cancelled()) break;
+    const Correction c =
+        clock.time("masks", [&] { return corrected(drawer, *view, first->result.labels, settings, job); });
+    clock.time("likelihood", [&] {
+      add_masked_sums(drawer, c.camera, c.mask, settings.hard_counts, job, &sums);
+      add_weighted(drawer, c, kCorrectionWeight * first_used, settings.hard_counts, job, &sums);
+    });
+    result->views.push_back(
+        {.camera = c.camera, .mask = c.mask, .used = true, .confidence = 1, .reason = {}});
+  }
+  return with_prior(likelihood(sums), first->result.prior,
+                    settings.prior_px_per_view * static_cast<float>(views_used(*result)));
+}
+
+// The last cut. result: that of the first.
+void Session::correct(const Asked& asked, const Job& job, Kept* first, CutResult* result) {
+  CutSettings settings = asked.settings;
+  settings.cut.energy.lambda = asked.smoothness();
+  const Likelihood weighed = evidence(asked, job, first, result);
+  if (job.cancelled()) return;
+  job.progress("cut", 0.9);
+  StageClock clock(&result->stages);
+  const LookedAt looked = looked_at(result->views);
+  CutReport report = clock.time("cut", [&] {
+    return solver(settings, job).solve(weighed, looked.views, looked.pixels_per_view(), job);
+  });
+  if (job.cancelled()) return;
+  result->cut = report;
+  result->labels = std::move(report.labels);
+  if (settings.trim)
+    result->trimmed = clock.time("trim", [&] {
+      return trim_to_views({*scene_.cloud, &views_}, result->views, settings, &result->labels, job);
+    });
+}
+
+CutResult Session::cut(const CutRequest& request, const CutSettings& settings, const Job& job,
+                       const OnSnapshot& on_snapshot) {
+  const Asked asked = this->asked(request, settings);
+  if (!asked.reference) {
+    CutResult nothing;
+    nothing.outcome = Outcome::kNothingFound;
+    nothing.reason = "no stroke marks the object yet; click on it";
+    nothing.labels.assign(scene_.cloud->size(), 0);
+    return nothing;
+  }
+  bool fresh = false;
+  Kept& first = from_reference(asked, job, on_snapshot, &fresh);
+  CutResult result = first.result;
+  if (!fresh) result.stages.clear();
+  if (result.outcome != Outcome::kDone || !settings.cut_parts) return result;
+  const std::size_t without = leave_out(request, &result.views);
+  if (without == 0 && asked.corrections().empty() && !asked.smoother()) return result;
+  correct(asked, job, &first, &result);
+  if (job.cancelled()) result.outcome = Outcome::kCancelled;
+  return result;
+}
+
+Mask Session::first_mask(const CutRequest& request, const CutSettings& settings, const Job& job) {
+  const Asked asked = this->asked(request, settings);
+  if (!asked.reference) return {};
+  const CutScene scene = scene_for(request, asked.first_settings, job);
+  return first_mask_of(scene, *asked.reference, request, asked.first_settings, job);
+}
+
+std::vector<float> Session::likelihood_of(const CutRequest& request, const CutSettings& settings,
+                                          const Job& job) {
+  const Asked asked = this->asked(request, settings);
+  if (!asked.reference) return std::vector<float>(scene_.cloud->size(), 0);
+  bool fresh = false;
+  Kept& first = from_reference(asked, job, {}, &fresh);
+  CutResult result = first.result;
+  leave_out(request, &result.views);
+  return evidence(asked, job, &first, &result).w;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,92 @@
+// The one door to a cut: a scene with all that is kept of it between cuts.
+//
+// Command line, window, eval and study cut through it, so that the same strokes give the same labels.
+// Steps: (1) the cut from the reference view at the settings' own smoothness, see pipeline.h; (2) where
+// strokes in other views, views left out or another smoothness ask for it, the masks are corrected and one
+// more cut is solved:
+//   A_g += k (M_g of added + removed pixels),  M_g += k (M_g of added pixels),  k = 4 x views used,
+// so that a stroke in one view outweighs the views that did not see the fault; what the parts say and the
+// trimming count as in step 1.
+// Step 1 is kept: what changes only step 2 costs only step 2. The result is a function of scene, request and
+// settings alone, kept steps or not, whatever was cut before, on any number of threads. One call at a time.
+#pragma once
+
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/job.h"
+#include "scene/projected_view.h"
+#include "segment/prepared_scene.h"
+#include "segment/session/cut_request.h"
+#include "segment/session/cut_result.h"
+#include "segment/session/cut_settings.h"
+
+namespace splatcut {
+
+struct CutScene;
+
+struct SessionScene {
+  std::shared_ptr<const GaussianCloud> cloud;
+  std::shared_ptr<const PreparedScene> prepared;  // of the cloud
+  glm::vec3 up_world{0, -1, 0};                   // for orbits; a request may know better
+  std::vector<Camera> photographs;                // cameras of the capture, where known
+};
+
+class Session {
+ public:
+  explicit Session(SessionScene scene);
+
+  const SessionScene& scene() const { return scene_; }
+
+  // Throws Error for settings that contradict each other, or parts that the scene was not prepared with.
+  // Nothing marked, nothing found, cancelled: in `outcome`, with a reason.
+  CutResult cut(const CutRequest& request, const CutSettings& settings, const Job& job = {},
+                const OnSnapshot& on_snapshot = {});
+
+  // The reference's mask alone, before any other view is looked at, in the size of
+  // limited_to_width(reference, work_width_px) or larger; empty where nothing marks the object.
+  Mask first_mask(const CutRequest& request, const CutSettings& settings, const Job& job = {});
+
+  // w_g as the last cut of `request` weighed it, for display: soft or hard, with corrections and what the
+  // parts say. Cancelled, or nothing marked: unspecified.
+  std::vector<float> likelihood_of(const CutRequest& request, const CutSettings& settings,
+                                   const Job& job = {});
+
+  // Makes now what the first cut would make: with these settings it then costs less.
+  void make_ready(const CutSettings& settings, const Job& job = {});
+
+  // Of as many neighbours as the settings want; another number than was prepared is made and kept. Cancelled:
+  // must not be used.
+  const FlowGraph& graph(const CutSettings& settings, const Job& job = {});
+
+ private:
+  struct Kept {  // a cut from the reference
+    std::string key;
+    CutSettings settings;
+    CutResult result;
+    std::string sums_key;  // masks that `sums` was added up from
+    std::optional<MaskedSums> sums;
+  };
+  struct Asked;
+
+  CutSolver& solver(const CutSettings& settings, const Job& job);
+  CutScene scene_for(const CutRequest& request, const CutSettings& settings, const Job& job);
+  Asked asked(const CutRequest& request, const CutSettings& settings) const;
+  Kept* kept(const Asked& asked);
+  Kept& from_reference(const Asked& asked, const Job& job, const OnSnapshot& on_snapshot, bool* fresh);
+  bool add_up_views(const CutResult& result, const CutSettings& settings, const Job& job, Kept* first);
+  Likelihood evidence(const Asked& asked, const Job& job, Kept* first, CutResult* result);
+  void correct(const Asked& asked, const Job& job, Kept* first, CutResult* result);
+
+  SessionScene scene_;
+  std::optional<FlowGraph> other_graph_;
+  std::optional<CutSolver> solver_, other_solver_;
+  KeptViews views_;
+  std::list<Kept> kept_;  // most recent first
+  Kept cancelled_;        // what came of the last cut that was not finished
+};
+
+}  // namespace splatcut
