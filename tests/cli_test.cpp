@@ -65,7 +65,21 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused(life.cut("-o cut --click 5000,2"), {"5000", "outside"});
   refused(life.cut("-o cut --seeds bad.json"), {"bad.json", "JSON"});
   refused(life.cut("-o cut --mask none.png"), {"none.png"});
-  refused("cut " + life.scene + " -o cut --click 1,1 --preset slow", {"slow", "default"});
+  const char* const presets = "fast, default, best, paper or paper-code";
+  refused("cut " + life.scene + " -o cut --click 1,1 --preset slow", {"slow", presets});
+  refused("eval made/suite.json -o cut --preset slow", {"slow", presets});
+  refused(life.cut("-o cut --click 1,1 --refine foo"), {"views.refine", "foo", "none, grabcut or pixelcut"});
+  refused(life.cut("-o cut --click 1,1 --first-mask foo"), {"foo", "parts, grabcut, pixelcut"});
+  refused(life.cut("-o cut --click 1,1 --views 401"), {"views.most", "401", "from 0 to 400"});
+  refused(life.cut("-o cut --click 1,1 --smoothness -1"), {"smoothness", "-1", "from 0 to 500"});
+  place.write("w.splatcut.json", "{}");
+  for (const char* beside : {"made/small.ply", "--click 1,1", "--preset best", "--set trim=0", "--coarse",
+                             "--masks masks", "--camera 0", "--scale 1", "--smoothness 2"})
+    refused(std::string("cut --work w.splatcut.json -o cut ") + beside,
+            {"--work", "cannot go with",
+             std::string_view(beside).starts_with("--")
+                 ? std::string(beside).substr(0, std::string(beside).find(' ')).c_str()
+                 : "scene"});
   refused("eval bad.json -o cut", {"bad.json", "suite"});
   place.write("no_truth.json", R"({"scenes": [{"name": "a", "scene": "made/small.ply"}]})");
   refused("eval no_truth.json -o cut", {"entry a", "reference"});
@@ -239,17 +253,17 @@ TEST_CASE("--set sets what a switch sets, and refuses what it does not know with
   const auto refused = [&](const std::string& assignment, const char* says) {
     const Result result =
         place.run(life.cut("--click " + life.click + " --set " + assignment + " -o refused"));
-    CHECK_MESSAGE(result.code == 2, assignment);
+    CHECK_MESSAGE(result.code == 1, assignment);
     CHECK_MESSAGE(result.err.find(says) != std::string::npos, result.err);
   };
   refused("energy.lamda=3", "energy.lambda, ");
-  refused("=3", "there is no setting");
+  refused("=3", "there is no such setting");
   refused("energy.lambda", "from 0 to 500");
   refused("energy.lambda=", "from 0 to 500");
   refused("energy.lambda=3x", "from 0 to 500");
   refused("energy.lambda=nan", "from 0 to 500");
   refused("energy.lambda=-1", "from 0 to 500");
-  refused("energy.pairwise=best", "overlap, distance, paper or paper-code");
+  refused("energy.pairwise=best", "overlap, paper or paper-code");
   refused("energy.hard=yes", "0 or 1");
   refused("neighbours=0", "a whole number from 1 to 254");
   CHECK_FALSE(place.exists("refused"));

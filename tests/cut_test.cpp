@@ -112,8 +112,10 @@ TEST_CASE("weights of Gaussians of infinite size are zero, of identical ones lam
   cloud.scale = {glm::vec3(0.1f), glm::vec3(0.1f), glm::vec3(std::numeric_limits<float>::infinity())};
   const FlowGraph graph =
       graph_from_edges(3, std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}, {1, 2}});
-  const auto capacity = arc_capacities(cloud, graph, {});
-  CHECK(capacity[graph.first_arc[0]] == doctest::Approx(kCapacityScale).epsilon(1e-6));
+  EnergyOptions options;
+  options.lambda = 3;
+  const auto capacity = arc_capacities(cloud, graph, options);
+  CHECK(capacity[graph.first_arc[0]] == doctest::Approx(3 * kCapacityScale).epsilon(1e-6));
   CHECK(capacity[graph.first_arc[2]] == 0);
 }
 

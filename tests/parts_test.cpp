@@ -233,8 +233,9 @@ TEST_CASE(
   options.change_most_of_selected = 0;
   CHECK(leaves(10.5f) == Leaves{1, 0, 0, 0});
   const Strokes slip = {click({5, 5}, SeedLabel::kObject), click({9, 5}, SeedLabel::kRest)};
-  CHECK(pick_parts(parts, view, slip, PickOptions{.scale_steps = -10}).leaves ==
-        std::vector<std::uint8_t>{1, 0, 0, 0});
+  PickOptions leaf_alone;
+  leaf_alone.scale_steps = -10;
+  CHECK(pick_parts(parts, view, slip, leaf_alone).leaves == std::vector<std::uint8_t>{1, 0, 0, 0});
 }
 
 TEST_CASE("parts: a correction that brings much of what the view hides is not meant") {

@@ -148,7 +148,7 @@ TEST_CASE("the key changes with all that the preparation depends on") {
   options.graph.neighbours = 9;
   CHECK(key(e.cloud, e.reference, {}, options) != e.key);
   options = {};
-  options.parts.merging.gap += 0.1f;
+  options.model.parts.merging.gap += 0.1f;
   CHECK(key(e.cloud, e.reference, {}, options) != e.key);
   options = {};
   options.with_parts = false;

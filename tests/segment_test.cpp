@@ -70,7 +70,9 @@ TEST_CASE("overlap distance of concentric spheres of variance 1 and 4: 3 ln(2.5 
 TEST_CASE("terminals: w weighs source against sink, visibility scales both, unseen says nothing") {
   const GaussianCloud cloud = random_cloud(3, 1);
   const Likelihood seen{{1.0f, 0.25f, 0.0f}, {1000, 4, 0}};
-  const Terminals t = terminals(cloud, seen, 12, 400.0 * 300.0, {});  // v0 = 9.6 px
+  EnergyOptions options;
+  options.v0_px_per_view_at_400 = 0.8f;
+  const Terminals t = terminals(cloud, seen, 12, 400.0 * 300.0, options);  // v0 = 9.6 px
   CHECK(t.net[0] == std::llround(kCapacityScale));
   CHECK(t.net[1] == doctest::Approx((0.25 - 0.75) * 4 / 9.6 * kCapacityScale).epsilon(1e-5));
   CHECK(t.net[2] == 0);

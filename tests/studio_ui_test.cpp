@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <functional>
 #include <glm/gtc/constants.hpp>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "app/camera_options.h"
@@ -172,6 +174,52 @@ TEST_CASE("saved work: read back the same, and computed again bit for bit") {
   app.open(file);  // and the window opens it
   REQUIRE(app.settle());
   CHECK(bytes_of(app.studio().document()) == bytes);
+}
+
+TEST_CASE("a view left out is that view: after a save, and after another preset was tried") {
+  const ScratchFolder folder("left_out");
+  HeadlessApp app(kWidth, kHeight);
+  opened(app);
+  app.studio().apply(SetPreset{"default"});
+  app.click(app.screen_of(kOnApple));
+  REQUIRE(app.settle());
+  const ObjectId id = app.studio().document().active;
+  const auto views = [&] { return app.studio().cut_run(id)->views; };
+  REQUIRE(views().size() > 2);
+  const Camera camera = views()[2].camera;
+  app.studio().apply(LeaveOutView{id, camera, true});
+  REQUIRE(app.settle());
+  const auto counts = [&](const Camera& c) {
+    for (const ViewCard& card : views())
+      if (same_view(card.camera, c)) return card.used ? "used" : "left out";
+    return "not looked at";
+  };
+  CHECK(counts(camera) == std::string("left out"));
+  const auto labels = active_labels(app);
+  app.studio().apply(SetPreset{"fast"});
+  REQUIRE(app.settle());
+  CHECK(views().size() == 1);
+  app.studio().apply(SetPreset{"default"});
+  REQUIRE(app.settle());
+  CHECK(counts(camera) == std::string("left out"));
+  CHECK(active_labels(app) == labels);
+  const auto file = folder / "apple.splatcut.json";
+  app.studio().apply(SaveWork{file});
+  const auto scene = open_scene(read_work_header(file).scene);
+  const WorkFile read = read_work_file(file, *scene->scene, scene->hash);
+  CHECK(read.warning.empty());
+  CHECK(bytes_of(read.document) == bytes_of(app.studio().document()));
+
+  // An older file knew a number: what it was the number of, nobody knows.
+  std::ifstream in(file);
+  nlohmann::json old = nlohmann::json::parse(in);
+  old["splatcut_work"] = 1;
+  old["objects"][0]["left_out"] = {2};
+  std::ofstream(file) << old;
+  const WorkFile numbered = read_work_file(file, *scene->scene, scene->hash);
+  CHECK(numbered.warning.find("Leave them out again") != std::string::npos);
+  CHECK(numbered.document.objects[0].left_out.empty());
+  CHECK(is_stale(numbered.document, numbered.document.objects[0]));
 }
 
 TEST_CASE("work is saved by itself and offered after a crash") {

@@ -1,6 +1,8 @@
 // splatcut cut: strokes in, cutout out.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,13 +13,14 @@
 #include "app/cutout_files.h"
 #include "app/many_objects.h"
 #include "app/mask_options.h"
-#include "app/tuning_options.h"
+#include "app/setting_options.h"
 #include "app/ways_in.h"
 #include "app/work_cut.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "segment/doubts.h"
 #include "segment/session/session.h"
+#include "segment/session/settings_table.h"
 
 namespace splatcut {
 
@@ -31,16 +34,16 @@ struct CutArguments {
   CameraOptions camera;
   MaskOptions masks;
   int scale = 0;
-  float smoothness = -1;
+  std::optional<float> smoothness;
   bool coarse = false, json = false, overwrite = false;
 };
 
 CutSettings settings_of(const CutArguments& args) {
   CutSettings settings = preset(args.preset);
-  if (args.smoothness >= 0) settings.smoothness = args.smoothness;
+  if (args.smoothness) set_setting("smoothness", fmt::format("{}", *args.smoothness), &settings);
   settings.cut.coarse = args.coarse;
   args.masks.apply(&settings);
-  for (const std::string& assignment : args.set) set_tuning_option(assignment, &settings);
+  for (const std::string& assignment : args.set) set_setting(assignment, &settings);
   return settings;
 }
 
@@ -75,12 +78,13 @@ nlohmann::json settings_json(const CutArguments& args, const Meant& meant, const
       {"views", settings.orbit.views},
       {"work_width_px", settings.work_width_px},
       {"neighbours", settings.neighbours},
-      {"lambda", settings.smoothness.value_or(settings.cut.energy.lambda)},
+      {"lambda", settings.last_lambda()},
       {"set", args.set},
       {"coarse", settings.cut.coarse},
       {"first_mask", args.masks.first_mask.empty() ? "as the preset" : args.masks.first_mask},
       {"scale", args.scale},
-      {"parts_only", args.masks.parts_only}};
+      {"parts_only", settings.parts_only},
+      {"values", values_json(settings)}};
   if (!meant.mask.empty()) json["mask"] = meant.mask.string();
   if (!meant.masks_folder.empty()) json["masks"] = meant.masks_folder.string();
   if (meant.segmenter) json.update({{"text", meant.segmenter->text}, {"segmenter", meant.segmenter->words}});
@@ -106,6 +110,17 @@ CutResult cut_one_object(Session* session, const CutRequest& request, const CutS
   const std::vector<StageTime>& before = session->scene().prepared->stages;
   result.stages.insert(result.stages.begin(), before.begin(), before.end());
   return result;
+}
+
+// The work file says the scene, what is meant and how it is cut.
+void refuse_beside_work(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->count() > 0; })) {
+    const std::string name = option->get_name();
+    constexpr std::array kMayStand = {"--work", "--output", "--json", "--overwrite"};
+    if (std::ranges::find(kMayStand, name) == kMayStand.end())
+      throw Error("--work", fmt::format("cannot go with {}: the work file says that", name),
+                  "Change the work in the window, or leave the option out");
+  }
 }
 
 void run_cut(const CutArguments& args, const CommonOptions& common) {
@@ -175,6 +190,7 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
   CLI::App& command =
       *program.add_subcommand("cut", "Cut the object that clicks, strokes, masks or words point at");
   command.footer(
+      "Settings of --set (and more for experiments: a wrong name lists them):\n" + settings_help() +
       "Example: splatcut cut scene.ply --camera-pos 0,-1,-4 --camera-target 0,0,0 --click 512,384 --click "
       "40,40:rest -o cutout");
   command.add_option("scene", args->scene, "Scene file");
@@ -185,20 +201,22 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
                   "Work saved by the window (.splatcut.json): computes all its objects again")
       ->check(CLI::ExistingFile);
   command.add_option("-o,--output", args->output, "Folder to write")->required();
-  command.add_option("--preset", args->preset, "fast, default, best, paper or paper-code");
   args->masks.add_to(command, false);
   command.get_option("--parts-only")->excludes("--masks");
-  command.add_option("--smoothness", args->smoothness, "Weight of the neighbour term")
-      ->check(CLI::Range(0.0, 500.0));
+  command.add_option("--smoothness", args->smoothness,
+                     "Weight of the neighbour term in the last cut, 0 to 500: as the window's slider");
   command
       .add_option("--scale", args->scale,
                   "Next larger (+1, +2, ...) or smaller (-1, ...) part for the first click")
       ->check(CLI::Range(-100, 100));
-  add_tuning_options(command, &args->set);
+  add_setting_options(command, &args->preset, &args->set);
   command.add_flag("--coarse", args->coarse, "Threshold the likelihood instead of the cut");
   command.add_flag("--json", args->json, "Print the report as JSON");
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
-  command.callback([args, &common] { run_cut(*args, common); });
+  command.callback([args, &common, &command] {
+    if (!args->work.empty()) refuse_beside_work(command);
+    run_cut(*args, common);
+  });
 }
 
 }  // namespace splatcut

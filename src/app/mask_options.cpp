@@ -1,44 +1,37 @@
 #include "app/mask_options.h"
 
-#include <vector>
-
-#include "app/tuning_options.h"
+#include "scene/error.h"
+#include "segment/session/settings_table.h"
 
 namespace splatcut {
 
-void MaskOptions::add_to(CLI::App& command, bool truth_too) {
-  std::vector<std::string> ways = {"parts", "grabcut", "pixelcut"};
-  if (truth_too) ways.push_back("truth");
-  command
-      .add_option("--first-mask", first_mask,
-                  std::string("parts: the hierarchy of parts; grabcut, pixelcut: from the one picture") +
-                      (truth_too ? "; truth: the true mask" : ""))
-      ->check(CLI::IsMember(ways));
-  command
-      .add_option("--propagate", propagate,
-                  "lift: labels of the cut rendered into the next view; warp: masks through depth; dis: "
-                  "along optical flow")
-      ->check(CLI::IsMember({"lift", "warp", "dis"}));
-  command.add_option("--refine", refine, "What settles masks in the other views: none, grabcut or pixelcut")
-      ->check(CLI::IsMember({"none", "grabcut", "pixelcut"}));
-  command.add_option("--views", views, "Most views beside the first")->check(CLI::Range(0, 400));
+void MaskOptions::add_to(CLI::App& command, bool with_truth) {
+  truth_too = with_truth;
+  command.add_option("--first-mask", first_mask,
+                     std::string("parts: the hierarchy of parts; grabcut, pixelcut: from the one picture") +
+                         (truth_too ? "; truth: the true mask" : ""));
+  command.add_option("--propagate", propagate,
+                     "lift: labels of the cut rendered into the next view; warp: masks through depth; dis: "
+                     "along optical flow");
+  command.add_option("--refine", refine, "What settles masks in the other views: none, grabcut or pixelcut");
+  command.add_option("--views", views, "Most views beside the first, 0 to 400");
   command.add_flag("--parts-only", parts_only, "The parts are the answer: no other views, no graph cut");
 }
 
-void MaskOptions::apply(CutSettings* options) const {
-  const auto set = [options](const std::string& name, const std::string& value) {
-    if (!value.empty()) set_tuning_option(name + "=" + value, options);
-  };
+void MaskOptions::apply(CutSettings* settings) const {
   if (first_mask == "grabcut" || first_mask == "pixelcut") {
-    set("first.from", "pixels");
-    set("first.solver", first_mask);
+    set_setting("first.from", "pixels", settings);
+    set_setting("first.solver", first_mask, settings);
   } else if (first_mask == "parts") {
-    set("first.from", "parts");
+    set_setting("first.from", "parts", settings);
+  } else if (!first_mask.empty() && !(truth_too && first_mask == "truth")) {
+    throw Error("--first-mask " + first_mask, "there is no such first mask",
+                std::string("It takes parts, grabcut, pixelcut") + (truth_too ? " or truth" : ""));
   }
-  set("views.propagate", propagate);
-  set("views.refine", refine);
-  if (views >= 0) options->orbit.views = views;
-  options->cut_parts = !parts_only;
+  if (!propagate.empty()) set_setting("views.propagate", propagate, settings);
+  if (!refine.empty()) set_setting("views.refine", refine, settings);
+  if (views) set_setting("views.most", std::to_string(*views), settings);
+  settings->parts_only = parts_only;
 }
 
 }  // namespace splatcut

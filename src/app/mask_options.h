@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "segment/session/cut_settings.h"
@@ -10,12 +11,13 @@ namespace splatcut {
 
 struct MaskOptions {
   std::string first_mask, propagate, refine;  // empty: as the preset says
-  int views = -1;
-  bool parts_only = false;
+  std::optional<int> views;
+  bool parts_only = false, truth_too = false;
 
-  // truth_too: --first-mask takes truth as well, for measuring.
-  void add_to(CLI::App& command, bool truth_too);
-  void apply(CutSettings* options) const;
+  // with_truth: --first-mask takes truth as well, for measuring.
+  void add_to(CLI::App& command, bool with_truth);
+  // Throws Error for what they do not take.
+  void apply(CutSettings* settings) const;
 };
 
 }  // namespace splatcut

@@ -1,15 +1,14 @@
 // The energy that the cut minimises: E(y) = sum_g phi_g(y_g) + lambda sum_{g,h} psi(g,h) [y_g != y_h].
 //
-// psi by `pairwise`, beta = f_dc, each times exp(-concavity (1 - |n_g . n_h|)), n the shortest axis (0 leaves
-// that out):
+// psi by `pairwise`, beta = f_dc:
 //   kOverlap    exp(-gamma_position D - gamma_colour |dbeta|^2), ours, where
 //               D = 1/4 d^T S^-1 d + ln(det S / sqrt(det Sigma_g det Sigma_h)),  S = (Sigma_g + Sigma_h) / 2,
 //               twice the Bhattacharyya distance of the two Gaussians, which needs no scene scale (1e-3 of
 //               S's trace is added to all three)
-//   kDistance   exp(-gamma_position |dmu|^2 / d0^2 - gamma_colour |dbeta|^2), d0 = median length of the
-//   graph's arcs kPaper      exp(-gamma_position |dmu|^2) + lambda_n exp(-gamma_colour |dbeta|^2) kPaperCode
-//   exp(-gamma_position |dmu|) + lambda_n exp(-gamma_colour |dbeta|), twice that between Gaussians that
-//               are both among the other's k nearest
+//   kPaper      exp(-gamma_position |dmu|^2) + lambda_n exp(-gamma_colour |dbeta|^2)
+//   kPaperCode  exp(-gamma_position |dmu|) + lambda_n exp(-gamma_colour |dbeta|), twice that between
+//   Gaussians
+//               that are both among the other's k nearest
 // Source capacity v_g w_g + lambda_u psi_u(g, object clusters), sink capacity v_g (1 - w_g) + lambda_u
 // psi_u(g, rest clusters), with the visibility v_g = min(1, A_g / v0), or 1 without it; what was never seen
 // has unseen_rest as its sink capacity. psi_u is kPaper's psi (kPaperCode's there) of the likest cluster with
@@ -27,19 +26,17 @@
 
 namespace splatcut {
 
-enum class Pairwise { kOverlap, kDistance, kPaper, kPaperCode };
+enum class Pairwise { kOverlap, kPaper, kPaperCode };
 
 struct EnergyOptions {
   Pairwise pairwise = Pairwise::kOverlap;
   float gamma_position = 0.1f;  // 0 leaves the term out, as with all gammas
   float gamma_colour = 1;
-  float concavity = 0;  // weight of the angle between the shortest axes
-  float lambda = 1;     // [0, 500]
+  float lambda = 2;  // [0, 500]; smoother than 1: better on photographs and straddling splats (docs/study.md)
   bool visibility = true;
-  float v0_px_per_view_at_400 =
-      0.8f;            // for a 400 x 300 picture; scales with its pixels and the number of views
-  float lambda_n = 1;  // paper: weight of colour in psi
-  float lambda_u = 0;  // weight of the cluster term; 0 leaves it out
+  float v0_px_per_view_at_400 = 3;  // for a 400 x 300 picture; scales with its pixels and the number of views
+  float lambda_n = 1;               // paper: weight of colour in psi
+  float lambda_u = 0;               // weight of the cluster term; 0 leaves it out
   float gamma_cluster_position = 1, gamma_cluster_colour = 1;
   int object_clusters = 1, rest_clusters = 4;
   float unseen_rest = 0;  // sink capacity of what no view has seen

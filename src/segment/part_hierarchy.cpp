@@ -34,13 +34,13 @@ MergingOptions jittered(MergingOptions options, float jitter, CounterRng rng) {
 struct Link {
   float length = 0, colour = 0, concave = 0, convex = 0, normal = 0, gap = 0;
 
-  void add(const SurfaceEdge& e) {
+  void add(const SurfaceEdge& e, const MergingOptions& o) {
     length += e.length;
     colour += e.length * e.colour;
     concave += e.length * std::max(0.0f, e.concavity);
     convex += e.length * std::max(0.0f, -e.concavity);
     normal += e.length * e.normal;
-    gap += e.length * std::min(3.0f, 0.3f * e.gap);
+    gap += e.length * std::min(o.gap_most, o.gap_unit * e.gap);
   }
   void add(const Link& l) {
     length += l.length;
@@ -97,8 +97,8 @@ Merging::Merging(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges, c
   for (const SurfaceEdge& e : edges) {
     const std::uint32_t a = leaves.of[e.a], b = leaves.of[e.b];
     if (a == b) continue;
-    parts_[a].links[b].add(e);
-    parts_[b].links[a].add(e);
+    parts_[a].links[b].add(e, options_);
+    parts_[b].links[a].add(e, options_);
     parts_[a].perimeter += e.length;
     parts_[b].perimeter += e.length;
   }

@@ -7,8 +7,8 @@
 // likely.
 //   superpoints: Felzenszwalb and Huttenlocher, Efficient Graph-Based Image Segmentation, IJCV 2004, over
 //   k-NN
-//     edges with w = |dc| / 0.1 + 0.6 (1 - n.n') + max(0, concavity) + 0.3 min(3, 0.3 gap) + 0.1 d / spacing
-//   merging: cost = difference (least area / median leaf area)^0.3 / (shared border / lesser perimeter)^0.3
+//     edges, their weights by colour, normal, concavity, gap and distance: SuperpointOptions
+//   merging: cost = difference (least area / median leaf area)^p / (shared border / lesser perimeter)^q
 //   concavity = (n - n').(mu' - mu) / |mu' - mu|; gap: Mahalanobis distance of two Gaussians in their mean
 //   covariance
 // Built once per scene; depends on the scene and on the observing views alone. Same input, same bits.
@@ -20,38 +20,10 @@
 #include <span>
 #include <vector>
 
+#include "segment/part_model.h"
 #include "segment/surface_features.h"
 
 namespace splatcut {
-
-struct SuperpointOptions {
-  float k = 3.2f;           // larger: larger superpoints
-  std::uint32_t cap = 40;   // most core Gaussians in one
-  std::uint32_t least = 2;  // smaller ones join their likest neighbour
-};
-
-struct MergingOptions {
-  float base = 0.04f;
-  float border_colour = 5;
-  float region_colour = 3.9f;
-  float concavity = 2;
-  float convexity = 0.3f;
-  float normal = 0.3f;
-  float gap = 0.14f;
-  float area_power = 0.3f;
-  float border_power = 0.33f;
-  float cut_scale = 0.23f;
-};
-
-struct PartOptions {
-  SurfaceOptions surface;
-  SuperpointOptions superpoints;
-  MergingOptions merging;
-  int trees = 5;
-  float jitter = 0.3f;  // spread of the logarithms of the weights from tree to tree; the first has none
-  float noise = 0.1f;   // of the logarithm of each cost, in all trees but the first
-  int votes = 10;       // neighbours that vote where a Gaussian outside of the core belongs
-};
 
 inline constexpr std::uint32_t kNoPart = 0xffffffffu;
 

@@ -145,40 +145,13 @@ void add_camera(const Camera& c, Hasher* hash) {
 }
 
 void add_options(const PrepareOptions& o, Hasher* hash) {
-  const SurfaceOptions& s = o.parts.surface;
-  const SuperpointOptions& p = o.parts.superpoints;
-  const MergingOptions& m = o.parts.merging;
-  for (const double value : {static_cast<double>(o.graph.neighbours),
-                             static_cast<double>(o.with_parts),
-                             static_cast<double>(o.observing.width_px),
-                             static_cast<double>(o.observing.most_given),
-                             static_cast<double>(o.observing.ring),
-                             static_cast<double>(o.observing.elevation_swing_rad),
-                             static_cast<double>(s.neighbours),
-                             static_cast<double>(s.least_opacity),
-                             static_cast<double>(s.size_quantile),
-                             static_cast<double>(s.least_seen_px),
-                             static_cast<double>(s.normal_rounds),
-                             static_cast<double>(s.colour_rounds),
-                             static_cast<double>(s.like_colour),
-                             static_cast<double>(p.k),
-                             static_cast<double>(p.cap),
-                             static_cast<double>(p.least),
-                             static_cast<double>(m.base),
-                             static_cast<double>(m.border_colour),
-                             static_cast<double>(m.region_colour),
-                             static_cast<double>(m.concavity),
-                             static_cast<double>(m.convexity),
-                             static_cast<double>(m.normal),
-                             static_cast<double>(m.gap),
-                             static_cast<double>(m.area_power),
-                             static_cast<double>(m.border_power),
-                             static_cast<double>(m.cut_scale),
-                             static_cast<double>(o.parts.trees),
-                             static_cast<double>(o.parts.jitter),
-                             static_cast<double>(o.parts.noise),
-                             static_cast<double>(o.parts.votes)})
+  for (const double value :
+       {static_cast<double>(o.graph.neighbours), static_cast<double>(o.with_parts),
+        static_cast<double>(o.observing.width_px), static_cast<double>(o.observing.most_given),
+        static_cast<double>(o.observing.ring), static_cast<double>(o.observing.elevation_swing_rad)})
     hash->number(value);
+  for (const PartWeight& weight : part_weights())
+    if (weight.prepared) hash->number(weight.get(o.model));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace {
 PreparedScene made(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world,
                    std::span<const Camera> given, const PrepareOptions& options, const Job& job) {
   PreparedScene prepared;
+  prepared.model = options.model;
   StageClock clock(&prepared.stages);
   job.progress("graph", 0);
   clock.time("graph", [&] { prepared.graph = knn_graph(cloud, options.graph, job); });
@@ -18,7 +19,7 @@ PreparedScene made(const GaussianCloud& cloud, const Camera& reference, const gl
   job.progress("parts", 0.4);
   clock.time("parts", [&] {
     const auto views = observing_views(cloud, reference, up_world, given, options.observing, job);
-    prepared.parts = build_part_hierarchy(cloud, views, options.parts, job);
+    prepared.parts = build_part_hierarchy(cloud, views, options.model.parts, job);
   });
   return prepared;
 }
@@ -51,6 +52,7 @@ PreparedScene prepare_scene(const GaussianCloud& cloud, const Camera& reference,
     std::filesystem::last_write_time(prepared_file(options.cache.folder, key),
                                      std::filesystem::file_time_type::clock::now(), ignored);
     kept->stages = std::move(stages);
+    kept->model = options.model;
     kept->from_cache = true;
     return std::move(*kept);
   }

@@ -28,7 +28,7 @@ struct PreparedCache {
 struct PrepareOptions {
   KnnOptions graph;
   ObservingOptions observing;
-  PartOptions parts;
+  PartModel model;
   bool with_parts = true;  // they are not needed where masks come from pixels
   PreparedCache cache;
 };
@@ -36,6 +36,7 @@ struct PrepareOptions {
 struct PreparedScene {
   FlowGraph graph;
   PartHierarchy parts;
+  PartModel model;  // that parts were made by, and that says what clicks mean
   std::vector<StageTime> stages;
   bool from_cache = false;
 };

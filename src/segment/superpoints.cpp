@@ -36,9 +36,9 @@ void measure(const GaussianCloud& cloud, const SurfaceFeatures& f, SurfaceEdge* 
   e->distance = distance / std::max(e->length, 1e-12f);
 }
 
-float weight(const SurfaceEdge& e) {
-  return e.colour / 0.1f + 0.6f * e.normal + std::max(0.0f, e.concavity) +
-         0.3f * std::min(3.0f, 0.3f * e.gap) + 0.1f * e.distance;
+float weight(const SurfaceEdge& e, const SuperpointOptions& o) {
+  return e.colour / o.colour_unit + o.normal * e.normal + o.concavity * std::max(0.0f, e.concavity) +
+         o.gap * std::min(o.gap_most, o.gap_unit * e.gap) + o.distance * e.distance;
 }
 
 class UnionFind {
@@ -62,10 +62,11 @@ class UnionFind {
   std::vector<std::uint32_t> parent_, size_;
 };
 
-std::vector<KeyValue<std::uint32_t>> by_weight(std::span<const SurfaceEdge> edges) {
+std::vector<KeyValue<std::uint32_t>> by_weight(std::span<const SurfaceEdge> edges,
+                                               const SuperpointOptions& options) {
   std::vector<KeyValue<std::uint32_t>> order(edges.size()), scratch(edges.size());
   for (std::uint32_t i = 0; i < edges.size(); ++i)
-    order[i] = {std::bit_cast<std::uint32_t>(weight(edges[i])), i};  // weights >= 0 sort as bits
+    order[i] = {std::bit_cast<std::uint32_t>(weight(edges[i], options)), i};  // weights >= 0 sort as bits
   radix_sort<11>(std::span(order), std::span(scratch), 0, 32);
   return order;
 }
@@ -94,7 +95,7 @@ Superpoints superpoints(const SurfaceFeatures& f, std::span<const SurfaceEdge> e
   const std::size_t n = f.core.size();
   UnionFind sets(n);
   std::vector<float> internal(n);  // largest weight inside a superpoint
-  const auto order = by_weight(edges);
+  const auto order = by_weight(edges, options);
   for (const auto& [key, i] : order) {
     const std::uint32_t a = sets.find(edges[i].a), b = sets.find(edges[i].b);
     if (a == b || sets.size(a) + sets.size(b) > options.cap) continue;

@@ -15,17 +15,9 @@
 #include "scene/camera.h"
 #include "scene/gaussian_cloud.h"
 #include "scene/job.h"
+#include "segment/part_model.h"
 
 namespace splatcut {
-
-struct SurfaceOptions {
-  int neighbours = 10;
-  float least_opacity = 0.1f;
-  float size_quantile = 0.985f;  // Gaussians whose largest sigma lies above are no core
-  float least_seen_px = 0.02f;   // A_g summed over the observing views
-  int normal_rounds = 3, colour_rounds = 3;
-  float like_colour = 0.1f;  // sigma of the bilateral weight, RGB in [0, 1]
-};
 
 // Arrays of core.size(), unless said otherwise.
 struct SurfaceFeatures {

@@ -13,18 +13,20 @@
 #include "app/lab/click_draws.h"
 #include "app/lab/eval_suite.h"
 #include "app/lab/lab_commands.h"
+#include "app/lab/part_model_file.h"
 #include "app/lab/published_scores.h"
 #include "app/mask_options.h"
 #include "app/output_folder.h"
-#include "app/tuning_options.h"
+#include "app/setting_options.h"
 #include "scene/atomic_file.h"
+#include "segment/session/settings_table.h"
 
 namespace splatcut {
 
 namespace {
 
 struct EvalArguments {
-  std::filesystem::path suite, nvos, spin_nerf, scenes, output;
+  std::filesystem::path suite, nvos, spin_nerf, scenes, output, model;
   std::string preset = "default", masks;
   MaskOptions mask;
   std::vector<std::string> set, only;
@@ -186,7 +188,7 @@ EvaluationOptions evaluation_options(const EvalArguments& args) {
   options.click_curve = args.curve && args.nvos.empty();
   if (!args.nvos.empty()) options.clicks = std::numeric_limits<int>::max();  // all scribbles at once
   args.mask.apply(&options.settings);
-  for (const std::string& assignment : args.set) set_tuning_option(assignment, &options.settings);
+  for (const std::string& assignment : args.set) set_setting(assignment, &options.settings);
   return options;
 }
 
@@ -194,14 +196,20 @@ void stop_if_cancelled(const Job& job) {
   if (job.cancelled()) throw Error("splatcut-lab eval", "cancelled, nothing was written");
 }
 
+PartModel part_model_of(const EvalArguments& args) {
+  return args.model.empty() ? PartModel{} : load_part_model(args.model);
+}
+
 // The measures of each scene that has the truth it takes; prints a row each.
 std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationOptions& options,
                                     const CommonOptions& common, const Job& job) {
   std::vector<nlohmann::json> scores;
   const std::vector<Loader> scenes = loaders(args);
+  const PrepareOptions prepare =
+      prepare_options(options.settings, prepared_cache(common), part_model_of(args));
   if (!args.json) print_heads();
   for (const Loader& load : scenes) {
-    const auto loaded = load(prepare_options(options.settings, prepared_cache(common)), job);
+    const auto loaded = load(prepare, job);
     stop_if_cancelled(job);
     warn(loaded->warning, common.quiet);
     if (lacks_truth(loaded->test, options)) {
@@ -219,8 +227,7 @@ std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationO
       AnyViewOptions robot = args.robot;
       robot.preset = args.preset;
       robot.draws = std::max(1, args.draws);
-      scores.back().update(
-          any_view_json(*loaded, robot, prepare_options(options.settings, prepared_cache(common)), job));
+      scores.back().update(any_view_json(*loaded, robot, prepare, job));
       stop_if_cancelled(job);
     } else if (args.draws > 0) {
       const ClickDraws draws = draw_clicks(loaded->test, options.settings, kRobotClicks, args.draws, job);
@@ -280,6 +287,8 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
   nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"set", args.set},
                            {"clicks", clicks_json(args)}, {"draws", args.draws},   {"scenes", scores},
                            {"mean", mean_json(scores)}};
+  result["values"] = values_json(evaluation_options(args).settings);
+  result["part_model"] = part_model_json(part_model_of(args));
   const std::string benchmark = !args.nvos.empty() ? "NVOS" : !args.spin_nerf.empty() ? "SPIn-NeRF" : "";
   if (!benchmark.empty()) result["published"] = published_json(benchmark);
   write_text_file(folder.file("eval.json"), result.dump(2) + "\n");
@@ -327,7 +336,6 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
                      "Folder with a mask per picture and scene, as SPIn-NeRF is released; wants --scenes");
   command.add_option("--scenes", args->scenes, "Folder of the reconstructions, one folder a scene");
   command.add_option("-o,--output", args->output, "Folder for eval.json")->required();
-  command.add_option("--preset", args->preset, "fast, default, best, paper or paper-code");
   command.add_option("--clicks", args->clicks, "Clicks for the final cut")->check(CLI::Range(1, 8));
   command.add_option("--draws", args->draws, "The first mask again with that many draws of unsteady clicks")
       ->check(CLI::Range(0, 1000));
@@ -350,7 +358,9 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   args->mask.add_to(command, true);
   command.add_option("--masks", args->masks, "truth: the true masks in all orbit views")
       ->check(CLI::IsMember({"truth"}));
-  add_tuning_options(command, &args->set);
+  command.add_option("--model", args->model, "Weights of the parts in place of those that are shipped")
+      ->group("");  // for experiments: not listed
+  add_setting_options(command, &args->preset, &args->set);
   command.add_flag("!--no-curve", args->curve, "Leave out the figures after 1..8 clicks");
   command.add_flag("--json", args->json, "Print JSON");
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");

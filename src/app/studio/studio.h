@@ -21,6 +21,7 @@
 #include "app/studio/opened_scene.h"
 #include "app/studio/pointer_tools.h"
 #include "app/studio/task_thread.h"
+#include "segment/part_picker.h"
 
 namespace splatcut {
 

@@ -10,30 +10,23 @@ namespace splatcut {
 
 namespace {
 
-constexpr const char* kPresets[] = {"fast", "default", "best", "paper", "paper-code"};
-constexpr const char* kPresetLabels[] = {"Fast", "Default", "Best", "Paper", "Code"};
-constexpr const char* kPresetTips[] = {
-    "Your view only: quickest, for a first look", "Your view and a few around the object",
-    "More views, finer pictures: slower", "GaussianCut's literal energy and number of views",
-    "The energy of GaussianCut's published code, which differs from the paper"};
-
 void quality_choice(UiContext& ui) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Quality");
   ImGui::SameLine(62);
   const std::string& now = ui.studio.document().preset;
-  for (std::size_t i = 0; i < std::size(kPresets); ++i) {
-    if (i > 0) ImGui::SameLine(0, 2);
-    ImGui::PushID(static_cast<int>(i));
+  for (const Preset& preset : presets()) {
+    if (&preset != presets().data()) ImGui::SameLine(0, 2);
+    ImGui::PushID(preset.name);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6, 5});
-    if (button(ui, kPresetLabels[i], kPresetTips[i], {}, now == kPresets[i])) ui.ask(SetPreset{kPresets[i]});
+    if (button(ui, preset.title, preset.sentence, {}, now == preset.name)) ui.ask(SetPreset{preset.name});
     ImGui::PopStyleVar();
     ImGui::PopID();
   }
 }
 
 void smoothness_slider(UiContext& ui, const ObjectItem& object) {
-  const float usual = preset(ui.studio.document().preset).cut.energy.lambda;
+  const float usual = preset(ui.studio.document().preset).last_lambda();
   float value = object.smoothness.value_or(usual);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Smoothness");

@@ -1,49 +1,87 @@
 #include "segment/session/cut_settings.h"
 
+#include <algorithm>
+
 #include "scene/error.h"
 
 namespace splatcut {
 
+namespace {
+
+CutSettings by_default() {
+  return {};
+}
+
+CutSettings fast() {
+  CutSettings settings;
+  settings.orbit.views = 0;
+  settings.work_width_px = 256;
+  settings.refine = {.solver = MaskSolver::kNone};
+  return settings;
+}
+
+CutSettings best() {
+  CutSettings settings;
+  settings.settled_change = 0;  // all of them
+  return settings;
+}
+
+CutSettings paper() {
+  CutSettings settings;
+  settings.orbit.views = 40;
+  settings.settled_change = 0;
+  settings.first_mask_from = FirstMaskFrom::kPixels;
+  settings.refine = {.solver = MaskSolver::kNone};
+  settings.cut.energy = paper_energy();
+  settings.trim = false;
+  return settings;
+}
+
+CutSettings paper_code() {
+  CutSettings settings = paper();
+  settings.cut.energy = paper_code_energy();
+  settings.neighbours = 9;
+  return settings;
+}
+
+constexpr Preset kPresets[] = {
+    {"fast", "Fast", "Your view only: quickest, for a first look", fast},
+    {"default", "Default", "Your view and a few around the object", by_default},
+    {"best", "Best", "More views, finer pictures: slower", best},
+    {"paper", "Paper", "GaussianCut's literal energy and number of views", paper},
+    {"paper-code", "Code", "The energy of GaussianCut's published code, which differs from the paper",
+     paper_code},
+};
+
+}  // namespace
+
+std::span<const Preset> presets() {
+  return kPresets;
+}
+
+std::string preset_names() {
+  std::string names;
+  for (const Preset& preset : kPresets)
+    names += std::string(names.empty()                       ? ""
+                         : &preset == std::end(kPresets) - 1 ? " or "
+                                                             : ", ") +
+             preset.name;
+  return names;
+}
+
 CutSettings preset(const std::string& name) {
-  CutSettings options;
-  // Smoother than the energy's own defaults: better on photographs and straddling splats (docs/study.md).
-  options.cut.energy.lambda = 2;
-  options.cut.energy.v0_px_per_view_at_400 = 3;
-  // The picture may add what the parts missed: a mask too small is the worse mistake (docs/masks.md).
-  constexpr RefineOptions kGenerous{.solver = MaskSolver::kPixelCut, .grow_px = 4};
-  if (name == "default") {
-    options.refine = kGenerous;
-  } else if (name == "fast") {
-    options.orbit.views = 0;
-    options.work_width_px = 256;
-  } else if (name == "best") {
-    options.settled_change = 0;  // all of them
-    options.refine = kGenerous;
-  } else if (name == "paper" || name == "paper-code") {
-    const bool code = name == "paper-code";
-    options.orbit.views = 40;
-    options.settled_change = 0;
-    options.first_mask_from = FirstMaskFrom::kPixels;
-    options.cut.energy = code ? paper_code_energy() : paper_energy();
-    if (code) options.neighbours = 9;
-    options.trim = false;
-  } else {
-    throw Error("--preset " + name, "there is no such preset",
-                "Take fast, default, best, paper or paper-code");
-  }
-  return options;
+  const auto found = std::ranges::find_if(kPresets, [&](const Preset& p) { return name == p.name; });
+  if (found == std::end(kPresets))
+    throw Error("preset \"" + name + "\"", "there is no such preset", "Take " + preset_names());
+  return found->settings();
 }
 
-void check(const CutSettings& settings) {
-  if (!settings.cut_parts && settings.first_mask_from != FirstMaskFrom::kParts)
-    throw Error("settings", "the parts cannot be the answer where the first mask comes from pixels",
-                "Leave one of the two out");
-}
-
-PrepareOptions prepare_options(const CutSettings& settings, const PreparedCache& cache) {
+PrepareOptions prepare_options(const CutSettings& settings, const PreparedCache& cache,
+                               const PartModel& model) {
   PrepareOptions prepare;
   prepare.graph.neighbours = settings.neighbours;
   prepare.cache = cache;
+  prepare.model = model;
   prepare.with_parts = settings.first_mask_from == FirstMaskFrom::kParts;
   return prepare;
 }

@@ -1,13 +1,14 @@
 // How an object is cut out, whatever was said about it.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 
 #include "segment/cut.h"
 #include "segment/enclosed.h"
 #include "segment/first_mask.h"
 #include "segment/orbit.h"
-#include "segment/part_picker.h"
 #include "segment/prepared_scene.h"
 #include "segment/propagate.h"
 #include "segment/refine_mask.h"
@@ -21,20 +22,22 @@ enum class FirstMaskFrom {
   kPixels,  // geodesic distance and GrabCut in the one picture
 };
 
+// As they stand here: the default preset. By name, with ranges and a sentence each: settings_table.h.
 struct CutSettings {
   int work_width_px = 320;  // views are rendered no wider than this
   OrbitOptions orbit;
   int neighbours = 10;  // k of the graph
   FirstMaskFrom first_mask_from = FirstMaskFrom::kParts;
-  PickOptions pick;                // kParts
   FirstMaskOptions first_mask;     // kPixels, and strokes in other views
   float prior_px_per_view = 0.1f;  // kParts: what the parts say counts as that many pixels of each Gaussian
   bool join_enclosed = true;       // kParts: hidden pieces that touch the object alone belong to it
   EnclosedOptions enclosed;
-  bool cut_parts = true;     // kParts: the graph cut settles what the parts say; false: they are the answer
+  bool parts_only = false;   // kParts: they are the answer: no other views, no graph cut
   bool hard_counts = false;  // the likelihood counts pixels, not weights (the paper's hard variant)
   Propagator propagate = Propagator::kLift;
-  RefineOptions refine{.solver = MaskSolver::kNone};  // of propagated masks: thin parts suffer from it
+  // Of propagated masks. The picture may add what the parts missed: a mask too small is the worse mistake
+  // (docs/masks.md).
+  RefineOptions refine{.solver = MaskSolver::kPixelCut, .grow_px = 4};
   bool hidden_test = true;  // views in which something hides the object are taken from nearer or left out
   double settled_change = 0.003;  // no more views once the labels change by less (share of the object) ...
   int settled_views = 2;          // ... in that many views running
@@ -47,17 +50,28 @@ struct CutSettings {
   bool trim = true;  // see trim.h
   TrimOptions trim_options;
 
+  float last_lambda() const { return smoothness.value_or(cut.energy.lambda); }
   bool operator==(const CutSettings&) const = default;
 };
 
-// Settings by name: fast (the first view alone), default, best, paper (GaussianCut's literal energy and
-// counts), paper-code (those of its published code). Throws Error for any other name.
+// Settings under a name, for people.
+struct Preset {
+  const char *name, *title, *sentence;
+  CutSettings (*settings)();
+};
+std::span<const Preset> presets();
+
+// By name. Throws Error that lists them for any other name.
 CutSettings preset(const std::string& name);
 
-// Throws Error for settings that contradict each other.
+// "fast, default, ... or paper-code".
+std::string preset_names();
+
+// Throws Error with name, value and range for settings out of range, or that contradict each other.
 void check(const CutSettings& settings);
 
 // What a scene must be prepared with for these settings.
-PrepareOptions prepare_options(const CutSettings& settings, const PreparedCache& cache = {});
+PrepareOptions prepare_options(const CutSettings& settings, const PreparedCache& cache = {},
+                               const PartModel& model = {});
 
 }  // namespace splatcut

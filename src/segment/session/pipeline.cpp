@@ -11,6 +11,7 @@
 #include "segment/knn_graph.h"
 #include "segment/likelihood.h"
 #include "segment/mask_tools.h"
+#include "segment/part_picker.h"
 #include "segment/stage_clock.h"
 #include "segment/trim.h"
 
@@ -72,7 +73,7 @@ class Run {
 
   const CutResult& result() const { return result_; }
   CutResult take() { return std::move(result_); }
-  bool answered_by_parts() const { return !prior().empty() && !settings_.cut_parts; }
+  bool answered_by_parts() const { return !prior().empty() && settings_.parts_only; }
   void reference_view();
   void other_views();
   void settle();
@@ -165,7 +166,7 @@ void Run::pick(const Camera& camera, const Strokes& strokes) {
   clock_.time("first mask", [&] {
     const PartView view = parts_in(camera);
     if (job_.cancelled()) return;
-    PickOptions options = settings_.pick;
+    PickOptions options{scene_.model.pick};
     options.scale_steps = request_.part_step;
     const Pick picked = pick_parts(scene_.parts, view, strokes, options);
     result_.labels = labels_of(scene_.parts, picked.leaves);
@@ -189,7 +190,7 @@ void Run::complete(const Camera& camera, const Mask& mask) {
   clock_.time("first mask", [&] {
     const PartView view = parts_in(camera);
     if (job_.cancelled()) return;
-    result_.labels = labels_of(scene_.parts, parts_of_mask(scene_.parts, view, mask));
+    result_.labels = labels_of(scene_.parts, parts_of_mask(scene_.parts, view, mask, scene_.model.of_mask));
     join_enclosed_by(view);
   });
 }
@@ -247,7 +248,7 @@ void Run::reference_view() {
   use({camera, std::move(*mask), true, 0, {}},
       {.rgb = {}, .depth = {}, .median_depth = std::move(reference_depth_)});
   snapshot(CutPhase::kFirstMask);
-  if (anything && settings_.cut_parts) solve();
+  if (anything && !settings_.parts_only) solve();
 }
 
 // Whether the scene leaves less than `share` visible of the pixels that the object would show alone.
@@ -420,7 +421,7 @@ CutResult cut_from_reference(const CutScene& scene, const ReferenceView& referen
 Mask first_mask_of(const CutScene& scene, const ReferenceView& reference, const CutRequest& request,
                    const CutSettings& settings, const Job& job) {
   CutSettings mask_alone = settings;
-  mask_alone.cut_parts = false;
+  mask_alone.parts_only = true;
   const OnSnapshot nobody;
   Run run(scene, reference, request, mask_alone, job, nobody);
   if (!job.cancelled()) run.reference_view();

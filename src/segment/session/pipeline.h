@@ -25,6 +25,7 @@ struct CutScene {
   Drawer drawer;
   const FlowGraph& graph;
   const PartHierarchy& parts;
+  const PartModel& model;
   CutSolver& solver;
   glm::vec3 up_world;                   // for the orbit
   std::span<const Camera> photographs;  // cameras of the capture, where known

@@ -72,8 +72,7 @@ struct Session::Asked {
         views.push_back(&view);
     return views;
   }
-  float smoothness() const { return settings.smoothness.value_or(settings.cut.energy.lambda); }
-  bool smoother() const { return smoothness() != settings.cut.energy.lambda; }
+  bool smoother() const { return settings.last_lambda() != settings.cut.energy.lambda; }
 };
 
 Session::Session(SessionScene scene) : scene_(std::move(scene)), views_(*scene_.cloud) {}
@@ -109,11 +108,8 @@ CutScene Session::scene_for(const CutRequest& request, const CutSettings& settin
   const PartHierarchy& parts = scene_.prepared->parts;
   if (settings.first_mask_from == FirstMaskFrom::kParts && parts.leaf_of.size() != scene_.cloud->size())
     throw Error("first mask", "the scene was prepared without parts", "Prepare it with the same settings");
-  return {{*scene_.cloud, &views_},
-          graph(settings, job),
-          parts,
-          solver(settings, job),
-          request.up_world.value_or(scene_.up_world),
+  return {{*scene_.cloud, &views_}, graph(settings, job),  parts,
+          scene_.prepared->model,   solver(settings, job), request.up_world.value_or(scene_.up_world),
           scene_.photographs};
 }
 
@@ -195,7 +191,7 @@ Likelihood Session::evidence(const Asked& asked, const Job& job, Kept* first, Cu
 // The last cut. result: that of the first.
 void Session::correct(const Asked& asked, const Job& job, Kept* first, CutResult* result) {
   CutSettings settings = asked.settings;
-  settings.cut.energy.lambda = asked.smoothness();
+  settings.cut.energy.lambda = asked.settings.last_lambda();
   const Likelihood weighed = evidence(asked, job, first, result);
   if (job.cancelled()) return;
   job.progress("cut", 0.9);
@@ -227,7 +223,7 @@ CutResult Session::cut(const CutRequest& request, const CutSettings& settings, c
   Kept& first = from_reference(asked, job, on_snapshot, &fresh);
   CutResult result = first.result;
   if (!fresh) result.stages.clear();
-  if (result.outcome != Outcome::kDone || !settings.cut_parts) return result;
+  if (result.outcome != Outcome::kDone || settings.parts_only) return result;
   const std::size_t without = leave_out(request, &result.views);
   if (without == 0 && asked.corrections().empty() && !asked.smoother()) return result;
   correct(asked, job, &first, &result);

@@ -17,7 +17,7 @@ struct StudyCell {
                            // main scenes
   double x = 0;            // severity or size; its unit is the experiment's
   std::string preset = "default";
-  std::vector<std::string> set;  // NAME=VALUE, see tuning_options.h
+  std::vector<std::string> set;  // NAME=VALUE, see settings_table.h
   std::string first =
       "clicks";  // clicks; truth: the true mask of the reference; strokes: nothing but their own pixels
   bool parts_only = false;

@@ -11,7 +11,6 @@
 
 #include "app/lab/robot_user.h"
 #include "app/lab/study/study_variants.h"
-#include "app/tuning_options.h"
 #include "scene/byte_hash.h"
 #include "scene/counter_rng.h"
 #include "scene/error.h"
@@ -19,6 +18,7 @@
 #include "scene/rasterizer.h"
 #include "segment/doubts.h"
 #include "segment/mask_tools.h"
+#include "segment/session/settings_table.h"
 
 namespace splatcut {
 
@@ -183,8 +183,8 @@ void StudyRunner::say(const StudyCell& cell, const Job& job, Setup* setup) const
 std::unique_ptr<StudyRunner::Setup> StudyRunner::set_up(const StudyCell& cell, const Job& job) {
   auto setup = std::make_unique<Setup>();
   setup->settings = preset(cell.preset);
-  for (const std::string& assignment : cell.set) set_tuning_option(assignment, &setup->settings);
-  setup->settings.cut_parts = !cell.parts_only;
+  for (const std::string& assignment : cell.set) set_setting(assignment, &setup->settings);
+  setup->settings.parts_only = cell.parts_only;
   CutSettings with_parts = setup->settings;  // one prepared scene for all cells
   with_parts.first_mask_from = FirstMaskFrom::kParts;
   load(with_parts, job);

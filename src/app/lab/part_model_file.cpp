@@ -1,0 +1,45 @@
+#include "app/lab/part_model_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "scene/error.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr const char* kVersionKey = "splatcut_part_model";
+
+}  // namespace
+
+nlohmann::json part_model_json(const PartModel& model) {
+  nlohmann::json weights;
+  for (const PartWeight& weight : part_weights()) weights[weight.name] = weight.get(model);
+  return {{kVersionKey, PartModel::kVersion}, {"weights", weights}};
+}
+
+PartModel load_part_model(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  if (!in) throw Error(path.string(), "cannot be opened");
+  const nlohmann::json file = nlohmann::json::parse(in, nullptr, false);
+  if (!file.is_object() || !file.contains(kVersionKey) ||
+      !file.value("weights", nlohmann::json()).is_object())
+    throw Error(path.string(), "is no model of parts", "splatcut-lab eval writes the one it used");
+  if (file.at(kVersionKey) != PartModel::kVersion)
+    throw Error(path.string(), fmt::format("is of another version than {}", PartModel::kVersion),
+                "Its weights mean something else; fit it again");
+  PartModel model;
+  for (const auto& [name, value] : file.at("weights").items()) {
+    const auto weight = std::ranges::find(part_weights(), name, &PartWeight::name);
+    if (weight == part_weights().end() || !value.is_number())
+      throw Error(path.string(), fmt::format("\"{}\" is no weight, or no number", name));
+    weight->set(&model, value.get<double>());
+  }
+  return model;
+}
+
+}  // namespace splatcut
