@@ -131,7 +131,8 @@ TEST_CASE(
   for (const json& r : results) {
     measured.insert(r["experiment"]);
     CHECK(r["warned"].is_string());
-    CHECK(r["looked_at_mpx"].get<double>() > 0);
+    // Where the robot finds nothing to click, nothing is looked at.
+    CHECK((r["looked_at_mpx"].get<double>() > 0 || !r["found"].get<bool>()));
   }
   CHECK(planned == measured);
   for (const StabilityAxis& axis : stability_axes())
