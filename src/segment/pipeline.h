@@ -1,4 +1,5 @@
-// From a scene and strokes in one view to a label per Gaussian: the stages of ARCHITECTURE.md, 4 to 9.
+// From a scene and strokes in one view to a label per Gaussian: the stages "first mask" to "trim" of
+// ARCHITECTURE.md.
 //
 // In: cloud, reference camera, strokes in the reference's pixels (or a mask of it).
 // Out: labels (1 = object), the views used with their masks, likelihood, energy, milliseconds per stage.

@@ -72,7 +72,8 @@ ObjectItem& add_object(Document* document, std::string name = {});
 
 std::size_t count_flags(std::span<const std::uint8_t> flags);
 
-// Everything in the document as bytes: equal documents, equal bytes. Tests compare these.
+// Everything in the document as bytes: equal documents, equal bytes. An edit that leaves them as they are
+// makes no undo step.
 std::string bytes_of(const Document& document);
 
 }  // namespace splatcut
