@@ -8,14 +8,11 @@
 #include "segment/energy.h"
 #include "segment/overlap_weights.h"
 #include "segment/parallel.h"
+#include "segment/squared_distance.h"
 
 namespace splatcut {
 
 namespace {
-
-float distance2(const glm::vec3& a, const glm::vec3& b) {
-  return glm::dot(a - b, a - b);
-}
 
 Symmetric3 covariance_of(const GaussianCloud& cloud, std::size_t g) {
   const glm::mat3 sigma = covariance_world(cloud.scale[g], cloud.rotation[g]);
@@ -55,7 +52,7 @@ struct Unlikeness {
                         : options.concavity * (1 - std::min(1.0f, std::abs(glm::dot(axis[g], axis[h]))));
   }
   float operator()(std::size_t g, std::size_t h) const {
-    return options.gamma_colour * distance2(cloud.f_dc[g], cloud.f_dc[h]) + turn(g, h);
+    return options.gamma_colour * squared_distance(cloud.f_dc[g], cloud.f_dc[h]) + turn(g, h);
   }
 };
 
@@ -85,7 +82,7 @@ float median_arc_length2(const GaussianCloud& cloud, const FlowGraph& graph) {
   std::vector<float> length2(graph.arcs());
   for_each_index(graph.nodes(), [&](std::size_t g) {
     for (std::uint32_t arc = graph.first_arc[g]; arc < graph.first_arc[g + 1]; ++arc)
-      length2[arc] = distance2(cloud.position[g], cloud.position[graph.head[arc]]);
+      length2[arc] = squared_distance(cloud.position[g], cloud.position[graph.head[arc]]);
   });
   if (length2.empty()) return 1;
   const auto middle = length2.begin() + static_cast<std::ptrdiff_t>(length2.size() / 2);
@@ -128,8 +125,8 @@ std::vector<std::int32_t> arc_capacities(const GaussianCloud& cloud, const FlowG
   }
   const float d0_2 = options.pairwise == Pairwise::kDistance ? median_arc_length2(cloud, graph) : 1.0f;
   const auto psi = [&](std::uint32_t arc, std::size_t g, std::size_t h) {
-    const float d2 = distance2(cloud.position[g], cloud.position[h]),
-                c2 = distance2(cloud.f_dc[g], cloud.f_dc[h]);
+    const float d2 = squared_distance(cloud.position[g], cloud.position[h]),
+                c2 = squared_distance(cloud.f_dc[g], cloud.f_dc[h]);
     if (options.pairwise == Pairwise::kDistance)
       return std::exp(-options.gamma_position * d2 / d0_2 - unlike(g, h));
     const bool squared = options.pairwise == Pairwise::kPaper;

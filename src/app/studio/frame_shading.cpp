@@ -17,7 +17,7 @@ glm::vec3 shaded_tint(const glm::vec3& hue, const glm::vec3& colour) {
   return hue * (0.7f + 0.5f * glm::dot(colour, glm::vec3(0.299f, 0.587f, 0.114f)));
 }
 
-Rgba8 packed(const glm::vec3& c) {
+Rgba8 rgba8(const glm::vec3& c) {
   const glm::vec3 v = glm::clamp(c, 0.0f, 1.0f) * 255.0f + 0.5f;
   return {static_cast<std::uint8_t>(v.r), static_cast<std::uint8_t>(v.g), static_cast<std::uint8_t>(v.b),
           255};
@@ -101,7 +101,7 @@ Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style) {
         const Around a = around(highlights, x, y);
         c = glm::mix(c, unit(style.highlight_colour), a.uniform ? 0.14f * a.inside : 0.9f * border(a.inside));
       }
-      picture.at(x, y) = packed(c);
+      picture.at(x, y) = rgba8(c);
     }
   });
   return picture;

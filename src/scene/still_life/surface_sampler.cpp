@@ -10,7 +10,6 @@
 namespace splatcut {
 namespace {
 
-constexpr float kTau = 6.28318530718f;
 constexpr double kGolden = 0.61803398874989485;
 constexpr float kJitter = 0.30f;      // of the lattice spacing: hides the lattice, opens no holes
 constexpr float kDifference = 1e-3f;  // step of the finite differences in u and v
