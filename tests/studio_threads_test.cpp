@@ -12,6 +12,8 @@
 #include "app/output_folder.h"
 #include "app/studio/task_thread.h"
 #include "headless_app.h"
+#include "headless_app.h"
+#include "scene/error.h"
 #include "scene/still_life/still_life.h"
 
 using namespace splatcut;
@@ -126,6 +128,30 @@ TEST_CASE("threads: exports wait for each other, of any other kind the latest re
   }
   CHECK(done == std::vector<std::string>{"turntable done", "snapshot done", "second autosave done",
                                          "second cut done"});
+}
+
+TEST_CASE("threads: trouble is told to the task it befell, and to nobody where that was replaced") {
+  std::atomic<bool> go = false;
+  std::vector<std::string> told, shown;
+  TaskThread tasks;
+  tasks.on_error = [&](const std::string& message) { shown.push_back(message); };
+  const auto fail = [&](TaskKind kind, const std::string& name) {
+    tasks.submit({kind, [&, name] { told.push_back(name); }}, [&, name](const Job&) {
+      while (!go) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      throw Error(name, "failed");
+    });
+  };
+  fail(TaskKind::kCut, "replaced");
+  while (!tasks.progress().busy) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  fail(TaskKind::kCut, "cut");
+  fail(TaskKind::kPrepare, "preparing");
+  go = true;
+  while (!tasks.idle()) {
+    tasks.deliver();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  CHECK(told == std::vector<std::string>{"cut", "preparing"});
+  CHECK(shown == std::vector<std::string>{"cut: failed.", "preparing: failed."});
 }
 
 TEST_CASE("threads: another scene is opened while the first is read, prepared and cut") {

@@ -68,6 +68,7 @@ struct CutRun {
   bool ambiguous = false;                                // another size was nearly as likely
   std::vector<std::string> doubts;                       // about the masks, a sentence each
   std::shared_ptr<const std::vector<float>> likelihood;  // of `key`; null until asked for
+  bool likelihood_failed = false;                        // for `key`: not asked for again
 };
 
 // What only the interface can do.
@@ -195,6 +196,7 @@ class Studio {
               const std::filesystem::path& work_path);
   void schedule_cut();
   void start_cut(const ObjectItem& object);
+  void give_up_cut(ObjectId id, const std::string& key);
   void request_likelihood();
   std::shared_ptr<ObjectCutter> cutter_for(ObjectId object);
   void autosave(double seconds);

@@ -189,7 +189,9 @@ void Studio::start_cut(const ObjectItem& object) {
   struct Seen {
     std::size_t views = 0;
   };
-  tasks_.submit(TaskKind::kCut, [this, input = std::move(input), cutter = cutter_for(object.id),
+  const auto failed = [this, id = object.id, key = cutting_key_] { give_up_cut(id, key); };
+  const TaskThread::Order cut_task_order(TaskKind::kCut, failed);
+  tasks_.submit(cut_task_order, [this, input = std::move(input), cutter = cutter_for(object.id),
                                  id = object.id, key = cutting_key_, colour = object.colour, scene = scene_,
                                  heat = view_.heat](const Job& job) {
     const auto start = std::chrono::steady_clock::now();
@@ -281,17 +283,32 @@ void Studio::start_cut(const ObjectItem& object) {
   if (options_.inline_tasks) tasks_.deliver();
 }
 
+// Where the labels have arrived already, only the pictures or the heat map failed: nothing is given up.
+void Studio::give_up_cut(ObjectId id, const std::string& key) {
+  if (cutting_object_ != id || cutting_key_ != key) return;
+  given_up_.insert(key);
+  runs_[id].running = false;
+  runs_[id].preview = nullptr;
+  cutting_object_ = 0;
+  ++view_serial_;
+}
+
 void Studio::request_likelihood() {
   const ObjectItem* object = document().active_object();
   if (!view_.heat || !object || cutting_object_ != 0 || object->cut_key.empty() || !prepared_ ||
       tasks_.busy(TaskKind::kCut))
     return;
   CutRun& run = runs_[object->id];
-  if (run.likelihood && run.key == object->cut_key) return;
+  if ((run.likelihood || run.likelihood_failed) && run.key == object->cut_key) return;
   if (is_stale(document(), *object)) return;
   run.key = object->cut_key;
+  run.likelihood_failed = false;
+  const auto failed = [this, id = object->id, key = object->cut_key, scene = scene_] {
+    if (scene == scene_ && runs_[id].key == key) runs_[id].likelihood_failed = true;
+  };
+  const TaskThread::Order heat_map_order(TaskKind::kCut, failed);
   tasks_.submit(
-      TaskKind::kCut, [this, input = cut_input(document(), *object), cutter = cutter_for(object->id),
+      heat_map_order, [this, input = cut_input(document(), *object), cutter = cutter_for(object->id),
                        id = object->id, key = object->cut_key, scene = scene_](const Job& job) {
         job.progress("likelihood", 0);
         // Kept from the last cut, or computed again.

@@ -23,8 +23,16 @@ enum class TaskKind { kLoad, kPrepare, kCut, kSelect, kExport, kAutosave };
 
 class TaskThread {
  public:
-  // Runs on the worker. An Error it throws arrives in on_error.
+  // Runs on the worker. What it throws arrives in `failed` of its own order, then in on_error; trouble of a
+  // task that was stopped or replaced is dropped.
   using Work = std::function<void(const Job& job)>;
+
+  struct Order {
+    TaskKind kind;
+    std::function<void()> failed;  // called in deliver()
+    Order(TaskKind task_kind, std::function<void()> on_failure = {})
+        : kind(task_kind), failed(std::move(on_failure)) {}
+  };
 
   struct Progress {
     bool busy = false;
@@ -38,7 +46,7 @@ class TaskThread {
   explicit TaskThread(std::function<void()> wake = {}, bool inline_work = false);
   ~TaskThread();
 
-  void submit(TaskKind kind, Work work);
+  void submit(Order order, Work work);
   void cancel(TaskKind kind);
   bool busy(TaskKind kind) const;  // waiting or running
   bool idle() const;
@@ -50,11 +58,11 @@ class TaskThread {
   // Main thread: runs what was posted. True where there was anything.
   bool deliver();
 
-  std::function<void(TaskKind, const std::string& message)> on_error;  // called in deliver()
+  std::function<void(const std::string& message)> on_error;  // called in deliver()
 
  private:
   struct Task {
-    TaskKind kind;
+    Order order;
     Work work;
     std::stop_source stop;
   };
