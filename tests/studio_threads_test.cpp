@@ -12,7 +12,6 @@
 #include "app/output_folder.h"
 #include "app/studio/task_thread.h"
 #include "headless_app.h"
-#include "headless_app.h"
 #include "scene/error.h"
 #include "scene/still_life/still_life.h"
 
@@ -152,6 +151,23 @@ TEST_CASE("threads: trouble is told to the task it befell, and to nobody where t
   }
   CHECK(told == std::vector<std::string>{"cut", "preparing"});
   CHECK(shown == std::vector<std::string>{"cut: failed.", "preparing: failed."});
+}
+
+TEST_CASE("threads: the end of the program waits for work that is being saved, and for nothing else") {
+  std::vector<std::string> done;
+  std::atomic<bool> running = false;
+  {
+    TaskThread tasks;
+    tasks.submit(TaskKind::kCut, [&](const Job& job) {
+      running = true;
+      while (!job.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    });
+    tasks.submit(TaskKind::kSave, [&](const Job&) { done.push_back("first save"); });
+    tasks.submit(TaskKind::kExport, [&](const Job&) { done.push_back("export"); });
+    tasks.submit(TaskKind::kSave, [&](const Job&) { done.push_back("second save"); });
+    while (!running) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  CHECK(done == std::vector<std::string>{"first save", "second save"});
 }
 
 TEST_CASE("threads: another scene is opened while the first is read, prepared and cut") {

@@ -79,7 +79,7 @@ void Studio::perform(const OpenScene& c) {
   if (options_.inline_tasks) tasks_.deliver();
 }
 
-void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> document,
+void Studio::opened(const std::shared_ptr<OpenedScene>& scene, std::optional<Document> document,
                     const std::filesystem::path& work_path) {
   tasks_.cancel(TaskKind::kPrepare);
   prepared_ = nullptr;

@@ -36,9 +36,10 @@ TaskThread::TaskThread(std::function<void()> wake, bool inline_work)
 
 TaskThread::~TaskThread() {
   {
-    const std::lock_guard lock(mutex_);
-    waiting_.clear();
-    running_stop_.request_stop();
+    std::unique_lock lock(mutex_);
+    std::erase_if(waiting_, [](const Task& t) { return t.order.kind != TaskKind::kSave; });
+    if (running_kind_ != TaskKind::kSave) running_stop_.request_stop();
+    while (running_ || !waiting_.empty()) ended_.wait(lock);
   }
   thread_.request_stop();
   if (thread_.joinable()) thread_.join();
@@ -53,7 +54,7 @@ void TaskThread::submit(Order order, Work work) {
   }
   {
     const std::lock_guard lock(mutex_);
-    if (kind != TaskKind::kExport) {
+    if (kind != TaskKind::kExport && kind != TaskKind::kSave) {
       std::erase_if(waiting_, [&](const Task& t) { return t.order.kind == kind; });
       if (running_ && running_kind_ == kind) running_stop_.request_stop();
     }
@@ -146,6 +147,7 @@ void TaskThread::run(const std::stop_token& stop) {
     lock.lock();
     running_ = false;
     progress_ = {};
+    ended_.notify_all();
     lock.unlock();
     if (wake_) wake_();
   }

@@ -2,9 +2,9 @@
 // it finds comes back as closures that the main thread runs in deliver().
 //
 // A task of a kind replaces the waiting and stops the running task of the same kind: the latest request wins.
-// Exports alone wait for each other: each is a file that somebody asked for. Preparing runs at a lower
-// priority: pictures of the scene come first, also where there are few cores. Cancel is a normal end.
-// Shutdown: stop is requested, what waits is dropped, the thread is joined.
+// Exports and saved work wait for each other: each is a file that somebody asked for. Preparing runs at a
+// lower priority: pictures of the scene come first, also where there are few cores. Cancel is a normal end.
+// Shutdown: work that waits to be saved is saved, other tasks are stopped or dropped, the thread is joined.
 #pragma once
 
 #include <condition_variable>
@@ -19,7 +19,7 @@
 
 namespace splatcut {
 
-enum class TaskKind { kLoad, kPrepare, kCut, kSelect, kExport, kAutosave };
+enum class TaskKind { kLoad, kPrepare, kCut, kSelect, kExport, kSave, kAutosave };
 
 class TaskThread {
  public:
@@ -72,7 +72,7 @@ class TaskThread {
   std::function<void()> wake_;
   const bool inline_work_;
   mutable std::mutex mutex_;
-  std::condition_variable_any changed_;
+  std::condition_variable_any changed_, ended_;
   std::deque<Task> waiting_;
   bool running_ = false;
   TaskKind running_kind_ = TaskKind::kLoad;
