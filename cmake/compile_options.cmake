@@ -6,6 +6,7 @@ target_compile_options(splatcut_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(SPLATCUT_SANITIZE)
-  target_compile_options(splatcut_options INTERFACE -fsanitize=${SPLATCUT_SANITIZE} -fno-omit-frame-pointer -g)
+  target_compile_options(splatcut_options INTERFACE
+    -fsanitize=${SPLATCUT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
   target_link_options(splatcut_options INTERFACE -fsanitize=${SPLATCUT_SANITIZE})
 endif()
