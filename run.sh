@@ -4,7 +4,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "$0")" && pwd)
 source "$root/third_party/setup.sh"
-install_missing_packages
+install_missing_packages apt-packages.txt
 build_release splatcut
 program="$root/build/release/splatcut"
 sample="$root/assets/sample"

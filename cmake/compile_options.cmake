@@ -6,6 +6,8 @@ target_compile_options(splatcut_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
 if(SPLATCUT_SANITIZE)
-  target_compile_options(splatcut_options INTERFACE -fsanitize=${SPLATCUT_SANITIZE} -fno-omit-frame-pointer -g)
+  target_compile_options(splatcut_options INTERFACE
+    -fsanitize=${SPLATCUT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_definitions(splatcut_options INTERFACE HWY_COMPILE_ONLY_STATIC)  # one SIMD target: quicker to build
   target_link_options(splatcut_options INTERFACE -fsanitize=${SPLATCUT_SANITIZE})
 endif()

@@ -12,6 +12,7 @@
 #include "app/output_folder.h"
 #include "app/studio/task_thread.h"
 #include "headless_app.h"
+#include "scene/error.h"
 #include "scene/still_life/still_life.h"
 
 using namespace splatcut;
@@ -126,6 +127,47 @@ TEST_CASE("threads: exports wait for each other, of any other kind the latest re
   }
   CHECK(done == std::vector<std::string>{"turntable done", "snapshot done", "second autosave done",
                                          "second cut done"});
+}
+
+TEST_CASE("threads: trouble is told to the task it befell, and to nobody where that was replaced") {
+  std::atomic<bool> go = false;
+  std::vector<std::string> told, shown;
+  TaskThread tasks;
+  tasks.on_error = [&](const std::string& message) { shown.push_back(message); };
+  const auto fail = [&](TaskKind kind, const std::string& name) {
+    tasks.submit({kind, [&, name] { told.push_back(name); }}, [&, name](const Job&) {
+      while (!go) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      throw Error(name, "failed");
+    });
+  };
+  fail(TaskKind::kCut, "replaced");
+  while (!tasks.progress().busy) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  fail(TaskKind::kCut, "cut");
+  fail(TaskKind::kPrepare, "preparing");
+  go = true;
+  while (!tasks.idle()) {
+    tasks.deliver();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  CHECK(told == std::vector<std::string>{"cut", "preparing"});
+  CHECK(shown == std::vector<std::string>{"cut: failed.", "preparing: failed."});
+}
+
+TEST_CASE("threads: the end of the program waits for work that is being saved, and for nothing else") {
+  std::vector<std::string> done;
+  std::atomic<bool> running = false;
+  {
+    TaskThread tasks;
+    tasks.submit(TaskKind::kCut, [&](const Job& job) {
+      running = true;
+      while (!job.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    });
+    tasks.submit(TaskKind::kSave, [&](const Job&) { done.push_back("first save"); });
+    tasks.submit(TaskKind::kExport, [&](const Job&) { done.push_back("export"); });
+    tasks.submit(TaskKind::kSave, [&](const Job&) { done.push_back("second save"); });
+    while (!running) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  CHECK(done == std::vector<std::string>{"first save", "second save"});
 }
 
 TEST_CASE("threads: another scene is opened while the first is read, prepared and cut") {

@@ -157,6 +157,7 @@ TEST_CASE("saved work: read back the same, and computed again bit for bit") {
   REQUIRE(app.settle());
   const auto file = folder / "apple.splatcut.json";
   app.studio().apply(SaveWork{file});
+  REQUIRE(app.settle());
   REQUIRE(std::filesystem::exists(file));
   CHECK_FALSE(app.studio().unsaved());
   const auto labels = active_labels(app);
@@ -288,10 +289,31 @@ TEST_CASE("opening asks before unsaved work goes, dropped files and recent ones 
   CHECK(app.studio().document().objects.empty());
   app.studio().apply(EditSelection{SelectionEdit::kAll});
   app.studio().apply(SaveWork{folder / "all.splatcut.json"});
+  REQUIRE(app.settle());
   const std::uint64_t saved = app.studio().scene()->serial;
   app.open(kSample);  // nothing would be lost
   REQUIRE(app.settle());
   CHECK(app.studio().scene()->serial != saved);
+}
+
+TEST_CASE("objects: one byte per Gaussian names 255 of them, the 256th is refused with a sentence") {
+  const ScratchFolder folder("objects");
+  Document document;
+  for (std::size_t i = 0; i < kMostObjects; ++i) add_object(&document);
+  CHECK_THROWS_WITH_AS(add_object(&document),
+                       "objects: there are 255 already, more cannot be shown. Merge or remove some.", Error);
+  CHECK(document.objects.size() == kMostObjects);
+  CHECK(document.next_id == kMostObjects + 1);
+
+  const auto scene = open_scene(kSample);
+  const auto file = folder / "many.splatcut.json";
+  write_work_file(file, *scene->scene, scene->hash, document);
+  CHECK(read_work_file(file, *scene->scene, scene->hash).document.objects.size() == kMostObjects);
+  ObjectItem another = document.objects.back();
+  another.id = document.next_id++;
+  document.objects.push_back(another);
+  write_work_file(file, *scene->scene, scene->hash, document);
+  CHECK_THROWS_AS(read_work_file(file, *scene->scene, scene->hash), Error);
 }
 
 TEST_CASE("far limit: what lies beyond is neither drawn nor picked nor selected") {

@@ -1,11 +1,11 @@
-# Sourced by run.sh and test.sh: installs what is missing of apt-packages.txt, then builds release.
-# Expects `root`, the project's folder.
+# Sourced by run.sh, test.sh and .ci/: installs what is missing, builds release. Expects `root`, the project's folder.
 
+# Of the lists named (files of this folder).
 install_missing_packages() {
   local missing=() package
   while read -r package; do
     dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
-  done < <(grep -v '^#' "$root/third_party/apt-packages.txt")
+  done < <(cd "$root/third_party" && grep -hv '^#' "$@")
   [ ${#missing[@]} -eq 0 ] && return
   echo "Installing with apt-get: ${missing[*]}"
   local as_root=()

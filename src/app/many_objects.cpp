@@ -121,7 +121,6 @@ std::vector<NamedSeeds> load_named_seeds(const std::filesystem::path& path) {
   const json seeds = read_seeds_json(path);
   if (!seeds.is_object() || !seeds.contains("objects")) return {};
   const json& list = seeds.at("objects");
-  constexpr std::size_t kMostObjects = 255;  // labels.u8 has a byte for each
   if (!list.is_array() || list.empty() || list.size() > kMostObjects)
     throw Error(path.string(), fmt::format("\"objects\" is not a list of 1 to {} objects", kMostObjects));
   std::vector<NamedSeeds> objects;

@@ -1,10 +1,9 @@
 // A mask from words: a program of the user's looks at the picture of a view and writes one.
 //
-// The command is a template such as  python3 sam.py --prompt {text} {image} -o {mask}  . Blanks separate its
-// words;
-// '...' and "..." keep them together, a backslash keeps the next character as it is (not within '...'). No
-// shell reads it. {image}: a PNG of the view; {text}: the words; {mask}: where the program writes its PNG, of
-// the picture's size.
+// The command is a template:  python3 sam.py --prompt {text} {image} -o {mask}
+// Blanks separate its words; '...' and "..." keep them together; a backslash keeps the next character as it
+// is (not within '...'). No shell reads it. {image}: a PNG of the view; {text}: the words; {mask}: where the
+// program writes its PNG, of the picture's size.
 #pragma once
 
 #include <string>

@@ -42,7 +42,7 @@ std::uint64_t hash_piece(const std::byte* bytes, std::size_t size, std::uint64_t
     take();
   }
   word = {};
-  std::memcpy(word.data(), bytes + at, size - at);
+  if (at < size) std::memcpy(word.data(), bytes + at, size - at);  // bytes of nothing may be null
   take();
   std::uint64_t hash = fold(size ^ kLast, seed ^ kKey[0]);
   for (const std::uint64_t l : lane) hash = fold(hash ^ l, kLast);

@@ -18,23 +18,23 @@ namespace {
 namespace fs = std::filesystem;
 
 // Index in the table: COLMAP's model id. one_focal: f cx cy ..., otherwise fx fy cx cy ...
-struct Model {
+struct LensModel {
   const char* name;
   std::size_t params;
   bool one_focal, fisheye;
   std::size_t centre() const { return one_focal ? 1 : 2; }  // index of cx among the parameters
 };
-constexpr std::array<Model, 11> kModels{{{"SIMPLE_PINHOLE", 3, true, false},
-                                         {"PINHOLE", 4, false, false},
-                                         {"SIMPLE_RADIAL", 4, true, false},
-                                         {"RADIAL", 5, true, false},
-                                         {"OPENCV", 8, false, false},
-                                         {"OPENCV_FISHEYE", 8, false, true},
-                                         {"FULL_OPENCV", 12, false, false},
-                                         {"FOV", 5, false, true},
-                                         {"SIMPLE_RADIAL_FISHEYE", 4, true, true},
-                                         {"RADIAL_FISHEYE", 5, true, true},
-                                         {"THIN_PRISM_FISHEYE", 12, false, true}}};
+constexpr std::array<LensModel, 11> kModels{{{"SIMPLE_PINHOLE", 3, true, false},
+                                             {"PINHOLE", 4, false, false},
+                                             {"SIMPLE_RADIAL", 4, true, false},
+                                             {"RADIAL", 5, true, false},
+                                             {"OPENCV", 8, false, false},
+                                             {"OPENCV_FISHEYE", 8, false, true},
+                                             {"FULL_OPENCV", 12, false, false},
+                                             {"FOV", 5, false, true},
+                                             {"SIMPLE_RADIAL_FISHEYE", 4, true, true},
+                                             {"RADIAL_FISHEYE", 5, true, true},
+                                             {"THIN_PRISM_FISHEYE", 12, false, true}}};
 
 using Lenses = std::map<std::uint32_t, Camera>;
 
@@ -45,8 +45,8 @@ struct Pose {
   std::string name;
 };
 
-const Model& pinhole_like(const fs::path& path, const Model* model, std::uint32_t id,
-                          std::string_view named) {
+const LensModel& pinhole_like(const fs::path& path, const LensModel* model, std::uint32_t id,
+                              std::string_view named) {
   if (!model) throw Error(path.string(), fmt::format("camera {}: unknown model {}", id, named));
   if (model->fisheye)
     throw Error(path.string(),
@@ -55,7 +55,7 @@ const Model& pinhole_like(const fs::path& path, const Model* model, std::uint32_
   return *model;
 }
 
-Camera lens_from(const fs::path& path, std::uint32_t id, const Model& model, double width, double height,
+Camera lens_from(const fs::path& path, std::uint32_t id, const LensModel& model, double width, double height,
                  std::span<const double> params) {
   constexpr double kLargestSide = 1 << 17;
   Camera lens;
@@ -71,7 +71,7 @@ Camera lens_from(const fs::path& path, std::uint32_t id, const Model& model, dou
 }
 
 // Radial models have k after the principal point, the OpenCV models k1 k2 p1 p2 [k3 ...].
-Distortion distortion_from(const Model& model, std::span<const double> params) {
+Distortion distortion_from(const LensModel& model, std::span<const double> params) {
   const auto after_centre = [&](std::size_t i) {
     const std::size_t at = model.centre() + 2 + i;
     return at < params.size() ? params[at] : 0.0;
@@ -146,8 +146,8 @@ Lenses read_lenses_bin(const fs::path& path, double& largest_shift_px) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto id = in.read<std::uint32_t>();
     const auto number = in.read<std::uint32_t>();
-    const Model* known = number < kModels.size() ? &kModels[number] : nullptr;
-    const Model& model = pinhole_like(path, known, id, std::to_string(number));
+    const LensModel* known = number < kModels.size() ? &kModels[number] : nullptr;
+    const LensModel& model = pinhole_like(path, known, id, std::to_string(number));
     const auto width = static_cast<double>(in.read<std::uint64_t>());
     const auto height = static_cast<double>(in.read<std::uint64_t>());
     std::vector<double> params;
@@ -204,8 +204,8 @@ Lenses read_lenses_txt(const fs::path& path, double& largest_shift_px) {
     if (!words)
       throw Error(path.string(), fmt::format("line {} is not \"id model width height parameters\"", number));
     const auto* known =
-        std::ranges::find(kModels, name, [](const Model& m) { return std::string_view(m.name); });
-    const Model& model = pinhole_like(path, known == kModels.end() ? nullptr : known, id, name);
+        std::ranges::find(kModels, name, [](const LensModel& m) { return std::string_view(m.name); });
+    const LensModel& model = pinhole_like(path, known == kModels.end() ? nullptr : known, id, name);
     std::vector<double> params(model.params);
     for (double& p : params) words >> p;
     if (!words)

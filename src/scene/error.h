@@ -1,6 +1,7 @@
 // The one error type of the project: trouble with the environment (a file, an option, a context),
-// worded for the person who uses the program. Thrown where the fact is known, caught in main (and in
-// Application::apply) only. Programmer mistakes are asserts; expected outcomes are values in reports.
+// worded for the person who uses the program. Thrown where the fact is known. It reaches the person in
+// main(), in Studio::apply and in TaskThread; elsewhere it is caught only to say more about it, or where the
+// program can do without. Programmer mistakes are asserts; expected outcomes are values in reports.
 #pragma once
 
 #include <stdexcept>

@@ -11,13 +11,15 @@
 
 namespace splatcut {
 
-constexpr float kShC0 = 0.28209479f;  // constant SH basis function, 1 / (2 sqrt(pi))
+// The constant SH basis function, 1 / (2 sqrt(pi)), one unit in the last place below kShC0 of splat_math.h:
+// what these formats write keeps its bytes.
+constexpr float kShC0Rounded = 0.28209479f;
 
 inline glm::vec3 f_dc_from_colour(const glm::vec3& colour) {
-  return (colour - 0.5f) / kShC0;
+  return (colour - 0.5f) / kShC0Rounded;
 }
 inline glm::vec3 colour_from_f_dc(const glm::vec3& f_dc) {
-  return 0.5f + kShC0 * f_dc;
+  return 0.5f + kShC0Rounded * f_dc;
 }
 
 // The nearest step of 0..2^bits-1 that stands for value in [0, 1]; NaN becomes 0.

@@ -25,7 +25,7 @@ constexpr std::size_t kV4HeaderBytes = 32;
 constexpr std::size_t kFirstBuffer = 1 << 22;
 
 // Unpacked between two looks at the stop token: some 10 ms.
-constexpr std::size_t kPiece = 1 << 22;
+constexpr std::size_t kChunk = 1 << 22;
 
 using Bytes = std::vector<std::byte>;
 
@@ -57,11 +57,11 @@ class GzipReader {
 
  private:
   std::size_t read_some(std::span<std::byte> out, std::size_t done) {
-    const auto in = in_.first(std::min(in_.size(), kPiece));
+    const auto in = in_.first(std::min(in_.size(), kChunk));
     stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(in.data()));
     stream_.avail_in = static_cast<uInt>(in.size());
     stream_.next_out = reinterpret_cast<Bytef*>(out.data());
-    const std::size_t room = std::min(out.size(), kPiece);
+    const std::size_t room = std::min(out.size(), kChunk);
     stream_.avail_out = static_cast<uInt>(room);
     const int result = inflate(&stream_, Z_NO_FLUSH);
     in_ = in_.subspan(in.size() - stream_.avail_in);
@@ -88,7 +88,7 @@ Bytes unpack_zstd(const MappedFile& file, std::span<const std::byte> packed, std
   Bytes bytes;
   for (std::size_t done = 0; done < size && !job.cancelled();) {
     if (done == bytes.size()) grow(bytes, size);
-    ZSTD_outBuffer out{bytes.data(), std::min(bytes.size(), done + kPiece), done};
+    ZSTD_outBuffer out{bytes.data(), std::min(bytes.size(), done + kChunk), done};
     const std::size_t result = ZSTD_decompressStream(stream.get(), &out, &in);
     if (ZSTD_isError(result))
       throw Error(file.path().string(),

@@ -3,9 +3,12 @@
 // Attributes stand apart, in this order: positions, opacities, colours, scales, rotations, SH.
 //   position   v1: 3 half floats; v2+: 3 x 24-bit fixed point with fractional_bits
 //   opacity    u8 / 255;   colour  f_dc = (u8 / 255 - 0.5) / 0.15;   scale  logarithm = u8 / 16 - 10
-//   rotation   v1, v2: x y z as u8 / 127.5 - 1 with w >= 0; v3+: smallest three of x y z w, 2 + 3 x (sign +
-//   9) bits SH         (u8 - 128) / 128, coefficient by coefficient, red green blue together
-// v1-v3 are one gzip stream that begins with SpzHeader; v4 is SpzHeader, SpzStreams and zstd streams.
+//   rotation   v1, v2: x y z as u8 / 127.5 - 1 with w >= 0
+//              v3+: the smallest three of x y z w, 2 + 3 x (sign + 9) bits
+//   SH         (u8 - 128) / 128, coefficient by coefficient, red green blue together
+//
+// v1 to v3 are one gzip stream that begins with Header. v4 is Header, a table of stream sizes, and one zstd
+// stream per attribute.
 // Axes are x right, y up, z back (RUB); ours are x right, y down, z forward: y and z change sign.
 #pragma once
 

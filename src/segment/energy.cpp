@@ -7,14 +7,11 @@
 #include <limits>
 
 #include "segment/parallel.h"
+#include "segment/squared_distance.h"
 
 namespace splatcut {
 
 namespace {
-
-float distance2(const glm::vec3& a, const glm::vec3& b) {
-  return glm::dot(a - b, a - b);
-}
 
 struct Cluster {
   glm::vec3 position, colour;
@@ -38,8 +35,8 @@ std::vector<Cluster> clusters_of(const GaussianCloud& cloud, const std::vector<s
       std::size_t best = 0;
       float least = std::numeric_limits<float>::max();
       for (std::size_t c = 0; c < count; ++c) {
-        const float d = distance2(cloud.position[g], clusters[c].position) +
-                        (over_colour ? distance2(cloud.f_dc[g], clusters[c].colour) : 0.0f);
+        const float d = squared_distance(cloud.position[g], clusters[c].position) +
+                        (over_colour ? squared_distance(cloud.f_dc[g], clusters[c].colour) : 0.0f);
         if (d < least) {
           least = d;
           best = c;
@@ -87,7 +84,8 @@ class ClusterTerm {
   double likest(std::size_t g, const std::vector<Cluster>& clusters) const {
     float best = 0;
     for (const Cluster& c : clusters) {
-      const float d2 = distance2(cloud_.position[g], c.position), c2 = distance2(cloud_.f_dc[g], c.colour);
+      const float d2 = squared_distance(cloud_.position[g], c.position),
+                  c2 = squared_distance(cloud_.f_dc[g], c.colour);
       best = std::max(best, std::exp(-options_.gamma_cluster_position * (squared_ ? d2 : std::sqrt(d2))) +
                                 options_.lambda_n * std::exp(-options_.gamma_cluster_colour *
                                                              (squared_ ? c2 : std::sqrt(c2))));

@@ -8,14 +8,11 @@
 #include "segment/energy.h"
 #include "segment/overlap_weights.h"
 #include "segment/parallel.h"
+#include "segment/squared_distance.h"
 
 namespace splatcut {
 
 namespace {
-
-float distance2(const glm::vec3& a, const glm::vec3& b) {
-  return glm::dot(a - b, a - b);
-}
 
 Symmetric3 covariance_of(const GaussianCloud& cloud, std::size_t g) {
   const glm::mat3 sigma = covariance_world(cloud.scale[g], cloud.rotation[g]);
@@ -93,8 +90,8 @@ std::vector<std::int32_t> arc_capacities(const GaussianCloud& cloud, const FlowG
     return capacity;
   }
   const auto psi = [&](std::uint32_t arc, std::size_t g, std::size_t h) {
-    const float d2 = distance2(cloud.position[g], cloud.position[h]),
-                c2 = distance2(cloud.f_dc[g], cloud.f_dc[h]);
+    const float d2 = squared_distance(cloud.position[g], cloud.position[h]),
+                c2 = squared_distance(cloud.f_dc[g], cloud.f_dc[h]);
     const bool squared = options.pairwise == Pairwise::kPaper;
     const float times = !squared && mutual(graph, arc, g, h) ? 2.0f : 1.0f;
     return times * (std::exp(-options.gamma_position * (squared ? d2 : std::sqrt(d2))) +

@@ -59,11 +59,11 @@ struct Part {
   bool alive = true;
 };
 
-struct Candidate {
+struct MergeStep {
   float cost;
   std::uint32_t a, b;
   // Ties go to the lower indices, so that the order does not depend on the queue.
-  bool operator<(const Candidate& o) const { return std::tie(cost, a, b) > std::tie(o.cost, o.a, o.b); }
+  bool operator<(const MergeStep& o) const { return std::tie(cost, a, b) > std::tie(o.cost, o.a, o.b); }
 };
 
 class Merging {
@@ -163,7 +163,7 @@ std::uint32_t Merging::merge(std::uint32_t a, std::uint32_t b) {
 
 PartTree Merging::run(const Job& job) {
   PartTree out;
-  std::priority_queue<Candidate> queue;
+  std::priority_queue<MergeStep> queue;
   parts_.reserve(2 * parts_.size());
   const auto offer = [&](std::uint32_t a, std::uint32_t b, const Link& l) {
     queue.push({cost(a, b, l), std::min(a, b), std::max(a, b)});
@@ -184,7 +184,7 @@ PartTree Merging::run(const Job& job) {
       if (p < other) offer(p, other, link);
   }
   while (!queue.empty() && !job.cancelled()) {
-    const Candidate best = queue.top();
+    const MergeStep best = queue.top();
     queue.pop();
     if (!parts_[best.a].alive || !parts_[best.b].alive) continue;
     const std::uint32_t c = merge(best.a, best.b);

@@ -68,7 +68,7 @@ struct FittedScene {
   }
 };
 
-void stop_if_cancelled(const Job& job) {
+void stop_if_fit_cancelled(const Job& job) {
   if (job.cancelled()) throw Error("splatcut-lab fit", "cancelled, nothing was written");
 }
 
@@ -81,7 +81,7 @@ std::vector<FittedScene> load_all(const FitArguments& args, const CommonOptions&
       if (!args.only.empty() && std::ranges::find(args.only, entry.value("name", "")) == args.only.end())
         continue;
       auto loaded = load_case(entry, suite.parent_path(), prepare, job);
-      stop_if_cancelled(job);
+      stop_if_fit_cancelled(job);
       scenes.emplace_back(std::move(loaded), args, Job{job.stop, {}});
     }
   if (scenes.empty()) throw Error("splatcut-lab fit", "no scene of the suites is left to fit to");
@@ -150,7 +150,7 @@ void run_fit(const FitArguments& args, const CommonOptions& common) {
     return scenes[scene].score(weights, args.clicks, Job{job.stop, {}});
   });
   const LeaveOneOut table = leave_one_out(&fitter, scenes.size(), args.options, job);
-  stop_if_cancelled(job);
+  stop_if_fit_cancelled(job);
   write_text_file(folder.file("fit.json"),
                   result_json(args, scenes, weights.table(), fitter, table).dump(1) + "\n");
   folder.commit();

@@ -33,8 +33,8 @@ std::optional<Stroke> click_in(const WrongRegion& wrong, std::uint64_t draw) {
       if (depth.pixels()[i] >= deep_enough) pixels.push_back(static_cast<std::ptrdiff_t>(i));
     deepest = pixels[CounterRng(draw, pixels.size()).below(pixels.size())];
   }
-  const glm::vec2 pixel(static_cast<float>(deepest % depth.width()) + 0.5f,
-                        static_cast<float>(deepest / depth.width()) + 0.5f);
+  const auto column = deepest % depth.width(), row = deepest / depth.width();
+  const glm::vec2 pixel(static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f);
   return click(pixel, wrong.label);
 }
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <cassert>
 
+#include "scene/error.h"
+
 namespace splatcut {
 
 namespace {
@@ -94,6 +96,9 @@ void set_labels(Document* document, ObjectItem* object, std::span<const std::uin
 }
 
 ObjectItem& add_object(Document* document, std::string name) {
+  if (document->objects.size() >= kMostObjects)
+    throw Error("objects", fmt::format("there are {} already, more cannot be shown", kMostObjects),
+                "Merge or remove some");
   ObjectItem object;
   object.id = document->next_id++;
   object.name = name.empty() ? fmt::format("Object {}", object.id) : std::move(name);

@@ -41,8 +41,10 @@ struct ObjectItem {
   Flags hand;                       // HandMark
 };
 
+inline constexpr std::size_t kMostObjects = 255;  // one byte per Gaussian names its object
+
 struct Document {
-  std::vector<ObjectItem> objects;
+  std::vector<ObjectItem> objects;  // at most kMostObjects
   ObjectId active = 0;
   ObjectId next_id = 1;
   glm::vec3 up_world{0, -1, 0};
@@ -73,12 +75,13 @@ std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& 
 // The final labels become `labels`: what differs from the cut is marked by hand.
 void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels);
 
-// A new object, active, with a name and a colour of its own.
+// A new object, active, with a name and a colour of its own. Throws Error where there are kMostObjects.
 ObjectItem& add_object(Document* document, std::string name = {});
 
 std::size_t count_flags(std::span<const std::uint8_t> flags);
 
-// Everything in the document as bytes: equal documents, equal bytes. Tests compare these.
+// Everything in the document as bytes: equal documents, equal bytes. An edit that leaves them as they are
+// makes no undo step.
 std::string bytes_of(const Document& document);
 
 }  // namespace splatcut

@@ -8,10 +8,6 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kTint = 0.6f;
-constexpr float kOutline = 0.95f;
-constexpr float kHeat = 0.7f;
-
 glm::vec3 unit(const Rgb8& c) {
   return glm::vec3(c[0], c[1], c[2]) / 255.0f;
 }
@@ -21,7 +17,7 @@ glm::vec3 shaded_tint(const glm::vec3& hue, const glm::vec3& colour) {
   return hue * (0.7f + 0.5f * glm::dot(colour, glm::vec3(0.299f, 0.587f, 0.114f)));
 }
 
-Rgba8 packed(const glm::vec3& c) {
+Rgba8 rgba8(const glm::vec3& c) {
   const glm::vec3 v = glm::clamp(c, 0.0f, 1.0f) * 255.0f + 0.5f;
   return {static_cast<std::uint8_t>(v.r), static_cast<std::uint8_t>(v.g), static_cast<std::uint8_t>(v.b),
           255};
@@ -93,19 +89,19 @@ Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style) {
       glm::vec3 c = frame.colour.at(x, y) + (1 - frame.alpha.at(x, y)) * style.background;
       const std::int32_t hit = frame.first_hit.at(x, y);
       if (style.heat && hit >= 0)
-        c = glm::mix(c, heat_colour((*style.heat)[static_cast<std::size_t>(hit)]), kHeat);
+        c = glm::mix(c, heat_colour((*style.heat)[static_cast<std::size_t>(hit)]), kHeatStrength);
       if (style.owner && (style.tint || style.outline)) {
         const Around a = around(owners, x, y);
         const glm::vec3 hue = unit(style.owner_colour[a.owner]);
-        if (style.tint && !style.heat) c = glm::mix(c, shaded_tint(hue, c), kTint * a.inside);
+        if (style.tint && !style.heat) c = glm::mix(c, shaded_tint(hue, c), kTintStrength * a.inside);
         if (style.outline && !a.uniform)
-          c = glm::mix(c, glm::mix(hue, glm::vec3(1), 0.35f), kOutline * border(a.inside));
+          c = glm::mix(c, glm::mix(hue, glm::vec3(1), 0.35f), kOutlineStrength * border(a.inside));
       }
       if (style.highlight) {
         const Around a = around(highlights, x, y);
         c = glm::mix(c, unit(style.highlight_colour), a.uniform ? 0.14f * a.inside : 0.9f * border(a.inside));
       }
-      picture.at(x, y) = packed(c);
+      picture.at(x, y) = rgba8(c);
     }
   });
   return picture;

@@ -27,6 +27,9 @@ struct Frame {
   double raster_ms = 0;
 };
 
+// How much of the picture's colour the shading replaces, by the CPU and in OpenGL alike, [0, 1].
+inline constexpr float kTintStrength = 0.6f, kHeatStrength = 0.7f, kOutlineStrength = 0.95f;
+
 struct FrameStyle {
   glm::vec3 background{0};
   bool tint = true;

@@ -27,14 +27,7 @@ bool is_tool(Action action) {
 
 Studio::Studio(StudioOptions options)
     : options_(std::move(options)), frames_(options_.wake), tasks_(options_.wake, options_.inline_tasks) {
-  tasks_.on_error = [this](TaskKind kind, const std::string& text) {
-    if (kind == TaskKind::kCut) {
-      given_up_.insert(cutting_key_);
-      runs_[cutting_object_].running = false;
-      cutting_object_ = 0;
-    }
-    say(Message::Kind::kError, text);
-  };
+  tasks_.on_error = [this](const std::string& text) { say(Message::Kind::kError, text); };
   if (options_.state_folder.empty()) return;
   for (const char* name : {kAutosaveBefore, kAutosave})
     if (std::filesystem::exists(options_.state_folder / name)) restorable_ = options_.state_folder / name;

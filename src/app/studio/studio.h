@@ -2,8 +2,10 @@
 //
 // One thread (the main one) calls everything here. Commands come in by apply() or by events; what the
 // interface shows is read through the const members. Events of a test and of the window run the very same
-// code. Nothing here blocks: files, cuts and pictures are made on threads and arrive in update(). Errors:
-// every Error ends in apply() or update() and becomes a message.
+// code. Files, cuts and pictures are made on threads and arrive in update(). What costs a pass over the
+// scene's Gaussians still runs here: labels and floaters when something changed (refresh_style), selections
+// by colour or range, one pixel under the pointer where no picture shows it yet (pick). Errors: every Error
+// ends in apply() or update() and becomes a message.
 #pragma once
 
 #include <deque>
@@ -66,6 +68,7 @@ struct CutRun {
   double started_s = 0, first_mask_ms = 0, total_ms = 0;
   std::vector<std::string> doubts;                       // about the masks, a sentence each
   std::shared_ptr<const std::vector<float>> likelihood;  // of `key`; null until asked for
+  bool likelihood_failed = false;                        // for `key`: not asked for again
 };
 
 // What only the interface can do.
@@ -139,6 +142,7 @@ class Studio {
   DepthRange depth_range() const;
   std::uint64_t document_serial() const { return document_serial_; }
   const std::filesystem::path& work_path() const { return work_path_; }
+  // Also while the file is being written.
   bool unsaved() const { return !document().objects.empty() && saved_serial_ != document_serial_; }
   std::uint64_t style_serial() const { return style_version_; }  // changes with what style() and shown() say
   void leave();  // the program ends: an autosave that is not needed goes
@@ -189,10 +193,11 @@ class Studio {
   void run_all(const std::vector<Command>& commands);
 
   // studio_jobs.cpp
-  void opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> document,
+  void opened(const std::shared_ptr<OpenedScene>& scene, std::optional<Document> document,
               const std::filesystem::path& work_path);
   void schedule_cut();
   void start_cut(const ObjectItem& object);
+  void give_up_cut(ObjectId id, const std::string& key);
   void request_likelihood();
   const std::string& wanted_key(const ObjectItem& object);
   void autosave(double seconds);

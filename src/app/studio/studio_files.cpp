@@ -43,10 +43,18 @@ void Studio::perform(const SaveWork& c) {
   require_scene();
   std::filesystem::path path = c.path;
   if (!is_work_file(path)) path += ".splatcut.json";
-  write_work_file(path, *scene_->scene, scene_->hash, document());
-  work_path_ = path;
-  saved_serial_ = document_serial_;
-  say(Message::Kind::kDone, "Work saved to " + path.string());
+  tasks_.submit(TaskKind::kSave, [this, path, serial = document_serial_, document = document(),
+                                  scene = scene_](const Job& job) {
+    job.progress("saving", 0);
+    write_work_file(path, *scene->scene, scene->hash, document);
+    tasks_.post([this, path, serial, scene] {
+      say(Message::Kind::kDone, "Work saved to " + path.string());
+      if (scene != scene_) return;
+      work_path_ = path;
+      saved_serial_ = serial;
+    });
+  });
+  if (options_.inline_tasks) tasks_.deliver();
 }
 
 void Studio::leave() {

@@ -84,7 +84,7 @@ void Studio::perform(const OpenScene& c) {
   if (options_.inline_tasks) tasks_.deliver();
 }
 
-void Studio::opened(std::shared_ptr<OpenedScene> scene, std::optional<Document> document,
+void Studio::opened(const std::shared_ptr<OpenedScene>& scene, std::optional<Document> document,
                     const std::filesystem::path& work_path) {
   tasks_.cancel(TaskKind::kPrepare);
   prepared_ = nullptr;
@@ -186,7 +186,9 @@ void Studio::start_cut(const ObjectItem& object) {
   run.key = cutting_key_;
   run.views = std::move(before);
   run.started_s = clock_s_;
-  tasks_.submit(TaskKind::kCut, [this, request = cut_request(document(), object),
+  const auto failed = [this, id = object.id, key = cutting_key_] { give_up_cut(id, key); };
+  const TaskThread::Order cut_task_order(TaskKind::kCut, failed);
+  tasks_.submit(cut_task_order, [this, request = cut_request(document(), object),
                                  settings = cut_settings(document(), object), session = session_,
                                  id = object.id, key = cutting_key_, colour = object.colour, scene = scene_,
                                  heat = view_.heat](const Job& job) {
@@ -271,16 +273,31 @@ void Studio::start_cut(const ObjectItem& object) {
   if (options_.inline_tasks) tasks_.deliver();
 }
 
+// Where the labels have arrived already, only the pictures or the heat map failed: nothing is given up.
+void Studio::give_up_cut(ObjectId id, const std::string& key) {
+  if (cutting_object_ != id || cutting_key_ != key) return;
+  given_up_.insert(key);
+  runs_[id].running = false;
+  runs_[id].preview = nullptr;
+  cutting_object_ = 0;
+  ++view_serial_;
+}
+
 void Studio::request_likelihood() {
   const ObjectItem* object = document().active_object();
   if (!view_.heat || !object || cutting_object_ != 0 || object->cut_key.empty() || !prepared_ ||
       tasks_.busy(TaskKind::kCut))
     return;
   CutRun& run = runs_[object->id];
-  if (run.likelihood && run.key == object->cut_key) return;
+  if ((run.likelihood || run.likelihood_failed) && run.key == object->cut_key) return;
   if (is_stale(*object, wanted_key(*object))) return;
   run.key = object->cut_key;
-  tasks_.submit(TaskKind::kCut, [this, request = cut_request(document(), *object),
+  run.likelihood_failed = false;
+  const auto failed = [this, id = object->id, key = object->cut_key, scene = scene_] {
+    if (scene == scene_ && runs_[id].key == key) runs_[id].likelihood_failed = true;
+  };
+  const TaskThread::Order heat_map_order(TaskKind::kCut, failed);
+  tasks_.submit(heat_map_order, [this, request = cut_request(document(), *object),
                                  settings = cut_settings(document(), *object), session = session_,
                                  id = object->id, key = object->cut_key, scene = scene_](const Job& job) {
     job.progress("likelihood", 0);

@@ -103,7 +103,7 @@ void Studio::refresh_style() {
   style.tint = view_.tint;
   style.outline = view_.outline;
   bool any = false;
-  for (std::size_t i = 0; i < document.objects.size() && i < 255; ++i) {
+  for (std::size_t i = 0; i < document.objects.size(); ++i) {
     const ObjectItem& object = document.objects[i];
     const CutRun* run = cut_run(object.id);
     std::vector<std::uint8_t> own = run && run->preview ? *run->preview : labels_of(document, object, n);

@@ -36,24 +36,26 @@ TaskThread::TaskThread(std::function<void()> wake, bool inline_work)
 
 TaskThread::~TaskThread() {
   {
-    const std::lock_guard lock(mutex_);
-    waiting_.clear();
-    running_stop_.request_stop();
+    std::unique_lock lock(mutex_);
+    std::erase_if(waiting_, [](const Task& t) { return t.order.kind != TaskKind::kSave; });
+    if (running_kind_ != TaskKind::kSave) running_stop_.request_stop();
+    while (running_ || !waiting_.empty()) ended_.wait(lock);
   }
   thread_.request_stop();
   if (thread_.joinable()) thread_.join();
 }
 
-void TaskThread::submit(TaskKind kind, Work work) {
-  Task task{kind, std::move(work), {}};
+void TaskThread::submit(Order order, Work work) {
+  const TaskKind kind = order.kind;
+  Task task{std::move(order), std::move(work), {}};
   if (inline_work_) {
     perform(task);
     return;
   }
   {
     const std::lock_guard lock(mutex_);
-    if (kind != TaskKind::kExport) {
-      std::erase_if(waiting_, [&](const Task& t) { return t.kind == kind; });
+    if (kind != TaskKind::kExport && kind != TaskKind::kSave) {
+      std::erase_if(waiting_, [&](const Task& t) { return t.order.kind == kind; });
       if (running_ && running_kind_ == kind) running_stop_.request_stop();
     }
     waiting_.push_back(std::move(task));
@@ -63,14 +65,14 @@ void TaskThread::submit(TaskKind kind, Work work) {
 
 void TaskThread::cancel(TaskKind kind) {
   const std::lock_guard lock(mutex_);
-  std::erase_if(waiting_, [&](const Task& t) { return t.kind == kind; });
+  std::erase_if(waiting_, [&](const Task& t) { return t.order.kind == kind; });
   if (running_ && running_kind_ == kind) running_stop_.request_stop();
 }
 
 bool TaskThread::busy(TaskKind kind) const {
   const std::lock_guard lock(mutex_);
   return (running_ && running_kind_ == kind) ||
-         std::ranges::any_of(waiting_, [&](const Task& t) { return t.kind == kind; });
+         std::ranges::any_of(waiting_, [&](const Task& t) { return t.order.kind == kind; });
 }
 
 bool TaskThread::idle() const {
@@ -104,20 +106,22 @@ bool TaskThread::deliver() {
 void TaskThread::perform(Task& task) {
   Job job;
   job.stop = task.stop.get_token();
-  job.on_progress = [this, kind = task.kind](std::string_view stage, double fraction) {
+  job.on_progress = [this, kind = task.order.kind](std::string_view stage, double fraction) {
     {
       const std::lock_guard lock(mutex_);
       progress_ = {true, kind, std::string(stage), fraction};
     }
     if (wake_) wake_();
   };
-  const auto report = [this, kind = task.kind](std::string message) {
-    post([this, kind, message = std::move(message)] {
-      if (on_error) on_error(kind, message);
+  const auto report = [&](std::string message) {
+    if (job.cancelled()) return;
+    post([this, failed = task.order.failed, message = std::move(message)] {
+      if (failed) failed();
+      if (on_error) on_error(message);
     });
   };
   try {
-    if (task.kind == TaskKind::kPrepare && !inline_work_)
+    if (task.order.kind == TaskKind::kPrepare && !inline_work_)
       run_in_background([&] { task.work(job); });
     else
       task.work(job);
@@ -135,14 +139,15 @@ void TaskThread::run(const std::stop_token& stop) {
     Task task = std::move(waiting_.front());
     waiting_.pop_front();
     running_ = true;
-    running_kind_ = task.kind;
+    running_kind_ = task.order.kind;
     running_stop_ = task.stop;
-    progress_ = {true, task.kind, {}, 0};
+    progress_ = {true, task.order.kind, {}, 0};
     lock.unlock();
     perform(task);
     lock.lock();
     running_ = false;
     progress_ = {};
+    ended_.notify_all();
     lock.unlock();
     if (wake_) wake_();
   }

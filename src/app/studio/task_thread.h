@@ -2,9 +2,9 @@
 // it finds comes back as closures that the main thread runs in deliver().
 //
 // A task of a kind replaces the waiting and stops the running task of the same kind: the latest request wins.
-// Exports alone wait for each other: each is a file that somebody asked for. Preparing runs at a lower
-// priority: pictures of the scene come first, also where there are few cores. Cancel is a normal end.
-// Shutdown: stop is requested, what waits is dropped, the thread is joined.
+// Exports and saved work wait for each other: each is a file that somebody asked for. Preparing runs at a
+// lower priority: pictures of the scene come first, also where there are few cores. Cancel is a normal end.
+// Shutdown: work that waits to be saved is saved, other tasks are stopped or dropped, the thread is joined.
 #pragma once
 
 #include <condition_variable>
@@ -19,12 +19,20 @@
 
 namespace splatcut {
 
-enum class TaskKind { kLoad, kPrepare, kCut, kSelect, kExport, kAutosave };
+enum class TaskKind { kLoad, kPrepare, kCut, kSelect, kExport, kSave, kAutosave };
 
 class TaskThread {
  public:
-  // Runs on the worker. An Error it throws arrives in on_error.
+  // Runs on the worker. What it throws arrives in `failed` of its own order, then in on_error; trouble of a
+  // task that was stopped or replaced is dropped.
   using Work = std::function<void(const Job& job)>;
+
+  struct Order {
+    TaskKind kind;
+    std::function<void()> failed;  // called in deliver()
+    Order(TaskKind task_kind, std::function<void()> on_failure = {})
+        : kind(task_kind), failed(std::move(on_failure)) {}
+  };
 
   struct Progress {
     bool busy = false;
@@ -38,7 +46,7 @@ class TaskThread {
   explicit TaskThread(std::function<void()> wake = {}, bool inline_work = false);
   ~TaskThread();
 
-  void submit(TaskKind kind, Work work);
+  void submit(Order order, Work work);
   void cancel(TaskKind kind);
   bool busy(TaskKind kind) const;  // waiting or running
   bool idle() const;
@@ -50,11 +58,11 @@ class TaskThread {
   // Main thread: runs what was posted. True where there was anything.
   bool deliver();
 
-  std::function<void(TaskKind, const std::string& message)> on_error;  // called in deliver()
+  std::function<void(const std::string& message)> on_error;  // called in deliver()
 
  private:
   struct Task {
-    TaskKind kind;
+    Order order;
     Work work;
     std::stop_source stop;
   };
@@ -64,7 +72,7 @@ class TaskThread {
   std::function<void()> wake_;
   const bool inline_work_;
   mutable std::mutex mutex_;
-  std::condition_variable_any changed_;
+  std::condition_variable_any changed_, ended_;
   std::deque<Task> waiting_;
   bool running_ = false;
   TaskKind running_kind_ = TaskKind::kLoad;

@@ -215,6 +215,8 @@ WorkFile read_work_file(const std::filesystem::path& path, const Scene& scene, s
     preset(d.preset);  // throws for an unknown one
     d.background = vec3_from(work.at("background"));
     d.deleted = flags_from(work.value("deleted", json()), scene, 1);
+    if (work.at("objects").size() > kMostObjects)
+      throw Error("objects", fmt::format("there are {}, more than {}", work["objects"].size(), kMostObjects));
     for (const json& o : work.at("objects")) d.objects.push_back(object_from(o, scene));
     for (std::size_t i = 0; i < d.objects.size(); ++i) {
       ObjectItem& o = d.objects[i];

@@ -23,7 +23,7 @@ bool repeats(Action action) {
 
 }  // namespace
 
-Application::Application(ApplicationOptions options) : studio_(options.studio) {
+Application::Application(const ApplicationOptions& options) : studio_(options.studio) {
   if (!options.sample.empty() && std::filesystem::exists(options.sample))
     interface_.state().sample = options.sample;
   choose_renderer(options.renderer);

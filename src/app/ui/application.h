@@ -30,7 +30,7 @@ struct FrameTimes {
 
 class Application {
  public:
-  explicit Application(ApplicationOptions options);
+  explicit Application(const ApplicationOptions& options);
 
   // size_points: of the window in logical points; framebuffer pixels = points times pixels_per_point.
   void resize(const glm::vec2& size_points, float pixels_per_point);

@@ -4,8 +4,6 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kTint = 0.6f, kHeat = 0.7f, kOutline = 0.9f;  // as the CPU renderer's shading
-
 SplatStyle style_of(const FrameStyle& style, std::size_t g) {
   if (style.heat) {
     const glm::vec3 c = heat_colour((*style.heat)[g]) * 255.0f;
@@ -68,11 +66,11 @@ std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
     splats.draw(camera, {.near_plane = range.near_plane, .far_plane = range.far_plane});
     const FrameStyle style = studio.style(i);
     splats.resolve({.background = style.background,
-                    .tint_strength = style.heat   ? kHeat
-                                     : style.tint ? kTint
+                    .tint_strength = style.heat   ? kHeatStrength
+                                     : style.tint ? kTintStrength
                                                   : 0,
                     .tint_shaded = !style.heat,
-                    .outline_strength = style.outline && !style.heat ? kOutline : 0});
+                    .outline_strength = style.outline && !style.heat ? kOutlineStrength : 0});
     textures[static_cast<std::size_t>(i)] = splats.picture_texture();
   }
   return textures;

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <sstream>
 
-extern char** environ;
+extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX asks for it
 
 namespace splatcut {
 

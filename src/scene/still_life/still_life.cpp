@@ -7,6 +7,7 @@
 
 #include "scene/counter_rng.h"
 #include "scene/error.h"
+#include "scene/quantise.h"
 #include "scene/still_life/still_life_model.h"
 
 namespace splatcut {
@@ -14,8 +15,6 @@ namespace {
 
 using namespace still_life;
 
-constexpr float kTau = 6.28318531f;
-constexpr float kShC0 = 0.28209479f;
 constexpr float kThinness = 0.10f;  // normal axis of a disc, as a part of its smaller tangent axis
 // Parts of the count that the options take from the surfaces.
 constexpr double kFloaterPart = 0.003, kStraddlingPart = 0.006, kInteriorPart = 0.05;
@@ -36,7 +35,7 @@ struct Writer {
     c.scale[next] = scale;
     c.rotation[next] = glm::normalize(rotation);
     c.opacity[next] = opacity;
-    c.f_dc[next] = (colour - 0.5f) / kShC0;
+    c.f_dc[next] = f_dc_from_colour(colour);
     scene.label[next] = label;
     ++next;
   }

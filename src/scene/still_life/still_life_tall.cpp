@@ -7,7 +7,6 @@
 namespace splatcut::still_life {
 namespace {
 
-constexpr float kTau = 6.28318531f;
 constexpr float kPotX = 0.52f, kPotZ = 0.36f, kPotRadius = 0.20f, kPotHeight = 0.31f;
 constexpr int kLeaves = 58;
 constexpr float kLeafWidth = 0.034f;

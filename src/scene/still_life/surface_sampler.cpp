@@ -4,13 +4,13 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "scene/counter_rng.h"
 
 namespace splatcut {
 namespace {
 
-constexpr float kTau = 6.28318530718f;
 constexpr double kGolden = 0.61803398874989485;
 constexpr float kJitter = 0.30f;      // of the lattice spacing: hides the lattice, opens no holes
 constexpr float kDifference = 1e-3f;  // step of the finite differences in u and v
@@ -187,7 +187,7 @@ SurfaceFn revolution(const glm::vec3& base, std::vector<glm::vec2> profile) {
 
 SurfaceFn tube(std::function<glm::vec3(float)> path, std::function<float(float)> radius,
                const glm::vec3& side) {
-  return [=](float u, float v) {
+  return [path = std::move(path), radius = std::move(radius), side](float u, float v) {
     const glm::vec3 centre = path(v);
     const glm::vec3 along = glm::normalize(path(v + kDifference) - path(v - kDifference));
     const glm::vec3 n = glm::normalize(side - along * glm::dot(side, along));

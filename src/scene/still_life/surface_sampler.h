@@ -20,6 +20,8 @@
 
 namespace splatcut {
 
+inline constexpr float kTau = 6.28318531f;  // a whole turn
+
 using SurfaceFn = std::function<glm::vec3(float u, float v)>;
 
 struct SurfaceSample {

@@ -13,7 +13,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr const char* kPlain = "plain";
+constexpr const char* kPlainScene = "plain";
 
 // The same options give the same bytes: a folder of that name holds that still life.
 std::filesystem::path made_still_life(const StudyScenesOptions& options, const HardStillLife& hard,
@@ -71,7 +71,7 @@ void add_scenes(const std::filesystem::path& suite, const HardStillLife* hard, b
 
 const std::vector<HardStillLife>& hard_still_lifes() {
   static const std::vector<HardStillLife> all = {
-      {kPlain, {}, 0, true},
+      {kPlainScene, {}, 0, true},
       {"twins in contact", {.twins = true, .contact = true}, 0, true},
       {"straddling splats", {.straddling = true}, 0, true},
       {"low contrast", {.low_contrast = true}, 0, true},
