@@ -1,17 +1,16 @@
-// The hierarchy of parts and what clicks mean in it: by hand on small ones, against truth on the still life.
+// The hierarchy of parts: by hand on small ones, against truth on the still life.
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "app/lab/robot_user.h"
 #include "scene/counter_rng.h"
 #include "scene/rasterizer.h"
 #include "segment/mask_tools.h"
-#include "segment/part_picker.h"
+#include "segment/part_view.h"
 #include "segment/prepared_scene.h"
+#include "segment/selection/click_selection.h"
 #include "segment/session/session.h"
 #include "still_life_table.h"
 #include "synthetic_cloud.h"
@@ -67,21 +66,6 @@ Image<std::int32_t> four_stripes() {
   for (int y = 0; y < 10; ++y)
     for (int x = 0; x < 40; ++x) hit.at(x, y) = x / 10;
   return hit;
-}
-
-// Mask IoU after each of n robot clicks.
-std::vector<double> robot_ious(const Table& t, const Target& target, int n) {
-  Mask mask(target.truth.width(), target.truth.height());
-  Strokes strokes;
-  std::vector<double> ious;
-  for (int i = 0; i < n; ++i) {
-    if (const auto next = robot_click(target.truth, mask)) {
-      strokes.push_back(*next);
-      mask = mask_of(target.view, pick_parts(t.prepared.parts, target.view, strokes).leaves);
-    }
-    ious.push_back(iou(mask, target.truth));
-  }
-  return ious;
 }
 
 }  // namespace
@@ -145,8 +129,11 @@ TEST_CASE("parts: a cloud without surface has no part, and clicks there do nothi
     const PartHierarchy parts = build_part_hierarchy(c, kNoViews);
     CHECK(parts.leaves == 0);
     CHECK(std::ranges::all_of(parts.leaf_of, [](std::uint32_t l) { return l == kNoPart; }));
-    const PartView view = view_parts(parts, Image<std::int32_t>(8, 8, -1));
-    CHECK(pick_parts(parts, view, {click({4, 4}, SeedLabel::kObject)}).leaves.empty());
+    const Camera camera = look_at({0, 0, -1}, {0, 0, 0}, {0, -1, 0}, 1, 8, 8);
+    const LeafView view = leaf_view_of_hits(parts, camera, Image<std::int32_t>(8, 8, -1), 8);
+    ClickSelection selection(parts, {});
+    CHECK_FALSE(selection.apply(view, click({4, 4}, SeedLabel::kObject)));
+    CHECK(std::ranges::none_of(selection.labels(), [](std::uint8_t l) { return l != 0; }));
   }
 }
 
@@ -168,135 +155,6 @@ TEST_CASE("parts: pixels of a view add up along the tree, the frame's are counte
   const PartView view = view_parts(four_leaves(), four_stripes());
   CHECK(view.trees[0].pixels == std::vector<float>{100, 100, 100, 100, 200, 200, 400});
   CHECK(view.trees[0].frame_pixels == std::vector<float>{28, 20, 20, 28, 48, 48, 96});
-}
-
-TEST_CASE("parts: clicks on four stripes, worked out by hand") {
-  const PartHierarchy parts = four_leaves();
-  const PartView view = view_parts(parts, four_stripes());
-  PickOptions options;
-  options.cut_weight = 1;
-  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty =
-      options.large_penalty = 0;
-  using Leaves = std::vector<std::uint8_t>;
-  const auto leaves = [&](const Strokes& strokes) {
-    return pick_parts(parts, view, strokes, options).leaves;
-  };
-  const auto object = [](float x) { return click({x, 5}, SeedLabel::kObject); };
-  const auto rest = [](float x) { return click({x, 5}, SeedLabel::kRest); };
-  // The pair has the least border for its size: ln(0.001 / sqrt 2) against ln 1 of a leaf.
-  CHECK(leaves({object(5)}) == Leaves{1, 1, 0, 0});
-  CHECK(leaves({object(35)}) == Leaves{0, 0, 1, 1});
-  CHECK(leaves({object(5), object(25)}) == Leaves{1, 1, 1, 1});
-  // Removes what it hits, but nothing that holds the object click.
-  CHECK(leaves({object(5), rest(15)}) == Leaves{1, 0, 0, 0});
-  // Told first it says the same: all four are meant, and one is not. It keeps no part from being meant.
-  options.scale_steps = 1;
-  CHECK(leaves({object(5), rest(15)}) == Leaves{1, 0, 1, 1});
-  CHECK(leaves({rest(15), object(5)}) == Leaves{1, 0, 1, 1});
-  CHECK(leaves({rest(35), rest(25), object(5)}) == leaves({object(5), rest(35), rest(25)}));
-  CHECK(leaves({rest(35)}) == Leaves{0, 0, 0, 0});
-  options.scale_steps = 0;
-  CHECK(leaves({object(5), object(7)}) == Leaves{1, 1, 0, 0});
-  // One size smaller and larger; beyond the last there is none.
-  for (const auto& [steps, expected] :
-       std::map<int, Leaves>{{-1, {1, 0, 0, 0}}, {-9, {1, 0, 0, 0}}, {1, {1, 1, 1, 1}}, {9, {1, 1, 1, 1}}}) {
-    options.scale_steps = steps;
-    CHECK(leaves({object(5)}) == expected);
-  }
-  options.scale_steps = 0;
-  const Pick pick = pick_parts(parts, view, {object(5)}, options);
-  CHECK(pick.first_chain.size() == 3);
-  CHECK(pick.first_chosen == 1);
-  CHECK_FALSE(pick.ambiguous);
-  CHECK(labels_of(parts, pick.leaves) == Leaves{1, 1, 0, 0});
-  CHECK(count(mask_of(view, pick.leaves)) == 200);
-}
-
-TEST_CASE(
-    "parts: an object click just beside what is selected is not lost, a rest click just inside takes no more "
-    "than it means") {
-  const PartHierarchy parts = four_leaves();
-  const PartView view = view_parts(parts, four_stripes());
-  PickOptions options;
-  options.scale_steps = -10;  // the first click takes its leaf alone
-  using Leaves = std::vector<std::uint8_t>;
-  const auto leaves = [&](float x) {
-    return pick_parts(parts, view, {click({5, 5}, SeedLabel::kObject), click({x, 5}, SeedLabel::kObject)},
-                      options)
-        .leaves;
-  };
-  CHECK(leaves(12.5f) == Leaves{1, 1, 0, 0});
-  // At the very border, a stripe of a hundred pixels looks like a slip.
-  CHECK(leaves(10.5f) == Leaves{1, 0, 0, 0});
-  options.border_px = 0;
-  CHECK(leaves(10.5f) == Leaves{1, 1, 0, 0});
-  options.change_most_of_selected = 0;
-  CHECK(leaves(10.5f) == Leaves{1, 0, 0, 0});
-  const Strokes slip = {click({5, 5}, SeedLabel::kObject), click({9, 5}, SeedLabel::kRest)};
-  PickOptions leaf_alone;
-  leaf_alone.scale_steps = -10;
-  CHECK(pick_parts(parts, view, slip, leaf_alone).leaves == std::vector<std::uint8_t>{1, 0, 0, 0});
-}
-
-TEST_CASE("parts: a correction that brings much of what the view hides is not meant") {
-  PartHierarchy parts = four_leaves();
-  const PartView view = view_parts(parts, four_stripes());
-  parts.trees[0].cut = {1, 1, 1, 1, 1, 0.5f, 1};  // the right pair looks a little likelier than its stripes
-  PickOptions options;
-  options.cut_weight = 1;
-  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty =
-      options.large_penalty = 0;
-  options.joint_bonus = 0;
-  options.scale_steps = -10;
-  const Strokes strokes = {click({5, 5}, SeedLabel::kObject), click({25, 5}, SeedLabel::kObject)};
-  using Leaves = std::vector<std::uint8_t>;
-  CHECK(pick_parts(parts, view, strokes, options).leaves == Leaves{1, 0, 1, 1});
-  parts.trees[0].area = {1, 1, 1, 99, 2, 100, 102};  // the last stripe is the tip of something large
-  options.hidden_penalty = 0;
-  CHECK(pick_parts(parts, view, strokes, options).leaves == Leaves{1, 0, 1, 1});
-  options.hidden_penalty = 2;
-  CHECK(pick_parts(parts, view, strokes, options).leaves == Leaves{1, 0, 1, 0});
-}
-
-TEST_CASE("parts: a part that holds all object clicks is likelier meant than one that holds the last alone") {
-  PartHierarchy parts = four_leaves();
-  const PartView view = view_parts(parts, four_stripes());
-  parts.trees[0].cut = {
-      1, 1, 1,   1,
-      2, 2, 2.5f};  // the whole looks a little less likely than a stripe: ln(2.5 / 2) against ln 1
-  PickOptions options;
-  options.cut_weight = 1;
-  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty =
-      options.large_penalty = options.change_small = 0;
-  options.scale_steps = -10;  // the first click takes its stripe
-  const Strokes strokes = {click({5, 5}, SeedLabel::kObject), click({25, 5}, SeedLabel::kObject)};
-  using Leaves = std::vector<std::uint8_t>;
-  CHECK(pick_parts(parts, view, strokes, options).leaves == Leaves{1, 1, 1, 1});
-  options.joint_bonus = 0;
-  CHECK(pick_parts(parts, view, strokes, options).leaves == Leaves{1, 0, 1, 0});
-  options.joint_bonus = 1;
-  Strokes with_rest = strokes;
-  with_rest.insert(with_rest.begin() + 1, click({35, 5}, SeedLabel::kRest));
-  CHECK(pick_parts(parts, view, with_rest, options).leaves == Leaves{1, 0, 1, 0});
-}
-
-TEST_CASE("parts: from the third object click on, a part much larger than what is selected is not meant") {
-  PartHierarchy parts = four_leaves();
-  const PartView view = view_parts(parts, four_stripes());
-  parts.trees[0].cut = {1, 1, 1, 1, 2, 2, 2};
-  PickOptions options;
-  options.jump_bonus = options.rise_bonus = options.frame_penalty = options.small_penalty =
-      options.large_penalty = options.change_small = 0;
-  options.scale_steps = -10;
-  const Strokes two = {click({5, 5}, SeedLabel::kObject), click({25, 5}, SeedLabel::kObject)};
-  Strokes three = two;
-  three.insert(three.begin() + 1, click({6, 5}, SeedLabel::kObject));  // on what is selected
-  using Leaves = std::vector<std::uint8_t>;
-  options.late_growth_penalty = 5;  // ln 3 of the whole against a slack of ln 2
-  CHECK(pick_parts(parts, view, two, options).leaves == Leaves{1, 1, 1, 1});
-  CHECK(pick_parts(parts, view, three, options).leaves == Leaves{1, 0, 1, 0});
-  options.late_growth_penalty = 0;
-  CHECK(pick_parts(parts, view, three, options).leaves == Leaves{1, 1, 1, 1});
 }
 
 TEST_CASE("parts: a mask of one side completes to whole nodes, by hand") {
@@ -332,41 +190,6 @@ TEST_CASE("parts: the true mask of one view selects the whole object of the stil
     MESSAGE(object, " ", both / either);
     CHECK(both / either > 0.8);
   }
-}
-
-TEST_CASE("parts: object clicks only add, rest clicks only remove, wherever they go") {
-  const Table& t = table();
-  const Target on = target(t, "mug");
-  CounterRng rng(3, 0);
-  for (int draw = 0; draw < 20; ++draw) {
-    Strokes strokes;
-    std::vector<std::uint8_t> before(t.prepared.parts.leaves, 0);
-    for (int i = 0; i < 8; ++i) {
-      const bool object = i == 0 || rng.below(2) == 0;
-      strokes.push_back(click({rng.between(0, 400), rng.between(0, static_cast<float>(on.camera.height_px))},
-                              object ? SeedLabel::kObject : SeedLabel::kRest));
-      const std::vector<std::uint8_t> after = pick_parts(t.prepared.parts, on.view, strokes).leaves;
-      bool monotone = true;
-      for (std::size_t l = 0; l < after.size(); ++l)
-        monotone &= object ? after[l] >= before[l] : after[l] <= before[l];
-      CHECK(monotone);
-      before = after;
-    }
-  }
-}
-
-TEST_CASE("parts: objects of the still life in three robot clicks") {
-  const Table& t = table();
-  double first = 0, third = 0;
-  const std::vector<std::string> objects = {"mug", "apple", "orange", "plant", "pot", "books"};
-  for (const std::string& object : objects) {
-    const std::vector<double> ious = robot_ious(t, target(t, object), 3);
-    MESSAGE(object, " ", ious[0], " ", ious[1], " ", ious[2]);
-    first += ious[0] / static_cast<double>(objects.size());
-    third += ious[2] / static_cast<double>(objects.size());
-  }
-  CHECK(first > 0.7);
-  CHECK(third > 0.93);
 }
 
 TEST_CASE("parts: cancelled before, or at any step that reports progress, without harm") {

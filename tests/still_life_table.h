@@ -9,8 +9,9 @@
 #include "scene/rasterizer.h"
 #include "scene/still_life/still_life.h"
 #include "segment/mask_tools.h"
-#include "segment/part_picker.h"
+#include "segment/part_view.h"
 #include "segment/prepared_scene.h"
+#include "segment/selection/leaf_view.h"
 
 namespace splatcut::testing {
 
@@ -41,6 +42,7 @@ struct Target {
   Camera camera;
   PartView view;
   Mask truth;
+  LeafView leaves;
 };
 
 inline Target target(const Table& t, const std::string& object) {
@@ -48,11 +50,12 @@ inline Target target(const Table& t, const std::string& object) {
   const auto index = std::ranges::find(t.scene.label_name, object) - t.scene.label_name.begin();
   std::vector<std::uint8_t> labels(t.cloud.size());
   for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = t.label[g] == index;
-  Target out{limited_to_width(t.scene.cameras[static_cast<std::size_t>(seed->camera)], 400), {}, {}};
+  Target out{limited_to_width(t.scene.cameras[static_cast<std::size_t>(seed->camera)], 400), {}, {}, {}};
   RasterOptions raster;
   raster.depth = true;
   out.view = view_parts(t.prepared.parts, rasterize(t.cloud, out.camera, raster).first_hit);
   out.truth = thresholded(render_labels(t.cloud, out.camera, labels), 0.5f);
+  out.leaves = leaf_view(t.cloud, t.prepared.parts, out.camera);
   return out;
 }
 

@@ -54,6 +54,7 @@ RasterOutput empty_output(const RasterOptions& options, const PixelRect& roi) {
   RasterOutput out;
   if (options.colour) out.colour = Image<glm::vec3>(width, height);
   if (!options.labels.empty()) out.label_share = Image<float>(width, height);
+  if (!options.groups.empty()) out.groups = Image<std::vector<GroupWeight>>(width, height);
   out.alpha = Image<float>(width, height);
   if (options.depth) {
     out.expected_depth = out.median_depth = Image<float>(width, height);

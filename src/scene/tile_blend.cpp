@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -35,7 +36,7 @@ constexpr int kTilePixels = kTilePx * kTilePx;
 constexpr int kChunk = 256;
 
 // What is summed up per pixel beside the transmittance.
-enum class Paint { kNone, kLabel, kColour };
+enum class Paint { kNone, kLabel, kColour, kGroups };
 
 using Lanes = hn::CappedTag<float, kBlockPixels>;
 using IntLanes = hn::RebindToSigned<Lanes>;
@@ -97,6 +98,7 @@ struct Chunk {
   // w = sqrt(width2 - slope dy^2), and farthest at dy = +-tip.
   alignas(64) std::array<float, kCapacity> x, y, tilt, width2, slope, tip;
   std::array<float, kCapacity> label;  // 0 or 1
+  std::array<std::uint32_t, kCapacity> group;
   // Sums of the tile so far, lane by lane, 2^-16 pixel.
   alignas(64) std::array<std::int32_t, kCapacity * kWidth> total, inside;
 };
@@ -117,9 +119,33 @@ struct BlockLists {
   std::array<int, kBlocksAcross> count;
 };
 
+// What each pixel of a tile has got from each group so far, groups in the order in which they were met.
+struct TileGroups {
+  static constexpr int kMost = 48;  // of a pixel; further ones take the place of the least
+  std::array<std::array<GroupWeight, kMost>, kTilePixels> of;
+  std::array<int, kTilePixels> count;
+
+  void add(int pixel, std::uint32_t group, float weight) {
+    auto& list = of[static_cast<std::size_t>(pixel)];
+    int& n = count[static_cast<std::size_t>(pixel)];
+    for (int i = n; i-- > 0;)
+      if (list[static_cast<std::size_t>(i)].group == group) {
+        list[static_cast<std::size_t>(i)].weight += weight;
+        return;
+      }
+    if (n < kMost) {
+      list[static_cast<std::size_t>(n++)] = {group, weight};
+      return;
+    }
+    auto least = std::ranges::min_element(list, {}, &GroupWeight::weight);
+    if (least->weight < weight) *least = {group, weight};
+  }
+};
+
 struct Workspace {
   SortSpace sort_space;
   Chunk chunk;
+  TileGroups groups;
   TilePixels pixels;
   BlockLists lists;
   TileLists found;  // on their way into TileBlend::lists
@@ -199,6 +225,8 @@ void gather(const TileBlend& what, const TileEntry* entries, std::span<const std
   if (ellipses) derive_ellipses(chunk);
   if (!what.options.labels.empty())
     for (int i = 0; i < count; ++i) chunk->label[i] = what.options.labels[chunk->gaussian[i]] ? 1.0f : 0.0f;
+  if (!what.options.groups.empty())
+    for (int i = 0; i < count; ++i) chunk->group[i] = what.options.groups[chunk->gaussian[i]];
   if (what.pair_sums) {
     std::fill_n(chunk->total.begin(), count * kWidth, 0);
     std::fill_n(chunk->inside.begin(), count * kWidth, 0);
@@ -262,7 +290,7 @@ void start_pixels(const TileBlend& what, int tile_x, int tile_y, TilePixels* pix
 // change any more.
 template <Paint kPaint, bool kDepth, bool kSums>
 bool blend_block(float x0, float y0, int block, const std::int32_t* list, int count, TilePixels* pixels,
-                 Chunk* chunk) {
+                 Chunk* chunk, TileGroups* groups) {
   const int begin = block * kBlockPixels;
   const bool some_object = kSums && pixels->object_pixels[block] != 0,
              whole_pixels = kSums && pixels->whole_pixels;
@@ -274,7 +302,8 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
     px[v] = hn::Add(hn::Set(kF, x0), hn::Load(kF, kCentreX + v * kWidth % kBlockPx));
     py[v] = hn::Add(hn::Set(kF, y0), hn::Load(kF, kCentreY + v * kWidth));
     transmittance[v] = hn::Load(kF, &pixels->transmittance[at]);
-    if constexpr (kPaint != Paint::kNone) red[v] = hn::Load(kF, &pixels->red[at]);
+    if constexpr (kPaint == Paint::kLabel || kPaint == Paint::kColour)
+      red[v] = hn::Load(kF, &pixels->red[at]);
     if constexpr (kPaint == Paint::kColour) {
       green[v] = hn::Load(kF, &pixels->green[at]);
       blue[v] = hn::Load(kF, &pixels->blue[at]);
@@ -309,6 +338,14 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
       const V after = hn::Sub(before, weight);
       transmittance[v] = after;
       clearest = hn::Max(clearest, after);
+      if constexpr (kPaint == Paint::kGroups) {
+        if (chunk->group[i] != kNoGroup && !hn::AllFalse(kF, counts)) {
+          alignas(64) float lane[kWidth];
+          hn::Store(weight, kF, lane);
+          for (int l = 0; l < kWidth; ++l)
+            if (lane[l] > 0) groups->add(begin + v * kWidth + l, chunk->group[i], lane[l]);
+        }
+      }
       if constexpr (kPaint == Paint::kLabel) red[v] = fma(weight, hn::Set(kF, chunk->label[i]), red[v]);
       if constexpr (kPaint == Paint::kColour) {
         red[v] = fma(weight, hn::Set(kF, s.red), red[v]);
@@ -343,7 +380,8 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
   for (int v = 0; v < kVectors; ++v) {
     const int at = begin + v * kWidth;
     hn::Store(transmittance[v], kF, &pixels->transmittance[at]);
-    if constexpr (kPaint != Paint::kNone) hn::Store(red[v], kF, &pixels->red[at]);
+    if constexpr (kPaint == Paint::kLabel || kPaint == Paint::kColour)
+      hn::Store(red[v], kF, &pixels->red[at]);
     if constexpr (kPaint == Paint::kColour) {
       hn::Store(green[v], kF, &pixels->green[at]);
       hn::Store(blue[v], kF, &pixels->blue[at]);
@@ -378,7 +416,7 @@ void blend_chunk(int tile_x, int tile_y, ListReader* known, bool keep_lists, Wor
       const int block = row * kBlocksAcross + b;
       if (blend_block<kPaint, kDepth, kSums>(x0 + static_cast<float>(b * kBlockPx), y0, block,
                                              work->lists.splat[b].data(), work->lists.count[b], &pixels,
-                                             &work->chunk))
+                                             &work->chunk, &work->groups))
         pixels.alive &= ~(1u << block);
     }
   }
@@ -392,8 +430,20 @@ void store_sums(const Chunk& chunk, const std::uint32_t* order, PairSums* sums) 
     sums[order[i]] = {sum(&chunk.total[i * kWidth]), sum(&chunk.inside[i * kWidth])};
 }
 
+// What is worth keeping of a pixel's groups, heaviest first, ties by number.
+void store_groups(const TileGroups& groups, int i, float least, std::vector<GroupWeight>* to) {
+  to->clear();
+  const auto& list = groups.of[static_cast<std::size_t>(i)];
+  for (int k = 0; k < groups.count[static_cast<std::size_t>(i)]; ++k)
+    if (list[static_cast<std::size_t>(k)].weight >= least) to->push_back(list[static_cast<std::size_t>(k)]);
+  std::ranges::sort(*to, [](const GroupWeight& a, const GroupWeight& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.group < b.group;
+  });
+}
+
 template <Paint kPaint, bool kDepth>
-void store_pixels(const TileBlend& what, int tile_x, int tile_y, const TilePixels& pixels, RasterOutput* to) {
+void store_pixels(const TileBlend& what, int tile_x, int tile_y, const TilePixels& pixels,
+                  const TileGroups& groups, RasterOutput* to) {
   RasterOutput& out = *to;
   for (int i = 0; i < kTilePixels; ++i) {
     const int block = i / kBlockPixels, p = i % kBlockPixels;
@@ -402,6 +452,8 @@ void store_pixels(const TileBlend& what, int tile_x, int tile_y, const TilePixel
     if (!out.alpha.contains(x, y)) continue;
     const float transmittance = pixels.transmittance[i];
     out.alpha.at(x, y) = 1 - transmittance;
+    if constexpr (kPaint == Paint::kGroups)
+      store_groups(groups, i, what.options.least_group_weight, &out.groups.at(x, y));
     if constexpr (kPaint == Paint::kLabel) out.label_share.at(x, y) = pixels.red[i];
     if constexpr (kPaint == Paint::kColour)
       out.colour.at(x, y) =
@@ -414,15 +466,22 @@ void store_pixels(const TileBlend& what, int tile_x, int tile_y, const TilePixel
   }
 }
 
+// One per thread, on the heap: thread-local storage is taken from every thread's stack.
+Workspace& workspace() {
+  thread_local const auto work = std::make_unique<Workspace>();
+  return *work;
+}
+
 template <Paint kPaint, bool kDepth, bool kSums>
 void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
-  thread_local Workspace work;
+  Workspace& work = workspace();
   const TileGrid& grid = what.grid;
   const int tile_x = (tile % grid.tiles_x + grid.first_tile_x) * kTilePx;
   const int tile_y = (tile / grid.tiles_x + grid.first_tile_y) * kTilePx;
   const std::size_t first = grid.first_entry[static_cast<std::size_t>(tile)];
   const TileEntry* entries = grid.entries.data() + first;
   start_pixels(what, tile_x, tile_y, &work.pixels);
+  if constexpr (kPaint == Paint::kGroups) work.groups.count.fill(0);
   const std::span<const std::uint32_t> order = drawn_order(grid, tile, what.shown, &work.sort_space);
   TileLists* lists =
       what.lists && what.shown.empty() ? &(*what.lists)[static_cast<std::size_t>(tile)] : nullptr;
@@ -445,7 +504,7 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   }
   if constexpr (kSums)
     for (; done < order.size(); ++done) what.pair_sums[first + order[done]] = {0, 0};
-  store_pixels<kPaint, kDepth>(what, tile_x, tile_y, work.pixels, out);
+  store_pixels<kPaint, kDepth>(what, tile_x, tile_y, work.pixels, work.groups, out);
   if (keep_lists) *lists = {work.found.splat, work.found.count, true};
 }
 
@@ -458,7 +517,8 @@ DrawTile draw_tile_with(bool depth, bool sums) {
 }
 
 void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
-  const DrawTile draw = (what.options.colour ? draw_tile_with<Paint::kColour>
+  const DrawTile draw = (what.options.colour            ? draw_tile_with<Paint::kColour>
+                         : !what.options.groups.empty() ? draw_tile_with<Paint::kGroups>
                          : !what.options.labels.empty()
                              ? draw_tile_with<Paint::kLabel>
                              : draw_tile_with<Paint::kNone>)(what.options.depth, what.pair_sums != nullptr);

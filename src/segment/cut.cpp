@@ -8,6 +8,13 @@
 
 namespace splatcut {
 
+namespace {
+
+// More than all arcs of a node and its own weight can carry.
+constexpr std::int64_t kFixedTerminal = 1 << 28;
+
+}  // namespace
+
 CutSolver::CutSolver(const GaussianCloud& cloud, const FlowGraph& graph, CutOptions options)
     : cloud_(cloud), graph_(graph), options_(options) {}
 
@@ -26,15 +33,19 @@ void CutSolver::set_options(const CutOptions& options) {
   capacity_ = std::move(capacity);
 }
 
-CutReport CutSolver::solve(const Likelihood& likelihood, int views, double pixels_per_view, const Job& job) {
+CutReport CutSolver::solve(const Likelihood& likelihood, int views, double pixels_per_view, const Job& job,
+                           std::span<const std::int8_t> fixed) {
   CutReport report;
   if (options_.coarse) {
     report.labels.resize(cloud_.size());
-    for (std::size_t g = 0; g < cloud_.size(); ++g) report.labels[g] = likelihood.w[g] > options_.tau;
+    for (std::size_t g = 0; g < cloud_.size(); ++g)
+      report.labels[g] = !fixed.empty() && fixed[g] ? fixed[g] > 0 : likelihood.w[g] > options_.tau;
     return report;
   }
   make_ready();
-  const Terminals data = terminals(cloud_, likelihood, views, pixels_per_view, options_.energy);
+  Terminals data = terminals(cloud_, likelihood, views, pixels_per_view, options_.energy);
+  for (std::size_t g = 0; g < fixed.size(); ++g)
+    if (fixed[g]) data.net[g] = fixed[g] * kFixedTerminal;
   max_flow_->set_terminals(data.net);
   const bool solved = max_flow_->solve(job);
   report.labels = max_flow_->source_set();

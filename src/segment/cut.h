@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "segment/energy.h"
@@ -48,7 +49,9 @@ class CutSolver {
   void set_options(const CutOptions& options);
 
   // views, pixels_per_view: what the likelihood was summed over. Cancelled: the labels are unspecified.
-  CutReport solve(const Likelihood& likelihood, int views, double pixels_per_view, const Job& job = {});
+  // fixed: empty, or per Gaussian +1 object, -1 not, 0 open: those are on their side whatever the views say.
+  CutReport solve(const Likelihood& likelihood, int views, double pixels_per_view, const Job& job = {},
+                  std::span<const std::int8_t> fixed = {});
 
   // Of the last solve (not coarse). Cost: one pass over all arcs on all cores, some 15 ms of CPU time for a
   // million.

@@ -194,6 +194,26 @@ PartTree Merging::run(const Job& job) {
   return out;
 }
 
+std::vector<glm::vec3> shade_blind(std::vector<glm::vec3> colour, float lightness) {
+  for (glm::vec3& c : colour) {
+    const float grey = (c.x + c.y + c.z) / 3;
+    c += glm::vec3((lightness - 1) * grey);
+  }
+  return colour;
+}
+
+void describe_leaves(const SurfaceFeatures& f, const Superpoints& leaves, PartHierarchy* out) {
+  out->leaf_centre_world.assign(leaves.count, glm::vec3(0));
+  out->leaf_area.assign(leaves.count, 0);
+  for (std::size_t i = 0; i < f.core.size(); ++i) {
+    const float area = f.spacing[i] * f.spacing[i];
+    out->leaf_area[leaves.of[i]] += area;
+    out->leaf_centre_world[leaves.of[i]] += area * f.position_world[i];
+  }
+  for (std::uint32_t l = 0; l < leaves.count; ++l)
+    out->leaf_centre_world[l] /= std::max(out->leaf_area[l], 1e-30f);
+}
+
 // Gaussians outside of the core go with most of their nearest core Gaussians; ties to the nearest.
 void attach_others(const GaussianCloud& cloud, const SurfaceFeatures& f, const Superpoints& leaves, int votes,
                    const Job& job, PartHierarchy* out) {
@@ -237,7 +257,26 @@ PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeat
   job.progress("parts", 0.6);
   out.leaves = leaves.count;
   out.trees.resize(static_cast<std::size_t>(std::max(1, options.trees)));
+  describe_leaves(features, leaves, &out);
+  SurfaceFeatures blind;
+  std::vector<SurfaceEdge> blind_edges;
+  if (options.shade_blind_trees > 0) {
+    blind.core = features.core;
+    blind.spacing = features.spacing;
+    blind.colour = shade_blind(features.colour, options.lightness);
+    blind_edges = edges;
+    for (SurfaceEdge& e : blind_edges) e.colour = glm::length(blind.colour[e.a] - blind.colour[e.b]);
+    out.trees.resize(out.trees.size() + static_cast<std::size_t>(options.shade_blind_trees));
+  }
+  out.plain_trees = static_cast<std::size_t>(std::max(1, options.trees));
   tbb::parallel_for(std::size_t{0}, out.trees.size(), [&](std::size_t t) {
+    if (t >= out.plain_trees) {
+      const bool first = t == out.plain_trees;
+      const MergingOptions merging =
+          first ? options.merging : jittered(options.merging, options.jitter, CounterRng(kTreeSeed, t));
+      out.trees[t] = Merging(blind, blind_edges, leaves, merging, first ? 0 : options.noise, t).run(job);
+      return;
+    }
     const MergingOptions merging =
         t ? jittered(options.merging, options.jitter, CounterRng(kTreeSeed, t)) : options.merging;
     out.trees[t] = Merging(features, edges, leaves, merging, t ? options.noise : 0, t).run(job);

@@ -40,7 +40,10 @@ struct PartTree {
 struct PartHierarchy {
   std::uint32_t leaves = 0;
   std::vector<std::uint32_t> leaf_of;  // per Gaussian of the cloud; kNoPart in a scene without core
-  std::vector<PartTree> trees;         // over the same leaves
+  std::vector<PartTree> trees;         // over the same leaves; those that count lightness less last
+  std::size_t plain_trees = 0;
+  std::vector<glm::vec3> leaf_centre_world;
+  std::vector<float> leaf_area;  // of one side, scene units squared
 };
 
 // Cancelled: what comes back is incomplete and must not be used.

@@ -56,48 +56,55 @@ struct PartOptions {
   SuperpointOptions superpoints;
   MergingOptions merging;
   int trees = 5;
-  float jitter = 0.3f;  // spread of the logarithms of the weights from tree to tree; the first has none
-  float noise = 0.1f;   // of the logarithm of each cost, in all trees but the first
-  int votes = 10;       // neighbours that vote where a Gaussian outside of the core belongs
+  int shade_blind_trees = 3;  // further trees in which lightness counts less than hue:
+  float lightness = 0.35f;    // its weight there
+  float jitter = 0.3f;        // spread of the logarithms of the weights from tree to tree; the first has none
+  float noise = 0.1f;         // of the logarithm of each cost, in all trees but the first
+  int votes = 10;             // neighbours that vote where a Gaussian outside of the core belongs
 };
 
-// What a click means: see part_picker.h.
-struct PickModel {
-  float doubt = 0.25f;  // how much more likely the first click's part must be than others to count as clear
-  float stability_weight = 3;  // of -ln of the mean IoU with the other trees' likest parts
+// What a click means: costs of its candidates, logarithms of folds unless said otherwise; see
+// selection/click_selection.h.
+struct SelectionModel {
+  float cut_weight = 0.1f;
+  float jump_weight = 0.1f;
+  float first_stability_weight = 10, stability_weight = 3;
+  float first_frame_weight = 0.44f, frame_weight = 1.9f;
+  float first_shade_blind_cost = 0,
+        shade_blind_cost = 0.5f;  // of candidates from trees that count lightness less
 
-  // Logarithms of folds unless said otherwise; found by random search (docs/masks.md).
-  float rise_bonus = 0.0095f;
-  float cut_weight = 0.094f, jump_bonus = 0.17f, root_penalty = 0.011f;
-  float frame_penalty = 1.9f;
-  float small_share = 0.01f, large_share = 0.35f;  // of the picture's pixels
-  float small_penalty = 2, large_penalty = 0.55f;
-  float least_log_cut = -16;
-  float growth_penalty = 0.01f, growth_slack = 0.5f;         // of additions larger than what is selected
-  float late_growth_penalty = 1, late_growth_slack = 0.69f;  // the same from the third object click on
-  float change_small =
-      0.2f;  // of later clicks that change less than a disc which reaches from the click to the border
-  float change_large = 3.4f, change_slack = 3.25f, change_most = 2.7f;  // of later clicks
-  float change_most_of_selected =
-      1;  // an object click farther than border_px from the selection may add that much
-  float rest_most_of_selected = 0.25f;  // and a rest click may remove that much
-  float border_px = 2;                  // nearer ones mend its border
-  float joint_bonus = 1;                // of later object clicks, for a part that holds all of them
-  float hidden_penalty = 1,
-        hidden_slack = 2;  // of later clicks that bring much of what the view hides, per pixel
-  bool operator==(const PickModel&) const = default;
+  float first_centre_weight = 1, first_centre_slack = 0.7f;
+  float small_weight = 2.9f, small_share = 0.01f;   // share of the picture's pixels below which it costs
+  float large_weight = 0.66f, large_share = 0.35f;  // and above which
+
+  float centre_weight = 2, centre_slack = 0.7f;
+  float scrap_weight = 1.5f, scrap_folds = -0.3f;   // ln(changed pixels / disc) below which it costs
+  float fold_weight = 0.15f, fold_slack = 1;        // above which it costs,
+  float giant_weight = 3.25f, giant_folds = 3.25f;  // and costs more
+  float opposed_cost = 5;                           // per click of the other sign
+  float disc_cost = 4;                              // of changing the disc alone
+  float back_weight = 1;  // times the IoU with what a click of the other sign has changed
+  float repick_cost = 0;  // of another part for the first click, see below
+
+  float disc_share = 0.7f;       // of the distance to the displayed border that is certain
+  float disc_majority = 0.5f;    // of a leaf's or Gaussian's pixels that must lie in the disc
+  float least_visible = 0.3f;    // share of a leaf that the view must show for the disc to decide it
+  float nearer_majority = 0.7f;  // of trees, for a leaf to follow a correction
+  float doubt = 0.25f;           // how much likelier the first click's part must be to count as clear
+
+  bool operator==(const SelectionModel&) const = default;
 };
 
-// What a mask means: see part_picker.h.
+// What a mask means: see part_view.h.
 struct MaskToPartsOptions {
   float tolerance = 0.15f;      // pixels that a whole node may lose against its children, share of its own
   float least_visible = 0.05f;  // share of a node's area in leaves that the view shows
 };
 
 struct PartModel {
-  static constexpr int kVersion = 1;
+  static constexpr int kVersion = 2;
   PartOptions parts;
-  PickModel pick;
+  SelectionModel selection;
   MaskToPartsOptions of_mask;
 };
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "segment/part_picker.h"
+#include "segment/part_view.h"
 
 namespace splatcut {
 

@@ -20,7 +20,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::uint32_t kFormatVersion = 1;
+constexpr std::uint32_t kFormatVersion = 2;
 constexpr std::uint64_t kMagic =
     0x50455250544c5053;  // "SPLTPREP", read backwards on a machine of the other byte order
 constexpr const char* kEnding = ".prepared";
@@ -39,6 +39,8 @@ void visit_arrays(Scene& scene, const Visit& visit) {
   visit(scene.graph.head);
   visit(scene.graph.reverse_arc);
   visit(scene.parts.leaf_of);
+  visit(scene.parts.leaf_centre_world);
+  visit(scene.parts.leaf_area);
   for (auto& tree : scene.parts.trees) {
     visit(tree.parent);
     visit(tree.children);
@@ -48,9 +50,10 @@ void visit_arrays(Scene& scene, const Visit& visit) {
   }
 }
 
-// What the payload starts with: three numbers and the size of each array.
+// What the payload starts with: four numbers and the size of each array.
 std::vector<std::uint64_t> sizes_of(const PreparedScene& scene) {
-  std::vector<std::uint64_t> sizes = {scene.graph.listed, scene.parts.leaves, scene.parts.trees.size()};
+  std::vector<std::uint64_t> sizes = {scene.graph.listed, scene.parts.leaves, scene.parts.trees.size(),
+                                      scene.parts.plain_trees};
   visit_arrays(scene, [&](const auto& array) { sizes.push_back(array.size()); });
   return sizes;
 }
@@ -130,6 +133,9 @@ bool sound(const PreparedScene& scene, std::size_t gaussians) {
   const PartHierarchy& parts = scene.parts;
   if (!sound(scene.graph, gaussians) || (!parts.leaf_of.empty() && parts.leaf_of.size() != gaussians))
     return false;
+  if (parts.plain_trees > parts.trees.size() || parts.leaf_centre_world.size() != parts.leaves ||
+      parts.leaf_area.size() != parts.leaves)
+    return false;
   return all_of_range(
              parts.leaf_of.size(),
              [&](std::size_t g) { return parts.leaf_of[g] == kNoPart || parts.leaf_of[g] < parts.leaves; }) &&
@@ -192,7 +198,7 @@ std::optional<PreparedScene> read_prepared(const std::filesystem::path& path, st
   const Header& h = header.front();
   if (h.magic != kMagic || h.version != kFormatVersion || h.key != key || h.payload_bytes != file.left())
     return {};
-  constexpr std::uint64_t kCounts = 3, kMostTrees = 1000, kArraysBefore = 4, kArraysOfTree = 5;
+  constexpr std::uint64_t kCounts = 4, kMostTrees = 1000, kArraysBefore = 6, kArraysOfTree = 5;
   if (!file.read(kCounts, &counts) || counts[2] > kMostTrees ||
       !file.read(kArraysBefore + kArraysOfTree * counts[2], &sizes))
     return {};
@@ -200,6 +206,7 @@ std::optional<PreparedScene> read_prepared(const std::filesystem::path& path, st
   scene.graph.listed = static_cast<std::uint32_t>(counts[0]);
   scene.parts.leaves = static_cast<std::uint32_t>(counts[1]);
   scene.parts.trees.resize(counts[2]);
+  scene.parts.plain_trees = counts[3];
   bool whole = true;
   std::size_t next = 0;
   visit_arrays(scene, [&](auto& array) { whole = whole && file.read(sizes[next++], &array); });

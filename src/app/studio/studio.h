@@ -23,7 +23,7 @@
 #include "app/studio/opened_scene.h"
 #include "app/studio/pointer_tools.h"
 #include "app/studio/task_thread.h"
-#include "segment/part_picker.h"
+#include "segment/selection/click_selection.h"
 
 namespace splatcut {
 
@@ -242,7 +242,7 @@ class Studio {
   std::uint64_t style_version_ = 0, requested_style_ = 0;
   mutable std::map<ObjectId, std::size_t> counts_;
   bool highlight_floaters_ = false;
-  PartView hover_view_;                 // parts in the picture on the screen
+  LeafView hover_view_;                 // parts in the picture on the screen
   std::uint64_t hover_picture_ = 0;     // picture_serial_ of hover_view_
   std::uint32_t hover_leaf_ = kNoPart;  // under the pointer; kNoPart: nothing is outlined
   bool pointer_inside_ = false;

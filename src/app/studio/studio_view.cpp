@@ -172,13 +172,16 @@ void Studio::refresh_hover() {
     style_[0].highlight = nullptr;
     return;
   }
-  if (hover_picture_ != picture_serial_ || hover_view_.trees.empty()) {
-    hover_view_ = view_parts(prepared_->parts, picture_->frames.front()->first_hit);
+  if (hover_picture_ != picture_serial_ || hover_view_.leaf_px.empty()) {
+    hover_view_ = leaf_view_of_hits(prepared_->parts, picture_->frames.front()->camera,
+                                    picture_->frames.front()->first_hit, CutSettings{}.work_width_px);
     hover_picture_ = picture_serial_;
   }
-  const Pick picked =
-      pick_parts(prepared_->parts, hover_view_, {click(tools_.pointer_px(), SeedLabel::kObject)});
-  style_[0].highlight = make_flags(splatcut::labels_of(prepared_->parts, picked.leaves));
+  const float scale =
+      static_cast<float>(hover_view_.camera.width_px) / static_cast<float>(viewport_camera().width_px);
+  ClickSelection picked(prepared_->parts, prepared_->model.selection);
+  picked.apply(hover_view_, scaled({click(tools_.pointer_px(), SeedLabel::kObject)}, scale).front());
+  style_[0].highlight = make_flags(picked.labels());
 }
 
 void Studio::request_picture() {

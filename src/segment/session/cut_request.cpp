@@ -105,6 +105,15 @@ std::string key_of(const CutRequest& request) {
   return key.take();
 }
 
+std::string key_of_strokes(const CutRequest& request) {
+  Key key;
+  key.list(request.strokes, [&key](const StrokedView& view) {
+    key.camera(view.camera);
+    key.strokes(view.strokes);
+  });
+  return key.take();
+}
+
 std::string key_of_reference(const CutRequest& request, const ReferenceView& reference) {
   Key key;
   key.camera(reference.camera);

@@ -60,6 +60,9 @@ std::optional<ReferenceView> reference_of(const CutRequest& request, const std::
 // knows before they are asked for. Masks count by their 64-bit hash. For keys, not for files.
 std::string key_of(const CutRequest& request);
 
+// Its strokes alone, in their order.
+std::string key_of_strokes(const CutRequest& request);
+
 // The part of the key that the cut from the reference depends on, see session.h.
 std::string key_of_reference(const CutRequest& request, const ReferenceView& reference);
 

@@ -12,4 +12,9 @@ LookedAt looked_at(const std::vector<ViewReport>& views) {
   return sum;
 }
 
+void obey_strokes(CutResult* result) {
+  for (std::size_t g = 0; g < result->said.size(); ++g)
+    if (result->said[g]) result->labels[g] = result->said[g] > 0;
+}
+
 }  // namespace splatcut

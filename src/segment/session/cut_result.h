@@ -29,6 +29,7 @@ struct CutResult {
   std::string reason;                // for kNothingFound
   std::vector<std::uint8_t> labels;  // per Gaussian of the cloud, 1 = object
   std::vector<std::uint8_t> prior;   // what the parts say, per Gaussian; it counts in every cut; or empty
+  std::vector<std::int8_t> said;     // per Gaussian: +1, -1 as strokes themselves decide, 0 open; or empty
   std::size_t sizes = 0, size = 0;   // that the first click can mean, from small to large; the one taken
   bool ambiguous = false;            // another size was nearly as likely
   std::vector<ViewReport> views;     // the reference, the others, then stroked views that correct
@@ -37,6 +38,9 @@ struct CutResult {
   std::size_t trimmed = 0;           // Gaussians that left the object after it
   std::vector<StageTime> stages;     // in order, same names added up; what was kept costs and lists nothing
 };
+
+// What strokes say of a Gaussian holds, whatever the views made of it.
+void obey_strokes(CutResult* result);
 
 // How far a cut has come.
 enum class CutPhase {

@@ -11,7 +11,7 @@
 #include "segment/knn_graph.h"
 #include "segment/likelihood.h"
 #include "segment/mask_tools.h"
-#include "segment/part_picker.h"
+#include "segment/part_view.h"
 #include "segment/stage_clock.h"
 #include "segment/trim.h"
 
@@ -97,7 +97,8 @@ class Run {
   Mask propagated(const Camera& camera, const Picture& picture);
   bool hidden(const Camera& camera, const Mask& seen, double share);
   PartView parts_in(const Camera& camera);
-  void pick(const Camera& camera, const Strokes& strokes);
+  void pick(const Camera& camera);
+  void obey();
   void complete(const Camera& camera, const Mask& mask);
   void join_enclosed_by(const PartView& view);
   Mask mask_from_pixels(const Camera& camera, const Strokes& strokes);
@@ -125,7 +126,7 @@ class Run {
 void Run::solve(CutPhase phase) {
   clock_.time("cut", [&] {
     CutReport report = scene_.solver.solve(with_prior(likelihood(sums_), prior(), prior_px()), used_views_,
-                                           looked_at(result_.views).pixels_per_view(), job_);
+                                           looked_at(result_.views).pixels_per_view(), job_, result_.said);
     result_.cut = report;
     result_.labels = std::move(report.labels);
   });
@@ -161,20 +162,31 @@ PartView Run::parts_in(const Camera& camera) {
   return view_parts(scene_.parts, out.first_hit);
 }
 
-// What the strokes mean as parts becomes the labels.
-void Run::pick(const Camera& camera, const Strokes& strokes) {
+// What all strokes mean as parts becomes the labels.
+void Run::pick(const Camera& camera) {
   clock_.time("first mask", [&] {
-    const PartView view = parts_in(camera);
+    ReplayOptions options{.model = scene_.model.selection};
+    options.part_step = request_.part_step;
+    options.work_width_px = settings_.work_width_px;
+    options.least_object_px = settings_.least_object_px;
+    std::vector<CameraStroke> strokes;
+    for (const StrokedView& view : request_.strokes)
+      for (const Stroke& stroke : view.strokes) strokes.push_back({view.camera, stroke});
+    const ClickSelection& picked = scene_.strokes.replay(drawer_, strokes, options, job_);
     if (job_.cancelled()) return;
-    PickOptions options{scene_.model.pick};
-    options.scale_steps = request_.part_step;
-    const Pick picked = pick_parts(scene_.parts, view, strokes, options);
-    result_.labels = labels_of(scene_.parts, picked.leaves);
-    result_.sizes = picked.first_chain.size();
-    result_.size = picked.first_chosen;
-    result_.ambiguous = picked.ambiguous;
-    join_enclosed_by(view);
+    result_.labels = picked.labels();
+    result_.sizes = picked.sizes();
+    result_.size = picked.size();
+    result_.ambiguous = picked.ambiguous();
+    result_.said = picked.said();
+    join_enclosed_by(parts_in(camera));
+    obey();
   });
+}
+
+// What strokes say of a Gaussian holds, whatever the views made of it.
+void Run::obey() {
+  obey_strokes(&result_);
 }
 
 void Run::join_enclosed_by(const PartView& view) {
@@ -215,7 +227,7 @@ std::optional<Mask> Run::find_object(const Camera& camera) {
       result_.prior = result_.labels;
     }
   } else if (by_parts) {
-    pick(camera, scaled(reference_.strokes, scale));
+    pick(camera);
     if (job_.cancelled()) return std::nullopt;
     result_.prior = result_.labels;
     mask = labels_in(camera);
@@ -380,6 +392,7 @@ void Run::settle() {
 void Run::trim_labels() {
   clock_.time("trim", [&] {
     result_.trimmed = trim_by(drawer_, result_.views, scene_depths_, settings_, &result_.labels, job_);
+    obey();
   });
 }
 

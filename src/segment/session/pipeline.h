@@ -14,6 +14,7 @@
 #include "scene/projected_view.h"
 #include "segment/cut.h"
 #include "segment/part_hierarchy.h"
+#include "segment/selection/stroke_replay.h"
 #include "segment/session/cut_request.h"
 #include "segment/session/cut_result.h"
 #include "segment/session/cut_settings.h"
@@ -27,6 +28,7 @@ struct CutScene {
   const PartHierarchy& parts;
   const PartModel& model;
   CutSolver& solver;
+  StrokeReplay& strokes;
   glm::vec3 up_world;                   // for the orbit
   std::span<const Camera> photographs;  // cameras of the capture, where known
 };

@@ -63,10 +63,12 @@ struct Session::Asked {
   std::optional<ReferenceView> reference;
   CutSettings first_settings;  // of the cut from the reference
   std::string first_key;
+  bool by_parts = false;  // then strokes of all views are replayed in the first cut
 
   // Strokes in other views than the reference.
   std::vector<const StrokedView*> corrections() const {
     std::vector<const StrokedView*> views;
+    if (by_parts) return views;
     for (const StrokedView& view : by_view)
       if (!view.strokes.empty() && (request.first_mask || !same_view(view.camera, reference->camera)))
         views.push_back(&view);
@@ -75,7 +77,8 @@ struct Session::Asked {
   bool smoother() const { return settings.last_lambda() != settings.cut.energy.lambda; }
 };
 
-Session::Session(SessionScene scene) : scene_(std::move(scene)), views_(*scene_.cloud) {}
+Session::Session(SessionScene scene)
+    : scene_(std::move(scene)), views_(*scene_.cloud), strokes_(scene_.prepared->parts) {}
 
 const FlowGraph& Session::graph(const CutSettings& settings, const Job& job) {
   const std::size_t most = scene_.cloud->size() > 0 ? scene_.cloud->size() - 1 : 0;
@@ -108,16 +111,25 @@ CutScene Session::scene_for(const CutRequest& request, const CutSettings& settin
   const PartHierarchy& parts = scene_.prepared->parts;
   if (settings.first_mask_from == FirstMaskFrom::kParts && parts.leaf_of.size() != scene_.cloud->size())
     throw Error("first mask", "the scene was prepared without parts", "Prepare it with the same settings");
-  return {{*scene_.cloud, &views_}, graph(settings, job),  parts,
-          scene_.prepared->model,   solver(settings, job), request.up_world.value_or(scene_.up_world),
+  return {{*scene_.cloud, &views_},
+          graph(settings, job),
+          parts,
+          scene_.prepared->model,
+          solver(settings, job),
+          strokes_,
+          request.up_world.value_or(scene_.up_world),
           scene_.photographs};
 }
 
 Session::Asked Session::asked(const CutRequest& request, const CutSettings& settings) const {
   check(settings);
-  Asked asked{request, settings, strokes_by_view(request.strokes), {}, without_smoothness(settings), {}};
+  Asked asked{request, settings, strokes_by_view(request.strokes), {}, without_smoothness(settings),
+              {},      false};
   asked.reference = reference_of(request, asked.by_view);
-  if (asked.reference) asked.first_key = key_of_reference(request, *asked.reference);
+  asked.by_parts = settings.first_mask_from == FirstMaskFrom::kParts && !request.first_mask;
+  if (asked.reference)
+    asked.first_key =
+        key_of_reference(request, *asked.reference) + (asked.by_parts ? key_of_strokes(request) : "");
   return asked;
 }
 
@@ -198,7 +210,7 @@ void Session::correct(const Asked& asked, const Job& job, Kept* first, CutResult
   StageClock clock(&result->stages);
   const LookedAt looked = looked_at(result->views);
   CutReport report = clock.time("cut", [&] {
-    return solver(settings, job).solve(weighed, looked.views, looked.pixels_per_view(), job);
+    return solver(settings, job).solve(weighed, looked.views, looked.pixels_per_view(), job, result->said);
   });
   if (job.cancelled()) return;
   result->cut = report;
@@ -207,6 +219,7 @@ void Session::correct(const Asked& asked, const Job& job, Kept* first, CutResult
     result->trimmed = clock.time("trim", [&] {
       return trim_to_views({*scene_.cloud, &views_}, result->views, settings, &result->labels, job);
     });
+  obey_strokes(result);
 }
 
 CutResult Session::cut(const CutRequest& request, const CutSettings& settings, const Job& job,

@@ -20,6 +20,7 @@
 #include "scene/job.h"
 #include "scene/projected_view.h"
 #include "segment/prepared_scene.h"
+#include "segment/selection/stroke_replay.h"
 #include "segment/session/cut_request.h"
 #include "segment/session/cut_result.h"
 #include "segment/session/cut_settings.h"
@@ -85,6 +86,7 @@ class Session {
   std::optional<FlowGraph> other_graph_;
   std::optional<CutSolver> solver_, other_solver_;
   KeptViews views_;
+  StrokeReplay strokes_;
   std::list<Kept> kept_;  // most recent first
   Kept cancelled_;        // what came of the last cut that was not finished
 };

@@ -1,0 +1,95 @@
+// What clicks and strokes mean: a label per Gaussian that grows with each of them, in any view.
+//
+// In: the hierarchy of parts, and one stroke after the other with the view it was made in. Out: labels (1 =
+// object), and which Gaussians the strokes themselves have decided.
+// A click says two things. Certain: what is displayed around it is on the wrong side now. Within a disc of
+// disc_share times the distance to the displayed border, Gaussians that show mostly there take the said label
+// and keep it until a later disc of the other sign covers them; so do leaves that lie mostly in the disc.
+// Probable: one of the clicked leaf's ancestors in any tree is meant. Candidates are scored by a sum of
+// costs:
+//   look        weak border: cut_weight ln(border / size), less jump_weight times how much dearer the next
+//   merge is stability   -ln of the mean IoU with the other trees' likest ancestors frame       pixels at the
+//   picture's frame over the square root of all centre      -ln of how central the click is in what would
+//   change: its distance to that region's border over the
+//               region's largest distance. People click in the middle of what they mean.
+//   size        first click: share of the picture; later ones: folds of the disc that reaches the displayed
+//   border opposed     clicks of the other sign that it holds
+// After one object click a click on the rest may also say that another of that click's parts was meant: the
+// likeliest that holds none of the clicks on the rest. A leaf only follows a correction where, in most trees,
+// it is nearer to this click than to all clicks of the other sign (it meets none of them below their common
+// ancestor). Where no candidate is likely the disc alone changes. Cost: some 10 ms a click once its view is
+// known. The result depends on the strokes in their order alone.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "segment/part_model.h"
+#include "segment/seeds.h"
+#include "segment/selection/leaf_view.h"
+
+namespace splatcut {
+
+class ClickSelection {
+ public:
+  // part_step: along the sizes that the first click can mean, from the likeliest; +1 the next larger.
+  ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step = 0);
+
+  // A stroke in the pixels of the view. False: nothing of the scene is under it, or it speaks of the rest
+  // before there is an object.
+  bool apply(const LeafView& view, const Stroke& stroke);
+
+  const std::vector<std::uint8_t>& labels() const { return labels_; }  // per Gaussian
+  const std::vector<std::int8_t>& said() const { return said_; }       // per Gaussian: +1, -1, 0 = by no disc
+
+  // What the first click can mean: how many sizes, the one taken, and whether another one was nearly as
+  // likely.
+  std::size_t sizes() const { return sizes_; }
+  std::size_t size() const { return size_; }
+  bool ambiguous() const { return ambiguous_; }
+
+ private:
+  struct Click;
+  struct Chain;
+  struct Candidate;
+  struct FirstPick;
+
+  bool take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
+  void confirm(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
+  std::vector<std::uint8_t> certain_leaves(const Click& click) const;
+  std::vector<Chain> chains(const Click& click) const;
+  std::vector<std::uint8_t> nearer_leaves(const std::vector<Chain>& chains) const;
+  void measure_stability(const Click& click, std::vector<Chain>* chains) const;
+  std::vector<Candidate> scored(const Click& click, const std::vector<Chain>& chains) const;
+  Candidate best_of(const Click& click, const std::vector<Chain>& chains,
+                    std::vector<Candidate>* candidates) const;
+  void add_change_costs(const Click& click, const std::vector<Chain>& chains,
+                        std::vector<Candidate>* candidates) const;
+  bool add_repick(const Click& click, std::vector<Chain>* chains, std::vector<Candidate>* candidates) const;
+  void note_first(const std::vector<Chain>& chains, std::span<const Candidate> candidates, Candidate* best);
+  void pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object);
+  void insist(const LeafView& view, std::size_t pixel, bool object);
+  void label();
+
+  const PartHierarchy& parts_;
+  SelectionModel model_;
+  int part_step_;
+  std::vector<std::uint8_t> leaf_object_;  // per leaf
+  std::vector<std::int8_t> leaf_said_;     // per leaf: decided by a disc
+  std::vector<std::uint32_t> clicked_[2];  // leaves clicked, by sign
+  struct Change {
+    std::vector<std::uint32_t> leaves;
+    bool object;
+  };
+  std::vector<Change> changes_;             // what each click has changed
+  std::shared_ptr<const FirstPick> first_;  // what the first click could mean
+  std::vector<std::uint8_t> labels_;
+  std::vector<std::int8_t> said_;
+  bool any_ = false;
+  std::size_t sizes_ = 0, size_ = 0;
+  bool ambiguous_ = false;
+};
+
+}  // namespace splatcut

@@ -1,0 +1,112 @@
+#include "segment/selection/leaf_view.h"
+
+#include <algorithm>
+
+#include "segment/parallel.h"
+
+namespace splatcut {
+
+namespace {
+
+// Less weight is no share of a pixel worth a list's entry: even twenty of them do not turn its label.
+constexpr float kLeastGaussianWeight = 0.004f, kLeastLeafWeight = 0.02f;
+
+PixelWeights flat(const Image<std::vector<GroupWeight>>& lists) {
+  PixelWeights out;
+  std::size_t entries = 0;
+  for (const auto& list : lists.pixels()) entries += list.size();
+  out.entry.reserve(entries);
+  out.first.reserve(lists.size() + 1);
+  out.first.push_back(0);
+  for (const auto& list : lists.pixels()) {
+    out.entry.insert(out.entry.end(), list.begin(), list.end());
+    out.first.push_back(static_cast<std::uint32_t>(out.entry.size()));
+  }
+  return out;
+}
+
+void add_to(std::vector<GroupWeight>* sums, std::uint32_t group, float weight) {
+  const auto known = std::ranges::find(*sums, group, &GroupWeight::group);
+  if (known != sums->end())
+    known->weight += weight;
+  else
+    sums->push_back({group, weight});
+}
+
+// Replaces each pixel's Gaussians by their leaves.
+void sum_by_leaf(const PartHierarchy& parts, Image<std::vector<GroupWeight>>* lists) {
+  for_each_index(lists->size(), [&](std::size_t i) {
+    std::vector<GroupWeight> sums;
+    for (const GroupWeight& w : lists->pixels()[i])
+      if (parts.leaf_of[w.group] != kNoPart) add_to(&sums, parts.leaf_of[w.group], w.weight);
+    std::erase_if(sums, [](const GroupWeight& w) { return w.weight < kLeastLeafWeight; });
+    std::ranges::stable_sort(sums, std::ranges::greater(), &GroupWeight::weight);
+    lists->pixels()[i] = std::move(sums);
+  });
+}
+
+void count_leaves(const PartHierarchy& parts, LeafView* of) {
+  LeafView& view = *of;
+  view.leaf_px.assign(parts.leaves, 0);
+  view.leaf_frame_px.assign(parts.leaves, 0);
+  const int width = view.camera.width_px, height = view.camera.height_px;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const bool frame = x == 0 || y == 0 || x == width - 1 || y == height - 1;
+      for (const GroupWeight& w : view.leaves.at(static_cast<std::size_t>(y) * width + x)) {
+        view.leaf_px[w.group] += w.weight;
+        if (frame) view.leaf_frame_px[w.group] += w.weight;
+      }
+    }
+}
+
+}  // namespace
+
+LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera, const Job& job) {
+  LeafView view{.camera = camera, .gaussians = {}, .leaves = {}, .leaf_px = {}, .leaf_frame_px = {}};
+  std::vector<std::uint32_t> each(drawer.cloud().size());
+  for (std::uint32_t g = 0; g < each.size(); ++g) each[g] = g;
+  RasterOptions raster;
+  raster.colour = false;
+  raster.groups = each;
+  raster.least_group_weight = kLeastGaussianWeight;
+  RasterOutput drawn = drawer.draw(camera, raster, job);
+  view.gaussians = flat(drawn.groups);
+  sum_by_leaf(parts, &drawn.groups);
+  view.leaves = flat(drawn.groups);
+  count_leaves(parts, &view);
+  return view;
+}
+
+LeafView leaf_view_of_hits(const PartHierarchy& parts, const Camera& camera,
+                           const Image<std::int32_t>& first_hit, int max_width_px) {
+  LeafView view{.camera = limited_to_width(camera, max_width_px),
+                .gaussians = {},
+                .leaves = {},
+                .leaf_px = {},
+                .leaf_frame_px = {}};
+  const int width = view.camera.width_px, height = view.camera.height_px;
+  Image<std::vector<GroupWeight>> lists(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int hit = first_hit.at(x * first_hit.width() / width, y * first_hit.height() / height);
+      if (hit >= 0) lists.at(x, y) = {{static_cast<std::uint32_t>(hit), 1}};
+    }
+  view.gaussians = flat(lists);
+  sum_by_leaf(parts, &lists);
+  view.leaves = flat(lists);
+  count_leaves(parts, &view);
+  return view;
+}
+
+Mask shown(const PixelWeights& weights, const Camera& camera, std::span<const std::uint8_t> labels) {
+  Mask mask(camera.width_px, camera.height_px);
+  for_each_index(mask.size(), [&](std::size_t i) {
+    float object = 0;
+    for (const GroupWeight& w : weights.at(i)) object += labels[w.group] ? w.weight : 0;
+    mask.pixels()[i] = object >= 0.5f ? kMaskObject : 0;
+  });
+  return mask;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,47 @@
+// What one view shows of the scene, softly: every Gaussian's and every leaf's share of every pixel.
+//
+// In: cloud, hierarchy of parts, camera. Out: per pixel the weights alpha T of the Gaussians that make it,
+// and the same summed by leaf. A labelling's picture follows from it without drawing: a pixel is object where
+// its object weights reach 0.5, as in render_labels(). Unlike the Gaussian at the median depth of each pixel,
+// the sums do not speckle on real captures. Cost: one drawing; 8 bytes per pixel and Gaussian listed, some 20
+// of them a pixel.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scene/projected_view.h"
+#include "segment/part_hierarchy.h"
+
+namespace splatcut {
+
+// Per pixel a list, row by row: entries first[i] .. first[i + 1] belong to pixel i, heaviest first.
+struct PixelWeights {
+  std::vector<std::uint32_t> first;  // pixels + 1
+  std::vector<GroupWeight> entry;
+  std::span<const GroupWeight> at(std::size_t pixel) const {
+    return std::span(entry).subspan(first[pixel], first[pixel + 1] - first[pixel]);
+  }
+};
+
+struct LeafView {
+  Camera camera;
+  PixelWeights gaussians, leaves;
+  std::vector<float> leaf_px;        // per leaf: sum of its weights, pixels
+  std::vector<float> leaf_frame_px;  // the same at the picture's frame
+};
+
+// Cancelled: what comes back must not be used.
+LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera,
+                   const Job& job = {});
+
+// The same at hand of what is at each pixel's median depth, sampled to at most max_width_px: rougher, and
+// free where a picture is drawn anyway. first_hit: RasterOutput::first_hit of the camera.
+LeafView leaf_view_of_hits(const PartHierarchy& parts, const Camera& camera,
+                           const Image<std::int32_t>& first_hit, int max_width_px);
+
+// Where the labels, one per group, are shown.
+Mask shown(const PixelWeights& weights, const Camera& camera, std::span<const std::uint8_t> labels);
+
+}  // namespace splatcut

@@ -1,0 +1,86 @@
+#include "segment/selection/stroke_replay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "segment/mask_tools.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr std::size_t kMostViews = 12;  // kept, some 10 MB each at 320 pixels
+constexpr std::size_t kMostKept = 6;    // selections, for undo: 2 bytes a Gaussian each
+
+bool same_stroke(const CameraStroke& a, const CameraStroke& b) {
+  return same_camera(a.camera, b.camera) && a.stroke.label == b.stroke.label &&
+         a.stroke.radius_px == b.stroke.radius_px && a.stroke.points_px == b.stroke.points_px;
+}
+
+std::vector<CameraStroke> object_first(std::span<const CameraStroke> strokes) {
+  std::vector<CameraStroke> order(strokes.begin(), strokes.end());
+  const auto first =
+      std::ranges::find(order, SeedLabel::kObject, [](const CameraStroke& s) { return s.stroke.label; });
+  if (first != order.end()) std::rotate(order.begin(), first, first + 1);
+  return order;
+}
+
+}  // namespace
+
+const LeafView& StrokeReplay::view(const Drawer& drawer, const Camera& full, int width_px, const Job& job) {
+  const Camera camera = limited_to_width(full, width_px);
+  const auto known =
+      std::ranges::find_if(views_, [&](const LeafView& v) { return same_camera(v.camera, camera); });
+  if (known != views_.end()) {
+    views_.splice(views_.begin(), views_, known);
+    return views_.front();
+  }
+  views_.push_front(leaf_view(drawer, parts_, camera, job));
+  if (views_.size() > kMostViews) views_.pop_back();
+  return views_.front();
+}
+
+std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, const ClickSelection& before,
+                                                          const CameraStroke& said, const Job& job) {
+  const auto attempt = [&](const LeafView& seen) {
+    auto next = std::make_shared<ClickSelection>(before);
+    const float factor = static_cast<float>(seen.camera.width_px) / static_cast<float>(said.camera.width_px);
+    next->apply(seen, scaled({said.stroke}, factor).front());
+    return next;
+  };
+  const LeafView* seen = &view(drawer, said.camera, options_.work_width_px, job);
+  if (job.cancelled()) return nullptr;
+  auto next = attempt(*seen);
+  const double side =
+      std::sqrt(static_cast<double>(count(shown(seen->gaussians, seen->camera, next->labels()))));
+  if (side == 0 || side >= options_.least_object_px || seen->camera.width_px >= said.camera.width_px)
+    return next;
+  const int wider = static_cast<int>(std::ceil(seen->camera.width_px * options_.least_object_px / side));
+  seen = &view(drawer, said.camera, std::min(wider, said.camera.width_px), job);
+  return job.cancelled() ? nullptr : attempt(*seen);
+}
+
+const ClickSelection& StrokeReplay::replay(const Drawer& drawer, std::span<const CameraStroke> strokes,
+                                           const ReplayOptions& options, const Job& job) {
+  const std::vector<CameraStroke> order = object_first(strokes);
+  std::size_t same = 0;
+  if (options == options_)
+    while (same < std::min(order.size(), done_.size()) && same_stroke(order[same], done_[same])) ++same;
+  if (same > 0 && !after_[same - 1]) same = 0;
+  options_ = options;
+  done_.resize(same);
+  after_.resize(same);
+  last_ =
+      same > 0 ? after_.back() : std::make_shared<ClickSelection>(parts_, options.model, options.part_step);
+  for (std::size_t i = same; i < order.size(); ++i) {
+    auto next = after(drawer, *last_, order[i], job);
+    if (!next) break;  // cancelled
+    last_ = next;
+    done_.push_back(order[i]);
+    after_.push_back(std::move(next));
+    if (after_.size() > kMostKept) after_[after_.size() - 1 - kMostKept].reset();
+  }
+  return *last_;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,253 @@
+// What clicks mean: by hand on four stripes, invariants and truth on the still life.
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <map>
+
+#include "app/lab/robot_user.h"
+#include "scene/counter_rng.h"
+#include "segment/mask_tools.h"
+#include "segment/selection/click_selection.h"
+#include "segment/selection/stroke_replay.h"
+#include "still_life_table.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+using Labels = std::vector<std::uint8_t>;
+
+// Four leaves of one Gaussian each in a row of a 40 x 10 picture, 10 pixels wide each: ((0 1) (2 3)).
+PartHierarchy four_leaves() {
+  PartHierarchy parts;
+  parts.leaves = 4;
+  parts.leaf_of = {0, 1, 2, 3};
+  PartTree tree;
+  tree.parent = {4, 4, 5, 5, 6, 6, kNoPart};
+  const std::array<std::uint32_t, 2> leaf{kNoPart, kNoPart};
+  tree.children = {leaf, leaf, leaf, leaf, {0, 1}, {2, 3}, {4, 5}};
+  tree.area = {1, 1, 1, 1, 2, 2, 4};
+  tree.cut = {1, 1, 1, 1, 0.001f, 0.001f, 1};
+  tree.merge_cost = {0, 0, 0, 0, 0.1f, 0.1f, 10};
+  parts.trees = {tree};
+  parts.plain_trees = 1;
+  parts.leaf_area = {1, 1, 1, 1};
+  for (int l = 0; l < 4; ++l) parts.leaf_centre_world.emplace_back(static_cast<float>(l) - 1.5f, 0.0f, 0.0f);
+  return parts;
+}
+
+// At 10 pixels a unit, as far as leaves of area 1 want it. columns: of leaf -1 show nothing.
+LeafView stripes(const PartHierarchy& parts, const std::vector<int>& leaf_of_column = {0, 1, 2, 3}) {
+  Camera camera = look_at({0, 0, -10}, {0, 0, 0}, {0, -1, 0}, 1, 40, 10);
+  camera.fx_px = camera.fy_px = 100;
+  Image<std::int32_t> hit(40, 10, -1);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 40; ++x) hit.at(x, y) = leaf_of_column[static_cast<std::size_t>(x / 10)];
+  return leaf_view_of_hits(parts, camera, hit, 40);
+}
+
+// A model that looks at borders alone.
+SelectionModel borders_alone() {
+  SelectionModel model;
+  model.cut_weight = 1;
+  model.jump_weight = model.first_frame_weight = model.frame_weight = model.small_weight =
+      model.large_weight = 0;
+  model.first_centre_weight = model.centre_weight = 0;
+  return model;
+}
+
+Stroke object(float x) {
+  return click({x, 5}, SeedLabel::kObject);
+}
+Stroke rest(float x) {
+  return click({x, 5}, SeedLabel::kRest);
+}
+
+Labels selected(const Strokes& strokes, int part_step = 0, const SelectionModel& model = borders_alone()) {
+  const PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts);
+  ClickSelection selection(parts, model, part_step);
+  for (const Stroke& stroke : strokes) selection.apply(view, stroke);
+  return selection.labels();
+}
+
+bool shows_object(const LeafView& view, const Labels& labels, const glm::vec2& pixel) {
+  return shown(view.gaussians, view.camera, labels)
+             .at(static_cast<int>(pixel.x), static_cast<int>(pixel.y)) != 0;
+}
+
+// Whether the scene covers the pixel at all.
+bool covered(const LeafView& view, const glm::vec2& pixel) {
+  float sum = 0;
+  for (const GroupWeight& w : view.gaussians.at(static_cast<std::size_t>(pixel.y) * view.camera.width_px +
+                                                static_cast<std::size_t>(pixel.x)))
+    sum += w.weight;
+  return sum >= 0.6f;
+}
+
+}  // namespace
+
+TEST_CASE("selection: clicks on four stripes, worked out by hand") {
+  // The pair has the least border for its size: ln(0.001 / sqrt 2) against ln 1 of a leaf.
+  CHECK(selected({object(5)}) == Labels{1, 1, 0, 0});
+  CHECK(selected({object(35)}) == Labels{0, 0, 1, 1});
+  CHECK(selected({object(5), object(25)}) == Labels{1, 1, 1, 1});
+  CHECK(selected({object(5), rest(15)}) == Labels{1, 0, 0, 0});
+  // What is displayed as said already stays as it is.
+  CHECK(selected({object(5), object(7)}) == Labels{1, 1, 0, 0});
+  CHECK(selected({object(5), rest(35)}) == Labels{1, 1, 0, 0});
+  // A rest click before there is an object waits for nothing: it is not an object's correction.
+  CHECK(selected({rest(35)}) == Labels{0, 0, 0, 0});
+}
+
+TEST_CASE("selection: one size smaller and larger, beyond the last there is none") {
+  for (const auto& [steps, expected] :
+       std::map<int, Labels>{{-1, {1, 0, 0, 0}}, {-9, {1, 0, 0, 0}}, {1, {1, 1, 1, 1}}, {9, {1, 1, 1, 1}}})
+    CHECK(selected({object(5)}, steps) == expected);
+  const PartHierarchy parts = four_leaves();
+  ClickSelection selection(parts, borders_alone(), 9);
+  selection.apply(stripes(parts), object(5));
+  CHECK(selection.sizes() == 3);
+  CHECK(selection.size() == 2);
+}
+
+TEST_CASE("selection: a rest click after the whole was taken asks for another part of the first click") {
+  CHECK(selected({object(5)}, 1) == Labels{1, 1, 1, 1});
+  CHECK(selected({object(5), rest(35)}, 1) == Labels{1, 1, 0, 0});
+}
+
+TEST_CASE("selection: a click is obeyed though no part is likely, by its disc alone") {
+  SelectionModel nothing_likely = borders_alone();
+  nothing_likely.disc_cost = -100;
+  const Labels labels = selected({object(5), object(25)}, 0, nothing_likely);
+  CHECK(labels == Labels{1, 1, 1, 0});
+}
+
+TEST_CASE("selection: a scribble decides all that is under it") {
+  const PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts);
+  SelectionModel nothing_likely = borders_alone();
+  nothing_likely.disc_cost = -100;
+  ClickSelection selection(parts, nothing_likely);
+  selection.apply(view, object(5));
+  selection.apply(view, {.label = SeedLabel::kObject, .radius_px = 4, .points_px = {{22, 5}, {38, 5}}});
+  CHECK(selection.labels() == Labels{1, 1, 1, 1});
+  selection.apply(view, {.label = SeedLabel::kRest, .radius_px = 5, .points_px = {{12, 5}, {28, 5}}});
+  CHECK(selection.labels() == Labels{1, 0, 0, 1});
+}
+
+TEST_CASE("selection: a click where nothing is, is refused") {
+  const PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts, {0, 1, -1, -1});
+  ClickSelection selection(parts, borders_alone());
+  CHECK_FALSE(selection.apply(view, object(35)));
+  CHECK(selection.labels() == Labels{0, 0, 0, 0});
+  CHECK(selection.apply(view, object(5)));
+  CHECK_FALSE(selection.apply(view, object(35)));
+  CHECK(selection.labels() == Labels{1, 1, 0, 0});
+}
+
+TEST_CASE(
+    "selection: what the first view hides follows its part, and a click in another view takes it back") {
+  const PartHierarchy parts = four_leaves();
+  ClickSelection selection(parts, borders_alone());
+  selection.apply(stripes(parts, {0, -1, -1, -1}), object(5));
+  CHECK(selection.labels() == Labels{1, 1, 0, 0});
+  selection.apply(stripes(parts), rest(15));
+  CHECK(selection.labels() == Labels{1, 0, 0, 0});
+}
+
+TEST_CASE("selection: soft views sum what the rasteriser draws") {
+  const Table& t = table();
+  const Target on = target(t, "apple");
+  const auto index = std::ranges::find(t.scene.label_name, "apple") - t.scene.label_name.begin();
+  Labels labels(t.cloud.size());
+  for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = t.label[g] == index;
+  const Mask mask = shown(on.leaves.gaussians, on.camera, labels);
+  CHECK(iou(mask, on.truth) > 0.995);
+  RasterOptions raster;
+  raster.colour = false;
+  const Image<float> alpha = rasterize(t.cloud, on.camera, raster).alpha;
+  double most = 0;
+  for (std::size_t i = 0; i < alpha.size(); ++i) {
+    double sum = 0;
+    for (const GroupWeight& w : on.leaves.gaussians.at(i)) sum += w.weight;
+    CHECK(sum <= alpha.pixels()[i] + 1e-4);
+    most = std::max(most, alpha.pixels()[i] - sum);
+  }
+  CHECK(most < 0.2);  // what is too faint to be listed
+}
+
+TEST_CASE("selection: every click is obeyed, object clicks only add, rest clicks only remove") {
+  const Table& t = table();
+  const Target on = target(t, "mug");
+  CounterRng rng(3, 0);
+  int told = 0;
+  for (int draw = 0; draw < 8; ++draw) {
+    ClickSelection selection(t.prepared.parts, {});
+    Labels before(t.cloud.size(), 0);
+    for (int i = 0; i < 8; ++i) {
+      const bool object = i == 0 || rng.below(2) == 0;
+      const glm::vec2 pixel(rng.between(0, 400), rng.between(0, static_cast<float>(on.camera.height_px)));
+      const bool heard =
+          selection.apply(on.leaves, click(pixel, object ? SeedLabel::kObject : SeedLabel::kRest));
+      if (heard && covered(on.leaves, pixel)) {
+        ++told;
+        CHECK(shows_object(on.leaves, selection.labels(), pixel) == object);
+      }
+      bool monotone = true;
+      for (std::size_t g = 0; g < before.size(); ++g)
+        monotone &= object ? selection.labels()[g] >= before[g] : selection.labels()[g] <= before[g];
+      CHECK(monotone);
+      before = selection.labels();
+    }
+  }
+  CHECK(told > 40);
+}
+
+TEST_CASE("selection: objects of the still life in three robot clicks") {
+  const Table& t = table();
+  double first = 0, third = 0;
+  const std::vector<std::string> objects = {"mug", "apple", "orange", "plant", "pot", "books"};
+  for (const std::string& object : objects) {
+    const Target on = target(t, object);
+    ClickSelection selection(t.prepared.parts, {});
+    std::vector<double> ious;
+    Mask mask(on.camera.width_px, on.camera.height_px);
+    for (int i = 0; i < 3; ++i) {
+      if (const auto next = robot_click(on.truth, mask)) selection.apply(on.leaves, *next);
+      mask = shown(on.leaves.gaussians, on.camera, selection.labels());
+      ious.push_back(iou(mask, on.truth));
+    }
+    MESSAGE(object, " ", ious[0], " ", ious[1], " ", ious[2]);
+    first += ious[0] / static_cast<double>(objects.size());
+    third += ious[2] / static_cast<double>(objects.size());
+  }
+  CHECK(first > 0.7);
+  CHECK(third > 0.93);
+}
+
+TEST_CASE("selection: replayed strokes give what strokes one by one give, on any number of threads") {
+  const Table& t = table();
+  const Target apple = target(t, "apple"), mug = target(t, "mug");
+  const auto said = [](const Target& on, float x, float y, SeedLabel label) {
+    return CameraStroke{on.camera, click({x, y}, label)};
+  };
+  const std::vector<CameraStroke> strokes = {
+      said(mug, 30, 200, SeedLabel::kRest), said(apple, 200, 150, SeedLabel::kObject),
+      said(mug, 150, 120, SeedLabel::kObject), said(apple, 60, 60, SeedLabel::kRest)};
+  StrokeReplay once(t.prepared.parts), growing(t.prepared.parts);
+  const Labels all = once.replay(t.cloud, strokes, {}).labels();
+  Labels grown;
+  for (std::size_t n = 2; n <= strokes.size(); ++n)
+    grown = growing.replay(t.cloud, std::span(strokes).first(n), {}).labels();
+  CHECK(grown == all);
+  growing.replay(t.cloud, std::span(strokes).first(2), {});  // undone
+  CHECK(growing.replay(t.cloud, strokes, {}).labels() == all);
+  tbb::task_arena(1).execute([&] {
+    StrokeReplay alone(t.prepared.parts);
+    CHECK(alone.replay(t.cloud, strokes, {}).labels() == all);
+  });
+}
