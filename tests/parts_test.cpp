@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "scene/counter_rng.h"
 #include "scene/rasterizer.h"
@@ -42,6 +43,7 @@ const std::span<const Camera> kNoViews;
 PartOptions one_tree() {
   PartOptions options;
   options.trees = 1;
+  options.shade_blind_trees = 0;
   return options;
 }
 
@@ -99,7 +101,8 @@ TEST_CASE("parts: leaves keep to one colour, the two squares are two parts of th
 TEST_CASE("parts: children come first, areas add up, one root per connected piece, in every tree") {
   for (const auto& [gap, roots] : std::map<float, int>{{0.1f, 1}, {50.0f, 2}}) {
     const PartHierarchy parts = build_part_hierarchy(two_squares(gap, {1, 0, 0}, {0, 0, 1}), kNoViews);
-    REQUIRE(parts.trees.size() == 5);
+    REQUIRE(parts.plain_trees == 5);
+    REQUIRE(parts.trees.size() == 8);
     for (const PartTree& tree : parts.trees) {
       CHECK(std::ranges::count(tree.parent, kNoPart) == roots);
       REQUIRE(tree.nodes() == 2 * parts.leaves - static_cast<std::size_t>(roots));

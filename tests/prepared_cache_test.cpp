@@ -61,7 +61,7 @@ struct Example {
 TEST_CASE("what was written is read again, every array of it") {
   const Folder folder;
   const Example e;
-  REQUIRE(e.prepared.parts.trees.size() == 5);
+  REQUIRE(e.prepared.parts.trees.size() == 8);
   const auto file = prepared_file(folder.path, e.key);
   write_prepared(file, e.key, e.prepared);
   const auto again = read_prepared(file, e.key, e.cloud.size());

@@ -132,9 +132,9 @@ TEST_CASE("selection: a scribble decides all that is under it") {
   nothing_likely.disc_cost = -100;
   ClickSelection selection(parts, nothing_likely);
   selection.apply(view, object(5));
-  selection.apply(view, {.label = SeedLabel::kObject, .radius_px = 4, .points_px = {{22, 5}, {38, 5}}});
+  selection.apply(view, {.label = SeedLabel::kObject, .radius_px = 1, .points_px = {{23, 5}, {36, 5}}});
   CHECK(selection.labels() == Labels{1, 1, 1, 1});
-  selection.apply(view, {.label = SeedLabel::kRest, .radius_px = 5, .points_px = {{12, 5}, {28, 5}}});
+  selection.apply(view, {.label = SeedLabel::kRest, .radius_px = 1, .points_px = {{13, 5}, {26, 5}}});
   CHECK(selection.labels() == Labels{1, 0, 0, 1});
 }
 

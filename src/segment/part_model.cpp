@@ -79,6 +79,8 @@ std::vector<PartWeight> make_table() {
       WEIGHT(selection.fold_slack, selection.fold_slack, false),
       WEIGHT(selection.giant_weight, selection.giant_weight, false),
       WEIGHT(selection.giant_folds, selection.giant_folds, false),
+      WEIGHT(selection.border_px, selection.border_px, false),
+      WEIGHT(selection.border_folds, selection.border_folds, false),
       WEIGHT(selection.opposed_cost, selection.opposed_cost, false),
       WEIGHT(selection.disc_cost, selection.disc_cost, false),
       WEIGHT(selection.back_weight, selection.back_weight, false),

@@ -81,10 +81,12 @@ struct SelectionModel {
   float scrap_weight = 1.5f, scrap_folds = -0.3f;   // ln(changed pixels / disc) below which it costs
   float fold_weight = 0.15f, fold_slack = 1;        // above which it costs,
   float giant_weight = 3.25f, giant_folds = 3.25f;  // and costs more
-  float opposed_cost = 5;                           // per click of the other sign
-  float disc_cost = 4;                              // of changing the disc alone
-  float back_weight = 1;  // times the IoU with what a click of the other sign has changed
-  float repick_cost = 0;  // of another part for the first click, see below
+  float border_px = 2,
+        border_folds = 1;  // the latter in place of giant_folds for clicks nearer to the border
+  float opposed_cost = 5;  // per click of the other sign
+  float disc_cost = 4;     // of changing the disc alone
+  float back_weight = 1;   // times the IoU with what a click of the other sign has changed
+  float repick_cost = 0;   // of another part for the first click, see below
 
   float disc_share = 0.7f;       // of the distance to the displayed border that is certain
   float disc_majority = 0.5f;    // of a leaf's or Gaussian's pixels that must lie in the disc

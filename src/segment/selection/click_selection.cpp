@@ -267,7 +267,8 @@ std::vector<ClickSelection::Candidate> ClickSelection::scored(const Click& click
     const float folds = std::log(std::max(changed_px, 1.0f) / (kPi * click.radius_px * click.radius_px));
     return m.scrap_weight * std::max(0.0f, m.scrap_folds - folds) +
            m.fold_weight * std::max(0.0f, folds - m.fold_slack) +
-           m.giant_weight * std::max(0.0f, folds - m.giant_folds);
+           m.giant_weight *
+               std::max(0.0f, folds - (click.radius_px < m.border_px ? m.border_folds : m.giant_folds));
   };
   std::vector<Candidate> all;
   for (std::size_t t = 0; t < chains.size(); ++t) {
@@ -481,7 +482,7 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool obj
   if (any_ || !part) changes_.push_back(std::move(change));
   any_ = true;
   label();
-  if (!click.first) pin(view, click.disc, object);
+  pin(view, click.disc, object);
   insist(view, click.pixel(), object);
   return true;
 }
@@ -502,8 +503,7 @@ void ClickSelection::confirm(const LeafView& view, const glm::vec2& pixel, bool 
   insist(view, static_cast<std::size_t>(at.y) * view.camera.width_px + at.x, object);
 }
 
-// The Gaussians that show mostly in these pixels take the label and keep it; what lies there in part is free
-// again.
+// The Gaussians that show mostly in these pixels take the label and keep it.
 void ClickSelection::pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object) {
   std::vector<float> inside(labels_.size(), 0), all(labels_.size(), 0);
   for (const std::uint32_t pixel : pixels)
@@ -511,11 +511,7 @@ void ClickSelection::pin(const LeafView& view, std::span<const std::uint32_t> pi
   for (const GroupWeight& w : view.gaussians.entry) all[w.group] += w.weight;
   const std::int8_t sign = object ? 1 : -1;
   for (std::size_t g = 0; g < labels_.size(); ++g) {
-    if (inside[g] == 0) continue;
-    if (inside[g] > model_.disc_majority * all[g])
-      said_[g] = sign;
-    else if (said_[g] == -sign)
-      said_[g] = 0;
+    if (inside[g] > 0 && inside[g] > model_.disc_majority * all[g]) said_[g] = sign;
   }
   label();
 }

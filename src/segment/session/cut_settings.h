@@ -28,9 +28,9 @@ struct CutSettings {
   OrbitOptions orbit;
   int neighbours = 10;  // k of the graph
   FirstMaskFrom first_mask_from = FirstMaskFrom::kParts;
-  FirstMaskOptions first_mask;     // kPixels, and strokes in other views
-  float prior_px_per_view = 0.1f;  // kParts: what the parts say counts as that many pixels of each Gaussian
-  bool join_enclosed = true;       // kParts: hidden pieces that touch the object alone belong to it
+  FirstMaskOptions first_mask;  // kPixels, and strokes in other views
+  float prior_px_per_view = 3;  // kParts: what the parts say counts as that many pixels of each Gaussian
+  bool join_enclosed = true;    // kParts: hidden pieces that touch the object alone belong to it
   EnclosedOptions enclosed;
   bool parts_only = false;   // kParts: they are the answer: no other views, no graph cut
   bool hard_counts = false;  // the likelihood counts pixels, not weights (the paper's hard variant)

@@ -90,6 +90,7 @@ class Run {
   bool too_small(const Mask& mask, const Camera& camera);
   void add_given(const GivenView& given);
   void add_view(const Camera& camera, const glm::vec3& object_centre_world);
+  void add_stroked_views(const glm::vec3& object_centre_world);
   bool needs_pictures() const {
     return settings_.propagate != Propagator::kLift || settings_.refine.solver != MaskSolver::kNone;
   }
@@ -324,6 +325,14 @@ void Run::add_view(const Camera& camera, const glm::vec3& object_centre_world) {
   result_.views.push_back(std::move(view));
 }
 
+// Where the user clicked is worth a look: those views come before all others.
+void Run::add_stroked_views(const glm::vec3& object_centre_world) {
+  if (settings_.first_mask_from != FirstMaskFrom::kParts || request_.mask_source) return;
+  for (const StrokedView& view : strokes_by_view(request_.strokes))
+    if (!view.strokes.empty() && !same_view(view.camera, reference_.camera) && !job_.cancelled())
+      add_view(limited_to_width(view.camera, settings_.work_width_px), object_centre_world);
+}
+
 void Run::other_views() {
   if (!request_.masks.empty()) {
     for (const GivenView& given : request_.masks)
@@ -340,6 +349,7 @@ void Run::other_views() {
   // size.
   const int width_px =
       given || settings_.propagate != Propagator::kLift ? work_width_px_ : settings_.work_width_px;
+  add_stroked_views(extent.centre_world);
   int steady = 0;
   for (std::size_t i = 0; i < cameras.size() && !job_.cancelled(); ++i) {
     job_.progress("views", static_cast<double>(i) / static_cast<double>(cameras.size()));
