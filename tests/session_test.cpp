@@ -169,7 +169,7 @@ TEST_CASE("session: a view that comes again is known again, whatever comes in be
   CHECK(key_of(in_turns) != key_of(by_view));
 }
 
-TEST_CASE("session: a view is left out by its camera; one that is not looked at changes nothing") {
+TEST_CASE("session: a view is left out by its camera, one that is not looked at changes nothing") {
   auto [request, settings] = click_on("mug");
   settings.settled_views = 12;  // the orbit is looked at whole
   Session session = fresh_session();

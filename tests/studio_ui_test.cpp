@@ -206,6 +206,7 @@ TEST_CASE("a view left out is that view: after a save, and after another preset 
   CHECK(active_labels(app) == labels);
   const auto file = folder / "apple.splatcut.json";
   app.studio().apply(SaveWork{file});
+  REQUIRE(app.settle());
   const auto scene = open_scene(read_work_header(file).scene);
   const WorkFile read = read_work_file(file, *scene->scene, scene->hash);
   CHECK(read.warning.empty());

@@ -517,7 +517,7 @@ void ClickSelection::pin(const LeafView& view, std::span<const std::uint32_t> pi
 }
 
 // The clicked pixel and those around it show what was said, clearly enough for pictures of another size to
-// agree.
+// agree. The Gaussians that make the clicked pixel are held: no later stage overrules them.
 void ClickSelection::insist(const LeafView& view, std::size_t pixel, bool object) {
   constexpr float kClearly = 0.65f;
   const int width = view.camera.width_px, height = view.camera.height_px;
@@ -527,16 +527,24 @@ void ClickSelection::insist(const LeafView& view, std::size_t pixel, bool object
       float share = 0, all = 0;
       const auto entries = view.gaussians.at(static_cast<std::size_t>(y) * width + x);
       for (const GroupWeight& w : entries) {
-        share += labels_[w.group] ? w.weight : 0;
+        share += (labels_[w.group] != 0) == object ? w.weight : 0;
         all += w.weight;
       }
-      const auto clear = [&] { return object ? share >= std::min(kClearly, all) : share <= 1 - kClearly; };
+      const float enough = std::min(kClearly, all);
       for (const GroupWeight& w : entries) {  // heaviest first
-        if (clear()) break;
+        if (share >= enough) break;
         if ((labels_[w.group] != 0) == object) continue;
         said_[w.group] = object ? 1 : -1;
         labels_[w.group] = object;
-        share += object ? w.weight : -w.weight;
+        share += w.weight;
+      }
+      if (x != cx || y != cy) continue;
+      float held = 0;
+      for (const GroupWeight& w : entries) {
+        if (held >= enough) break;
+        if ((labels_[w.group] != 0) != object) continue;
+        said_[w.group] = object ? 1 : -1;
+        held += w.weight;
       }
     }
 }
