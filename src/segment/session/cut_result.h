@@ -42,6 +42,10 @@ struct CutResult {
 // What strokes say of a Gaussian holds, whatever the views made of it.
 void obey_strokes(CutResult* result);
 
+// A cut that keeps less than half of what the parts say is no refinement of what was clicked (of an object of
+// a few Gaussians the neighbours around it leave nothing): then the parts' labels stand.
+void keep_object(CutResult* result);
+
 // How far a cut has come.
 enum class CutPhase {
   kFirstMask,  // the reference's mask is known; labels where parts were asked

@@ -130,6 +130,7 @@ void Run::solve(CutPhase phase) {
                                            looked_at(result_.views).pixels_per_view(), job_, result_.said);
     result_.cut = report;
     result_.labels = std::move(report.labels);
+    keep_object(&result_);
   });
   snapshot(phase);
 }
@@ -341,6 +342,10 @@ void Run::other_views() {
     return;
   }
   const ObjectExtent extent = object_extent(cloud_, result_.labels);
+  if (!(extent.radius > 0)) {
+    result_.why_enough = "the object is too small to look around it";
+    return;
+  }
   const bool given = !request_.views.empty();
   const std::vector<Camera> cameras =
       given ? request_.views

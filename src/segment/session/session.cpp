@@ -215,6 +215,7 @@ void Session::correct(const Asked& asked, const Job& job, Kept* first, CutResult
   if (job.cancelled()) return;
   result->cut = report;
   result->labels = std::move(report.labels);
+  keep_object(result);
   if (settings.trim)
     result->trimmed = clock.time("trim", [&] {
       return trim_to_views({*scene_.cloud, &views_}, result->views, settings, &result->labels, job);
