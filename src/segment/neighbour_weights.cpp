@@ -52,7 +52,7 @@ void overlap_capacities(const GaussianCloud& cloud, const EnergyOptions& options
   for_edges(graph, from, to, [&](std::uint32_t arc, std::size_t g, std::size_t h) {
     arc_of[static_cast<std::size_t>(pairs)] = arc;
     block.set(pairs, sigma[g], sigma[h], cloud.position[g] - cloud.position[h],
-              options.gamma_colour * distance2(cloud.f_dc[g], cloud.f_dc[h]));
+              options.gamma_colour * squared_distance(cloud.f_dc[g], cloud.f_dc[h]));
     if (++pairs == OverlapBlock::kPairs) flush();
   });
   flush();
