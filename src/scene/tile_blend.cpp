@@ -486,7 +486,7 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   TileLists* lists =
       what.lists && what.shown.empty() ? &(*what.lists)[static_cast<std::size_t>(tile)] : nullptr;
   std::optional<ListReader> known;
-  if (lists && lists->complete) known.emplace(*lists);
+  if (lists && lists->complete) known.emplace(ListReader{*lists});
   const auto shows_whole = [](int tile_px, int roi_begin, int roi_end, int picture_end) {
     return tile_px >= roi_begin && std::min(tile_px + kTilePx, picture_end) <= roi_end;
   };

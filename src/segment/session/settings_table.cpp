@@ -100,10 +100,12 @@ Setting smoothness() {
           }};
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a member's name
 #define FIELD(member)    \
   [](auto& s) -> auto& { \
     return s.member;     \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 
 std::vector<Setting> make_table() {
   constexpr float kGamma = 1000;

@@ -216,7 +216,7 @@ std::vector<Chart> needed(const StudyResults& results) {
                                      {"neighbours", "needed_neighbours"}}) {
     StudyResults some;
     std::ranges::copy_if(results, std::back_inserter(some),
-                         [&](const nlohmann::json& r) { return r.at("series") == series; });
+                         [&, wanted = series](const nlohmann::json& r) { return r.at("series") == wanted; });
     for (nlohmann::json& r : some) r["series"] = r.at("scene");
     if (!some.empty())
       charts.push_back(lines(some, {name, fmt::format("No more than needed: {}", series)}, series));
