@@ -245,6 +245,11 @@ TEST_CASE("selection: replayed strokes give what strokes one by one give, on any
     grown = growing.replay(t.cloud, std::span(strokes).first(n), {}).labels();
   CHECK(grown == all);
   growing.replay(t.cloud, std::span(strokes).first(2), {});  // undone
+  std::stop_source stop;
+  stop.request_stop();
+  StrokeReplay stopped(t.prepared.parts);
+  stopped.replay(t.cloud, strokes, {}, {.stop = stop.get_token(), .on_progress = {}});
+  CHECK(stopped.replay(t.cloud, strokes, {}).labels() == all);  // nothing half made is kept
   CHECK(growing.replay(t.cloud, strokes, {}).labels() == all);
   tbb::task_arena(1).execute([&] {
     StrokeReplay alone(t.prepared.parts);

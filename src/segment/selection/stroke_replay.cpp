@@ -27,17 +27,19 @@ std::vector<CameraStroke> object_first(std::span<const CameraStroke> strokes) {
 
 }  // namespace
 
-const LeafView& StrokeReplay::view(const Drawer& drawer, const Camera& full, int width_px, const Job& job) {
+const LeafView* StrokeReplay::view(const Drawer& drawer, const Camera& full, int width_px, const Job& job) {
   const Camera camera = limited_to_width(full, width_px);
   const auto known =
       std::ranges::find_if(views_, [&](const LeafView& v) { return same_camera(v.camera, camera); });
   if (known != views_.end()) {
     views_.splice(views_.begin(), views_, known);
-    return views_.front();
+    return &views_.front();
   }
-  views_.push_front(leaf_view(drawer, parts_, camera, job));
+  LeafView made = leaf_view(drawer, parts_, camera, job);
+  if (job.cancelled()) return nullptr;  // it may be incomplete
+  views_.push_front(std::move(made));
   if (views_.size() > kMostViews) views_.pop_back();
-  return views_.front();
+  return &views_.front();
 }
 
 std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, const ClickSelection& before,
@@ -48,16 +50,16 @@ std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, 
     next->apply(seen, scaled({said.stroke}, factor).front());
     return next;
   };
-  const LeafView* seen = &view(drawer, said.camera, options_.work_width_px, job);
-  if (job.cancelled()) return nullptr;
+  const LeafView* seen = view(drawer, said.camera, options_.work_width_px, job);
+  if (!seen) return nullptr;
   auto next = attempt(*seen);
   const double side =
       std::sqrt(static_cast<double>(count(shown(seen->gaussians, seen->camera, next->labels()))));
   if (side == 0 || side >= options_.least_object_px || seen->camera.width_px >= said.camera.width_px)
     return next;
   const int wider = static_cast<int>(std::ceil(seen->camera.width_px * options_.least_object_px / side));
-  seen = &view(drawer, said.camera, std::min(wider, said.camera.width_px), job);
-  return job.cancelled() ? nullptr : attempt(*seen);
+  seen = view(drawer, said.camera, std::min(wider, said.camera.width_px), job);
+  return seen ? attempt(*seen) : nullptr;
 }
 
 const ClickSelection& StrokeReplay::replay(const Drawer& drawer, std::span<const CameraStroke> strokes,

@@ -39,7 +39,8 @@ class StrokeReplay {
                                const ReplayOptions& options, const Job& job = {});
 
  private:
-  const LeafView& view(const Drawer& drawer, const Camera& full, int width_px, const Job& job);
+  // Null: cancelled.
+  const LeafView* view(const Drawer& drawer, const Camera& full, int width_px, const Job& job);
   std::shared_ptr<const ClickSelection> after(const Drawer& drawer, const ClickSelection& before,
                                               const CameraStroke& said, const Job& job);
 
