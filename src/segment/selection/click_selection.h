@@ -5,20 +5,26 @@
 // A click says two things. Certain: what is displayed around it is on the wrong side now. Within a disc of
 // disc_share times the distance to the displayed border, Gaussians that show mostly there take the said label
 // and keep it until a later disc of the other sign covers them; so do leaves that lie mostly in the disc.
-// Probable: one of the clicked leaf's ancestors in any tree is meant. Candidates are scored by a sum of
-// costs:
-//   look        weak border: cut_weight ln(border / size), less jump_weight times how much dearer the next
-//   merge is stability   -ln of the mean IoU with the other trees' likest ancestors frame       pixels at the
-//   picture's frame over the square root of all centre      -ln of how central the click is in what would
-//   change: its distance to that region's border over the
-//               region's largest distance. People click in the middle of what they mean.
-//   size        first click: share of the picture; later ones: folds of the disc that reaches the displayed
-//   border opposed     clicks of the other sign that it holds
-// After one object click a click on the rest may also say that another of that click's parts was meant: the
-// likeliest that holds none of the clicks on the rest. A leaf only follows a correction where, in most trees,
-// it is nearer to this click than to all clicks of the other sign (it meets none of them below their common
-// ancestor). Where no candidate is likely the disc alone changes. Cost: some 10 ms a click once its view is
-// known. The result depends on the strokes in their order alone.
+// Probable: one of the clicked leaf's ancestors in any tree is meant. A candidate's cost is the sum of:
+//
+// - look: cut_weight ln(border / size), less jump_weight times how much dearer the next merge is.
+//
+// - stability: -ln of the mean IoU with the other trees' likest ancestors.
+//
+// - frame: pixels at the picture's frame over the square root of all.
+//
+// - centre: -ln of the click's distance to the border of what would change, over the largest such distance.
+//   People click in the middle of what they mean.
+//
+// - size: the first click's share of the picture; of later ones, folds of the disc to the displayed border.
+//
+// - opposed: clicks of the other sign that it holds, and the IoU with what a click of that sign has changed.
+//
+// After one object click, a click on the rest may also say that another part of that click was meant: the
+// likeliest that holds none of the clicks on the rest. A leaf follows a correction only where, in most trees,
+// it meets no click of the other sign below its common ancestor with this click. Where no candidate is likely
+// the disc alone changes. Cost: some 10 ms a click once its view is known. The result depends on the strokes
+// in their order alone.
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,8 @@
 // more cut is solved:
 //   A_g += k (M_g of added + removed pixels),  M_g += k (M_g of added pixels),  k = 4 x views used,
 // so that a stroke in one view outweighs the views that did not see the fault; what the parts say and the
-// trimming count as in step 1.
+// trimming count as in step 1. With parts, strokes of all views are replayed in step 1 already, as one
+// selection (selection/stroke_replay.h): step 2 then holds views left out and smoothness alone.
 // Step 1 is kept: what changes only step 2 costs only step 2. The result is a function of scene, request and
 // settings alone, kept steps or not, whatever was cut before, on any number of threads. One call at a time.
 #pragma once
