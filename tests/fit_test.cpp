@@ -1,11 +1,11 @@
-// The fit: on scores whose best weights are known, and by the program on a still life.
-#include "app/lab/fit.h"
+// The fit: on decisions whose best weights are known, and by the program on a still life.
+#include <doctest/doctest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
+#include "app/lab/decisions.h"
 #include "program_runner.h"
+#include "scene/counter_rng.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -13,85 +13,89 @@ using nlohmann::json;
 
 namespace {
 
-// Scene i wants the first weight at wanted[i]; the second should be 0.25 everywhere.
-struct Wishes {
-  std::vector<double> wanted = {1, 1, 1, 4};
-  float first = 2, second = 1;
-  int asked = 0;
-
-  std::vector<Weight> table() { return {{"first", &first, 0, 10}, {"second", &second, 0, 1}}; }
-  double score(std::size_t scene) {
-    ++asked;
-    const double off = std::log(first / wanted[scene]), other = second - 0.25;
-    return 1 - 0.1 * off * off - 0.1 * other * other;
-  }
-};
-
-const FitOptions kThorough{.rounds = 60, .least_step = 0.005f, .least_gain = 1e-9};
+// A candidate is worth the more the less it has of kRare, and nothing else matters; in scene `odd`, the more
+// it has.
+std::vector<Decision> rare_is_worse(std::size_t scenes, std::size_t odd) {
+  std::vector<Decision> all;
+  CounterRng random(5, 0);
+  for (std::size_t scene = 0; scene < scenes; ++scene)
+    for (int d = 0; d < 5; ++d) {
+      Decision decision{.scene = scene, .first = true, .meanings = {}};
+      for (int m = 0; m < 6; ++m) {
+        Meaning meaning;
+        const float rare = random.between(0, 1);
+        weight(&meaning.terms, Term::kRare) = rare;
+        weight(&meaning.terms, Term::kFrame) = random.between(0, 1);
+        meaning.iou = scene == odd ? rare : 1 - rare;
+        decision.meanings.push_back(meaning);
+      }
+      all.push_back(decision);
+    }
+  return all;
+}
 
 }  // namespace
 
-TEST_CASE("fit finds the best weights, leaves them as they were, and asks for each score once") {
-  Wishes wishes;
-  Fitter fitter(wishes.table(), 4, [&](std::size_t scene) { return wishes.score(scene); });
-  const std::vector<std::size_t> all = {0, 1, 2, 3};
-  const Fit fit = fitter.fit(all, kThorough);
-  CHECK(fit.values[0] == doctest::Approx(std::pow(4.0, 0.25)).epsilon(0.02));  // the mean of the logarithms
-  CHECK(fit.values[1] == doctest::Approx(0.25).epsilon(0.02));
-  CHECK(wishes.first == 2);
-  CHECK(wishes.second == 1);
-  CHECK(fit.score ==
-        doctest::Approx(std::accumulate(fit.scene_scores.begin(), fit.scene_scores.end(), 0.0) / 4));
-  CHECK(static_cast<std::size_t>(wishes.asked) == fitter.scored());
-  const int asked = wishes.asked;
-  CHECK(fitter.fit(all, kThorough).values == fit.values);  // the same seed
-  CHECK(wishes.asked == asked);
-  CHECK(fitter.fit(all, {.rounds = 0}).values == fitter.shipped());
+TEST_CASE("fit: weights follow what candidates are worth, terms that say nothing stay small") {
+  const std::vector<Decision> decisions = rare_is_worse(4, 4);
+  TermValues fitted = fitted_terms(decisions, true, std::vector<bool>(4, true));
+  CHECK(weight(&fitted, Term::kRare) > 3);
+  CHECK(std::abs(weight(&fitted, Term::kFrame)) < 0.3f * weight(&fitted, Term::kRare));
+  CHECK(weight(&fitted, Term::kOpposed) == 0);  // no candidate has it
+  CHECK(fitted_terms(decisions, false, std::vector<bool>(4, true)) ==
+        TermValues{});  // no correction is known
+  CHECK(fitted_terms(decisions, true, std::vector<bool>(4, true)) == fitted);
+  TermValues without = fitted_terms(decisions, true, std::vector<bool>(4, true), {.without = 1u << 2});
+  CHECK(weight(&without, Term::kRare) == 0);
 }
 
-TEST_CASE("fit: a scene that is like no other gains by being fitted to and loses by being left out") {
-  Wishes wishes;
-  Fitter fitter(wishes.table(), 4, [&](std::size_t scene) { return wishes.score(scene); });
-  const LeaveOneOut table = leave_one_out(&fitter, 4, kThorough);
-  REQUIRE(table.without.size() == 4);
-  CHECK(table.others[3].values[0] == doctest::Approx(1).epsilon(0.02));  // what the three others want
-  const double off = std::log(4.0);
-  CHECK(table.without[3] == doctest::Approx(1 - 0.1 * off * off).epsilon(0.01));
-  CHECK(table.with[3] > table.without[3]);
-  for (std::size_t i = 0; i < 3; ++i) CHECK(table.with[i] > table.shipped[i]);
-  Wishes one;
-  Fitter alone(one.table(), 1, [&](std::size_t scene) { return one.score(scene); });
-  CHECK(leave_one_out(&alone, 1, kThorough).without.empty());  // nothing is left to fit to
+TEST_CASE("fit: a scene counts by being in, not by how many decisions it has") {
+  std::vector<Decision> decisions = rare_is_worse(2, 1);
+  TermValues with = fitted_terms(decisions, true, {true, false});
+  CHECK(weight(&with, Term::kRare) > 3);
+  TermValues odd = fitted_terms(decisions, true, {false, true});
+  CHECK(weight(&odd, Term::kRare) < -3);
+  const TermValues both = fitted_terms(decisions, true, {true, true});
+  std::vector<Decision> twice = decisions;
+  for (const Decision& d : decisions)
+    if (d.scene == 1) twice.push_back(d);
+  const TermValues again = fitted_terms(twice, true, {true, true});
+  for (std::size_t t = 0; t < kTerms; ++t) CHECK(again[t] == doctest::Approx(both[t]).epsilon(0.1));
 }
 
 TEST_CASE("fit by the program: a row a scene, as shipped, fitted with it and without it, the same twice") {
   const Workplace place;
   REQUIRE(place.run("make-scene small -o made --gaussians 4000").code == 0);
-  json suite = json::parse(place.text("made/suite.json"));
-  json some = json::array();
-  for (json entry : suite["scenes"]) {
-    if (entry["name"] != "apple" && entry["name"] != "mug") continue;
-    const json view = entry["test_views"][0];
-    entry["test_views"] = json::array({view});
-    some.push_back(entry);
+  REQUIRE(place.run("make-scene other -o other --gaussians 4000 --seed 2").code == 0);
+  for (const std::string folder : {"made", "other"}) {
+    json suite = json::parse(place.text(folder + "/suite.json"));
+    json some = json::array();
+    for (json entry : suite["scenes"]) {
+      if (entry["name"] != "apple" && entry["name"] != "mug") continue;
+      const json view = entry["test_views"][0];
+      entry["test_views"] = json::array({view});
+      some.push_back(entry);
+    }
+    place.write(folder + "/some.json", json{{"scenes", some}}.dump());
   }
-  place.write("made/some.json", json{{"scenes", some}}.dump());
-  const std::string command =
-      " made/some.json --preset fast --robot-clicks 2 --starts 1 --rounds 2 --seed 7 -o ";
-  const Result result = place.run_program(SPLATCUT_LAB_PROGRAM, "fit" + command + "out");
+  const std::string command = "fit made/some.json other/some.json --robot-clicks 2 --starts 1 -o ";
+  const Result result = place.run_program(SPLATCUT_LAB_PROGRAM, command + "out");
   REQUIRE_MESSAGE(result.code == 0, result.err);
   const json fit = json::parse(place.text("out/fit.json"));
-  CHECK(fit["seed"] == 7);
-  REQUIRE(fit["scenes"].size() == 2);
-  double shipped = 0, with = 0;
-  for (const json& scene : fit["scenes"]) {
+  REQUIRE(fit["scenes"].size() == 4);
+  CHECK(fit["scenes"][0]["capture"] == fit["scenes"][1]["capture"]);  // left out together
+  CHECK(fit["scenes"][0]["capture"] != fit["scenes"][2]["capture"]);
+  for (const json& scene : fit["scenes"])
     for (const char* key : {"shipped", "fitted_with", "fitted_without"})
-      CHECK_MESSAGE(scene[key].is_number(), key);
-    shipped += scene["shipped"].get<double>();
-    with += scene["fitted_with"].get<double>();
-  }
-  CHECK(with >= shipped);
-  CHECK(fit["fitted"]["smoothness"].is_number());
-  REQUIRE(place.run_program(SPLATCUT_LAB_PROGRAM, "fit" + command + "again --threads 1").code == 0);
+      CHECK_MESSAGE(scene[key].size() == 2, key);
+  CHECK(fit["scenes"][0]["weights_without"] == fit["scenes"][1]["weights_without"]);
+  REQUIRE(place.run_program(SPLATCUT_LAB_PROGRAM, command + "again --threads 1").code == 0);
   CHECK(place.text("again/fit.json") == place.text("out/fit.json"));
+  // The model it writes is one to start from.
+  const Result more =
+      place.run_program(SPLATCUT_LAB_PROGRAM, command + "more --of later --model out/model.json");
+  CHECK_MESSAGE(more.code == 0, more.err);
+  const Result wrong = place.run_program(SPLATCUT_LAB_PROGRAM, command + "wrong --without colour");
+  CHECK(wrong.code == 1);
+  CHECK(wrong.err.find("colour") != std::string::npos);
 }

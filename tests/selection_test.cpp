@@ -51,10 +51,11 @@ LeafView stripes(const PartHierarchy& parts, const std::vector<int>& leaf_of_col
 // A model that looks at borders alone.
 SelectionModel borders_alone() {
   SelectionModel model;
-  model.cut_weight = 1;
-  model.jump_weight = model.first_frame_weight = model.frame_weight = model.small_weight =
-      model.large_weight = 0;
-  model.first_centre_weight = model.centre_weight = 0;
+  const float opposed = weight(&model.later, Term::kOpposed), disc = weight(&model.later, Term::kDisc);
+  model.first = model.later = {};
+  weight(&model.first, Term::kCut) = weight(&model.later, Term::kCut) = 1;
+  weight(&model.later, Term::kOpposed) = opposed;
+  weight(&model.later, Term::kDisc) = disc;
   return model;
 }
 
@@ -120,7 +121,7 @@ TEST_CASE("selection: a rest click after the whole was taken asks for another pa
 
 TEST_CASE("selection: a click is obeyed though no part is likely, by its disc alone") {
   SelectionModel nothing_likely = borders_alone();
-  nothing_likely.disc_cost = -100;
+  weight(&nothing_likely.later, Term::kDisc) = -100;
   const Labels labels = selected({object(5), object(25)}, 0, nothing_likely);
   CHECK(labels == Labels{1, 1, 1, 0});
 }
@@ -129,7 +130,7 @@ TEST_CASE("selection: a scribble decides all that is under it") {
   const PartHierarchy parts = four_leaves();
   const LeafView view = stripes(parts);
   SelectionModel nothing_likely = borders_alone();
-  nothing_likely.disc_cost = -100;
+  weight(&nothing_likely.later, Term::kDisc) = -100;
   ClickSelection selection(parts, nothing_likely);
   selection.apply(view, object(5));
   selection.apply(view, {.label = SeedLabel::kObject, .radius_px = 1, .points_px = {{23, 5}, {36, 5}}});

@@ -1,5 +1,8 @@
 #include "segment/part_model.h"
 
+#include <algorithm>
+#include <initializer_list>
+#include <iterator>
 #include <type_traits>
 #include <vector>
 
@@ -20,8 +23,30 @@ PartWeight weight(std::string name, bool prepared, Field field) {
   weight(                              \
       #name, prepared, [](auto& m) -> auto& { return m.member; })
 
+struct TermWeight {
+  Term term;
+  float weight;
+};
+
+// The rest is 0.
+TermValues weights(std::initializer_list<TermWeight> given) {
+  TermValues all{};
+  for (const TermWeight& w : given) all[static_cast<std::size_t>(w.term)] = w.weight;
+  return all;
+}
+
+std::vector<PartWeight> term_weights(const std::string& of, TermValues SelectionModel::*values) {
+  std::vector<PartWeight> table;
+  for (std::size_t t = 0; t < kTerms; ++t)
+    table.push_back(
+        {"selection." + of + "." + term_names()[t], false,
+         [=](const PartModel& m) { return static_cast<double>((m.selection.*values)[t]); },
+         [=](PartModel* m, double value) { (m->selection.*values)[t] = static_cast<float>(value); }});
+  return table;
+}
+
 std::vector<PartWeight> make_table() {
-  return {
+  std::vector<PartWeight> table = {
       WEIGHT(surface.neighbours, parts.surface.neighbours, true),
       WEIGHT(surface.least_opacity, parts.surface.least_opacity, true),
       WEIGHT(surface.size_quantile, parts.surface.size_quantile, true),
@@ -57,34 +82,6 @@ std::vector<PartWeight> make_table() {
       WEIGHT(parts.jitter, parts.jitter, true),
       WEIGHT(parts.noise, parts.noise, true),
       WEIGHT(parts.votes, parts.votes, true),
-      WEIGHT(selection.cut_weight, selection.cut_weight, false),
-      WEIGHT(selection.jump_weight, selection.jump_weight, false),
-      WEIGHT(selection.first_stability_weight, selection.first_stability_weight, false),
-      WEIGHT(selection.stability_weight, selection.stability_weight, false),
-      WEIGHT(selection.first_frame_weight, selection.first_frame_weight, false),
-      WEIGHT(selection.frame_weight, selection.frame_weight, false),
-      WEIGHT(selection.first_shade_blind_cost, selection.first_shade_blind_cost, false),
-      WEIGHT(selection.shade_blind_cost, selection.shade_blind_cost, false),
-      WEIGHT(selection.first_centre_weight, selection.first_centre_weight, false),
-      WEIGHT(selection.first_centre_slack, selection.first_centre_slack, false),
-      WEIGHT(selection.small_weight, selection.small_weight, false),
-      WEIGHT(selection.small_share, selection.small_share, false),
-      WEIGHT(selection.large_weight, selection.large_weight, false),
-      WEIGHT(selection.large_share, selection.large_share, false),
-      WEIGHT(selection.centre_weight, selection.centre_weight, false),
-      WEIGHT(selection.centre_slack, selection.centre_slack, false),
-      WEIGHT(selection.scrap_weight, selection.scrap_weight, false),
-      WEIGHT(selection.scrap_folds, selection.scrap_folds, false),
-      WEIGHT(selection.fold_weight, selection.fold_weight, false),
-      WEIGHT(selection.fold_slack, selection.fold_slack, false),
-      WEIGHT(selection.giant_weight, selection.giant_weight, false),
-      WEIGHT(selection.giant_folds, selection.giant_folds, false),
-      WEIGHT(selection.border_px, selection.border_px, false),
-      WEIGHT(selection.border_folds, selection.border_folds, false),
-      WEIGHT(selection.opposed_cost, selection.opposed_cost, false),
-      WEIGHT(selection.disc_cost, selection.disc_cost, false),
-      WEIGHT(selection.back_weight, selection.back_weight, false),
-      WEIGHT(selection.repick_cost, selection.repick_cost, false),
       WEIGHT(selection.disc_share, selection.disc_share, false),
       WEIGHT(selection.disc_majority, selection.disc_majority, false),
       WEIGHT(selection.least_visible, selection.least_visible, false),
@@ -93,11 +90,42 @@ std::vector<PartWeight> make_table() {
       WEIGHT(of_mask.tolerance, of_mask.tolerance, false),
       WEIGHT(of_mask.least_visible, of_mask.least_visible, false),
   };
+  std::ranges::move(term_weights("first", &SelectionModel::first), std::back_inserter(table));
+  std::ranges::move(term_weights("later", &SelectionModel::later), std::back_inserter(table));
+  return table;
 }
 
 #undef WEIGHT
 
 }  // namespace
+
+SelectionModel::SelectionModel()
+    : first(weights({{Term::kRare, 6.2f},
+                     {Term::kFrame, 3.5f},
+                     {Term::kShadeBlind, -2.9f},
+                     {Term::kOffCentre, 3.9f},
+                     {Term::kNoEdge, 9.1f},
+                     {Term::kSmall, 2.7f}})),
+      later(weights({{Term::kCut, 0.1f},
+                     {Term::kJump, -0.1f},
+                     {Term::kRare, 3},
+                     {Term::kFrame, 1.9f},
+                     {Term::kShadeBlind, 0.5f},
+                     {Term::kOffCentre, 2},
+                     {Term::kScrap, 1.5f},
+                     {Term::kFold, 0.15f},
+                     {Term::kGiant, 3.25f},
+                     {Term::kBorder, 3.25f},
+                     {Term::kOpposed, 5},
+                     {Term::kBack, 1},
+                     {Term::kDisc, 4}})) {}
+
+std::span<const std::string> term_names() {
+  static const std::array<std::string, kTerms> names = {
+      "cut",   "jump", "rare",  "frame",  "shade_blind", "off_centre", "no_edge", "small", "large",
+      "scrap", "fold", "giant", "border", "growth",      "opposed",    "back",    "disc",  "repick"};
+  return names;
+}
 
 std::span<const PartWeight> part_weights() {
   static const std::vector<PartWeight> table = make_table();

@@ -1,15 +1,15 @@
 // The fitted model of parts: every weight of surface, superpoints, merging and picking that a search has set.
 //
-// Where the values come from: searches on the captures and compositions of docs/masks.md and on still lifes,
-// for the mean IoU of a robot's first clicks; figures on those scenes are not held out. Version 2: the costs
-// of a first click by gradient of the expected IoU of the chosen part, on photos.json, real.json and the
-// composed scenes (.80 fitted, .77 with each scene left out); those of corrections by hand on them. The
-// program of that search is not part of the project yet: it cannot be repeated. Nobody knows a value by
-// reason, so none is a setting: a person sees none of them, experiments give a whole model (see
+// Where the values come from: those of surface, superpoints and merging from searches on the captures and
+// compositions of docs/masks.md and on still lifes, for the mean IoU of a robot's first clicks. Version 3:
+// what a first click means is fitted by `splatcut-lab fit`, which docs/clicks.md shows with its
+// leave-one-capture-out column; what corrections mean is set by hand on the same scenes. Nobody knows a value
+// by reason, so none is a setting: a person sees none of them, experiments give a whole model (see
 // app/lab/part_model_file.h). Whoever changes a value raises kVersion and says here what was searched on
 // what.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -66,37 +66,46 @@ struct PartOptions {
   int votes = 10;             // neighbours that vote where a Gaussian outside of the core belongs
 };
 
-// What a click means: costs of its candidates, logarithms of folds unless said otherwise; see
-// selection/click_selection.h.
+// Terms of the cost of what a click can mean: see selection/candidates.h.
+enum class Term {
+  kCut,
+  kJump,
+  kRare,
+  kFrame,
+  kShadeBlind,
+  kOffCentre,
+  kNoEdge,
+  kSmall,  // this and the next: of first clicks alone
+  kLarge,
+  kScrap,  // this and the next: of corrections alone
+  kFold,
+  kGiant,
+  kBorder,
+  kGrowth,
+  kOpposed,
+  kBack,
+  kDisc,
+  kRepick
+};
+inline constexpr std::size_t kTerms = 18;
+using TermValues = std::array<float, kTerms>;  // by Term
+inline float& weight(TermValues* of, Term term) {
+  return (*of)[static_cast<std::size_t>(term)];
+}
+
+// As in the table of weights, by Term.
+std::span<const std::string> term_names();
+
+// What a click means.
 struct SelectionModel {
-  float cut_weight = 0.1f;
-  float jump_weight = 0.1f;
-  float first_stability_weight = 10, stability_weight = 3;
-  float first_frame_weight = 0.44f, frame_weight = 1.9f;
-  float first_shade_blind_cost = 0,
-        shade_blind_cost = 0.5f;  // of candidates from trees that count lightness less
-
-  float first_centre_weight = 1, first_centre_slack = 0.7f;
-  float small_weight = 2.9f, small_share = 0.01f;   // share of the picture's pixels below which it costs
-  float large_weight = 0.66f, large_share = 0.35f;  // and above which
-
-  float centre_weight = 2, centre_slack = 0.7f;
-  float scrap_weight = 1.5f, scrap_folds = -0.3f;   // ln(changed pixels / disc) below which it costs
-  float fold_weight = 0.15f, fold_slack = 1;        // above which it costs,
-  float giant_weight = 3.25f, giant_folds = 3.25f;  // and costs more
-  float border_px = 2,
-        border_folds = 1;  // the latter in place of giant_folds for clicks nearer to the border
-  float opposed_cost = 5;  // per click of the other sign
-  float disc_cost = 4;     // of changing the disc alone
-  float back_weight = 1;   // times the IoU with what a click of the other sign has changed
-  float repick_cost = 0;   // of another part for the first click, see below
-
+  TermValues first, later;       // weights of the terms, of first clicks and of corrections
   float disc_share = 0.7f;       // of the distance to the displayed border that is certain
   float disc_majority = 0.5f;    // of a leaf's or Gaussian's pixels that must lie in the disc
   float least_visible = 0.3f;    // share of a leaf that the view must show for the disc to decide it
   float nearer_majority = 0.7f;  // of trees, for a leaf to follow a correction
   float doubt = 0.25f;           // how much likelier the first click's part must be to count as clear
 
+  SelectionModel();
   bool operator==(const SelectionModel&) const = default;
 };
 
@@ -107,7 +116,7 @@ struct MaskToPartsOptions {
 };
 
 struct PartModel {
-  static constexpr int kVersion = 2;
+  static constexpr int kVersion = 3;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;

@@ -1,18 +1,19 @@
-// splatcut-lab fit: weights of the window's cut from scenes with truth, and what they are worth on a scene
-// left out.
+// splatcut-lab fit: the weights of what a click means from scenes with truth, and what they are worth on a
+// capture left out.
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <functional>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "app/console.h"
-#include "app/lab/any_view.h"
+#include "app/lab/decisions.h"
 #include "app/lab/eval_suite.h"
-#include "app/lab/fit.h"
 #include "app/lab/lab_commands.h"
+#include "app/lab/part_model_file.h"
 #include "app/output_folder.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
@@ -23,139 +24,220 @@ namespace {
 
 struct FitArguments {
   std::vector<std::filesystem::path> suites;
-  std::filesystem::path output;
-  std::string preset = "default";
-  std::vector<std::string> only;
-  int clicks = 5, starts = 2;
-  FitOptions options;
+  std::filesystem::path output, model;
+  std::vector<std::string> only, without;
+  std::string of = "first";
+  int clicks = 5;
+  PartsSceneOptions scenes;
+  TermFitOptions fit;
   bool overwrite = false;
 };
 
-// What the window's cut takes as numbers today.
-struct CutWeights {
-  float smoothness = 0;
-
-  std::vector<Weight> table() { return {{"smoothness", &smoothness, 0, 500}}; }
+// All scenes, as the robot needs them.
+struct Bank {
+  std::vector<std::unique_ptr<PartsScene>> scenes;
+  std::vector<std::size_t> capture;  // per scene: left out together
+  std::size_t captures = 0;
 };
 
-// A scene with its sessions' starts, ready to be cut again and again.
-struct FittedScene {
-  std::unique_ptr<LoadedCase> loaded;
-  std::unique_ptr<KeptViews> kept;
-  std::shared_ptr<WindowCut> cut;
-  AnyViewWorld world;
-  std::vector<AnyViewStart> starts;
-
-  FittedScene(std::unique_ptr<LoadedCase> scene, const FitArguments& args, const Job& job)
-      : loaded(std::move(scene)), kept(std::make_unique<KeptViews>(*loaded->test.cloud)) {
-    EvaluationCase& test = loaded->test;
-    test.kept_views = kept.get();
-    cut = std::make_shared<WindowCut>(test, args.preset, job);
-    world = window_world(test, truth_views(test), cut);
-    starts = any_view_starts(test, world.views);
-    if (std::ssize(starts) > args.starts) starts.resize(static_cast<std::size_t>(args.starts));
-  }
-
-  // Mean over the starts and over 1, 2, ... clicks of the image IoU.
-  double score(const CutWeights& weights, int clicks, const Job& job) const {
-    cut->set_smoothness(weights.smoothness);
-    double sum = 0;
-    for (const AnyViewStart& start : starts) {
-      const std::vector<double> iou = any_view_session(world, start, clicks, 0, job).iou_after;
-      sum += std::accumulate(iou.begin(), iou.end(), 0.0) / clicks;
-    }
-    return sum / static_cast<double>(starts.size());
-  }
+struct Play {
+  std::size_t scene, start;
 };
+
+using Curve = std::vector<double>;  // mean IoU after 1, 2, ... clicks
 
 void stop_if_fit_cancelled(const Job& job) {
   if (job.cancelled()) throw Error("splatcut-lab fit", "cancelled, nothing was written");
 }
 
-std::vector<FittedScene> load_all(const FitArguments& args, const CommonOptions& common, const Job& job) {
-  PrepareOptions prepare = prepare_options(preset(args.preset));
-  prepare.cache = prepared_cache(common);
-  std::vector<FittedScene> scenes;
+Bank load_bank(const FitArguments& args, const PrepareOptions& prepare, const Job& job) {
+  Bank bank;
+  std::map<std::filesystem::path, std::size_t> captures;
   for (const std::filesystem::path& suite : args.suites)
     for (const nlohmann::json& entry : read_suite(suite)) {
       if (!args.only.empty() && std::ranges::find(args.only, entry.value("name", "")) == args.only.end())
         continue;
-      auto loaded = load_case(entry, suite.parent_path(), prepare, job);
+      const auto loaded = load_case(entry, suite.parent_path(), prepare, job);
       stop_if_fit_cancelled(job);
-      scenes.emplace_back(std::move(loaded), args, Job{job.stop, {}});
+      bank.scenes.push_back(std::make_unique<PartsScene>(
+          parts_scene(loaded->test, std::move(loaded->prepared.parts), args.scenes, Job{job.stop, {}})));
+      const std::filesystem::path file = suite.parent_path() / entry.at("scene").get<std::string>();
+      bank.capture.push_back(captures.try_emplace(file, captures.size()).first->second);
     }
-  if (scenes.empty()) throw Error("splatcut-lab fit", "no scene of the suites is left to fit to");
-  return scenes;
+  if (bank.scenes.empty()) throw Error("splatcut-lab fit", "no scene of the suites is left to fit to");
+  bank.captures = captures.size();
+  return bank;
 }
 
-nlohmann::json values_json(const std::vector<Weight>& weights, const WeightValues& values) {
-  nlohmann::json j;
-  for (std::size_t i = 0; i < weights.size(); ++i) j[weights[i].name] = values[i];
-  return j;
+std::vector<Play> plays_of(const Bank& bank) {
+  std::vector<Play> plays;
+  for (std::size_t i = 0; i < bank.scenes.size(); ++i)
+    for (std::size_t s = 0; s < bank.scenes[i]->starts.size(); ++s) plays.push_back({i, s});
+  return plays;
 }
 
-nlohmann::json result_json(const FitArguments& args, const std::vector<FittedScene>& scenes,
-                           const std::vector<Weight>& weights, const Fitter& fitter,
-                           const LeaveOneOut& table) {
+std::vector<Decision> all_decisions(const Bank& bank, const SelectionModel& model, int clicks,
+                                    const Job& job) {
+  const std::vector<Play> plays = plays_of(bank);
+  std::vector<std::vector<Decision>> of_play(plays.size());
+  tbb::parallel_for(std::size_t{0}, plays.size(), [&](std::size_t p) {
+    if (job.cancelled()) return;
+    const PartsScene& scene = *bank.scenes[plays[p].scene];
+    of_play[p] = decisions_of(scene, model, scene.starts[plays[p].start], clicks);
+    for (Decision& d : of_play[p]) d.scene = plays[p].scene;
+  });
+  std::vector<Decision> all;
+  for (auto& some : of_play) std::ranges::move(some, std::back_inserter(all));
+  return all;
+}
+
+// Every scene's curve, each scene with the model given for it.
+std::vector<Curve> curves(const Bank& bank, const std::vector<SelectionModel>& model_of_scene, int clicks,
+                          const Job& job) {
+  const std::vector<Play> plays = plays_of(bank);
+  std::vector<Curve> of_play(plays.size());
+  tbb::parallel_for(std::size_t{0}, plays.size(), [&](std::size_t p) {
+    if (job.cancelled()) return;
+    const PartsScene& scene = *bank.scenes[plays[p].scene];
+    const AnyViewWorld world = parts_world(scene, model_of_scene[plays[p].scene]);
+    of_play[p] = any_view_session(world, scene.starts[plays[p].start], clicks, 0, job).iou_after;
+  });
+  stop_if_fit_cancelled(job);
+  std::vector<Curve> mean(bank.scenes.size(), Curve(static_cast<std::size_t>(clicks), 0));
+  for (std::size_t p = 0; p < plays.size(); ++p)
+    for (std::size_t c = 0; c < of_play[p].size(); ++c)
+      mean[plays[p].scene][c] +=
+          of_play[p][c] / static_cast<double>(bank.scenes[plays[p].scene]->starts.size());
+  return mean;
+}
+
+struct FitTable {
+  SelectionModel shipped, fitted;
+  std::vector<SelectionModel> without;                  // per scene: fitted without its capture
+  std::vector<Curve> as_shipped, with, without_curves;  // per scene
+};
+
+FitTable fit_table(const Bank& bank, const FitArguments& args, const SelectionModel& shipped,
+                   const Job& job) {
+  const bool first = args.of == "first";
+  job.progress("sessions as shipped", 0.1);
+  const std::vector<Decision> decisions = all_decisions(bank, shipped, first ? 1 : args.clicks, job);
+  stop_if_fit_cancelled(job);
+  const auto fitted = [&](const std::vector<bool>& in_scene) {
+    SelectionModel model = shipped;
+    (first ? model.first : model.later) = fitted_terms(decisions, first, in_scene, args.fit);
+    return model;
+  };
+  FitTable table{.shipped = shipped,
+                 .fitted = fitted(std::vector<bool>(bank.scenes.size(), true)),
+                 .without = std::vector<SelectionModel>(bank.scenes.size(), shipped),
+                 .as_shipped = {},
+                 .with = {},
+                 .without_curves = {}};
+  job.progress("fits without each capture", 0.5);
+  tbb::parallel_for(std::size_t{0}, bank.captures, [&](std::size_t left_out) {
+    if (job.cancelled() || bank.captures == 1) return;
+    std::vector<bool> others;
+    for (const std::size_t capture : bank.capture) others.push_back(capture != left_out);
+    const SelectionModel model = fitted(others);
+    for (std::size_t i = 0; i < others.size(); ++i)
+      if (!others[i]) table.without[i] = model;
+  });
+  job.progress("sessions with the fits", 0.6);
+  const auto same = [&](const SelectionModel& model) {
+    return std::vector<SelectionModel>(bank.scenes.size(), model);
+  };
+  table.as_shipped = curves(bank, same(shipped), args.clicks, job);
+  table.with = curves(bank, same(table.fitted), args.clicks, job);
+  if (bank.captures > 1) table.without_curves = curves(bank, table.without, args.clicks, job);
+  return table;
+}
+
+Curve mean_curve(const std::vector<Curve>& curves) {
+  Curve mean(curves.empty() ? 0 : curves.front().size(), 0);
+  for (const Curve& curve : curves)
+    for (std::size_t c = 0; c < mean.size(); ++c) mean[c] += curve[c] / static_cast<double>(curves.size());
+  return mean;
+}
+
+std::string cells(const Curve& curve) {
+  std::string row;
+  for (const std::size_t clicks : {1, 2, 3, 5, 10})
+    if (clicks <= curve.size()) row += fmt::format(" {:.3f}", curve[clicks - 1]);
+  return row.empty() ? " -" : row;
+}
+
+void print_table(const Bank& bank, const FitTable& table) {
+  fmt::print(
+      "IoU after 1, 2, 3, 5, 10 clicks: as shipped | fitted with the scene | fitted without its capture\n");
+  const auto row = [](const std::string& name, const Curve& a, const Curve& b, const Curve& c) {
+    fmt::print("{:<16}{} |{} |{}\n", name, cells(a), cells(b), cells(c));
+  };
+  for (std::size_t i = 0; i < bank.scenes.size(); ++i)
+    row(bank.scenes[i]->name, table.as_shipped[i], table.with[i],
+        table.without_curves.empty() ? Curve{} : table.without_curves[i]);
+  row("mean", mean_curve(table.as_shipped), mean_curve(table.with), mean_curve(table.without_curves));
+  PartModel shipped, fitted;
+  shipped.selection = table.shipped;
+  fitted.selection = table.fitted;
+  for (const PartWeight& weight : part_weights())
+    if (weight.get(shipped) != weight.get(fitted))
+      fmt::print("{}: {:g} as shipped, {:g} fitted\n", weight.name, weight.get(shipped), weight.get(fitted));
+}
+
+nlohmann::json table_json(const Bank& bank, const FitArguments& args, const FitTable& table) {
+  const auto weights = [](const SelectionModel& selection) {
+    PartModel model;
+    model.selection = selection;
+    return part_model_json(model).at("weights");
+  };
   nlohmann::json rows = nlohmann::json::array();
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    nlohmann::json row = {
-        {"name", scenes[i].loaded->test.name}, {"shipped", table.shipped[i]}, {"fitted_with", table.with[i]}};
-    row["fitted_without"] =
-        table.without.empty() ? nlohmann::json(nullptr) : nlohmann::json(table.without[i]);
-    if (!table.others.empty()) row["values_without"] = values_json(weights, table.others[i].values);
+  for (std::size_t i = 0; i < bank.scenes.size(); ++i) {
+    nlohmann::json row = {{"name", bank.scenes[i]->name},
+                          {"capture", bank.capture[i]},
+                          {"starts", bank.scenes[i]->starts.size()},
+                          {"shipped", table.as_shipped[i]},
+                          {"fitted_with", table.with[i]},
+                          {"fitted_without", nullptr}};
+    if (!table.without_curves.empty()) {
+      row["fitted_without"] = table.without_curves[i];
+      row["weights_without"] = weights(table.without[i]);
+    }
     rows.push_back(std::move(row));
   }
-  return {{"preset", args.preset},
-          {"seed", args.options.seed},
-          {"clicks", args.clicks},
-          {"starts", args.starts},
-          {"rounds", args.options.rounds},
-          {"scored", fitter.scored()},
-          {"shipped", values_json(weights, fitter.shipped())},
-          {"fitted", values_json(weights, table.all.values)},
+  return {{"of", args.of},           {"clicks", args.clicks},
+          {"steps", args.fit.steps}, {"shrink", args.fit.shrink},
+          {"without", args.without}, {"weights", weights(table.fitted)},
           {"scenes", rows}};
 }
 
-double mean_of(const std::vector<double>& values) {
-  return values.empty()
-             ? 0
-             : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+std::uint32_t bits_of(const FitArguments& args) {
+  std::uint32_t bits = 0;
+  for (const std::string& name : args.without) {
+    const auto known = std::ranges::find(term_names(), name);
+    if (known == term_names().end()) throw Error(name, "is no term of a click's cost");
+    bits |= 1u << (known - term_names().begin());
+  }
+  return bits;
 }
 
-void print_table(const std::vector<FittedScene>& scenes, const std::vector<Weight>& weights,
-                 const Fitter& fitter, const LeaveOneOut& table) {
-  fmt::print("{:<16} {:>8} {:>12} {:>15}\n", "scene", "shipped", "fitted with", "fitted without");
-  const auto row = [&](const std::string& name, double shipped, double with, const std::string& without) {
-    fmt::print("{:<16} {:>8.3f} {:>12.3f} {:>15}\n", name, shipped, with, without);
-  };
-  for (std::size_t i = 0; i < scenes.size(); ++i)
-    row(scenes[i].loaded->test.name, table.shipped[i], table.with[i],
-        table.without.empty() ? "-" : fmt::format("{:.3f}", table.without[i]));
-  row("mean", mean_of(table.shipped), mean_of(table.with),
-      table.without.empty() ? "-" : fmt::format("{:.3f}", mean_of(table.without)));
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    fmt::print("{}: {:g} as shipped, {:g} fitted\n", weights[i].name, fitter.shipped()[i],
-               table.all.values[i]);
-}
-
-void run_fit(const FitArguments& args, const CommonOptions& common) {
+void run_fit(FitArguments args, const CommonOptions& common) {
   const Job job = console_job(common.quiet);
   OutputFolder folder(args.output, args.overwrite);
-  const std::vector<FittedScene> scenes = load_all(args, common, job);
-  CutWeights weights{preset(args.preset).cut.energy.lambda};
-  std::size_t scored = 0;
-  Fitter fitter(weights.table(), scenes.size(), [&](std::size_t scene) {
-    job.progress(fmt::format("score {}", ++scored), 0);
-    return scenes[scene].score(weights, args.clicks, Job{job.stop, {}});
-  });
-  const LeaveOneOut table = leave_one_out(&fitter, scenes.size(), args.options, job);
-  stop_if_fit_cancelled(job);
-  write_text_file(folder.file("fit.json"),
-                  result_json(args, scenes, weights.table(), fitter, table).dump(1) + "\n");
+  args.fit.without = bits_of(args);
+  PartModel model;
+  if (!args.model.empty()) model = load_part_model(args.model);
+  PrepareOptions prepare;
+  prepare.model = model;
+  prepare.cache = prepared_cache(common);
+  const Bank bank = load_bank(args, prepare, job);
+  const FitTable table = fit_table(bank, args, model.selection, job);
+  model.selection = table.fitted;
+  write_text_file(folder.file("fit.json"), table_json(bank, args, table).dump(1) + "\n");
+  write_text_file(folder.file("model.json"), part_model_json(model).dump(1) + "\n");
   folder.commit();
   end_progress();
-  print_table(scenes, weights.table(), fitter, table);
+  print_table(bank, table);
 }
 
 }  // namespace
@@ -163,21 +245,26 @@ void run_fit(const FitArguments& args, const CommonOptions& common) {
 void add_fit_command(CLI::App& program, const CommonOptions& common) {
   auto args = std::make_shared<FitArguments>();
   CLI::App& command = *program.add_subcommand(
-      "fit", "Fit the weights of the cut to scenes with truth, and score each scene without it");
+      "fit", "Fit what clicks mean to scenes with truth, and score each scene without its capture");
   command.footer(
-      "Score of a scene: mean image IoU over all views with truth, over its starts and over 1, 2, ... clicks "
-      "of the "
-      "any-view robot.\nAll scenes stay in memory.");
+      "Plays the any-view robot on the parts alone, without the cut, and notes what each candidate of each "
+      "click would have been worth.\nWrites fit.json (a row a scene: as shipped, fitted, fitted without its "
+      "capture) and model.json (all weights).\nAll scenes stay in memory.");
   command.add_option("suites", args->suites, "suite.json files")->required()->check(CLI::ExistingFile);
-  command.add_option("-o,--output", args->output, "Folder for fit.json")->required();
-  command.add_option("--preset", args->preset, "fast, default, best, paper or paper-code");
+  command.add_option("-o,--output", args->output, "Folder for fit.json and model.json")->required();
+  command.add_option("--of", args->of, "first: what a first click means; later: what corrections mean")
+      ->check(CLI::IsMember({"first", "later"}));
+  command.add_option("--without", args->without,
+                     "Terms whose weight stays 0, as " + fmt::format("{}", fmt::join(term_names(), " ")));
+  command.add_option("--model", args->model, "Start from this model.json")->check(CLI::ExistingFile);
   command.add_option("--only", args->only, "Scenes of the suites, by name");
   command.add_option("--robot-clicks", args->clicks, "Clicks a session")->check(CLI::Range(1, 50));
-  command.add_option("--starts", args->starts, "The first so many starts of each scene")
+  command.add_option("--starts", args->scenes.most_starts, "The first so many starts of each scene")
       ->check(CLI::Range(1, 1000));
-  command.add_option("--rounds", args->options.rounds, "Most rounds of the search")
-      ->check(CLI::Range(0, 1000));
-  command.add_option("--seed", args->options.seed, "Draws the order in which weights are tried");
+  command.add_option("--views", args->scenes.most_views, "At most so many views with truth of each scene")
+      ->check(CLI::Range(1, 1000));
+  command.add_option("--shrink", args->fit.shrink, "How much small weights are preferred")
+      ->check(CLI::NonNegativeNumber);
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
   command.callback([args, &common] { run_fit(*args, common); });
 }

@@ -5,35 +5,23 @@
 // A click says two things. Certain: what is displayed around it is on the wrong side now. Within a disc of
 // disc_share times the distance to the displayed border, Gaussians that show mostly there take the said label
 // and keep it until a later disc of the other sign covers them; so do leaves that lie mostly in the disc.
-// Probable: one of the clicked leaf's ancestors in any tree is meant. A candidate's cost is the sum of:
-//
-// - look: cut_weight ln(border / size), less jump_weight times how much dearer the next merge is.
-//
-// - stability: -ln of the mean IoU with the other trees' likest ancestors.
-//
-// - frame: pixels at the picture's frame over the square root of all.
-//
-// - centre: -ln of the click's distance to the border of what would change, over the largest such distance.
-//   People click in the middle of what they mean.
-//
-// - size: the first click's share of the picture; of later ones, folds of the disc to the displayed border.
-//
-// - opposed: clicks of the other sign that it holds, and the IoU with what a click of that sign has changed.
-//
-// After one object click, a click on the rest may also say that another part of that click was meant: the
-// likeliest that holds none of the clicks on the rest. A leaf follows a correction only where, in most trees,
-// it meets no click of the other sign below its common ancestor with this click. Where no candidate is likely
-// the disc alone changes. Cost: some 10 ms a click once its view is known. The result depends on the strokes
-// in their order alone.
+// Probable: one of the clicked leaf's ancestors in any tree is meant, the one of the least cost; see
+// candidates.h. A leaf follows a correction only where, in most trees, it meets no click of the other sign
+// below its common ancestor with this click. After one object click, a click on the rest may also say that
+// another part of that click was meant: the likeliest that holds none of the clicks on the rest. Where no
+// candidate is likely the disc alone changes. Cost: some 10 ms a click once its view is known. The result
+// depends on the strokes in their order alone.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "segment/part_model.h"
 #include "segment/seeds.h"
+#include "segment/selection/candidates.h"
 #include "segment/selection/leaf_view.h"
 
 namespace splatcut {
@@ -47,6 +35,12 @@ class ClickSelection {
   // before there is an object.
   bool apply(const LeafView& view, const Stroke& stroke);
 
+  // What a click here could mean. Nothing: the scene is not hit, or shows what is said already.
+  std::optional<Answers> considered(const LeafView& view, const glm::vec2& pixel, bool object,
+                                    const AnswerOptions& options = {}) const;
+  void set_model(const SelectionModel& model) { model_ = model; }  // for the clicks to come
+  const SelectedParts& selected() const { return selected_; }
+
   const std::vector<std::uint8_t>& labels() const { return labels_; }  // per Gaussian
   const std::vector<std::int8_t>& said() const { return said_; }       // per Gaussian: +1, -1, 0 = by no disc
 
@@ -57,24 +51,14 @@ class ClickSelection {
   bool ambiguous() const { return ambiguous_; }
 
  private:
-  struct Click;
-  struct Chain;
-  struct Candidate;
-  struct FirstPick;
-
+  struct Asked;
+  Asked asked(const LeafView& view, const glm::vec2& pixel, bool object) const;
   bool take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
   void confirm(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
-  std::vector<std::uint8_t> certain_leaves(const Click& click) const;
-  std::vector<Chain> chains(const Click& click) const;
-  std::vector<std::uint8_t> nearer_leaves(const std::vector<Chain>& chains) const;
-  void measure_stability(const Click& click, std::vector<Chain>* chains) const;
-  std::vector<Candidate> scored(const Click& click, const std::vector<Chain>& chains) const;
-  Candidate best_of(const Click& click, const std::vector<Chain>& chains,
-                    std::vector<Candidate>* candidates) const;
-  void add_change_costs(const Click& click, const std::vector<Chain>& chains,
-                        std::vector<Candidate>* candidates) const;
-  bool add_repick(const Click& click, std::vector<Chain>* chains, std::vector<Candidate>* candidates) const;
+  std::vector<std::uint8_t> certain_leaves(const LeafView& view, std::span<const std::uint32_t> disc) const;
   void note_first(const std::vector<Chain>& chains, std::span<const Candidate> candidates, Candidate* best);
+  void change_leaves(const Answers& answers, const Candidate& best, const std::vector<std::uint8_t>& certain,
+                     const Click& click);
   void pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object);
   void insist(const LeafView& view, std::size_t pixel, bool object);
   void label();
@@ -82,15 +66,7 @@ class ClickSelection {
   const PartHierarchy& parts_;
   SelectionModel model_;
   int part_step_;
-  std::vector<std::uint8_t> leaf_object_;  // per leaf
-  std::vector<std::int8_t> leaf_said_;     // per leaf: decided by a disc
-  std::vector<std::uint32_t> clicked_[2];  // leaves clicked, by sign
-  struct Change {
-    std::vector<std::uint32_t> leaves;
-    bool object;
-  };
-  std::vector<Change> changes_;             // what each click has changed
-  std::shared_ptr<const FirstPick> first_;  // what the first click could mean
+  SelectedParts selected_;
   std::vector<std::uint8_t> labels_;
   std::vector<std::int8_t> said_;
   bool any_ = false;

@@ -63,14 +63,17 @@ void count_leaves(const PartHierarchy& parts, LeafView* of) {
 }  // namespace
 
 LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera, const Job& job) {
-  LeafView view{.camera = camera, .gaussians = {}, .leaves = {}, .leaf_px = {}, .leaf_frame_px = {}};
+  LeafView view{
+      .camera = camera, .gaussians = {}, .leaves = {}, .depth = {}, .leaf_px = {}, .leaf_frame_px = {}};
   std::vector<std::uint32_t> each(drawer.cloud().size());
   for (std::uint32_t g = 0; g < each.size(); ++g) each[g] = g;
   RasterOptions raster;
   raster.colour = false;
+  raster.depth = true;
   raster.groups = each;
   raster.least_group_weight = kLeastGaussianWeight;
   RasterOutput drawn = drawer.draw(camera, raster, job);
+  view.depth = std::move(drawn.expected_depth);
   view.gaussians = flat(drawn.groups);
   sum_by_leaf(parts, &drawn.groups);
   view.leaves = flat(drawn.groups);
@@ -83,14 +86,19 @@ LeafView leaf_view_of_hits(const PartHierarchy& parts, const Camera& camera,
   LeafView view{.camera = limited_to_width(camera, max_width_px),
                 .gaussians = {},
                 .leaves = {},
+                .depth = {},
                 .leaf_px = {},
                 .leaf_frame_px = {}};
   const int width = view.camera.width_px, height = view.camera.height_px;
   Image<std::vector<GroupWeight>> lists(width, height);
+  view.depth = Image<float>(width, height, 0.0f);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const int hit = first_hit.at(x * first_hit.width() / width, y * first_hit.height() / height);
-      if (hit >= 0) lists.at(x, y) = {{static_cast<std::uint32_t>(hit), 1}};
+      if (hit < 0) continue;
+      lists.at(x, y) = {{static_cast<std::uint32_t>(hit), 1}};
+      const std::uint32_t leaf = parts.leaf_of[static_cast<std::size_t>(hit)];
+      if (leaf != kNoPart) view.depth.at(x, y) = camera.camera_from_world(parts.leaf_centre_world[leaf]).z;
     }
   view.gaussians = flat(lists);
   sum_by_leaf(parts, &lists);

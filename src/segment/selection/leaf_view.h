@@ -28,6 +28,7 @@ struct PixelWeights {
 struct LeafView {
   Camera camera;
   PixelWeights gaussians, leaves;
+  Image<float> depth;                // of what is seen, in its mean; 0 where nothing is
   std::vector<float> leaf_px;        // per leaf: sum of its weights, pixels
   std::vector<float> leaf_frame_px;  // the same at the picture's frame
 };

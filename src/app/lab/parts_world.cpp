@@ -1,0 +1,98 @@
+#include "app/lab/parts_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "segment/mask_tools.h"
+#include "segment/selection/click_selection.h"
+
+namespace splatcut {
+
+namespace {
+
+const LeafView& view_of(const PartsScene& scene, const Camera& camera) {
+  return *std::ranges::find_if(scene.views, [&](const LeafView& v) { return same_camera(v.camera, camera); });
+}
+
+std::vector<TruthView> evenly(std::vector<TruthView> all, std::size_t most) {
+  if (all.size() <= most) return all;
+  std::vector<TruthView> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(std::move(all[i * all.size() / most]));
+  return some;
+}
+
+// The selection after the clicks of the last question, to go on from where it is continued.
+class Selections {
+ public:
+  Selections(const PartsScene& scene, const SelectionModel& model) : scene_(scene), model_(model) {}
+
+  const std::vector<std::uint8_t>& labels_after(std::span<const ViewClick> clicks) {
+    const bool continued = clicks.size() == applied_ + 1 && applied_ > 0;
+    if (!continued) {
+      selection_ = std::make_unique<ClickSelection>(scene_.parts, model_);
+      applied_ = 0;
+    }
+    for (; applied_ < clicks.size(); ++applied_)
+      selection_->apply(view_of(scene_, clicks[applied_].camera), clicks[applied_].stroke);
+    return selection_->labels();
+  }
+
+ private:
+  const PartsScene& scene_;
+  SelectionModel model_;
+  std::unique_ptr<ClickSelection> selection_;
+  std::size_t applied_ = 0;
+};
+
+}  // namespace
+
+PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const PartsSceneOptions& options,
+                       const Job& job) {
+  PartsScene made{.name = scene.name, .parts = std::move(parts), .views = {}, .truths = {}, .starts = {}};
+  const Drawer drawer(*scene.cloud);
+  const auto small = [&](const Camera& full, const Mask* truth) {
+    const Camera camera = limited_to_width(full, options.max_width_px);
+    if (!truth) return camera;
+    const double scale = static_cast<double>(camera.width_px) / full.width_px;
+    const double side = scale * std::sqrt(static_cast<double>(count(*truth)));
+    return side >= options.least_object_px
+               ? camera
+               : limited_to_width(
+                     full, static_cast<int>(std::ceil(camera.width_px * options.least_object_px / side)));
+  };
+  const std::vector<TruthView> truths = evenly(truth_views(scene), options.most_views);
+  for (const TruthView& full : truths) {
+    const Camera camera = small(full.camera, &full.truth);
+    made.views.push_back(leaf_view(drawer, made.parts, camera, job));
+    made.truths.push_back({camera, resized_mask(full.truth, camera.width_px, camera.height_px)});
+  }
+  for (AnyViewStart start : any_view_starts(scene, truths)) {
+    if (made.starts.size() == options.most_starts) break;
+    const auto known =
+        std::ranges::find_if(truths, [&](const TruthView& t) { return same_camera(t.camera, start.camera); });
+    const Camera camera = small(start.camera, known == truths.end() ? nullptr : &known->truth);
+    start.first =
+        scaled({start.first}, static_cast<float>(camera.width_px) / static_cast<float>(start.camera.width_px))
+            .front();
+    start.camera = camera;
+    if (std::ranges::none_of(made.views, [&](const LeafView& v) { return same_camera(v.camera, camera); }))
+      made.views.push_back(leaf_view(drawer, made.parts, camera, job));
+    made.starts.push_back(std::move(start));
+  }
+  return made;
+}
+
+AnyViewWorld parts_world(const PartsScene& scene, const SelectionModel& model) {
+  auto selections = std::make_shared<Selections>(scene, model);
+  return {scene.truths,
+          [selections](std::span<const ViewClick> clicks, const Job&) -> CutAnswer {
+            return {selections->labels_after(clicks), {}};
+          },
+          [&scene](const Camera& camera, const std::vector<std::uint8_t>& labels) {
+            const LeafView& view = view_of(scene, camera);
+            return shown(view.gaussians, view.camera, labels);
+          }};
+}
+
+}  // namespace splatcut

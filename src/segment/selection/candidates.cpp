@@ -1,0 +1,431 @@
+#include "segment/selection/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "segment/mask_tools.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+// Where costs begin; logarithms of folds unless they are shares.
+constexpr float kCentral = 0.7f, kSmallShare = 0.01f, kLargeShare = 0.35f;
+constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f;
+constexpr float kBorderPx = 2;
+constexpr float kDepthJump = 0.05f;  // of the logarithm of depth
+
+float& term(Candidate* candidate, Term which) {
+  return weight(&candidate->terms, which);
+}
+
+float at_least_0(float value) {
+  return std::max(0.0f, value);
+}
+
+// Sums over each node's leaves.
+std::vector<float> summed(const PartTree& tree, std::span<const float> of_leaves) {
+  std::vector<float> sum(tree.nodes(), 0);
+  std::ranges::copy(of_leaves, sum.begin());
+  for (std::size_t node = 0; node < tree.nodes(); ++node)  // children come before their parents
+    if (tree.parent[node] != kNoPart) sum[tree.parent[node]] += sum[node];
+  return sum;
+}
+
+std::vector<float> at_nodes(const std::vector<float>& all, std::span<const std::uint32_t> nodes) {
+  std::vector<float> some;
+  for (const std::uint32_t node : nodes) some.push_back(all[node]);
+  return some;
+}
+
+std::vector<std::uint32_t> levels(const PartTree& tree, std::size_t leaves,
+                                  std::span<const std::uint32_t> chain) {
+  std::vector<std::uint32_t> level(tree.nodes(), kNoLevel);
+  for (std::size_t i = 0; i < chain.size(); ++i) level[chain[i]] = static_cast<std::uint32_t>(i);
+  for (std::size_t node = tree.nodes(); node-- > 0;)  // parents before their children
+    if (level[node] == kNoLevel && tree.parent[node] != kNoPart) level[node] = level[tree.parent[node]];
+  level.resize(leaves);
+  return level;
+}
+
+float log_cut(const PartTree& tree, std::uint32_t node) {
+  constexpr float kLeast = -16;  // of a part that touches nothing
+  const float size = std::sqrt(std::max(tree.area[node], 1e-30f));
+  return std::max(std::log(std::max(tree.cut[node], 1e-30f) / size), kLeast);
+}
+
+float jump(const PartTree& tree, std::uint32_t node) {
+  const std::uint32_t up = tree.parent[node];
+  if (up == kNoPart) return 0;
+  const float folds = std::max(tree.merge_cost[up], 1e-6f) / std::max(tree.merge_cost[node], 0.1f);
+  return std::clamp(std::log(folds), 0.0f, 2.0f);
+}
+
+// The pixel's distance to the border over the largest of its connected region, in (0, 1].
+float centrality(const Mask& region, const glm::ivec2& at) {
+  const Image<float> distance = distance_inside(region);
+  const float own = std::max(distance.at(at.x, at.y), 1.0f);
+  float most = own;
+  std::vector<std::uint8_t> visited(region.size(), 0);
+  std::vector<glm::ivec2> open{at};
+  visited[static_cast<std::size_t>(at.y) * region.width() + at.x] = 1;
+  while (!open.empty()) {
+    const glm::ivec2 p = open.back();
+    open.pop_back();
+    most = std::max(most, distance.at(p.x, p.y));
+    for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+      const glm::ivec2 q = p + step;
+      if (!region.contains(q.x, q.y) || !region.at(q.x, q.y)) continue;
+      std::uint8_t& been = visited[static_cast<std::size_t>(q.y) * region.width() + q.x];
+      if (!been) open.push_back(q);
+      been = 1;
+    }
+  }
+  return own / most;
+}
+
+// What one click asks, and what is found on the way.
+class Asking {
+ public:
+  Asking(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
+         const SelectionModel& model)
+      : parts_(parts),
+        selected_(selected),
+        click_(click),
+        model_(model),
+        weights_(click.first ? model.first : model.later),
+        camera_(click.view.camera) {}
+
+  Answers take(const AnswerOptions& options) {
+    make_chains();
+    find_free();
+    measure_stability();
+    for (std::size_t c = 0; c < out_.chains.size(); ++c) add_candidates(c, options.least_growth);
+    if (!click_.first) {
+      add_back_terms();
+      add_repick();
+      add_disc();
+    }
+    sort();
+    measure_off_centre(options.all_terms);
+    return std::move(out_);
+  }
+
+ private:
+  bool wrong_side(std::uint32_t leaf) const { return (selected_.object[leaf] != 0) != click_.object; }
+  void make_chains();
+  void find_free();
+  void measure_stability();
+  void add_candidates(std::size_t chain, float least_growth);
+  std::vector<float> shares_without_edge(std::size_t chain);
+  void add_size_terms(const Chain& chain, Candidate* candidate) const;
+  float folds(float px) const {
+    return std::log(std::max(px, 1.0f) / (kPi * click_.radius_px * click_.radius_px));
+  }
+  void add_back_terms();
+  void add_repick();
+  void add_disc();
+  void measure_off_centre(bool all);
+  const Image<std::uint32_t>& level_image(std::size_t chain);
+  float cost(const Candidate& candidate) const;
+  void sort();
+
+  const PartHierarchy& parts_;
+  const SelectedParts& selected_;
+  const Click& click_;
+  const SelectionModel& model_;
+  const TermValues& weights_;
+  const Camera& camera_;
+  std::vector<float> wrong_px_;                       // per leaf: its pixels, where a part may take it along
+  std::vector<Image<std::uint32_t>> level_of_pixel_;  // per chain: from which index on it changes
+  Answers out_;
+};
+
+float Asking::cost(const Candidate& candidate) const {
+  float sum = 0;
+  for (std::size_t t = 0; t < kTerms; ++t) sum += weights_[t] * candidate.terms[t];
+  return sum;
+}
+
+void Asking::sort() {
+  for (Candidate& c : out_.candidates) c.cost = cost(c);
+  std::ranges::stable_sort(out_.candidates, {}, &Candidate::cost);
+}
+
+void Asking::make_chains() {
+  std::vector<float> opposed(parts_.leaves, 0);
+  for (const std::uint32_t leaf : selected_.clicked[!click_.object])
+    if (leaf != click_.leaf) opposed[leaf] += 1;
+  for (std::size_t t = 0; t < parts_.trees.size(); ++t) {
+    const PartTree& tree = parts_.trees[t];
+    Chain chain;
+    chain.shade_blind = t >= parts_.plain_trees;
+    for (std::uint32_t node = click_.leaf; node != kNoPart; node = tree.parent[node])
+      chain.nodes.push_back(node);
+    chain.view_px = at_nodes(summed(tree, click_.view.leaf_px), chain.nodes);
+    chain.frame_px = at_nodes(summed(tree, click_.view.leaf_frame_px), chain.nodes);
+    chain.opposed = at_nodes(summed(tree, opposed), chain.nodes);
+    chain.level = levels(tree, parts_.leaves, chain.nodes);
+    out_.chains.push_back(std::move(chain));
+  }
+}
+
+// A leaf follows where, in most trees, it meets no click of the other sign below its common ancestor with
+// this click.
+void Asking::find_free() {
+  std::vector<float> votes(parts_.leaves, 0);
+  for (const Chain& chain : out_.chains) {
+    const auto held =
+        std::ranges::find_if(chain.opposed, [](float n) { return n > 0; }) - chain.opposed.begin();
+    const auto reach = static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(held, 1));
+    for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf) votes[leaf] += chain.level[leaf] < reach;
+  }
+  const float enough = model_.nearer_majority * static_cast<float>(out_.chains.size());
+  out_.free.resize(parts_.leaves);
+  wrong_px_.assign(parts_.leaves, 0);
+  for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf) {
+    out_.free[leaf] = votes[leaf] >= enough;
+    if (out_.free[leaf] && wrong_side(leaf)) wrong_px_[leaf] = click_.view.leaf_px[leaf];
+  }
+}
+
+// IoU in pixels that would change, of every two candidates of every two trees of a kind by one histogram of
+// levels.
+void Asking::measure_stability() {
+  for (std::size_t t = 0; t < out_.chains.size(); ++t) {
+    Chain& chain = out_.chains[t];
+    chain.changed_px = at_nodes(summed(parts_.trees[t], wrong_px_), chain.nodes);
+    chain.stability.assign(chain.nodes.size(), 0);
+  }
+  for (Chain& a : out_.chains) {
+    std::size_t others = 0;
+    for (const Chain& b : out_.chains) {
+      if (&a == &b || a.shade_blind != b.shade_blind) continue;
+      ++others;
+      const std::size_t rows = a.nodes.size(), columns = b.nodes.size();
+      std::vector<float> both(rows * columns, 0);
+      for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf)
+        if (wrong_px_[leaf] > 0 && a.level[leaf] != kNoLevel && b.level[leaf] != kNoLevel)
+          both[a.level[leaf] * columns + b.level[leaf]] += wrong_px_[leaf];
+      for (std::size_t i = 0; i < rows; ++i) {
+        float row = 0, best = 0;
+        for (std::size_t j = 0; j < columns; ++j) {
+          row += both[i * columns + j];
+          both[i * columns + j] = row + (i ? both[(i - 1) * columns + j] : 0);
+          const float either = a.changed_px[i] + b.changed_px[j] - both[i * columns + j];
+          best = std::max(best, both[i * columns + j] / std::max(either, 1.0f));
+        }
+        a.stability[i] += best;
+      }
+    }
+    for (float& s : a.stability) s = others ? s / static_cast<float>(others) : 1;
+  }
+}
+
+const Image<std::uint32_t>& Asking::level_image(std::size_t c) {
+  level_of_pixel_.resize(out_.chains.size());
+  Image<std::uint32_t>& image = level_of_pixel_[c];
+  if (!image.empty()) return image;
+  const Chain& chain = out_.chains[c];
+  image = Image<std::uint32_t>(camera_.width_px, camera_.height_px, kNoLevel);
+  std::vector<std::pair<std::uint32_t, float>> list;
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    list.clear();
+    for (const GroupWeight& w : click_.view.leaves.at(i))
+      if ((wrong_px_[w.group] > 0 || !chain.of_tree) && chain.level[w.group] != kNoLevel)
+        list.emplace_back(chain.level[w.group], w.weight);
+    std::ranges::sort(list);
+    float sum = 0;
+    for (const auto& [level, share] : list)
+      if ((sum += share) >= 0.5f) {
+        image.pixels()[i] = level;
+        break;
+      }
+  }
+  return image;
+}
+
+// Per node of the chain: of its border in the picture, the share where the depth does not jump. A pair of
+// neighbours is border from the first one's level on to before the second one's; what shows the said side
+// already is no border.
+std::vector<float> Asking::shares_without_edge(std::size_t c) {
+  const Image<std::uint32_t>& level = level_image(c);
+  const Image<float>& depth = click_.view.depth;
+  const auto nodes = static_cast<std::uint32_t>(out_.chains[c].nodes.size());
+  std::vector<int> border(nodes + 1, 0), plain(nodes + 1, 0);
+  const auto pair = [&](int x, int y, int dx, int dy) {
+    const int x1 = x + dx, y1 = y + dy;
+    if (!level.contains(x1, y1)) return;
+    const std::uint32_t a = std::min(level.at(x, y), nodes), b = std::min(level.at(x1, y1), nodes);
+    if (a == b) return;
+    const bool first_inside = a < b;
+    const int ox = first_inside ? x1 : x, oy = first_inside ? y1 : y;
+    if (std::max(a, b) == nodes && (click_.displayed.at(ox, oy) != 0) == click_.object) return;
+    // One pixel further on both sides: the border itself blends.
+    const float before = depth.at(std::max(0, x - dx), std::max(0, y - dy)),
+                behind =
+                    depth.at(std::min(level.width() - 1, x1 + dx), std::min(level.height() - 1, y1 + dy));
+    const bool jumps =
+        (before > 0) != (behind > 0) || (before > 0 && std::abs(std::log(before / behind)) > kDepthJump);
+    ++border[std::min(a, b)];
+    --border[std::max(a, b)];
+    plain[std::min(a, b)] += !jumps;
+    plain[std::max(a, b)] -= !jumps;
+  };
+  for (int y = 0; y < level.height(); ++y)
+    for (int x = 0; x < level.width(); ++x) {
+      pair(x, y, 1, 0);
+      pair(x, y, 0, 1);
+    }
+  std::vector<float> share;
+  int borders = 0, plains = 0;
+  for (std::uint32_t i = 0; i < nodes; ++i) {
+    borders += border[i];
+    plains += plain[i];
+    share.push_back(borders > 0 ? static_cast<float>(plains) / static_cast<float>(borders) : 0);
+  }
+  return share;
+}
+
+void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
+  const float changed_px = chain.changed_px[candidate->index];
+  const auto width = static_cast<float>(camera_.width_px), height = static_cast<float>(camera_.height_px);
+  if (click_.first) {
+    const float share = std::max(chain.view_px[candidate->index], 1.0f) / (width * height);
+    term(candidate, Term::kSmall) = at_least_0(std::log(kSmallShare / share));
+    term(candidate, Term::kLarge) = at_least_0(std::log(share / kLargeShare));
+    return;
+  }
+  const float f = folds(changed_px);
+  term(candidate, Term::kScrap) = at_least_0(kScrapFolds - f);
+  term(candidate, Term::kFold) = at_least_0(f - kFoldSlack);
+  term(candidate, Term::kGiant) = at_least_0(f - kGiantFolds);
+  term(candidate, Term::kBorder) = click_.radius_px < kBorderPx ? at_least_0(f - kFoldSlack) : 0;
+  if (!selected_.changes.empty() && selected_.changes.back().share > 0)
+    term(candidate, Term::kGrowth) =
+        at_least_0(std::log(changed_px / (width * width) / selected_.changes.back().share));
+}
+
+void Asking::add_candidates(std::size_t c, float least_growth) {
+  const Chain& chain = out_.chains[c];
+  const PartTree& tree = parts_.trees[c];
+  const std::vector<float> no_edge = shares_without_edge(c);
+  float last_px = 0;
+  for (std::size_t i = 0; i < chain.nodes.size(); ++i) {
+    if (chain.changed_px[i] < std::max(kLeastChangePx, least_growth * last_px)) continue;
+    last_px = chain.changed_px[i];
+    Candidate candidate{.chain = c, .index = i};
+    term(&candidate, Term::kCut) = log_cut(tree, chain.nodes[i]);
+    term(&candidate, Term::kJump) = jump(tree, chain.nodes[i]);
+    term(&candidate, Term::kRare) = -std::log(std::max(chain.stability[i], 0.01f));
+    term(&candidate, Term::kFrame) = chain.frame_px[i] / std::sqrt(std::max(chain.view_px[i], 1.0f));
+    term(&candidate, Term::kShadeBlind) = chain.shade_blind;
+    term(&candidate, Term::kNoEdge) = no_edge[i];
+    term(&candidate, Term::kOpposed) = chain.opposed[i];
+    add_size_terms(chain, &candidate);
+    out_.candidates.push_back(candidate);
+  }
+}
+
+void Asking::add_back_terms() {
+  for (const Change& change : selected_.changes) {
+    if (change.object == click_.object) continue;
+    std::vector<std::vector<float>> both(out_.chains.size()), all(out_.chains.size());
+    for (std::size_t c = 0; c < out_.chains.size(); ++c) {
+      const Chain& chain = out_.chains[c];
+      both[c].assign(chain.nodes.size(), 0);
+      all[c].assign(chain.nodes.size(), 0);
+      for (const std::uint32_t leaf : change.leaves)
+        if (chain.level[leaf] != kNoLevel && wrong_side(leaf))
+          both[c][chain.level[leaf]] += parts_.leaf_area[leaf];
+      for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf)
+        if (chain.level[leaf] != kNoLevel && wrong_side(leaf))
+          all[c][chain.level[leaf]] += parts_.leaf_area[leaf];
+      for (std::size_t i = 1; i < all[c].size(); ++i) {
+        both[c][i] += both[c][i - 1];
+        all[c][i] += all[c][i - 1];
+      }
+    }
+    float change_area = 0;
+    for (const std::uint32_t leaf : change.leaves) change_area += parts_.leaf_area[leaf];
+    for (Candidate& c : out_.candidates) {
+      const float common = both[c.chain][c.index], either = all[c.chain][c.index] + change_area - common;
+      float& back = term(&c, Term::kBack);
+      back = std::max(back, common / std::max(either, 1e-30f));
+    }
+  }
+}
+
+// A click on the rest as: of what the first click could mean, a part without it was meant. What that gives up
+// is one more set of leaves to change.
+void Asking::add_repick() {
+  if (click_.object || selected_.clicked[1].size() != 1 || !selected_.first) return;
+  const Answers& first = *selected_.first;
+  const auto allowed = [&](const Candidate& c) {
+    const auto outside = [&](std::uint32_t leaf) { return first.chains[c.chain].level[leaf] > c.index; };
+    return outside(click_.leaf) && std::ranges::all_of(selected_.clicked[0], outside);
+  };
+  const auto other = std::ranges::find_if(first.candidates, allowed);
+  if (other == first.candidates.end()) return;
+  Chain chain;
+  chain.of_tree = false;
+  chain.nodes = {click_.leaf};
+  chain.level.assign(parts_.leaves, kNoLevel);
+  float px = 0;
+  for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf)
+    if (selected_.object[leaf] && first.chains[other->chain].level[leaf] > other->index &&
+        selected_.said[leaf] <= 0) {
+      chain.level[leaf] = 0;
+      px += click_.view.leaf_px[leaf];
+    }
+  if (px < kLeastChangePx) return;
+  chain.changed_px = {px};
+  Candidate candidate{.chain = out_.chains.size(), .index = 0};
+  term(&candidate, Term::kRepick) = 1 + other->cost - first.candidates.front().cost;
+  term(&candidate, Term::kScrap) = at_least_0(kScrapFolds - folds(px));
+  out_.chains.push_back(std::move(chain));
+  out_.candidates.push_back(candidate);
+}
+
+void Asking::add_disc() {
+  Candidate disc{.chain = 0, .index = Candidate::kDiscAlone};
+  term(&disc, Term::kDisc) = 1;
+  out_.candidates.push_back(disc);
+}
+
+// Likeliest candidates first, until none that is left can win; those are dropped unless all are wanted.
+void Asking::measure_off_centre(bool all) {
+  constexpr std::size_t kMost = 24;  // looked at
+  const float weight = weights_[static_cast<std::size_t>(Term::kOffCentre)];
+  float best = std::numeric_limits<float>::max();
+  std::size_t looked_at = 0;
+  for (Candidate& candidate : out_.candidates) {
+    if (!all && (looked_at == kMost || candidate.cost > best + model_.doubt)) break;
+    ++looked_at;
+    if (candidate.index != Candidate::kDiscAlone) {
+      const Image<std::uint32_t>& level = level_image(candidate.chain);
+      Mask region(camera_.width_px, camera_.height_px);
+      for (std::size_t i = 0; i < region.size(); ++i)
+        region.pixels()[i] = level.pixels()[i] <= candidate.index ? kMaskObject : 0;
+      region.at(click_.at.x, click_.at.y) = kMaskObject;
+      const float off = at_least_0(std::log(kCentral / centrality(region, click_.at)));
+      term(&candidate, Term::kOffCentre) = off;
+      candidate.cost += weight * off;
+    }
+    best = std::min(best, candidate.cost);
+  }
+  out_.candidates.resize(looked_at);
+  std::ranges::stable_sort(out_.candidates, {}, &Candidate::cost);
+}
+
+}  // namespace
+
+Answers answers(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
+                const SelectionModel& model, const AnswerOptions& options) {
+  return Asking(parts, selected, click, model).take(options);
+}
+
+}  // namespace splatcut

@@ -1,0 +1,106 @@
+// What a click can mean: candidates, with the terms of their cost.
+//
+// In: hierarchy, what was selected so far, a click in a soft view. Out: the clicked leaf's ancestors in every
+// tree, each with its terms (part_model.h names them) and their weighted sum, likeliest first; the disc alone
+// and, after one click on the object, another meaning of that click are candidates, too. All pixels are the
+// view's. Terms:
+//
+// - kCut: ln(border's length, likeness-weighted / sqrt(area)) of the node, in the scene.
+// - kJump: ln of how much dearer the merge that ends the node is than the one that made it, at most 2.
+// - kRare: -ln of the mean IoU with the likest ancestors in the other trees of its kind.
+// - kFrame: pixels at the picture's frame / sqrt(all).
+// - kShadeBlind: 1 where the tree counts lightness less.
+// - kOffCentre: ln(0.7 / share), at least 0; share: the click's distance to the border of what would change
+//   over the largest such distance. People click in the middle of what they mean.
+// - kNoEdge: share of that border where the depth does not jump.
+// - kSmall, kLarge: of a first click, ln of folds of the picture below 1 % and above 35 %.
+// - kScrap, kFold, kGiant: of later clicks, with f = ln(changed pixels / disc to the displayed border):
+//   max(0, -0.3 - f), max(0, f - 1), max(0, f - 3.25).
+// - kBorder: max(0, f - 1) where the click is within 2 pixels of the border.
+// - kGrowth: ln(changed pixels / those of the correction before), at least 0. Large faults are mended first.
+// - kOpposed: clicks of the other sign that it holds.
+// - kBack: IoU with what a click of the other sign has changed, the largest. People undo in that case.
+// - kDisc: 1 where nothing but the disc would change.
+// - kRepick: 1 + how much less likely the first click's other meaning is; see ClickSelection.
+// Cost: some 10 ms. The result depends on the arguments alone.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "segment/part_hierarchy.h"
+#include "segment/part_model.h"
+#include "segment/selection/leaf_view.h"
+
+namespace splatcut {
+
+inline constexpr std::uint32_t kNoLevel = 0xffffffffu;
+inline constexpr float kLeastChangePx = 0.3f;  // candidates that change less change nothing
+
+// One tree's answers to a click.
+struct Chain {
+  std::vector<std::uint32_t> nodes;  // the leaf and its ancestors
+  std::vector<std::uint32_t>
+      level;  // per leaf of the hierarchy: the first of the nodes that holds it, or kNoLevel
+  std::vector<float> view_px, frame_px, opposed, changed_px, stability;  // per node
+  bool shade_blind = false;
+  bool of_tree = true;  // false: no tree's, one set of leaves
+};
+
+struct Candidate {
+  static constexpr std::size_t kDiscAlone = ~std::size_t{0};
+  std::size_t chain = 0, index = 0;  // into that chain's nodes; kDiscAlone: no part
+  TermValues terms{};
+  float cost = 0;
+};
+
+// What a click could mean.
+struct Answers {
+  std::vector<Chain> chains;
+  std::vector<Candidate> candidates;  // likeliest first
+  std::vector<std::uint8_t> free;     // per leaf: a part may take it along
+
+  bool changes(const Candidate& candidate, std::uint32_t leaf) const {
+    return candidate.index != Candidate::kDiscAlone &&
+           chains[candidate.chain].level[leaf] <= candidate.index &&
+           (free[leaf] || !chains[candidate.chain].of_tree);
+  }
+};
+
+// What one correction has changed.
+struct Change {
+  std::vector<std::uint32_t> leaves;
+  bool object = false;
+  float share = 0;  // of its view's width squared
+};
+
+// What the clicks so far have made of the parts.
+struct SelectedParts {
+  std::vector<std::uint8_t> object;       // per leaf
+  std::vector<std::int8_t> said;          // per leaf: +1, -1: decided by a disc
+  std::vector<std::uint32_t> clicked[2];  // leaves clicked, by sign
+  std::vector<Change> changes;            // by each correction
+  std::shared_ptr<const Answers> first;   // what the first click could mean
+};
+
+struct Click {
+  const LeafView& view;
+  glm::ivec2 at;
+  bool object;
+  bool first;
+  std::uint32_t leaf;     // not on that side yet
+  float radius_px;        // to the displayed border; 0 for the first
+  const Mask& displayed;  // before the click
+};
+
+struct AnswerOptions {
+  bool all_terms = false;  // else kOffCentre is measured of those alone that can win by it,
+  float least_growth = 1;  // in changed pixels from one node of a chain to the next that is a candidate
+};
+
+Answers answers(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
+                const SelectionModel& model, const AnswerOptions& options = {});
+
+}  // namespace splatcut
