@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/mapped_file.h"
+
 namespace splatcut {
 
 enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
@@ -39,6 +41,9 @@ struct PlyHeader {
 
   const PlyElement* find(std::string_view element) const;
 };
+
+// Whether the file begins as every .ply does.
+bool has_ply_mark(const MappedFile& file);
 
 // The words of a header line, without blanks and line end.
 std::vector<std::string_view> words_of(std::string_view line);

@@ -7,10 +7,11 @@
 #include <bit>
 #include <cstring>
 
-#include "scene/decode.h"
 #include "scene/error.h"
-#include "scene/ply_header.h"
-#include "scene/scene_formats.h"
+#include "scene/formats/decode.h"
+#include "scene/formats/losses.h"
+#include "scene/formats/ply_header.h"
+#include "scene/formats/ply_writer.h"
 
 namespace splatcut {
 
@@ -163,9 +164,11 @@ void read_rows(const MappedFile& file, const PlyElement& vertex, Scene& scene, c
   decode_rows(rows, vertex.count, degree_from_rest(file.path(), rows.fields - kRest), scene, job);
 }
 
-}  // namespace
+bool is_ply(const MappedFile& file) {
+  return has_ply_mark(file) && !SceneFormat::kCompressedPly.recognises(file);
+}
 
-void read_ply(const MappedFile& file, Scene& scene, const Job& job) {
+void read_ply(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
   const PlyHeader header = parse_ply_header(file.path(), file.bytes());
   const PlyElement& vertex = vertex_of(file.path(), header);
   refuse_other_ply(file.path(), vertex);
@@ -176,5 +179,48 @@ void read_ply(const MappedFile& file, Scene& scene, const Job& job) {
   else
     read_rows<false>(file, vertex, scene, job);
 }
+
+bool rows_can_be_copied(const Scene& scene) {
+  return scene.format == SceneFormat::kPly && !scene.path.empty();
+}
+
+std::string write_ply(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
+                      const SaveOptions&) {
+  if (rows_can_be_copied(scene))
+    write_ply_subset(out, scene, gaussians);
+  else
+    write_ply_rows(out, scene.cloud, gaussians);
+  return antialiasing_left_out(scene);
+}
+
+std::uint64_t ply_row_bytes(const Scene& scene) {
+  if (scene.format == SceneFormat::kPly && scene.file_rows > 0) return scene.file_bytes / scene.file_rows;
+  const auto floats = 3 + 3 + 3 + scene.cloud.sh_stride() + 1 + 3 +
+                      4;  // position, normal, f_dc, rest, opacity, scale, rotation
+  return floats * sizeof(float);
+}
+
+FormatPlan plan_ply(const Scene& scene, std::size_t gaussians) {
+  FormatPlan plan;
+  plan.bytes = gaussians * ply_row_bytes(scene) + 1500;
+  plan.kept = scene.format == SceneFormat::kPly
+                  ? "Every property of every row, byte for byte as in the source file."
+                  : "Everything the source file holds, as ordinary 32-bit 3DGS properties.";
+  Losses losses;
+  losses.add(antialiasing_left_out(scene));
+  plan.lost = losses.in_full();
+  return plan;
+}
+
+}  // namespace
+
+constinit const SceneFormat SceneFormat::kPly = {
+    .name = "ply",
+    .extension = ".ply",
+    .recognises = is_ply,
+    .read = read_ply,
+    .write = write_ply,
+    .plan = plan_ply,
+};
 
 }  // namespace splatcut

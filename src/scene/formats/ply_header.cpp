@@ -1,4 +1,4 @@
-#include "scene/ply_header.h"
+#include "scene/formats/ply_header.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "scene/error.h"
+#include "scene/formats/decode.h"
 
 namespace splatcut {
 
@@ -102,6 +103,10 @@ const PlyProperty* PlyElement::find(std::string_view property) const {
 const PlyElement* PlyHeader::find(std::string_view element) const {
   const auto it = std::ranges::find(elements, element, &PlyElement::name);
   return it == elements.end() ? nullptr : &*it;
+}
+
+bool has_ply_mark(const MappedFile& file) {
+  return begins_with(file, "ply\n") || begins_with(file, "ply\r\n");
 }
 
 PlyHeader parse_ply_header(const std::filesystem::path& path, std::span<const std::byte> file) {
