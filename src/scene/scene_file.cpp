@@ -7,6 +7,7 @@
 
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/foreign_files.h"
 #include "scene/mapped_file.h"
 
 namespace splatcut {
@@ -17,7 +18,15 @@ namespace {
 SceneFormat format_of(const MappedFile& file) {
   for (const SceneFormat& format : scene_formats())
     if (format.recognises && format.recognises(file)) return format;
+  refuse_foreign(file);
   return format_from_name(file.path());
+}
+
+// A folder stands for the scene of several files in it.
+std::filesystem::path in_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::path meta = path / "meta.json";
+  return std::filesystem::is_directory(path, ignored) && std::filesystem::exists(meta, ignored) ? meta : path;
 }
 
 std::vector<std::uint32_t> kept_in_file_order(const GaussianCloud& cloud,
@@ -43,9 +52,9 @@ std::optional<SpzAxes> spz_axes_from_name(std::string_view name) {
 }
 
 Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, const Job& job) {
-  const MappedFile file(path);
+  const MappedFile file(in_folder(path));
   Scene scene;
-  scene.path = path;
+  scene.path = file.path();
   scene.format = format_of(file);
   scene.file_bytes = file.bytes().size();
   scene.modified_ns = file.modified_ns();

@@ -32,6 +32,8 @@ struct Scene {
   std::size_t dropped = 0;       // NaN or zero-quaternion rows left out
   std::uint64_t file_bytes = 0;  // with modified_ns: to notice that the file changed since
   std::int64_t modified_ns = 0;
+  bool rows_can_be_copied = false;            // to a .ply, byte for byte from path
+  std::vector<std::string> other_properties;  // columns of a .ply that say nothing of Gaussians
   bool antialiased = false;  // the file says that it was trained with the filter of Mip-Splatting
 
   // Of a .spz that does not say its axes: those taken, and a sentence on why.
@@ -58,9 +60,9 @@ struct SaveReport {
 };
 
 // Writes the Gaussians with keep[g] != 0 (empty: all), in file order; compressed .ply in Morton order,
-// because neighbours must share a chunk for its bounds to be narrow. From .ply to .ply the rows are copied
-// byte for byte from scene.path (Error if that file changed since it was loaded). Throws Error for a format
-// that is only read.
+// because neighbours must share a chunk for its bounds to be narrow. From binary .ply to .ply the rows
+// are copied byte for byte from scene.path (Error if that file changed since it was loaded). Throws Error for
+// a format that is only read.
 SaveReport save_scene(const std::filesystem::path& path, const Scene& scene,
                       std::span<const std::uint8_t> keep, const SceneFormat& format,
                       const SaveOptions& options = {});

@@ -25,6 +25,12 @@ std::string lower_name(const std::filesystem::path& path) {
   return name;
 }
 
+std::vector<std::string_view> endings_of(const SceneFormat& format) {
+  std::vector<std::string_view> endings = {format.extension, format.also};
+  std::erase(endings, "");
+  return endings;
+}
+
 std::string joined(const std::vector<std::string>& words, std::string_view conjunction) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -52,11 +58,13 @@ std::vector<SceneFormat> written_formats() {
 const SceneFormat* find_format(const std::filesystem::path& path) {
   const std::string name = lower_name(path);
   const SceneFormat* found = nullptr;
-  for (const SceneFormat* row : kRows) {
-    const std::string_view extension = row->extension;
-    if (name.ends_with(extension) && (!found || extension.size() > std::string_view(found->extension).size()))
+  std::size_t longest = 0;
+  for (const SceneFormat* row : kRows)
+    for (const std::string_view ending : endings_of(*row)) {
+      if (ending.size() <= longest || !name.ends_with(ending)) continue;
       found = row;
-  }
+      longest = ending.size();
+    }
   return found;
 }
 
@@ -70,12 +78,13 @@ SceneFormat format_from_name(const std::filesystem::path& path) {
 }
 
 std::vector<std::string> extensions_of(std::span<const SceneFormat> formats) {
+  std::vector<std::string_view> all;
+  for (const SceneFormat& format : formats)
+    for (const std::string_view ending : endings_of(format)) all.push_back(ending);
   std::vector<std::string> extensions;
-  for (const SceneFormat& format : formats) {
-    const std::string_view mine = format.extension;
-    const bool covered = std::ranges::any_of(formats, [&](const SceneFormat& other) {
-      return other.extension != mine && mine.ends_with(other.extension);
-    });
+  for (const std::string_view mine : all) {
+    const bool covered = std::ranges::any_of(
+        all, [&](std::string_view other) { return other != mine && mine.ends_with(other); });
     if (!covered) extensions.emplace_back(mine);
   }
   return extensions;
@@ -96,8 +105,9 @@ std::vector<std::string> names_of(std::span<const SceneFormat> formats) {
 std::filesystem::path with_extension(const std::filesystem::path& path, const SceneFormat& format) {
   std::string name = path.filename().string();
   const SceneFormat* old = find_format(path);
-  const std::size_t cut = old ? std::string_view(old->extension).size() : 0;
-  if (name.size() > cut) name.resize(name.size() - cut);
+  const std::string_view ending = old ? old->extension : "";
+  if (name.size() > ending.size() && lower_name(path).ends_with(ending))
+    name.resize(name.size() - ending.size());
   return path.parent_path() / (name + format.extension);
 }
 

@@ -10,7 +10,16 @@
 #include <vector>
 
 // In the order of lists and dialogs.
-#define SPLATCUT_SCENE_FORMATS(row) row(kPly) row(kCompressedPly) row(kSplat) row(kSpz)
+// clang-format off
+#define SPLATCUT_SCENE_FORMATS(row) \
+  row(kPly)                         \
+  row(kCompressedPly)               \
+  row(kSplat)                       \
+  row(kSpz)                         \
+  row(kSog)                         \
+  row(kGlb)                         \
+  row(kKsplat)                      \
+// clang-format on
 
 namespace splatcut {
 
@@ -32,6 +41,7 @@ struct FormatPlan {
 struct SceneFormat {
   const char* name = "";       // in reports and on the command line: "compressed.ply"
   const char* extension = "";  // what file names end with, small letters: ".compressed.ply"
+  const char* also = "";       // another ending that is read: "meta.json"; empty for none
 
   // By the first bytes. Null: nothing marks such files but their name.
   bool (*recognises)(const MappedFile& file) = nullptr;

@@ -201,6 +201,8 @@ void read_compressed_ply(const MappedFile& file, const LoadOptions&, Scene& scen
   if (!chunk || !vertex)
     throw Error(file.path().string(),
                 "is not a compressed .ply: the elements \"chunk\" and \"vertex\" are wanted");
+  if (header.ascii)
+    throw Error(file.path().string(), "is a compressed .ply written as text, which holds no packed numbers");
   PackedRows rows;
   for (std::size_t f = 0; f < kPacked.size(); ++f)
     rows.offset[f] = typed_property(file.path(), *vertex, kPacked[f], PlyType::kUint32).offset;
@@ -225,6 +227,7 @@ Losses compressed_ply_losses(const Scene& scene, std::span<const std::uint32_t> 
       "values "
       "to 8 to 11 bits");
   losses.add(clamped_sh(scene.cloud, gaussians, kShBytes));
+  losses.add(properties_left_out(scene));
   losses.add(antialiasing_left_out(scene));
   return losses;
 }

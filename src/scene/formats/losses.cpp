@@ -62,6 +62,13 @@ std::string clamped_sh(const GaussianCloud& cloud, std::span<const std::uint32_t
   });
 }
 
+std::string properties_left_out(const Scene& scene) {
+  const std::vector<std::string>& others = scene.other_properties;
+  if (others.empty()) return {};
+  if (others.size() == 1) return fmt::format("the property \"{}\" is left out", others[0]);
+  return fmt::format("{} properties are left out, \"{}\" among them", others.size(), others[0]);
+}
+
 std::string antialiasing_left_out(const Scene& scene) {
   return scene.antialiased ? "the mark that the scene was trained with antialiasing is left out" : "";
 }

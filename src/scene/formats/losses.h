@@ -32,6 +32,8 @@ std::string clamped_log_scales(const GaussianCloud& cloud, std::span<const std::
                                const Reach& log_scale);
 std::string clamped_sh(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians, const Reach& sh);
 
+// For formats that cannot hold them.
+std::string properties_left_out(const Scene& scene);
 // For formats that cannot say it.
 std::string antialiasing_left_out(const Scene& scene);
 

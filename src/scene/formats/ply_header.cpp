@@ -131,7 +131,8 @@ PlyHeader parse_ply_header(const std::filesystem::path& path, std::span<const st
       break;
     }
     if (words[0] == "format") {
-      if (words.size() != 3 || words[1] != "binary_little_endian")
+      header.ascii = words.size() == 3 && words[1] == "ascii";
+      if (words.size() != 3 || (words[1] != "binary_little_endian" && !header.ascii))
         throw Error(path.string(), fmt::format("\"{}\" is not supported", line),
                     "Convert the file to binary_little_endian");
       has_format = true;

@@ -119,15 +119,6 @@ Bytes unpack_zstd(const MappedFile& file, std::span<const std::byte> packed, std
   return bytes;
 }
 
-float half_to_float(std::uint16_t half) {
-  const int exponent = half >> 10 & 31;
-  const float mantissa = static_cast<float>(half & 1023);
-  const float magnitude = exponent == 0    ? std::ldexp(mantissa, -24)
-                          : exponent == 31 ? std::numeric_limits<float>::quiet_NaN()
-                                           : std::ldexp(mantissa + 1024.0f, exponent - 25);
-  return half & 0x8000 ? -magnitude : magnitude;
-}
-
 struct SpzRows {
   spz::Header header;
   AxisSigns axes = kRightUpBack;
