@@ -14,14 +14,14 @@ using namespace splatcut::testing;
 
 namespace {
 
-// 1 - |dot| of two rotations whose smallest three components differ by up to e: the largest is at least 1/2, so it
-// differs by up to 3 e, and 1 - dot is half the squared distance.
+// 1 - |dot| of two rotations whose smallest three components differ by up to e: the largest is at least 1/2,
+// so it differs by up to 3 e, and 1 - dot is half the squared distance.
 float rotation_limit(float e) {
   return 6 * e * e + 1e-6f;
 }
 
-// Of varied_cloud(): positions -5 to 5, logarithms of scales over 2, f_dc over 2, SH over 1.8. Half a step of each
-// quantisation, and a hundredth of it for rounding.
+// Of varied_cloud(): positions -5 to 5, logarithms of scales over 2, f_dc over 2, SH over 1.8. Half a step of
+// each quantisation, and a hundredth of it for rounding.
 struct FormatLimits {
   Tolerance limit;
   bool reorders = false;  // rows are in Morton order
@@ -33,13 +33,15 @@ const std::map<std::string, FormatLimits>& limits() {
       {"ply", {{0, 1e-5f, 1e-6f, 1e-6f, 0, 0}}},
       {"glb", {{0, 1e-6f, 1e-6f, 0, 0, 0}}},
       {"compressed.ply",
-       {{10 * 0.505f / 1023, 2 * 0.505f / 1023, rotation_limit(0.5f * kRoot / 1023), kByte, 2 * kByte, 0.505f * 8 / 256},
+       {{10 * 0.505f / 1023, 2 * 0.505f / 1023, rotation_limit(0.5f * kRoot / 1023), kByte, 2 * kByte,
+         0.505f * 8 / 256},
         true}},
       {"splat", {{0, 1e-6f, rotation_limit(1.0f / 128), kByte, kByte / kShC0Rounded, 0}, false, true}},
       {"spz",
-       {{0.505f / 4096, 0.505f / 16, rotation_limit(0.5f / kRoot / 511), kByte, kByte / 0.15f, 0.505f / 128}}},
-      // 16 bits of log(1 + |x|), which is stretched by 1 + |x|. Codebooks of evenly spread values have steps alike;
-      // twice half a step leaves room for uneven samples.
+       {{0.505f / 4096, 0.505f / 16, rotation_limit(0.5f / kRoot / 511), kByte, kByte / 0.15f,
+         0.505f / 128}}},
+      // 16 bits of log(1 + |x|), which is stretched by 1 + |x|. Codebooks of evenly spread values have steps
+      // alike; twice half a step leaves room for uneven samples.
       {"sog",
        {{6 * 2 * std::log(6.0f) * 0.51f / 65535, 2 * 1.0f / 256, rotation_limit(1 / kRoot / 255), kByte,
          2 * 1.0f / 256, 1.8f * 1.0f / 256},
@@ -62,7 +64,8 @@ void check_pair(const Folder& folder, const Scene& from, const SceneFormat& to) 
   CHECK(report.gaussians == from.cloud.size());
   CHECK(report.bytes == fs::file_size(path));
   const FormatPlan plan = to.plan(from, from.cloud.size());
-  CHECK(static_cast<double>(plan.bytes) == doctest::Approx(static_cast<double>(report.bytes)).epsilon(plan.about ? 1.0 : 0.05));
+  CHECK(static_cast<double>(plan.bytes) ==
+        doctest::Approx(static_cast<double>(report.bytes)).epsilon(plan.about ? 1.0 : 0.05));
   const bool lossless = std::string_view(to.name) == "ply" || std::string_view(to.name) == "glb";
   CHECK(report.loss.empty() == lossless);
   const Scene got = load_scene(path);
@@ -132,7 +135,9 @@ TEST_CASE("pairs: what is read only goes into every other format, and is refused
   CHECK_FALSE(fs::exists(folder / "c.ksplat"));
 }
 
-TEST_CASE("pairs: a .sog written again loses no more than half a step of rotation, and the same scene gives the same bytes") {
+TEST_CASE(
+    "pairs: a .sog written again loses no more than half a step of rotation, and the same scene gives the "
+    "same bytes") {
   const Folder folder;
   Scene scene;
   scene.cloud = varied_cloud(3000, 2);
@@ -145,7 +150,8 @@ TEST_CASE("pairs: a .sog written again loses no more than half a step of rotatio
   const Scene twice = load_scene(folder / "c.sog");
   check_same(as_written(once, true), twice, {2e-6f, 1e-6f, limits().at("sog").limit.rotation, 0, 0, 0});
   scene.antialiased = true;
-  CHECK(save_scene(folder / "d.sog", scene, {}, SceneFormat::kSog).loss.find("antialiasing") == std::string::npos);
+  CHECK(save_scene(folder / "d.sog", scene, {}, SceneFormat::kSog).loss.find("antialiasing") ==
+        std::string::npos);
   CHECK(load_scene(folder / "d.sog").antialiased);
 }
 
@@ -189,8 +195,9 @@ TEST_CASE("ply: text has the values of its binary twin, and colours stand for f_
   const std::vector<std::string> names = splat_names(9);
   const std::string binary = numbered_ply(names, 50);
   write(folder / "binary.ply", binary);
-  std::string text = "ply\nformat ascii 1.0\ncomment a list goes before\nelement camera 2\nproperty list uchar int "
-                     "n\nelement vertex 50\nproperty int label\n";
+  std::string text =
+      "ply\nformat ascii 1.0\ncomment a list goes before\nelement camera 2\nproperty list uchar int "
+      "n\nelement vertex 50\nproperty int label\n";
   for (const std::string& name : names) text += "property float " + name + "\n";
   text += "end_header\n2 7 8\n0\n";
   const std::string rows = binary.substr(header(names, 50).size());
@@ -230,12 +237,13 @@ TEST_CASE("ply: text has the values of its binary twin, and colours stand for f_
   CHECK(mentions(refusal(folder / "huge.ply"), {"truncated", "4000000000"}));
 
   // Red 1, green 0.5, blue 0: as bytes and as floats, binary and as text.
-  const std::string rest = "property float opacity\nproperty float scale_0\nproperty float scale_1\nproperty float "
-                           "scale_2\nproperty float rot_0\nproperty float rot_1\nproperty float rot_2\nproperty "
-                           "float rot_3\nend_header\n";
+  const std::string rest =
+      "property float opacity\nproperty float scale_0\nproperty float scale_1\nproperty float "
+      "scale_2\nproperty float rot_0\nproperty float rot_1\nproperty float rot_2\nproperty "
+      "float rot_3\nend_header\n";
   const auto colours = [](const std::string& type) {
-    return "property float x\nproperty float y\nproperty float z\nproperty " + type + " red\nproperty " + type +
-           " green\nproperty " + type + " blue\n";
+    return "property float x\nproperty float y\nproperty float z\nproperty " + type + " red\nproperty " +
+           type + " green\nproperty " + type + " blue\n";
   };
   const std::string begin = "ply\nformat ascii 1.0\nelement vertex 1\n", tail = " 0 -1 -2 -3 1 0 0 0\n";
   std::string packed = "ply\nformat binary_little_endian 1.0\nelement vertex 1\n" + colours("uchar") + rest;
@@ -278,7 +286,8 @@ TEST_CASE("glb by hand: nodes place their Gaussians, normalised bytes, drafts wi
     std::string text =
         R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":)" + nodes +
         R"(,"meshes":[{"primitives":[{"mode":0,"attributes":{)" + attributes +
-        R"(},"extensions":{"KHR_gaussian_splatting":)" + extension + R"(}}]}],)"
+        R"(},"extensions":{"KHR_gaussian_splatting":)" + extension +
+        R"(}}]}],)"
         R"("accessors":[{"bufferView":0,"componentType":5126,"count":1,"type":"VEC3"},)"
         R"({"bufferView":0,"byteOffset":12,"componentType":5120,"normalized":true,"count":1,"type":"VEC4"},)"
         R"({"bufferView":0,"byteOffset":16,"componentType":5126,"count":1,"type":"VEC3"},)"
@@ -305,8 +314,8 @@ TEST_CASE("glb by hand: nodes place their Gaussians, normalised bytes, drafts wi
   CHECK(load_scene(path).cloud.scale[0].z == doctest::Approx(0.125));
   // Twice as large, a quarter turn around z, then moved: (1, 2, 3) -> (2, 4, 6) -> (-4, 2, 6) -> (6, 2, 6).
   const std::string quarter = "[0,0,0.70710678,0.70710678]";
-  write(path, glb(R"([{"children":[1],"translation":[10,0,0]},{"mesh":0,"scale":[2,2,2],"rotation":)" + quarter +
-                      "}]",
+  write(path, glb(R"([{"children":[1],"translation":[10,0,0]},{"mesh":0,"scale":[2,2,2],"rotation":)" +
+                      quarter + "}]",
                   sizes));
   scene = load_scene(path);
   CHECK(glm::length(scene.cloud.position[0] - glm::vec3(-6, -2, 6)) < 1e-5f);
@@ -366,8 +375,9 @@ TEST_CASE("sog: as a folder, inside another folder of the archive, and what is w
   save_scene(folder / "a.sog", scene, {}, SceneFormat::kSog);
   const MappedFile file(folder / "a.sog");
   const ZipReader zip(file);
-  const std::vector<std::string> names = {"meta.json",  "means_l.webp",      "means_u.webp",   "quats.webp",
-                                          "scales.webp", "sh0.webp", "shN_centroids.webp", "shN_labels.webp"};
+  const std::vector<std::string> names = {"meta.json",          "means_l.webp",   "means_u.webp",
+                                          "quats.webp",         "scales.webp",    "sh0.webp",
+                                          "shN_centroids.webp", "shN_labels.webp"};
   std::vector<ZipEntry> entries;
   for (const std::string& name : names) {
     const std::string text = text_of_bytes(zip.read(name));
@@ -423,8 +433,8 @@ TEST_CASE("packed files that promise a thousand times their size are refused bef
   const std::string zeros(400'000, '\0');  // what there is of 400 MB: the promise alone decides
   write(folder / "a.spz", gzip(head + zeros));
   CHECK(mentions(refusal(folder / "a.spz"), {"damaged", "400000000 unpacked"}));
-  std::string v4 = "NGSP" + bytes_of(4u) + bytes_of(points) + std::string("\x00\x0c\x00\x05", 4) + bytes_of(32u) +
-                   std::string(12, '\0');
+  std::string v4 = "NGSP" + bytes_of(4u) + bytes_of(points) + std::string("\x00\x0c\x00\x05", 4) +
+                   bytes_of(32u) + std::string(12, '\0');
   std::string streams;
   for (const std::uint64_t bytes : {9u, 1u, 3u, 3u, 4u}) {
     const std::string packed = zstd(std::string(10'000, '\0'));
@@ -471,7 +481,8 @@ TEST_CASE("damage: every format, cut anywhere or with bytes changed, gives an Er
 
 TEST_CASE("files of other kinds are refused with what to do") {
   const Folder folder;
-  const auto check = [&](const char* name, const std::string& bytes, std::initializer_list<const char*> parts) {
+  const auto check = [&](const char* name, const std::string& bytes,
+                         std::initializer_list<const char*> parts) {
     write(folder / name, bytes);
     CHECK(mentions(refusal(folder / name), parts));
   };
@@ -487,7 +498,8 @@ TEST_CASE("files of other kinds are refused with what to do") {
 }
 
 TEST_CASE("real files: .sog of three writers, .ksplat, text and colours, against what is known of them") {
-  const fs::path fixtures = fs::path(SPLATCUT_SOURCE_DIR) / ".." / "shared" / "scenes" / "formats" / "fixtures";
+  const fs::path fixtures =
+      fs::path(SPLATCUT_SOURCE_DIR) / ".." / "shared" / "scenes" / "formats" / "fixtures";
   if (!fs::exists(fixtures)) {
     MESSAGE("skipped: no scenes");
     return;
@@ -497,9 +509,10 @@ TEST_CASE("real files: .sog of three writers, .ksplat, text and colours, against
     std::size_t gaussians;
     int degree;
   };
-  for (const Known& known : {Known{"sog_v1", 174724, 0}, Known{"sog_v2/monkey_0001.sog", 31658, 0},
-                             Known{"sog_v2/jfigbor_scene.sog", 360196, 0}, Known{"sog_v2_unbundled", 87271, 3},
-                             Known{"supersplat-engine/test.ply", 64, 3}}) {
+  for (const Known& known :
+       {Known{"sog_v1", 174724, 0}, Known{"sog_v2/monkey_0001.sog", 31658, 0},
+        Known{"sog_v2/jfigbor_scene.sog", 360196, 0}, Known{"sog_v2_unbundled", 87271, 3},
+        Known{"supersplat-engine/test.ply", 64, 3}}) {
     CAPTURE(known.path);
     const Scene scene = load_scene(fixtures / known.path);
     CHECK(scene.file_rows == known.gaussians);

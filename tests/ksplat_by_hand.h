@@ -10,14 +10,14 @@ inline std::string half_bytes(float value) {
   if (value == 0) return bytes_of(std::uint16_t{0});
   int exponent = 0;
   const float mantissa = std::frexp(std::abs(value), &exponent);  // 0.5 to 1
-  const auto bits = static_cast<std::uint16_t>((exponent + 14) << 10 |
-                                               (static_cast<int>(mantissa * 2048) & 1023) | (value < 0 ? 0x8000 : 0));
+  const auto bits = static_cast<std::uint16_t>(
+      (exponent + 14) << 10 | (static_cast<int>(mantissa * 2048) & 1023) | (value < 0 ? 0x8000 : 0));
   return bytes_of(bits);
 }
 
-// Two sections: three Gaussians of SH degree 2 in a full bucket of two and one of one, and one without SH. Gaussian
-// i stands at (i + 1, -2, 0.5) and has SH coefficient number n of red, green, blue at (n - 4) / 8 plus 0, 1/4, 1/2.
-// Level 0, 1 or 2; SH range of level 2: -2 to 2.
+// Two sections: three Gaussians of SH degree 2 in a full bucket of two and one of one, and one without SH.
+// Gaussian i stands at (i + 1, -2, 0.5) and has SH coefficient number n of red, green, blue at (n - 4) / 8
+// plus 0, 1/4, 1/2. Level 0, 1 or 2; SH range of level 2: -2 to 2.
 inline std::string ksplat_by_hand(int level) {
   const auto number = [&](float v) { return level == 0 ? bytes_of(v) : half_bytes(v); };
   const auto sh_number = [&](float v) {
@@ -28,8 +28,9 @@ inline std::string ksplat_by_hand(int level) {
     const glm::vec3 p(static_cast<float>(i + 1), -2, 0.5f);
     std::string text;
     for (int c = 0; c < 3; ++c)
-      text += level == 0 ? bytes_of(p[c])
-                         : bytes_of(static_cast<std::uint16_t>(std::lround((p[c] - bucket[c]) / kStep) + 32767));
+      text += level == 0
+                  ? bytes_of(p[c])
+                  : bytes_of(static_cast<std::uint16_t>(std::lround((p[c] - bucket[c]) / kStep) + 32767));
     for (const float s : {0.5f, 0.25f, 0.125f}) text += number(s);
     for (const float q : {0.0f, 0.0f, -2.0f, 0.0f}) text += number(q);  // w x y z
     text += std::string("\x00\x80\xff\x33", 4);

@@ -22,7 +22,8 @@ double rms_of(const Codebook& codebook, const std::vector<float>& values) {
 TEST_CASE("codebook: up to 256 different values are kept, the nearest entry is the nearest") {
   std::vector<float> values;
   for (int i = 0; i < 256; ++i)
-    for (int repeat = 0; repeat < 3; ++repeat) values.push_back(std::sin(0.1f * static_cast<float>(i * 7 % 256)));
+    for (int repeat = 0; repeat < 3; ++repeat)
+      values.push_back(std::sin(0.1f * static_cast<float>(i * 7 % 256)));
   const Codebook codebook = codebook_of(values);
   for (const float v : values) CHECK(codebook[nearest_in(codebook, v)] == v);
   CHECK(codebook_of({})[0] == 0);

@@ -180,7 +180,7 @@ TEST_CASE("loading stops at every stage when asked to, without an error and with
   const Folder folder;
   Scene scene;
   scene.cloud = varied_cloud(5000, 2);
-  for (const char* name : {"a.ply", "a.compressed.ply", "a.splat", "a.spz"}) {
+  for (const char* name : {"a.ply", "a.compressed.ply", "a.splat", "a.spz", "a.sog", "a.glb"}) {
     CAPTURE(name);
     save_scene(folder / name, scene, {}, format_from_name(name));
     int stages = 0;

@@ -88,7 +88,8 @@ TEST_CASE("spz axes: the file's word, else right-up-back with a note, and the us
     CHECK(position() == glm::vec3(1, -2, 0.5f));
     CHECK(position(asked(SpzAxes::kPly)) == glm::vec3(1, 2, -0.5f));
     CHECK(load_scene(path).taken_axes == SpzAxes::kRub);
-    CHECK(mentions(load_scene(path).axes_note, {"does not say", "x right, y up, z back", "--spz-axes"}));
+    CHECK(mentions(load_scene(path).axes_note,
+                   {"does not say", "x right, y up, z back", "nothing says otherwise"}));
     const Scene ply = load_scene(path, asked(SpzAxes::kPly));
     CHECK(ply.taken_axes == SpzAxes::kPly);
     CHECK(ply.cloud.sh_rest_of(0)[0] == 0.5f);
@@ -177,7 +178,7 @@ TEST_CASE("spz axes: cameras that see clearly more of the scene one way decide, 
   ring({0, 0, 0});  // see nothing either way
   const Scene neither = load_scene(folder / "a.spz", options);
   CHECK(neither.taken_axes == SpzAxes::kRub);
-  CHECK(mentions(neither.axes_note, {"--spz-axes"}));
+  CHECK(mentions(neither.axes_note, {"nothing says otherwise"}));
   options.spz_axes = SpzAxes::kRub;  // the user is asked first
   ring({0, -40, 0});
   options.spz_axes = SpzAxes::kRub;

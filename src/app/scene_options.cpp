@@ -20,7 +20,7 @@ Scene SceneOptions::load(const std::filesystem::path& scene, const std::filesyst
   Scene loaded = load_scene(scene, options, job);
   if (!options.spz_axes && !loaded.axes_note.empty()) {
     end_progress();
-    warn(loaded.axes_note, quiet);
+    warn(loaded.axes_note + ". --spz-axes takes others", quiet);
   }
   return loaded;
 }

@@ -18,7 +18,8 @@ struct Foreign {
 
 constexpr const char* kPoints = "is a point cloud of a scanner: its points have no size, rotation or opacity";
 constexpr const char* kMesh = "is a mesh: it has no Gaussians";
-constexpr const char* kTrain = "Train Gaussians from the photographs and give the .ply that the trainer writes";
+constexpr const char* kTrain =
+    "Train Gaussians from the photographs and give the .ply that the trainer writes";
 constexpr const char* kExport = "Export .ply or .spz from the program that made it";
 
 using namespace std::string_view_literals;
@@ -40,7 +41,8 @@ constexpr Foreign kForeign[] = {
      "Give the meta.json of one of the folders beside it"},
     {".lcc", "", "is a scene of XGRIDS, which is not read", kExport},
     {".rad", "", "is a streamed scene of Spark, which is not read", kExport},
-    {".ckpt", "", "is a checkpoint of a training, not a scene", "Run ns-export gaussian-splat and give its .ply"},
+    {".ckpt", "", "is a checkpoint of a training, not a scene",
+     "Run ns-export gaussian-splat and give its .ply"},
     {".pt", "", "is a checkpoint of a training, not a scene",
      "Train with the option that writes a .ply (gsplat: --save_ply)"},
     {".psht", "", "is a project of Postshot, not a scene", "Choose File > Export there, and .ply"},

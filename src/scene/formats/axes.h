@@ -10,6 +10,10 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <vector>
+
+#include "scene/scene_file.h"
 
 namespace splatcut {
 
@@ -26,5 +30,10 @@ struct AxisSigns {
 
 inline constexpr AxisSigns kRightUpBack{1, -1, -1};    // OpenGL, three.js, .spz by its own text
 inline constexpr AxisSigns kLeftUpForward{-1, -1, 1};  // glTF
+
+// The axes in which the cameras see clearly more of a cloud that was read as right, up, back: a quarter more,
+// over a sample of both. None where they see about as much either way, as a circle of cameras around the
+// origin does.
+std::optional<SpzAxes> axes_by_cameras(const GaussianCloud& cloud, const std::vector<Camera>& cameras);
 
 }  // namespace splatcut

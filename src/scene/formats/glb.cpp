@@ -1,6 +1,6 @@
-// Reader of glTF with KHR_gaussian_splatting: .glb, and .gltf with its .bin beside it. The nodes' places count.
-// Not read: compressed attributes, buffers inside the text, linear colours, kernels other than the ellipse, and a
-// turned node over SH, which would have to turn too.
+// Reader of glTF with KHR_gaussian_splatting: .glb, and .gltf with its .bin beside it. The nodes' places
+// count. Not read: compressed attributes, buffers inside the text, linear colours, kernels other than the
+// ellipse, and a turned node over SH, which would have to turn too.
 #include "scene/formats/glb.h"
 
 #include <fmt/format.h>
@@ -74,7 +74,8 @@ Gltf open_gltf(const MappedFile& file) {
     std::uint32_t type = 0;
     if (file.bytes().size() < at) throw Error(file.path().string(), "truncated: the header is cut");
     const auto version = load<GlbHeader>(file.bytes().data()).version;
-    if (version != 2) throw Error(file.path().string(), fmt::format("version {} of .glb is not supported", version));
+    if (version != 2)
+      throw Error(file.path().string(), fmt::format("version {} of .glb is not supported", version));
     const auto text = chunk_at(file, &at, &type);
     if (type != kJsonChunk) throw Error(file.path().string(), "truncated: it has no text");
     gltf.text = parsed(text);
@@ -132,14 +133,15 @@ struct Primitive {
 };
 
 // Checks that all numbers lie in the buffer.
-Accessor accessor_of(const MappedFile& file, const Gltf& gltf, const json& attributes, const std::string& name,
-                     std::size_t width, std::size_t* rows) {
+Accessor accessor_of(const MappedFile& file, const Gltf& gltf, const json& attributes,
+                     const std::string& name, std::size_t width, std::size_t* rows) {
   const auto refuse = [&](const std::string& what) {
     throw Error(file.path().string(), fmt::format("the attribute {} {}", name, what));
   };
   if (!attributes.contains(name)) refuse("is missing");
   const json& about = gltf.text.at("accessors").at(attributes.at(name).get<std::size_t>());
-  if (about.contains("sparse") || !about.contains("bufferView")) refuse("is sparse or packed, which is not read");
+  if (about.contains("sparse") || !about.contains("bufferView"))
+    refuse("is sparse or packed, which is not read");
   const std::map<std::string, std::size_t> widths = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
   const auto said = widths.find(about.at("type").get<std::string>());
   if (said == widths.end() || said->second != width) refuse(fmt::format("does not have {} numbers", width));
@@ -176,7 +178,8 @@ void check_extension(const MappedFile& file, const json& extension) {
   if (extension.value("kernel", "ellipse") != "ellipse")
     refuse("its Gaussians are no ellipses but \"" + extension.value("kernel", "") + "\"", "Export .ply");
   if (extension.value("colorSpace", "").starts_with("lin"))
-    refuse("its colours are linear, those of a scene are sRGB", "Export with the colour space srgb_rec709_display");
+    refuse("its colours are linear, those of a scene are sRGB",
+           "Export with the colour space srgb_rec709_display");
 }
 
 Primitive primitive_of(const MappedFile& file, const Gltf& gltf, const json& about) {
@@ -231,7 +234,8 @@ void place(const MappedFile& file, const glm::mat4& scene_from_local, Primitive*
     throw Error(file.path().string(), "a node stretches or mirrors its Gaussians",
                 "Apply the transform in the program that wrote it");
   if (turned && p->degree > 0)
-    throw Error(file.path().string(), "a node turns Gaussians with view-dependent colour, which is not supported",
+    throw Error(file.path().string(),
+                "a node turns Gaussians with view-dependent colour, which is not supported",
                 "Apply the transform in the program that wrote it, or leave out spherical harmonics");
   p->scene_from_local = scene_from_local;
   p->size = size;
@@ -277,8 +281,7 @@ struct GltfRows {
     const auto coefficients = static_cast<std::size_t>(sh_rest_coefficients(degree));
     float* rest = cloud.sh_rest.data() + g * cloud.sh_stride();
     for (std::size_t k = 0; k < p.sh.size(); ++k)
-      for (std::size_t c = 0; c < 3; ++c)
-        rest[c * coefficients + k] = p.sh[k].value(index, c) * sh_signs[k];
+      for (std::size_t c = 0; c < 3; ++c) rest[c * coefficients + k] = p.sh[k].value(index, c) * sh_signs[k];
   }
 };
 
@@ -286,7 +289,10 @@ struct GltfRows {
 class Collector {
  public:
   Collector(const MappedFile& file, const Gltf& gltf)
-      : file_(file), gltf_(gltf), seen_(gltf.text.at("nodes").size(), false), file_bytes_(file.bytes().size()) {
+      : file_(file),
+        gltf_(gltf),
+        seen_(gltf.text.at("nodes").size(), false),
+        file_bytes_(file.bytes().size()) {
     for (const auto& beside : gltf.beside) file_bytes_ += beside->bytes().size();
   }
 
@@ -340,7 +346,8 @@ void read_glb(const MappedFile& file, const LoadOptions&, Scene& scene, const Jo
       throw Error(file.path().string(), "holds no Gaussians (KHR_gaussian_splatting), only meshes or nothing",
                   "Export the trained scene, not a mesh of it");
     if (found.count > std::numeric_limits<std::uint32_t>::max())
-      throw Error(file.path().string(), fmt::format("{} Gaussians are more than can be handled", found.count));
+      throw Error(file.path().string(),
+                  fmt::format("{} Gaussians are more than can be handled", found.count));
     decode_rows(found.rows, found.count, found.rows.degree, scene, job);
   } catch (const json::exception& error) {
     throw Error(file.path().string(), fmt::format("is not glTF as its standard has it ({})", error.what()));

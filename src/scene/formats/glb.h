@@ -1,7 +1,8 @@
 // What reader and writer of glTF with KHR_gaussian_splatting share. Internal to src/scene/formats.
 //
-// Values are activated: scale linear, opacity 0 to 1; rotation x y z w; SH a VEC3 for each coefficient. Drafts of
-// the extension had the logarithm of the scale, which shows in negative numbers. Axes are x left, y up, z forward.
+// Values are activated: scale linear, opacity 0 to 1; rotation x y z w; SH a VEC3 for each coefficient.
+// Drafts of the extension had the logarithm of the scale, which shows in negative numbers. Axes are x left, y
+// up, z forward.
 #pragma once
 
 #include <fmt/format.h>

@@ -45,9 +45,9 @@ class GlbWriter {
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const auto text_bytes = static_cast<std::uint32_t>(text.size());
     const auto binary_bytes = static_cast<std::uint32_t>(binary_.size() * sizeof(float));
-    const GlbHeader header{0x46546c67, 2,
-                           static_cast<std::uint32_t>(sizeof(GlbHeader) + 2 * sizeof(ChunkHeader)) + text_bytes +
-                               binary_bytes};
+    const GlbHeader header{
+        0x46546c67, 2,
+        static_cast<std::uint32_t>(sizeof(GlbHeader) + 2 * sizeof(ChunkHeader)) + text_bytes + binary_bytes};
     const ChunkHeader text_chunk{text_bytes, kJsonChunk}, binary_chunk{binary_bytes, kBinaryChunk};
     out.write(std::as_bytes(std::span(&header, 1)));
     out.write(std::as_bytes(std::span(&text_chunk, 1)));

@@ -3,8 +3,8 @@
 //   level 0   all numbers are float
 //   level 1   positions are uint16 around the centre of a bucket of 256 neighbours, other numbers half float
 //   level 2   as 1, with SH as bytes over the range that the header names
-// Rows: position, linear scale, rotation w x y z, colour and opacity in 4 bytes, SH degree by degree, in each of
-// them all of red, then green, then blue. Axes are those of .ply.
+// Rows: position, linear scale, rotation w x y z, colour and opacity in 4 bytes, SH degree by degree, in each
+// of them all of red, then green, then blue. Axes are those of .ply.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,8 +48,8 @@ struct KSection {
 
   std::size_t bucket_of(std::size_t row) const {
     if (row < full_buckets * bucket_size) return row / bucket_size;
-    return full_buckets +
-           static_cast<std::size_t>(std::ranges::upper_bound(partly_filled_end, row) - partly_filled_end.begin());
+    return full_buckets + static_cast<std::size_t>(std::ranges::upper_bound(partly_filled_end, row) -
+                                                   partly_filled_end.begin());
   }
 };
 
@@ -127,8 +127,9 @@ struct KRows {
 // Takes the next bytes of the file; throws Error where it ends before.
 const std::byte* take(const MappedFile& file, std::size_t bytes, std::size_t* at) {
   if (bytes > file.bytes().size() - *at)
-    throw Error(file.path().string(), fmt::format("truncated: {} bytes are wanted at byte {}, the file has {}",
-                                                  bytes, *at, file.bytes().size()));
+    throw Error(file.path().string(),
+                fmt::format("truncated: {} bytes are wanted at byte {}, the file has {}", bytes, *at,
+                            file.bytes().size()));
   const std::byte* begin = file.bytes().data() + *at;
   *at += bytes;
   return begin;
@@ -145,8 +146,9 @@ KSection read_section(const MappedFile& file, const SectionHeader& header, int l
   section.first_row = first_row;
   section.rows = header.gaussians;
   section.sh_degree = header.sh_degree;
-  section.row_bytes = kLayouts[level].sh + kLayouts[level].sh_bytes * 3 *
-                                               static_cast<std::size_t>(sh_rest_coefficients(header.sh_degree));
+  section.row_bytes =
+      kLayouts[level].sh +
+      kLayouts[level].sh_bytes * 3 * static_cast<std::size_t>(sh_rest_coefficients(header.sh_degree));
   const std::byte* sizes = take(file, std::size_t{header.partly_filled} * 4, at);
   section.centres = take(file, std::size_t{header.buckets} * header.bucket_bytes, at);
   section.data = take(file, header.room * section.row_bytes, at);
@@ -172,8 +174,8 @@ KRows read_sections(const MappedFile& file, std::size_t* gaussians) {
   KRows rows;
   rows.level = load<std::uint16_t>(header + kLevelAt);
   if (major != 0 || minor < 1 || rows.level > kMaxLevel)
-    throw Error(file.path().string(), fmt::format("version {}.{} of .ksplat, level {}, is not supported", major,
-                                                  minor, rows.level));
+    throw Error(file.path().string(), fmt::format("version {}.{} of .ksplat, level {}, is not supported",
+                                                  major, minor, rows.level));
   rows.least_sh = load<float>(header + kLeastShAt);
   rows.most_sh = load<float>(header + kMostShAt);
   if (rows.least_sh == 0 && rows.most_sh == 0) rows.least_sh = -1.5f, rows.most_sh = 1.5f;
@@ -187,9 +189,8 @@ KRows read_sections(const MappedFile& file, std::size_t* gaussians) {
   }
   std::erase_if(rows.sections, [](const KSection& section) { return section.rows == 0; });
   if (*gaussians == 0 || *gaussians != load<std::uint32_t>(header + kGaussiansAt))
-    throw Error(file.path().string(),
-                fmt::format("{} Gaussians are in its sections, the header promises {}", *gaussians,
-                            load<std::uint32_t>(header + kGaussiansAt)));
+    throw Error(file.path().string(), fmt::format("{} Gaussians are in its sections, the header promises {}",
+                                                  *gaussians, load<std::uint32_t>(header + kGaussiansAt)));
   return rows;
 }
 

@@ -41,8 +41,8 @@ Codebook codebook_of_distinct(std::span<const float> distinct) {
   return codebook;
 }
 
-// More than 256 values differ. The run of largest error is halved at its mean until there are 256: errors that are
-// alike are what the best codebook has.
+// More than 256 values differ. The run of largest error is halved at its mean until there are 256: errors
+// that are alike are what the best codebook has.
 Codebook first_guess(const SortedValues& sorted) {
   struct Run {
     double error;

@@ -32,7 +32,8 @@ std::string_view next_word(std::string_view* text) {
 
 bool parse_number(std::string_view word, float* value) {
   const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), *value);
-  if (failure == std::errc::result_out_of_range) *value = 0;  // nearer to zero than any float, or far beyond all
+  if (failure == std::errc::result_out_of_range)
+    *value = 0;  // nearer to zero than any float, or far beyond all
   return end == word.data() + word.size() &&
          (failure == std::errc() || failure == std::errc::result_out_of_range);
 }
@@ -72,8 +73,8 @@ PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, cons
     const std::string& property = element.properties[i % columns].name;
     if (word.empty()) refuse(fmt::format("truncated: row {} ends before \"{}\"", i / columns, property));
     if (!parse_number(word, &rows.values[i]))
-      refuse(fmt::format("row {}: \"{}\" is no number, for the property \"{}\"", i / columns, word.substr(0, 40),
-                         property));
+      refuse(fmt::format("row {}: \"{}\" is no number, for the property \"{}\"", i / columns,
+                         word.substr(0, 40), property));
   }
   return rows;
 }

@@ -13,8 +13,8 @@ struct PlyTextRows {
   std::vector<float> values;  // row by row
 };
 
-// Throws Error for rows that are missing, lists, and words that are no numbers. Memory: at most four bytes for two
-// of the file. Incomplete when cancelled.
+// Throws Error for rows that are missing, lists, and words that are no numbers. Memory: at most four bytes
+// for two of the file. Incomplete when cancelled.
 PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, const PlyElement& element,
                            const Job& job);
 

@@ -140,8 +140,8 @@ struct SogRows {
     if (degree == 0) return;
     const auto coefficients = static_cast<std::size_t>(sh_rest_coefficients(degree));
     const std::size_t entry = label(row);
-    const Rgba8* centroid = &centroids.row(static_cast<int>(
-        entry / sog::kCentroidsPerRow))[entry % sog::kCentroidsPerRow * coefficients];
+    const Rgba8* centroid = &centroids.row(
+        static_cast<int>(entry / sog::kCentroidsPerRow))[entry % sog::kCentroidsPerRow * coefficients];
     float* rest = cloud.sh_rest.data() + g * cloud.sh_stride();
     for (std::size_t k = 0; k < coefficients; ++k)
       for (std::size_t c = 0; c < 3; ++c) rest[c * coefficients + k] = sh_tables[c][centroid[k][c]];
@@ -160,7 +160,7 @@ int degree_of_width(int width) {
 }
 
 void read_pictures(const MappedFile& file, const SogFiles& files, const json& meta, std::size_t count,
-                   SogRows* rows) {
+                   SogRows* rows, const Job& job) {
   struct Wanted {
     const char* part;
     std::size_t index;
@@ -177,29 +177,34 @@ void read_pictures(const MappedFile& file, const SogFiles& files, const json& me
     all.push_back({"shN", 1, &rows->labels, true});
   }
   for (const Wanted& wanted : all) {
+    if (job.cancelled()) return;
     const auto name = meta.at(wanted.part).at("files").at(wanted.index).get<std::string>();
     *wanted.image = files.picture(name);
     if (wanted.each_gaussian && wanted.image->size() < count)
-      throw Error(file.path().string(), fmt::format("truncated: the picture {} has {} pixels for {} Gaussians",
-                                                    name, wanted.image->size(), count));
+      throw Error(file.path().string(),
+                  fmt::format("truncated: the picture {} has {} pixels for {} Gaussians", name,
+                              wanted.image->size(), count));
   }
 }
 
-SogRows read_rows_of(const MappedFile& file, const SogFiles& files, const json& meta, std::size_t count) {
+// Incomplete when cancelled.
+SogRows read_rows_of(const MappedFile& file, const SogFiles& files, const json& meta, std::size_t count,
+                     const Job& job) {
   SogRows rows;
   rows.logits = !meta.contains("version");
   rows.least = vec3_of(meta.at("means").at("mins"));
   rows.most = vec3_of(meta.at("means").at("maxs"));
   rows.scale_tables = tables_of(meta.at("scales"));
   rows.sh0_tables = tables_of(meta.at("sh0"));
-  read_pictures(file, files, meta, count, &rows);
-  if (!meta.contains("shN")) return rows;
+  read_pictures(file, files, meta, count, &rows, job);
+  if (!meta.contains("shN") || job.cancelled()) return rows;
   rows.sh_tables = tables_of(meta.at("shN"));
   rows.degree = degree_of_width(rows.centroids.width());
   if (rows.degree == 0)
-    throw Error(file.path().string(), fmt::format("its spherical harmonics are {} pixels wide; 192, 512 or 960 are "
-                                                  "possible",
-                                                  rows.centroids.width()));
+    throw Error(file.path().string(),
+                fmt::format("its spherical harmonics are {} pixels wide; 192, 512 or 960 are "
+                            "possible",
+                            rows.centroids.width()));
   rows.palette = static_cast<std::size_t>(rows.centroids.height()) * sog::kCentroidsPerRow;
   return rows;
 }
@@ -208,7 +213,8 @@ std::size_t count_of(const MappedFile& file, const json& meta) {
   const int version = meta.value("version", 1);
   if (version != 1 && version != 2)
     throw Error(file.path().string(), fmt::format("version {} of .sog is not supported", version));
-  const auto count = (version == 1 ? meta.at("means").at("shape").at(0) : meta.at("count")).get<std::size_t>();
+  const auto count =
+      (version == 1 ? meta.at("means").at("shape").at(0) : meta.at("count")).get<std::size_t>();
   if (count == 0 || count > std::numeric_limits<std::uint32_t>::max())
     throw Error(file.path().string(), fmt::format("promises {} Gaussians", count));
   return count;
@@ -220,7 +226,7 @@ void read_sog(const MappedFile& file, const LoadOptions&, Scene& scene, const Jo
     const json meta = files.meta();
     const std::size_t count = count_of(file, meta);
     job.progress("unpacking pictures", 0.0);
-    const SogRows rows = read_rows_of(file, files, meta, count);
+    const SogRows rows = read_rows_of(file, files, meta, count, job);
     scene.antialiased = meta.value("antialias", false);
     if (!job.cancelled()) decode_rows(rows, count, rows.degree, scene, job);
   } catch (const json::exception& error) {

@@ -117,7 +117,8 @@ json add_scales(const SogInput& in, SogPictures* pictures) {
 
 json add_sh0(const SogInput& in, SogPictures* pictures) {
   Image<Rgba8>& image = pictures->add("sh0", picture_for(in.size()));
-  const Codebook codebook = fill_by_codebook(in, [&](std::uint32_t g) { return in.cloud.f_dc[g]; }, &image);
+  const Codebook codebook = fill_by_codebook(
+      in, [&](std::uint32_t g) { return in.cloud.f_dc[g]; }, &image);
   for (std::size_t i = 0; i < in.size(); ++i)
     image.pixels()[i][3] = to_byte(255 * in.cloud.opacity[in.gaussians[i]]);
   return {{"codebook", codebook}, {"files", {"sh0.webp"}}};

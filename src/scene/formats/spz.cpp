@@ -1,17 +1,15 @@
 // Reader of .spz, versions 1 to 4.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <zlib.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <bit>
-#include <memory>
 #include <optional>
 
 #include "scene/error.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/spz_layout.h"
+#include "scene/formats/unpack.h"
 #include "scene/quantise.h"
 
 namespace splatcut {
@@ -19,105 +17,6 @@ namespace splatcut {
 namespace {
 
 constexpr int kMaxFileDegree = 4;  // v4 allows it; coefficients beyond degree 3 are left out
-// Memory is taken as data arrives, so that a small file that promises much is refused at little cost.
-constexpr std::size_t kFirstBuffer = 1 << 22;
-
-// Unpacked between two looks at the stop token: some 10 ms.
-constexpr std::size_t kChunk = 1 << 22;
-
-using Bytes = std::vector<std::byte>;
-
-void grow(Bytes& bytes, std::size_t wanted) {
-  bytes.resize(std::min(wanted, std::max(kFirstBuffer, 2 * bytes.size())));
-}
-
-// Inflates one gzip stream piece by piece.
-class GzipReader {
- public:
-  explicit GzipReader(const MappedFile& file) : file_(file), in_(file.bytes()) {
-    constexpr int kGzipOnly = 16 + MAX_WBITS;
-    if (inflateInit2(&stream_, kGzipOnly) != Z_OK)
-      throw Error(file.path().string(), "the gzip reader failed to start");
-  }
-  GzipReader(const GzipReader&) = delete;
-  GzipReader& operator=(const GzipReader&) = delete;
-  ~GzipReader() { inflateEnd(&stream_); }
-
-  // Fewer bytes when cancelled.
-  Bytes read(std::size_t count, const Job& job) {
-    Bytes out;
-    for (std::size_t done = 0; done < count && !job.cancelled();) {
-      if (done == out.size()) grow(out, count);
-      const std::size_t more = read_some(std::span(out).subspan(done));
-      if (more == 0) throw_truncated(done);
-      done += more;
-    }
-    return out;
-  }
-
-  // What is left, but no more than the bytes given.
-  Bytes read_rest(std::size_t most) {
-    Bytes out(most);
-    std::size_t done = 0;
-    while (done < most) {
-      const std::size_t more = read_some(std::span(out).subspan(done));
-      if (more == 0) break;
-      done += more;
-    }
-    out.resize(done);
-    return out;
-  }
-
- private:
-  [[noreturn]] void throw_truncated(std::size_t done) const {
-    throw Error(file_.path().string(),
-                fmt::format("truncated: the gzip data ends at byte {} after {} unpacked bytes",
-                            file_.bytes().size() - in_.size(), done));
-  }
-
-  // 0 at the end of the data.
-  std::size_t read_some(std::span<std::byte> out) {
-    const auto in = in_.first(std::min(in_.size(), kChunk));
-    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(in.data()));
-    stream_.avail_in = static_cast<uInt>(in.size());
-    stream_.next_out = reinterpret_cast<Bytef*>(out.data());
-    const std::size_t room = std::min(out.size(), kChunk);
-    stream_.avail_out = static_cast<uInt>(room);
-    const int result = inflate(&stream_, Z_NO_FLUSH);
-    in_ = in_.subspan(in.size() - stream_.avail_in);
-    const std::size_t written = room - stream_.avail_out;
-    if (written > 0) return written;
-    if (result == Z_OK || result == Z_STREAM_END || result == Z_BUF_ERROR) return 0;
-    throw Error(file_.path().string(),
-                fmt::format("the gzip data is damaged at byte {}", file_.bytes().size() - in_.size()));
-  }
-
-  const MappedFile& file_;
-  std::span<const std::byte> in_;
-  z_stream stream_{};
-};
-
-// Incomplete when cancelled.
-Bytes unpack_zstd(const MappedFile& file, std::span<const std::byte> packed, std::size_t size,
-                  std::size_t index, const Job& job) {
-  const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(),
-                                                                             ZSTD_freeDStream);
-  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
-  Bytes bytes;
-  for (std::size_t done = 0; done < size && !job.cancelled();) {
-    if (done == bytes.size()) grow(bytes, size);
-    ZSTD_outBuffer out{bytes.data(), std::min(bytes.size(), done + kChunk), done};
-    const std::size_t result = ZSTD_decompressStream(stream.get(), &out, &in);
-    if (ZSTD_isError(result))
-      throw Error(file.path().string(),
-                  fmt::format("stream {} is damaged ({})", index, ZSTD_getErrorName(result)));
-    if (out.pos == done && in.pos == in.size)
-      throw Error(file.path().string(),
-                  fmt::format("stream {} ends after {} of {} bytes", index, done, size));
-    done = out.pos;
-  }
-  return bytes;
-}
 
 struct SpzRows {
   spz::Header header;
@@ -217,35 +116,6 @@ std::optional<AxisSigns> axes_said(const MappedFile& file, std::span<const std::
   return {};
 }
 
-// How often the cameras of a capture have a Gaussian in their picture, over a sample of both.
-std::size_t times_seen(const std::vector<glm::vec3>& positions, const std::vector<Camera>& cameras,
-                       const AxisSigns& turned) {
-  constexpr std::size_t kGaussians = 20000, kCameras = 60;
-  std::size_t seen = 0;
-  for (std::size_t c = 0; c < cameras.size(); c += 1 + cameras.size() / kCameras) {
-    const Camera& camera = cameras[c];
-    for (std::size_t g = 0; g < positions.size(); g += 1 + positions.size() / kGaussians) {
-      const glm::vec3 p = camera.camera_from_world(turned.position(positions[g]));
-      if (p.z <= 0) continue;
-      const glm::vec2 pixel = camera.pixel_from_camera(p);
-      seen += pixel.x >= 0 && pixel.y >= 0 && pixel.x < static_cast<float>(camera.width_px) &&
-              pixel.y < static_cast<float>(camera.height_px);
-    }
-  }
-  return seen;
-}
-
-// The axes in which the cameras see clearly more of a cloud that was read as right, up, back; none where
-// they see about as much either way, as a circle of cameras around the origin does.
-std::optional<SpzAxes> axes_by_cameras(const GaussianCloud& cloud, const std::vector<Camera>& cameras) {
-  constexpr double kClearly = 1.25;
-  const auto rub = static_cast<double>(times_seen(cloud.position, cameras, {}));
-  const auto ply = static_cast<double>(times_seen(cloud.position, cameras, kRightUpBack));
-  if (ply > kClearly * rub) return SpzAxes::kPly;
-  if (rub > kClearly * ply) return SpzAxes::kRub;
-  return {};
-}
-
 const char* words_for(SpzAxes axes) {
   return axes == SpzAxes::kPly ? "x right, y down, z forward, as in a .ply"
                                : "x right, y up, z back, as the text of the format says";
@@ -264,7 +134,7 @@ void decode_in(SpzAxes axes, SpzRows* rows, Scene& scene, const Job& job) {
 void decode_unsaid(const LoadOptions& options, SpzRows* rows, Scene& scene, const Job& job) {
   decode_in(options.spz_axes.value_or(SpzAxes::kRub), rows, scene, job);
   if (job.cancelled()) return;
-  const char* why = "--spz-axes takes others";
+  const char* why = "nothing says otherwise";
   if (options.spz_axes) {
     why = "as was asked for";
   } else if (const auto seen = axes_by_cameras(scene.cloud, options.cameras)) {

@@ -21,8 +21,8 @@ Image<Rgba8> read_webp(const std::filesystem::path& file, std::string_view pictu
   const std::size_t pixel_bytes = row_bytes * static_cast<std::size_t>(height);
   check_expansion(file, file_bytes, pixel_bytes);
   Image<Rgba8> out(width, height);
-  if (!WebPDecodeRGBAInto(data, bytes.size(), reinterpret_cast<std::uint8_t*>(out.pixels().data()), pixel_bytes,
-                          static_cast<int>(row_bytes)))
+  if (!WebPDecodeRGBAInto(data, bytes.size(), reinterpret_cast<std::uint8_t*>(out.pixels().data()),
+                          pixel_bytes, static_cast<int>(row_bytes)))
     refuse("is truncated or damaged");
   return out;
 }
@@ -42,8 +42,9 @@ std::vector<std::byte> write_webp(const Image<Rgba8>& image) {
   picture.writer = WebPMemoryWrite;
   picture.custom_ptr = &memory;
   const auto* pixels = reinterpret_cast<const std::uint8_t*>(image.pixels().data());
-  const bool good = WebPPictureImportRGBA(&picture, pixels, image.width() * static_cast<int>(sizeof(Rgba8))) &&
-                    WebPEncode(&config, &picture);
+  const bool good =
+      WebPPictureImportRGBA(&picture, pixels, image.width() * static_cast<int>(sizeof(Rgba8))) &&
+      WebPEncode(&config, &picture);
   const std::span<const std::byte> written(reinterpret_cast<const std::byte*>(memory.mem), memory.size);
   std::vector<std::byte> out(written.begin(), written.end());
   const int failure = picture.error_code;

@@ -11,8 +11,8 @@
 
 namespace splatcut {
 
-// Throws Error naming file and picture for bytes that are no WebP, or whose pixels would take more memory than
-// check_expansion() grants to a file of file_bytes.
+// Throws Error naming file and picture for bytes that are no WebP, or whose pixels would take more memory
+// than check_expansion() grants to a file of file_bytes.
 Image<Rgba8> read_webp(const std::filesystem::path& file, std::string_view picture,
                        std::span<const std::byte> bytes, std::size_t file_bytes);
 
