@@ -231,6 +231,10 @@ TEST_CASE("ply: text has the values of its binary twin, and colours stand for f_
   bad.replace(bad.rfind(" "), 3, " x1");
   write(folder / "bad.ply", bad);
   CHECK(mentions(refusal(folder / "bad.ply"), {"row 49", "x1", "no number", "rot_3"}));
+  bad.resize(bad.rfind(" "));
+  bad += " 1e60\n";  // infinite: the row is dropped
+  write(folder / "bad.ply", bad);
+  CHECK(load_scene(folder / "bad.ply").dropped == 1);
   bad = text;
   bad.replace(bad.find("vertex 50"), 9, "vertex 4000000000");
   write(folder / "huge.ply", bad);
@@ -414,6 +418,9 @@ TEST_CASE("sog: as a folder, inside another folder of the archive, and what is w
   CHECK(mentions(with_meta("count", 100000), {"pixels for 100000"}));
   CHECK(mentions(with_meta("count", -1), {"promises"}));
   CHECK(mentions(with_meta("means", 7), {"meta.json"}));
+  auto beyond = meta["shN"];
+  beyond["codebook"][3] = 1e60;
+  CHECK(mentions(with_meta("shN", beyond), {"beyond all bounds"}));
   CHECK(mentions(with("sh0.webp", text_of_bytes(write_webp(Image<Rgba8>(4, 4)))), {"sh0.webp", "16 pixels"}));
   // 16 million pixels in a few dozen bytes
   CHECK(mentions(with("scales.webp", text_of_bytes(write_webp(Image<Rgba8>(4096, 4096)))),

@@ -21,7 +21,8 @@ fs::path unsaid_sample(const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("formats: the window says which axes it took of a .spz, takes the other, and saved work keeps them") {
+TEST_CASE(
+    "formats: the window says which axes it took of a .spz, takes the other, and saved work keeps them") {
   const Folder folder;
   HeadlessApp app(1100, 760);
   const fs::path path = unsaid_sample(folder);
@@ -33,9 +34,8 @@ TEST_CASE("formats: the window says which axes it took of a .spz, takes the othe
   app.studio().apply(OpenScene{path, SpzAxes::kPly});
   REQUIRE(app.settle());
   CHECK(scene().taken_axes == SpzAxes::kPly);
-  CHECK(std::ranges::any_of(scene().cloud.position, [&](const glm::vec3& p) {
-    return p == glm::vec3(first.x, -first.y, -first.z);
-  }));
+  CHECK(std::ranges::any_of(scene().cloud.position,
+                            [&](const glm::vec3& p) { return p == glm::vec3(first.x, -first.y, -first.z); }));
   const fs::path work = folder / "turned.splatcut.json";
   app.studio().apply(SaveWork{work});
   REQUIRE(app.settle());

@@ -30,6 +30,10 @@ struct Gltf {
   json text;
   std::vector<std::span<const std::byte>> buffers;
   std::vector<std::unique_ptr<MappedFile>> beside;  // holds buffers of other files
+
+  explicit Gltf(const MappedFile& file);
+  Gltf(const Gltf&) = delete;
+  Gltf& operator=(const Gltf&) = delete;
 };
 
 std::span<const std::byte> chunk_at(const MappedFile& file, std::size_t* at, std::uint32_t* type) {
@@ -66,8 +70,7 @@ void open_buffers(const MappedFile& file, std::span<const std::byte> binary, Glt
   }
 }
 
-Gltf open_gltf(const MappedFile& file) {
-  Gltf gltf;
+Gltf::Gltf(const MappedFile& file) {
   std::span<const std::byte> binary;
   if (begins_with(file, kGlbMark)) {
     std::size_t at = sizeof(GlbHeader);
@@ -76,16 +79,15 @@ Gltf open_gltf(const MappedFile& file) {
     const auto version = load<GlbHeader>(file.bytes().data()).version;
     if (version != 2)
       throw Error(file.path().string(), fmt::format("version {} of .glb is not supported", version));
-    const auto text = chunk_at(file, &at, &type);
+    const auto chunk = chunk_at(file, &at, &type);
     if (type != kJsonChunk) throw Error(file.path().string(), "truncated: it has no text");
-    gltf.text = parsed(text);
+    text = parsed(chunk);
     binary = chunk_at(file, &at, &type);
     if (type != kBinaryChunk) binary = {};
   } else {
-    gltf.text = parsed(file.bytes());
+    text = parsed(file.bytes());
   }
-  open_buffers(file, binary, &gltf);
-  return gltf;
+  open_buffers(file, binary, this);
 }
 
 std::size_t bytes_of_component(int type) {
@@ -339,7 +341,7 @@ std::vector<std::size_t> roots_of(const json& text) {
 
 void read_glb(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
   try {
-    const Gltf gltf = open_gltf(file);
+    const Gltf gltf(file);
     Collector found(file, gltf);
     for (const std::size_t root : roots_of(gltf.text)) found.collect(root, glm::mat4(1), 0);
     if (found.count == 0)

@@ -31,11 +31,13 @@ std::string_view next_word(std::string_view* text) {
 }
 
 bool parse_number(std::string_view word, float* value) {
-  const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), *value);
-  if (failure == std::errc::result_out_of_range)
-    *value = 0;  // nearer to zero than any float, or far beyond all
-  return end == word.data() + word.size() &&
-         (failure == std::errc() || failure == std::errc::result_out_of_range);
+  const char* last = word.data() + word.size();
+  const auto [end, failure] = std::from_chars(word.data(), last, *value);
+  if (failure != std::errc::result_out_of_range) return failure == std::errc() && end == last;
+  double wide = 0;  // beyond what a float holds: infinite, or 0
+  const auto [wide_end, wide_failure] = std::from_chars(word.data(), last, wide);
+  *value = static_cast<float>(wide);
+  return wide_failure == std::errc() && wide_end == last;
 }
 
 PlyElement with_floats(PlyElement element) {

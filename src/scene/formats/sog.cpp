@@ -199,6 +199,9 @@ SogRows read_rows_of(const MappedFile& file, const SogFiles& files, const json& 
   read_pictures(file, files, meta, count, &rows, job);
   if (!meta.contains("shN") || job.cancelled()) return rows;
   rows.sh_tables = tables_of(meta.at("shN"));
+  for (const auto& table : rows.sh_tables)
+    if (!std::ranges::all_of(table, [](float v) { return std::isfinite(v); }))
+      throw Error(file.path().string(), "a number of its spherical harmonics is beyond all bounds");
   rows.degree = degree_of_width(rows.centroids.width());
   if (rows.degree == 0)
     throw Error(file.path().string(),

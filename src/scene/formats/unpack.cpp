@@ -53,8 +53,9 @@ Bytes GzipReader::read_rest(std::size_t most) {
 }
 
 void GzipReader::throw_truncated(std::size_t done) const {
-  throw Error(file_.path().string(), fmt::format("truncated: the gzip data ends at byte {} after {} unpacked bytes",
-                                                 file_.bytes().size() - in_.size(), done));
+  throw Error(file_.path().string(),
+              fmt::format("truncated: the gzip data ends at byte {} after {} unpacked bytes",
+                          file_.bytes().size() - in_.size(), done));
 }
 
 std::size_t GzipReader::read_some(std::span<std::byte> out) {

@@ -1,5 +1,5 @@
-// Packed data, piece by piece: memory is taken as data arrives, so that a small file that promises much is refused at
-// little cost, and a stop is heard. Internal to src/scene/formats.
+// Packed data, piece by piece: memory is taken as data arrives, so that a small file that promises much is
+// refused at little cost, and a stop is heard. Internal to src/scene/formats.
 #pragma once
 
 #include <zlib.h>
