@@ -274,11 +274,11 @@ TEST_CASE("convert goes through every format and back, and says what is lost") {
   Workplace& place = life.place;
   REQUIRE(place.run("make-scene lit -o lit --gaussians 5000 --sh-degree 3").code == 0);
   std::string from = "lit/lit.ply";
-  for (const std::string name : {"a.ply", "a.spz", "a.compressed.ply", "a.splat"}) {
+  for (const std::string name : {"a.ply", "a.glb", "a.spz", "a.compressed.ply", "a.sog", "a.splat"}) {
     CAPTURE(name);
     const Result result = place.run("convert " + from + " -o " + name);
     REQUIRE_MESSAGE(result.code == 0, result.err);
-    CHECK((result.out.find("Lost:") != std::string::npos) == (name != "a.ply"));
+    CHECK((result.out.find("Lost:") != std::string::npos) == (name != "a.ply" && name != "a.glb"));
     const json info = json::parse(place.run("info " + name + " --json").out);
     CHECK(info["gaussians"] == 5000);
     CHECK(info["sh_degree"] == (name == "a.splat" ? 0 : 3));
@@ -287,6 +287,22 @@ TEST_CASE("convert goes through every format and back, and says what is lost") {
     from = name;
   }
   CHECK(place.text("a.ply") == place.text("lit/lit.ply"));
+
+  // Version 4; axes against what the file says, which only the user may ask for.
+  REQUIRE(place.run("convert a.ply -o four.spz --spz-version 4").code == 0);
+  CHECK(place.text("four.spz").starts_with("NGSP"));
+  const auto highest = [&](const std::string& options) {
+    return json::parse(place.run("info four.spz --json " + options).out)["bounds_98"]["max"][1].get<float>();
+  };
+  const float lowest =
+      json::parse(place.run("info four.spz --json --spz-axes rub").out)["bounds_98"]["min"][1].get<float>();
+  CHECK(highest("") == highest("--spz-axes rub"));
+  CHECK(highest("--spz-axes ply") == doctest::Approx(-lowest).epsilon(1e-3));
+  CHECK(place.run("info four.spz --spz-axes up").code == 2);
+  CHECK(place.run("convert a.ply -o five.spz --spz-version 5").code == 2);
+  const Result read_only = place.run("convert a.ply -o a.ksplat");
+  CHECK(read_only.code == 1);
+  CHECK(read_only.err.find("only read") != std::string::npos);
   CHECK(place.leftovers().empty());
 }
 

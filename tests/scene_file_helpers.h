@@ -145,7 +145,7 @@ inline bool mentions(const std::string& text, std::initializer_list<const char*>
 inline std::string gunzip(const std::string& data) {
   z_stream stream{};
   inflateInit2(&stream, 16 + MAX_WBITS);
-  std::string out(1 << 20, '\0');
+  std::string out(std::max<std::size_t>(1 << 20, 30 * data.size()), '\0');
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));
   stream.avail_in = static_cast<uInt>(data.size());
   stream.next_out = reinterpret_cast<Bytef*>(out.data());

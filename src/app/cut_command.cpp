@@ -13,6 +13,7 @@
 #include "app/cutout_files.h"
 #include "app/many_objects.h"
 #include "app/mask_options.h"
+#include "app/scene_options.h"
 #include "app/setting_options.h"
 #include "app/ways_in.h"
 #include "app/work_cut.h"
@@ -31,6 +32,7 @@ struct CutArguments {
   WaysIn ways_in;
   std::vector<std::string> set;
   std::string preset = "default";
+  SceneOptions how;
   CameraOptions camera;
   MaskOptions masks;
   int scale = 0;
@@ -136,7 +138,8 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   const auto ms_since_start = [&] {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   };
-  const auto scene = std::make_shared<const Scene>(load_scene(args.scene, job));
+  const auto scene =
+      std::make_shared<const Scene>(args.how.load(args.scene, args.camera.cameras, common.quiet, job));
   stop_if_cancelled(job);
   const double load_ms = ms_since_start();
   ChosenCamera chosen = choose_camera(args.camera, scene->cloud);
@@ -194,6 +197,7 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
       "Example: splatcut cut scene.ply --camera-pos 0,-1,-4 --camera-target 0,0,0 --click 512,384 --click "
       "40,40:rest -o cutout");
   command.add_option("scene", args->scene, "Scene file");
+  args->how.add_to(command);
   args->camera.add_to(command);
   args->ways_in.add_to(command);
   command

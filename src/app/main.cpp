@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "scene/error.h"
+#include "scene/scene_formats.h"
 
 using namespace splatcut;
 
@@ -15,8 +16,7 @@ constexpr std::array kMoved = {"eval", "study", "make-scene"};
 // `splatcut` and `splatcut SCENE` mean `splatcut view`; of a command that has moved, its name is enough.
 std::vector<std::string> with_command(std::vector<std::string> words) {
   const std::string first = words.empty() ? "" : words.front();
-  const auto ends = [&](const char* ending) { return first.ends_with(ending); };
-  const bool scene = ends(".ply") || ends(".splat") || ends(".spz") || ends(".splatcut.json");
+  const bool scene = has_scene_extension(first) || first.ends_with(".splatcut.json");
   if (words.empty() || scene) words.insert(words.begin(), "view");
   if (std::ranges::find(kMoved, first) != kMoved.end()) words.resize(1);
   return words;

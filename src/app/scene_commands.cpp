@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/output_folder.h"
+#include "app/scene_options.h"
 #include "scene/error.h"
 #include "scene/png_file.h"
 #include "scene/rasterizer.h"
@@ -22,7 +23,9 @@ namespace {
 
 struct SceneArguments {
   std::filesystem::path scene, output, labels;
+  SceneOptions how;
   CameraOptions camera;
+  int spz_version = SaveOptions{}.spz_version;
   std::string what = "colour", background = "0,0,0";
   bool json = false, overwrite = false;
 };
@@ -30,15 +33,18 @@ struct SceneArguments {
 nlohmann::json info_json(const Scene& scene) {
   const Box box = robust_bounds(scene.cloud.position);
   const auto list = [](const glm::vec3& v) { return nlohmann::json{v.x, v.y, v.z}; };
-  return {
-      {"file", scene.path.string()},        {"format", name_of(scene.format)},
+  nlohmann::json info = {
+      {"file", scene.path.string()},        {"format", scene.format.name},
       {"file_bytes", scene.file_bytes},     {"file_rows", scene.file_rows},
       {"gaussians", scene.cloud.size()},    {"dropped", scene.dropped},
-      {"sh_degree", scene.cloud.sh_degree}, {"bounds_98", {{"min", list(box.min)}, {"max", list(box.max)}}}};
+      {"sh_degree", scene.cloud.sh_degree}, {"bounds_98", {{"min", list(box.min)}, {"max", list(box.max)}}},
+      {"antialiased", scene.antialiased}};
+  if (scene.taken_axes) info["spz_axes"] = name_of(*scene.taken_axes);
+  return info;
 }
 
 void run_info(const SceneArguments& args, const CommonOptions& common) {
-  const Scene scene = load_scene(args.scene, console_job(common.quiet));
+  const Scene scene = args.how.load(args.scene, {}, common.quiet, console_job(common.quiet));
   end_progress();
   const nlohmann::json info = info_json(scene);
   if (args.json) {
@@ -81,7 +87,7 @@ void write_depth(const std::filesystem::path& path, const Image<float>& depth) {
 void run_render(const SceneArguments& args, const CommonOptions& common) {
   refuse_existing(args.output, args.overwrite);
   const Job job = console_job(common.quiet);
-  const Scene scene = load_scene(args.scene, job);
+  const Scene scene = args.how.load(args.scene, args.camera.cameras, common.quiet, job);
   const ChosenCamera chosen = choose_camera(args.camera, scene.cloud);
   warn(chosen.warning, common.quiet);
   RasterOptions options;
@@ -113,10 +119,10 @@ void run_convert(const SceneArguments& args, const CommonOptions& common) {
   refuse_existing(args.output, args.overwrite);
   const SceneFormat format = format_from_name(args.output);
   const Job job = console_job(common.quiet);
-  const Scene scene = load_scene(args.scene, job);
+  const Scene scene = args.how.load(args.scene, {}, common.quiet, job);
   end_progress();
   if (job.cancelled()) throw Error("splatcut convert", "cancelled, nothing was written");
-  const SaveReport report = save_scene(args.output, scene, {}, format);
+  const SaveReport report = save_scene(args.output, scene, {}, format, {args.spz_version});
   if (common.quiet) return;
   fmt::print("{}: {} Gaussians, {} bytes\n", args.output.string(), report.gaussians, report.bytes);
   if (!report.loss.empty()) fmt::print("Lost: {}\n", report.loss);
@@ -128,6 +134,7 @@ void add_info_command(CLI::App& program, const CommonOptions& common) {
   auto args = std::make_shared<SceneArguments>();
   CLI::App& command = *program.add_subcommand("info", "Say what a scene file holds");
   command.add_option("scene", args->scene, "Scene file")->required();
+  args->how.add_to(command);
   command.add_flag("--json", args->json, "Print JSON");
   command.callback([args, &common] { run_info(*args, common); });
 }
@@ -137,6 +144,7 @@ void add_render_command(CLI::App& program, const CommonOptions& common) {
   CLI::App& command = *program.add_subcommand("render", "Draw a view of a scene as PNG");
   command.footer("Example: splatcut render scene.ply --camera-pos 0,-1,-4 --camera-target 0,0,0 -o view.png");
   command.add_option("scene", args->scene, "Scene file")->required();
+  args->how.add_to(command);
   args->camera.add_to(command);
   command.add_option("--what", args->what, "colour, depth, alpha or labels")
       ->check(CLI::IsMember({"colour", "depth", "alpha", "labels"}));
@@ -150,9 +158,14 @@ void add_render_command(CLI::App& program, const CommonOptions& common) {
 void add_convert_command(CLI::App& program, const CommonOptions& common) {
   auto args = std::make_shared<SceneArguments>();
   CLI::App& command = *program.add_subcommand(
-      "convert", "Write a scene in another format (.ply, .compressed.ply, .splat, .spz)");
+      "convert", "Write a scene in another format (" + spoken_extensions(written_formats(), "or") + ")");
   command.add_option("scene", args->scene, "Scene file")->required();
+  args->how.add_to(command);
   command.add_option("-o,--output", args->output, "File to write; its ending names the format")->required();
+  command
+      .add_option("--spz-version", args->spz_version,
+                  "Version of a .spz to write: 3, which all programs read, or 4, which is smaller")
+      ->check(CLI::IsMember({3, 4}));
   command.add_flag("--overwrite", args->overwrite, "Replace an existing file");
   command.callback([args, &common] { run_convert(*args, common); });
 }

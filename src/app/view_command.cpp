@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/scene_options.h"
 #include "app/ui/window.h"
 #include "scene/error.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 struct ViewArguments {
   WindowOptions window;
+  SceneOptions how;
   std::string renderer = "auto";
   bool check = false;
 };
@@ -22,6 +24,7 @@ void run_view(ViewArguments args) {
   args.window.renderer = args.renderer == "gl"    ? RendererChoice::kGl
                          : args.renderer == "cpu" ? RendererChoice::kCpu
                                                   : RendererChoice::kAuto;
+  args.window.spz_axes = args.how.axes();
   run_window(args.window);
 }
 
@@ -32,6 +35,7 @@ void add_view_command(CLI::App& program, const CommonOptions& common) {
   CLI::App& command = *program.add_subcommand("view", "Open the window (splatcut SCENE does the same)");
   command.footer("Example: splatcut view scene.ply");
   command.add_option("scene", args->window.open, "Scene file or .splatcut.json");
+  args->how.add_to(command);
   command
       .add_option("--renderer", args->renderer,
                   "auto, gl or cpu: auto takes the CPU where OpenGL is software")

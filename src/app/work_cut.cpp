@@ -43,7 +43,8 @@ Document computed_again(const OpenedScene& scene, Document document, const Job& 
 void run_work_cut(const WorkCutOptions& options) {
   OutputFolder folder(options.output, options.overwrite);
   const Job job = console_job(options.quiet);
-  const auto scene = open_scene(read_work_header(options.work).scene, job);
+  const WorkFile header = read_work_header(options.work);
+  const auto scene = open_scene(header.scene, job, header.spz_axes);
   if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
   WorkFile work = read_work_file(options.work, *scene->scene, scene->hash);
   warn(work.warning, options.quiet);

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 
 namespace splatcut {
 
@@ -43,6 +44,16 @@ inline std::uint32_t largest_of(const std::array<float, 4>& v) {
   return static_cast<std::uint32_t>(
       std::max_element(v.begin(), v.end(), [](float a, float b) { return std::abs(a) < std::abs(b); }) -
       v.begin());
+}
+
+// IEEE half precision; infinity becomes NaN.
+inline float half_to_float(std::uint16_t half) {
+  const int exponent = half >> 10 & 31;
+  const float mantissa = static_cast<float>(half & 1023);
+  const float magnitude = exponent == 0    ? std::ldexp(mantissa, -24)
+                          : exponent == 31 ? std::numeric_limits<float>::quiet_NaN()
+                                           : std::ldexp(mantissa + 1024.0f, exponent - 25);
+  return half & 0x8000 ? -magnitude : magnitude;
 }
 
 template <class T>

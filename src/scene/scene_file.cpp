@@ -5,25 +5,28 @@
 #include <algorithm>
 #include <cassert>
 
+#include "scene/atomic_file.h"
 #include "scene/error.h"
-#include "scene/scene_formats.h"
+#include "scene/foreign_files.h"
+#include "scene/mapped_file.h"
 
 namespace splatcut {
 
 namespace {
 
-bool begins_with(const MappedFile& file, std::string_view magic) {
-  const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
-  return text.starts_with(magic);
+// The content decides among files that carry a mark; the name is needed for those without.
+SceneFormat format_of(const MappedFile& file) {
+  for (const SceneFormat& format : scene_formats())
+    if (format.recognises && format.recognises(file)) return format;
+  refuse_foreign(file);
+  return format_from_name(file.path());
 }
 
-// The content decides among files that carry a mark; the name is needed for .splat, which has none.
-SceneFormat format_of(const MappedFile& file) {
-  if (begins_with(file, "ply\n") || begins_with(file, "ply\r\n"))
-    return is_compressed_ply(file) ? SceneFormat::kCompressedPly : SceneFormat::kPly;
-  constexpr std::string_view kGzip = "\x1f\x8b";
-  if (begins_with(file, "NGSP") || begins_with(file, kGzip)) return SceneFormat::kSpz;
-  return format_from_name(file.path());
+// A folder stands for the scene of several files in it.
+std::filesystem::path in_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::path meta = path / "meta.json";
+  return std::filesystem::is_directory(path, ignored) && std::filesystem::exists(meta, ignored) ? meta : path;
 }
 
 std::vector<std::uint32_t> kept_in_file_order(const GaussianCloud& cloud,
@@ -36,70 +39,26 @@ std::vector<std::uint32_t> kept_in_file_order(const GaussianCloud& cloud,
   return kept;
 }
 
-std::string write_scene(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> kept,
-                        SceneFormat format) {
-  switch (format) {
-    case SceneFormat::kPly:
-      if (scene.format != SceneFormat::kPly || scene.path.empty()) return write_ply(out, scene.cloud, kept);
-      write_ply_subset(out, scene, kept);
-      return {};
-    case SceneFormat::kCompressedPly:
-      return write_compressed_ply(out, scene.cloud, kept);
-    case SceneFormat::kSplat:
-      return write_splat(out, scene.cloud, kept);
-    case SceneFormat::kSpz:
-      return write_spz(out, scene.cloud, kept);
-  }
+}  // namespace
+
+const char* name_of(SpzAxes axes) {
+  return axes == SpzAxes::kPly ? "ply" : "rub";
+}
+
+std::optional<SpzAxes> spz_axes_from_name(std::string_view name) {
+  for (const SpzAxes axes : {SpzAxes::kRub, SpzAxes::kPly})
+    if (name == name_of(axes)) return axes;
   return {};
 }
 
-}  // namespace
-
-const char* name_of(SceneFormat format) {
-  switch (format) {
-    case SceneFormat::kPly:
-      return "ply";
-    case SceneFormat::kCompressedPly:
-      return "compressed.ply";
-    case SceneFormat::kSplat:
-      return "splat";
-    case SceneFormat::kSpz:
-      return "spz";
-  }
-  return "unknown";
-}
-
-SceneFormat format_from_name(const std::filesystem::path& path) {
-  std::string name = path.filename().string();
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (name.ends_with(".compressed.ply")) return SceneFormat::kCompressedPly;
-  if (name.ends_with(".ply")) return SceneFormat::kPly;
-  if (name.ends_with(".splat")) return SceneFormat::kSplat;
-  if (name.ends_with(".spz")) return SceneFormat::kSpz;
-  throw Error(path.string(), "the file extension is none of .ply, .compressed.ply, .splat and .spz");
-}
-
-Scene load_scene(const std::filesystem::path& path, const Job& job) {
-  const MappedFile file(path);
+Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, const Job& job) {
+  const MappedFile file(in_folder(path));
   Scene scene;
-  scene.path = path;
+  scene.path = file.path();
   scene.format = format_of(file);
   scene.file_bytes = file.bytes().size();
   scene.modified_ns = file.modified_ns();
-  switch (scene.format) {
-    case SceneFormat::kPly:
-      read_ply(file, scene, job);
-      break;
-    case SceneFormat::kCompressedPly:
-      read_compressed_ply(file, scene, job);
-      break;
-    case SceneFormat::kSplat:
-      read_splat(file, scene, job);
-      break;
-    case SceneFormat::kSpz:
-      read_spz(file, scene, job);
-      break;
-  }
+  scene.format.read(file, options, scene, job);
   if (!job.cancelled() && scene.cloud.empty())
     throw Error(
         path.string(),
@@ -108,15 +67,23 @@ Scene load_scene(const std::filesystem::path& path, const Job& job) {
   return scene;
 }
 
+Scene load_scene(const std::filesystem::path& path, const Job& job) {
+  return load_scene(path, LoadOptions{}, job);
+}
+
 SaveReport save_scene(const std::filesystem::path& path, const Scene& scene,
-                      std::span<const std::uint8_t> keep, SceneFormat format) {
+                      std::span<const std::uint8_t> keep, const SceneFormat& format,
+                      const SaveOptions& options) {
+  if (!format.write)
+    throw Error(path.string(), fmt::format("{} is only read, not written", format.extension),
+                "Choose " + spoken_extensions(written_formats(), "or"));
   const std::vector<std::uint32_t> kept = kept_in_file_order(scene.cloud, keep);
   if (kept.empty())
     throw Error(path.string(), "nothing is selected: a scene without Gaussians is not written");
   AtomicFile out(path);
   SaveReport report;
   report.gaussians = kept.size();
-  report.loss = write_scene(out, scene, kept, format);
+  report.loss = format.write(out, scene, kept, options);
   report.bytes = static_cast<std::uint64_t>(std::ftell(out.stream()));
   out.commit();
   return report;

@@ -1,34 +1,89 @@
-// One reader and one writer per file format; scene_file.cpp chooses among them. Internal to src/scene.
-// Readers fill cloud (Morton order), file_rows and dropped, and throw Error for bad content. Writers get
-// the Gaussians to write in file order (indices into scene.cloud) and return the sentence on what is lost.
+// The table of scene formats. Readers, writers, file dialogs, help texts and lists of formats follow from it.
+// A format is one file in src/scene/formats that defines its row, and one line here.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "scene/atomic_file.h"
-#include "scene/mapped_file.h"
-#include "scene/scene_file.h"
+// In the order of lists and dialogs.
+// clang-format off
+#define SPLATCUT_SCENE_FORMATS(row) \
+  row(kPly)                         \
+  row(kCompressedPly)               \
+  row(kSplat)                       \
+  row(kSpz)                         \
+  row(kSog)                         \
+  row(kGlb)                         \
+  row(kKsplat)                      \
+// clang-format on
 
 namespace splatcut {
 
-void read_ply(const MappedFile& file, Scene& scene, const Job& job);
-void read_compressed_ply(const MappedFile& file, Scene& scene, const Job& job);
-void read_splat(const MappedFile& file, Scene& scene, const Job& job);
-void read_spz(const MappedFile& file, Scene& scene, const Job& job);
+class AtomicFile;
+class MappedFile;
+struct Job;
+struct LoadOptions;
+struct SaveOptions;
+struct Scene;
 
-// True when the header names the element "chunk" and packed positions.
-bool is_compressed_ply(const MappedFile& file);
+// What a file of a format would hold, before it is written.
+struct FormatPlan {
+  std::uint64_t bytes = 0;
+  bool about = false;      // compressed: the size is an estimate
+  std::string kept, lost;  // sentences; lost is empty where nothing is
+};
 
-// Rows as they stand in the source file, which is a .ply.
-void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians);
-std::string write_ply(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians);
-std::string write_compressed_ply(AtomicFile& out, const GaussianCloud& cloud,
-                                 std::span<const std::uint32_t> gaussians);
-std::string write_splat(AtomicFile& out, const GaussianCloud& cloud,
-                        std::span<const std::uint32_t> gaussians);
-std::string write_spz(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians);
+// One row. A value that is copied freely; rows are equal where their names are.
+struct SceneFormat {
+  const char* name = "";       // in reports and on the command line: "compressed.ply"
+  const char* extension = "";  // what file names end with, small letters: ".compressed.ply"
+  const char* also = "";       // another ending that is read: "meta.json"; empty for none
+
+  // By the first bytes. Null: nothing marks such files but their name.
+  bool (*recognises)(const MappedFile& file) = nullptr;
+
+  // Fills cloud (Morton order), file_rows, dropped and what else a Scene says of its file. Throws Error for
+  // bad content.
+  void (*read)(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) = nullptr;
+
+  // Writes the Gaussians, given as indices into scene.cloud in file order. Returns the sentence on what is
+  // lost, or nothing. Null: the format is only read.
+  std::string (*write)(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
+                       const SaveOptions& options) = nullptr;
+
+  // Of so many of the scene's Gaussians. Null where write is.
+  FormatPlan (*plan)(const Scene& scene, std::size_t gaussians) = nullptr;
+
+  friend bool operator==(const SceneFormat& a, const SceneFormat& b) {
+    return std::string_view(a.name) == b.name;
+  }
+
+#define SPLATCUT_DECLARE_ROW(row) static const SceneFormat row;
+  SPLATCUT_SCENE_FORMATS(SPLATCUT_DECLARE_ROW)
+#undef SPLATCUT_DECLARE_ROW
+};
+
+std::vector<SceneFormat> scene_formats();
+std::vector<SceneFormat> written_formats();
+
+// The format whose extension the name ends with (the longest such), whatever the case; null for none.
+const SceneFormat* find_format(const std::filesystem::path& path);
+bool has_scene_extension(const std::filesystem::path& path);
+
+// The same. Throws Error for a name of no format.
+SceneFormat format_from_name(const std::filesystem::path& path);
+
+// Extensions of the formats as a file dialog filters by them: none that another one covers.
+std::vector<std::string> extensions_of(std::span<const SceneFormat> formats);
+// ".ply, .splat or .spz"
+std::string spoken_extensions(std::span<const SceneFormat> formats, std::string_view conjunction);
+std::vector<std::string> names_of(std::span<const SceneFormat> formats);
+
+// The name with the format's extension in place of any other scene extension.
+std::filesystem::path with_extension(const std::filesystem::path& path, const SceneFormat& format);
 
 }  // namespace splatcut

@@ -8,6 +8,7 @@
 
 #include "app/mask_folder.h"
 #include "scene/error.h"
+#include "scene/scene_formats.h"
 
 namespace splatcut {
 
@@ -67,9 +68,8 @@ fs::path scene_in(const fs::path& folder) {
   if (!last.empty()) return last;
   std::vector<fs::path> files = sorted_entries(folder);
   std::erase_if(files, [](const fs::path& p) {
-    const std::string ending = lower(p.extension().string());
     return !fs::is_regular_file(p) || p.filename() == "input.ply" || p.filename() == "points3D.ply" ||
-           (ending != ".ply" && ending != ".splat" && ending != ".spz");
+           !has_scene_extension(p);
   });
   if (files.size() > 1)
     throw Error(folder.string(),

@@ -46,8 +46,8 @@ void add_make_scene_command(CLI::App& program, const CommonOptions& common) {
       ->check(CLI::Range(std::size_t{1000}, std::size_t{10000000}));
   command.add_option("--seed", options.seed, "Random seed");
   command.add_option("--sh-degree", options.sh_degree, "Spherical harmonics")->check(CLI::Range(0, 3));
-  command.add_option("--format", args->format, "ply, compressed.ply, splat or spz")
-      ->check(CLI::IsMember({"ply", "compressed.ply", "splat", "spz"}));
+  command.add_option("--format", args->format, "What the scene is written as")
+      ->check(CLI::IsMember(names_of(written_formats())));
   command.add_option("--thin-width-scale", options.thin_width_scale, "Width of leaves, handle and cable")
       ->check(CLI::Range(0.01f, 10.0f));
   command.add_flag("--straddling", options.straddling, "Splats across object borders");

@@ -135,7 +135,8 @@ struct SetFieldOfView {
 
 // Files.
 struct OpenScene {
-  std::filesystem::path path;  // a scene or a work file
+  std::filesystem::path path;            // a scene or a work file
+  std::optional<SpzAxes> spz_axes = {};  // as LoadOptions has it; a work file says its own
 };
 struct SaveWork {
   std::filesystem::path path;

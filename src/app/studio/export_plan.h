@@ -1,4 +1,4 @@
-// What an export writes, what it keeps and loses, and how large it gets, before it is done.
+// What an export writes. What a format keeps and loses is its plan in scene_formats.h.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,6 @@ struct ExportRequest {
   std::filesystem::path path;  // a file; for kAllObjects a folder
   bool overwrite = false;
 };
-
-struct ExportPlan {
-  std::size_t gaussians = 0;
-  std::uint64_t bytes = 0;
-  bool about = false;      // compressed: the size is an estimate
-  std::string kept, lost;  // sentences; lost is empty where nothing is
-};
-ExportPlan plan_export(const Scene& scene, std::size_t gaussians, SceneFormat format);
-
-const char* extension_of(SceneFormat format);  // ".ply"
-
-// The name with the format's extension in place of any other scene extension.
-std::filesystem::path with_extension(const std::filesystem::path& path, SceneFormat format);
 
 struct ExportReport {
   std::size_t gaussians = 0, files = 0;

@@ -42,14 +42,15 @@ std::vector<Camera> cameras_near(const std::filesystem::path& scene) {
   return {};
 }
 
-std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const Job& job) {
+std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const Job& job,
+                                        std::optional<SpzAxes> spz_axes) {
   auto opened = std::make_shared<OpenedScene>();
-  auto scene = std::make_shared<Scene>(load_scene(file, job));
+  opened->cameras = cameras_near(file);
+  auto scene = std::make_shared<Scene>(load_scene(file, {spz_axes, opened->cameras}, job));
   if (job.cancelled()) return opened;
   opened->cloud = std::shared_ptr<const GaussianCloud>(scene, &scene->cloud);
   opened->bounds = robust_bounds(scene->cloud.position, 0.9);
-  opened->hash = hash_of_file(file);
-  opened->cameras = cameras_near(file);
+  opened->hash = hash_of_file(scene->path);
   if (opened->cameras.empty())
     look_around(opened.get(), job);
   else

@@ -24,8 +24,9 @@ struct OpenedScene {
       first_view;  // where neither a capture camera nor the view of all from outside will do
 };
 
-// Throws Error for a file that is no scene. Cancelled: the result is empty.
-std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const Job& job = {});
+// Throws Error for a file that is no scene. Cancelled: the result is empty. spz_axes: as in LoadOptions.
+std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const Job& job = {},
+                                        std::optional<SpzAxes> spz_axes = {});
 
 // Graph and parts. A function of the scene and its cameras alone, so that saved work computes the same again.
 std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job& job = {},

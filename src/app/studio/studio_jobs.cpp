@@ -63,14 +63,17 @@ void Studio::perform(const OpenScene& c) {
   const std::uint64_t serial = next_scene_serial_++;
   say(Message::Kind::kInfo, "Opening " + c.path.filename().string());
   tasks_.cancel(TaskKind::kCut);
-  tasks_.submit(TaskKind::kLoad, [this, path = c.path, serial](const Job& job) {
+  tasks_.submit(TaskKind::kLoad, [this, path = c.path, axes = c.spz_axes, serial](const Job& job) {
     const bool work = is_work_file(path);
-    const std::filesystem::path file = work ? read_work_header(path).scene : path;
-    const std::shared_ptr<OpenedScene> opened_scene = open_scene(file, job);
+    WorkFile header;
+    header.scene = path;
+    header.spz_axes = axes;
+    if (work) header = read_work_header(path);
+    const std::shared_ptr<OpenedScene> opened_scene = open_scene(header.scene, job, header.spz_axes);
     if (job.cancelled()) return;
     opened_scene->serial = serial;
     std::optional<Document> document;
-    std::string warning;
+    std::string warning = work || axes ? "" : opened_scene->scene->axes_note;
     if (work) {
       WorkFile read = read_work_file(path, *opened_scene->scene, opened_scene->hash);
       document = std::move(read.document);

@@ -192,6 +192,7 @@ WorkFile read_work_header(const std::filesystem::path& path) {
     WorkFile out;
     out.scene = scene_path(work, path);
     out.scene_hash = std::stoull(work.at("scene").at("hash").get<std::string>(), nullptr, 16);
+    out.spz_axes = spz_axes_from_name(work.at("scene").value("spz_axes", ""));
     return out;
   } catch (const Error&) {
     throw;
@@ -246,11 +247,12 @@ void write_work_file(const std::filesystem::path& path, const Scene& scene, std:
   const std::filesystem::path relative =
       absolute.lexically_relative(std::filesystem::absolute(path).parent_path().lexically_normal());
   const bool beside = !relative.empty() && !relative.string().starts_with("..");
+  json file = {{"path", (beside ? relative : absolute).string()},
+               {"hash", fmt::format("{:016x}", scene_hash)},
+               {"gaussians", scene.cloud.size()}};
+  if (scene.taken_axes) file["spz_axes"] = name_of(*scene.taken_axes);
   const json work = {{"splatcut_work", kVersion},
-                     {"scene",
-                      {{"path", (beside ? relative : absolute).string()},
-                       {"hash", fmt::format("{:016x}", scene_hash)},
-                       {"gaussians", scene.cloud.size()}}},
+                     {"scene", file},
                      {"active", document.active},
                      {"next_id", document.next_id},
                      {"up", list(document.up_world)},

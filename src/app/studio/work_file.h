@@ -18,6 +18,7 @@ namespace splatcut {
 struct WorkFile {
   std::filesystem::path scene;  // absolute
   std::uint64_t scene_hash = 0;
+  std::optional<SpzAxes> spz_axes;  // of a scene whose file does not say them: those of the labels
   Document document;
   std::string warning;  // a sentence about what the file could not say, or empty
 };

@@ -119,14 +119,14 @@ void Application::handle_one(const TextTyped& event) {
 }
 
 void Application::handle_one(const FileDropped& event) {
-  open(event.path);
+  open({event.path, {}});
 }
 
-void Application::open(const std::filesystem::path& path) {
+void Application::open(const OpenScene& command) {
   if (studio_.unsaved())
-    interface_.state().open_asked = path;
+    interface_.state().open_asked = command.path;
   else
-    studio_.apply(OpenScene{path});
+    studio_.apply(command);
 }
 
 void Application::handle_one(const FocusChanged& event) {
@@ -172,7 +172,7 @@ bool Application::frame(double seconds) {
   for (const Action action : ask.actions) studio_.run(action);
   for (const Command& command : ask.commands) {
     if (const auto* opened = std::get_if<OpenScene>(&command))
-      open(opened->path);
+      open(*opened);
     else
       studio_.apply(command);
   }

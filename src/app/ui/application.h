@@ -58,7 +58,7 @@ class Application {
   glm::vec2 in_viewport_px(const glm::vec2& point) const;
   void set_modifiers(const Modifiers& modifiers);
   void choose_renderer(RendererChoice choice);
-  void open(const std::filesystem::path& path);  // asks first where work would be lost
+  void open(const OpenScene& command);  // asks first where work would be lost
   void remember_recent();
   void build_interface(double seconds, Requests* ask);
   void draw_interface();

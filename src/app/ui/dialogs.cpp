@@ -14,8 +14,6 @@ namespace splatcut {
 namespace {
 
 constexpr const char* kWhatNames[] = {"The object", "Everything else", "All objects, a file each"};
-constexpr SceneFormat kFormats[] = {SceneFormat::kPly, SceneFormat::kCompressedPly, SceneFormat::kSplat,
-                                    SceneFormat::kSpz};
 
 void centre_next_window(const ImVec2& size) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
@@ -53,9 +51,9 @@ void propose_path(UiContext& ui) {
                                                               : "object";
   for (char& c : name)
     if (c == ' ' || c == '/') c = '_';
-  choice.path = (folder / (stem + "_" + name +
-                           (choice.what == ExportWhat::kAllObjects ? "" : extension_of(choice.format))))
-                    .string();
+  choice.path =
+      (folder / (stem + "_" + name + (choice.what == ExportWhat::kAllObjects ? "" : choice.format.extension)))
+          .string();
 }
 
 void fact(const char* symbol, const ImVec4& colour, const std::string& text) {
@@ -82,9 +80,11 @@ void export_choices(UiContext& ui) {
   }
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Format");
-  for (const SceneFormat format : kFormats) {
-    ImGui::SameLine(format == SceneFormat::kPly ? 90.0f : 0.0f, format == SceneFormat::kPly ? -1.0f : 2.0f);
-    if (button(ui, extension_of(format), name_of(format), {}, choice.format == format)) {
+  bool first = true;
+  for (const SceneFormat& format : written_formats()) {
+    ImGui::SameLine(first ? 90.0f : 0.0f, first ? -1.0f : 2.0f);
+    first = false;
+    if (button(ui, format.extension, format.name, {}, choice.format == format)) {
       choice.format = format;
       if (choice.what != ExportWhat::kAllObjects) choice.path = with_extension(choice.path, format).string();
     }
@@ -100,6 +100,17 @@ void export_choices(UiContext& ui) {
     ImGui::CloseCurrentPopup();
     open_file_dialog(ui, FilePurpose::kExport);
   }
+}
+
+// Made once for each choice: it looks at all Gaussians.
+const FormatPlan& export_plan(UiContext& ui, std::size_t gaussians) {
+  ExportChoice& choice = ui.state.exporting;
+  std::string key = fmt::format("{} {} {}", ui.studio.scene()->serial, gaussians, choice.format.name);
+  if (choice.plan_key != key) {
+    choice.plan = choice.format.plan(*ui.studio.scene()->scene, gaussians);
+    choice.plan_key = std::move(key);
+  }
+  return choice.plan;
 }
 
 void heading(UiContext& ui, const char* text) {
@@ -151,7 +162,7 @@ void export_dialog(UiContext& ui) {
   export_choices(ui);
   ExportChoice& choice = ui.state.exporting;
   const std::size_t gaussians = gaussians_to_export(ui.studio, choice.what);
-  const ExportPlan plan = plan_export(*ui.studio.scene()->scene, gaussians, choice.format);
+  const FormatPlan& plan = export_plan(ui, gaussians);
   const Palette& p = ui.theme.colour;
   ImGui::Separator();
   fact(icon::kInfo, p.accent,

@@ -12,6 +12,11 @@ namespace splatcut {
 
 namespace {
 
+std::vector<std::string> with(std::vector<std::string> extensions, const char* one_more) {
+  extensions.emplace_back(one_more);
+  return extensions;
+}
+
 struct Kind {
   const char *title, *button, *extension;  // extension: added where none is given
   std::vector<std::string> shown;
@@ -20,7 +25,8 @@ struct Kind {
 Kind kind_of(FilePurpose purpose) {
   switch (purpose) {
     case FilePurpose::kOpen:
-      return {"Open a scene or saved work", "Open", "", {".ply", ".splat", ".spz", ".splatcut.json"}};
+      return {"Open a scene or saved work", "Open", "",
+              with(extensions_of(scene_formats()), ".splatcut.json")};
     case FilePurpose::kSaveWork:
       return {"Save the work", "Save", ".splatcut.json", {".splatcut.json"}};
     case FilePurpose::kSnapshot:
@@ -28,7 +34,7 @@ Kind kind_of(FilePurpose purpose) {
     case FilePurpose::kTurntable:
       return {"A folder of this name for the turntable pictures", "Choose", "", {"/"}};
     case FilePurpose::kExport:
-      return {"Where should it go?", "Choose", "", {".ply", ".splat", ".spz"}};
+      return {"Where should it go?", "Choose", "", extensions_of(written_formats())};
   }
   return {};
 }

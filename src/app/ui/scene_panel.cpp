@@ -30,6 +30,17 @@ void up_buttons(UiContext& ui) {
   }
 }
 
+// Of a .spz that does not say its axes: what was taken, and the other way.
+void axes_row(UiContext& ui) {
+  const Scene* scene = ui.studio.scene() ? ui.studio.scene()->scene.get() : nullptr;
+  if (!scene || !scene->taken_axes) return;
+  wrapped_muted(ui, scene->axes_note);
+  const SpzAxes other = *scene->taken_axes == SpzAxes::kRub ? SpzAxes::kPly : SpzAxes::kRub;
+  if (button(ui, "Take the other axes", "Loads the file again, with y and z the other way round",
+             ui.studio.unsaved() ? "Save the work first: a turned scene begins anew" : "", false, -1))
+    ui.ask(OpenScene{scene->path, other});
+}
+
 void slider_row(const char* label, const char* tip, const std::function<void()>& slider) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
@@ -63,6 +74,7 @@ void scene_panel(UiContext& ui) {
                if (ImGui::SliderFloat("##far", &view.far_share, 0, 3, view.far_share > 0 ? "%.2f" : "none"))
                  ui.ask(SetView{view});
              });
+  axes_row(ui);
   up_buttons(ui);
   const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
   action_button(ui, Action::kFrameScene, "Frame scene", false, half);

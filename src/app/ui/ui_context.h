@@ -30,6 +30,8 @@ struct ExportChoice {
   SceneFormat format = SceneFormat::kPly;
   std::string path;
   bool overwrite = false;
+  FormatPlan plan;
+  std::string plan_key;  // what it was made for
 };
 
 // Choices in the turntable dialog.

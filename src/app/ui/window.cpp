@@ -248,7 +248,7 @@ void run_window(const WindowOptions& options) {
     install_clipboard(window.handle);
     glfwSetWindowUserPointer(window.handle, &loop);
     install_callbacks(window.handle);
-    if (!options.open.empty()) app.studio().apply(OpenScene{options.open});
+    if (!options.open.empty()) app.studio().apply(OpenScene{options.open, options.spz_axes});
     run_loop(loop);
     remember_place(window.handle, &settings);
     settings.dark = state.dark;

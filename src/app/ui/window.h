@@ -9,6 +9,7 @@ namespace splatcut {
 
 struct WindowOptions {
   std::filesystem::path open;  // a scene or a work file; empty: the start page
+  std::optional<SpzAxes> spz_axes;
   RendererChoice renderer = RendererChoice::kAuto;
   float ui_scale = 0;         // 0: the screen's, times the remembered one
   int width = 0, height = 0;  // 0: as it was left

@@ -1,5 +1,6 @@
 // 3DGS .ply as Kerbl et al. (2023) write it: properties by name, in any order; opacity as logit, scale as
-// logarithm, rotation w,x,y,z, f_rest channel-major.
+// logarithm, rotation w,x,y,z, f_rest channel-major. Also as text, and with red, green, blue (bytes, or 0 to
+// 1) in place of f_dc.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,10 +8,13 @@
 #include <bit>
 #include <cstring>
 
-#include "scene/decode.h"
 #include "scene/error.h"
-#include "scene/ply_header.h"
-#include "scene/scene_formats.h"
+#include "scene/formats/decode.h"
+#include "scene/formats/losses.h"
+#include "scene/formats/ply_header.h"
+#include "scene/formats/ply_text.h"
+#include "scene/formats/ply_writer.h"
+#include "scene/quantise.h"
 
 namespace splatcut {
 
@@ -23,6 +27,8 @@ constexpr std::array<const char*, 14> kNames{"x",      "y",       "z",       "f_
                                              "rot_0",  "rot_1",   "rot_2",   "rot_3"};
 enum Field : std::size_t { kX = 0, kDc = 3, kOpacity = 6, kScale = 7, kRotation = 10, kRest = 14 };
 constexpr std::size_t kMaxFields = kRest + 45;
+constexpr std::array<const char*, 3> kColourNames{"red", "green", "blue"};
+constexpr std::array<const char*, 3> kNormalNames{"nx", "ny", "nz"};  // written by all, read by nobody
 
 template <class T>
 float load_as_float(const std::byte* at) {
@@ -62,6 +68,7 @@ struct PlyRows {
   std::array<std::size_t, kMaxFields> offset{};
   std::array<PlyType, kMaxFields> type{};
   bool rest_in_sequence = false;  // f_rest_0, f_rest_1, ... stand side by side as floats
+  float colour_scale = 0;         // not 0: the file has colours instead of f_dc; times this they are 0 to 1
 
   float value(const std::byte* row, std::size_t field) const {
     if constexpr (kFloats) return load_as_float<float>(row + offset[field]);
@@ -73,6 +80,10 @@ struct PlyRows {
   glm::quat rotation(const std::byte* row) const {
     return {value(row, kRotation), value(row, kRotation + 1), value(row, kRotation + 2),
             value(row, kRotation + 3)};
+  }
+  glm::vec3 f_dc(const std::byte* row) const {
+    const glm::vec3 v = vec3(row, kDc);
+    return colour_scale == 0 ? v : f_dc_from_colour(v * colour_scale);
   }
   bool rest_is_finite(const std::byte* row) const {
     // A sum of zeros: 0 * v is NaN for NaN and for infinite v, and the loop has no branch.
@@ -94,7 +105,7 @@ struct PlyRows {
   }
   void decode(std::size_t index, GaussianCloud& cloud, std::size_t g) const {
     const std::byte* row = data + index * row_bytes;
-    cloud.f_dc[g] = vec3(row, kDc);
+    cloud.f_dc[g] = f_dc(row);
     cloud.opacity[g] = sigmoid(value(row, kOpacity));
     cloud.scale[g] = glm::exp(vec3(row, kScale));
     cloud.rotation[g] = glm::normalize(rotation(row));
@@ -126,6 +137,22 @@ void refuse_other_ply(const std::filesystem::path& path, const PlyElement& verte
                 "Only 3D Gaussians are supported");
 }
 
+bool has_colours_only(const PlyElement& vertex) {
+  return !vertex.find(kNames[kDc]) && vertex.find(kColourNames[0]);
+}
+
+// What makes colours of that type 0 to 1.
+float colour_scale_of(PlyType type) {
+  switch (type) {
+    case PlyType::kUint8:
+      return 1.0f / 255;
+    case PlyType::kUint16:
+      return 1.0f / 65535;
+    default:
+      return 1;
+  }
+}
+
 template <bool kFloats>
 PlyRows<kFloats> bind(const std::filesystem::path& path, const PlyElement& vertex) {
   PlyRows<kFloats> rows;
@@ -135,7 +162,11 @@ PlyRows<kFloats> bind(const std::filesystem::path& path, const PlyElement& verte
     rows.offset[field] = property.offset;
     rows.type[field] = property.type;
   };
-  for (std::size_t f = 0; f < kRest; ++f) add(f, kNames[f]);
+  for (std::size_t f = 0; f < kRest; ++f) {
+    const bool colour = f >= kDc && f < kDc + 3 && has_colours_only(vertex);
+    add(f, colour ? kColourNames[f - kDc] : kNames[f]);
+  }
+  if (has_colours_only(vertex)) rows.colour_scale = colour_scale_of(rows.type[kDc]);
   std::size_t rest = 0;
   for (const PlyProperty& property : vertex.properties) rest += property.name.starts_with("f_rest_");
   degree_from_rest(path, rest);
@@ -154,27 +185,114 @@ const PlyElement& vertex_of(const std::filesystem::path& path, const PlyHeader& 
   throw Error(path.string(), "the header has no element \"vertex\"");
 }
 
+std::vector<std::string> other_properties(const PlyElement& vertex) {
+  std::vector<std::string> others;
+  for (const PlyProperty& p : vertex.properties) {
+    const auto is = [&](const char* name) { return p.name == name; };
+    const bool known = std::ranges::any_of(kNames, is) || std::ranges::any_of(kNormalNames, is) ||
+                       p.name.starts_with("f_rest_") ||
+                       (has_colours_only(vertex) && std::ranges::any_of(kColourNames, is));
+    if (!known) others.push_back(p.name);
+  }
+  return others;
+}
+
 template <bool kFloats>
-void read_rows(const MappedFile& file, const PlyElement& vertex, Scene& scene, const Job& job) {
+void read_rows(const MappedFile& file, const PlyElement& vertex, const std::byte* data, Scene& scene,
+               const Job& job) {
   PlyRows<kFloats> rows = bind<kFloats>(file.path(), vertex);
-  rows.data = element_bytes(file.path(), file.bytes(), vertex).data();
+  rows.data = data;
   if (vertex.count > std::numeric_limits<std::uint32_t>::max())
     throw Error(file.path().string(), fmt::format("{} Gaussians are more than can be handled", vertex.count));
   decode_rows(rows, vertex.count, degree_from_rest(file.path(), rows.fields - kRest), scene, job);
 }
 
-}  // namespace
+bool is_ply(const MappedFile& file) {
+  return has_ply_mark(file) && !SceneFormat::kCompressedPly.recognises(file);
+}
 
-void read_ply(const MappedFile& file, Scene& scene, const Job& job) {
+// Bytes of colour are bytes in a text, too.
+void read_text(const MappedFile& file, const PlyHeader& header, const PlyElement& vertex, Scene& scene,
+               const Job& job) {
+  bind<false>(file.path(), vertex);  // refuses what lacks a property before the long part
+  job.progress("reading text", 0.0);
+  PlyTextRows rows = read_text_rows(file, header, vertex, job);
+  if (job.cancelled()) return;
+  if (has_colours_only(vertex)) {
+    const float scale = colour_scale_of(vertex.find(kColourNames[0])->type);
+    for (const char* name : kColourNames) {
+      const std::size_t column = required_property(file.path(), rows.element, name).offset / sizeof(float);
+      for (std::size_t row = 0; row < vertex.count; ++row)
+        rows.values[row * vertex.properties.size() + column] *= scale;
+    }
+  }
+  read_rows<true>(file, rows.element, std::as_bytes(std::span(rows.values)).data(), scene, job);
+}
+
+void read_binary(const MappedFile& file, const PlyElement& vertex, Scene& scene, const Job& job) {
+  const bool floats = std::ranges::all_of(vertex.properties,
+                                          [](const PlyProperty& p) { return p.type == PlyType::kFloat32; });
+  const std::byte* data = element_bytes(file.path(), file.bytes(), vertex).data();
+  if (floats)
+    read_rows<true>(file, vertex, data, scene, job);
+  else
+    read_rows<false>(file, vertex, data, scene, job);
+}
+
+void read_ply(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
   const PlyHeader header = parse_ply_header(file.path(), file.bytes());
   const PlyElement& vertex = vertex_of(file.path(), header);
   refuse_other_ply(file.path(), vertex);
-  const bool floats = std::ranges::all_of(vertex.properties,
-                                          [](const PlyProperty& p) { return p.type == PlyType::kFloat32; });
-  if (floats)
-    read_rows<true>(file, vertex, scene, job);
+  scene.rows_can_be_copied = !header.ascii;
+  scene.other_properties = other_properties(vertex);
+  if (header.ascii)
+    read_text(file, header, vertex, scene, job);
   else
-    read_rows<false>(file, vertex, scene, job);
+    read_binary(file, vertex, scene, job);
 }
+
+Losses ply_losses(const Scene& scene) {
+  Losses losses;
+  if (!scene.rows_can_be_copied) losses.add(properties_left_out(scene));
+  losses.add(antialiasing_left_out(scene));
+  return losses;
+}
+
+std::string write_ply(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
+                      const SaveOptions&) {
+  if (scene.rows_can_be_copied)
+    write_ply_subset(out, scene, gaussians);
+  else
+    write_ply_rows(out, scene.cloud, gaussians);
+  return ply_losses(scene).sentence();
+}
+
+std::uint64_t ply_row_bytes(const Scene& scene) {
+  if (scene.rows_can_be_copied && scene.file_rows > 0) return scene.file_bytes / scene.file_rows;
+  const auto floats = 3 + 3 + 3 + scene.cloud.sh_stride() + 1 + 3 +
+                      4;  // position, normal, f_dc, rest, opacity, scale, rotation
+  return floats * sizeof(float);
+}
+
+FormatPlan plan_ply(const Scene& scene, std::size_t gaussians) {
+  FormatPlan plan;
+  plan.bytes = gaussians * ply_row_bytes(scene) + 1500;
+  plan.kept = scene.rows_can_be_copied
+                  ? "Every property of every row, byte for byte as in the source file."
+                  : "Everything the source file holds, as ordinary 32-bit 3DGS properties.";
+  plan.lost = ply_losses(scene).in_full();
+  return plan;
+}
+
+}  // namespace
+
+constinit const SceneFormat SceneFormat::kPly = {
+    .name = "ply",
+    .extension = ".ply",
+    .recognises = is_ply,
+    .read = read_ply,
+    .write = write_ply,
+    .plan = plan_ply,
+};
 
 }  // namespace splatcut

@@ -1,5 +1,8 @@
-#include "scene/decode.h"
+#include "scene/formats/decode.h"
 
+#include <fmt/format.h>
+
+#include "scene/error.h"
 #include "scene/large_array.h"
 
 namespace splatcut {
@@ -14,6 +17,15 @@ void reserve_in_large_pages(std::vector<T>& values, std::size_t n) {
 }
 
 }  // namespace
+
+void check_expansion(const std::filesystem::path& path, std::uint64_t packed_bytes,
+                     std::uint64_t unpacked_bytes) {
+  constexpr std::uint64_t kMostFold = 256, kAlways = 16 << 20;
+  if (unpacked_bytes <= kAlways || unpacked_bytes / kMostFold <= packed_bytes) return;
+  throw Error(path.string(),
+              fmt::format("is damaged: its {} bytes promise {} unpacked, and no scene packs so well",
+                          packed_bytes, unpacked_bytes));
+}
 
 void resize_for_decode(GaussianCloud& cloud, std::size_t n, int degree) {
   cloud.sh_degree = degree;

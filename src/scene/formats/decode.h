@@ -1,5 +1,5 @@
-// The loading loop that all scene formats share: rows of a file, in any encoding, become a GaussianCloud
-// in Morton order. Internal to src/scene.
+// What the readers of all scene formats share, above all the loading loop: rows of a file, in any encoding,
+// become a GaussianCloud in Morton order. Internal to src/scene/formats.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -7,8 +7,10 @@
 
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <vector>
 
+#include "scene/mapped_file.h"
 #include "scene/morton.h"
 #include "scene/scene_file.h"
 
@@ -18,6 +20,11 @@ inline float sigmoid(float logit) {
   return 1.0f / (1.0f + std::exp(-logit));
 }
 
+inline bool begins_with(const MappedFile& file, std::string_view mark) {
+  return std::string_view(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size())
+      .starts_with(mark);
+}
+
 inline bool is_finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -25,6 +32,12 @@ inline bool is_finite(const glm::vec3& v) {
 // Takes the memory of the cloud in large pages where the system has them: the first touch of 4 kB pages
 // costs more than decoding into them.
 void resize_for_decode(GaussianCloud& cloud, std::size_t n, int degree);
+
+// Throws Error where data packed into so many bytes would unpack to more than 256 times as many, beyond 16
+// MiB: no scene packs so well, and a small file must not take all memory. The cloud takes at most six times
+// the memory of the rows it is made of.
+void check_expansion(const std::filesystem::path& path, std::uint64_t packed_bytes,
+                     std::uint64_t unpacked_bytes);
 
 // Source: `glm::vec3 position(row) const`, NaN for a row to drop, and `void decode(row, cloud, g) const`,
 // which fills all attributes of Gaussian g but position and file_row. Both are called from many threads.

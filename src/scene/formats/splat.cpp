@@ -4,10 +4,11 @@
 
 #include <limits>
 
-#include "scene/decode.h"
+#include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/formats/decode.h"
+#include "scene/formats/losses.h"
 #include "scene/quantise.h"
-#include "scene/scene_formats.h"
 
 namespace splatcut {
 
@@ -50,9 +51,7 @@ struct SplatRow {
 };
 static_assert(sizeof(SplatRow) == kRowBytes);
 
-}  // namespace
-
-void read_splat(const MappedFile& file, Scene& scene, const Job& job) {
+void read_splat(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
   const std::size_t size = file.bytes().size();
   const std::size_t rows = size / kRowBytes;
   if (size % kRowBytes != 0)
@@ -63,8 +62,23 @@ void read_splat(const MappedFile& file, Scene& scene, const Job& job) {
   decode_rows(SplatRows{file.bytes().data()}, rows, 0, scene, job);
 }
 
-std::string write_splat(AtomicFile& out, const GaussianCloud& cloud,
-                        std::span<const std::uint32_t> gaussians) {
+Losses splat_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) {
+  constexpr float kHalfStep = 0.5f / 255;
+  constexpr Reach kColours{(-kHalfStep - 0.5f) / kShC0Rounded, (0.5f + kHalfStep) / kShC0Rounded};
+  Losses losses;
+  if (scene.cloud.sh_degree > 0)
+    losses.add(fmt::format("view-dependent colour: spherical harmonics of degree {} are dropped",
+                           scene.cloud.sh_degree));
+  losses.add("colours, opacities and rotations are rounded to 8 bits");
+  losses.add(clamped_colours(scene.cloud, gaussians, kColours));
+  losses.add(properties_left_out(scene));
+  losses.add(antialiasing_left_out(scene));
+  return losses;
+}
+
+std::string write_splat(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
+                        const SaveOptions&) {
+  const GaussianCloud& cloud = scene.cloud;
   std::vector<SplatRow> rows(gaussians.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::uint32_t g = gaussians[i];
@@ -76,10 +90,25 @@ std::string write_splat(AtomicFile& out, const GaussianCloud& cloud,
                {to_byte(q.w + 128), to_byte(q.x + 128), to_byte(q.y + 128), to_byte(q.z + 128)}};
   }
   out.write(std::as_bytes(std::span(rows)));
-  if (cloud.sh_degree == 0) return "colours, opacities and rotations are rounded to 8 bits";
-  return fmt::format(
-      "spherical harmonics of degree {} are dropped; colours, opacities and rotations are rounded to 8 bits",
-      cloud.sh_degree);
+  return splat_losses(scene, gaussians).sentence();
 }
+
+FormatPlan plan_splat(const Scene& scene, std::size_t gaussians) {
+  FormatPlan plan;
+  plan.bytes = gaussians * kRowBytes;
+  plan.kept = "Position and scale in full; colour, opacity and rotation in 8 bits.";
+  plan.lost = splat_losses(scene, all_gaussians(scene.cloud)).in_full();
+  return plan;
+}
+
+}  // namespace
+
+constinit const SceneFormat SceneFormat::kSplat = {
+    .name = "splat",
+    .extension = ".splat",
+    .read = read_splat,
+    .write = write_splat,
+    .plan = plan_splat,
+};
 
 }  // namespace splatcut

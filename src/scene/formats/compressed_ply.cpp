@@ -7,11 +7,12 @@
 #include <array>
 #include <limits>
 
-#include "scene/decode.h"
+#include "scene/atomic_file.h"
 #include "scene/error.h"
-#include "scene/ply_header.h"
+#include "scene/formats/decode.h"
+#include "scene/formats/losses.h"
+#include "scene/formats/ply_header.h"
 #include "scene/quantise.h"
-#include "scene/scene_formats.h"
 
 namespace splatcut {
 
@@ -187,20 +188,21 @@ std::string header_for(std::size_t gaussians, std::size_t chunks, std::size_t sh
   return header + "end_header\n";
 }
 
-}  // namespace
-
 bool is_compressed_ply(const MappedFile& file) {
+  if (!has_ply_mark(file)) return false;
   const PlyHeader header = parse_ply_header(file.path(), file.bytes());
   const PlyElement* vertex = header.find("vertex");
   return header.find("chunk") && vertex && vertex->find(kPacked[0]);
 }
 
-void read_compressed_ply(const MappedFile& file, Scene& scene, const Job& job) {
+void read_compressed_ply(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
   const PlyHeader header = parse_ply_header(file.path(), file.bytes());
   const PlyElement *chunk = header.find("chunk"), *vertex = header.find("vertex");
   if (!chunk || !vertex)
     throw Error(file.path().string(),
                 "is not a compressed .ply: the elements \"chunk\" and \"vertex\" are wanted");
+  if (header.ascii)
+    throw Error(file.path().string(), "is a compressed .ply written as text, which holds no packed numbers");
   PackedRows rows;
   for (std::size_t f = 0; f < kPacked.size(); ++f)
     rows.offset[f] = typed_property(file.path(), *vertex, kPacked[f], PlyType::kUint32).offset;
@@ -216,9 +218,24 @@ void read_compressed_ply(const MappedFile& file, Scene& scene, const Job& job) {
   decode_rows(rows, vertex->count, degree, scene, job);
 }
 
+Losses compressed_ply_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) {
+  constexpr float kHalfStep = 0.5f / 256;
+  constexpr Reach kShBytes{(-0.5f - kHalfStep) * kShRange, (0.5f + kHalfStep) * kShRange};
+  Losses losses;
+  losses.add(
+      "positions are rounded to 11 bits within groups of 256 Gaussians, whose order changes, all other "
+      "values "
+      "to 8 to 11 bits");
+  losses.add(clamped_sh(scene.cloud, gaussians, kShBytes));
+  losses.add(properties_left_out(scene));
+  losses.add(antialiasing_left_out(scene));
+  return losses;
+}
+
 // In Morton order instead of file order: neighbours must share a chunk, or its bounds mean nothing.
-std::string write_compressed_ply(AtomicFile& out, const GaussianCloud& cloud,
-                                 std::span<const std::uint32_t> gaussians) {
+std::string write_compressed_ply(AtomicFile& out, const Scene& scene,
+                                 std::span<const std::uint32_t> gaussians, const SaveOptions&) {
+  const GaussianCloud& cloud = scene.cloud;
   std::vector<std::uint32_t> order(gaussians.begin(), gaussians.end());
   std::ranges::sort(order);
   std::vector<Chunk> chunks;
@@ -239,7 +256,26 @@ std::string write_compressed_ply(AtomicFile& out, const GaussianCloud& cloud,
       sh.push_back(to_byte(std::floor((v / kShRange + 0.5f) * 256.0f)));
   }
   out.write(std::as_bytes(std::span(sh)));
-  return "values are rounded to 8 to 11 bits within groups of 256 Gaussians, and their order changes";
+  return compressed_ply_losses(scene, gaussians).sentence();
 }
+
+FormatPlan plan_compressed_ply(const Scene& scene, std::size_t gaussians) {
+  FormatPlan plan;
+  plan.bytes = gaussians * (16 + scene.cloud.sh_stride()) + (gaussians / 256 + 1) * 72 + 900;
+  plan.kept = "Position, rotation, scale, colour and opacity in 16 bytes a Gaussian.";
+  plan.lost = compressed_ply_losses(scene, all_gaussians(scene.cloud)).in_full();
+  return plan;
+}
+
+}  // namespace
+
+constinit const SceneFormat SceneFormat::kCompressedPly = {
+    .name = "compressed.ply",
+    .extension = ".compressed.ply",
+    .recognises = is_compressed_ply,
+    .read = read_compressed_ply,
+    .write = write_compressed_ply,
+    .plan = plan_compressed_ply,
+};
 
 }  // namespace splatcut

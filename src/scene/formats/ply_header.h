@@ -1,6 +1,6 @@
 // The text at the start of a .ply file: its elements and their properties. Internal to src/scene.
-// Reads format binary_little_endian 1.0 only; other formats, unknown types and headers without an end
-// are an Error. List properties are known, but an element that has one has no fixed row size.
+// Reads formats binary_little_endian and ascii; others, unknown types and headers without an end are an
+// Error. List properties are known, but an element that has one has no fixed row size.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "scene/mapped_file.h"
 
 namespace splatcut {
 
@@ -35,10 +37,14 @@ struct PlyElement {
 
 struct PlyHeader {
   std::size_t bytes = 0;  // up to and including the line end after end_header
+  bool ascii = false;     // rows are text: offsets and data_begin are then meaningless
   std::vector<PlyElement> elements;
 
   const PlyElement* find(std::string_view element) const;
 };
+
+// Whether the file begins as every .ply does.
+bool has_ply_mark(const MappedFile& file);
 
 // The words of a header line, without blanks and line end.
 std::vector<std::string_view> words_of(std::string_view line);

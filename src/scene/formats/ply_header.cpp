@@ -1,4 +1,4 @@
-#include "scene/ply_header.h"
+#include "scene/formats/ply_header.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "scene/error.h"
+#include "scene/formats/decode.h"
 
 namespace splatcut {
 
@@ -104,6 +105,10 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
   return it == elements.end() ? nullptr : &*it;
 }
 
+bool has_ply_mark(const MappedFile& file) {
+  return begins_with(file, "ply\n") || begins_with(file, "ply\r\n");
+}
+
 PlyHeader parse_ply_header(const std::filesystem::path& path, std::span<const std::byte> file) {
   const std::string_view text(reinterpret_cast<const char*>(file.data()),
                               std::min(file.size(), kMaxHeaderBytes));
@@ -126,7 +131,8 @@ PlyHeader parse_ply_header(const std::filesystem::path& path, std::span<const st
       break;
     }
     if (words[0] == "format") {
-      if (words.size() != 3 || words[1] != "binary_little_endian")
+      header.ascii = words.size() == 3 && words[1] == "ascii";
+      if (words.size() != 3 || (words[1] != "binary_little_endian" && !header.ascii))
         throw Error(path.string(), fmt::format("\"{}\" is not supported", line),
                     "Convert the file to binary_little_endian");
       has_format = true;

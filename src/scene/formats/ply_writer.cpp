@@ -1,12 +1,13 @@
-// Writing of .ply: rows copied from the source, or encoded from the cloud in the layout of Kerbl et al.
+#include "scene/formats/ply_writer.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "scene/error.h"
-#include "scene/ply_header.h"
-#include "scene/scene_formats.h"
+#include "scene/formats/ply_header.h"
+#include "scene/mapped_file.h"
 
 namespace splatcut {
 
@@ -81,7 +82,7 @@ void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::
   out.write(source.bytes().subspan(vertex->data_begin + rows.size()));  // elements after the Gaussians
 }
 
-std::string write_ply(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
+void write_ply_rows(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
   const std::string header = header_for(gaussians.size(), cloud.sh_stride());
   out.write(std::as_bytes(std::span(header)));
   std::vector<float> buffer;
@@ -99,7 +100,6 @@ std::string write_ply(AtomicFile& out, const GaussianCloud& cloud, std::span<con
     buffer.clear();
   }
   out.write(std::as_bytes(std::span(buffer)));
-  return {};
 }
 
 }  // namespace splatcut

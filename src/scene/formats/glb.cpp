@@ -1,0 +1,377 @@
+// Reader of glTF with KHR_gaussian_splatting: .glb, and .gltf with its .bin beside it. The nodes' places
+// count. Not read: compressed attributes, buffers inside the text, linear colours, kernels other than the
+// ellipse, and a turned node over SH, which would have to turn too.
+#include "scene/formats/glb.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "scene/error.h"
+#include "scene/formats/axes.h"
+#include "scene/formats/decode.h"
+#include "scene/quantise.h"
+
+namespace splatcut {
+
+namespace {
+
+using nlohmann::json;
+using namespace gltf;
+
+// The text and the buffers of a file.
+struct Gltf {
+  json text;
+  std::vector<std::span<const std::byte>> buffers;
+  std::vector<std::unique_ptr<MappedFile>> beside;  // holds buffers of other files
+
+  explicit Gltf(const MappedFile& file);
+  Gltf(const Gltf&) = delete;
+  Gltf& operator=(const Gltf&) = delete;
+};
+
+std::span<const std::byte> chunk_at(const MappedFile& file, std::size_t* at, std::uint32_t* type) {
+  const std::span<const std::byte> all = file.bytes();
+  if (all.size() - *at < sizeof(ChunkHeader)) return {};
+  const auto header = load<ChunkHeader>(all.data() + *at);
+  *at += sizeof header;
+  if (header.bytes > all.size() - *at)
+    throw Error(file.path().string(), fmt::format("truncated: a part of {} bytes begins at byte {} of {}",
+                                                  header.bytes, *at, all.size()));
+  const auto chunk = all.subspan(*at, header.bytes);
+  *at += header.bytes;
+  *type = header.type;
+  return chunk;
+}
+
+json parsed(std::span<const std::byte> text) {
+  const auto* begin = reinterpret_cast<const char*>(text.data());
+  return json::parse(begin, begin + text.size());
+}
+
+void open_buffers(const MappedFile& file, std::span<const std::byte> binary, Gltf* gltf) {
+  for (const json& buffer : gltf->text.value("buffers", json::array())) {
+    if (!buffer.contains("uri")) {
+      gltf->buffers.push_back(binary);
+      continue;
+    }
+    const auto uri = buffer.at("uri").get<std::string>();
+    if (uri.starts_with("data:") || std::filesystem::path(uri).filename() != uri)
+      throw Error(file.path().string(), "its numbers are inside the text or in another folder",
+                  "Save it as .glb, which holds all in one file");
+    gltf->beside.push_back(std::make_unique<MappedFile>(file.path().parent_path() / uri));
+    gltf->buffers.push_back(gltf->beside.back()->bytes());
+  }
+}
+
+Gltf::Gltf(const MappedFile& file) {
+  std::span<const std::byte> binary;
+  if (begins_with(file, kGlbMark)) {
+    std::size_t at = sizeof(GlbHeader);
+    std::uint32_t type = 0;
+    if (file.bytes().size() < at) throw Error(file.path().string(), "truncated: the header is cut");
+    const auto version = load<GlbHeader>(file.bytes().data()).version;
+    if (version != 2)
+      throw Error(file.path().string(), fmt::format("version {} of .glb is not supported", version));
+    const auto chunk = chunk_at(file, &at, &type);
+    if (type != kJsonChunk) throw Error(file.path().string(), "truncated: it has no text");
+    text = parsed(chunk);
+    binary = chunk_at(file, &at, &type);
+    if (type != kBinaryChunk) binary = {};
+  } else {
+    text = parsed(file.bytes());
+  }
+  open_buffers(file, binary, this);
+}
+
+std::size_t bytes_of_component(int type) {
+  return type == kInt8 || type == kUint8 ? 1 : type == kInt16 || type == kUint16 ? 2 : 4;
+}
+
+// Numbers of an attribute, `width` for each Gaussian.
+struct Accessor {
+  const std::byte* data = nullptr;
+  std::size_t stride = 0;
+  int type = kFloat;
+  bool normalised = false;
+
+  float value(std::size_t row, std::size_t c) const {
+    const std::byte* at = data + row * stride + c * bytes_of_component(type);
+    switch (type) {
+      case kInt8:
+        return scaled(load<std::int8_t>(at), 127);
+      case kUint8:
+        return scaled(load<std::uint8_t>(at), 255);
+      case kInt16:
+        return scaled(load<std::int16_t>(at), 32767);
+      case kUint16:
+        return scaled(load<std::uint16_t>(at), 65535);
+      default:
+        return load<float>(at);
+    }
+  }
+  float scaled(int number, int most) const {
+    const auto v = static_cast<float>(number);
+    return normalised ? std::max(-1.0f, v / static_cast<float>(most)) : v;
+  }
+  glm::vec3 vec3(std::size_t row) const { return {value(row, 0), value(row, 1), value(row, 2)}; }
+};
+
+struct Primitive {
+  std::size_t first_row = 0, rows = 0;
+  Accessor position, rotation, scale, opacity, f_dc;
+  std::vector<Accessor> sh;
+  bool log_scale = false;
+  glm::mat4 scene_from_local{1};
+  glm::quat turn{1, 0, 0, 0};
+  float size = 1;
+  int degree = 0;
+};
+
+// Checks that all numbers lie in the buffer.
+Accessor accessor_of(const MappedFile& file, const Gltf& gltf, const json& attributes,
+                     const std::string& name, std::size_t width, std::size_t* rows) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error(file.path().string(), fmt::format("the attribute {} {}", name, what));
+  };
+  if (!attributes.contains(name)) refuse("is missing");
+  const json& about = gltf.text.at("accessors").at(attributes.at(name).get<std::size_t>());
+  if (about.contains("sparse") || !about.contains("bufferView"))
+    refuse("is sparse or packed, which is not read");
+  const std::map<std::string, std::size_t> widths = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
+  const auto said = widths.find(about.at("type").get<std::string>());
+  if (said == widths.end() || said->second != width) refuse(fmt::format("does not have {} numbers", width));
+  const json& view = gltf.text.at("bufferViews").at(about.at("bufferView").get<std::size_t>());
+  const std::span<const std::byte> buffer = gltf.buffers.at(view.value("buffer", std::size_t{0}));
+  Accessor accessor;
+  accessor.type = about.at("componentType").get<int>();
+  accessor.normalised = about.value("normalized", false);
+  if (accessor.type != kFloat && (accessor.type < kInt8 || accessor.type > kUint16))
+    refuse(fmt::format("has numbers of type {}, which is not read", accessor.type));
+  const std::size_t row_bytes = width * bytes_of_component(accessor.type);
+  accessor.stride = view.value("byteStride", row_bytes);
+  const auto count = about.at("count").get<std::size_t>();
+  const auto offset_in = [&](const json& part) {
+    return std::min(part.value("byteOffset", std::size_t{0}), buffer.size() + 1);
+  };
+  const std::size_t begin = offset_in(view) + offset_in(about);
+  if (*rows == 0) *rows = count;
+  if (count != *rows) refuse(fmt::format("has {} rows, others have {}", count, *rows));
+  if (count == 0 || accessor.stride < row_bytes || begin > buffer.size() ||
+      (buffer.size() - begin) / accessor.stride + 1 < count ||
+      buffer.size() - begin < (count - 1) * accessor.stride + row_bytes)
+    refuse(fmt::format("reaches beyond the {} bytes of its buffer: truncated", buffer.size()));
+  accessor.data = buffer.data() + begin;
+  return accessor;
+}
+
+void check_extension(const MappedFile& file, const json& extension) {
+  const auto refuse = [&](const std::string& what, const char* remedy) {
+    throw Error(file.path().string(), what, remedy);
+  };
+  if (extension.contains("extensions"))
+    refuse("its Gaussians are packed by an extension of the extension", "Unpack it, or export .ply or .spz");
+  if (extension.value("kernel", "ellipse") != "ellipse")
+    refuse("its Gaussians are no ellipses but \"" + extension.value("kernel", "") + "\"", "Export .ply");
+  if (extension.value("colorSpace", "").starts_with("lin"))
+    refuse("its colours are linear, those of a scene are sRGB",
+           "Export with the colour space srgb_rec709_display");
+}
+
+Primitive primitive_of(const MappedFile& file, const Gltf& gltf, const json& about) {
+  check_extension(file, about.at("extensions").at(kExtension));
+  const json& attributes = about.at("attributes");
+  Primitive p;
+  const auto bound = [&](const std::string& name, std::size_t width) {
+    return accessor_of(file, gltf, attributes, name, width, &p.rows);
+  };
+  p.position = bound("POSITION", 3);
+  p.rotation = bound(attribute_name("ROTATION"), 4);
+  p.scale = bound(attribute_name("SCALE"), 3);
+  p.opacity = bound(attribute_name("OPACITY"), 1);
+  p.f_dc = bound(sh_name(0, 0), 3);
+  for (; p.degree < 3 && attributes.contains(sh_name(p.degree + 1, 0)); ++p.degree)
+    for (int k = 0; k < 2 * p.degree + 3; ++k) p.sh.push_back(bound(sh_name(p.degree + 1, k), 3));
+  for (std::size_t row = 0; row < p.rows && !p.log_scale; ++row) {
+    const glm::vec3 scale = p.scale.vec3(row);
+    p.log_scale = std::min({scale.x, scale.y, scale.z}) < 0;
+  }
+  return p;
+}
+
+glm::mat4 matrix_of(const json& node) {
+  if (node.contains("matrix")) {
+    const auto m = node.at("matrix").get<std::array<float, 16>>();
+    return glm::make_mat4(m.data());
+  }
+  const auto t = node.value("translation", std::array<float, 3>{0, 0, 0});
+  const auto r = node.value("rotation", std::array<float, 4>{0, 0, 0, 1});
+  const auto s = node.value("scale", std::array<float, 3>{1, 1, 1});
+  glm::mat4 m = glm::mat4_cast(glm::quat(r[3], r[0], r[1], r[2]));
+  for (int c = 0; c < 3; ++c) m[c] *= s[static_cast<std::size_t>(c)];
+  m[3] = {t[0], t[1], t[2], 1};
+  return m;
+}
+
+// Moves, turns and scales the primitive; refuses what Gaussians cannot follow.
+void place(const MappedFile& file, const glm::mat4& scene_from_local, Primitive* p) {
+  constexpr float kAlike = 1e-4f;
+  glm::mat3 linear(scene_from_local);
+  const float size = std::cbrt(std::abs(glm::determinant(linear)));
+  if (!(size > 0) || !std::isfinite(size)) throw Error(file.path().string(), "a node has the size 0");
+  linear = linear * (1 / size);
+  const glm::mat3 off = glm::transpose(linear) * linear - glm::mat3(1);
+  bool even = glm::determinant(linear) > 0, turned = false;
+  for (int c = 0; c < 3; ++c) {
+    even = even && glm::length(off[c]) < kAlike;
+    turned = turned || glm::length(linear[c] - glm::mat3(1)[c]) > kAlike;
+  }
+  if (!even)
+    throw Error(file.path().string(), "a node stretches or mirrors its Gaussians",
+                "Apply the transform in the program that wrote it");
+  if (turned && p->degree > 0)
+    throw Error(file.path().string(),
+                "a node turns Gaussians with view-dependent colour, which is not supported",
+                "Apply the transform in the program that wrote it, or leave out spherical harmonics");
+  p->scene_from_local = scene_from_local;
+  p->size = size;
+  if (turned) p->turn = glm::normalize(glm::quat_cast(linear));
+}
+
+struct GltfRows {
+  std::vector<Primitive> primitives;
+  int degree = 0;
+  std::array<float, 15> sh_signs = kLeftUpForward.sh();
+
+  const Primitive& primitive_of_row(std::size_t* row) const {
+    const auto next = std::ranges::upper_bound(primitives, *row, {}, &Primitive::first_row);
+    const Primitive& p = *std::prev(next);
+    *row -= p.first_row;
+    return p;
+  }
+  static glm::vec3 scale(const Primitive& p, std::size_t row) {
+    const glm::vec3 s = p.scale.vec3(row);
+    return p.size * (p.log_scale ? glm::exp(s) : s);
+  }
+  static glm::quat rotation(const Primitive& p, std::size_t row) {
+    return {p.rotation.value(row, 3), p.rotation.value(row, 0), p.rotation.value(row, 1),
+            p.rotation.value(row, 2)};
+  }
+  glm::vec3 position(std::size_t index) const {
+    const Primitive& p = primitive_of_row(&index);
+    const glm::vec3 s = scale(p, index);
+    const glm::quat q = rotation(p, index);
+    const float norm_squared = glm::dot(q, q);
+    const bool good = norm_squared > 0 && std::isfinite(norm_squared) && is_finite(s) &&
+                      is_finite(p.f_dc.vec3(index)) && !std::isnan(p.opacity.value(index, 0)) &&
+                      std::ranges::all_of(p.sh, [&](const Accessor& a) { return is_finite(a.vec3(index)); });
+    if (!good) return kDroppedRow;
+    return kLeftUpForward.position(glm::vec3(p.scene_from_local * glm::vec4(p.position.vec3(index), 1)));
+  }
+  void decode(std::size_t index, GaussianCloud& cloud, std::size_t g) const {
+    const Primitive& p = primitive_of_row(&index);
+    cloud.scale[g] = scale(p, index);
+    cloud.rotation[g] = kLeftUpForward.rotation(p.turn * glm::normalize(rotation(p, index)));
+    cloud.f_dc[g] = p.f_dc.vec3(index);
+    cloud.opacity[g] = std::clamp(p.opacity.value(index, 0), 0.0f, 1.0f);
+    const auto coefficients = static_cast<std::size_t>(sh_rest_coefficients(degree));
+    float* rest = cloud.sh_rest.data() + g * cloud.sh_stride();
+    for (std::size_t k = 0; k < p.sh.size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c) rest[c * coefficients + k] = p.sh[k].value(index, c) * sh_signs[k];
+  }
+};
+
+// Collects every primitive with Gaussians below a node.
+class Collector {
+ public:
+  Collector(const MappedFile& file, const Gltf& gltf)
+      : file_(file),
+        gltf_(gltf),
+        seen_(gltf.text.at("nodes").size(), false),
+        file_bytes_(file.bytes().size()) {
+    for (const auto& beside : gltf.beside) file_bytes_ += beside->bytes().size();
+  }
+
+  void collect(std::size_t node_index, const glm::mat4& parent, int depth) {
+    constexpr int kDeepest = 1000;
+    const json& node = gltf_.text.at("nodes").at(node_index);
+    if (seen_[node_index] || depth > kDeepest)
+      throw Error(file_.path().string(), "its nodes are no tree: one hangs below two, or too deep");
+    seen_[node_index] = true;
+    const glm::mat4 here = parent * matrix_of(node);
+    if (node.contains("mesh")) add_mesh(node.at("mesh").get<std::size_t>(), here);
+    for (const json& child : node.value("children", json::array()))
+      collect(child.get<std::size_t>(), here, depth + 1);
+  }
+
+  GltfRows rows;
+  std::size_t count = 0;
+
+ private:
+  void add_mesh(std::size_t index, const glm::mat4& scene_from_local) {
+    constexpr std::size_t kLeastRowBytes = 32;  // of a Gaussian as numbers
+    for (const json& about : gltf_.text.at("meshes").at(index).at("primitives")) {
+      if (!about.value("extensions", json::object()).contains(kExtension)) continue;
+      Primitive p = primitive_of(file_, gltf_, about);
+      place(file_, scene_from_local, &p);
+      p.first_row = count;
+      count += p.rows;
+      check_expansion(file_.path(), file_bytes_, count * kLeastRowBytes);  // nodes can share a mesh
+      rows.degree = std::max(rows.degree, p.degree);
+      rows.primitives.push_back(std::move(p));
+    }
+  }
+
+  const MappedFile& file_;
+  const Gltf& gltf_;
+  std::vector<bool> seen_;
+  std::size_t file_bytes_;
+};
+
+std::vector<std::size_t> roots_of(const json& text) {
+  const json& scenes = text.at("scenes");
+  return scenes.at(text.value("scene", std::size_t{0})).value("nodes", std::vector<std::size_t>());
+}
+
+void read_glb(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
+  try {
+    const Gltf gltf(file);
+    Collector found(file, gltf);
+    for (const std::size_t root : roots_of(gltf.text)) found.collect(root, glm::mat4(1), 0);
+    if (found.count == 0)
+      throw Error(file.path().string(), "holds no Gaussians (KHR_gaussian_splatting), only meshes or nothing",
+                  "Export the trained scene, not a mesh of it");
+    if (found.count > std::numeric_limits<std::uint32_t>::max())
+      throw Error(file.path().string(),
+                  fmt::format("{} Gaussians are more than can be handled", found.count));
+    decode_rows(found.rows, found.count, found.rows.degree, scene, job);
+  } catch (const json::exception& error) {
+    throw Error(file.path().string(), fmt::format("is not glTF as its standard has it ({})", error.what()));
+  } catch (const std::out_of_range&) {
+    throw Error(file.path().string(), "is not glTF as its standard has it: a buffer is missing");
+  }
+}
+
+bool is_gltf(const MappedFile& file) {
+  return begins_with(file, kGlbMark);
+}
+
+}  // namespace
+
+constinit const SceneFormat SceneFormat::kGlb = {
+    .name = "glb",
+    .extension = ".glb",
+    .also = ".gltf",
+    .recognises = is_gltf,
+    .read = read_glb,
+    .write = write_glb,
+    .plan = plan_glb,
+};
+
+}  // namespace splatcut

@@ -1,0 +1,84 @@
+#include "scene/formats/ply_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "scene/error.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+// What stands behind so many lines.
+std::string_view after_lines(std::string_view text, std::size_t lines) {
+  for (; lines > 0 && !text.empty(); --lines) {
+    const std::size_t end = text.find('\n');
+    text.remove_prefix(end == text.npos ? text.size() : end + 1);
+  }
+  return text;
+}
+
+// Takes the next word off the text; empty at its end.
+std::string_view next_word(std::string_view* text) {
+  text->remove_prefix(std::min(text->find_first_not_of(kBlanks), text->size()));
+  const std::string_view word = text->substr(0, text->find_first_of(kBlanks));
+  text->remove_prefix(word.size());
+  return word;
+}
+
+bool parse_number(std::string_view word, float* value) {
+  const char* last = word.data() + word.size();
+  const auto [end, failure] = std::from_chars(word.data(), last, *value);
+  if (failure != std::errc::result_out_of_range) return failure == std::errc() && end == last;
+  double wide = 0;  // beyond what a float holds: infinite, or 0
+  const auto [wide_end, wide_failure] = std::from_chars(word.data(), last, wide);
+  *value = static_cast<float>(wide);
+  return wide_failure == std::errc() && wide_end == last;
+}
+
+PlyElement with_floats(PlyElement element) {
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    element.properties[i].type = PlyType::kFloat32;
+    element.properties[i].offset = i * sizeof(float);
+  }
+  element.row_bytes = element.properties.size() * sizeof(float);
+  return element;
+}
+
+}  // namespace
+
+PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, const PlyElement& element,
+                           const Job& job) {
+  const auto refuse = [&](const std::string& what) { throw Error(file.path().string(), what); };
+  if (element.has_list || element.properties.empty())
+    refuse(fmt::format("list properties in the element \"{}\" are not supported", element.name));
+  std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
+  text.remove_prefix(header.bytes);
+  for (const PlyElement& before : header.elements) {
+    if (before.name == element.name) break;
+    text = after_lines(text, before.count);
+  }
+  const std::size_t columns = element.properties.size();
+  if (element.count == 0) refuse(fmt::format("the element \"{}\" is empty", element.name));
+  if (element.count > (text.size() + 1) / 2 / columns)  // a digit and a blank for each number
+    refuse(fmt::format("truncated: {} rows of {} numbers do not fit into {} bytes", element.count, columns,
+                       text.size()));
+  PlyTextRows rows{with_floats(element), std::vector<float>(element.count * columns)};
+  constexpr std::size_t kBetweenLooks = 1 << 16;
+  for (std::size_t i = 0; i < rows.values.size(); ++i) {
+    if (i % kBetweenLooks == 0 && job.cancelled()) break;
+    const std::string_view word = next_word(&text);
+    const std::string& property = element.properties[i % columns].name;
+    if (word.empty()) refuse(fmt::format("truncated: row {} ends before \"{}\"", i / columns, property));
+    if (!parse_number(word, &rows.values[i]))
+      refuse(fmt::format("row {}: \"{}\" is no number, for the property \"{}\"", i / columns,
+                         word.substr(0, 40), property));
+  }
+  return rows;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,21 @@
+// The rows of an ASCII .ply. Internal to src/scene/formats.
+#pragma once
+
+#include <vector>
+
+#include "scene/formats/ply_header.h"
+#include "scene/job.h"
+
+namespace splatcut {
+
+struct PlyTextRows {
+  PlyElement element;         // the same properties, all of them float
+  std::vector<float> values;  // row by row
+};
+
+// Throws Error for rows that are missing, lists, and words that are no numbers. Memory: at most four bytes
+// for two of the file. Incomplete when cancelled.
+PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, const PlyElement& element,
+                           const Job& job);
+
+}  // namespace splatcut

@@ -1,0 +1,17 @@
+// Writing of .ply. Internal to src/scene/formats.
+#pragma once
+
+#include <span>
+
+#include "scene/atomic_file.h"
+#include "scene/scene_file.h"
+
+namespace splatcut {
+
+// Rows as they stand in the source file, which is a binary .ply.
+void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians);
+
+// Encoded from the cloud, in the layout of Kerbl et al.
+void write_ply_rows(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians);
+
+}  // namespace splatcut

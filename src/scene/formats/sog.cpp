@@ -1,0 +1,260 @@
+// Reader of .sog (PlayCanvas), versions 1 and 2, as one file or as a folder.
+#include "scene/formats/sog.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "scene/error.h"
+#include "scene/formats/decode.h"
+#include "scene/formats/webp.h"
+#include "scene/formats/zip_file.h"
+#include "scene/quantise.h"
+
+namespace splatcut {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kZipMark = "PK\x03\x04";
+constexpr const char* kMetaName = "meta.json";
+
+// The files of a scene, from an archive or a folder.
+class SogFiles {
+ public:
+  explicit SogFiles(const MappedFile& file) : file_(file) {
+    if (!begins_with(file, kZipMark)) return;
+    zip_.emplace(file);
+    const std::string meta = zip_->find(kMetaName);
+    if (meta.empty())
+      throw Error(file.path().string(), "is a ZIP without meta.json, not a scene (.sog)",
+                  "Unpack it and give the scene inside");
+    prefix_ = meta.substr(0, meta.size() - std::string_view(kMetaName).size());
+  }
+  json meta() const {
+    const std::vector<std::byte> packed = zip_ ? zip_->read(prefix_ + kMetaName) : std::vector<std::byte>();
+    const std::span<const std::byte> bytes = zip_ ? std::span<const std::byte>(packed) : file_.bytes();
+    const auto* text = reinterpret_cast<const char*>(bytes.data());
+    return json::parse(text, text + bytes.size());
+  }
+  Image<Rgba8> picture(const std::string& name) const {
+    if (zip_) return read_webp(file_.path(), name, zip_->read(prefix_ + name), file_.bytes().size());
+    if (std::filesystem::path(name).filename() != name)
+      throw Error(file_.path().string(), fmt::format("names the picture \"{}\" in another folder", name));
+    const MappedFile picture(file_.path().parent_path() / name);
+    return read_webp(picture.path(), name, picture.bytes(), picture.bytes().size() + file_.bytes().size());
+  }
+
+ private:
+  const MappedFile& file_;
+  std::optional<ZipReader> zip_;
+  std::string prefix_;
+};
+
+// 256 numbers for each of four channels: a codebook, or the steps of a range.
+using Tables = std::array<std::array<float, 256>, 4>;
+
+Tables tables_of_codebook(const json& codebook) {
+  Tables tables{};
+  for (std::size_t i = 0; i < std::min<std::size_t>(256, codebook.size()); ++i)
+    for (auto& table : tables) table[i] = codebook.at(i).is_null() ? 0 : codebook.at(i).get<float>();
+  return tables;
+}
+Tables tables_of_ranges(const json& mins, const json& maxs) {
+  Tables tables{};
+  for (std::size_t c = 0; c < 4; ++c) {
+    const std::size_t at = std::min(c, mins.is_array() ? mins.size() - 1 : 0);
+    const float least = (mins.is_array() ? mins.at(at) : mins).get<float>(),
+                most = (maxs.is_array() ? maxs.at(at) : maxs).get<float>();
+    for (std::size_t i = 0; i < 256; ++i)
+      tables[c][i] = least + (most - least) * static_cast<float>(i) / 255.0f;
+  }
+  return tables;
+}
+Tables tables_of(const json& part) {
+  return part.contains("codebook") ? tables_of_codebook(part.at("codebook"))
+                                   : tables_of_ranges(part.at("mins"), part.at("maxs"));
+}
+
+struct SogRows {
+  glm::vec3 least{0}, most{0};  // of the logarithms of positions
+  Image<Rgba8> low, high, quats, scales, sh0, centroids, labels;
+  Tables scale_tables{}, sh0_tables{}, sh_tables{};
+  bool logits = false;  // opacities of version 1
+  int degree = 0;
+  std::size_t palette = 0;  // entries
+
+  static float byte(const Image<Rgba8>& image, std::size_t row, std::size_t channel) {
+    return static_cast<float>(image.pixels()[row][channel]);
+  }
+  glm::vec3 scale(std::size_t row) const {
+    const Rgba8& p = scales.pixels()[row];
+    return glm::exp(glm::vec3(scale_tables[0][p[0]], scale_tables[1][p[1]], scale_tables[2][p[2]]));
+  }
+  glm::vec3 f_dc(std::size_t row) const {
+    const Rgba8& p = sh0.pixels()[row];
+    return {sh0_tables[0][p[0]], sh0_tables[1][p[1]], sh0_tables[2][p[2]]};
+  }
+  std::size_t label(std::size_t row) const {
+    const Rgba8& p = labels.pixels()[row];
+    return p[0] | static_cast<std::size_t>(p[1]) << 8;
+  }
+  glm::vec3 position(std::size_t row) const {
+    const bool good = quats.pixels()[row][3] >= sog::kLargestAt && is_finite(scale(row)) &&
+                      is_finite(f_dc(row)) && (degree == 0 || label(row) < palette);
+    if (!good) return kDroppedRow;
+    glm::vec3 p;
+    for (int c = 0; c < 3; ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      const float fraction = (byte(low, row, channel) + 256.0f * byte(high, row, channel)) / sog::kSteps;
+      p[c] = sog::from_log(least[c] + (most[c] - least[c]) * fraction);
+    }
+    return p;
+  }
+  glm::quat rotation(std::size_t row) const {
+    const Rgba8& p = quats.pixels()[row];
+    const auto largest = static_cast<std::size_t>(p[3] - sog::kLargestAt);
+    std::array<float, 4> q{};
+    float sum = 0;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (i == largest) continue;
+      q[i] = (static_cast<float>(p[next++]) / 255.0f * 2 - 1) / std::sqrt(2.0f);
+      sum += q[i] * q[i];
+    }
+    q[largest] = std::sqrt(std::max(0.0f, 1 - sum));
+    return glm::normalize(glm::quat(q[0], q[1], q[2], q[3]));
+  }
+  void decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const {
+    const std::uint8_t opacity = sh0.pixels()[row][3];
+    cloud.scale[g] = scale(row);
+    cloud.rotation[g] = rotation(row);
+    cloud.f_dc[g] = f_dc(row);
+    cloud.opacity[g] = logits ? sigmoid(sh0_tables[3][opacity]) : static_cast<float>(opacity) / 255.0f;
+    if (degree == 0) return;
+    const auto coefficients = static_cast<std::size_t>(sh_rest_coefficients(degree));
+    const std::size_t entry = label(row);
+    const Rgba8* centroid = &centroids.row(
+        static_cast<int>(entry / sog::kCentroidsPerRow))[entry % sog::kCentroidsPerRow * coefficients];
+    float* rest = cloud.sh_rest.data() + g * cloud.sh_stride();
+    for (std::size_t k = 0; k < coefficients; ++k)
+      for (std::size_t c = 0; c < 3; ++c) rest[c * coefficients + k] = sh_tables[c][centroid[k][c]];
+  }
+};
+
+glm::vec3 vec3_of(const json& list) {
+  return {list.at(0).get<float>(), list.at(1).get<float>(), list.at(2).get<float>()};
+}
+
+// The degree whose coefficients, 64 times, make the picture's width; 0 for none.
+int degree_of_width(int width) {
+  for (int degree = 1; degree <= 3; ++degree)
+    if (width == static_cast<int>(sog::kCentroidsPerRow) * sh_rest_coefficients(degree)) return degree;
+  return 0;
+}
+
+void read_pictures(const MappedFile& file, const SogFiles& files, const json& meta, std::size_t count,
+                   SogRows* rows, const Job& job) {
+  struct Wanted {
+    const char* part;
+    std::size_t index;
+    Image<Rgba8>* image;
+    bool each_gaussian;  // a pixel
+  };
+  std::vector<Wanted> all = {{"means", 0, &rows->low, true},
+                             {"means", 1, &rows->high, true},
+                             {"quats", 0, &rows->quats, true},
+                             {"scales", 0, &rows->scales, true},
+                             {"sh0", 0, &rows->sh0, true}};
+  if (meta.contains("shN")) {
+    all.push_back({"shN", 0, &rows->centroids, false});
+    all.push_back({"shN", 1, &rows->labels, true});
+  }
+  for (const Wanted& wanted : all) {
+    if (job.cancelled()) return;
+    const auto name = meta.at(wanted.part).at("files").at(wanted.index).get<std::string>();
+    *wanted.image = files.picture(name);
+    if (wanted.each_gaussian && wanted.image->size() < count)
+      throw Error(file.path().string(),
+                  fmt::format("truncated: the picture {} has {} pixels for {} Gaussians", name,
+                              wanted.image->size(), count));
+  }
+}
+
+// Incomplete when cancelled.
+SogRows read_rows_of(const MappedFile& file, const SogFiles& files, const json& meta, std::size_t count,
+                     const Job& job) {
+  SogRows rows;
+  rows.logits = !meta.contains("version");
+  rows.least = vec3_of(meta.at("means").at("mins"));
+  rows.most = vec3_of(meta.at("means").at("maxs"));
+  rows.scale_tables = tables_of(meta.at("scales"));
+  rows.sh0_tables = tables_of(meta.at("sh0"));
+  read_pictures(file, files, meta, count, &rows, job);
+  if (!meta.contains("shN") || job.cancelled()) return rows;
+  rows.sh_tables = tables_of(meta.at("shN"));
+  for (const auto& table : rows.sh_tables)
+    if (!std::ranges::all_of(table, [](float v) { return std::isfinite(v); }))
+      throw Error(file.path().string(), "a number of its spherical harmonics is beyond all bounds");
+  rows.degree = degree_of_width(rows.centroids.width());
+  if (rows.degree == 0)
+    throw Error(file.path().string(),
+                fmt::format("its spherical harmonics are {} pixels wide; 192, 512 or 960 are "
+                            "possible",
+                            rows.centroids.width()));
+  rows.palette = static_cast<std::size_t>(rows.centroids.height()) * sog::kCentroidsPerRow;
+  return rows;
+}
+
+std::size_t count_of(const MappedFile& file, const json& meta) {
+  const int version = meta.value("version", 1);
+  if (version != 1 && version != 2)
+    throw Error(file.path().string(), fmt::format("version {} of .sog is not supported", version));
+  const auto count =
+      (version == 1 ? meta.at("means").at("shape").at(0) : meta.at("count")).get<std::size_t>();
+  if (count == 0 || count > std::numeric_limits<std::uint32_t>::max())
+    throw Error(file.path().string(), fmt::format("promises {} Gaussians", count));
+  return count;
+}
+
+void read_sog(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
+  try {
+    const SogFiles files(file);
+    const json meta = files.meta();
+    const std::size_t count = count_of(file, meta);
+    job.progress("unpacking pictures", 0.0);
+    const SogRows rows = read_rows_of(file, files, meta, count, job);
+    scene.antialiased = meta.value("antialias", false);
+    if (!job.cancelled()) decode_rows(rows, count, rows.degree, scene, job);
+  } catch (const json::exception& error) {
+    throw Error(file.path().string(), fmt::format("its meta.json is not that of a .sog ({})", error.what()));
+  }
+}
+
+bool is_sog(const MappedFile& file) {
+  if (begins_with(file, kZipMark)) return true;
+  const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != text.npos && text[first] == '{' && text.find("\"means\"") != text.npos &&
+         text.find("\"quats\"") != text.npos;
+}
+
+}  // namespace
+
+constinit const SceneFormat SceneFormat::kSog = {
+    .name = "sog",
+    .extension = ".sog",
+    .also = "meta.json",
+    .recognises = is_sog,
+    .read = read_sog,
+    .write = write_sog,
+    .plan = plan_sog,
+};
+
+}  // namespace splatcut

@@ -1,0 +1,301 @@
+// Reader of .spz, versions 1 to 4.
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+#include "scene/error.h"
+#include "scene/formats/decode.h"
+#include "scene/formats/spz_layout.h"
+#include "scene/formats/unpack.h"
+#include "scene/quantise.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr int kMaxFileDegree = 4;  // v4 allows it; coefficients beyond degree 3 are left out
+
+struct SpzRows {
+  spz::Header header;
+  AxisSigns axes = kRightUpBack;
+  std::array<float, 15> sh_signs = kRightUpBack.sh();
+  std::array<std::span<const std::byte>, spz::kAttributes> attributes;
+  std::size_t sh_bytes = 0;
+  int degree = 0;  // at most 3
+
+  const std::byte* at(int attribute, std::size_t row, std::size_t bytes) const {
+    return attributes[static_cast<std::size_t>(attribute)].data() + row * bytes;
+  }
+  float coordinate(std::size_t row, std::size_t axis) const {
+    if (header.version == 1) return half_to_float(load<std::uint16_t>(at(0, row, 6) + 2 * axis));
+    const std::byte* b = at(0, row, 9) + 3 * axis;
+    const auto byte = [&](std::size_t i) { return std::to_integer<std::uint32_t>(b[i]); };
+    const auto fixed = static_cast<std::int32_t>(byte(0) << 8 | byte(1) << 16 | byte(2) << 24) >> 8;
+    return std::ldexp(static_cast<float>(fixed), -header.fractional_bits);
+  }
+  glm::vec3 position(std::size_t row) const {
+    return axes.position({coordinate(row, 0), coordinate(row, 1), coordinate(row, 2)});
+  }
+  // x y z w in the file's axes.
+  std::array<float, 4> file_rotation(std::size_t row) const {
+    std::array<float, 4> q{};
+    float sum = 0;
+    if (header.version < 3) {
+      const std::byte* b = at(4, row, 3);
+      for (std::size_t i = 0; i < 3; ++i) {
+        q[i] = byte_at(b + i) / 127.5f - 1.0f;
+        sum += q[i] * q[i];
+      }
+      q[3] = std::sqrt(std::max(0.0f, 1.0f - sum));
+      return q;
+    }
+    std::uint32_t v = load<std::uint32_t>(at(4, row, 4));
+    const std::uint32_t largest = v >> 30;
+    for (std::uint32_t i = 4; i-- > 0;) {
+      if (i == largest) continue;
+      q[i] = from_steps(v, 9) * std::sqrt(0.5f) * (v >> 9 & 1 ? -1.0f : 1.0f);
+      sum += q[i] * q[i];
+      v >>= 10;
+    }
+    q[largest] = std::sqrt(std::max(0.0f, 1.0f - sum));
+    return q;
+  }
+  void decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const {
+    const std::array<float, 4> q = file_rotation(row);
+    cloud.rotation[g] = glm::normalize(axes.rotation({q[3], q[0], q[1], q[2]}));
+    cloud.opacity[g] = byte_at(at(1, row, 1)) / 255.0f;
+    const std::byte *colour = at(2, row, 3), *scale = at(3, row, 3);
+    for (int c = 0; c < 3; ++c) {
+      cloud.f_dc[g][c] = (byte_at(colour + c) / 255.0f - 0.5f) / spz::kColourScale;
+      cloud.scale[g][c] = std::exp(byte_at(scale + c) / spz::kLogScaleSteps + spz::kLogScaleMin);
+    }
+    const auto coefficients = static_cast<std::size_t>(sh_rest_coefficients(degree));
+    const std::byte* sh = at(5, row, sh_bytes);
+    float* rest = cloud.sh_rest.data() + g * 3 * coefficients;
+    for (std::size_t k = 0; k < coefficients; ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        rest[c * coefficients + k] = (byte_at(sh + 3 * k + c) - 128.0f) / 128.0f * sh_signs[k];
+  }
+};
+
+void check_header(const MappedFile& file, const spz::Header& header) {
+  const auto refuse = [&](const std::string& what) { throw Error(file.path().string(), what); };
+  constexpr int kMaxFractionalBits = 24;
+  if (header.magic != spz::kMagic) refuse("is not a .spz file: the mark \"NGSP\" is missing");
+  if (header.version < 1 || header.version > 4)
+    refuse(fmt::format("version {} of .spz is not supported", header.version));
+  if (header.sh_degree > (header.version == 4 ? kMaxFileDegree : 3))
+    refuse(fmt::format("spherical harmonics of degree {} are not supported", header.sh_degree));
+  if (header.fractional_bits > kMaxFractionalBits)
+    refuse(fmt::format("{} fractional bits in positions of 24 bits", header.fractional_bits));
+  if (header.points == 0) refuse("the file holds no Gaussians");
+}
+
+// The axes that the records of an extension block name; none where no record does.
+std::optional<AxisSigns> axes_said(const MappedFile& file, std::span<const std::byte> records) {
+  struct RecordHead {
+    std::uint32_t type, bytes;
+  };
+  while (records.size() >= sizeof(RecordHead)) {
+    const auto head = load<RecordHead>(records.data());
+    records = records.subspan(sizeof head);
+    if (head.bytes > records.size()) return {};  // of a vendor who has no sizes
+    if (head.type == spz::kAxesExtension && head.bytes >= sizeof(std::uint32_t)) {
+      const auto axes = load<std::uint32_t>(records.data());
+      if (axes > spz::kAxesLast)
+        throw Error(file.path().string(), fmt::format("its axes (number {}) exchange y and z", axes),
+                    "Convert it to axes x right, y up, z back with the program that wrote it");
+      const std::uint32_t bits = (axes == spz::kAxesUnspecified ? spz::kAxesRightUpBack : axes) - 1;
+      return AxisSigns{bits & 1 ? 1.0f : -1.0f, bits & 2 ? -1.0f : 1.0f, bits & 4 ? 1.0f : -1.0f};
+    }
+    records = records.subspan(head.bytes);
+  }
+  return {};
+}
+
+const char* words_for(SpzAxes axes) {
+  return axes == SpzAxes::kPly ? "x right, y down, z forward, as in a .ply"
+                               : "x right, y up, z back, as the text of the format says";
+}
+
+void decode_in(const AxisSigns& axes, SpzRows* rows, Scene& scene, const Job& job) {
+  rows->axes = axes;
+  rows->sh_signs = axes.sh();
+  decode_rows(*rows, rows->header.points, rows->degree, scene, job);
+}
+void decode_in(SpzAxes axes, SpzRows* rows, Scene& scene, const Job& job) {
+  decode_in(axes == SpzAxes::kPly ? AxisSigns{} : kRightUpBack, rows, scene, job);
+  scene.taken_axes = axes;
+}
+
+void decode_unsaid(const LoadOptions& options, SpzRows* rows, Scene& scene, const Job& job) {
+  decode_in(options.spz_axes.value_or(SpzAxes::kRub), rows, scene, job);
+  if (job.cancelled()) return;
+  const char* why = "nothing says otherwise";
+  if (options.spz_axes) {
+    why = "as was asked for";
+  } else if (const auto seen = axes_by_cameras(scene.cloud, options.cameras)) {
+    why = "the cameras see more of the scene so";
+    if (seen != scene.taken_axes) decode_in(*seen, rows, scene, job);
+  }
+  scene.axes_note =
+      fmt::format("The .spz file does not say its axes. Taken: {} ({})", words_for(*scene.taken_axes), why);
+}
+
+SpzRows rows_for(const spz::Header& header) {
+  SpzRows rows;
+  rows.header = header;
+  rows.sh_bytes = spz::attribute_bytes(header.version, header.sh_degree)[5];
+  rows.degree = std::min<int>(header.sh_degree, 3);
+  return rows;
+}
+
+// rows: complete but for the axes. records: the extension block, if there is one.
+void decode(const MappedFile& file, std::span<const std::byte> records, const LoadOptions& options,
+            SpzRows rows, Scene& scene, const Job& job) {
+  scene.antialiased = rows.header.flags & spz::kFlagAntialiased;
+  const auto said = rows.header.flags & spz::kFlagExtensions ? axes_said(file, records) : std::nullopt;
+  if (said && !options.spz_axes)
+    decode_in(*said, &rows, scene, job);
+  else
+    decode_unsaid(options, &rows, scene, job);
+}
+
+std::size_t attributes_size(const spz::Header& header) {
+  std::size_t total = 0;
+  for (const std::size_t bytes : spz::attribute_bytes(header.version, header.sh_degree))
+    total += bytes * header.points;
+  return total;
+}
+
+// data: the attributes of versions 1 to 3, one behind the other.
+void decode_attributes(const MappedFile& file, const spz::Header& header, std::span<const std::byte> data,
+                       std::span<const std::byte> records, const LoadOptions& options, Scene& scene,
+                       const Job& job) {
+  SpzRows rows = rows_for(header);
+  const auto row_bytes = spz::attribute_bytes(header.version, header.sh_degree);
+  std::size_t begin = 0;
+  for (std::size_t a = 0; a < row_bytes.size(); ++a) {
+    rows.attributes[a] = data.subspan(begin, row_bytes[a] * header.points);
+    begin += row_bytes[a] * header.points;
+  }
+  decode(file, records, options, rows, scene, job);
+}
+
+void read_gzip(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
+  constexpr std::size_t kMostExtensionBytes = 1 << 16;
+  GzipReader reader(file);
+  const Bytes begin_of_data = reader.read(sizeof(spz::Header), job);
+  if (job.cancelled()) return;
+  const auto header = load<spz::Header>(begin_of_data.data());
+  check_header(file, header);
+  if (header.version > 3)
+    throw Error(file.path().string(), fmt::format("version {} inside gzip data", header.version));
+  check_expansion(file.path(), file.bytes().size(), attributes_size(header));
+  job.progress("unpacking", 0.0);
+  const Bytes data = reader.read(attributes_size(header), job);
+  if (job.cancelled()) return;
+  const Bytes records = header.flags & spz::kFlagExtensions ? reader.read_rest(kMostExtensionBytes) : Bytes();
+  decode_attributes(file, header, data, records, options, scene, job);
+}
+
+void read_raw(const MappedFile& file, const spz::Header& header, const LoadOptions& options, Scene& scene,
+              const Job& job) {
+  const std::span<const std::byte> data = file.bytes().subspan(sizeof header);
+  const std::size_t wanted = attributes_size(header);
+  if (data.size() < wanted)
+    throw Error(file.path().string(),
+                fmt::format("truncated: {} Gaussians take {} bytes, the file ends at byte {}", header.points,
+                            wanted + sizeof header, file.bytes().size()));
+  decode_attributes(file, header, data.first(wanted), data.subspan(wanted), options, scene, job);
+}
+
+// The packed bytes of each stream. Throws Error for a table that does not fit file and header.
+std::vector<std::span<const std::byte>> packed_streams(const MappedFile& file, const spz::HeaderV4& header) {
+  const std::span<const std::byte> all = file.bytes();
+  const auto truncated = [&](std::string_view what) {
+    throw Error(file.path().string(), fmt::format("truncated: {} reaches beyond byte {}", what, all.size()));
+  };
+  const auto row_bytes = spz::attribute_bytes(header.first.version, header.first.sh_degree);
+  const std::size_t streams = header.first.sh_degree > 0 ? 6 : 5;
+  if (header.first.streams < streams)
+    throw Error(file.path().string(),
+                fmt::format("{} streams found, {} are wanted", header.first.streams, streams));
+  const std::size_t table = header.table_begin;
+  std::size_t begin = table + header.first.streams * sizeof(spz::StreamEntry);
+  if (table < sizeof header || begin > all.size()) truncated("the table of streams");
+  std::vector<std::span<const std::byte>> packed;
+  for (std::size_t s = 0; s < streams; ++s) {
+    const auto entry = load<spz::StreamEntry>(all.data() + table + s * sizeof(spz::StreamEntry));
+    if (entry.packed_bytes > all.size() - begin) truncated(fmt::format("stream {}", s));
+    if (entry.bytes != row_bytes[s] * header.first.points)
+      throw Error(file.path().string(), fmt::format("stream {} has {} bytes for {} Gaussians of {} bytes", s,
+                                                    entry.bytes, header.first.points, row_bytes[s]));
+    packed.push_back(all.subspan(begin, entry.packed_bytes));
+    begin += entry.packed_bytes;
+  }
+  return packed;
+}
+
+void read_streams(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
+  if (file.bytes().size() < sizeof(spz::HeaderV4))
+    throw Error(file.path().string(),
+                fmt::format("truncated: the header reaches beyond byte {}", file.bytes().size()));
+  const auto header = load<spz::HeaderV4>(file.bytes().data());
+  const auto packed = packed_streams(file, header);
+  check_expansion(file.path(), file.bytes().size(), attributes_size(header.first));
+  job.progress("unpacking", 0.0);
+  const auto row_bytes = spz::attribute_bytes(header.first.version, header.first.sh_degree);
+  std::array<Bytes, spz::kAttributes> data;
+  tbb::parallel_for(std::size_t{0}, packed.size(), [&](std::size_t s) {
+    data[s] = unpack_zstd(file, packed[s], row_bytes[s] * header.first.points, s, job);
+  });
+  if (job.cancelled()) return;
+  SpzRows rows = rows_for(header.first);
+  for (std::size_t s = 0; s < packed.size(); ++s) rows.attributes[s] = data[s];
+  const auto records = file.bytes().subspan(sizeof header, header.table_begin - sizeof header);
+  decode(file, records, options, rows, scene, job);
+}
+
+void read_spz(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
+  constexpr std::byte kGzipFirst{0x1f};
+  if (file.bytes()[0] == kGzipFirst) return read_gzip(file, options, scene, job);
+  if (file.bytes().size() < sizeof(spz::Header))
+    throw Error(file.path().string(),
+                fmt::format("truncated: the header reaches beyond byte {}", file.bytes().size()));
+  const auto header = load<spz::Header>(file.bytes().data());
+  check_header(file, header);
+  if (header.version == 4)
+    read_streams(file, options, scene, job);
+  else
+    read_raw(file, header, options, scene, job);
+}
+
+bool is_spz(const MappedFile& file) {
+  return begins_with(file, "NGSP") || begins_with(file, "\x1f\x8b");
+}
+
+FormatPlan plan_spz(const Scene& scene, std::size_t gaussians) {
+  FormatPlan plan;
+  plan.bytes = gaussians * (20 + scene.cloud.sh_stride()) * 3 / 4 + 64;
+  plan.about = true;
+  plan.kept = "Everything, quantised and packed.";
+  plan.lost = spz_losses(scene, all_gaussians(scene.cloud)).in_full();
+  return plan;
+}
+
+}  // namespace
+
+constinit const SceneFormat SceneFormat::kSpz = {
+    .name = "spz",
+    .extension = ".spz",
+    .recognises = is_spz,
+    .read = read_spz,
+    .write = write_spz,
+    .plan = plan_spz,
+};
+
+}  // namespace splatcut

@@ -1,0 +1,192 @@
+// Writer of .spz, versions 3 (gzip) and 4 (zstd), always in axes x right, y up, z back.
+#include <fmt/format.h>
+#include <zlib.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <array>
+
+#include "scene/atomic_file.h"
+#include "scene/error.h"
+#include "scene/formats/spz_layout.h"
+#include "scene/quantise.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr float kFixedLimit = 8388607.0f;  // 2^23 - 1
+constexpr int kUsualFractionalBits = 12;
+
+using Buffer = std::vector<std::uint8_t>;
+
+// As many bits, up to the usual 12, as let the farthest coordinate fit into 24.
+std::uint8_t fractional_bits_for(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
+  float farthest = 0;
+  for (const std::uint32_t g : gaussians)
+    for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(cloud.position[g][axis]));
+  int bits = kUsualFractionalBits;
+  while (bits > 0 && std::ldexp(farthest, bits) > kFixedLimit) --bits;
+  return static_cast<std::uint8_t>(bits);
+}
+
+void add_position(Buffer& out, const glm::vec3& position, int fractional_bits) {
+  const glm::vec3 file = kRightUpBack.position(position);
+  for (const float v : {file.x, file.y, file.z}) {
+    const float fixed = std::clamp(std::round(std::ldexp(v, fractional_bits)), -kFixedLimit, kFixedLimit);
+    const auto bits = static_cast<std::uint32_t>(static_cast<std::int32_t>(fixed));
+    for (int shift = 0; shift < 24; shift += 8) out.push_back(static_cast<std::uint8_t>(bits >> shift));
+  }
+}
+
+void add_rotation(Buffer& out, const glm::quat& rotation) {
+  const glm::quat file = kRightUpBack.rotation(rotation);
+  const std::array<float, 4> q{file.x, file.y, file.z, file.w};
+  const std::uint32_t largest = largest_of(q);
+  std::uint32_t packed = largest;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    if (i == largest) continue;
+    const bool negative = (q[i] < 0) != (q[largest] < 0);
+    packed = packed << 10 | (negative ? 1u << 9 : 0u) | to_steps(std::abs(q[i]) / std::sqrt(0.5f), 9);
+  }
+  for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<std::uint8_t>(packed >> shift));
+}
+
+void add_sh(Buffer& out, std::span<const float> rest) {
+  static constexpr std::array<float, 15> kSigns = kRightUpBack.sh();
+  const std::size_t coefficients = rest.size() / 3;
+  for (std::size_t k = 0; k < coefficients; ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      out.push_back(to_byte(rest[c * coefficients + k] * kSigns[k] * 128.0f + 128.0f));
+}
+
+spz::Header header_of(const Scene& scene, std::span<const std::uint32_t> gaussians) {
+  spz::Header header;
+  header.points = static_cast<std::uint32_t>(gaussians.size());
+  header.sh_degree = static_cast<std::uint8_t>(scene.cloud.sh_degree);
+  header.fractional_bits = fractional_bits_for(scene.cloud, gaussians);
+  header.flags = spz::kFlagExtensions;
+  if (scene.antialiased) header.flags |= spz::kFlagAntialiased;
+  return header;
+}
+
+// Of all Gaussians one attribute after the other, in the order of spz::attribute_bytes().
+std::array<Buffer, spz::kAttributes> attributes(const GaussianCloud& cloud,
+                                                std::span<const std::uint32_t> gaussians,
+                                                int fractional_bits) {
+  std::array<Buffer, spz::kAttributes> out;
+  for (const std::uint32_t g : gaussians) {
+    add_position(out[0], cloud.position[g], fractional_bits);
+    out[1].push_back(to_byte(255.0f * cloud.opacity[g]));
+    for (int c = 0; c < 3; ++c) {
+      out[2].push_back(to_byte(255.0f * (cloud.f_dc[g][c] * spz::kColourScale + 0.5f)));
+      out[3].push_back(to_byte((std::log(cloud.scale[g][c]) - spz::kLogScaleMin) * spz::kLogScaleSteps));
+    }
+    add_rotation(out[4], cloud.rotation[g]);
+    add_sh(out[5], cloud.sh_rest_of(g));
+  }
+  return out;
+}
+
+class GzipWriter {
+ public:
+  explicit GzipWriter(AtomicFile& out) : out_(out) {
+    constexpr int kGzip = 16 + MAX_WBITS, kMemoryLevel = 8;
+    if (deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY) !=
+        Z_OK)
+      throw Error("spz", "the gzip writer failed to start");
+  }
+  GzipWriter(const GzipWriter&) = delete;
+  GzipWriter& operator=(const GzipWriter&) = delete;
+  ~GzipWriter() { deflateEnd(&stream_); }
+
+  void write(std::span<const std::byte> data) {
+    for (; !data.empty(); data = data.subspan(std::min(data.size(), kPiece)))
+      deflate_piece(data.first(std::min(data.size(), kPiece)), Z_NO_FLUSH);
+  }
+  void finish() { deflate_piece({}, Z_FINISH); }
+
+ private:
+  static constexpr std::size_t kPiece = 1 << 20;
+
+  void deflate_piece(std::span<const std::byte> data, int flush) {
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(data.data()));
+    stream_.avail_in = static_cast<uInt>(data.size());
+    do {
+      stream_.next_out = reinterpret_cast<Bytef*>(piece_.data());
+      stream_.avail_out = static_cast<uInt>(piece_.size());
+      deflate(&stream_, flush);
+      out_.write(std::span(piece_).first(piece_.size() - stream_.avail_out));
+    } while (stream_.avail_out == 0);
+  }
+
+  AtomicFile& out_;
+  z_stream stream_{};
+  std::vector<std::byte> piece_ = std::vector<std::byte>(kPiece);
+};
+
+template <class T>
+std::span<const std::byte> bytes_of(const T& value) {
+  return std::as_bytes(std::span(&value, 1));
+}
+
+void write_version_3(AtomicFile& out, const spz::Header& header, std::span<const Buffer> attributes) {
+  GzipWriter gzip(out);
+  gzip.write(bytes_of(header));
+  for (const Buffer& attribute : attributes) gzip.write(std::as_bytes(std::span(attribute)));
+  gzip.write(bytes_of(spz::AxesRecord{}));
+  gzip.finish();
+}
+
+Buffer zstd_packed(const Buffer& data) {
+  constexpr int kLevel = 9;  // a tenth smaller than the usual 3, still faster than gzip
+  Buffer packed(ZSTD_compressBound(data.size()));
+  const std::size_t bytes = ZSTD_compress(packed.data(), packed.size(), data.data(), data.size(), kLevel);
+  if (ZSTD_isError(bytes)) throw Error("spz", ZSTD_getErrorName(bytes));
+  packed.resize(bytes);
+  return packed;
+}
+
+void write_version_4(AtomicFile& out, const spz::Header& first, std::span<const Buffer> attributes) {
+  spz::HeaderV4 header;
+  header.first = first;
+  header.first.version = 4;
+  header.first.streams = static_cast<std::uint8_t>(first.sh_degree > 0 ? 6 : 5);
+  header.table_begin = sizeof(spz::HeaderV4) + sizeof(spz::AxesRecord);
+  out.write(bytes_of(header));
+  out.write(bytes_of(spz::AxesRecord{}));
+  std::vector<spz::StreamEntry> table;
+  std::vector<Buffer> streams;
+  for (const Buffer& attribute : attributes.first(header.first.streams)) {
+    streams.push_back(zstd_packed(attribute));
+    table.push_back({streams.back().size(), attribute.size()});
+  }
+  out.write(std::as_bytes(std::span(table)));
+  for (const Buffer& stream : streams) out.write(std::as_bytes(std::span(stream)));
+}
+
+}  // namespace
+
+Losses spz_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) {
+  const GaussianCloud& cloud = scene.cloud;
+  Losses losses;
+  losses.add("positions are rounded to 24 bits, all other values to 8 to 10 bits");
+  losses.add(clamped_colours(cloud, gaussians, spz::kColourRange));
+  losses.add(clamped_log_scales(cloud, gaussians, spz::kLogScaleRange));
+  losses.add(clamped_sh(cloud, gaussians, spz::kShByteRange));
+  losses.add(properties_left_out(scene));
+  return losses;
+}
+
+std::string write_spz(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
+                      const SaveOptions& options) {
+  const spz::Header header = header_of(scene, gaussians);
+  const auto packed = attributes(scene.cloud, gaussians, header.fractional_bits);
+  if (options.spz_version == 4)
+    write_version_4(out, header, packed);
+  else
+    write_version_3(out, header, packed);
+  return spz_losses(scene, gaussians).sentence();
+}
+
+}  // namespace splatcut

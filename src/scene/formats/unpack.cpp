@@ -1,0 +1,98 @@
+#include "scene/formats/unpack.h"
+
+#include <fmt/format.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "scene/error.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr std::size_t kFirstBuffer = 1 << 22;
+
+// Unpacked between two looks at the stop token: some 10 ms.
+constexpr std::size_t kChunk = 1 << 22;
+
+void grow(Bytes& bytes, std::size_t wanted) {
+  bytes.resize(std::min(wanted, std::max(kFirstBuffer, 2 * bytes.size())));
+}
+
+}  // namespace
+
+GzipReader::GzipReader(const MappedFile& file) : file_(file), in_(file.bytes()) {
+  constexpr int kGzipOnly = 16 + MAX_WBITS;
+  if (inflateInit2(&stream_, kGzipOnly) != Z_OK)
+    throw Error(file.path().string(), "the gzip reader failed to start");
+}
+
+Bytes GzipReader::read(std::size_t count, const Job& job) {
+  Bytes out;
+  for (std::size_t done = 0; done < count && !job.cancelled();) {
+    if (done == out.size()) grow(out, count);
+    const std::size_t more = read_some(std::span(out).subspan(done));
+    if (more == 0) throw_truncated(done);
+    done += more;
+  }
+  return out;
+}
+
+Bytes GzipReader::read_rest(std::size_t most) {
+  Bytes out(most);
+  std::size_t done = 0;
+  while (done < most) {
+    const std::size_t more = read_some(std::span(out).subspan(done));
+    if (more == 0) break;
+    done += more;
+  }
+  out.resize(done);
+  return out;
+}
+
+void GzipReader::throw_truncated(std::size_t done) const {
+  throw Error(file_.path().string(),
+              fmt::format("truncated: the gzip data ends at byte {} after {} unpacked bytes",
+                          file_.bytes().size() - in_.size(), done));
+}
+
+std::size_t GzipReader::read_some(std::span<std::byte> out) {
+  const auto in = in_.first(std::min(in_.size(), kChunk));
+  stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(in.data()));
+  stream_.avail_in = static_cast<uInt>(in.size());
+  stream_.next_out = reinterpret_cast<Bytef*>(out.data());
+  const std::size_t room = std::min(out.size(), kChunk);
+  stream_.avail_out = static_cast<uInt>(room);
+  const int result = inflate(&stream_, Z_NO_FLUSH);
+  in_ = in_.subspan(in.size() - stream_.avail_in);
+  const std::size_t written = room - stream_.avail_out;
+  if (written > 0) return written;
+  if (result == Z_OK || result == Z_STREAM_END || result == Z_BUF_ERROR) return 0;
+  throw Error(file_.path().string(),
+              fmt::format("the gzip data is damaged at byte {}", file_.bytes().size() - in_.size()));
+}
+
+Bytes unpack_zstd(const MappedFile& file, std::span<const std::byte> packed, std::size_t size,
+                  std::size_t index, const Job& job) {
+  const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(),
+                                                                             ZSTD_freeDStream);
+  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
+  Bytes bytes;
+  for (std::size_t done = 0; done < size && !job.cancelled();) {
+    if (done == bytes.size()) grow(bytes, size);
+    ZSTD_outBuffer out{bytes.data(), std::min(bytes.size(), done + kChunk), done};
+    const std::size_t result = ZSTD_decompressStream(stream.get(), &out, &in);
+    if (ZSTD_isError(result))
+      throw Error(file.path().string(),
+                  fmt::format("stream {} is damaged ({})", index, ZSTD_getErrorName(result)));
+    if (out.pos == done && in.pos == in.size)
+      throw Error(file.path().string(),
+                  fmt::format("stream {} ends after {} of {} bytes", index, done, size));
+    done = out.pos;
+  }
+  return bytes;
+}
+
+}  // namespace splatcut

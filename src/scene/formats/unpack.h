@@ -1,0 +1,45 @@
+// Packed data, piece by piece: memory is taken as data arrives, so that a small file that promises much is
+// refused at little cost, and a stop is heard. Internal to src/scene/formats.
+#pragma once
+
+#include <zlib.h>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "scene/job.h"
+#include "scene/mapped_file.h"
+
+namespace splatcut {
+
+using Bytes = std::vector<std::byte>;
+
+// One gzip stream. Throws Error for data that are damaged.
+class GzipReader {
+ public:
+  explicit GzipReader(const MappedFile& file);
+  GzipReader(const GzipReader&) = delete;
+  GzipReader& operator=(const GzipReader&) = delete;
+  ~GzipReader() { inflateEnd(&stream_); }
+
+  // Throws Error where the data end before. Fewer bytes when cancelled.
+  Bytes read(std::size_t count, const Job& job);
+  // What is left, but no more than the bytes given.
+  Bytes read_rest(std::size_t most);
+
+ private:
+  [[noreturn]] void throw_truncated(std::size_t done) const;
+  std::size_t read_some(std::span<std::byte> out);  // 0 at the end of the data
+
+  const MappedFile& file_;
+  std::span<const std::byte> in_;
+  z_stream stream_{};
+};
+
+// Stream number `index` of the file, which unpacks to `size` bytes; Error where it does not. Incomplete when
+// cancelled.
+Bytes unpack_zstd(const MappedFile& file, std::span<const std::byte> packed, std::size_t size,
+                  std::size_t index, const Job& job);
+
+}  // namespace splatcut

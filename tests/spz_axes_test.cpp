@@ -1,0 +1,224 @@
+// The axes of .spz: said by the file, by the cameras, by the user, or the format's own.
+#include "scene/formats/axes.h"
+#include "scene_file_helpers.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+constexpr std::uint32_t kLuf = 7, kRdf = 6, kRub = 4, kRfu = 12;
+
+// One Gaussian at (1, 2, -0.5) of the file, SH of degree 1 red 0.5; version 2, not packed.
+std::string plain_spz(std::uint8_t flags) {
+  std::string text = "NGSP" + bytes_of(2u) + bytes_of(1u) + "\x01\x08";
+  text += static_cast<char>(flags);
+  text += '\0';
+  text += std::string("\x00\x01\x00\x00\x02\x00\x80\xff\xff", 9) + "\xff" + std::string("\x80\x00\xff", 3) +
+          std::string("\xa0\x90\x00", 3) + "\x80\xff\x80";
+  return text + "\xc0\x80\x80\xc0\x80\x80\xc0\x80\x80";
+}
+std::string axes_record(std::uint32_t axes) {
+  return bytes_of(0xadbe0003u) + bytes_of(4u) + bytes_of(axes);
+}
+std::string camera_record() {  // of the same vendor, and to be passed over
+  return bytes_of(0xadbe0002u) + bytes_of(12u) + std::string(12, '\x07');
+}
+
+LoadOptions asked(SpzAxes axes) {
+  LoadOptions options;
+  options.spz_axes = axes;
+  return options;
+}
+
+// The real spherical harmonics of degree 1 to 3 as products of coordinates, constants left out.
+std::array<float, 15> harmonics(const glm::vec3& d) {
+  const float x = d.x, y = d.y, z = d.z;
+  return {y,
+          z,
+          x,
+          x * y,
+          y * z,
+          2 * z * z - x * x - y * y,
+          x * z,
+          x * x - y * y,
+          y * (3 * x * x - y * y),
+          x * y * z,
+          y * (4 * z * z - x * x - y * y),
+          z * (2 * z * z - 3 * x * x - 3 * y * y),
+          x * (4 * z * z - x * x - y * y),
+          z * (x * x - y * y),
+          x * (x * x - 3 * y * y)};
+}
+
+}  // namespace
+
+TEST_CASE("axes: points, covariances and spherical harmonics turn together, for all eight signs") {
+  const glm::vec3 direction = glm::normalize(glm::vec3(0.3f, -0.7f, 0.5f)), sizes(0.1f, 0.4f, 1.0f);
+  const glm::quat rotation = glm::normalize(glm::quat(0.3f, -0.2f, 0.8f, 0.4f));
+  const auto covariance = [&](const glm::quat& q) {
+    const glm::mat3 axes = glm::mat3_cast(q) * glm::mat3(sizes.x, 0, 0, 0, sizes.y, 0, 0, 0, sizes.z);
+    return axes * glm::transpose(axes);
+  };
+  for (int bits = 0; bits < 8; ++bits) {
+    CAPTURE(bits);
+    const AxisSigns axes{bits & 1 ? -1.0f : 1.0f, bits & 2 ? -1.0f : 1.0f, bits & 4 ? -1.0f : 1.0f};
+    const glm::mat3 turn(axes.x, 0, 0, 0, axes.y, 0, 0, 0, axes.z);
+    CHECK(axes.position(direction) == turn * direction);
+    const glm::mat3 expected = turn * covariance(rotation) * glm::transpose(turn);
+    const glm::mat3 got = covariance(axes.rotation(rotation));
+    for (int c = 0; c < 3; ++c) CHECK(glm::length(got[c] - expected[c]) < 1e-6f);
+    const auto here = harmonics(turn * direction), file = harmonics(direction);
+    for (std::size_t k = 0; k < 15; ++k) CHECK(axes.sh()[k] * file[k] == doctest::Approx(here[k]));
+  }
+}
+
+TEST_CASE("spz axes: the file's word, else right-up-back with a note, and the user's word before both") {
+  const Folder folder;
+  const fs::path path = folder / "a.spz";
+  const auto position = [&](const LoadOptions& options = {}) {
+    const Scene scene = load_scene(path, options);
+    REQUIRE(scene.cloud.size() == 1);
+    return scene.cloud.position[0];
+  };
+  for (const bool packed : {false, true}) {
+    CAPTURE(packed);
+    const auto put = [&](const std::string& text) { write(path, packed ? gzip(text) : text); };
+    put(plain_spz(0));
+    CHECK(position() == glm::vec3(1, -2, 0.5f));
+    CHECK(position(asked(SpzAxes::kPly)) == glm::vec3(1, 2, -0.5f));
+    CHECK(load_scene(path).taken_axes == SpzAxes::kRub);
+    CHECK(mentions(load_scene(path).axes_note,
+                   {"does not say", "x right, y up, z back", "nothing says otherwise"}));
+    const Scene ply = load_scene(path, asked(SpzAxes::kPly));
+    CHECK(ply.taken_axes == SpzAxes::kPly);
+    CHECK(ply.cloud.sh_rest_of(0)[0] == 0.5f);
+    CHECK(mentions(ply.axes_note, {"as in a .ply", "asked"}));
+
+    put(plain_spz(2) + camera_record() + axes_record(kRub));
+    CHECK(position() == glm::vec3(1, -2, 0.5f));
+    CHECK_FALSE(load_scene(path).taken_axes);
+    CHECK(load_scene(path).axes_note.empty());
+    CHECK(position(asked(SpzAxes::kPly)) == glm::vec3(1, 2, -0.5f));
+    put(plain_spz(2) + axes_record(kRdf));
+    CHECK(position() == glm::vec3(1, 2, -0.5f));
+    put(plain_spz(2) + axes_record(kLuf));
+    CHECK(position() == glm::vec3(-1, -2, -0.5f));
+    put(plain_spz(2) + axes_record(0));
+    CHECK(position() == glm::vec3(1, -2, 0.5f));
+    put(plain_spz(2) + axes_record(kRfu));
+    CHECK(mentions(refusal(path), {"number 12", "exchange y and z", "Convert"}));
+    put(plain_spz(2) + camera_record());  // other records say nothing of axes
+    CHECK(load_scene(path).taken_axes == SpzAxes::kRub);
+    put(plain_spz(2) + axes_record(kRdf).substr(0, 10));  // cut short
+    CHECK(load_scene(path).taken_axes == SpzAxes::kRub);
+    put(plain_spz(0) + axes_record(kRdf));  // not flagged: not records
+    CHECK(load_scene(path).taken_axes == SpzAxes::kRub);
+  }
+}
+
+TEST_CASE("spz axes: what we write says its axes, in both versions, and keeps the mark of antialiasing") {
+  const Folder folder;
+  for (const int version : {3, 4})
+    for (int degree = 0; degree <= 3; ++degree)
+      for (const bool antialiased : {false, true}) {
+        CAPTURE(version);
+        CAPTURE(degree);
+        Scene scene;
+        scene.cloud = varied_cloud(800, degree);
+        scene.antialiased = antialiased;
+        save_scene(folder / "a.spz", scene, {}, SceneFormat::kSpz, {version});
+        const std::string bytes = text_of(folder / "a.spz");
+        CHECK(bytes.starts_with(version == 4 ? "NGSP" : "\x1f\x8b"));
+        const std::string plain = version == 4 ? bytes : gunzip(bytes);
+        CHECK(plain.find(axes_record(kRub)) != plain.npos);
+        const Scene got = load_scene(folder / "a.spz");
+        CHECK_FALSE(got.taken_axes);
+        CHECK(got.antialiased == antialiased);
+        check_same(scene.cloud, got,
+                   {1.0f / 8192, 1.01f / 32, 1e-5f, 0.51f / 255, 0.51f / 255 / 0.15f, 0.51f / 128});
+      }
+}
+
+TEST_CASE("spz axes: cameras that see clearly more of the scene one way decide, others do not") {
+  const Folder folder;
+  Scene scene;
+  scene.cloud = varied_cloud(2000, 1);
+  for (glm::vec3& p : scene.cloud.position) p += glm::vec3(0, 40, 0);
+  save_scene(folder / "a.spz", scene, {}, SceneFormat::kSpz);
+  std::string plain = gunzip(text_of(folder / "a.spz"));
+  plain.resize(plain.size() - 12);
+  plain[14] = 0;  // nothing said
+  write(folder / "a.spz", gzip(plain));
+
+  LoadOptions options;
+  const auto ring = [&](const glm::vec3& centre) {
+    options.cameras.clear();
+    for (int i = 0; i < 8; ++i) {
+      const float angle = 0.7853982f * static_cast<float>(i);
+      options.cameras.push_back(look_at(centre + 20.0f * glm::vec3(std::sin(angle), 0, std::cos(angle)),
+                                        centre, {0, -1, 0}, 0.9f, 160, 120));
+    }
+  };
+  ring({0, 40, 0});  // where the cloud was written
+  const Scene rub = load_scene(folder / "a.spz", options);
+  CHECK(rub.taken_axes == SpzAxes::kRub);
+  CHECK(rub.cloud.position[0].y > 30);
+  CHECK(mentions(rub.axes_note, {"cameras see more"}));
+  ring({0, -40, 0});
+  const Scene ply = load_scene(folder / "a.spz", options);
+  CHECK(ply.taken_axes == SpzAxes::kPly);
+  CHECK(ply.cloud.position[0].y < -30);
+  const auto first_sh = [](const Scene& s) {
+    const auto g = std::ranges::find(s.cloud.file_row, 0u) - s.cloud.file_row.begin();
+    return s.cloud.sh_rest_of(static_cast<std::size_t>(g))[0];
+  };
+  CHECK(first_sh(ply) == -first_sh(rub));
+  CHECK(mentions(ply.axes_note, {"cameras see more", "as in a .ply"}));
+  ring({0, 0, 0});  // see nothing either way
+  const Scene neither = load_scene(folder / "a.spz", options);
+  CHECK(neither.taken_axes == SpzAxes::kRub);
+  CHECK(mentions(neither.axes_note, {"nothing says otherwise"}));
+  options.spz_axes = SpzAxes::kRub;  // the user is asked first
+  ring({0, -40, 0});
+  options.spz_axes = SpzAxes::kRub;
+  CHECK(load_scene(folder / "a.spz", options).taken_axes == SpzAxes::kRub);
+}
+
+TEST_CASE("real files: .spz of both kinds beside the .ply or the numbers they were made from") {
+  const fs::path fixtures =
+      fs::path(SPLATCUT_SOURCE_DIR) / ".." / "shared" / "scenes" / "formats" / "fixtures";
+  if (!fs::exists(fixtures)) {
+    MESSAGE("skipped: no scenes");
+    return;
+  }
+  // Three Gaussians of a training, written by the format's own library.
+  const Scene train = load_scene(fixtures / "metalsplatter" / "test-splat.3-points-from-train.ply");
+  const Scene spz = load_scene(fixtures / "metalsplatter" / "test-splat.3-points-from-train.spz");
+  REQUIRE(train.cloud.sh_degree == 3);
+  std::vector<std::uint32_t> order(3);
+  GaussianCloud in_file_order = train.cloud;
+  for (std::uint32_t g = 0; g < 3; ++g) order[train.cloud.file_row[g]] = g;
+  in_file_order = permuted(train.cloud, order);
+  // Its writer keeps 5 bits of degree 1 and 4 of the others: half a step of a byte, then half of 16 of them.
+  check_same(in_file_order, spz,
+             {1.01f / 8192, 1.01f / 32, 1e-4f, 0.51f / 255, 0.51f / 255 / 0.15f, 8.51f / 128});
+
+  // A grid at y = 0, x and z in {-1, 0}: as (x, z) in the rows of a 2 x 2 square.
+  const auto check_grid = [&](const char* name, const LoadOptions& options) {
+    const Scene grid = load_scene(fixtures / "splat-transform" / name, options);
+    REQUIRE(grid.cloud.size() == 4);
+    for (std::size_t g = 0; g < 4; ++g) {
+      const std::uint32_t row = grid.cloud.file_row[g];
+      CHECK(grid.cloud.position[g] ==
+            glm::vec3(static_cast<float>(row % 2) - 1, 0, static_cast<float>(row / 2) - 1));
+      CHECK(grid.cloud.scale[g].x == doctest::Approx(0.1).epsilon(1.0 / 32));
+      CHECK(grid.cloud.opacity[g] == doctest::Approx(230.0 / 255));
+    }
+  };
+  check_grid("minimal-v3.spz", {});  // by the format's library, from a .ply's axes
+  check_grid("minimal-v4.spz", {});
+  check_grid("minimal-v2.spz", asked(SpzAxes::kPly));  // raw numbers
+  check_grid("minimal-raw.spz", asked(SpzAxes::kPly));
+  CHECK(load_scene(fixtures / "gsplat-rs" / "minimal_v4_degree0.spz").cloud.size() == 8);
+}
