@@ -90,6 +90,7 @@ const Camera& find_camera(const std::vector<Camera>& cameras, const std::string&
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
   if (error == std::errc{} && end == name.data() + name.size() && index < cameras.size())
     return cameras[index];
+  if (cameras.empty()) throw Error(where, fmt::format("names the camera \"{}\", but has no cameras", name));
   throw Error(where, fmt::format("has no camera \"{}\"", name),
               fmt::format("It has {}, the first is \"{}\"", cameras.size(), cameras.front().name));
 }

@@ -1,15 +1,15 @@
 #include "app/lab/eval_suite.h"
 
 #include <fmt/format.h>
+
 #include <chrono>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "app/camera_options.h"
 #include "app/seeds_file.h"
 #include "scene/camera_file.h"
 #include "scene/error.h"
+#include "scene/json_file.h"
+#include "scene/mapped_file.h"
 #include "scene/png_file.h"
 
 namespace splatcut {
@@ -27,9 +27,7 @@ Camera look_at_of(const nlohmann::json& j) {
 }
 
 std::vector<std::uint8_t> truth_labels(const std::filesystem::path& path, const Scene& scene, int wanted) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(path.string(), "cannot be opened");
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes = text_of_file(path);
   if (bytes.size() != scene.file_rows)
     throw Error(path.string(),
                 fmt::format("holds {} labels, the scene {} rows", bytes.size(), scene.file_rows));
@@ -115,13 +113,17 @@ std::vector<Camera> fill_case(const nlohmann::json& entry, const std::filesystem
 }  // namespace
 
 std::vector<nlohmann::json> read_suite(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  if (!in) throw Error(path.string(), "cannot be opened");
-  const nlohmann::json suite = nlohmann::json::parse(in, nullptr, false);
-  if (suite.is_discarded() || !suite.is_object() || !suite.contains("scenes") ||
-      !suite.at("scenes").is_array())
+  const nlohmann::json suite = json_of_file(path);
+  if (!suite.is_object() || !suite.contains("scenes") || !suite.at("scenes").is_array())
     throw Error(path.string(), "is not a suite: a JSON object with \"scenes\" is expected");
-  return {suite.at("scenes").begin(), suite.at("scenes").end()};
+  std::vector<nlohmann::json> entries;
+  for (const nlohmann::json& entry : suite.at("scenes")) {
+    const std::string where = fmt::format("{}: entry {}", path.string(), entries.size());
+    if (!entry.is_object()) throw Error(where, "is no object with \"name\" and \"scene\"");
+    if (!entry.value("name", nlohmann::json()).is_string()) throw Error(where, "has no \"name\"");
+    entries.push_back(entry);
+  }
+  return entries;
 }
 
 std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder,
@@ -138,7 +140,8 @@ std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::fi
     loaded->prepared = prepare_scene(loaded->scene.cloud, loaded->test.reference, loaded->test.up_world,
                                      cameras, prepare, job);
   } catch (const nlohmann::json::exception& error) {
-    throw Error("suite", "the entry " + entry.value("name", "?") + " lacks something (" + error.what() + ")");
+    throw Error("suite", fmt::format("the entry {} lacks something ({})", entry.at("name").get<std::string>(),
+                                     fault_of(error)));
   }
   return loaded;
 }

@@ -16,6 +16,7 @@
 #include "app/output_folder.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/json_file.h"
 
 namespace splatcut {
 
@@ -152,7 +153,7 @@ void run_fit(const FitArguments& args, const CommonOptions& common) {
   const LeaveOneOut table = leave_one_out(&fitter, scenes.size(), args.options, job);
   stop_if_fit_cancelled(job);
   write_text_file(folder.file("fit.json"),
-                  result_json(args, scenes, weights.table(), fitter, table).dump(1) + "\n");
+                  json_text(result_json(args, scenes, weights.table(), fitter, table), 1) + "\n");
   folder.commit();
   end_progress();
   print_table(scenes, weights.table(), fitter, table);
