@@ -117,7 +117,7 @@ SaveReport save_scene(const std::filesystem::path& path, const Scene& scene,
   SaveReport report;
   report.gaussians = kept.size();
   report.loss = write_scene(out, scene, kept, format);
-  report.bytes = static_cast<std::uint64_t>(std::ftell(out.stream()));
+  report.bytes = out.bytes_written();
   out.commit();
   return report;
 }
