@@ -46,8 +46,12 @@ TEST_CASE("faults: a name that is not UTF-8 is printed and written all the same"
 TEST_CASE("faults: a suite that lacks its cameras, its names or its form is refused with a sentence") {
   const Workplace& place = still_life().place;
   const json reference = {{"camera", "view_00"}};
-  const json entry = {{"name", "a"}, {"scene", "small.ply"}, {"reference", reference},
-                      {"truth", {{"labels", "small.labels.u8"}}}, {"clicks", "robot"}, {"test_views", json::array()}};
+  const json entry = {{"name", "a"},
+                      {"scene", "small.ply"},
+                      {"reference", reference},
+                      {"truth", {{"labels", "small.labels.u8"}}},
+                      {"clicks", "robot"},
+                      {"test_views", json::array()}};
   const auto suite = [&](const json& scenes) {
     place.write("made/odd.json", json{{"scenes", scenes}}.dump());
     return place.run("eval made/odd.json -o odd");
@@ -58,16 +62,25 @@ TEST_CASE("faults: a suite that lacks its cameras, its names or its form is refu
   refused(suite(json::array({nameless})), {"entry 0", "name"});
   for (const json& odd : {json(1), json("a"), json::array(), json(nullptr)})
     refused(suite(json::array({odd})), {"entry 0"});
-  for (const auto& [key, value] : std::vector<std::pair<std::string, json>>{
-           {"scene", 1}, {"reference", 3}, {"reference", {{"camera", 1.5}}}, {"truth", "x"}, {"clicks", {1}},
-           {"test_views", 7}, {"references", 5}, {"cameras", json::array()}, {"scribbles", 4}}) {
+  for (const auto& [key, value] : std::vector<std::pair<std::string, json>>{{"scene", 1},
+                                                                            {"reference", 3},
+                                                                            {"reference", {{"camera", 1.5}}},
+                                                                            {"truth", "x"},
+                                                                            {"clicks", {1}},
+                                                                            {"test_views", 7},
+                                                                            {"references", 5},
+                                                                            {"cameras", json::array()},
+                                                                            {"scribbles", 4}}) {
     json odd = entry;
     odd["cameras"] = "cameras.json";
     odd[key] = value;
     CAPTURE(key);
     refused(suite(json::array({odd})), {"a"});
   }
-  for (const std::string& bytes : {std::string("\0\xff\x7f""ELF\1\2", 8), std::string("[1e999]"), std::string("\"\xff\""), std::string()}) {
+  for (const std::string& bytes : {std::string("\0\xff\x7f"
+                                               "ELF\1\2",
+                                               8),
+                                   std::string("[1e999]"), std::string("\"\xff\""), std::string()}) {
     place.write("made/odd.json", bytes);
     refused(place.run("eval made/odd.json -o odd"), {"odd.json"});
   }
@@ -77,9 +90,10 @@ TEST_CASE("faults: seeds, cameras and labels of any form are refused with a sent
   const StillLife& life = still_life();
   const Workplace& place = life.place;
   for (const char* text :
-       {"", "{", "[1e999]", "[]", "7", "\"\xff\"", R"({"clicks": 5})", R"({"clicks": [5]})", R"({"clicks": [{"x": "a"}]})",
-        R"({"scribbles": [{"label": 5, "points": []}]})", R"({"scribbles": {"label": "object"}})",
-        R"({"scribbles": [{"label": "object", "points": [[1]]}]})", R"({"objects": [{"name": 1}]})",
+       {"", "{", "[1e999]", "[]", "7", "\"\xff\"", R"({"clicks": 5})", R"({"clicks": [5]})",
+        R"({"clicks": [{"x": "a"}]})", R"({"scribbles": [{"label": 5, "points": []}]})",
+        R"({"scribbles": {"label": "object"}})", R"({"scribbles": [{"label": "object", "points": [[1]]}]})",
+        R"({"objects": [{"name": 1}]})",
         R"({"scribbles": [{"label": "object", "radius_px": 1e30, "points": [[1, 2]]}]})",
         R"({"scribbles": [{"label": "object", "radius_px": -1, "points": [[1, 2]]}]})",
         R"({"clicks": [{"x": 1e30, "y": 1}]})"}) {
@@ -88,7 +102,8 @@ TEST_CASE("faults: seeds, cameras and labels of any form are refused with a sent
     refused(place.run(life.cut("--seeds odd.json -o odd")), {"odd.json"});
     refused(place.run("render " + life.scene + " --cameras odd.json -o odd.png"), {"odd.json"});
   }
-  refused(place.run("render " + life.scene + " --what labels --labels made -o odd.png"), {"made", "directory"});
+  refused(place.run("render " + life.scene + " --what labels --labels made -o odd.png"),
+          {"made", "directory"});
   refused(place.run(life.cut("--seeds made -o odd")), {"made", "directory"});
   refused(place.run("cut --work odd.json -o odd"), {"odd.json"});
 }

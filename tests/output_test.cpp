@@ -182,7 +182,8 @@ TEST_CASE("output: a folder is replaced as a whole, what is not the program's st
   place.write("out/photos/deep/a.jpg", "mine");
   fs::create_symlink("/nowhere", place / "out/link");
   fs::permissions(place / "out", fs::perms::owner_all | fs::perms::group_read);
-  struct stat before {}, after {};
+  struct stat before {
+  }, after{};
   REQUIRE(::stat((place / "out/photos").c_str(), &before) == 0);
   write_folder(place / "out/", {{"object.ply", "new"}, {"report.json", "new"}});
   CHECK(place.files_in("out") ==
@@ -203,8 +204,11 @@ TEST_CASE("output: a name that is a folder there is refused, and both stay as th
   place.make_folder("out/object.ply");
   place.write("out/object.ply/mine.txt", "mine");
   place.write("out/report.json", "old");
-  CHECK(says([&] { write_folder(place / "out", {{"report.json", "new"}, {"object.ply", "new"}}); },
-             "is a folder"));
+  CHECK(says(
+      [&] {
+        write_folder(place / "out", {{"report.json", "new"}, {"object.ply", "new"}});
+      },
+      "is a folder"));
   CHECK(place.text("out/object.ply/mine.txt") == "mine");
   CHECK(place.text("out/report.json") == "old");
   CHECK(place.leftovers().empty());
@@ -224,7 +228,8 @@ TEST_CASE("output: the current folder is filled in place") {
   CHECK(place.leftovers().empty());
 }
 
-TEST_CASE("output: a second writer of a folder is refused, and existing is looked for again once it is free") {
+TEST_CASE(
+    "output: a second writer of a folder is refused, and existing is looked for again once it is free") {
   const Workplace place;
   {
     OutputFolder first(place / "out", false);
@@ -237,7 +242,8 @@ TEST_CASE("output: a second writer of a folder is refused, and existing is looke
   CHECK(place.leftovers().empty());
 }
 
-TEST_CASE("output: what a killed process left beside a folder is set right by the next, whenever it was killed") {
+TEST_CASE(
+    "output: what a killed process left beside a folder is set right by the next, whenever it was killed") {
   const Workplace place;
   const auto fresh = [&] {
     fs::remove_all(place / "out");
@@ -288,7 +294,9 @@ TEST_CASE("output: signals that end the program leave the old cutout as it was")
       CAPTURE(signal);
       CAPTURE(after_ms);
       const Result result =
-          place.run_interrupted("cut " + life.scene + " " + life.camera + " --no-cache --preset best --overwrite -o kept --click " + life.click, after_ms, signal);
+          place.run_interrupted("cut " + life.scene + " " + life.camera +
+                                    " --no-cache --preset best --overwrite -o kept --click " + life.click,
+                                after_ms, signal);
       CHECK((result.code == 1 || result.signal == signal));
       CHECK(place.files_in("kept") == std::set<std::string>{"notes.txt", "object.ply", "report.json"});
       CHECK(place.text("kept/object.ply") == "old");

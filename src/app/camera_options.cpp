@@ -32,9 +32,7 @@ Camera first_view(const GaussianCloud& cloud, const glm::vec3& up, float fov_y_r
   constexpr int kGuessWidth = 640, kGuessHeight = 480;
   const Box bounds = robust_bounds(cloud.position, 0.9);
   const Camera all = view_of_all(bounds, up, fov_y_rad, kGuessWidth, kGuessHeight);
-  const Camera view = better_first_view(cloud, bounds, up, all).value_or(all);
-  const glm::vec3 eye = view.centre_world();
-  return look_at(eye, eye + view.forward_world(), up, fov_y_rad, width, height);
+  return resized(better_first_view(cloud, bounds, up, all).value_or(all), width, height);
 }
 
 // A guess is no reason to refuse a view straight down.

@@ -46,7 +46,8 @@ void make_folder(const fs::path& folder, const fs::path& meant) {
 
 // A shell that stands in the folder, and a mount point, want it to stay the one it is.
 bool can_be_exchanged(const fs::path& folder) {
-  struct stat own {}, parent {};
+  struct stat own {
+  }, parent{};
   std::error_code failure;
   return ::stat(folder.c_str(), &own) == 0 && ::stat(folder.parent_path().c_str(), &parent) == 0 &&
          own.st_dev == parent.st_dev && ::access(folder.parent_path().c_str(), W_OK) == 0 &&

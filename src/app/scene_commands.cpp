@@ -68,7 +68,7 @@ void write_depth(const std::filesystem::path& path, const Image<float>& depth) {
       farthest = std::max(farthest, z);
     }
   Image<std::uint16_t> grey(depth.width(), depth.height());
-  const float range = std::max(1e-12f, farthest - nearest);
+  const float range = std::max(1e-30f, farthest - nearest);
   std::ranges::transform(depth.pixels(), grey.pixels().begin(), [&](float z) {
     return z > 0 ? static_cast<std::uint16_t>(65535 - 60000 * (z - nearest) / range) : std::uint16_t{0};
   });

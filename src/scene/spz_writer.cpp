@@ -19,13 +19,21 @@ constexpr int kUsualFractionalBits = 12;
 
 using Buffer = std::vector<std::uint8_t>;
 
-// As many bits, up to the usual 12, as let the farthest coordinate fit into 24.
+// As many bits, up to the usual 12, as let the farthest coordinate fit into 24; more for a scene that the
+// usual steps would be too coarse for. Throws Error where none do.
 std::uint8_t fractional_bits_for(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
   float farthest = 0;
   for (const std::uint32_t g : gaussians)
     for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(cloud.position[g][axis]));
   int bits = kUsualFractionalBits;
   while (bits > 0 && std::ldexp(farthest, bits) > kFixedLimit) --bits;
+  constexpr float kCoarse = 1 << kUsualFractionalBits;
+  constexpr int kMostFractionalBits = 24;
+  while (farthest > 0 && bits < kMostFractionalBits && std::ldexp(farthest, bits) < kCoarse) ++bits;
+  constexpr float kFewestSteps = 256;
+  if (std::ldexp(farthest, bits) > kFixedLimit || (farthest > 0 && std::ldexp(farthest, bits) < kFewestSteps))
+    throw Error("spz", fmt::format("coordinates up to {:g} cannot be written in 24 bits", farthest),
+                "Choose another format, or scale the scene");
   return static_cast<std::uint8_t>(bits);
 }
 
@@ -54,6 +62,17 @@ void add_sh(Buffer& out, std::span<const float> rest) {
   for (std::size_t k = 0; k < coefficients; ++k)
     for (std::size_t c = 0; c < 3; ++c)
       out.push_back(to_byte(rest[c * coefficients + k] * spz::kShFlip[k] * 128.0f + 128.0f));
+}
+
+// How many have no axis that can be written, or one that is too long.
+std::size_t beyond_scales(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
+  const float least = std::exp(spz::kLogScaleMin),
+              most = std::exp(spz::kLogScaleMin + 255 / spz::kLogScaleSteps);
+  return static_cast<std::size_t>(std::ranges::count_if(gaussians, [&](std::uint32_t g) {
+    const glm::vec3& s = cloud.scale[g];
+    const float longest = std::max({s.x, s.y, s.z});
+    return longest < least || longest > most;
+  }));
 }
 
 Buffer packed(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
@@ -100,7 +119,10 @@ std::string write_spz(AtomicFile& out, const GaussianCloud& cloud, std::span<con
       out.write(std::span(piece).first(piece.size() - stream.avail_out));
     } while (stream.avail_out == 0);
   }
-  return "positions are rounded to 24 bits, all other values to 8 to 10 bits";
+  std::string loss = "positions are rounded to 24 bits, all other values to 8 to 10 bits";
+  if (const std::size_t count = beyond_scales(cloud, gaussians); count > 0)
+    loss += fmt::format("; {} Gaussians are smaller or larger than the format knows sizes", count);
+  return loss;
 }
 
 }  // namespace splatcut
