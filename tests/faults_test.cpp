@@ -5,7 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/console.h"
 #include "program_runner.h"
+#include "scene/mapped_file.h"
 #include "small_still_life.h"
 
 using namespace splatcut::testing;
@@ -77,6 +79,14 @@ TEST_CASE("faults: a suite that lacks its cameras, its names or its form is refu
     CAPTURE(key);
     refused(suite(json::array({odd})), {"a"});
   }
+  const json view = {{"position", {0, 0, -3}}, {"target", {0, 0, 0}}, {"up", {0, -1, 0}}, {"fov_y_deg", 45}};
+  for (const json& size : {json{0, 1}, json{40, -1}, json{1e9, 1e9}, json{1}, json("x")}) {
+    json odd = entry;
+    odd["reference"] = view;
+    odd["reference"]["size"] = size;
+    CAPTURE(size.dump());
+    refused(suite(json::array({odd})), {});
+  }
   for (const std::string& bytes : {std::string("\0\xff\x7f"
                                                "ELF\1\2",
                                                8),
@@ -118,6 +128,29 @@ TEST_CASE("faults: a pipe in place of what is kept of a scene is passed by") {
   REQUIRE(::mkfifo((place / kept).c_str(), 0600) == 0);
   REQUIRE(place.run(cut + " -o second").code == 0);
   CHECK(place.text("second/labels.u8") == place.text("first/labels.u8"));
+}
+
+TEST_CASE("faults: a file that another program cuts short while it is read ends the run with a sentence") {
+  const Workplace place;
+  place.write("a.ply", std::string(1 << 20, 'x'));
+  int ends[2];
+  REQUIRE(::pipe(ends) == 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::dup2(ends[1], STDERR_FILENO);
+    splatcut::console_job(true);
+    const splatcut::MappedFile file(place / "a.ply");
+    std::filesystem::resize_file(place / "a.ply", 0);
+    ::_exit(file.bytes()[1 << 19] == std::byte{'x'} ? 0 : 2);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 1));
+  ::close(ends[1]);
+  char said[200] = {};
+  CHECK(::read(ends[0], said, sizeof said - 1) > 0);
+  CHECK(std::string(said).find("became shorter") != std::string::npos);
+  ::close(ends[0]);
 }
 
 TEST_CASE("faults: that the standard output is full is said") {

@@ -58,9 +58,10 @@ TEST_CASE("scale: pictures, guessed views and cuts are the same from 2^-40 to 2^
     const Camera all = view_of_all(bounds, up, 0.87f, 320, 240);
     CutSettings by_pixels = preset("fast");
     set_setting("first.from=pixels", &by_pixels);
-    return Seen{guessed_up(cloud), better_first_view(cloud, bounds, up, all).value_or(all).camera_from_world_rotation,
-                rasterize(cloud, all, {}).colour, cut_in_view(cloud, camera, up, strokes, preset("default")).labels,
-                cut_in_view(cloud, camera, up, strokes, by_pixels).labels};
+    return Seen{
+        guessed_up(cloud), better_first_view(cloud, bounds, up, all).value_or(all).camera_from_world_rotation,
+        rasterize(cloud, all, {}).colour, cut_in_view(cloud, camera, up, strokes, preset("default")).labels,
+        cut_in_view(cloud, camera, up, strokes, by_pixels).labels};
   };
   const Seen as_made = seen(1);
   CHECK(std::ranges::count(as_made.by_default, 1) > 0);

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <thread>
 
 namespace splatcut {
@@ -28,6 +29,14 @@ void on_ending_signal(int) {
   for (const int signal : kEndingSignals) std::signal(signal, SIG_DFL);
 }
 
+// A mapped file that another program cut short. Nothing can be cleaned here; the next run does it.
+void on_bus_error(int) {
+  constexpr std::string_view kSaid =
+      "splatcut: a file became shorter while it was read. Run this again once it is whole.\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kSaid.data(), kSaid.size());
+  ::_exit(1);
+}
+
 void watch_signals() {
   static const bool started = [] {
     if (::pipe2(g_wake, O_CLOEXEC) != 0) return false;
@@ -36,6 +45,7 @@ void watch_signals() {
       while (::read(g_wake[0], &byte, 1) != 1) continue;
       g_stop.request_stop();
     }).detach();
+    std::signal(SIGBUS, on_bus_error);
     for (const int signal : kEndingSignals) {
       const auto before = std::signal(signal, on_ending_signal);
       if (signal == SIGHUP && before == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup

@@ -8,7 +8,8 @@
 namespace splatcut {
 
 // A job with a progress bar on stderr (only where that is a terminal and quiet is false) that Ctrl+C, SIGTERM
-// and SIGHUP cancel. A second one ends the program at once.
+// and SIGHUP cancel. A second one ends the program at once. A file that is cut short while it is read
+// ends it, too, with a sentence.
 Job console_job(bool quiet);
 
 // Says the sentence on stderr; nothing for an empty one.

@@ -46,8 +46,8 @@ void make_folder(const fs::path& folder, const fs::path& meant) {
 
 // A shell that stands in the folder, and a mount point, want it to stay the one it is.
 bool can_be_exchanged(const fs::path& folder) {
-  struct stat own {
-  }, parent{};
+  struct stat own {};
+  struct stat parent {};
   std::error_code failure;
   return ::stat(folder.c_str(), &own) == 0 && ::stat(folder.parent_path().c_str(), &parent) == 0 &&
          own.st_dev == parent.st_dev && ::access(folder.parent_path().c_str(), W_OK) == 0 &&
@@ -130,22 +130,20 @@ void OutputFolder::set_right() {
 
 // From the folder that was replaced. Files whose place is taken are older ones of ours.
 void OutputFolder::bring_back() {
-  for (const fs::path& name : names_in(fresh_)) {
-    std::error_code failure;
-    if (inode_of(target_ / name) == 0)
-      move(fresh_ / name, target_ / name);
-    else if (!fs::remove(fresh_ / name, failure))
-      throw Error((fresh_ / name).string(), "cannot be removed (" + failure.message() + ")");
-  }
-  std::error_code ignored;
-  fs::remove(fresh_, ignored);
+  for (const fs::path& name : names_in(fresh_))
+    if (inode_of(target_ / name) == 0) move(fresh_ / name, target_ / name);
+  std::error_code failure;
+  for (const fs::path& name : names_in(fresh_))
+    if (!fs::remove(fresh_ / name, failure))
+      throw Error((fresh_ / name).string(), "cannot be removed (" + failure.message() + ")",
+                  "It is left of an earlier run; move what is yours to another place");
+  fs::remove(fresh_, failure);
 }
 
 // So that they are there at the moment of the exchange; folders cannot be linked and come after it.
 void OutputFolder::link_other_files() {
   for (const fs::path& name : names_in(target_))
-    if (inode_of(fresh_ / name) == 0) [[maybe_unused]]
-      const int trouble = ::link((target_ / name).c_str(), (fresh_ / name).c_str());
+    if (inode_of(fresh_ / name) == 0) ::link((target_ / name).c_str(), (fresh_ / name).c_str());
 }
 
 void OutputFolder::move_each() {

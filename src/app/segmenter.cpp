@@ -100,6 +100,7 @@ std::vector<std::string> split_command(const std::string& command) {
       in_word = true;
     }
   }
+  if (command.find('\0') != command.npos) throw Error("--segmenter", "holds a zero byte", kHowToName);
   if (quote) throw Error("--segmenter", fmt::format("a quote {} has no end", quote), kHowToName);
   if (in_word) words.push_back(word);
   return words;

@@ -32,8 +32,8 @@ int open_part(const fs::path& file, const fs::path& meant) {
 
 // False where the file was renamed or removed by who held it before.
 bool is_still_at(int descriptor, const fs::path& file) {
-  struct stat held {
-  }, there{};
+  struct stat held {};
+  struct stat there {};
   return ::fstat(descriptor, &held) == 0 && ::lstat(file.c_str(), &there) == 0 &&
          held.st_ino == there.st_ino && held.st_dev == there.st_dev && S_ISREG(held.st_mode);
 }

@@ -21,9 +21,14 @@ glm::vec3 vec3_of(const nlohmann::json& j) {
 }
 
 Camera look_at_of(const nlohmann::json& j) {
+  constexpr double kMostPixels = 1 << 14;
+  const double width = j.at("size").at(0), height = j.at("size").at(1);
+  const float fov_y_deg = j.at("fov_y_deg");
+  if (!(width >= 1 && height >= 1 && width <= kMostPixels && height <= kMostPixels))
+    throw Error("camera", fmt::format("a picture of {} x {} pixels is impossible", width, height));
+  if (!(fov_y_deg > 0 && fov_y_deg < 180)) throw Error("camera", fmt::format("fov_y_deg is {}", fov_y_deg));
   return look_at(vec3_of(j.at("position")), vec3_of(j.at("target")), vec3_of(j.at("up")),
-                 glm::radians(j.at("fov_y_deg").get<float>()), j.at("size").at(0).get<int>(),
-                 j.at("size").at(1).get<int>());
+                 glm::radians(fov_y_deg), static_cast<int>(width), static_cast<int>(height));
 }
 
 std::vector<std::uint8_t> truth_labels(const std::filesystem::path& path, const Scene& scene, int wanted) {
