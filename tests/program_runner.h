@@ -65,8 +65,8 @@ class Workplace {
   std::set<std::string> leftovers() const {
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
-      if (entry.path().filename().string().find(".splatcut.") != std::string::npos)
-        names.insert(entry.path().filename());
+      for (const char* ending : {".splatcut.part", ".splatcut.new"})
+        if (entry.path().string().ends_with(ending)) names.insert(entry.path().filename());
     return names;
   }
 
