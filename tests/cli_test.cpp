@@ -80,7 +80,7 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
              std::string_view(beside).starts_with("--")
                  ? std::string(beside).substr(0, std::string(beside).find(' ')).c_str()
                  : "scene"});
-  refused("eval bad.json -o cut", {"bad.json", "suite"});
+  refused("eval bad.json -o cut", {"bad.json", "JSON"});
   place.write("no_truth.json", R"({"scenes": [{"name": "a", "scene": "made/small.ply"}]})");
   refused("eval no_truth.json -o cut", {"entry a", "reference"});
   refused(life.cut("--click " + life.click + " -o cut --first-mask grabcut --parts-only"),

@@ -1,5 +1,6 @@
 // .spz and compressed .ply, written by hand and by our own writers.
 #include "scene_file_helpers.h"
+#include "synthetic_cloud.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -43,6 +44,30 @@ TEST_CASE("spz: versions 1 and 2 by hand, axes turned to x right, y down, z forw
   }
   CHECK(load_scene(folder / "1.spz").cloud.rotation[0].x == doctest::Approx(1).epsilon(0.01));
   CHECK(load_scene(folder / "2.spz").cloud.rotation[0].y == doctest::Approx(-1).epsilon(0.01));
+}
+
+TEST_CASE("spz: small scenes keep their shape, what 24 bits cannot hold is refused, sizes beyond are said") {
+  const Folder folder;
+  const auto saved = [&](float unit) {
+    Scene scene;
+    scene.format = SceneFormat::kSplat;
+    scene.cloud = random_cloud(500, 3);
+    for (glm::vec3& p : scene.cloud.position) p *= unit;
+    for (glm::vec3& s : scene.cloud.scale) s *= unit;
+    const SaveReport report = save_scene(folder / "a.spz", scene, {}, SceneFormat::kSpz);
+    const Scene again = load_scene(folder / "a.spz");
+    float farthest = 0;
+    for (std::size_t g = 0; g < again.cloud.size(); ++g)
+      farthest = std::max(
+          farthest, glm::distance(again.cloud.position[g], scene.cloud.position[again.cloud.file_row[g]]));
+    CHECK(farthest < 1e-3f * unit);
+    return report.loss;
+  };
+  CHECK(saved(1).find("sizes") == std::string::npos);
+  CHECK(saved(1e-4f).find("500 Gaussians are smaller or larger") != std::string::npos);
+  CHECK(saved(1e6f).find("Gaussians are smaller or larger") != std::string::npos);
+  for (const float unit : {1e-6f, 1e8f})
+    CHECK_THROWS_WITH_AS(saved(unit), doctest::Contains("24 bits"), Error);
 }
 
 TEST_CASE("spz: version 4, zstd streams, holds what version 3 of the same cloud holds, at every degree") {

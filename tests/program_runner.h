@@ -65,7 +65,8 @@ class Workplace {
   std::set<std::string> leftovers() const {
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
-      if (entry.path().extension() == ".part") names.insert(entry.path().filename());
+      for (const char* ending : {".splatcut.part", ".splatcut.new"})
+        if (entry.path().string().ends_with(ending)) names.insert(entry.path().filename());
     return names;
   }
 
@@ -82,20 +83,29 @@ class Workplace {
     return finish(start(words));
   }
 
-  Result run_interrupted(const std::string& arguments, int after_ms) const {
-    const pid_t child = start(words_of(arguments));
+  Result run_interrupted(const std::string& arguments, int after_ms, int signal = SIGINT) const {
+    const pid_t child = begin(arguments);
     std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
-    ::kill(child, SIGINT);
+    ::kill(child, signal);
     return finish(child);
   }
-  // Interrupted once the file is there; the program is ended where that takes half a minute.
-  Result run_until(const std::string& file, const std::string& arguments,
-                   const std::vector<std::string>& whole_arguments) const {
-    const pid_t child = start(words_of(arguments, whole_arguments));
+
+  // Runs it beside the test; finish() waits for its end.
+  pid_t begin(const std::string& arguments, const std::vector<std::string>& whole_arguments = {}) const {
+    return start(words_of(arguments, whole_arguments));
+  }
+  // False where that takes half a minute.
+  bool appears(const std::string& file) const {
     for (int tenths = 0; tenths < 300 && !exists(file); ++tenths)
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    ::kill(child, exists(file) ? SIGINT : SIGKILL);
-    return finish(child);
+    return exists(file);
+  }
+  Result finish(pid_t child) const {
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    Result result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
+                  text("stdout.txt"), text("stderr.txt")};
+    return result;
   }
 
  private:
@@ -132,14 +142,6 @@ class Workplace {
     ::posix_spawn_file_actions_destroy(&actions);
     REQUIRE(failed == 0);
     return child;
-  }
-
-  Result finish(pid_t child) const {
-    int status = 0;
-    REQUIRE(::waitpid(child, &status, 0) == child);
-    Result result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
-                  text("stdout.txt"), text("stderr.txt")};
-    return result;
   }
 
   std::filesystem::path folder_;

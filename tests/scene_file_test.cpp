@@ -176,6 +176,36 @@ TEST_CASE("bad files are refused with a clear sentence") {
   }
 }
 
+TEST_CASE("bad files: scenes beyond all lengths are refused, single Gaussians there are left out") {
+  const Folder folder;
+  const auto row = [](float x, float size) {
+    return bytes_of(glm::vec3(x, 0, 0)) + bytes_of(glm::vec3(size)) + "\x80\x80\x80\xff\xff\x80\x80\x80";
+  };
+  const auto loaded = [&](const std::string& rows) {
+    write(folder / "a.splat", rows);
+    return load_scene(folder / "a.splat");
+  };
+  const auto said = [&](const std::string& rows) {
+    try {
+      loaded(rows);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(said(row(-3e12f, 1) + row(3e12f, 1)).find("coordinates go up to 3e+12") != std::string::npos);
+  CHECK(said(row(3e13f, 1)).find("Scale it") != std::string::npos);
+  CHECK(said(row(0, 1e-20f) + row(1e-14f, 1e-20f)).find("only 1e-14 units wide") != std::string::npos);
+  CHECK(said(row(0, 1e-20f) + row(1e-11f, 1e-20f)).empty());
+  CHECK(said(row(-1e11f, 1) + row(1e11f, 1)).empty());
+  CHECK(said(row(5, 1)).empty());  // a single one has no extent
+  std::string many;
+  for (int i = 0; i < 300; ++i) many += row(static_cast<float>(i), 1);
+  const Scene scene = loaded(many + row(1e20f, 1) + row(-3e38f, 1));
+  CHECK(scene.dropped == 2);
+  CHECK(scene.cloud.size() == 300);
+}
+
 TEST_CASE("loading stops at every stage when asked to, without an error and without a scene") {
   const Folder folder;
   Scene scene;

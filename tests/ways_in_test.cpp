@@ -283,30 +283,93 @@ bool is_gone(pid_t process) {
 
 }  // namespace
 
-TEST_CASE("Ctrl+C ends the segmenter and what it started") {
+namespace {
+
+struct Slow {
+  pid_t cut = 0, segmenter = 0, its_child = 0;
+};
+
+// A cut whose segmenter is at work, with a child of its own.
+Slow slow_cut(const std::string& ears) {
+  const Workplace& place = still_life().place;
+  std::filesystem::remove(place / "pids.txt");
+  script("slow.sh",
+         ears + "sleep 300 &\necho $$ $! > pids.part.txt\nmv pids.part.txt pids.txt\nwait\nsleep 300\n");
+  Slow slow;
+  slow.cut = place.begin(cut_with(std::string(kSize) + " --camera 0 -o stopped --overwrite"),
+                         {"--text", "apple", "--segmenter", "./slow.sh {image} {text} {mask}"});
+  REQUIRE(place.appears("pids.txt"));
+  std::istringstream pids(place.text("pids.txt"));
+  REQUIRE((pids >> slow.segmenter >> slow.its_child));
+  return slow;
+}
+
+constexpr const char* kDeaf = "trap '' TERM INT HUP\n";
+
+}  // namespace
+
+TEST_CASE("a signal that ends the program ends the segmenter and what it started") {
   const Workplace& place = still_life().place;
   place.make_folder("tmp");
   const Variable tmp("TMPDIR", (place / "tmp").string());
-  // The first ends when asked to, with its child; the second does not hear.
-  for (const std::string ears : {"", "trap '' TERM\n"}) {
-    std::filesystem::remove(place / "pids.txt");
-    script("slow.sh",
-           ears + "sleep 300 &\necho $$ $! > pids.part.txt\nmv pids.part.txt pids.txt\nwait\nsleep 300\n");
-    const Result result =
-        place.run_until("pids.txt", cut_with(std::string(kSize) + " --camera 0 -o stopped"),
-                        {"--text", "apple", "--segmenter", "./slow.sh {image} {text} {mask}"});
+  const std::vector<std::pair<int, std::string>> cases = {
+      {SIGINT, ""}, {SIGINT, kDeaf}, {SIGTERM, ""}, {SIGHUP, ""}};
+  for (const auto& [signal, ears] : cases) {
+    const Slow slow = slow_cut(ears);
+    CAPTURE(signal);
     CAPTURE(ears);
+    ::kill(slow.cut, signal);
+    const Result result = place.finish(slow.cut);
     CHECK(result.code == 1);
     CHECK(result.err.find("cancelled, nothing was written") != std::string::npos);
-    std::istringstream pids(place.text("pids.txt"));
-    pid_t program = 0, child = 0;
-    REQUIRE((pids >> program >> child));
-    CHECK((::kill(program, 0) == -1 && errno == ESRCH));
-    CHECK(is_gone(child));
+    CHECK((::kill(slow.segmenter, 0) == -1 && errno == ESRCH));
+    CHECK(is_gone(slow.its_child));
     CHECK_FALSE(place.exists("stopped"));
     CHECK(place.files_in("tmp").empty());
     CHECK(place.leftovers().empty());
   }
+}
+
+TEST_CASE("a second Ctrl+C and SIGKILL end a deaf segmenter, too, and the next run removes what was left") {
+  const Workplace& place = still_life().place;
+  place.make_folder("tmp");
+  const Variable tmp("TMPDIR", (place / "tmp").string());
+  for (const int signal : {SIGINT, SIGKILL}) {
+    CAPTURE(signal);
+    const Slow slow = slow_cut(kDeaf);
+    ::kill(slow.cut, signal);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    if (signal == SIGINT) ::kill(slow.cut, signal);
+    CHECK(place.finish(slow.cut).signal == signal);
+    CHECK(is_gone(slow.segmenter));
+    CHECK(is_gone(slow.its_child));
+    CHECK_FALSE(place.exists("stopped"));
+    CHECK_FALSE(place.leftovers().empty());
+    REQUIRE(place.files_in("tmp").size() == 1);
+    std::filesystem::last_write_time(place / ("tmp/" + *place.files_in("tmp").begin()),
+                                     std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+    apple_mask(0);
+    script("quick.sh", "cp truth_0.png \"$3\"\n");
+    const Result next = place.run(cut_with(std::string(kSize) + " --camera 0 -o stopped"),
+                                  {"--text", "apple", "--segmenter", "./quick.sh {image} {text} {mask}"});
+    CHECK_MESSAGE(next.code == 0, next.err);
+    CHECK(place.leftovers().empty());
+    CHECK(place.files_in("tmp").empty());
+    std::filesystem::remove_all(place / "stopped");
+  }
+}
+
+TEST_CASE("a second program is refused the folder that a first is writing") {
+  const Workplace& place = still_life().place;
+  const Slow slow = slow_cut("");
+  const Result second =
+      place.run(cut_with(std::string(kSize) + " --camera 0 --click 5,5 --overwrite -o stopped"));
+  CHECK(second.code == 1);
+  CHECK_MESSAGE(second.err.find("stopped: is being written by another program") != std::string::npos,
+                second.err);
+  ::kill(slow.cut, SIGTERM);
+  CHECK(place.finish(slow.cut).code == 1);
+  CHECK(place.leftovers().empty());
 }
 
 namespace {

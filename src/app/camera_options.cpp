@@ -32,9 +32,7 @@ Camera first_view(const GaussianCloud& cloud, const glm::vec3& up, float fov_y_r
   constexpr int kGuessWidth = 640, kGuessHeight = 480;
   const Box bounds = robust_bounds(cloud.position, 0.9);
   const Camera all = view_of_all(bounds, up, fov_y_rad, kGuessWidth, kGuessHeight);
-  const Camera view = better_first_view(cloud, bounds, up, all).value_or(all);
-  const glm::vec3 eye = view.centre_world();
-  return look_at(eye, eye + view.forward_world(), up, fov_y_rad, width, height);
+  return resized(better_first_view(cloud, bounds, up, all).value_or(all), width, height);
 }
 
 // A guess is no reason to refuse a view straight down.
@@ -90,6 +88,7 @@ const Camera& find_camera(const std::vector<Camera>& cameras, const std::string&
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
   if (error == std::errc{} && end == name.data() + name.size() && index < cameras.size())
     return cameras[index];
+  if (cameras.empty()) throw Error(where, fmt::format("names the camera \"{}\", but has no cameras", name));
   throw Error(where, fmt::format("has no camera \"{}\"", name),
               fmt::format("It has {}, the first is \"{}\"", cameras.size(), cameras.front().name));
 }

@@ -4,11 +4,14 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <new>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <optional>
 #include <utility>
 
 #include "app/console.h"
+#include "scene/error.h"
 
 namespace splatcut {
 
@@ -39,6 +42,7 @@ int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
   std::ranges::reverse(words);  // as CLI11 wants them
   try {
     program.parse(std::move(words));
+    if (std::fflush(stdout) != 0) throw Error("standard output", std::strerror(errno));
     return 0;
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : kWrongUsage;
@@ -50,13 +54,9 @@ int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
 int run_command_line(const CommandLine& line, std::vector<std::string> words) {
   try {
     return parse_and_run(line, std::move(words));
-  } catch (const std::bad_alloc&) {
-    end_progress();
-    fmt::print(stderr, "{}: not enough memory for this scene. Try fewer views or a smaller scene.\n",
-               line.program);
   } catch (const std::exception& error) {
     end_progress();
-    fmt::print(stderr, "{}: {}\n", line.program, error.what());
+    to_stderr(fmt::format("{}: {}\n", line.program, sentence_of(error)));
   }
   return kCouldNot;
 }

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/commands.h"
 #include "app/output_folder.h"
 #include "scene/error.h"
+#include "scene/json_file.h"
 #include "scene/picture_difference.h"
 #include "scene/png_file.h"
 
@@ -36,7 +36,7 @@ std::string shortfall(const CompareArguments& args, const PictureDifference& d) 
 }
 
 void run_compare(const CompareArguments& args, const CommonOptions& common) {
-  if (!args.diff.empty()) refuse_existing(args.diff, args.overwrite);
+  if (!args.diff.empty()) check_output_file(args.diff, args.overwrite);
   const Image<Rgb8> a = read_png_rgb(args.a), b = read_png_rgb(args.b);
   const PictureDifference d = picture_difference(a, b, args.max_diff.value_or(0));
   if (!args.diff.empty()) write_png(args.diff, difference_picture(a, b));
@@ -47,7 +47,7 @@ void run_compare(const CompareArguments& args, const CommonOptions& common) {
                           {"ssim", d.ssim},
                           {"alike", missed.empty()}};
     out["psnr_db"] = d.largest == 0 ? nlohmann::json("inf") : nlohmann::json(d.psnr_db);
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out, 2));
   } else if (!common.quiet) {
     fmt::print("largest {}  pixels {:.4f} %  PSNR {:.2f} dB  SSIM {:.5f}\n", d.largest, 100 * d.share_beyond,
                d.psnr_db, d.ssim);

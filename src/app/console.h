@@ -1,4 +1,4 @@
-// Talking to a terminal: progress on stderr, Ctrl+C as a stop request.
+// Talking to a terminal: progress on stderr, signals that end a program as stop requests.
 #pragma once
 
 #include <string>
@@ -7,8 +7,9 @@
 
 namespace splatcut {
 
-// A job with a progress bar on stderr (only where that is a terminal and quiet is false) that Ctrl+C
-// cancels. A second Ctrl+C ends the program at once.
+// A job with a progress bar on stderr (only where that is a terminal and quiet is false) that Ctrl+C, SIGTERM
+// and SIGHUP cancel. A second one ends the program at once. A file that is cut short while it is read
+// ends it, too, with a sentence.
 Job console_job(bool quiet);
 
 // Says the sentence on stderr; nothing for an empty one.
@@ -16,5 +17,8 @@ void warn(const std::string& sentence, bool quiet);
 
 // Ends the bar's line, if one was drawn.
 void end_progress();
+
+// Never throws: nobody may be left to read, as after SIGHUP.
+void to_stderr(const std::string& text);
 
 }  // namespace splatcut

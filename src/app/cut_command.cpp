@@ -5,7 +5,6 @@
 #include <array>
 #include <chrono>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/camera_options.h"
 #include "app/commands.h"
@@ -19,6 +18,7 @@
 #include "app/work_cut.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/json_file.h"
 #include "segment/doubts.h"
 #include "segment/session/session.h"
 #include "segment/session/settings_table.h"
@@ -160,7 +160,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   if (meant.objects.empty()) {
     CutResult result = cut_one_object(&session, request, settings, job);
     for (const std::string& sentence : doubts(result)) warn(sentence, common.quiet);
-    if (result.ambiguous && !common.quiet) fmt::print(stderr, "--scale takes a smaller or a larger one\n");
+    if (result.ambiguous && !common.quiet) to_stderr("--scale takes a smaller or a larger one\n");
     result.stages.insert(result.stages.begin(), {"load", load_ms});
     json = report_json(*scene, result, said, ms_since_start());
     write_cutout_scenes(folder, *scene, result.labels);
@@ -177,11 +177,11 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
     json["stages"].insert(json["stages"].begin(), load);
     json.update(run_json(*scene, said, ms_since_start()));
   }
-  write_text_file(folder.file("report.json"), json.dump(2) + "\n");
+  write_text_file(folder.file("report.json"), json_text(json, 2) + "\n");
   stop_if_cancelled(job);
   folder.commit();
   if (args.json)
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json_text(json, 2));
   else if (!common.quiet)
     print_summary(args, *scene, json);
 }

@@ -1,58 +1,52 @@
-// An output folder that appears whole or not at all: files are written beside its place and the folder
-// renamed when all are there.
+// An output folder that is replaced as a whole or not at all, by one process at a time.
+//
+// The files are written into OUT.splatcut.new. commit() links OUT's other files into that folder, exchanges
+// it with OUT in one step of the file system, and brings OUT's other folders back. OUT.splatcut.part is held
+// meanwhile: a second process is refused, and what a killed one left is set right by the next.
+// Where OUT cannot be exchanged (the current folder, a mount point, a file system that does not know how),
+// the files are renamed one by one: then alone a kill in these moments leaves old beside new.
 #pragma once
 
-#include <fmt/format.h>
-#include <unistd.h>
-
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 
-#include "scene/error.h"
+#include "scene/atomic_file.h"
 
 namespace splatcut {
 
-// Throws Error where something is there already and overwriting was not asked for.
-inline void refuse_existing(const std::filesystem::path& path, bool overwrite) {
-  if (std::filesystem::exists(path) && !overwrite)
-    throw Error(path.string(), "exists already", "Give --overwrite to replace it, or another -o");
-}
+// Both throw Error where something is there already and overwriting was not asked for; the second also for
+// what cannot be written as a file. A pipe or a device is written to, not replaced.
+void refuse_existing(const std::filesystem::path& path, bool overwrite);
+void check_output_file(const std::filesystem::path& path, bool overwrite);
 
 class OutputFolder {
  public:
-  OutputFolder(std::filesystem::path path, bool overwrite) : path_(std::move(path)) {
-    if (path_.filename().empty()) path_ = path_.parent_path();
-    refuse_existing(path_, overwrite);
-    if (std::filesystem::exists(path_) && !std::filesystem::is_directory(path_))
-      throw Error(path_.string(), "is a file, where a folder is to be written");
-    building_ = path_;
-    building_ += fmt::format(".{}.part", ::getpid());
-    std::error_code failure;
-    std::filesystem::create_directories(building_, failure);
-    if (failure) throw Error(path_.string(), "cannot be created (" + failure.message() + ")");
-  }
+  // Throws Error where the folder is there and overwriting was not asked for, where another process writes
+  // it, or where it cannot be made.
+  OutputFolder(const std::filesystem::path& path, bool overwrite);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
-  ~OutputFolder() {
-    std::error_code ignored;
-    if (!building_.empty()) std::filesystem::remove_all(building_, ignored);
-  }
+  ~OutputFolder();  // without commit() all is as before
 
-  std::filesystem::path file(const std::string& name) const { return building_ / name; }
+  std::filesystem::path file(const std::string& name) const { return fresh_ / name; }
 
-  // Files of ours replace those of an older run; anything else in an existing folder stays.
-  void commit() {
-    if (!std::filesystem::exists(path_)) {
-      std::filesystem::rename(building_, path_);
-    } else {
-      for (const auto& entry : std::filesystem::directory_iterator(building_))
-        std::filesystem::rename(entry.path(), path_ / entry.path().filename());
-      std::filesystem::remove_all(building_);
-    }
-    building_.clear();
-  }
+  // Throws Error where it cannot be done: a name that is a folder in OUT, for one. Nothing is lost then.
+  void commit();
 
  private:
-  std::filesystem::path path_, building_;
+  void set_right();
+  void remove_unfinished();
+  void bring_back();
+  void link_other_files();
+  void move_each();
+  std::uint64_t number_in_lock() const;
+
+  std::filesystem::path path_, target_;  // as given; absolute, behind all links
+  std::filesystem::path fresh_;
+  bool overwrite_ = false, exchangeable_ = false;
+  std::optional<HeldFile> lock_;  // holds the inode number of the folder that is being filled
 };
 
 }  // namespace splatcut

@@ -15,7 +15,8 @@ struct ProgramEnd {
 };
 
 // words: the program, looked up on PATH, then its arguments; no shell reads them. A cancelled job ends it and
-// what it started. It reads nothing, and what it prints goes to stderr.
+// what it started; so does the end of this process, however it ends. It reads nothing, and what it prints
+// goes to stderr.
 ProgramEnd run_program(const std::vector<std::string>& words, const Job& job);
 
 }  // namespace splatcut

@@ -2,10 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/camera_options.h"
 #include "app/commands.h"
@@ -13,6 +10,8 @@
 #include "app/output_folder.h"
 #include "app/scene_options.h"
 #include "scene/error.h"
+#include "scene/json_file.h"
+#include "scene/mapped_file.h"
 #include "scene/png_file.h"
 #include "scene/rasterizer.h"
 #include "scene/scene_file.h"
@@ -48,18 +47,16 @@ void run_info(const SceneArguments& args, const CommonOptions& common) {
   end_progress();
   const nlohmann::json info = info_json(scene);
   if (args.json) {
-    fmt::print("{}\n", info.dump(2));
+    fmt::print("{}\n", json_text(info, 2));
     return;
   }
   for (const auto& [key, value] : info.items())
-    fmt::print("{:<10} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    fmt::print("{:<10} {}\n", key, value.is_string() ? value.get<std::string>() : json_text(value));
 }
 
 // Labels in file order, as `cut` writes them, for the Gaussians of the cloud.
 std::vector<std::uint8_t> load_labels(const std::filesystem::path& path, const Scene& scene) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(path.string(), "cannot be opened");
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes = text_of_file(path);
   if (bytes.size() != scene.file_rows)
     throw Error(path.string(),
                 fmt::format("holds {} labels, the scene {} rows", bytes.size(), scene.file_rows));
@@ -77,7 +74,7 @@ void write_depth(const std::filesystem::path& path, const Image<float>& depth) {
       farthest = std::max(farthest, z);
     }
   Image<std::uint16_t> grey(depth.width(), depth.height());
-  const float range = std::max(1e-12f, farthest - nearest);
+  const float range = std::max(1e-30f, farthest - nearest);
   std::ranges::transform(depth.pixels(), grey.pixels().begin(), [&](float z) {
     return z > 0 ? static_cast<std::uint16_t>(65535 - 60000 * (z - nearest) / range) : std::uint16_t{0};
   });
@@ -85,7 +82,7 @@ void write_depth(const std::filesystem::path& path, const Image<float>& depth) {
 }
 
 void run_render(const SceneArguments& args, const CommonOptions& common) {
-  refuse_existing(args.output, args.overwrite);
+  check_output_file(args.output, args.overwrite);
   const Job job = console_job(common.quiet);
   const Scene scene = args.how.load(args.scene, args.camera.cameras, common.quiet, job);
   const ChosenCamera chosen = choose_camera(args.camera, scene.cloud);
@@ -116,7 +113,7 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
 }
 
 void run_convert(const SceneArguments& args, const CommonOptions& common) {
-  refuse_existing(args.output, args.overwrite);
+  check_output_file(args.output, args.overwrite);
   const SceneFormat format = format_from_name(args.output);
   const Job job = console_job(common.quiet);
   const Scene scene = args.how.load(args.scene, {}, common.quiet, job);

@@ -1,10 +1,10 @@
 #include "app/seeds_file.h"
 
+#include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "scene/error.h"
+#include "scene/json_file.h"
 
 namespace splatcut {
 
@@ -17,6 +17,15 @@ SeedLabel label_from(const std::string& text, const std::string& where) {
 }
 
 }  // namespace
+
+void check_stroke(const Stroke& stroke, const std::string& where) {
+  constexpr float kFarthestPx = 1e6f;
+  if (!(stroke.radius_px > 0 && stroke.radius_px < kFarthestPx))
+    throw Error(where, "\"radius_px\" is no radius", "Give pixels, 3 for one");
+  for (const glm::vec2& p : stroke.points_px)
+    if (!(std::abs(p.x) < kFarthestPx && std::abs(p.y) < kFarthestPx))
+      throw Error(where, "a point lies outside of any picture");
+}
 
 Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where) {
   Strokes strokes;
@@ -33,17 +42,14 @@ Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where)
         strokes.push_back(std::move(stroke));
       }
   } catch (const nlohmann::json::exception& error) {
-    throw Error(where, std::string("the seeds do not have the expected form (") + error.what() + ")");
+    throw Error(where, std::string("the seeds do not have the expected form (") + fault_of(error) + ")");
   }
+  for (const Stroke& stroke : strokes) check_stroke(stroke, where);
   return strokes;
 }
 
 nlohmann::json read_seeds_json(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  if (!in) throw Error(path.string(), "cannot be opened");
-  nlohmann::json seeds = nlohmann::json::parse(in, nullptr, false);
-  if (seeds.is_discarded()) throw Error(path.string(), "is not JSON");
-  return seeds;
+  return json_of_file(path);
 }
 
 Strokes load_seeds(const std::filesystem::path& path) {

@@ -14,6 +14,9 @@ namespace splatcut {
 Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where);
 Strokes load_seeds(const std::filesystem::path& path);
 
+// Throws Error where the radius or a point cannot be one of a picture.
+void check_stroke(const Stroke& stroke, const std::string& where);
+
 // Throws Error where there is no such file or it is not JSON.
 nlohmann::json read_seeds_json(const std::filesystem::path& path);
 

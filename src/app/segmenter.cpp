@@ -1,12 +1,16 @@
 #include "app/segmenter.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include "app/mask_folder.h"
@@ -24,25 +28,54 @@ namespace fs = std::filesystem;
 constexpr const char* kHowToName =
     "Give --segmenter 'PROGRAM {image} {text} {mask}', or set SPLATCUT_SEGMENTER to that";
 
+// Held while it is used, so that what a killed process left is known and removed by the next.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::error_code failure;
-    std::string name = (fs::temp_directory_path(failure) / "splatcut_XXXXXX").string();
+    const fs::path place = fs::temp_directory_path(failure);
+    remove_left(place);
+    std::string name = (place / (std::string(kName) + "XXXXXX")).string();
     if (failure || !::mkdtemp(name.data()))
       throw Error(name, "cannot be created", "TMPDIR says where temporary files go");
     path_ = name;
+    held_ = hold(path_);
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   ~TemporaryFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
+    ::close(held_);
   }
   fs::path operator/(const char* name) const { return path_ / name; }
 
  private:
+  static constexpr std::string_view kName = "splatcut_segmenter_";
+
+  // -1 where another process holds it.
+  static int hold(const fs::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+    ::close(descriptor);
+    return -1;
+  }
+  // Not younger than a minute: it may not be held yet.
+  static void remove_left(const fs::path& place) {
+    constexpr std::chrono::minutes kYoung(1);
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(place, ignored)) {
+      if (!entry.path().filename().string().starts_with(kName)) continue;
+      const auto age = fs::file_time_type::clock::now() - entry.last_write_time(ignored);
+      const int held = age > kYoung ? hold(entry.path()) : -1;
+      if (held < 0) continue;
+      fs::remove_all(entry.path(), ignored);
+      ::close(held);
+    }
+  }
+
   fs::path path_;
+  int held_ = -1;
 };
 
 std::vector<std::string> split_command(const std::string& command) {
@@ -67,6 +100,7 @@ std::vector<std::string> split_command(const std::string& command) {
       in_word = true;
     }
   }
+  if (command.find('\0') != command.npos) throw Error("--segmenter", "holds a zero byte", kHowToName);
   if (quote) throw Error("--segmenter", fmt::format("a quote {} has no end", quote), kHowToName);
   if (in_word) words.push_back(word);
   return words;

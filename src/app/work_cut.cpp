@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "app/console.h"
 #include "app/cutout_files.h"
 #include "app/output_folder.h"
@@ -11,6 +9,7 @@
 #include "app/studio/work_file.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/json_file.h"
 
 namespace splatcut {
 
@@ -69,9 +68,9 @@ void run_work_cut(const WorkCutOptions& options) {
                                  {"scene", scene->scene->path.string()},
                                  {"preset", document.preset},
                                  {"objects", objects}};
-  write_text_file(folder.file("report.json"), report.dump(2) + "\n");
+  write_text_file(folder.file("report.json"), json_text(report, 2) + "\n");
   folder.commit();
-  if (options.json) fmt::print("{}\n", report.dump(2));
+  if (options.json) fmt::print("{}\n", json_text(report, 2));
   if (options.quiet || options.json) return;
   for (const auto& o : objects)
     fmt::print("{}: {} Gaussians\n", o["name"].get<std::string>(), o["gaussians"].get<std::size_t>());

@@ -1,14 +1,37 @@
-// A file that appears whole or not at all: written beside its place under a temporary name, renamed by
-// commit(); removed if commit() is never reached.
+// The one place that writes files: a file appears whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string_view>
 
 namespace splatcut {
 
+// A file that one process at a time holds, removed by the destructor where it was not renamed. The lock ends
+// with the process, however that ends: what is found without one was left behind and is anybody's.
+class HeldFile {
+ public:
+  // Creates the file where it is missing; what it holds stays. Throws Error, naming `meant`, where another
+  // process holds it or it cannot be written.
+  HeldFile(std::filesystem::path file, const std::filesystem::path& meant);
+  HeldFile(const HeldFile&) = delete;
+  HeldFile& operator=(const HeldFile&) = delete;
+  ~HeldFile();
+
+  int descriptor() const { return descriptor_; }
+  const std::filesystem::path& path() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+};
+
+// Written beside its place as NAME.splatcut.part, renamed by commit(), removed where commit() is never
+// reached; what a killed process left is written over. A symbolic link stays, what it points to is replaced.
+// What takes bytes but is no file (a pipe, /dev/null) is written to as it is.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);  // throws Error when it cannot be created
@@ -17,13 +40,23 @@ class AtomicFile {
   ~AtomicFile();
 
   std::FILE* stream() { return stream_; }
-  void write(std::span<const std::byte> bytes);  // throws Error when the disk is full
-  void commit();                                 // flushes, closes, renames; throws Error
+  void write(std::span<const std::byte> bytes);                   // throws Error when the disk is full
+  std::uint64_t bytes_written() const { return bytes_written_; }  // by write()
+  void commit();                                                  // flushes, closes, renames; throws Error
 
  private:
-  std::filesystem::path path_, temporary_;
+  std::filesystem::path path_, target_;
+  std::optional<HeldFile> part_;  // none for a stream
   std::FILE* stream_ = nullptr;
+  std::uint64_t bytes_written_ = 0;
 };
+
+// A pipe or a device of characters. Throws Error for what cannot be written as a file: a folder, a disk, a
+// socket.
+bool is_stream(const std::filesystem::path& path);
+
+// Where the symbolic links lead that the path ends in; the last may point to nothing.
+std::filesystem::path behind_links(std::filesystem::path path);
 
 // The whole text at once.
 void write_text_file(const std::filesystem::path& path, std::string_view text);

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "scene/atomic_file.h"
 #include "scene/camera_formats.h"
 #include "scene/error.h"
+#include "scene/json_file.h"
 #include "scene/mapped_file.h"
 
 namespace splatcut {
@@ -20,14 +20,10 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-json parse_json(const fs::path& path) {
+// No pipe: nobody may have named this file.
+json json_of_regular_file(const fs::path& path) {
   const MappedFile file(path);
-  const auto* begin = reinterpret_cast<const char*>(file.bytes().data());
-  try {
-    return json::parse(begin, begin + file.bytes().size());
-  } catch (const json::parse_error& error) {
-    throw Error(path.string(), fmt::format("is not valid JSON at byte {}", error.byte));
-  }
+  return parse_json(path, {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()});
 }
 
 glm::dvec3 vec3_from(const json& list) {
@@ -112,7 +108,7 @@ std::vector<Camera> each_entry(const fs::path& path, const json& list, const cha
     try {
       cameras.push_back(read(list[i]));
     } catch (const json::exception& error) {
-      throw Error(path.string(), fmt::format("{}: {}", entry, error.what()));
+      throw Error(path.string(), fmt::format("{}: {}", entry, fault_of(error)));
     } catch (const std::domain_error& error) {
       throw Error(path.string(), fmt::format("{}: {}", entry, error.what()));
     }
@@ -129,7 +125,7 @@ Distortion distortion_of(const json& frame, const json& file) {
 }
 
 std::vector<Camera> load_json_cameras(const fs::path& path, double& largest_shift_px) {
-  const json file = parse_json(path);
+  const json file = json_of_regular_file(path);
   if (file.is_array()) return each_entry(path, file, "camera", inria_camera);
   if (file.is_object() && file.contains("frames") && file["frames"].is_array())
     return each_entry(path, file["frames"], "frame", [&](const json& frame) {
@@ -238,7 +234,7 @@ void save_inria_cameras(const fs::path& path, const std::vector<Camera>& cameras
     if (camera.cy_px != 0.5f * static_cast<float>(camera.height_px)) entry["cy"] = camera.cy_px;
     list.push_back(entry);
   }
-  write_text_file(path, list.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  write_text_file(path, json_text(list, 1) + "\n");
 }
 
 }  // namespace splatcut

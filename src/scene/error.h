@@ -17,4 +17,8 @@ class Error : public std::runtime_error {
   Error(std::string_view where, std::string_view what, std::string_view remedy = {});
 };
 
+// A sentence for the person on any exception: Error's own words, otherwise what the system says or that the
+// program has a defect; never the words of a library.
+std::string sentence_of(const std::exception& error);
+
 }  // namespace splatcut

@@ -58,7 +58,7 @@ struct Slabs {
 Slabs slabs_along(const std::vector<Disc>& discs, int axis) {
   constexpr float kLevel = 0.906f;  // cosine of 25 degrees
   const auto [low, high] = std::ranges::minmax(discs, {}, [&](const Disc& d) { return d.centre[axis]; });
-  const float from = low.centre[axis], extent = std::max(1e-12f, high.centre[axis] - from);
+  const float from = low.centre[axis], extent = std::max(1e-30f, high.centre[axis] - from);
   Slabs slabs;
   double all = 0;
   for (const Disc& d : discs) {
@@ -155,7 +155,7 @@ Camera view_of_all(const Box& bounds, const glm::vec3& up_world, float fov_y_rad
   const glm::vec3 up = glm::normalize(up_world),
                   ahead = std::abs(up.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
   const glm::vec3 forward = glm::normalize(ahead - glm::dot(ahead, up) * up - kDown * up);
-  const float radius = std::max(1e-6f, 0.5f * glm::length(bounds.extent()));
+  const float size = glm::length(bounds.extent()), radius = size > 0 ? 0.5f * size : 1.0f;
   return look_at(bounds.centre() - kFramesPerRadius * radius / std::sin(0.5f * fov_y_rad) * forward,
                  bounds.centre(), up, fov_y_rad, width_px, height_px);
 }
@@ -192,7 +192,7 @@ std::optional<Camera> better_first_view(const GaussianCloud& cloud, const Box& b
   for (int i = 0; i < kDirections; ++i)
     for (const float back : {0.0f, 0.15f}) {
       const glm::vec3 along = turned(i, level) - kDown * up, eye = centre - back * size * along;
-      offer(eye, eye + along, 1);
+      offer(eye, eye + size * along, 1);
     }
   return best;
 }

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -46,6 +47,21 @@ MappedFile::MappedFile(std::filesystem::path path) : path_(std::move(path)) {
 
 MappedFile::~MappedFile() {
   ::munmap(data_, size_);
+}
+
+std::string text_of_file(const std::filesystem::path& path) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 30, kPiece = 1 << 16;
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  std::string text;
+  std::array<char, kPiece> piece;
+  for (ssize_t got = 1; got != 0;) {
+    got = file.fd < 0 ? -1 : ::read(file.fd, piece.data(), piece.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw Error(path.string(), fmt::format("cannot be opened ({})", std::strerror(errno)));
+    text.append(piece.data(), static_cast<std::size_t>(got));
+    if (text.size() > kMostBytes) throw Error(path.string(), "holds more than 1 GB");
+  }
+  return text;
 }
 
 }  // namespace splatcut

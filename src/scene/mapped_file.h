@@ -1,10 +1,11 @@
-// A file seen as memory, read only.
+// Files read whole: as memory, or as text.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace splatcut {
 
@@ -26,5 +27,9 @@ class MappedFile {
   std::size_t size_ = 0;
   std::int64_t modified_ns_ = 0;
 };
+
+// The bytes of a file that the person named: a pipe will do. Throws Error for a folder, for more than 1 GB,
+// and for what cannot be read.
+std::string text_of_file(const std::filesystem::path& path);
 
 }  // namespace splatcut

@@ -4,10 +4,11 @@
 #include <png.h>
 
 #include <algorithm>
-#include <vector>
+#include <string>
 
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/mapped_file.h"
 
 namespace splatcut {
 
@@ -30,14 +31,19 @@ void write_pixels(const std::filesystem::path& path, const void* pixels, int wid
 template <class Pixel>
 Image<Pixel> read_pixels(const std::filesystem::path& path, png_uint_32 format) {
   constexpr png_uint_32 kMaxSide = 1 << 15;
+  constexpr std::uint64_t kMostPixelsPerByte = 8 * 1032;  // a bit each, as far as deflate can shrink them
+  const std::string bytes = text_of_file(path);
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_file(&png, path.c_str()))
+  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
     throw Error(path.string(), fmt::format("cannot be read as PNG ({})", png.message));
-  if (png.width > kMaxSide || png.height > kMaxSide) {
+  const bool large = png.width > kMaxSide || png.height > kMaxSide;
+  if (large || std::uint64_t{png.width} * png.height > kMostPixelsPerByte * bytes.size()) {
     png_image_free(&png);
-    throw Error(path.string(), fmt::format("the picture is {} x {} pixels, more than {} a side", png.width,
-                                           png.height, kMaxSide));
+    throw Error(path.string(), large ? fmt::format("the picture is {} x {} pixels, more than {} a side",
+                                                   png.width, png.height, kMaxSide)
+                                     : fmt::format("is damaged: {} x {} pixels in {} bytes", png.width,
+                                                   png.height, bytes.size()));
   }
   png.format = format;
   Image<Pixel> image(static_cast<int>(png.width), static_cast<int>(png.height));

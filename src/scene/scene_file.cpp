@@ -39,6 +39,20 @@ std::vector<std::uint32_t> kept_in_file_order(const GaussianCloud& cloud,
   return kept;
 }
 
+// Beyond, squares of lengths leave the range of numbers.
+void check_size(const Scene& scene) {
+  constexpr float kSmallest = 1e-12f, kLargest = 1e12f;
+  const Box box = robust_bounds(scene.cloud.position);
+  const glm::vec3 far = glm::max(glm::abs(box.min), glm::abs(box.max));
+  const float size = glm::length(box.extent());
+  const bool small = size > 0 && size < kSmallest;
+  if (small || !(std::max({far.x, far.y, far.z}) < kLargest))
+    throw Error(scene.path.string(),
+                small ? fmt::format("the scene is only {:g} units wide", size)
+                      : fmt::format("coordinates go up to {:g}", std::max({far.x, far.y, far.z})),
+                fmt::format("Scale it: lengths from {:g} to {:g} units can be handled", kSmallest, kLargest));
+}
+
 }  // namespace
 
 const char* name_of(SpzAxes axes) {
@@ -62,8 +76,10 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
   if (!job.cancelled() && scene.cloud.empty())
     throw Error(
         path.string(),
-        fmt::format("none of the {} Gaussians is usable: each has NaN or a zero rotation", scene.file_rows));
+        fmt::format("none of the {} Gaussians is usable: each has NaN, a zero rotation, or lies beyond 1e15",
+                    scene.file_rows));
   scene.cloud.near_plane = natural_near_plane(scene.cloud.position);
+  if (!job.cancelled()) check_size(scene);
   return scene;
 }
 
@@ -84,7 +100,7 @@ SaveReport save_scene(const std::filesystem::path& path, const Scene& scene,
   SaveReport report;
   report.gaussians = kept.size();
   report.loss = format.write(out, scene, kept, options);
-  report.bytes = static_cast<std::uint64_t>(std::ftell(out.stream()));
+  report.bytes = out.bytes_written();
   out.commit();
   return report;
 }

@@ -1,7 +1,8 @@
 // Scenes in and out, in the formats of scene_formats.h.
 // Loading orders the Gaussians along a Morton curve and keeps the file row of each.
 // Errors: every unreadable or unsuitable file is an Error naming file, property, row or byte; sizes are
-// checked against the file before memory is taken.
+// checked against the file before memory is taken. A scene narrower than 1e-12 units or wider than 1e12 is
+// refused; within, nothing depends on the unit.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +30,7 @@ struct Scene {
   std::filesystem::path path;  // where it came from; reopened to copy rows
   SceneFormat format = SceneFormat::kPly;
   std::size_t file_rows = 0;     // Gaussians in the file, dropped ones included
-  std::size_t dropped = 0;       // NaN or zero-quaternion rows left out
+  std::size_t dropped = 0;       // rows left out: NaN, zero quaternion, beyond 1e15 units
   std::uint64_t file_bytes = 0;  // with modified_ns: to notice that the file changed since
   std::int64_t modified_ns = 0;
   bool rows_can_be_copied = false;            // to a .ply, byte for byte from path

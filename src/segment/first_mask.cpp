@@ -34,7 +34,7 @@ struct GeodesicCost {
     const auto& b = lab.at<cv::Vec3f>(y1, x1);
     const float colour = static_cast<float>(cv::norm(a - b));
     const float z0 = depth.at(x0, y0), z1 = depth.at(x1, y1);
-    const float jump = std::min(1.0f, std::abs(z0 - z1) / std::max(1e-6f, std::min(z0, z1)));
+    const float jump = std::min(1.0f, std::abs(z0 - z1) / std::max(1e-30f, std::min(z0, z1)));
     const float length = x0 != x1 && y0 != y1 ? 1.4142136f : 1.0f;
     return colour + options.depth_weight * jump + options.length_weight * length;
   }

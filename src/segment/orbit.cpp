@@ -26,7 +26,7 @@ struct Circle {
 Circle circle_of(const Camera& camera, const glm::vec3& up, const glm::vec3& centre) {
   const glm::vec3 back = camera.centre_world() - centre;
   const glm::vec3 flat = back - glm::dot(back, up) * up;
-  return {up, glm::length(flat) > 1e-6f ? glm::normalize(flat) : -camera.forward_world(),
+  return {up, glm::length(flat) > 1e-6f * glm::length(back) ? glm::normalize(flat) : -camera.forward_world(),
           std::atan2(glm::dot(back, up), glm::length(flat))};
 }
 

@@ -16,6 +16,7 @@ namespace splatcut {
 namespace {
 
 constexpr std::uint64_t kTreeSeed = 20241;
+constexpr float kTiny = 1e-30f;  // less than any area or length of a scene
 
 // A number of mean 0 and variance 1.
 float spread(CounterRng& rng) {
@@ -106,13 +107,13 @@ Merging::Merging(const SurfaceFeatures& f, std::span<const SurfaceEdge> edges, c
   for (const Part& part : parts_) areas.push_back(part.area);
   if (!areas.empty()) {
     std::ranges::nth_element(areas, areas.begin() + std::ssize(areas) / 2);
-    median_area_ = std::max(areas[areas.size() / 2], 1e-30f);
+    median_area_ = std::max(areas[areas.size() / 2], kTiny);
   }
 }
 
 float Merging::difference(const Part& a, const Part& b, const Link& l) const {
-  const float colour = glm::length(a.colour / std::max(a.area, 1e-30f) - b.colour / std::max(b.area, 1e-30f));
-  const float length = std::max(l.length, 1e-30f);
+  const float colour = glm::length(a.colour / std::max(a.area, kTiny) - b.colour / std::max(b.area, kTiny));
+  const float length = std::max(l.length, kTiny);
   return options_.base + options_.border_colour * l.colour / length + options_.region_colour * colour +
          options_.concavity * std::max(0.0f, l.concave - options_.convexity * l.convex) / length +
          options_.normal * l.normal / length + options_.gap * l.gap / length;
@@ -122,7 +123,7 @@ float Merging::cost(std::uint32_t ia, std::uint32_t ib, const Link& l) const {
   const Part &a = parts_[ia], &b = parts_[ib];
   const float area = std::max(std::min(a.area, b.area) / median_area_, 1e-6f);
   const float shared =
-      std::clamp(l.length / std::max(std::min(a.perimeter, b.perimeter), 1e-30f), 1e-6f, 1.0f);
+      std::clamp(l.length / std::max(std::min(a.perimeter, b.perimeter), kTiny), 1e-6f, 1.0f);
   const float cost =
       difference(a, b, l) * std::pow(area, options_.area_power) / std::pow(shared, options_.border_power);
   if (noise_ == 0) return cost;
@@ -205,13 +206,18 @@ std::vector<glm::vec3> shade_blind(std::vector<glm::vec3> colour, float lightnes
 void describe_leaves(const SurfaceFeatures& f, const Superpoints& leaves, PartHierarchy* out) {
   out->leaf_centre_world.assign(leaves.count, glm::vec3(0));
   out->leaf_area.assign(leaves.count, 0);
+  // Areas in a unit, a power of two, in which area times position stays in range.
+  const float widest = f.spacing.empty() ? 0 : std::ranges::max(f.spacing);
+  const float unit = widest > 0 ? std::exp2(-static_cast<float>(std::ilogb(widest))) : 1.0f;
   for (std::size_t i = 0; i < f.core.size(); ++i) {
-    const float area = f.spacing[i] * f.spacing[i];
+    const float area = (unit * f.spacing[i]) * (unit * f.spacing[i]);
     out->leaf_area[leaves.of[i]] += area;
     out->leaf_centre_world[leaves.of[i]] += area * f.position_world[i];
   }
-  for (std::uint32_t l = 0; l < leaves.count; ++l)
-    out->leaf_centre_world[l] /= std::max(out->leaf_area[l], 1e-30f);
+  for (std::uint32_t l = 0; l < leaves.count; ++l) {
+    out->leaf_centre_world[l] /= std::max(out->leaf_area[l], kTiny);
+    out->leaf_area[l] /= unit * unit;
+  }
 }
 
 // Gaussians outside of the core go with most of their nearest core Gaussians; ties to the nearest.

@@ -73,10 +73,12 @@ std::uint64_t payload_bytes(const PreparedScene& scene, std::span<const std::uin
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& path) : file_(std::fopen(path.c_str(), "rb"), &std::fclose) {
+  // A pipe is not opened: it would be waited for.
+  explicit Reader(const std::filesystem::path& path) : file_(nullptr, &std::fclose) {
     std::error_code failure;
-    left_ = std::filesystem::file_size(path, failure);
-    if (failure || !file_) left_ = 0;
+    if (std::filesystem::is_regular_file(path, failure)) file_.reset(std::fopen(path.c_str(), "rb"));
+    left_ = file_ ? std::filesystem::file_size(path, failure) : 0;
+    if (failure) left_ = 0;
   }
   std::uint64_t left() const { return left_; }
 

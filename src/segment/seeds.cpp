@@ -8,10 +8,13 @@ namespace splatcut {
 namespace {
 
 void draw_disc(const glm::vec2& centre, float radius, std::uint8_t value, Image<std::uint8_t>* seeds) {
-  const int x0 = static_cast<int>(std::floor(centre.x - radius)),
-            x1 = static_cast<int>(std::ceil(centre.x + radius));
-  const int y0 = static_cast<int>(std::floor(centre.y - radius)),
-            y1 = static_cast<int>(std::ceil(centre.y + radius));
+  const auto within = [](float v, int size) {
+    return static_cast<int>(std::clamp(v, -1.0f, static_cast<float>(size)));
+  };
+  const int x0 = within(std::floor(centre.x - radius), seeds->width()),
+            x1 = within(std::ceil(centre.x + radius), seeds->width());
+  const int y0 = within(std::floor(centre.y - radius), seeds->height()),
+            y1 = within(std::ceil(centre.y + radius), seeds->height());
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x) {
       const glm::vec2 d = glm::vec2(x, y) + 0.5f - centre;

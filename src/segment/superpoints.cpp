@@ -14,10 +14,17 @@ namespace splatcut {
 
 namespace {
 
+constexpr float kNoDistance = 1e-30f;  // less than any in a scene
+
 float mahalanobis(const GaussianCloud& cloud, std::size_t g, std::size_t h) {
-  const glm::vec3 d = cloud.position[h] - cloud.position[g];
+  glm::vec3 d = cloud.position[h] - cloud.position[g];
   glm::mat3 s = 0.5f * (covariance_world(cloud.scale[g], cloud.rotation[g]) +
                         covariance_world(cloud.scale[h], cloud.rotation[h]));
+  // In a unit, a power of two, in which the determinant stays in range: the bits are those of any other.
+  const float trace = s[0][0] + s[1][1] + s[2][2];
+  const float unit = trace > 0 ? std::exp2(-std::floor(0.5f * static_cast<float>(std::ilogb(trace)))) : 1.0f;
+  s *= unit * unit;
+  d *= unit;
   const float ridge = 1e-3f * (s[0][0] + s[1][1] + s[2][2]) + 1e-30f;
   for (int i = 0; i < 3; ++i) s[i][i] += ridge;
   const float q = glm::dot(d, glm::inverse(s) * d);
@@ -26,14 +33,14 @@ float mahalanobis(const GaussianCloud& cloud, std::size_t g, std::size_t h) {
 
 void measure(const GaussianCloud& cloud, const SurfaceFeatures& f, SurfaceEdge* e) {
   const glm::vec3 d = f.position_world[e->b] - f.position_world[e->a];
-  const float distance = std::max(glm::length(d), 1e-12f);
+  const float distance = std::max(glm::length(d), kNoDistance);
   const glm::vec3 &n = f.normal_world[e->a], &m = f.normal_world[e->b];
   e->colour = glm::length(f.colour[e->a] - f.colour[e->b]);
   e->normal = 1 - glm::dot(n, m);
   e->concavity = glm::dot(n - m, d) / distance;
   e->gap = mahalanobis(cloud, f.core[e->a], f.core[e->b]);
   e->length = std::sqrt(f.spacing[e->a] * f.spacing[e->b]);
-  e->distance = distance / std::max(e->length, 1e-12f);
+  e->distance = distance / std::max(e->length, kNoDistance);
 }
 
 float weight(const SurfaceEdge& e, const SuperpointOptions& o) {

@@ -19,6 +19,7 @@
 #include "app/output_folder.h"
 #include "app/setting_options.h"
 #include "scene/atomic_file.h"
+#include "scene/json_file.h"
 #include "segment/session/settings_table.h"
 
 namespace splatcut {
@@ -214,8 +215,8 @@ std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationO
     warn(loaded->warning, common.quiet);
     if (lacks_truth(loaded->test, options)) {
       end_progress();
-      fmt::print(stderr, "{}: left out, it has no truth where --first-mask or --masks asks for it\n",
-                 loaded->test.name);
+      to_stderr(fmt::format("{}: left out, it has no truth where --first-mask or --masks asks for it\n",
+                            loaded->test.name));
       continue;
     }
     SceneScore score = evaluate(loaded->test, options, job);
@@ -291,10 +292,10 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
   result["part_model"] = part_model_json(part_model_of(args));
   const std::string benchmark = !args.nvos.empty() ? "NVOS" : !args.spin_nerf.empty() ? "SPIn-NeRF" : "";
   if (!benchmark.empty()) result["published"] = published_json(benchmark);
-  write_text_file(folder.file("eval.json"), result.dump(2) + "\n");
+  write_text_file(folder.file("eval.json"), json_text(result, 2) + "\n");
   folder.commit();
   if (args.json) {
-    fmt::print("{}\n", result.dump(2));
+    fmt::print("{}\n", json_text(result, 2));
     return;
   }
   print_row(result["mean"]);

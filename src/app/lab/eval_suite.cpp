@@ -1,15 +1,15 @@
 #include "app/lab/eval_suite.h"
 
 #include <fmt/format.h>
+
 #include <chrono>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "app/camera_options.h"
 #include "app/seeds_file.h"
 #include "scene/camera_file.h"
 #include "scene/error.h"
+#include "scene/json_file.h"
+#include "scene/mapped_file.h"
 #include "scene/png_file.h"
 
 namespace splatcut {
@@ -21,15 +21,18 @@ glm::vec3 vec3_of(const nlohmann::json& j) {
 }
 
 Camera look_at_of(const nlohmann::json& j) {
+  constexpr double kMostPixels = 1 << 14;
+  const double width = j.at("size").at(0), height = j.at("size").at(1);
+  const float fov_y_deg = j.at("fov_y_deg");
+  if (!(width >= 1 && height >= 1 && width <= kMostPixels && height <= kMostPixels))
+    throw Error("camera", fmt::format("a picture of {} x {} pixels is impossible", width, height));
+  if (!(fov_y_deg > 0 && fov_y_deg < 180)) throw Error("camera", fmt::format("fov_y_deg is {}", fov_y_deg));
   return look_at(vec3_of(j.at("position")), vec3_of(j.at("target")), vec3_of(j.at("up")),
-                 glm::radians(j.at("fov_y_deg").get<float>()), j.at("size").at(0).get<int>(),
-                 j.at("size").at(1).get<int>());
+                 glm::radians(fov_y_deg), static_cast<int>(width), static_cast<int>(height));
 }
 
 std::vector<std::uint8_t> truth_labels(const std::filesystem::path& path, const Scene& scene, int wanted) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(path.string(), "cannot be opened");
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes = text_of_file(path);
   if (bytes.size() != scene.file_rows)
     throw Error(path.string(),
                 fmt::format("holds {} labels, the scene {} rows", bytes.size(), scene.file_rows));
@@ -115,13 +118,17 @@ std::vector<Camera> fill_case(const nlohmann::json& entry, const std::filesystem
 }  // namespace
 
 std::vector<nlohmann::json> read_suite(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  if (!in) throw Error(path.string(), "cannot be opened");
-  const nlohmann::json suite = nlohmann::json::parse(in, nullptr, false);
-  if (suite.is_discarded() || !suite.is_object() || !suite.contains("scenes") ||
-      !suite.at("scenes").is_array())
+  const nlohmann::json suite = json_of_file(path);
+  if (!suite.is_object() || !suite.contains("scenes") || !suite.at("scenes").is_array())
     throw Error(path.string(), "is not a suite: a JSON object with \"scenes\" is expected");
-  return {suite.at("scenes").begin(), suite.at("scenes").end()};
+  std::vector<nlohmann::json> entries;
+  for (const nlohmann::json& entry : suite.at("scenes")) {
+    const std::string where = fmt::format("{}: entry {}", path.string(), entries.size());
+    if (!entry.is_object()) throw Error(where, "is no object with \"name\" and \"scene\"");
+    if (!entry.value("name", nlohmann::json()).is_string()) throw Error(where, "has no \"name\"");
+    entries.push_back(entry);
+  }
+  return entries;
 }
 
 std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder,
@@ -138,7 +145,8 @@ std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::fi
     loaded->prepared = prepare_scene(loaded->scene.cloud, loaded->test.reference, loaded->test.up_world,
                                      cameras, prepare, job);
   } catch (const nlohmann::json::exception& error) {
-    throw Error("suite", "the entry " + entry.value("name", "?") + " lacks something (" + error.what() + ")");
+    throw Error("suite", fmt::format("the entry {} lacks something ({})", entry.at("name").get<std::string>(),
+                                     fault_of(error)));
   }
   return loaded;
 }

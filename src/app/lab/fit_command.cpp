@@ -17,6 +17,7 @@
 #include "app/output_folder.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/json_file.h"
 
 namespace splatcut {
 
@@ -233,8 +234,8 @@ void run_fit(FitArguments args, const CommonOptions& common) {
   const Bank bank = load_bank(args, prepare, job);
   const FitTable table = fit_table(bank, args, model.selection, job);
   model.selection = table.fitted;
-  write_text_file(folder.file("fit.json"), table_json(bank, args, table).dump(1) + "\n");
-  write_text_file(folder.file("model.json"), part_model_json(model).dump(1) + "\n");
+  write_text_file(folder.file("fit.json"), json_text(table_json(bank, args, table), 1) + "\n");
+  write_text_file(folder.file("model.json"), json_text(part_model_json(model), 1) + "\n");
   folder.commit();
   end_progress();
   print_table(bank, table);

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "scene/error.h"
+#include "scene/json_file.h"
 
 namespace splatcut {
 
@@ -23,9 +22,7 @@ nlohmann::json part_model_json(const PartModel& model) {
 }
 
 PartModel load_part_model(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  if (!in) throw Error(path.string(), "cannot be opened");
-  const nlohmann::json file = nlohmann::json::parse(in, nullptr, false);
+  const nlohmann::json file = json_of_file(path);
   if (!file.is_object() || !file.contains(kVersionKey) ||
       !file.value("weights", nlohmann::json()).is_object())
     throw Error(path.string(), "is no model of parts", "splatcut-lab eval writes the one it used");

@@ -1,12 +1,12 @@
 #include "app/lab/still_life_files.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
 
 #include "scene/atomic_file.h"
 #include "scene/camera_file.h"
+#include "scene/json_file.h"
 #include "scene/morton.h"
 #include "scene/scene_file.h"
 
@@ -63,8 +63,8 @@ void write_still_life(const OutputFolder& folder, const LabelledScene& made, con
   labels.write(std::as_bytes(std::span(label)));
   labels.commit();
   save_inria_cameras(folder.file("cameras.json"), made.cameras);
-  write_text_file(folder.file("seeds.json"), seeds_json(made).dump(1) + "\n");
-  write_text_file(folder.file("suite.json"), suite_json(made, file, labels_file).dump(1) + "\n");
+  write_text_file(folder.file("seeds.json"), json_text(seeds_json(made), 1) + "\n");
+  write_text_file(folder.file("suite.json"), json_text(suite_json(made, file, labels_file), 1) + "\n");
 }
 
 }  // namespace splatcut

@@ -32,7 +32,8 @@ glm::quat looking(const glm::vec3& forward, const glm::vec3& up, const glm::vec3
 
 void CameraController::reset(const Box& scene, const glm::vec3& up_world) {
   scene_ = scene;
-  scene_size_ = std::max(1e-6f, glm::length(scene.extent()));
+  scene_size_ = glm::length(scene.extent());
+  if (!(scene_size_ > 0)) scene_size_ = 1;
   up_world_ = glm::normalize(up_world);
   target_.reset();
   const glm::vec3 sideways = std::abs(up_world_.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);

@@ -13,7 +13,7 @@ void save(const std::filesystem::path& path, const Scene& scene, const std::vect
           const ExportRequest& request, ExportReport* report) {
   if (count_flags(keep) == 0)
     throw Error(path.filename().string(), "would hold no Gaussians", "Select something first");
-  refuse_existing(path, request.overwrite);
+  check_output_file(path, request.overwrite);
   const SaveReport saved = save_scene(path, scene, keep, request.format);
   report->gaussians += saved.gaussians;
   report->bytes += saved.bytes;

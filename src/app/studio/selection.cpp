@@ -139,7 +139,7 @@ std::vector<float> property_values(const GaussianCloud& cloud, Property property
     if (property == Property::kDepth) values[g] = camera->camera_from_world(cloud.position[g]).z;
     if (property == Property::kSize) {
       const glm::vec3& s = cloud.scale[g];
-      values[g] = std::log10(std::max({s.x, s.y, s.z, 1e-12f}));
+      values[g] = std::log10(std::max({s.x, s.y, s.z, 1e-20f}));
     }
   }
   return values;

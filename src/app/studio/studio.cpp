@@ -43,12 +43,10 @@ void Studio::say(Message::Kind kind, std::string text) {
 void Studio::apply(const Command& command) {
   try {
     std::visit([this](const auto& c) { perform(c); }, command);
-  } catch (const std::bad_alloc&) {
-    say(Message::Kind::kError, "There is not enough memory for this.");
   } catch (const Error& error) {
     say(Message::Kind::kRefused, error.what());
-  } catch (const std::filesystem::filesystem_error& error) {
-    say(Message::Kind::kError, error.what());
+  } catch (const std::exception& error) {
+    say(Message::Kind::kError, sentence_of(error));
   }
 }
 

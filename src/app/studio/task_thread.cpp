@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <exception>
-#include <new>
+
+#include "scene/error.h"
 
 namespace splatcut {
 
@@ -125,10 +126,8 @@ void TaskThread::perform(Task& task) {
       run_in_background([&] { task.work(job); });
     else
       task.work(job);
-  } catch (const std::bad_alloc&) {
-    report("There is not enough memory for this. Close other programs, or use a smaller scene.");
   } catch (const std::exception& error) {
-    report(error.what());
+    report(sentence_of(error));
   }
 }
 

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstring>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "app/seeds_file.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/json_file.h"
 #include "scene/mapped_file.h"
 
 namespace splatcut {
@@ -54,6 +56,9 @@ Camera camera_from(const json& j) {
   c.fy_px = j.at("fy");
   c.cx_px = j.at("cx");
   c.cy_px = j.at("cy");
+  if (!(c.fx_px > 0 && c.fy_px > 0) || !std::isfinite(c.fx_px + c.fy_px + c.cx_px + c.cy_px))
+    throw Error("camera", fmt::format("focal lengths {} and {}, principal point {}, {}", c.fx_px, c.fy_px,
+                                      c.cx_px, c.cy_px));
   const json& rotation = j.at("camera_from_world_rotation");
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
@@ -83,6 +88,7 @@ Strokes strokes_from(const json& j) {
     Stroke stroke{label == "object" ? SeedLabel::kObject : SeedLabel::kRest, s.at("radius_px"), {}};
     for (const json& p : s.at("points"))
       stroke.points_px.emplace_back(p.at(0).get<float>(), p.at(1).get<float>());
+    check_stroke(stroke, "stroke");
     strokes.push_back(std::move(stroke));
   }
   return strokes;
@@ -165,10 +171,11 @@ ObjectItem object_from(const json& j, const Scene& scene) {
 }
 
 json parse(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  if (!in) throw Error(path.string(), "cannot be opened");
-  json work = json::parse(in, nullptr, false);
-  if (work.is_discarded() || !work.is_object() || !work.contains("splatcut_work"))
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw Error(path.string(), "is no file, or is not there");
+  json work = json_of_file(path);
+  if (!work.is_object() || !work.contains("splatcut_work"))
     throw Error(path.string(), "is no work file of splatcut");
   if (work["splatcut_work"] != 1 && work["splatcut_work"] != kVersion)
     throw Error(path.string(), "was written by a newer splatcut", "Update splatcut");
@@ -176,7 +183,12 @@ json parse(const std::filesystem::path& path) {
 }
 
 std::filesystem::path scene_path(const json& work, const std::filesystem::path& path) {
-  const std::filesystem::path scene = work.at("scene").at("path").get<std::string>();
+  const json& said = work.at("scene");
+  std::filesystem::path scene = said.at("path").get<std::string>();
+  if (said.contains("path_bytes")) {
+    const auto bytes = said.at("path_bytes").get<std::vector<std::uint8_t>>();
+    scene = std::string(bytes.begin(), bytes.end());
+  }
   return scene.is_absolute() ? scene : std::filesystem::absolute(path).parent_path() / scene;
 }
 
@@ -191,13 +203,13 @@ WorkFile read_work_header(const std::filesystem::path& path) {
     const json work = parse(path);
     WorkFile out;
     out.scene = scene_path(work, path);
-    out.scene_hash = std::stoull(work.at("scene").at("hash").get<std::string>(), nullptr, 16);
+    const std::string hash = work.at("scene").at("hash");
+    if (std::from_chars(hash.data(), hash.data() + hash.size(), out.scene_hash, 16).ec != std::errc())
+      throw Error(path.string(), "does not say which scene it belongs to: its \"hash\" is no number");
     out.spz_axes = spz_axes_from_name(work.at("scene").value("spz_axes", ""));
     return out;
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw Error(path.string(), std::string("does not have the expected form (") + error.what() + ")");
+  } catch (const json::exception& error) {
+    throw Error(path.string(), "does not have the expected form (" + fault_of(error) + ")");
   }
 }
 
@@ -212,6 +224,8 @@ WorkFile read_work_file(const std::filesystem::path& path, const Scene& scene, s
     d.active = work.value("active", 0u);
     d.next_id = work.at("next_id");
     d.up_world = vec3_from(work.at("up"));
+    if (!(glm::length(d.up_world) > 0) || !std::isfinite(glm::length(d.up_world)))
+      throw Error("up", "is no direction");
     d.preset = work.at("preset");
     preset(d.preset);  // throws for an unknown one
     d.background = vec3_from(work.at("background"));
@@ -234,7 +248,7 @@ WorkFile read_work_file(const std::filesystem::path& path, const Scene& scene, s
   } catch (const Error& error) {
     throw Error(path.string(), error.what());
   } catch (const json::exception& error) {
-    throw Error(path.string(), std::string("does not have the expected form (") + error.what() + ")");
+    throw Error(path.string(), "does not have the expected form (" + fault_of(error) + ")");
   }
 }
 
@@ -247,12 +261,13 @@ void write_work_file(const std::filesystem::path& path, const Scene& scene, std:
   const std::filesystem::path relative =
       absolute.lexically_relative(std::filesystem::absolute(path).parent_path().lexically_normal());
   const bool beside = !relative.empty() && !relative.string().starts_with("..");
-  json file = {{"path", (beside ? relative : absolute).string()},
-               {"hash", fmt::format("{:016x}", scene_hash)},
-               {"gaussians", scene.cloud.size()}};
-  if (scene.taken_axes) file["spz_axes"] = name_of(*scene.taken_axes);
+  const std::string place = (beside ? relative : absolute).string();
+  json source = {
+      {"path", place}, {"hash", fmt::format("{:016x}", scene_hash)}, {"gaussians", scene.cloud.size()}};
+  if (!is_utf8(place)) source["path_bytes"] = std::vector<std::uint8_t>(place.begin(), place.end());
+  if (scene.taken_axes) source["spz_axes"] = name_of(*scene.taken_axes);
   const json work = {{"splatcut_work", kVersion},
-                     {"scene", file},
+                     {"scene", source},
                      {"active", document.active},
                      {"next_id", document.next_id},
                      {"up", list(document.up_world)},
@@ -260,7 +275,7 @@ void write_work_file(const std::filesystem::path& path, const Scene& scene, std:
                      {"background", list(document.background)},
                      {"deleted", runs_json(document.deleted, scene)},
                      {"objects", objects}};
-  write_text_file(path, work.dump() + "\n");
+  write_text_file(path, json_text(work) + "\n");
 }
 
 std::uint64_t hash_of_file(const std::filesystem::path& path) {

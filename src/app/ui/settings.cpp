@@ -1,19 +1,19 @@
 #include "app/ui/settings.h"
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "scene/atomic_file.h"
+#include "scene/error.h"
+#include "scene/json_file.h"
 
 namespace splatcut {
 
 Settings load_settings(const std::filesystem::path& file) {
   Settings s;
-  std::ifstream in(file);
-  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object()) return s;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return s;
   try {
+    const nlohmann::json json = json_of_file(file);
     s.width = std::clamp(json.value("width", s.width), 640, 8192);
     s.height = std::clamp(json.value("height", s.height), 480, 8192);
     if (const auto at = json.find("position"); at != json.end())
@@ -29,8 +29,13 @@ Settings load_settings(const std::filesystem::path& file) {
       s.recent.emplace_back(path);
   } catch (const nlohmann::json::exception&) {
     return {};
+  } catch (const Error&) {
+    return {};
   }
-  std::erase_if(s.recent, [](const std::filesystem::path& path) { return !std::filesystem::exists(path); });
+  std::erase_if(s.recent, [](const std::filesystem::path& path) {
+    std::error_code failure;
+    return !std::filesystem::exists(path, failure);
+  });
   return s;
 }
 
@@ -44,7 +49,7 @@ void save_settings(const std::filesystem::path& file, const Settings& s) {
                          {"recent", recent},       {"maximized", s.maximized}};
   if (s.position) json["position"] = {s.position->x, s.position->y};
   std::filesystem::create_directories(file.parent_path());
-  write_text_file(file, json.dump(2) + "\n");
+  write_text_file(file, json_text(json, 2) + "\n");
 }
 
 }  // namespace splatcut

@@ -29,6 +29,12 @@ inline bool is_finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+// Squares of distances beyond leave the range of numbers; no scene's own Gaussian is there, see check_size().
+inline bool is_within_reach(const glm::vec3& position) {
+  constexpr float kFarthest = 1e15f;
+  return glm::all(glm::lessThan(glm::abs(position), glm::vec3(kFarthest)));
+}
+
 // Takes the memory of the cloud in large pages where the system has them: the first touch of 4 kB pages
 // costs more than decoding into them.
 void resize_for_decode(GaussianCloud& cloud, std::size_t n, int degree);
@@ -55,7 +61,7 @@ void decode_rows(const Source& source, std::size_t rows, int degree, Scene& scen
   std::vector<std::uint32_t> row_of;
   row_of.reserve(rows);
   for (std::size_t row = 0; row < rows; ++row) {
-    if (!is_finite(positions[row])) continue;
+    if (!is_within_reach(positions[row])) continue;
     positions[row_of.size()] = positions[row];
     row_of.push_back(static_cast<std::uint32_t>(row));
   }

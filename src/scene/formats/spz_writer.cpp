@@ -20,13 +20,21 @@ constexpr int kUsualFractionalBits = 12;
 
 using Buffer = std::vector<std::uint8_t>;
 
-// As many bits, up to the usual 12, as let the farthest coordinate fit into 24.
+// As many bits, up to the usual 12, as let the farthest coordinate fit into 24; more for a scene that the
+// usual steps would be too coarse for. Throws Error where none do.
 std::uint8_t fractional_bits_for(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
   float farthest = 0;
   for (const std::uint32_t g : gaussians)
     for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(cloud.position[g][axis]));
   int bits = kUsualFractionalBits;
   while (bits > 0 && std::ldexp(farthest, bits) > kFixedLimit) --bits;
+  constexpr float kCoarse = 1 << kUsualFractionalBits;
+  constexpr int kMostFractionalBits = 24;
+  while (farthest > 0 && bits < kMostFractionalBits && std::ldexp(farthest, bits) < kCoarse) ++bits;
+  constexpr float kFewestSteps = 256;
+  if (std::ldexp(farthest, bits) > kFixedLimit || (farthest > 0 && std::ldexp(farthest, bits) < kFewestSteps))
+    throw Error("spz", fmt::format("coordinates up to {:g} cannot be written in 24 bits", farthest),
+                "Choose another format, or scale the scene");
   return static_cast<std::uint8_t>(bits);
 }
 

@@ -73,7 +73,7 @@ std::vector<std::uint8_t> ClickSelection::certain_leaves(const LeafView& view,
     for (const GroupWeight& w : view.leaves.at(pixel)) in_disc[w.group] += w.weight;
   const Camera& camera = view.camera;
   const auto visible_share = [&](std::uint32_t leaf) {
-    const float depth = std::max(camera.camera_from_world(parts_.leaf_centre_world[leaf]).z, 1e-6f);
+    const float depth = std::max(camera.camera_from_world(parts_.leaf_centre_world[leaf]).z, 1e-15f);
     const float facing_px = parts_.leaf_area[leaf] * camera.fx_px * camera.fx_px / (depth * depth);
     return view.leaf_px[leaf] / std::max(facing_px, 1e-6f);
   };

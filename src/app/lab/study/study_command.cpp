@@ -22,6 +22,7 @@
 #include "scene/atomic_file.h"
 #include "scene/byte_hash.h"
 #include "scene/error.h"
+#include "scene/json_file.h"
 #include "scene/png_file.h"
 
 namespace splatcut {
@@ -56,7 +57,7 @@ std::string file_name_of(std::string experiment) {
 }
 
 std::string key_of(const StudyCell& cell, const StudyScene& scene) {
-  return scene.key + " " + to_json(cell).dump();
+  return scene.key + " " + json_text(to_json(cell));
 }
 
 // Every cell on every scene that is not measured yet; scene by scene, each is loaded once.
@@ -102,7 +103,7 @@ void keep_first(std::size_t most, std::vector<StudyCell>* cells) {
   std::erase_if(*cells, [&](StudyCell cell) {
     cell.draw = cell.order = 0;
     std::set<std::string>& settings = kept[cell.experiment];
-    const std::string setting = to_json(cell).dump();
+    const std::string setting = json_text(to_json(cell));
     if (settings.contains(setting)) return false;
     if (settings.size() >= most) return true;
     settings.insert(setting);
@@ -212,7 +213,7 @@ void run_study(const StudyArguments& args, const CommonOptions& common) {
     throw Error("splatcut-lab study", "none of the scenes has the truth that is asked for");
   write_text_file(args.output / "results.csv", study_csv(store.results()));
   write_text_file(args.output / "results.json",
-                  nlohmann::json{{"machine", machine()}, {"results", store.results()}}.dump(1) + "\n");
+                  json_text({{"machine", machine()}, {"results", store.results()}}, 1) + "\n");
   if (args.no_charts) return;
   const std::vector<StudyChart> charts = draw_study_charts(store.results(), args.output / "charts");
   const std::vector<WorstCase> worst =

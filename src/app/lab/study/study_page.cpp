@@ -9,6 +9,7 @@
 #include "app/lab/study/paper_tables.h"
 #include "app/lab/study/study_markdown.h"
 #include "app/lab/study/study_plan.h"
+#include "scene/json_file.h"
 
 namespace splatcut {
 
@@ -63,7 +64,7 @@ std::string failure_table(const StudyResults& results) {
 }
 
 std::string text_of(const nlohmann::json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_string() ? value.get<std::string>() : json_text(value);
 }
 
 }  // namespace

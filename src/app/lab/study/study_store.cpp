@@ -8,11 +8,14 @@
 #include <utility>
 
 #include "scene/error.h"
+#include "scene/json_file.h"
 
 namespace splatcut {
 
 StudyStore::StudyStore(const std::filesystem::path& file, std::string program)
-    : path_(file), program_(std::move(program)) {
+    : path_(file),
+      program_(std::move(program)),
+      lock_(std::filesystem::path(file) += ".splatcut.part", file) {
   std::size_t whole = 0;  // bytes of complete lines
   if (std::ifstream in(file, std::ios::binary); in) {
     for (std::string line; std::getline(in, line) && !in.eof(); whole += line.size() + 1) {
@@ -40,7 +43,7 @@ StudyStore::~StudyStore() {
 void StudyStore::add(const std::string& key, nlohmann::json result) {
   result["key"] = key;
   result["program"] = program_;
-  const std::string line = result.dump() + "\n";
+  const std::string line = json_text(result) + "\n";
   if (std::fwrite(line.data(), 1, line.size(), file_) != line.size() || std::fflush(file_) != 0 ||
       ::fsync(::fileno(file_)) != 0)
     throw Error(path_.string(), std::string("cannot be written (") + std::strerror(errno) + ")",

@@ -8,13 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "scene/atomic_file.h"
+
 namespace splatcut {
 
 class StudyStore {
  public:
   // Reads what is there; a last line that was cut off is dropped. program: a name of this build; what another
   // one measured stays in the file and does not count. Throws Error where the file cannot be read or added
-  // to.
+  // to, or another process does so.
   StudyStore(const std::filesystem::path& file, std::string program);
   StudyStore(const StudyStore&) = delete;
   StudyStore& operator=(const StudyStore&) = delete;
@@ -31,6 +33,7 @@ class StudyStore {
  private:
   std::filesystem::path path_;
   std::string program_;
+  HeldFile lock_;  // two studies in one folder would measure all twice
   std::size_t of_others_ = 0;
   std::FILE* file_ = nullptr;
   std::vector<nlohmann::json> results_;

@@ -1,0 +1,80 @@
+// Readers above the layer `scene`: what is meant, what is kept, suites.
+#include <cstring>
+
+#include "app/camera_options.h"
+#include "app/lab/eval_suite.h"
+#include "app/many_objects.h"
+#include "app/seeds_file.h"
+#include "app/segmenter.h"
+#include "app/studio/work_file.h"
+#include "fuzz.h"
+#include "scene/json_file.h"
+#include "segment/prepared_cache.h"
+
+namespace splatcut {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Three Gaussians, as the corpora of work and suite want them.
+const Scene& small_scene() {
+  static const Scene loaded = [] {
+    std::string rows(3 * 32, '\x80');
+    for (int row = 0; row < 3; ++row) {
+      const float numbers[6] = {static_cast<float>(row), 0, 2, 0.1f, 0.1f, 0.1f};
+      std::memcpy(rows.data() + 32 * row, numbers, sizeof numbers);
+    }
+    place().write("small.labels.u8", std::string("\0\1\1", 3));
+    return load_scene(place().write("small.splat", rows));
+  }();
+  return loaded;
+}
+
+[[maybe_unused]] void fuzz_seeds(std::string_view bytes) {
+  const fs::path file = place().write("seeds.json", bytes);
+  for (const NamedSeeds& seeds : load_named_seeds(file)) draw_seeds(seeds.strokes, 40, 30);
+  draw_seeds(load_seeds(file), 40, 30);
+}
+
+[[maybe_unused]] void fuzz_work(std::string_view bytes) {
+  const Scene& scene = small_scene();
+  const fs::path file = place().write("a.splatcut.json", bytes);
+  const WorkFile work = read_work_file(file, scene, read_work_header(file).scene_hash);
+  write_work_file(place().folder() / "again.splatcut.json", scene, work.scene_hash, work.document);
+}
+
+[[maybe_unused]] void fuzz_suite(std::string_view bytes) {
+  small_scene();
+  for (const nlohmann::json& entry : read_suite(place().write("suite.json", bytes)))
+    load_case(entry, place().folder(), {}, {});
+}
+
+// The header is made right, so that what follows it is read.
+[[maybe_unused]] void fuzz_cache(std::string_view bytes) {
+  constexpr std::uint64_t kMagic = 0x50455250544c5053, kVersion = 2, kKey = 7;
+  std::uint64_t header[5] = {kMagic, kVersion, kKey, bytes.size() - std::min<std::size_t>(bytes.size(), 8), 0};
+  if (bytes.size() < 8) return;
+  std::memcpy(&header[4], bytes.data(), 8);
+  std::string file(reinterpret_cast<const char*>(header), sizeof header);
+  read_prepared(place().write("a.prepared", file.append(bytes.substr(8))), kKey, 3);
+}
+
+[[maybe_unused]] void fuzz_words(std::string_view bytes) {
+  const std::string text(bytes);
+  const auto each = [&](const auto& read) {
+    try {
+      read();
+    } catch (const Error&) {
+    }
+  };
+  each([&] { make_segmenter({"text", text}); });
+  each([&] { parse_click(text); });
+  each([&] { parse_vec3(text, "--camera-pos"); });
+}
+
+}  // namespace
+
+}  // namespace splatcut
+
+SPLATCUT_FUZZ_ENTRY

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# tests/fuzz/run.sh SECONDS [READER...]: builds the fuzzers (clang, third_party/apt-packages-gate.txt) and runs each for
+# so many seconds from its corpus. What they find lies in build/fuzz/findings; ends with 1 where there is any.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+seconds=${1:?how many seconds each}
+shift
+readers=("$@")
+[ ${#readers[@]} -gt 0 ] || readers=(ply splat spz json_cameras colmap_bin colmap_txt png cache seeds work suite words)
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --target "${readers[@]/#/fuzz_}"
+cd build/fuzz
+mkdir -p findings
+found=0
+for reader in "${readers[@]}"; do
+  source=../../tests/fuzz
+  mkdir -p "grown/$reader"
+  case $reader in ply) dict=ply ;; json_cameras | seeds | work | suite) dict=json ;; *) dict= ;; esac
+  nice "tests/fuzz/fuzz_$reader" "grown/$reader" "$source/corpus/$reader" ${dict:+-dict=$source/$dict.dict} \
+    -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=4096 -print_final_stats=1 \
+    -artifact_prefix="findings/$reader." >"findings/$reader.log" 2>&1 || { found=1; echo "$reader: FOUND, see build/fuzz/findings"; }
+  echo "$reader: $(sed -n 's/^stat::number_of_executed_units: *//p' "findings/$reader.log") inputs"
+done
+exit $found

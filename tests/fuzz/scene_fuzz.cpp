@@ -1,0 +1,71 @@
+// Readers of the layer `scene`: scenes, cameras, pictures.
+#include "fuzz.h"
+#include "scene/camera_file.h"
+#include "scene/png_file.h"
+#include "scene/scene_file.h"
+
+namespace splatcut {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The first two bytes say where the second file begins.
+std::pair<std::string_view, std::string_view> two_files(std::string_view bytes) {
+  if (bytes.size() < 2) return {};
+  const std::size_t first = static_cast<std::uint8_t>(bytes[0]) + 256u * static_cast<std::uint8_t>(bytes[1]);
+  const std::string_view rest = bytes.substr(2);
+  return {rest.substr(0, first), rest.substr(std::min(first, rest.size()))};
+}
+
+// What can be read can be written again in any format, or is refused.
+void load_and_save(const fs::path& file) {
+  const Scene scene = load_scene(file);
+  for (const SceneFormat format :
+       {SceneFormat::kPly, SceneFormat::kCompressedPly, SceneFormat::kSplat, SceneFormat::kSpz})
+    save_scene(place().folder() / "saved", scene, {}, format);
+}
+
+[[maybe_unused]] void fuzz_ply(std::string_view bytes) {
+  load_and_save(place().write("a.ply", bytes));
+}
+
+[[maybe_unused]] void fuzz_splat(std::string_view bytes) {
+  load_and_save(place().write("a.splat", bytes));
+}
+
+[[maybe_unused]] void fuzz_spz(std::string_view bytes) {
+  load_and_save(place().write("a.spz", bytes));
+}
+
+[[maybe_unused]] void fuzz_json_cameras(std::string_view bytes) {
+  std::string warning;
+  load_cameras(place().write("a.json", bytes), &warning);
+}
+
+[[maybe_unused]] void fuzz_colmap(std::string_view bytes, const char* cameras, const char* images) {
+  const auto [first, second] = two_files(bytes);
+  place().write(images, second);
+  std::string warning;
+  load_cameras(place().write(cameras, first), &warning);
+}
+
+[[maybe_unused]] void fuzz_colmap_bin(std::string_view bytes) {
+  fuzz_colmap(bytes, "cameras.bin", "images.bin");
+}
+
+[[maybe_unused]] void fuzz_colmap_txt(std::string_view bytes) {
+  fuzz_colmap(bytes, "cameras.txt", "images.txt");
+}
+
+[[maybe_unused]] void fuzz_png(std::string_view bytes) {
+  const fs::path file = place().write("a.png", bytes);
+  read_png_rgb(file);
+  read_png_grey(file);
+}
+
+}  // namespace
+
+}  // namespace splatcut
+
+SPLATCUT_FUZZ_ENTRY
