@@ -61,7 +61,7 @@ struct FittedScene {
     cut->set_smoothness(weights.smoothness);
     double sum = 0;
     for (const AnyViewStart& start : starts) {
-      const std::vector<double> iou = any_view_session(world, start, clicks, 0, job).iou_after;
+      const std::vector<double> iou = any_view_session(world, start, clicks, {}, job).iou_after;
       sum += std::accumulate(iou.begin(), iou.end(), 0.0) / clicks;
     }
     return sum / static_cast<double>(starts.size());

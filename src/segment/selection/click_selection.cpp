@@ -16,6 +16,7 @@ constexpr std::uint32_t kNoLevel = 0xffffffffu;
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr int kReachPx = 4;             // a click beside the scene's edge still hits it
 constexpr float kLeastChangePx = 0.3f;  // candidates that change less change nothing
+constexpr float kOffered = 0.7f;        // ln 2: what is at least half as likely is offered
 
 // Sums over each node's leaves.
 std::vector<float> summed(const PartTree& tree, std::span<const float> of_leaves) {
@@ -35,6 +36,27 @@ std::vector<std::uint32_t> levels(const PartTree& tree, std::size_t leaves,
     if (level[node] == kNoLevel && tree.parent[node] != kNoPart) level[node] = level[tree.parent[node]];
   level.resize(leaves);
   return level;
+}
+
+// Per node of a chain: the pixels that would show it. level: per leaf, from which node on it belongs to them.
+std::vector<float> displayed_px(const PixelWeights& leaves, std::span<const std::uint32_t> level,
+                                std::size_t nodes) {
+  std::vector<float> px(nodes, 0);
+  std::vector<std::pair<std::uint32_t, float>> list;
+  for (std::size_t i = 0; i + 1 < leaves.first.size(); ++i) {
+    list.clear();
+    for (const GroupWeight& w : leaves.at(i))
+      if (level[w.group] != kNoLevel) list.emplace_back(level[w.group], w.weight);
+    std::ranges::sort(list);
+    float sum = 0;
+    for (const auto& [from, share] : list)
+      if ((sum += share) >= 0.5f) {
+        px[from] += 1;
+        break;
+      }
+  }
+  for (std::size_t n = 1; n < nodes; ++n) px[n] += px[n - 1];
+  return px;
 }
 
 // The border's length over the part's size, scale free.
@@ -148,12 +170,16 @@ struct ClickSelection::Candidate {
 struct ClickSelection::FirstPick {
   std::vector<Chain> chains;
   std::vector<Candidate> candidates;  // with all their costs, likeliest first
+  std::vector<Candidate> meant;       // of these, what is offered
+  std::vector<Mask> masks;            // of each, in the click's view
 };
 
-ClickSelection::ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step)
+ClickSelection::ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step,
+                               int choice)
     : parts_(parts),
       model_(model),
       part_step_(part_step),
+      choice_(choice),
       leaf_object_(parts.leaves, 0),
       leaf_said_(parts.leaves, 0),
       labels_(parts.leaf_of.size(), 0),
@@ -364,6 +390,7 @@ ClickSelection::Candidate ClickSelection::best_of(const Click& click, const std:
   constexpr std::size_t kMost = 24;  // looked at
   const float weight = click.first ? model_.first_centre_weight : model_.centre_weight;
   const float slack = click.first ? model_.first_centre_slack : model_.centre_slack;
+  const float doubt = click.first ? std::max(model_.doubt, kOffered) : model_.doubt;
   const Camera& camera = click.view.camera;
   std::vector<Image<std::uint32_t>> level_of(chains.size());  // per pixel: from which candidate on it changes
   const auto level_image = [&](std::size_t t) -> const Image<std::uint32_t>& {
@@ -388,7 +415,7 @@ ClickSelection::Candidate ClickSelection::best_of(const Click& click, const std:
   Candidate best{0, Candidate::kDisc, click.first ? std::numeric_limits<float>::max() : model_.disc_cost};
   std::size_t looked_at = 0;
   for (Candidate& candidate : *candidates) {
-    if (looked_at == kMost || candidate.cost > best.cost + model_.doubt) break;
+    if (looked_at == kMost || candidate.cost > best.cost + doubt) break;
     ++looked_at;
     const Image<std::uint32_t>& level = level_image(candidate.tree);
     Mask region(camera.width_px, camera.height_px);
@@ -403,11 +430,36 @@ ClickSelection::Candidate ClickSelection::best_of(const Click& click, const std:
   return best;
 }
 
+std::span<const Mask> ClickSelection::meanings() const {
+  return first_ ? std::span<const Mask>(first_->masks) : std::span<const Mask>();
+}
+
+// What the first click could mean. Offered: the likeliest, then what is nearly as likely and shows something
+// clearly different.
+std::shared_ptr<const ClickSelection::FirstPick> ClickSelection::first_pick(
+    const Click& click, const std::vector<Chain>& chains, const std::vector<Candidate>& candidates) const {
+  constexpr std::size_t kMostMeanings = 3;
+  constexpr double kClearly = 0.8;  // IoU below which a person sees two things
+  FirstPick pick{chains, candidates, {}, {}};
+  std::vector<std::uint8_t> leaves(parts_.leaves);
+  for (const Candidate& candidate : candidates) {
+    if (pick.meant.size() == kMostMeanings || candidate.cost > candidates.front().cost + kOffered) break;
+    for (std::uint32_t l = 0; l < parts_.leaves; ++l)
+      leaves[l] = chains[candidate.tree].level[l] <= candidate.index;
+    Mask mask = shown(click.view.leaves, click.view.camera, leaves);
+    if (std::ranges::any_of(pick.masks, [&](const Mask& m) { return iou(m, mask) >= kClearly; })) continue;
+    pick.meant.push_back(candidate);
+    pick.masks.push_back(std::move(mask));
+  }
+  return std::make_shared<const FirstPick>(std::move(pick));
+}
+
 // Keeps the sizes that the first click could mean; moves `best` to the one that is wanted.
-void ClickSelection::note_first(const std::vector<Chain>& chains, std::span<const Candidate> candidates,
-                                Candidate* best) {
-  constexpr float kNextSize = 1.15f;  // in pixels; less is not told apart
-  const std::vector<float>& px = chains[best->tree].changed_px;
+void ClickSelection::note_first(const Click& click, const std::vector<Chain>& chains,
+                                std::span<const Candidate> candidates, Candidate* best) {
+  constexpr float kNextSize = 1.15f;  // in pixels that show it; less is not told apart
+  const std::vector<float> px =
+      displayed_px(click.view.leaves, chains[best->tree].level, chains[best->tree].nodes.size());
   std::vector<std::size_t> distinct{best->index};
   for (std::size_t i = best->index; i-- > 0;)
     if (px[i] >= kLeastChangePx && px[i] * kNextSize <= px[distinct.front()])
@@ -417,10 +469,11 @@ void ClickSelection::note_first(const std::vector<Chain>& chains, std::span<cons
     if (px[i] >= kNextSize * px[distinct.back()]) distinct.push_back(i);
   constexpr float kAlike = 1.5f;
   ambiguous_ = std::ranges::any_of(candidates, [&](const Candidate& c) {
-    const float folds = chains[c.tree].changed_px[c.index] / px[best->index];
+    const float folds = chains[c.tree].changed_px[c.index] / chains[best->tree].changed_px[best->index];
     return c.cost < best->cost + model_.doubt && (folds > kAlike || folds < 1 / kAlike);
   });
   const auto wanted = static_cast<std::ptrdiff_t>(likeliest) + part_step_;
+  likeliest_size_ = likeliest;
   sizes_ = distinct.size();
   size_ = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(wanted, 0, std::ssize(distinct) - 1));
   best->index = distinct[size_];
@@ -443,7 +496,7 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool obj
               .radius_px = 0,
               .disc = {},
               .wrong_px = view.leaf_px};
-  if (any_) click.radius_px = distance_to_border(shown(view.gaussians, view.camera, labels_), at, !object);
+  if (any_) click.radius_px = displayed_radius(view, at, object, leaf);
   click.disc = disc_pixels(view.camera, glm::vec2(at),
                            std::max({model_.disc_share * click.radius_px, least_radius_px, 1.0f}));
   for (std::uint32_t l = 0; l < parts_.leaves; ++l)
@@ -462,8 +515,10 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool obj
   Candidate best = best_of(click, all, &candidates);
   if (!any_) {
     if (candidates.empty()) return false;
-    note_first(all, candidates, &best);
-    first_ = std::make_shared<const FirstPick>(FirstPick{all, candidates});
+    first_ = first_pick(click, all, candidates);
+    choice_taken_ = std::min(static_cast<std::size_t>(std::max(choice_, 0)), first_->meant.size() - 1);
+    if (choice_taken_ > 0) best = first_->meant[choice_taken_];
+    note_first(click, all, candidates, &best);
     certain.assign(parts_.leaves, 0);
     certain[leaf] = 1;
   }
@@ -471,20 +526,35 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool obj
   const std::int8_t sign = object ? 1 : -1;
   const bool part = best.index != Candidate::kDisc;
   Change change{.leaves = {}, .object = object};
+  bool followed = false;
   for (std::uint32_t l = 0; l < parts_.leaves; ++l) {
     const bool follows = part && all[best.tree].level[l] <= best.index && leaf_said_[l] != -sign &&
                          (nearer[l] || !all[best.tree].of_tree);
     if (certain[l]) leaf_said_[l] = sign;
     if (!certain[l] && !follows) continue;
-    if ((leaf_object_[l] != 0) != object) change.leaves.push_back(l);
+    if ((leaf_object_[l] != 0) != object) {
+      change.leaves.push_back(l);
+      followed |= !certain[l];
+    }
     leaf_object_[l] = object;
   }
+  constexpr float kSpotPx = 4;  // a click nearer to the border mends the border
+  spot_alone_ = any_ && !followed && click.radius_px > kSpotPx;
   if (any_ || !part) changes_.push_back(std::move(change));
   any_ = true;
   label();
   pin(view, click.disc, object);
   insist(view, click.pixel(), object);
   return true;
+}
+
+// Distance to the displayed border. Where the object itself was left out of the picture there is none: the
+// clicked leaf's own size stands in its place.
+float ClickSelection::displayed_radius(const LeafView& view, const glm::ivec2& at, bool object,
+                                       std::uint32_t leaf) const {
+  const Mask mask = shown(view.gaussians, view.camera, labels_);
+  if (object && !view.whole && count(mask) == 0) return std::max(std::sqrt(view.leaf_px[leaf] / kPi), 1.0f);
+  return distance_to_border(mask, at, !object);
 }
 
 // What is displayed as said already is held: a later click's parts do not take it back.
@@ -496,22 +566,25 @@ void ClickSelection::confirm(const LeafView& view, const glm::vec2& pixel, bool 
   pin(view,
       disc_pixels(view.camera, glm::vec2(at),
                   std::max({model_.disc_share * radius_px, least_radius_px, 1.0f})),
-      object);
+      object, Pin::kSaidAlready);
   const std::uint32_t leaf =
       leaf_near(view, pixel, [&](std::uint32_t l) { return (leaf_object_[l] != 0) == object; });
   if (leaf != kNoPart) clicked_[object].push_back(leaf);
   insist(view, static_cast<std::size_t>(at.y) * view.camera.width_px + at.x, object);
 }
 
-// The Gaussians that show mostly in these pixels take the label and keep it.
-void ClickSelection::pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object) {
+// The Gaussians that show mostly in these pixels take the label and keep it; or those alone that have it, as
+// something of the other side may shine through from behind.
+void ClickSelection::pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object,
+                         Pin which) {
   std::vector<float> inside(labels_.size(), 0), all(labels_.size(), 0);
   for (const std::uint32_t pixel : pixels)
     for (const GroupWeight& w : view.gaussians.at(pixel)) inside[w.group] += w.weight;
   for (const GroupWeight& w : view.gaussians.entry) all[w.group] += w.weight;
   const std::int8_t sign = object ? 1 : -1;
   for (std::size_t g = 0; g < labels_.size(); ++g) {
-    if (inside[g] > 0 && inside[g] > model_.disc_majority * all[g]) said_[g] = sign;
+    const bool mostly = inside[g] > 0 && inside[g] > model_.disc_majority * all[g];
+    if (mostly && (which == Pin::kAll || (labels_[g] != 0) == object)) said_[g] = sign;
   }
   label();
 }
@@ -561,6 +634,7 @@ bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
   if (!any_ && !object) return false;
   const auto anything = [](std::uint32_t) { return true; };
   bool hit = false;
+  spot_alone_ = false;
   for (const glm::vec2& point : stroke.points_px) {
     if (leaf_near(view, point, anything) == kNoPart) continue;
     const int x = std::clamp(static_cast<int>(point.x), 0, view.camera.width_px - 1),
@@ -582,6 +656,7 @@ bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
     if (drawn.pixels()[i] != kNoSeed) under.push_back(static_cast<std::uint32_t>(i));
   pin(view, under, object);
   for (const std::uint32_t pixel : under) insist(view, pixel, object);
+  spot_alone_ = false;  // a scribble says itself how much is meant
   return true;
 }
 

@@ -40,8 +40,9 @@ namespace splatcut {
 
 class ClickSelection {
  public:
-  // part_step: along the sizes that the first click can mean, from the likeliest; +1 the next larger.
-  ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step = 0);
+  // choice: of what the first click can mean, 0 the likeliest; see meanings(). part_step: along the sizes of
+  // that meaning; +1 the next larger. Both end at the last there is.
+  ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step = 0, int choice = 0);
 
   // A stroke in the pixels of the view. False: nothing of the scene is under it, or it speaks of the rest
   // before there is an object.
@@ -54,7 +55,16 @@ class ClickSelection {
   // likely.
   std::size_t sizes() const { return sizes_; }
   std::size_t size() const { return size_; }
+  std::size_t likeliest_size() const { return likeliest_size_; }  // at part_step 0
   bool ambiguous() const { return ambiguous_; }
+
+  // What else it can mean nearly as likely and clearly differently in its view: the masks of the likeliest
+  // meaning and of at most two more, in that view's size. Empty before the first click.
+  std::span<const Mask> meanings() const;
+  std::size_t choice() const { return choice_taken_; }
+
+  // The last stroke changed no more than the spot around it: no part of the scene fits it.
+  bool spot_alone() const { return spot_alone_; }
 
  private:
   struct Click;
@@ -63,6 +73,7 @@ class ClickSelection {
   struct FirstPick;
 
   bool take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
+  float displayed_radius(const LeafView& view, const glm::ivec2& at, bool object, std::uint32_t leaf) const;
   void confirm(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
   std::vector<std::uint8_t> certain_leaves(const Click& click) const;
   std::vector<Chain> chains(const Click& click) const;
@@ -74,14 +85,18 @@ class ClickSelection {
   void add_change_costs(const Click& click, const std::vector<Chain>& chains,
                         std::vector<Candidate>* candidates) const;
   bool add_repick(const Click& click, std::vector<Chain>* chains, std::vector<Candidate>* candidates) const;
-  void note_first(const std::vector<Chain>& chains, std::span<const Candidate> candidates, Candidate* best);
-  void pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object);
+  std::shared_ptr<const FirstPick> first_pick(const Click& click, const std::vector<Chain>& chains,
+                                              const std::vector<Candidate>& candidates) const;
+  void note_first(const Click& click, const std::vector<Chain>& chains, std::span<const Candidate> candidates,
+                  Candidate* best);
+  enum class Pin { kAll, kSaidAlready };
+  void pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object, Pin which = Pin::kAll);
   void insist(const LeafView& view, std::size_t pixel, bool object);
   void label();
 
   const PartHierarchy& parts_;
   SelectionModel model_;
-  int part_step_;
+  int part_step_, choice_;
   std::vector<std::uint8_t> leaf_object_;  // per leaf
   std::vector<std::int8_t> leaf_said_;     // per leaf: decided by a disc
   std::vector<std::uint32_t> clicked_[2];  // leaves clicked, by sign
@@ -94,8 +109,8 @@ class ClickSelection {
   std::vector<std::uint8_t> labels_;
   std::vector<std::int8_t> said_;
   bool any_ = false;
-  std::size_t sizes_ = 0, size_ = 0;
-  bool ambiguous_ = false;
+  std::size_t sizes_ = 0, size_ = 0, likeliest_size_ = 0, choice_taken_ = 0;
+  bool ambiguous_ = false, spot_alone_ = false;
 };
 
 }  // namespace splatcut

@@ -62,13 +62,16 @@ void count_leaves(const PartHierarchy& parts, LeafView* of) {
 
 }  // namespace
 
-LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera, const Job& job) {
+LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera, const Job& job,
+                   const SeenGaussians& seen) {
   LeafView view{.camera = camera, .gaussians = {}, .leaves = {}, .leaf_px = {}, .leaf_frame_px = {}};
+  view.whole = seen == nullptr;
   std::vector<std::uint32_t> each(drawer.cloud().size());
   for (std::uint32_t g = 0; g < each.size(); ++g) each[g] = g;
   RasterOptions raster;
   raster.colour = false;
   raster.groups = each;
+  if (seen) raster.shown = *seen;
   raster.least_group_weight = kLeastGaussianWeight;
   RasterOutput drawn = drawer.draw(camera, raster, job);
   view.gaussians = flat(drawn.groups);
