@@ -1,5 +1,5 @@
-// What an artist meets when he clicks in the window: what was right stays, what is seen is hit, the same view is the
-// same view, the wheel and the keys choose among what the first click can mean.
+// What an artist meets when he clicks in the window: what was right stays, what is seen is hit, the same view
+// is the same view, the wheel and the keys choose among what the first click can mean.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -38,7 +38,8 @@ Place on_sample(const std::string& name, const glm::vec2& pixel) {
 // Real captures, where they are beside the project.
 std::vector<Place> captures(const std::vector<std::string>& names) {
   std::vector<Place> places;
-  const auto add = [&](const char* name, const char* scene, const char* cameras, const char* camera, float x, float y) {
+  const auto add = [&](const char* name, const char* scene, const char* cameras, const char* camera, float x,
+                       float y) {
     if (!std::filesystem::exists(kScenes / scene) || std::ranges::find(names, name) == names.end()) return;
     const std::vector<Camera> all = load_cameras(kScenes / cameras);
     places.push_back({name, kScenes / scene, find_camera(all, camera, cameras), {x, y}});
@@ -148,7 +149,8 @@ TEST_CASE("clicks: a right click beside the object in a turned view takes nothin
     artist.click(artist.beside(before, 12), PointerButton::kRight);
     CHECK(artist.object().views.size() == 2);
     MESSAGE(place.name, ": ", count_flags(before), " Gaussians, lost ", lost(before, artist.labels()));
-    CHECK(static_cast<double>(lost(before, artist.labels())) < 0.01 * static_cast<double>(count_flags(before)));
+    CHECK(static_cast<double>(lost(before, artist.labels())) <
+          0.01 * static_cast<double>(count_flags(before)));
   }
 }
 
@@ -172,7 +174,8 @@ TEST_CASE("clicks: the first view reached again by its thumbnail is the first vi
     artist.click(artist.beside(before, 12), PointerButton::kRight);
     REQUIRE(artist.object().views.size() == 1);
     CHECK(same_camera(artist.object().views.front().camera, first));
-    CHECK(static_cast<double>(lost(before, artist.labels())) < 0.01 * static_cast<double>(count_flags(before)));
+    CHECK(static_cast<double>(lost(before, artist.labels())) <
+          0.01 * static_cast<double>(count_flags(before)));
   }
 }
 
@@ -187,7 +190,8 @@ TEST_CASE("clicks: an object click adds, to one thing another, and to both a thi
       CHECK(gone < 0.01 * static_cast<double>(count_flags(before)));
     }
     const Labels of_thing = sample_truth(scene, thing);
-    CHECK(static_cast<double>(lost(of_thing, artist.labels())) < 0.25 * static_cast<double>(count_flags(of_thing)));
+    CHECK(static_cast<double>(lost(of_thing, artist.labels())) <
+          0.25 * static_cast<double>(count_flags(of_thing)));
     before = artist.labels();
     truth = either(truth, of_thing);
   }
@@ -303,8 +307,8 @@ TEST_CASE("clicks: the wheel takes sizes that differ, and says where there is no
       }
       MESSAGE(place.name, ": ", steps, " steps, then: ", artist.said());
       CHECK(steps < 60);
-      const bool told = artist.said().find(notch > 0 ? "This is the largest of" : "This is the smallest of") !=
-                            std::string::npos ||
+      const bool told = artist.said().find(notch > 0 ? "This is the largest of"
+                                                     : "This is the smallest of") != std::string::npos ||
                         artist.said().find("one size alone") != std::string::npos;
       CHECK(told);
     }
@@ -359,7 +363,7 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
       const glm::vec2 at = rest ? artist.screen_of(place.pixel) + glm::vec2(6, 5) : artist.beside(before, 20);
       const Labels outlined = hovered(at);
       REQUIRE(outlined.size() == before.size());
-      CHECK(artist.studio().style(0).highlight_colour == (rest ? Rgb8{245, 95, 90} : Rgb8{255, 255, 255}));
+      CHECK(artist.studio().style(0).highlight_colour == (rest ? Rgb8{225, 25, 60} : Rgb8{255, 255, 255}));
       artist.click(at, rest ? PointerButton::kRight : PointerButton::kLeft);
       Labels changed(before.size());
       for (std::size_t g = 0; g < before.size(); ++g) changed[g] = before[g] != artist.labels()[g];

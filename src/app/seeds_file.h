@@ -14,6 +14,10 @@ namespace splatcut {
 Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where);
 Strokes load_seeds(const std::filesystem::path& path);
 
+// Beside them an optional "choice": 1, 2 or 3, which of its meanings the first click has, by likelihood and
+// as the window numbers them. Returns 0, 1 or 2; 0 where there is none.
+int choice_from_json(const nlohmann::json& seeds, const std::string& where);
+
 // Throws Error where there is no such file or it is not JSON.
 nlohmann::json read_seeds_json(const std::filesystem::path& path);
 

@@ -92,7 +92,7 @@ std::vector<Command> PointerTools::click(const ToolContext& context) {
       stroke.radius_px *= context.pixels_per_point;
       scale_armed_ = stroke.label == SeedLabel::kObject;
       scale_at_ = pressed_;
-      return {AddStroke{context.pane_camera, std::move(stroke), context.seen}};
+      return {AddStroke{context.pane_camera, std::move(stroke), context.seen()}};
     }
     case Tool::kPolygon:
       if (right) return confirm(context);
@@ -131,10 +131,10 @@ std::vector<Command> PointerTools::finish_shape(const ToolContext& context) {
     case Tool::kScribble: {
       const bool rest = button_ == PointerButton::kRight || modifiers_.ctrl;
       return {AddStroke{camera, Stroke{rest ? SeedLabel::kRest : SeedLabel::kObject, 0.5f * radius, path},
-                        context.seen}};
+                        context.seen()}};
     }
     case Tool::kBox:
-      return path.size() == 2 ? std::vector<Command>{AddBox{camera, path[0], path[1], context.seen}}
+      return path.size() == 2 ? std::vector<Command>{AddBox{camera, path[0], path[1], context.seen()}}
                               : std::vector<Command>{};
     case Tool::kBrush:
       return region(brush_region(path, radius, camera.width_px, camera.height_px));

@@ -27,9 +27,9 @@ struct ToolContext {
   CameraController& camera;
   const ViewState& view;
   Camera pane_camera;  // of the pane under the pointer, in viewport pixels
-  Flags seen;          // Gaussians that the pane shows; null: all
   float pixels_per_point = 1;
   std::function<std::optional<PickedPoint>(const glm::vec2& pixel)> pick;  // the visible surface
+  std::function<Flags()> seen;  // Gaussians that the pane shows; null: all
 };
 
 // What the interface draws over the picture while a tool is at work.

@@ -232,6 +232,7 @@ class Studio {
   void take_picture();
   Flight flight() const;
   ToolContext tool_context(const glm::vec2& pixel);
+  Flags seen(int pane) const;  // what is drawn there now; null: all
   glm::vec2 in_pane(const glm::vec2& pixel) const;
   Camera pane_camera() const;
 
@@ -271,6 +272,10 @@ class Studio {
     Camera camera;
     glm::vec2 pixel{0};
     bool rest = false;
+    bool same_but_pixel(const HoverAsk& other) const {
+      return document == other.document && view == other.view && rest == other.rest &&
+             same_camera(camera, other.camera);
+    }
   };
   std::optional<HoverAsk> hover_;
   Flags active_labels_;         // of the active object, as they are shown

@@ -92,7 +92,9 @@ const ClickMeanings* Studio::meanings(const ObjectItem& object) const {
 
 const ClickMeanings* Studio::offer() const {
   const ObjectItem* object = document().active_object();
-  if (!object || object->locked || view_.tool != Tool::kClick || strokes_of(*object) != 1) return nullptr;
+  if (!object || object->locked || view_.tool != Tool::kClick || view_.display != DisplayMode::kWhole ||
+      view_.heat || strokes_of(*object) != 1)
+    return nullptr;
   const ClickMeanings* known = meanings(*object);
   return known && known->outlines.size() > 1 && known->key != declined_offer_ ? known : nullptr;
 }
@@ -137,8 +139,7 @@ std::optional<Studio::HoverAsk> Studio::hover_wanted() const {
   if (!picture_ || !picture_->full || !same_camera(picture_->frames.front()->camera, camera)) return {};
   const auto hit = pick(tools_.pointer_px());
   if (!hit) return {};
-  const bool on_object =
-      active_labels_ && (*active_labels_)[static_cast<std::size_t>(hit->gaussian)] != 0;
+  const bool on_object = active_labels_ && (*active_labels_)[static_cast<std::size_t>(hit->gaussian)] != 0;
   const bool corrects = active && any_mark(*active);
   return HoverAsk{document_serial_, view_serial_, camera, glm::floor(tools_.pointer_px()),
                   corrects && (on_object || held_modifiers_.ctrl)};
@@ -153,35 +154,33 @@ void Studio::refresh_hover() {
     hover_.reset();
     return;
   }
-  const auto same = [&](const HoverAsk& a, const HoverAsk& b) {
-    return a.document == b.document && a.view == b.view && a.rest == b.rest && same_camera(a.camera, b.camera);
-  };
-  if (hover_ && same(*hover_, *ask) && hover_->pixel == ask->pixel) return;
+  if (hover_ && hover_->same_but_pixel(*ask) && hover_->pixel == ask->pixel) return;
   if (tasks_.busy(TaskKind::kHover)) return;
   hover_ = ask;
   const ObjectItem* object = document().active_object();
   const ObjectItem none;
-  CameraStroke stroke{ask->camera, click(tools_.pointer_px(), ask->rest ? SeedLabel::kRest : SeedLabel::kObject),
-                      within_far_plane(*scene_->cloud, ask->camera, shown(0), depth_range().far_plane)};
+  CameraStroke stroke{ask->camera,
+                      click(tools_.pointer_px(), ask->rest ? SeedLabel::kRest : SeedLabel::kObject), seen(0)};
   stroke.stroke.radius_px *= pixels_per_point_;
   if (object) stroke.camera = known_camera(*object, stroke.camera);
-  tasks_.submit(TaskKind::kHover, [this, same, ask = *ask, stroke, session = session_, scene = scene_,
+  tasks_.submit(TaskKind::kHover, [this, ask = *ask, stroke, session = session_, scene = scene_,
                                    request = cut_request(document(), object ? *object : none),
-                                   settings = cut_settings(document(), object ? *object : none)](const Job& job) {
+                                   settings =
+                                       cut_settings(document(), object ? *object : none)](const Job& job) {
     const Session::Preview preview = session->preview(request, stroke, settings, {job.stop, {}});
     if (preview.after.empty()) return;
     std::vector<std::uint8_t> change(preview.after.size());
     std::ranges::transform(preview.before, preview.after, change.begin(),
                            [](std::uint8_t before, std::uint8_t after) { return before != after ? 1 : 0; });
-    tasks_.post([this, same, ask, scene, change = make_flags(std::move(change))] {
-      if (scene == scene_ && hover_ && same(*hover_, ask)) show_hover(change, ask.rest);
+    tasks_.post([this, ask, scene, change = make_flags(std::move(change))] {
+      if (scene == scene_ && hover_ && hover_->same_but_pixel(ask)) show_hover(change, ask.rest);
     });
   });
   if (options_.inline_tasks) tasks_.deliver();
 }
 
 void Studio::show_hover(const Flags& change, bool rest) {
-  constexpr Rgb8 kAdds{255, 255, 255}, kRemoves{245, 95, 90};
+  constexpr Rgb8 kAdds{255, 255, 255}, kRemoves{225, 25, 60};
   FrameStyle& style = style_[0];
   const bool same = style.highlight && change ? *style.highlight == *change : style.highlight == change;
   if (same && style.highlight_colour == (rest ? kRemoves : kAdds)) return;

@@ -52,14 +52,17 @@ glm::vec2 Studio::in_pane(const glm::vec2& pixel) const {
 }
 
 ToolContext Studio::tool_context(const glm::vec2& pixel) {
-  const bool second = panes() == 2 && pixel.x >= 0.5f * static_cast<float>(width_px_);
-  const Camera camera = pane_camera();
+  const int pane = panes() == 2 && pixel.x >= 0.5f * static_cast<float>(width_px_) ? 1 : 0;
   return {camera_,
           view_,
-          camera,
-          within_far_plane(*scene_->cloud, camera, shown(second ? 1 : 0), depth_range().far_plane),
+          pane_camera(),
           pixels_per_point_,
-          [this](const glm::vec2& at) { return pick(at); }};
+          [this](const glm::vec2& at) { return pick(at); },
+          [this, pane] { return seen(pane); }};
+}
+
+Flags Studio::seen(int pane) const {
+  return within_far_plane(*scene_->cloud, viewport_camera(), shown(pane), depth_range().far_plane);
 }
 
 std::optional<PickedPoint> Studio::pick(const glm::vec2& pixel) const {

@@ -138,7 +138,7 @@ void draw_badge(const UiContext& ui, ImDrawList& list, const ImVec2& at, int num
 void draw_offer(const UiContext& ui, ImDrawList& list, const Placement& place, const UiRect& area) {
   const ClickMeanings* offer = ui.studio.offer();
   const Camera now = ui.studio.viewport_camera();
-  if (!offer || ui.studio.panes() != 1 || !same_pose(offer->camera, now)) return;
+  if (!offer || !same_pose(offer->camera, now)) return;
   const Placement there = placement_of(offer->camera, now, place);
   const int taken = ui.studio.document().active_object()->choice;
   std::vector<ImVec2> apart;
