@@ -45,19 +45,27 @@ bool Studio::hits_anything(const AddStroke& c) const {
                    to = glm::clamp(glm::ceil(high + reach) + 1.0f, glm::vec2(0), most);
   const PixelRect around{from.x, from.y, to.x, to.y};
   if (around.empty()) return false;
-  RasterOptions options;
-  options.colour = false;
-  options.near_plane = depth_range().near_plane;
-  options.roi = around;
-  if (c.seen) options.shown = *c.seen;
-  const Image<float> alpha = rasterize(*scene_->cloud, c.camera, options).alpha;
-  return std::ranges::any_of(c.stroke.points_px, [&](const glm::vec2& p) {
-    for (int y = 0; y < alpha.height(); ++y)
-      for (int x = 0; x < alpha.width(); ++x)
-        if (alpha.at(x, y) >= kLeastAlpha && glm::distance(glm::vec2(from) + glm::vec2(x, y), p) <= reach)
-          return true;
-    return false;
-  });
+  const bool on_screen = panes() == 1 && picture_ && picture_->full && picture_->range == depth_range() &&
+                         same_camera(picture_->frames.front()->camera, c.camera);
+  Image<float> drawn;
+  if (!on_screen) {
+    RasterOptions options;
+    options.colour = false;
+    options.near_plane = depth_range().near_plane;
+    options.roi = around;
+    if (c.seen) options.shown = *c.seen;
+    drawn = rasterize(*scene_->cloud, c.camera, options).alpha;
+  }
+  const auto alpha = [&](int x, int y) {
+    return on_screen ? picture_->frames.front()->alpha.at(x, y) : drawn.at(x - from.x, y - from.y);
+  };
+  for (int y = from.y; y < to.y; ++y)
+    for (int x = from.x; x < to.x; ++x) {
+      if (alpha(x, y) < kLeastAlpha) continue;
+      const auto within = [&](const glm::vec2& p) { return glm::distance(glm::vec2(x, y), p) <= reach; };
+      if (std::ranges::any_of(c.stroke.points_px, within)) return true;
+    }
+  return false;
 }
 
 // Said where the click tells what is on the screen already; else empty.
@@ -118,14 +126,18 @@ void Studio::perform(const StepScale& c) {
   const std::string reason = why_not_step(c.steps);
   if (!reason.empty()) throw Error(c.steps > 0 ? "larger part" : "smaller part", reason);
   Document after = history_.now();
-  std::string message = edit(&after, c, context());
-  ObjectItem& object = *after.find(after.active);
-  const ClickMeanings* known = meanings(object);
-  if (known && known->choice == object.choice) {
+  const ObjectItem* active = document().active_object();
+  const ClickMeanings* known = active ? meanings(*active) : nullptr;
+  if (known && known->choice != active->choice) known = nullptr;
+  const auto limit = [&] {  // steps that were asked for before anybody knew the sizes
     const auto likeliest = static_cast<int>(known->likeliest_size), sizes = static_cast<int>(known->sizes);
-    object.part_step = std::clamp(object.part_step, -likeliest, sizes - 1 - likeliest);
-    message += fmt::format(": size {} of {}", likeliest + object.part_step + 1, sizes);
-  }
+    int& step = after.find(after.active)->part_step;
+    step = std::clamp(step, -likeliest, sizes - 1 - likeliest);
+    return fmt::format(": size {} of {}", likeliest + step + 1, sizes);
+  };
+  if (known) limit();
+  std::string message = edit(&after, c, context());
+  if (known) message += limit();
   push(c.steps > 0 ? "Larger part" : "Smaller part", std::move(after), {}, message);
 }
 

@@ -439,17 +439,26 @@ std::span<const Mask> ClickSelection::meanings() const {
 std::shared_ptr<const ClickSelection::FirstPick> ClickSelection::first_pick(
     const Click& click, const std::vector<Chain>& chains, const std::vector<Candidate>& candidates) const {
   constexpr std::size_t kMostMeanings = 3;
-  constexpr double kClearly = 0.8;  // IoU below which a person sees two things
+  constexpr float kClearly = 0.8f;  // IoU below which a person sees two things
   FirstPick pick{chains, candidates, {}, {}};
-  std::vector<std::uint8_t> leaves(parts_.leaves);
+  std::vector<std::vector<std::uint8_t>> taken;  // leaves of each
+  const auto alike = [&](const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+    float both = 0, either = 0;  // pixels
+    for (std::uint32_t l = 0; l < parts_.leaves; ++l) {
+      both += a[l] && b[l] ? click.view.leaf_px[l] : 0;
+      either += a[l] || b[l] ? click.view.leaf_px[l] : 0;
+    }
+    return both >= kClearly * either;
+  };
   for (const Candidate& candidate : candidates) {
     if (pick.meant.size() == kMostMeanings || candidate.cost > candidates.front().cost + kOffered) break;
+    std::vector<std::uint8_t> leaves(parts_.leaves);
     for (std::uint32_t l = 0; l < parts_.leaves; ++l)
       leaves[l] = chains[candidate.tree].level[l] <= candidate.index;
-    Mask mask = shown(click.view.leaves, click.view.camera, leaves);
-    if (std::ranges::any_of(pick.masks, [&](const Mask& m) { return iou(m, mask) >= kClearly; })) continue;
+    if (std::ranges::any_of(taken, [&](const auto& other) { return alike(other, leaves); })) continue;
     pick.meant.push_back(candidate);
-    pick.masks.push_back(std::move(mask));
+    pick.masks.push_back(shown(click.view.leaves, click.view.camera, leaves));
+    taken.push_back(std::move(leaves));
   }
   return std::make_shared<const FirstPick>(std::move(pick));
 }
