@@ -46,13 +46,17 @@ struct Toy {
   AnyViewWorld world;
   std::vector<std::pair<Mask, Mask>> answers;
   std::size_t asked = 0;
+  std::vector<Mask> meanings;  // of the first click
+  std::vector<int> choices;    // with which it was asked
 
   Toy(Mask truth_0, Mask truth_1) {
     world.views = {{camera_called("0"), std::move(truth_0)}, {camera_called("1"), std::move(truth_1)}};
-    world.cut = [this](std::span<const ViewClick> clicks, const Job&) {
-      REQUIRE(clicks.size() == asked + 1);  // all that were made so far
+    world.cut = [this](std::span<const ViewClick> clicks, int choice, const Job&) {
+      REQUIRE(clicks.size() == asked + (choice > 0 ? 0 : 1));  // all that were made so far
+      choices.push_back(choice);
       const auto& [a, b] = answers.at(asked++);
       CutAnswer answer;
+      answer.meanings = meanings;
       for (const Mask* m : {&a, &b})
         for (const std::uint8_t p : m->pixels()) answer.labels.push_back(p != 0);
       return answer;
@@ -105,6 +109,32 @@ TEST_CASE("any view: clicks, obedience, falls and clicks to a goal are those cou
   CHECK(j["noc85"] == 5);
   CHECK(j["noc90"] == 5);
   CHECK(j["obeyed"].get<double>() == doctest::Approx(0.8));
+}
+
+TEST_CASE("any view: an offered meaning is taken by what the clicked view shows, and costs a click") {
+  const Mask wide = block(2, 1, 5, 3), square = block(4, 2, 3, 3), none(kWidth, kHeight);
+  const std::vector<Mask> offered = {block(4, 2, 3, 1), none, square};  // IoU 1/3, 0, 1 in the clicked view
+  Toy toy(wide, square);
+  toy.meanings = offered;
+  toy.answers = {{none, offered[0]}, {none, square}, {wide, square}};
+  const AnyViewSession session =
+      any_view_session(toy.world, toy.start_in_1({5.5f, 2.5f}), 4, {.choices = true});
+  CHECK(session.choice == 2);
+  CHECK(toy.choices == std::vector<int>{0, 2, 2});
+  const std::vector<double> expected = {1.0 / 6, 0.5, 1, 1};
+  REQUIRE(session.iou_after.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    CHECK(session.iou_after[i] == doctest::Approx(expected[i]));
+  CHECK(session.clicks.size() == 2);
+  CHECK(session.obeyed.size() == 2);
+  for (const auto& [asked_for, third] : {std::pair{false, square}, {true, block(4, 2, 3, 1)}}) {
+    Toy other(wide, square);  // not asked for, or no better by a twentieth
+    other.meanings = {offered[0], none, third};
+    other.answers = {{none, offered[0]}, {wide, square}};
+    CHECK(any_view_session(other.world, other.start_in_1({5.5f, 2.5f}), 2, {.choices = asked_for}).choice ==
+          0);
+    CHECK(other.choices == std::vector<int>{0, 0});
+  }
 }
 
 TEST_CASE("any view: least and 10th percentile are of sessions, means are over them, never reached is 20") {

@@ -46,7 +46,7 @@ click 668 524                                   # the apple
 wait_for 240 "cutout of the apple" grep -q '"cut_is_current": *true' "$autosave"
 shot 2_clicked
 before=$(stat -c %Y.%s "$autosave")
-xdotool key 3 mousemove 660 505 mousedown 1 mousemove 668 515 mousemove 676 530 mouseup 1
+xdotool key Escape key 3 mousemove 660 505 mousedown 1 mousemove 668 515 mousemove 676 530 mouseup 1
 changed() { [ "$(stat -c %Y.%s "$autosave")" != "$before" ]; }
 wait_for 240 "new cutout after the stroke" changed
 shot 3_scribbled

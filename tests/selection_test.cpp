@@ -114,6 +114,107 @@ TEST_CASE("selection: one size smaller and larger, beyond the last there is none
   CHECK(selection.size() == 2);
 }
 
+TEST_CASE(
+    "selection: what is at least half as likely and shows something else is offered, and can be chosen") {
+  // Costs by hand: .09 ln(border / size) is -.65 for the pair, -.06 for all four, 0 for the leaf.
+  SelectionModel unsure = borders_alone();
+  unsure.cut_weight = 0.09f;
+  const PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts);
+  const std::vector<Labels> meant = {{1, 1, 0, 0}, {1, 1, 1, 1}, {1, 0, 0, 0}};
+  for (const int choice : {0, 1, 2, 9}) {
+    CAPTURE(choice);
+    ClickSelection selection(parts, unsure, 0, choice);
+    CHECK(selection.meanings().empty());
+    selection.apply(view, object(5));
+    const std::size_t taken = std::min<std::size_t>(static_cast<std::size_t>(choice), 2);
+    REQUIRE(selection.meanings().size() == 3);
+    for (std::size_t i = 0; i < 3; ++i)
+      CHECK(iou(selection.meanings()[i], shown(view.leaves, view.camera, meant[i])) == 1);
+    CHECK(selection.choice() == taken);
+    CHECK(selection.labels() == meant[taken]);
+    CHECK(selection.sizes() == 3);
+    CHECK(selection.likeliest_size() == selection.size());
+  }
+  ClickSelection smaller(parts, unsure, -1, 1);  // one size below all four
+  smaller.apply(view, object(5));
+  CHECK(smaller.labels() == meant[0]);
+  ClickSelection sure(parts, borders_alone());
+  sure.apply(view, object(5));
+  CHECK(sure.meanings().size() == 1);
+}
+
+TEST_CASE("selection: where the object was left out of the picture, a click adds what is seen behind it") {
+  const PartHierarchy parts = four_leaves();
+  ClickSelection selection(parts, borders_alone());
+  selection.apply(stripes(parts), object(5));
+  LeafView behind = stripes(parts, {2, 2, 2, 3});
+  behind.whole = false;
+  ClickSelection as_shown = selection;
+  CHECK(as_shown.apply(behind, object(5)));
+  CHECK(as_shown.labels() == Labels{1, 1, 1, 1});
+  CHECK_FALSE(as_shown.spot_alone());
+}
+
+TEST_CASE("selection: strokes speak of what was seen alone") {
+  const Table& t = table();
+  const Target mug = target(t, "mug");
+  const glm::vec2 at = robot_click(mug.truth, Mask(mug.truth.width(), mug.truth.height()))->points_px.front();
+  StrokeReplay replay(t.prepared.parts);
+  std::vector<CameraStroke> strokes = {{mug.camera, click(at, SeedLabel::kObject)}};
+  const Labels first = replay.replay(t.cloud, strokes, {}).labels();
+  auto seen = std::make_shared<Labels>(first);
+  for (std::uint8_t& s : *seen) s = s ? 0 : 1;
+  strokes.push_back({mug.camera, click(at, SeedLabel::kObject), seen});
+  const Labels hidden = replay.replay(t.cloud, strokes, {}).labels();
+  const LeafView behind = leaf_view(t.cloud, t.prepared.parts, mug.camera, {}, seen);
+  REQUIRE(covered(behind, at));
+  CHECK(shows_object(behind, hidden, at));
+  CHECK_FALSE(shows_object(behind, first, at));
+  strokes.back().seen = nullptr;  // told of the whole it is no news
+  CHECK_FALSE(shows_object(behind, replay.replay(t.cloud, strokes, {}).labels(), at));
+  CHECK(hidden == [&] {
+    StrokeReplay again(t.prepared.parts);
+    strokes.back().seen = std::make_shared<Labels>(*seen);  // the same set elsewhere
+    return again.replay(t.cloud, strokes, {}).labels();
+  }());
+}
+
+TEST_CASE("selection: a click that no part fits changes its spot and says so, one at the border does not") {
+  SelectionModel nothing_likely = borders_alone();
+  nothing_likely.disc_cost = -100;
+  const PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts);
+  for (const auto& [x, alone] : {std::pair{30.0f, true}, {22.0f, false}}) {
+    CAPTURE(x);
+    ClickSelection selection(parts, nothing_likely);
+    selection.apply(view, object(5));
+    CHECK_FALSE(selection.spot_alone());
+    selection.apply(view, object(x));
+    CHECK(selection.spot_alone() == alone);
+  }
+}
+
+TEST_CASE("selection: a click on what is shown so already holds it and flips nothing that shines through") {
+  PartHierarchy parts = four_leaves();
+  LeafView view = stripes(parts);
+  ClickSelection selection(parts, borders_alone());
+  selection.apply(view, object(5));
+  // Leaf 1 shines through leaf 3 in another view, and nowhere else.
+  LeafView other = stripes(parts, {-1, -1, 2, 3});
+  PixelWeights veiled;
+  veiled.first.push_back(0);
+  for (std::size_t i = 0; i < 400; ++i) {
+    for (const GroupWeight& w : other.gaussians.at(i)) veiled.entry.push_back({w.group, 0.9f});
+    if (!other.gaussians.at(i).empty() && other.gaussians.at(i).front().group == 3)
+      veiled.entry.push_back({1, 0.1f});
+    veiled.first.push_back(static_cast<std::uint32_t>(veiled.entry.size()));
+  }
+  other.gaussians = veiled;
+  selection.apply(other, rest(35));
+  CHECK(selection.labels() == Labels{1, 1, 0, 0});
+}
+
 TEST_CASE("selection: a rest click after the whole was taken asks for another part of the first click") {
   CHECK(selected({object(5)}, 1) == Labels{1, 1, 1, 1});
   CHECK(selected({object(5), rest(35)}, 1) == Labels{1, 1, 0, 0});

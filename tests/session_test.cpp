@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <set>
 
+#include "app/lab/robot_user.h"
 #include "scene/still_life/still_life.h"
+#include "segment/doubts.h"
+#include "segment/mask_tools.h"
 
 using namespace splatcut;
 
@@ -225,6 +228,68 @@ TEST_CASE("session: keys of two requests differ where anything that is said does
   std::set<std::string> keys;
   for (const CutRequest& request : requests) keys.insert(key_of(request));
   CHECK(keys.size() == requests.size());
+}
+
+TEST_CASE("session: a preview is what the next click makes of the parts, and leaves no trace") {
+  auto [request, settings] = click_on("mug");
+  settings.parts_only = true;
+  settings.join_enclosed = false;
+  Session session = fresh_session();
+  const StrokedView behind = stroke_from_behind("apple", SeedLabel::kObject);
+  const CameraStroke next{behind.camera, click(behind.strokes.front().points_px.front(), SeedLabel::kObject)};
+  CutRequest nothing, told = request;
+  told.strokes.push_back({next.camera, {next.stroke}});
+  const CameraStroke first{request.strokes.front().camera, request.strokes.front().strokes.front()};
+  const Session::Preview before_all = session.preview(nothing, first, settings);
+  CHECK(std::ranges::count(before_all.before, 1) == 0);
+  CHECK(before_all.after == fresh_session().cut(request, settings).labels);
+  const Session::Preview preview = session.preview(request, next, settings);
+  CHECK(preview.before == before_all.after);
+  CHECK(preview.after == fresh_session().cut(told, settings).labels);
+  CHECK(preview.after != preview.before);
+  CHECK(session.cut(request, settings).labels == preview.before);
+  CHECK(session.cut(told, settings).labels == preview.after);
+  std::stop_source stop;
+  stop.request_stop();
+  CHECK(fresh_session()
+            .preview(request, next, settings, {.stop = stop.get_token(), .on_progress = {}})
+            .after.empty());
+}
+
+TEST_CASE(
+    "session: things of one colour that touch are parted by three corrections, or it says that it cannot") {
+  StillLifeOptions options;
+  options.gaussians = 40000;
+  options.contact = options.low_contrast = true;
+  const LabelledScene scene = make_still_life(options);
+  const auto cloud = std::make_shared<const GaussianCloud>(scene.cloud);
+  Session session({cloud,
+                   std::make_shared<const PreparedScene>(
+                       prepare_scene(*cloud, scene.cameras.front(), {0, -1, 0}, scene.cameras)),
+                   {0, -1, 0},
+                   {}});
+  for (const std::string name : {"apple", "mug", "orange"}) {
+    CAPTURE(name);
+    const auto seed = std::ranges::find(scene.seeds, name, &LabelledScene::SeedClick::object);
+    const Camera& camera = scene.cameras[static_cast<std::size_t>(seed->camera)];
+    const auto number = std::ranges::find(scene.label_name, name) - scene.label_name.begin();
+    std::vector<std::uint8_t> labels(scene.label.size());
+    for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = scene.label[g] == number;
+    const Mask truth = thresholded(render_labels(*cloud, camera, labels), 0.5f);
+    CutRequest request;
+    request.strokes = {{camera, {click(seed->pixel, SeedLabel::kObject)}}};
+    bool says_so = false;
+    double agrees = 0;
+    for (int corrections = 0; corrections <= 3; ++corrections) {
+      const CutResult result = session.cut(request, preset("fast"));
+      const Mask shown = thresholded(render_labels(*cloud, camera, result.labels), 0.5f);
+      agrees = iou(shown, truth);
+      says_so |= !doubts(result).empty();
+      if (const auto next = robot_click(truth, shown)) request.strokes.front().strokes.push_back(*next);
+    }
+    MESSAGE(name, ": IoU ", agrees, std::string(says_so ? ", in doubt" : ""));
+    CHECK((agrees > 0.85 || says_so));
+  }
 }
 
 TEST_CASE("session: snapshots tell how far the cut is") {

@@ -86,7 +86,12 @@ const std::map<Action, Check> kChecks = {
     {Action::kQuit, dialog()},  // asks, as the work is not saved
     {Action::kUndo, [](HeadlessApp& app, const Before&) { return app.studio().history().can_redo(); }},
     {Action::kRedo, [](HeadlessApp& app, const Before&) { return !app.studio().history().can_redo(); }},
-    {Action::kCancel, tool_is(Tool::kNavigate)},
+    {Action::kCancel,
+     [](HeadlessApp& app, const Before& before) {
+       if (app.studio().view().tool == before.view.tool)
+         app.key(key::kEscape);  // the first took the offer away
+       return app.studio().view().tool == Tool::kNavigate;
+     }},
     {Action::kConfirm, selected([](auto now, auto before, auto) { return now > before; })},
     {Action::kRecompute,
      [](HeadlessApp& app, const Before&) { return app.studio().cutting() && app.settle(); }},

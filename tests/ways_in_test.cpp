@@ -468,6 +468,28 @@ TEST_CASE("what is claimed by two is the later one's") {
   }
 }
 
+TEST_CASE("a choice in the seeds takes another meaning of the first click") {
+  const Workplace& place = still_life().place;
+  const auto labels = [&](const json& seeds, const std::string& file) {
+    place.write("choice.json", seeds.dump());
+    const Result result =
+        place.run(still_life().cut("--seeds choice.json --parts-only --overwrite -o chosen"));
+    REQUIRE_MESSAGE(result.code == 0, result.err);
+    return place.text("chosen/" + file);
+  };
+  int others = 0;
+  for (const char* thing : {"mug", "books", "plant", "pot"}) {
+    const json clicks = one_click(thing);
+    const std::string likeliest = labels({{"clicks", clicks}}, "labels.u8");
+    CHECK(labels({{"clicks", clicks}, {"choice", 1}}, "labels.u8") == likeliest);
+    const std::string second = labels({{"clicks", clicks}, {"choice", 2}}, "labels.u8");
+    others += second != likeliest;
+    const json named = {{"objects", json::array({json{{"name", "it"}, {"clicks", clicks}, {"choice", 2}}})}};
+    CHECK(labels(named, "it.labels.u8") == second);
+  }
+  CHECK(others > 0);
+}
+
 TEST_CASE("files of objects that cannot be used are refused") {
   const Workplace& place = still_life().place;
   const json clicks = one_click("apple");
@@ -489,6 +511,8 @@ TEST_CASE("files of objects that cannot be used are refused") {
        {"5000", "outside"});
   with(json::array({json{{"name", "apple"}, {"clicks", json::array({json{{"x", "left"}}})}}}),
        {"object 0", "form"});
+  with(json::array({json{{"name", "apple"}, {"choice", 4}, {"clicks", clicks}}}), {"object 0", "\"choice\""});
+  with(json::array({json{{"name", "apple"}, {"choice", "second"}, {"clicks", clicks}}}), {"1, 2 or 3"});
   with(json::array({apple}), {"--click", "in the file"}, " --click 5,5");
   place.write(
       "objects.json",

@@ -126,8 +126,8 @@ std::vector<NamedSeeds> load_named_seeds(const std::filesystem::path& path) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string where = fmt::format("{}: object {}", path.string(), i);
     if (!list[i].is_object()) throw Error(where, "is not an object with \"name\" and \"clicks\"");
-    objects.push_back(
-        {name_of(list[i], where), camera_of(list[i], where), strokes_from_json(list[i], where)});
+    objects.push_back({name_of(list[i], where), camera_of(list[i], where), strokes_from_json(list[i], where),
+                       choice_from_json(list[i], where)});
     if (objects.back().strokes.empty()) throw Error(where, "holds neither clicks nor scribbles");
   }
   check_names(objects, path.string());
@@ -146,6 +146,7 @@ json cut_many_objects(const ManyObjects& in, Session* session, const OutputFolde
     if (job.cancelled()) return {};
     CutRequest request;
     request.strokes = {{object.camera, object.seeds->strokes}};
+    request.choice = object.seeds->choice;
     request.part_step = in.part_step;
     object.result = session->cut(request, in.settings, job);
     if (object.result.outcome == Outcome::kCancelled) return {};

@@ -23,11 +23,12 @@ struct NamedSeeds {
   std::string name;                   // names the files
   std::optional<std::string> camera;  // of --cameras, by name or number; otherwise the reference
   Strokes strokes;
+  int choice = 0;  // see CutRequest
 };
 
-// {"objects": [{"name", "camera", "clicks", "scribbles"}, ...]}, as load_seeds() for each; "object" is read
-// as "name", too (make-scene writes it). Empty where the file has no "objects". Throws Error naming the
-// entry.
+// {"objects": [{"name", "camera", "clicks", "scribbles", "choice"}, ...]}, as load_seeds() for each; "object"
+// is read as "name", too (make-scene writes it). Empty where the file has no "objects". Throws Error naming
+// the entry.
 std::vector<NamedSeeds> load_named_seeds(const std::filesystem::path& path);
 
 // Throws Error for strokes outside of the camera's picture.

@@ -48,6 +48,14 @@ Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where)
   return strokes;
 }
 
+int choice_from_json(const nlohmann::json& seeds, const std::string& where) {
+  if (!seeds.is_object() || !seeds.contains("choice")) return 0;
+  const nlohmann::json& choice = seeds.at("choice");
+  if (!choice.is_number_integer() || choice < 1 || choice > 3)
+    throw Error(where, "\"choice\" is not 1, 2 or 3", "1 is what the first click means most likely");
+  return choice.get<int>() - 1;
+}
+
 nlohmann::json read_seeds_json(const std::filesystem::path& path) {
   return json_of_file(path);
 }

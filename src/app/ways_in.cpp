@@ -38,7 +38,10 @@ Meant WaysIn::read(const CameraOptions& camera) const {
   meant.masks_folder = masks_folder;
   if (by_text) meant.segmenter = make_segmenter({text, segmenter});
   if (!seeds.empty()) meant.objects = load_named_seeds(seeds);
-  if (!seeds.empty() && meant.objects.empty()) meant.strokes = load_seeds(seeds);
+  if (!seeds.empty() && meant.objects.empty()) {
+    meant.strokes = load_seeds(seeds);
+    meant.choice = choice_from_json(read_seeds_json(seeds), seeds.string());
+  }
   for (const std::string& pixel : clicks) meant.strokes.push_back(parse_click(pixel));
   if (!meant.objects.empty() && !meant.strokes.empty())
     throw Error("--click", "belongs to no object, as --seeds holds several",
@@ -58,6 +61,7 @@ Meant WaysIn::read(const CameraOptions& camera) const {
 CutRequest request_of(const Meant& meant, const CameraOptions& camera, const GaussianCloud& cloud,
                       const Job& job, ChosenCamera* chosen, std::string* warning) {
   CutRequest request;
+  request.choice = meant.choice;
   if (!meant.strokes.empty()) request.strokes = {{chosen->camera, meant.strokes}};
   if (!meant.mask.empty()) request.first_mask = {chosen->camera, read_given_mask(meant.mask, chosen->camera)};
   if (meant.segmenter)

@@ -19,6 +19,7 @@ namespace splatcut {
 // What was said, read and checked as far as that needs no scene.
 struct Meant {
   Strokes strokes;
+  int choice = 0;                   // of the first click's meanings
   std::vector<NamedSeeds> objects;  // several, each with strokes of its own
   std::filesystem::path mask, masks_folder;
   std::optional<Segmenter> segmenter;

@@ -14,14 +14,26 @@ bool same_camera(const Camera& a, const Camera& b) {
          a.camera_from_world_translation == b.camera_from_world_translation;
 }
 
+namespace {
+
+constexpr float kSame = 1e-5f;
+
+bool near(float x, float y, float size) {
+  return std::abs(x - y) <= kSame * size;
+}
+
+}  // namespace
+
 bool same_view(const Camera& a, const Camera& b) {
-  constexpr float kSame = 1e-5f;
-  const auto near = [](float x, float y, float size) { return std::abs(x - y) <= kSame * size; };
   const auto width = static_cast<float>(a.width_px), height = static_cast<float>(a.height_px);
   if (a.width_px != b.width_px || a.height_px != b.height_px || !near(a.fx_px, b.fx_px, std::abs(a.fx_px)) ||
       !near(a.fy_px, b.fy_px, std::abs(a.fy_px)) || !near(a.cx_px, b.cx_px, width) ||
       !near(a.cy_px, b.cy_px, height))
     return false;
+  return same_pose(a, b);
+}
+
+bool same_pose(const Camera& a, const Camera& b) {
   for (int column = 0; column < 3; ++column)
     for (int row = 0; row < 3; ++row)
       if (!near(a.camera_from_world_rotation[column][row], b.camera_from_world_rotation[column][row], 1))

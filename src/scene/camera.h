@@ -40,6 +40,9 @@ bool same_camera(const Camera& a, const Camera& b);  // names apart
 // computed another way.
 bool same_view(const Camera& a, const Camera& b);
 
+// Place and direction alone, up to the same.
+bool same_pose(const Camera& a, const Camera& b);
+
 // A camera at `position` that sees `target` in the middle, `up` pointing up in the picture.
 // fov_y_rad: vertical field of view, (0, pi). Throws Error where position equals target or up is parallel.
 Camera look_at(const glm::vec3& position, const glm::vec3& target, const glm::vec3& up, float fov_y_rad,

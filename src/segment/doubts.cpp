@@ -38,11 +38,24 @@ void add_doubts_of_first(const ViewReport& view, std::vector<std::string>* sente
 }  // namespace
 
 std::vector<std::string> doubts(const CutResult& result, double view_agreement) {
-  std::vector<std::string> sentences = doubts_of_views(result.views, view_agreement);
+  std::vector<std::string> sentences = doubts_of(result, view_agreement);
+  if (result.meanings.size() > 1)
+    sentences.insert(sentences.begin(), fmt::format("the first click could mean one of {} things: this is {}",
+                                                    result.meanings.size(), result.choice + 1));
   if (result.ambiguous)
     sentences.insert(sentences.begin(),
                      fmt::format("the first click could mean a part of another size: this is size {} of {}",
                                  result.size + 1, result.sizes));
+  return sentences;
+}
+
+std::vector<std::string> doubts_of(const CutResult& result, double view_agreement) {
+  std::vector<std::string> sentences = doubts_of_views(result.views, view_agreement);
+  if (result.spot_alone)
+    sentences.insert(
+        sentences.begin(),
+        "the last click changed the spot around it alone, as no part of the scene ends there: where two "
+        "things touch, scribble on both sides of their border or use the brush");
   return sentences;
 }
 

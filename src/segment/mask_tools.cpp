@@ -101,6 +101,20 @@ Image<float> distance_inside(const Mask& mask) {
   return out;
 }
 
+std::vector<std::vector<glm::vec2>> outlines(const Mask& mask, int least_px) {
+  std::vector<std::vector<cv::Point>> borders;
+  cv::findContours(as_const_mat(mask).clone(), borders, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::erase_if(borders, [&](const auto& border) { return cv::contourArea(border) < least_px; });
+  std::ranges::stable_sort(borders, std::ranges::greater(),
+                           [](const auto& border) { return cv::contourArea(border); });
+  std::vector<std::vector<glm::vec2>> out;
+  for (const auto& border : borders) {
+    out.emplace_back();
+    for (const cv::Point& p : border) out.back().emplace_back(p.x + 0.5f, p.y + 0.5f);
+  }
+  return out;
+}
+
 Mask largest_region(const Mask& mask) {
   cv::Mat region, statistics, centroids;
   const int regions = cv::connectedComponentsWithStats(as_const_mat(mask), region, statistics, centroids, 8);

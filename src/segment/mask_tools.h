@@ -29,6 +29,10 @@ PixelRect grown(const PixelRect& rect, int margin_px, int width, int height);  /
 // Distance of each object pixel to the nearest other pixel or to the frame, px.
 Image<float> distance_inside(const Mask& mask);
 
+// Closed outer borders of the 8-connected regions of at least that many pixels, the largest first; points in
+// pixels, centres at +0.5.
+std::vector<std::vector<glm::vec2>> outlines(const Mask& mask, int least_px = 12);
+
 // The largest 8-connected region.
 Mask largest_region(const Mask& mask);
 

@@ -26,6 +26,10 @@ void draw_disc(const glm::vec2& centre, float radius, std::uint8_t value, Image<
 
 }  // namespace
 
+bool same_set(const SeenGaussians& a, const SeenGaussians& b) {
+  return a == b || (a && b && *a == *b);
+}
+
 Stroke click(const glm::vec2& pixel, SeedLabel label) {
   return {label, 2, {pixel}};
 }

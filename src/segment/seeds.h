@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "scene/image.h"
@@ -19,6 +20,11 @@ struct Stroke {
 };
 
 using Strokes = std::vector<Stroke>;
+
+// What was on the screen as a stroke was made: a byte per Gaussian of the cloud, 0 where it was left out;
+// null: all of them.
+using SeenGaussians = std::shared_ptr<const std::vector<std::uint8_t>>;
+bool same_set(const SeenGaussians& a, const SeenGaussians& b);
 
 Stroke click(const glm::vec2& pixel, SeedLabel label);
 

@@ -63,6 +63,24 @@ bool shows(const Mask& mask, const Stroke& stroke, float within_px) {
   return false;
 }
 
+// The offered meaning that a person would take, seeing the clicked view alone; 0: the likeliest stays.
+int better_meaning(const AnyViewWorld& world, const Camera& clicked, const std::vector<Mask>& meanings) {
+  constexpr double kWorthAClick = 0.05;
+  const auto view =
+      std::ranges::find_if(world.views, [&](const TruthView& v) { return same_camera(v.camera, clicked); });
+  if (view == world.views.end()) return 0;
+  int best = 0;
+  double least = 0;
+  for (std::size_t i = 0; i < meanings.size(); ++i) {
+    const double agrees =
+        iou(resized_mask(meanings[i], view->truth.width(), view->truth.height()), view->truth);
+    if (i > 0 && agrees < least) continue;
+    best = static_cast<int>(i);
+    least = i == 0 ? agrees + kWorthAClick : agrees;
+  }
+  return best;
+}
+
 template <class T>
 std::shared_ptr<const T> borrowed(const T* value) {
   return {std::shared_ptr<void>(), value};
@@ -93,25 +111,30 @@ double AnyViewSession::worst_fall() const {
 }
 
 AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& start, int clicks,
-                                std::uint64_t draw, const Job& job) {
+                                const AnyViewHand& hand, const Job& job) {
   using Clock = std::chrono::steady_clock;
-  AnyViewSession session{.start = start.name, .draw = draw};
-  std::vector<Mask> shown;
+  AnyViewSession session{.start = start.name, .draw = hand.draw};
+  std::vector<Mask> shown, meanings;
   double ms = 0;
   for (int i = 0; i < clicks && !job.cancelled(); ++i) {
     std::optional<ViewClick> next = ViewClick{start.camera, start.first};
-    if (i > 0) next = next_click(world, shown, draw_of(draw, static_cast<std::size_t>(i)));
+    if (i > 0) next = next_click(world, shown, draw_of(hand.draw, static_cast<std::size_t>(i)));
+    if (i == 1 && next && hand.choices) session.choice = better_meaning(world, start.camera, meanings);
+    const bool chooses = i == 1 && session.choice > 0;
     if (next) {
-      session.clicks.push_back(*next);
+      if (!chooses) session.clicks.push_back(*next);
       const auto began = Clock::now();
-      CutAnswer answer = world.cut(session.clicks, job);
+      CutAnswer answer = world.cut(session.clicks, session.choice, job);
       ms += std::chrono::duration<double, std::milli>(Clock::now() - began).count();
       if (job.cancelled()) break;
       shown = pictures(world, answer.labels);
-      const Mask here = world.picture(next->camera, answer.labels);
-      session.obeyed.push_back(shows(here, next->stroke, kNearPx));
-      session.obeyed_pixel.push_back(shows(here, next->stroke, 0));
-      session.doubts.push_back(std::move(answer.doubts));
+      meanings = std::move(answer.meanings);
+      if (!chooses) {
+        const Mask here = world.picture(next->camera, answer.labels);
+        session.obeyed.push_back(shows(here, next->stroke, kNearPx));
+        session.obeyed_pixel.push_back(shows(here, next->stroke, 0));
+        session.doubts.push_back(std::move(answer.doubts));
+      }
     }
     session.iou_after.push_back(mean_iou(world, shown));
   }
@@ -120,7 +143,7 @@ AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& s
 }
 
 double iou_of_clicks(const AnyViewWorld& world, std::span<const ViewClick> clicks, const Job& job) {
-  const CutAnswer answer = world.cut(clicks, job);
+  const CutAnswer answer = world.cut(clicks, 0, job);
   return job.cancelled() ? 0 : mean_iou(world, pictures(world, answer.labels));
 }
 
@@ -130,11 +153,12 @@ WindowCut::WindowCut(const EvaluationCase& scene, const std::string& preset, con
   session_.make_ready(settings_, job);  // belongs to loading, as in the window
 }
 
-CutAnswer WindowCut::operator()(std::span<const ViewClick> in_order, const Job& job) {
+CutAnswer WindowCut::operator()(std::span<const ViewClick> in_order, int choice, const Job& job) {
   CutRequest request;
+  request.choice = choice;
   for (const ViewClick& click : in_order) request.strokes.push_back({click.camera, {click.stroke}});
   CutResult result = session_.cut(request, settings_, {job.stop, {}});
-  CutAnswer answer{std::move(result.labels), doubts(result)};
+  CutAnswer answer{std::move(result.labels), doubts(result), std::move(result.meanings)};
   if (result.outcome == Outcome::kNothingFound) answer.doubts.insert(answer.doubts.begin(), result.reason);
   return answer;
 }
@@ -142,8 +166,8 @@ CutAnswer WindowCut::operator()(std::span<const ViewClick> in_order, const Job& 
 AnyViewWorld window_world(const EvaluationCase& scene, std::vector<TruthView> views,
                           std::shared_ptr<WindowCut> cut) {
   return {std::move(views),
-          [cut = std::move(cut)](std::span<const ViewClick> clicks, const Job& job) {
-            return (*cut)(clicks, job);
+          [cut = std::move(cut)](std::span<const ViewClick> clicks, int choice, const Job& job) {
+            return (*cut)(clicks, choice, job);
           },
           [&scene](const Camera& camera, const std::vector<std::uint8_t>& labels) {
             return labels_seen(scene, camera, labels);

@@ -8,6 +8,9 @@
 // extra). All clicks stay. After each the mean image IoU over all views is taken; where nothing is wrong any
 // more it stays as it is. Source: the protocol of Xu et al., Deep Interactive Object Selection, 2016, over
 // several views. Cost: one cut and one picture a view each click. Cancelled: incomplete, must not be used.
+// With choices: where the program offers other meanings of the first click, the robot looks at them as a
+// person does, in the clicked view alone, and takes the one whose IoU with that view's truth is the highest
+// and at least .05 above the likeliest's. That costs a click.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +35,7 @@ using ViewClicks = std::vector<ViewClick>;
 struct CutAnswer {
   std::vector<std::uint8_t> labels;  // per Gaussian, 1 = object
   std::vector<std::string> doubts;   // sentences
+  std::vector<Mask> meanings{};      // of the first click in its view, see CutResult
 };
 
 struct TruthView {
@@ -41,7 +45,8 @@ struct TruthView {
 
 struct AnyViewWorld {
   std::vector<TruthView> views;
-  std::function<CutAnswer(std::span<const ViewClick> in_order, const Job&)> cut;
+  // choice: of the first click's meanings.
+  std::function<CutAnswer(std::span<const ViewClick> in_order, int choice, const Job&)> cut;
   std::function<Mask(const Camera&, const std::vector<std::uint8_t>& labels)> picture;
 };
 
@@ -55,6 +60,7 @@ struct AnyViewSession {
   std::string start;
   std::uint64_t draw = 0;          // 0: a steady hand
   ViewClicks clicks;               // fewer than asked where nothing was wrong any more
+  int choice = 0;                  // of the first click's meanings; above 0 it took the second click
   std::vector<double> iou_after;   // mean over the views after 1, 2, ... clicks
   std::vector<bool> obeyed;        // per click: its label shows within 2 px of it, at the end of its own cut
   std::vector<bool> obeyed_pixel;  // the same of the clicked pixel itself
@@ -65,8 +71,12 @@ struct AnyViewSession {
   double worst_fall() const;  // of the IoU by a further click, at least 0
 };
 
+struct AnyViewHand {
+  std::uint64_t draw = 0;  // 0: a steady one
+  bool choices = false;    // takes what is offered
+};
 AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& start, int clicks,
-                                std::uint64_t draw = 0, const Job& job = {});
+                                const AnyViewHand& hand = {}, const Job& job = {});
 
 // Mean image IoU over the views of these clicks.
 double iou_of_clicks(const AnyViewWorld& world, std::span<const ViewClick> clicks, const Job& job = {});
@@ -76,7 +86,7 @@ double iou_of_clicks(const AnyViewWorld& world, std::span<const ViewClick> click
 class WindowCut {
  public:
   WindowCut(const EvaluationCase& scene, const std::string& preset, const Job& job = {});
-  CutAnswer operator()(std::span<const ViewClick> in_order, const Job& job);
+  CutAnswer operator()(std::span<const ViewClick> in_order, int choice, const Job& job);
   void set_smoothness(float smoothness) { settings_.smoothness = smoothness; }  // else the preset's own
 
  private:

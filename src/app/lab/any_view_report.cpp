@@ -38,13 +38,10 @@ nlohmann::json session_json(const AnyViewSession& s) {
                       {"label", s.clicks[i].stroke.label == SeedLabel::kObject ? "object" : "rest"},
                       {"obeyed", s.obeyed[i] ? true : false}});
   }
-  return {{"start", s.start},
-          {"draw", s.draw},
-          {"iou_after", s.iou_after},
-          {"obeyed", s.obeyed_share()},
-          {"worst_fall", s.worst_fall()},
-          {"clicks", clicks},
-          {"doubts", s.doubts}};
+  return {{"start", s.start},           {"draw", s.draw},
+          {"choice", s.choice},         {"iou_after", s.iou_after},
+          {"obeyed", s.obeyed_share()}, {"worst_fall", s.worst_fall()},
+          {"clicks", clicks},           {"doubts", s.doubts}};
 }
 
 // Steps of one scene's work, for the bar.
@@ -275,8 +272,8 @@ nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& opt
   for (int draw = 0; draw < options.draws; ++draw)
     for (const AnyViewStart& start : starts_of_draw(draw)) {
       steps.next();
-      sessions.push_back(
-          any_view_session(world, start, options.clicks, static_cast<std::uint64_t>(draw), silent));
+      sessions.push_back(any_view_session(world, start, options.clicks,
+                                          {static_cast<std::uint64_t>(draw), options.choices}, silent));
       if (job.cancelled()) return {};
     }
   nlohmann::json result = {{"any_view", sessions_json(sessions, options.clicks)}};

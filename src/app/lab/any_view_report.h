@@ -3,11 +3,11 @@
 // "any_view": {"iou_after_clicks": {"1", "2", "3", "5", "8", "10"}, "noc85", "noc90", "obeyed",
 // "obeyed_pixel", "worst_fall", "ms_per_click"}: means over sessions (starts times draws); "least" and "p10":
 // of iou_after_clicks over sessions, the least and the 10th percentile; "most_fall": the largest worst_fall;
-// "views", "clicks", "sessions": [{"start", "draw", "iou_after", "obeyed", "clicks", "doubts"}]. NoC: 20
-// where the IoU is never reached. "zoom": {"0.4", "0.6", "1", "2", "4"}: image IoU of the first click alone
-// with the camera at so many times the distance, mean over starts. "perturb": {"copies", "1" | "3" | "5" |
-// "10": {"median", "least", "spread", "difference", "most_difference"}}: the same clicks on copies of the
-// scene: mean over starts of the IoU's median, least and spread (largest less least) over the copies; the
+// "views", "clicks", "sessions": [{"start", "draw", "choice", "iou_after", "obeyed", "clicks", "doubts"}].
+// NoC: 20 where the IoU is never reached. "zoom": {"0.4", "0.6", "1", "2", "4"}: image IoU of the first click
+// alone with the camera at so many times the distance, mean over starts. "perturb": {"copies", "1" | "3" |
+// "5" | "10": {"median", "least", "spread", "difference", "most_difference"}}: the same clicks on copies of
+// the scene: mean over starts of the IoU's median, least and spread (largest less least) over the copies; the
 // median and the largest of |IoU of a copy - IoU of the scene| over starts and copies.
 #pragma once
 
@@ -26,7 +26,8 @@ struct AnyViewOptions {
   int draws = 1;   // sessions a start; the first with a steady hand
   int starts = 0;  // the first so many; 0: all
   bool zoom = false;
-  int copies = 0;  // of the scene, for "perturb"
+  bool choices = false;  // the robot takes what is offered for the first click
+  int copies = 0;        // of the scene, for "perturb"
 };
 
 // {"any_view": ..., and "zoom", "perturb" where asked}. Cancelled: incomplete.

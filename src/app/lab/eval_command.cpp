@@ -265,7 +265,8 @@ void check_ways_in(const EvalArguments& args) {
 void check_any_view(const EvalArguments& args) {
   if (!args.any_view) {
     if (args.robot_asked)
-      throw CLI::ValidationError("--robot-clicks, --starts, --zoom and --perturb go with --any-view");
+      throw CLI::ValidationError(
+          "--robot-clicks, --starts, --zoom, --choices and --perturb go with --any-view");
     return;
   }
   const MaskOptions& mask = args.mask;
@@ -349,12 +350,16 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
       ->check(CLI::NonNegativeNumber);
   command.add_flag("--zoom", args->robot.zoom,
                    "Its first click again with the camera at .4, .6, 1, 2 and 4 times the distance");
+  command.add_flag(
+      "--choices", args->robot.choices,
+      "It takes what is offered for its first click where that is better; a choice costs a click");
   command
       .add_option(
           "--perturb", args->robot.copies,
           "Its clicks again on so many copies of the scene: rounded .ply, .compressed.ply, .splat, .spz, "
           "rows shuffled, splats moved by a hundredth of their size, and so on")
-      ->check(CLI::Range(1, 100));
+      ->check(CLI::Range(1, 100))
+      ->excludes("--choices");  // it plays clicks again
   command.add_option("--only", args->only, "Scenes of the suite, by name");
   args->mask.add_to(command, true);
   command.add_option("--masks", args->masks, "truth: the true masks in all orbit views")
@@ -367,7 +372,7 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
   command.callback([args, &command, &common] {
     args->clicks_given = command.count("--clicks") > 0;
-    for (const char* option : {"--robot-clicks", "--starts", "--zoom", "--perturb"})
+    for (const char* option : {"--robot-clicks", "--starts", "--zoom", "--choices", "--perturb"})
       args->robot_asked |= command.count(option) > 0;
     run_eval(*args, common);
   });

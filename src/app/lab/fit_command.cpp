@@ -101,7 +101,7 @@ std::vector<Curve> curves(const Bank& bank, const std::vector<SelectionModel>& m
     if (job.cancelled()) return;
     const PartsScene& scene = *bank.scenes[plays[p].scene];
     const AnyViewWorld world = parts_world(scene, model_of_scene[plays[p].scene]);
-    of_play[p] = any_view_session(world, scene.starts[plays[p].start], clicks, 0, job).iou_after;
+    of_play[p] = any_view_session(world, scene.starts[plays[p].start], clicks, {}, job).iou_after;
   });
   stop_if_fit_cancelled(job);
   std::vector<Curve> mean(bank.scenes.size(), Curve(static_cast<std::size_t>(clicks), 0));

@@ -15,10 +15,12 @@ namespace splatcut {
 struct AddStroke {
   Camera camera;
   Stroke stroke;  // in the camera's pixels
+  Flags seen{};   // Gaussians on the screen; null: all
 };
 struct AddBox {
   Camera camera;
   glm::vec2 a_px, b_px;  // opposite corners
+  Flags seen{};
 };
 struct SelectRegion {
   Camera camera;
@@ -49,6 +51,9 @@ struct ShowFloaters {
 };
 struct StepScale {
   int steps;  // of the active object's first click: to larger (+) or smaller (-) parts
+};
+struct ChooseMeaning {
+  int choice;  // of what the active object's first click can mean, 0 the likeliest
 };
 struct ClearStrokes {};
 
@@ -158,11 +163,11 @@ struct SaveTurntable {
 
 using Command =
     std::variant<AddStroke, AddBox, SelectRegion, SelectSphere, SelectColour, SelectRange, EditSelection,
-                 ShowFloaters, StepScale, ClearStrokes, NewObject, RemoveObject, RenameObject, RecolourObject,
-                 ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject, DuplicateObject,
-                 SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness, SetPreset,
-                 SetBackground, SetUp, Undo, Redo, JumpHistory, Cancel, Recompute, SetView, GoToCamera,
-                 SetFieldOfView, OpenScene, SaveWork, RestoreAutosave, DropAutosave, Export, SaveSnapshot,
-                 SaveTurntable>;
+                 ShowFloaters, StepScale, ChooseMeaning, ClearStrokes, NewObject, RemoveObject, RenameObject,
+                 RecolourObject, ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject,
+                 DuplicateObject, SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness,
+                 SetPreset, SetBackground, SetUp, Undo, Redo, JumpHistory, Cancel, Recompute, SetView,
+                 GoToCamera, SetFieldOfView, OpenScene, SaveWork, RestoreAutosave, DropAutosave, Export,
+                 SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

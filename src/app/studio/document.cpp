@@ -42,6 +42,7 @@ CutRequest cut_request(const Document& document, const ObjectItem& object) {
   CutRequest request;
   request.strokes = object.views;
   request.left_out = object.left_out;
+  request.choice = object.choice;
   request.part_step = object.part_step;
   request.up_world = document.up_world;
   return request;
@@ -51,6 +52,12 @@ CutSettings cut_settings(const Document& document, const ObjectItem& object) {
   CutSettings settings = preset(document.preset);
   settings.smoothness = object.smoothness;
   return settings;
+}
+
+Camera known_camera(const ObjectItem& object, const Camera& camera) {
+  const auto known = std::ranges::find_if(
+      object.views, [&](const StrokedView& view) { return same_view(view.camera, camera); });
+  return known == object.views.end() ? camera : known->camera;
 }
 
 std::string cut_key(const Document& document, const ObjectItem& object) {

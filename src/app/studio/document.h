@@ -33,7 +33,8 @@ struct ObjectItem {
   bool locked = false;
   ObjectId within = 0;              // part of that object: labels outside of it do not count
   std::vector<StrokedView> views;   // in the order in which they were stroked, see CutRequest
-  int part_step = 0;                // sizes above or below what the first click chose
+  int choice = 0;                   // of what the first click can mean, 0 the likeliest
+  int part_step = 0;                // sizes above or below that meaning's own
   std::vector<Camera> left_out;     // views that do not count, see CutRequest
   std::optional<float> smoothness;  // the preset's own where not given
   Flags cut;                        // labels from the strokes, 1 = object
@@ -60,6 +61,9 @@ struct Document {
 // What the document says of an object, and how it is to be cut.
 CutRequest cut_request(const Document& document, const ObjectItem& object);
 CutSettings cut_settings(const Document& document, const ObjectItem& object);
+
+// The camera as the object's strokes know it already, where one of them was made in the same view.
+Camera known_camera(const ObjectItem& object, const Camera& camera);
 
 // Both as bytes: equal exactly where the labels must be. For keys, not for files.
 std::string cut_key(const Document& document, const ObjectItem& object);

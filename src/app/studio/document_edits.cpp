@@ -45,9 +45,11 @@ std::string counted(const Document& document, const ObjectItem& object, const Ed
 }
 
 // Where the next stroke goes: strokes stay in order, so another view in between starts a new entry.
-StrokedView& view_for(ObjectItem* object, const Camera& camera) {
+StrokedView& view_for(ObjectItem* object, const Camera& camera, const Flags& seen) {
   std::vector<StrokedView>& views = object->views;
-  if (views.empty() || !same_camera(views.back().camera, camera)) views.push_back({camera, {}});
+  const Camera known = known_camera(*object, camera);
+  if (views.empty() || !same_camera(views.back().camera, known) || !same_set(views.back().seen, seen))
+    views.push_back({known, {}, seen});
   return views.back();
 }
 
@@ -75,7 +77,7 @@ ObjectItem& add_by_hand(Document* document, const std::string& name,
 std::string edit(Document* document, const AddStroke& command, const EditContext&) {
   if (command.stroke.points_px.empty()) throw Error("stroke", "it has no points");
   ObjectItem& object = target(document);
-  view_for(&object, command.camera).strokes.push_back(command.stroke);
+  view_for(&object, command.camera, command.seen).strokes.push_back(command.stroke);
   const bool dot = command.stroke.points_px.size() == 1;
   const bool rest = command.stroke.label == SeedLabel::kRest;
   return fmt::format("{} {} {}", dot ? "Click:" : "Scribble:", rest ? "not part of" : "part of", object.name);
@@ -96,7 +98,7 @@ std::string edit(Document* document, const AddBox& command, const EditContext&) 
   if (std::min(size.x, size.y) < kSmallestPx)
     throw Error("box", "it is too small", "Drag from one corner to the other");
   ObjectItem& object = target(document);
-  StrokedView& view = view_for(&object, command.camera);
+  StrokedView& view = view_for(&object, command.camera, command.seen);
   for (Stroke& stroke : box_strokes(command.a_px, command.b_px)) view.strokes.push_back(std::move(stroke));
   return "Box around " + object.name;
 }
@@ -107,7 +109,7 @@ std::string edit(Document* document, const ClearStrokes&, const EditContext&) {
   if (object.views.empty()) throw Error(object.name, "has no strokes");
   object.views.clear();
   object.left_out.clear();
-  object.part_step = 0;
+  object.choice = object.part_step = 0;
   object.cut = nullptr;
   object.cut_key.clear();
   return "Strokes of " + object.name + " cleared";
@@ -300,6 +302,16 @@ std::string edit(Document* document, const StepScale& command, const EditContext
   constexpr int kMostSteps = 40;
   object.part_step = std::clamp(object.part_step + command.steps, -kMostSteps, kMostSteps);
   return fmt::format("A {} part", command.steps > 0 ? "larger" : "smaller");
+}
+
+std::string edit(Document* document, const ChooseMeaning& command, const EditContext&) {
+  if (!document->active_object()) throw Error("click", "no object is chosen", "Click an object first");
+  ObjectItem& object = unlocked(document, document->active);
+  if (object.views.empty()) throw Error(object.name, "has no clicks", "Click on it first");
+  constexpr int kMostChoice = 2;  // see ClickSelection::meanings()
+  object.choice = std::clamp(command.choice, 0, kMostChoice);
+  object.part_step = 0;
+  return fmt::format("{}: meaning {} of the click", object.name, object.choice + 1);
 }
 
 std::string edit(Document* document, const LeaveOutView& command, const EditContext&) {

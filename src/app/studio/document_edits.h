@@ -35,6 +35,7 @@ std::string edit(Document* document, const SeparateObject& command, const EditCo
 std::string edit(Document* document, const DeleteSelected& command, const EditContext& context);
 std::string edit(Document* document, const RestoreDeleted& command, const EditContext& context);
 std::string edit(Document* document, const StepScale& command, const EditContext& context);
+std::string edit(Document* document, const ChooseMeaning& command, const EditContext& context);
 std::string edit(Document* document, const LeaveOutView& command, const EditContext& context);
 std::string edit(Document* document, const SetSmoothness& command, const EditContext& context);
 std::string edit(Document* document, const SetPreset& command, const EditContext& context);

@@ -92,7 +92,7 @@ std::vector<Command> PointerTools::click(const ToolContext& context) {
       stroke.radius_px *= context.pixels_per_point;
       scale_armed_ = stroke.label == SeedLabel::kObject;
       scale_at_ = pressed_;
-      return {AddStroke{context.pane_camera, std::move(stroke)}};
+      return {AddStroke{context.pane_camera, std::move(stroke), context.seen()}};
     }
     case Tool::kPolygon:
       if (right) return confirm(context);
@@ -130,10 +130,11 @@ std::vector<Command> PointerTools::finish_shape(const ToolContext& context) {
   switch (context.view.tool) {
     case Tool::kScribble: {
       const bool rest = button_ == PointerButton::kRight || modifiers_.ctrl;
-      return {AddStroke{camera, Stroke{rest ? SeedLabel::kRest : SeedLabel::kObject, 0.5f * radius, path}}};
+      return {AddStroke{camera, Stroke{rest ? SeedLabel::kRest : SeedLabel::kObject, 0.5f * radius, path},
+                        context.seen()}};
     }
     case Tool::kBox:
-      return path.size() == 2 ? std::vector<Command>{AddBox{camera, path[0], path[1]}}
+      return path.size() == 2 ? std::vector<Command>{AddBox{camera, path[0], path[1], context.seen()}}
                               : std::vector<Command>{};
     case Tool::kBrush:
       return region(brush_region(path, radius, camera.width_px, camera.height_px));
@@ -187,7 +188,7 @@ std::vector<Command> PointerTools::wheel(float steps, const Modifiers& modifiers
     view.brush_px = std::clamp(view.brush_px * std::pow(kBrushStep, steps), 1.0f, 400.0f);
     return {SetView{view}};
   }
-  if (scale_armed_ && steps != 0) return {StepScale{steps > 0 ? 1 : -1}};
+  if ((scale_armed_ || modifiers.shift) && steps != 0) return {StepScale{steps > 0 ? 1 : -1}};
   context.camera.zoom(steps);
   return {};
 }

@@ -29,6 +29,7 @@ struct ToolContext {
   Camera pane_camera;  // of the pane under the pointer, in viewport pixels
   float pixels_per_point = 1;
   std::function<std::optional<PickedPoint>(const glm::vec2& pixel)> pick;  // the visible surface
+  std::function<Flags()> seen;  // Gaussians that the pane shows; null: all
 };
 
 // What the interface draws over the picture while a tool is at work.

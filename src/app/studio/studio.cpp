@@ -102,8 +102,9 @@ std::string Studio::why_not(Action action) const {
     case Action::kConfirm:
       return view_.tool == Tool::kPolygon && tools_.at_work() ? "" : "There is no polygon to close";
     case Action::kPartLarger:
+      return why_not_step(1);
     case Action::kPartSmaller:
-      return tools_.scale_armed() ? "" : "Click an object first";
+      return why_not_step(-1);
     default:
       return {};
   }
@@ -265,6 +266,9 @@ void Studio::run(Action action) {
 
 void Studio::key_pressed(int code, const Modifiers& modifiers) {
   held_modifiers_ = modifiers;
+  const ClickMeanings* offered = modifiers == Modifiers{} ? offer() : nullptr;
+  if (offered && code >= '1' && code - '1' < std::ssize(offered->outlines))
+    return apply(ChooseMeaning{code - '1'});
   const Action action = action_for(code, modifiers);
   if (is_flight(action))
     held_keys_.insert(code);

@@ -23,7 +23,6 @@
 #include "app/studio/opened_scene.h"
 #include "app/studio/pointer_tools.h"
 #include "app/studio/task_thread.h"
-#include "segment/selection/click_selection.h"
 
 namespace splatcut {
 
@@ -57,6 +56,16 @@ struct ViewCard {
   std::uint64_t serial = 0;  // changes with the picture
 };
 
+// What an object's first click can mean, once a cut has found out.
+struct ClickMeanings {
+  std::string key;                            // of that click, see key_of_first_stroke()
+  int choice = 0;                             // whose sizes these are:
+  std::size_t sizes = 0, likeliest_size = 0;  // how many, and the one that a click takes
+  Camera camera;                              // of the click
+  // Per meaning its borders in the camera's pixels.
+  std::vector<std::vector<std::vector<glm::vec2>>> outlines;
+};
+
 // The last cut of an object, or the one that runs.
 struct CutRun {
   bool running = false;
@@ -66,7 +75,8 @@ struct CutRun {
   std::vector<ViewCard> views;
   Flags preview;  // labels so far
   double started_s = 0, first_mask_ms = 0, total_ms = 0;
-  std::vector<std::string> doubts;                       // about the masks, a sentence each
+  std::shared_ptr<const ClickMeanings> meanings;         // of the first click, as far as it is known
+  std::vector<std::string> doubts;                       // a sentence each
   std::shared_ptr<const std::vector<float>> likelihood;  // of `key`; null until asked for
   bool likelihood_failed = false;                        // for `key`: not asked for again
 };
@@ -127,6 +137,9 @@ class Studio {
   CameraController& camera() { return camera_; }
   const CameraController& camera() const { return camera_; }
   Camera viewport_camera() const;  // of the first pane
+  // Other meanings of the active object's first click, as long as nothing else was said; null: nothing is
+  // offered.
+  const ClickMeanings* offer() const;
   int panes() const { return view_.display == DisplayMode::kSideBySide && scene_ ? 2 : 1; }
   std::vector<std::uint8_t> labels(ObjectId object) const;
   std::size_t gaussians_of(ObjectId object) const;  // cached: free to ask every frame
@@ -157,8 +170,19 @@ class Studio {
   bool settle(double most_seconds);
 
  private:
-  // studio_edit.cpp
+  // studio_click.cpp
   void perform(const AddStroke& c);
+  void perform(const StepScale& c);
+  bool hits_anything(const AddStroke& c) const;
+  std::string already_so(const AddStroke& c) const;
+  const ClickMeanings* meanings(const ObjectItem& object) const;
+  std::string why_not_step(int steps) const;
+  struct HoverAsk;
+  std::optional<HoverAsk> hover_wanted() const;
+  void refresh_hover();
+  void show_hover(const Flags& change, bool rest);
+
+  // studio_edit.cpp
   void perform(const AddBox& c);
   void perform(const SelectRegion& c);
   void perform(const SelectSphere& c);
@@ -204,11 +228,11 @@ class Studio {
 
   // studio_view.cpp
   void refresh_style();
-  void refresh_hover();
   void request_picture();
   void take_picture();
   Flight flight() const;
   ToolContext tool_context(const glm::vec2& pixel);
+  Flags seen(int pane) const;  // what is drawn there now; null: all
   glm::vec2 in_pane(const glm::vec2& pixel) const;
   Camera pane_camera() const;
 
@@ -242,9 +266,20 @@ class Studio {
   std::uint64_t style_version_ = 0, requested_style_ = 0;
   mutable std::map<ObjectId, std::size_t> counts_;
   bool highlight_floaters_ = false;
-  LeafView hover_view_;                 // parts in the picture on the screen
-  std::uint64_t hover_picture_ = 0;     // picture_serial_ of hover_view_
-  std::uint32_t hover_leaf_ = kNoPart;  // under the pointer; kNoPart: nothing is outlined
+  // Asked of the worker, or shown already.
+  struct HoverAsk {
+    std::uint64_t document = 0, view = 0;  // serials
+    Camera camera;
+    glm::vec2 pixel{0};
+    bool rest = false;
+    bool same_but_pixel(const HoverAsk& other) const {
+      return document == other.document && view == other.view && rest == other.rest &&
+             same_camera(camera, other.camera);
+    }
+  };
+  std::optional<HoverAsk> hover_;
+  Flags active_labels_;         // of the active object, as they are shown
+  std::string declined_offer_;  // its key
   bool pointer_inside_ = false;
   std::size_t floater_count_ = 0;
   std::optional<FrameResult> picture_;

@@ -62,7 +62,9 @@ struct Titles {
   std::string operator()(const SeparateObject&) const { return "Separate object"; }
   std::string operator()(const DeleteSelected&) const { return "Delete from the scene"; }
   std::string operator()(const RestoreDeleted&) const { return "Restore deleted"; }
-  std::string operator()(const StepScale& c) const { return c.steps > 0 ? "Larger part" : "Smaller part"; }
+  std::string operator()(const ChooseMeaning& c) const {
+    return fmt::format("Meaning {} of the click", c.choice + 1);
+  }
   std::string operator()(const LeaveOutView& c) const {
     return c.left_out ? "Leave out a view" : "Use a view";
   }
@@ -133,22 +135,12 @@ template void Studio::perform(const DuplicateObject&);
 template void Studio::perform(const SeparateObject&);
 template void Studio::perform(const DeleteSelected&);
 template void Studio::perform(const RestoreDeleted&);
-template void Studio::perform(const StepScale&);
+template void Studio::perform(const ChooseMeaning&);
 template void Studio::perform(const LeaveOutView&);
 template void Studio::perform(const SetSmoothness&);
 template void Studio::perform(const SetPreset&);
 template void Studio::perform(const SetBackground&);
 template void Studio::perform(const SetUp&);
-
-void Studio::perform(const AddStroke& c) {
-  require_scene();
-  Document after = history_.now();
-  const std::string message = edit(&after, c, context());
-  const bool rest = c.stroke.label == SeedLabel::kRest;
-  push(c.stroke.points_px.size() == 1 ? (rest ? "Click: rest" : "Click: object")
-                                      : (rest ? "Scribble: rest" : "Scribble: object"),
-       std::move(after), {}, message);
-}
 
 void Studio::perform(const AddBox& c) {
   require_scene();
@@ -269,6 +261,10 @@ void Studio::perform(const Cancel&) {
     return;
   }
   if (tools_.abandon()) return;
+  if (const ClickMeanings* offered = offer()) {
+    declined_offer_ = offered->key;
+    return;
+  }
   if (highlight_floaters_) return perform(ShowFloaters{false});
   if (view_.display != DisplayMode::kWhole) return run(Action::kShowAll);
   if (view_.tool != Tool::kNavigate) run(Action::kToolNavigate);

@@ -8,6 +8,7 @@
 #include "scene/error.h"
 #include "scene/rasterizer.h"
 #include "segment/doubts.h"
+#include "segment/mask_tools.h"
 
 namespace splatcut {
 
@@ -57,6 +58,40 @@ ViewCard card_of(const ViewReport& view, Image<Rgba8> picture) {
           0};
 }
 
+// For the person who waited: how large the object is now, and what the last step did to it.
+std::string what_changed(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after,
+                         double seconds) {
+  std::size_t was = 0, is = 0, added = 0;
+  for (std::size_t g = 0; g < after.size(); ++g) {
+    was += before[g];
+    is += after[g];
+    added += after[g] && !before[g];
+  }
+  const std::size_t removed = was + added - is;
+  if (was == 0) return fmt::format("{} Gaussians cut out in {:.1f} s", is, seconds);
+  if (added + removed == 0) return fmt::format("{} Gaussians, as before", is);
+  return fmt::format("{} Gaussians, {} added and {} removed in {:.1f} s", is, added, removed, seconds);
+}
+
+std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result) {
+  if (result.meanings.empty()) return nullptr;
+  ClickMeanings out{.key = key_of_first_stroke(request),
+                    .choice = request.choice,
+                    .sizes = result.sizes,
+                    .likeliest_size = result.likeliest_size,
+                    .camera = {},
+                    .outlines = {}};
+  const auto first = std::ranges::find_if(request.strokes, marks_object);
+  if (first != request.strokes.end()) out.camera = first->camera;
+  for (const Mask& mask : result.meanings) {
+    out.outlines.push_back(outlines(mask));
+    const float factor = static_cast<float>(out.camera.width_px) / static_cast<float>(mask.width());
+    for (auto& border : out.outlines.back())
+      for (glm::vec2& point : border) point *= factor;
+  }
+  return std::make_shared<const ClickMeanings>(std::move(out));
+}
+
 }  // namespace
 
 void Studio::perform(const OpenScene& c) {
@@ -97,8 +132,8 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, std::optional<Doc
   given_up_.clear();
   cutting_object_ = 0;
   picture_.reset();
-  hover_view_ = {};
-  hover_leaf_ = kNoPart;
+  hover_.reset();
+  declined_offer_.clear();
   tools_.abandon();
   view_.display = DisplayMode::kWhole;
   view_.heat = false;
@@ -184,13 +219,16 @@ void Studio::start_cut(const ObjectItem& object) {
   cutting_key_ = wanted_key(object);
   CutRun& run = runs_[object.id];
   std::vector<ViewCard> before = std::move(run.views);
+  const auto meanings = run.meanings;
   run = CutRun{};
+  run.meanings = meanings;
   run.running = true;
   run.key = cutting_key_;
   run.views = std::move(before);
   run.started_s = clock_s_;
   const auto failed = [this, id = object.id, key = cutting_key_] { give_up_cut(id, key); };
   const TaskThread::Order cut_task_order(TaskKind::kCut, failed);
+  tasks_.cancel(TaskKind::kHover);
   tasks_.submit(cut_task_order, [this, request = cut_request(document(), object),
                                  settings = cut_settings(document(), object), session = session_,
                                  id = object.id, key = cutting_key_, colour = object.colour, scene = scene_,
@@ -203,15 +241,17 @@ void Studio::start_cut(const ObjectItem& object) {
     const auto snapshot = [&](CutPhase, const CutResult& result) {
       if (result.labels.empty()) return;
       const double first_ms = shown == 0 ? ms() : 0;
+      const auto meanings = shown == 0 ? meanings_of(request, result) : nullptr;
       std::vector<ViewCard> fresh;
       for (; shown < result.views.size(); ++shown)
         fresh.push_back(card_of(result.views[shown], mask_card(result.views[shown], colour)));
-      tasks_.post([this, id, key, first_ms, scene, fresh = std::move(fresh), stages = result.stages,
+      tasks_.post([this, id, key, first_ms, meanings, scene, fresh = std::move(fresh), stages = result.stages,
                    labels = make_flags(result.labels)] {
         if (scene != scene_ || cutting_object_ != id || cutting_key_ != key) return;
         CutRun& now = runs_[id];
         if (first_ms > 0) {
           now.first_mask_ms = first_ms;
+          now.meanings = meanings;
           now.views.clear();  // those of the cut before
         }
         for (const ViewCard& card : fresh) {
@@ -227,7 +267,7 @@ void Studio::start_cut(const ObjectItem& object) {
     if (result->outcome == Outcome::kCancelled || job.cancelled()) return;
     const double total_ms = ms();
     tasks_.post([this, id, key, scene, result, labels = make_flags(result->labels), total_ms,
-                 doubts = doubts_of_views(result->views)] {
+                 meanings = meanings_of(request, *result), doubts = doubts_of(*result)] {
       if (scene != scene_) return;
       CutRun& now = runs_[id];
       if (now.key != key) return;
@@ -236,9 +276,11 @@ void Studio::start_cut(const ObjectItem& object) {
       now.result = result;
       if (!result->stages.empty()) now.stages = result->stages;
       now.total_ms = total_ms;
+      now.meanings = meanings;
       now.doubts = doubts;
       if (now.first_mask_ms == 0) now.first_mask_ms = total_ms;
       if (cutting_object_ == id && cutting_key_ == key) cutting_object_ = 0;
+      const std::vector<std::uint8_t> before = this->labels(id);
       history_.set_cut(id, key, labels);
       document_changed();
       const ObjectItem* item = document().find(id);
@@ -247,8 +289,7 @@ void Studio::start_cut(const ObjectItem& object) {
         say(Message::Kind::kRefused, item->name + ": " + result->reason);
       else
         say(doubts.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
-            fmt::format("{}: {} Gaussians cut out in {:.1f} s{}", item->name, gaussians_of(id),
-                        total_ms / 1000,
+            fmt::format("{}: {}{}", item->name, what_changed(before, this->labels(id), total_ms / 1000),
                         !doubts.empty() ? ". But " + doubts.front()
                         : result->ambiguous && tools_.scale_armed()
                             ? ". Not all of it? Turn the wheel for another size"

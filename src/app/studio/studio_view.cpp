@@ -51,8 +51,18 @@ glm::vec2 Studio::in_pane(const glm::vec2& pixel) const {
   return pixel.x >= half ? pixel - glm::vec2(half, 0) : pixel;
 }
 
-ToolContext Studio::tool_context(const glm::vec2&) {
-  return {camera_, view_, pane_camera(), pixels_per_point_, [this](const glm::vec2& at) { return pick(at); }};
+ToolContext Studio::tool_context(const glm::vec2& pixel) {
+  const int pane = panes() == 2 && pixel.x >= 0.5f * static_cast<float>(width_px_) ? 1 : 0;
+  return {camera_,
+          view_,
+          pane_camera(),
+          pixels_per_point_,
+          [this](const glm::vec2& at) { return pick(at); },
+          [this, pane] { return seen(pane); }};
+}
+
+Flags Studio::seen(int pane) const {
+  return within_far_plane(*scene_->cloud, viewport_camera(), shown(pane), depth_range().far_plane);
 }
 
 std::optional<PickedPoint> Studio::pick(const glm::vec2& pixel) const {
@@ -94,7 +104,7 @@ void Studio::refresh_style() {
   style_serial_ = document_serial_;
   styled_view_serial_ = view_serial_;
   ++style_version_;
-  hover_leaf_ = kNoPart;  // asked again below
+  hover_.reset();  // asked again
   const std::size_t n = scene_->cloud->size();
   const Document& document = this->document();
   std::vector<std::uint8_t> owner(n, 0), active(n, 0);
@@ -116,6 +126,7 @@ void Studio::refresh_style() {
     if (object.id == document.active) active = std::move(own);
   }
   if (any) style.owner = make_flags(std::move(owner));
+  active_labels_ = make_flags(active);
   if (view_.heat)
     if (const CutRun* run = cut_run(document.active)) style.heat = run->likelihood;
   floater_count_ = 0;
@@ -151,37 +162,6 @@ void Studio::refresh_style() {
     style_[1] = plain;
     style_[1].heat = nullptr;
   }
-}
-
-// Outlines what a click would take, as long as the active object has no strokes yet.
-void Studio::refresh_hover() {
-  const ObjectItem* active = document().active_object();
-  const bool wanted = pointer_inside_ && prepared_ && view_.tool == Tool::kClick && panes() == 1 &&
-                      !view_.heat && !tools_.dragging() && !highlight_floaters_ &&
-                      (!active || active->views.empty());
-  std::optional<PickedPoint> point;
-  if (wanted && picture_ && picture_->full &&
-      same_camera(picture_->frames.front()->camera, viewport_camera()))
-    point = pick(tools_.pointer_px());
-  const std::uint32_t leaf =
-      point ? prepared_->parts.leaf_of[static_cast<std::size_t>(point->gaussian)] : kNoPart;
-  if (leaf == hover_leaf_) return;
-  hover_leaf_ = leaf;
-  ++style_version_;
-  if (leaf == kNoPart) {
-    style_[0].highlight = nullptr;
-    return;
-  }
-  if (hover_picture_ != picture_serial_ || hover_view_.leaf_px.empty()) {
-    hover_view_ = leaf_view_of_hits(prepared_->parts, picture_->frames.front()->camera,
-                                    picture_->frames.front()->first_hit, CutSettings{}.work_width_px);
-    hover_picture_ = picture_serial_;
-  }
-  const float scale =
-      static_cast<float>(hover_view_.camera.width_px) / static_cast<float>(viewport_camera().width_px);
-  ClickSelection picked(prepared_->parts, prepared_->model.selection);
-  picked.apply(hover_view_, scaled({click(tools_.pointer_px(), SeedLabel::kObject)}, scale).front());
-  style_[0].highlight = make_flags(picked.labels());
 }
 
 void Studio::request_picture() {

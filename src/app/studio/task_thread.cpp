@@ -140,7 +140,7 @@ void TaskThread::run(const std::stop_token& stop) {
     running_ = true;
     running_kind_ = task.order.kind;
     running_stop_ = task.stop;
-    progress_ = {true, task.order.kind, {}, 0};
+    progress_ = {task.order.kind != TaskKind::kHover, task.order.kind, {}, 0};
     lock.unlock();
     perform(task);
     lock.lock();

@@ -19,7 +19,7 @@
 
 namespace splatcut {
 
-enum class TaskKind { kLoad, kPrepare, kCut, kSelect, kExport, kSave, kAutosave };
+enum class TaskKind { kLoad, kPrepare, kCut, kSelect, kHover, kExport, kSave, kAutosave };
 
 class TaskThread {
  public:
@@ -35,7 +35,7 @@ class TaskThread {
   };
 
   struct Progress {
-    bool busy = false;
+    bool busy = false;  // with something that a person asked for: kHover apart
     TaskKind kind = TaskKind::kLoad;
     std::string stage;
     double fraction = 0;  // [0, 1]

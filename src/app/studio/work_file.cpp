@@ -19,7 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kVersion = 2;  // 1 knew views that are left out by their number
+constexpr int kVersion =
+    3;  // 1 knew views that are left out by their number, 2 no choice and not what was seen
 
 json list(const glm::vec3& v) {
   return {v.x, v.y, v.z};
@@ -131,7 +132,9 @@ Flags flags_from(const json& j, const Scene& scene, std::uint8_t most) {
 json object_json(const Document& document, const ObjectItem& o, const Scene& scene) {
   json views = json::array();
   for (const StrokedView& view : o.views)
-    views.push_back({{"camera", camera_json(view.camera)}, {"strokes", strokes_json(view.strokes)}});
+    views.push_back({{"camera", camera_json(view.camera)},
+                     {"strokes", strokes_json(view.strokes)},
+                     {"seen", runs_json(view.seen, scene)}});
   json left_out = json::array();
   for (const Camera& camera : o.left_out) left_out.push_back(camera_json(camera));
   json out = {{"id", o.id},
@@ -141,6 +144,7 @@ json object_json(const Document& document, const ObjectItem& o, const Scene& sce
               {"locked", o.locked},
               {"within", o.within},
               {"views", views},
+              {"choice", o.choice},
               {"part_step", o.part_step},
               {"left_out", left_out},
               {"cut", runs_json(o.cut, scene)},
@@ -160,7 +164,9 @@ ObjectItem object_from(const json& j, const Scene& scene) {
   o.within = j.value("within", 0u);
   if (o.within >= o.id) throw Error("object", "\"" + o.name + "\" cannot be a part of a later one");
   for (const json& view : j.at("views"))
-    o.views.push_back({camera_from(view.at("camera")), strokes_from(view.at("strokes"))});
+    o.views.push_back({camera_from(view.at("camera")), strokes_from(view.at("strokes")),
+                       flags_from(view.value("seen", json()), scene, 1)});
+  o.choice = j.value("choice", 0);
   o.part_step = j.value("part_step", 0);
   for (const json& camera : j.value("left_out", json::array()))
     if (camera.is_object()) o.left_out.push_back(camera_from(camera));
@@ -177,7 +183,8 @@ json parse(const std::filesystem::path& path) {
   json work = json_of_file(path);
   if (!work.is_object() || !work.contains("splatcut_work"))
     throw Error(path.string(), "is no work file of splatcut");
-  if (work["splatcut_work"] != 1 && work["splatcut_work"] != kVersion)
+  const json& version = work["splatcut_work"];
+  if (!version.is_number_integer() || version < 1 || version > kVersion)
     throw Error(path.string(), "was written by a newer splatcut", "Update splatcut");
   return work;
 }

@@ -143,8 +143,10 @@ void pointer_help(UiContext& ui) {
   muted_text(
       ui,
       "Middle drag turns with any tool, with Shift it shifts. Double-click sets the point to turn around "
-      "(Navigate). The wheel zooms; right after a click it steps through larger and smaller parts. Region "
-      "tools: Shift adds, Ctrl removes, Alt intersects. Alt+wheel changes the brush.");
+      "(Navigate). The wheel zooms; right after a click, and with Shift at any time, it steps through larger "
+      "and smaller parts of what was clicked first. While other meanings of a click are shown, 1, 2 and 3 "
+      "choose; Esc keeps the one that is taken. Region tools: Shift adds, Ctrl removes, Alt intersects. "
+      "Alt+wheel changes the brush.");
   ImGui::PopTextWrapPos();
 }
 

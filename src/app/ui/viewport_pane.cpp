@@ -62,10 +62,17 @@ void smooth_path(ImDrawList& list, const std::vector<ImVec2>& points, ImU32 colo
   end_cap(list, path[path.size() - 2], path.back(), 0.5f * width, colour);
 }
 
-std::vector<ImVec2> placed(const std::vector<glm::vec2>& points_px, const Placement& place, float scale = 1) {
+std::vector<ImVec2> placed(const std::vector<glm::vec2>& points_px, const Placement& place) {
   std::vector<ImVec2> out;
-  for (const glm::vec2& p : points_px) out.push_back(place(p * scale));
+  for (const glm::vec2& p : points_px) out.push_back(place(p));
   return out;
+}
+
+// Of another camera's pixels, where it stands as the one on the screen does.
+Placement placement_of(const Camera& camera, const Camera& now, const Placement& place) {
+  const float factor = now.fy_px / camera.fy_px;
+  const glm::vec2 shift = glm::vec2(now.cx_px, now.cy_px) - factor * glm::vec2(camera.cx_px, camera.cy_px);
+  return {place.origin + shift * place.points_per_pixel, factor * place.points_per_pixel};
 }
 
 void draw_click(ImDrawList& list, const ImVec2& at, bool object) {
@@ -86,23 +93,72 @@ void draw_strokes(const UiContext& ui, ImDrawList& list, const Placement& place)
   if (!object || !strokes_wanted(ui.studio.view())) return;
   const Camera now = ui.studio.viewport_camera();
   for (const StrokedView& view : object->views) {
-    if (view.camera.camera_from_world_rotation != now.camera_from_world_rotation ||
-        view.camera.camera_from_world_translation != now.camera_from_world_translation)
-      continue;
-    const float factor = now.fy_px / view.camera.fy_px;
-    const glm::vec2 shift =
-        glm::vec2(now.cx_px, now.cy_px) - factor * glm::vec2(view.camera.cx_px, view.camera.cy_px);
+    if (!same_pose(view.camera, now)) continue;
+    const Placement there = placement_of(view.camera, now, place);
     for (const Stroke& stroke : view.strokes) {
       const bool is_object = stroke.label == SeedLabel::kObject;
-      const Placement shifted{place.origin + shift * place.points_per_pixel, place.points_per_pixel};
       if (stroke.points_px.size() == 1) {
-        draw_click(list, shifted(stroke.points_px.front() * factor), is_object);
+        draw_click(list, there(stroke.points_px.front()), is_object);
         continue;
       }
       const ImU32 ink = is_object ? kObjectInk : kRestInk;
-      smooth_path(list, placed(stroke.points_px, shifted, factor), (ink & 0x00ffffffu) | 0x90000000u,
-                  std::max(2.0f, 2 * stroke.radius_px * factor * place.points_per_pixel));
+      smooth_path(list, placed(stroke.points_px, there), (ink & 0x00ffffffu) | 0x90000000u,
+                  std::max(2.0f, 2 * stroke.radius_px * there.points_per_pixel));
     }
+  }
+}
+
+// A point of the border that is far from everything in `apart`; nothing of it may be in `area`.
+std::optional<ImVec2> label_place(const std::vector<ImVec2>& border, const std::vector<ImVec2>& apart,
+                                  const UiRect& area) {
+  constexpr float kMargin = 16, kFarEnough = 60;
+  std::optional<ImVec2> best;
+  float farthest = -1;
+  for (const ImVec2& p : border) {
+    if (!area.contains({p.x - kMargin, p.y - kMargin}) || !area.contains({p.x + kMargin, p.y + kMargin}))
+      continue;
+    float distance = kFarEnough;
+    for (const ImVec2& q : apart) distance = std::min(distance, std::hypot(p.x - q.x, p.y - q.y));
+    if (distance <= farthest) continue;
+    farthest = distance;
+    best = p;
+  }
+  return best;
+}
+
+void draw_badge(const UiContext& ui, ImDrawList& list, const ImVec2& at, int number) {
+  const std::string text = fmt::format("{}", number);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  list.AddCircleFilled(at, 11, packed(ui.theme.colour.panel, 0.92f));
+  list.AddCircle(at, 11, IM_COL32(255, 255, 255, 230), 0, 1.5f);
+  list.AddText({at.x - 0.5f * size.x, at.y - 0.5f * size.y}, packed(ui.theme.colour.text), text.c_str());
+}
+
+// What else the click can mean, as thin outlines with their keys, where the camera stands as it was clicked.
+void draw_offer(const UiContext& ui, ImDrawList& list, const Placement& place, const UiRect& area) {
+  const ClickMeanings* offer = ui.studio.offer();
+  const Camera now = ui.studio.viewport_camera();
+  if (!offer || !same_pose(offer->camera, now)) return;
+  const Placement there = placement_of(offer->camera, now, place);
+  const int taken = ui.studio.document().active_object()->choice;
+  std::vector<ImVec2> apart;
+  const std::vector<StrokedView>& views = ui.studio.document().active_object()->views;
+  for (const StrokedView& view : views)
+    for (const Stroke& stroke : view.strokes) apart.push_back(there(stroke.points_px.front()));
+  for (int i = 0; i < std::ssize(offer->outlines); ++i) {
+    if (i == taken) continue;
+    std::optional<ImVec2> label;
+    for (const std::vector<glm::vec2>& border : offer->outlines[static_cast<std::size_t>(i)]) {
+      const std::vector<ImVec2> path = rounded(placed(border, there));
+      list.AddPolyline(path.data(), static_cast<int>(path.size()), IM_COL32(0, 0, 0, 110), ImDrawFlags_Closed,
+                       3);
+      list.AddPolyline(path.data(), static_cast<int>(path.size()), IM_COL32(255, 255, 255, 200),
+                       ImDrawFlags_Closed, 1.3f);
+      if (!label) label = label_place(path, apart, area);
+    }
+    if (!label) continue;
+    apart.push_back(*label);
+    draw_badge(ui, list, *label, i + 1);
   }
 }
 
@@ -204,6 +260,32 @@ const char* mode_label(const Studio& studio) {
   }
 }
 
+// Which keys choose, as buttons, so that the mouse can.
+std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
+  const ClickMeanings* offer = ui.studio.offer();
+  if (!offer) return {};
+  constexpr float kPad = 8, kButton = 26;
+  const std::string text = "other meanings of this click  (Esc: keep this one)";
+  const int taken = ui.studio.document().active_object()->choice;
+  const auto count = static_cast<float>(offer->outlines.size());
+  const ImVec2 words = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 size = {2 * kPad + count * (kButton + 4) + 6 + words.x, kButton + 2 * kPad};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, packed(ui.theme.colour.panel, 0.94f), 7);
+  list.AddRect(at, {at.x + size.x, at.y + size.y}, packed(ui.theme.colour.line), 7);
+  ImGui::SetCursorScreenPos({at.x + kPad, at.y + kPad});
+  for (int i = 0; i < std::ssize(offer->outlines); ++i) {
+    if (i > 0) ImGui::SameLine(0, 4);
+    if (button(ui, fmt::format("{}##meaning", i + 1).c_str(), fmt::format("Key {}", i + 1), {}, i == taken,
+               kButton) &&
+        i != taken)
+      ui.ask(ChooseMeaning{i});
+  }
+  list.AddText({at.x + size.x - kPad - words.x, at.y + 0.5f * (size.y - words.y)},
+               packed(ui.theme.colour.text), text.c_str());
+  return UiRect{{at.x, at.y}, {at.x + size.x, at.y + size.y}};
+}
+
 // At the picture's lower edge, where a scene has its floor and no object; a small window has more room at the
 // upper one.
 std::optional<UiRect> hint(UiContext& ui, const UiRect& area, float bottom) {
@@ -266,6 +348,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
                     from, to);
   }
   ImGui::PushClipRect(vec(area.min), {area.min.x + pane_width, area.max.y}, true);
+  draw_offer(ui, list, place, {{area.min.x, area.min.y}, {area.max.x, area.max.y - bottom}});
   draw_strokes(ui, list, place);
   ImGui::PopClipRect();
   ImGui::PushClipRect(vec(area.min), vec(area.max), true);
@@ -280,6 +363,9 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   } else if (const char* label = mode_label(studio)) {
     pane_label(ui, {area.min.x + 12, area.min.y + 12}, label);
   }
+  const float below_label = panes == 2 || mode_label(studio) ? 40.0f : 0.0f;
+  if (const auto rect = offer_line(ui, {area.min.x + 12, area.min.y + 12 + below_label}))
+    covered.push_back(*rect);
   if (const auto rect = hint(ui, area, bottom)) {
     covered.push_back(*rect);
     if (rect->max.y > 0.5f * (area.min.y + area.max.y))

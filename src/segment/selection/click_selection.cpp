@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "segment/mask_tools.h"
 
@@ -10,7 +11,29 @@ namespace splatcut {
 
 namespace {
 
+constexpr float kPi = std::numbers::pi_v<float>;
 constexpr int kReachPx = 4;  // a click beside the scene's edge still hits it
+
+// Per node of a chain: the pixels that would show it. level: per leaf, from which node on it belongs to them.
+std::vector<float> displayed_px(const PixelWeights& leaves, std::span<const std::uint32_t> level,
+                                std::size_t nodes) {
+  std::vector<float> px(nodes, 0);
+  std::vector<std::pair<std::uint32_t, float>> list;
+  for (std::size_t i = 0; i + 1 < leaves.first.size(); ++i) {
+    list.clear();
+    for (const GroupWeight& w : leaves.at(i))
+      if (level[w.group] != kNoLevel) list.emplace_back(level[w.group], w.weight);
+    std::ranges::sort(list);
+    float sum = 0;
+    for (const auto& [from, share] : list)
+      if ((sum += share) >= 0.5f) {
+        px[from] += 1;
+        break;
+      }
+  }
+  for (std::size_t n = 1; n < nodes; ++n) px[n] += px[n - 1];
+  return px;
+}
 
 std::vector<std::uint32_t> disc_pixels(const Camera& camera, const glm::vec2& centre, float radius_px) {
   std::vector<std::uint32_t> pixels;
@@ -54,10 +77,12 @@ float distance_to_border(const Mask& mask, const glm::ivec2& at, bool side) {
 
 }  // namespace
 
-ClickSelection::ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step)
+ClickSelection::ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step,
+                               int choice)
     : parts_(parts),
       model_(model),
       part_step_(part_step),
+      choice_(choice),
       selected_{.object = std::vector<std::uint8_t>(parts.leaves, 0),
                 .said = std::vector<std::int8_t>(parts.leaves, 0),
                 .clicked = {},
@@ -85,11 +110,46 @@ std::vector<std::uint8_t> ClickSelection::certain_leaves(const LeafView& view,
   return certain;
 }
 
-// Keeps the sizes that the first click could mean; moves `best` to the one that is wanted.
-void ClickSelection::note_first(const std::vector<Chain>& chains, std::span<const Candidate> candidates,
-                                Candidate* best) {
-  constexpr float kNextSize = 1.15f;  // in pixels; less is not told apart
-  const std::vector<float>& px = chains[best->chain].changed_px;
+std::span<const Mask> ClickSelection::meanings() const {
+  return offers_ ? std::span<const Mask>(offers_->masks) : std::span<const Mask>();
+}
+
+// The likeliest, then what is nearly as likely and shows something clearly different.
+void ClickSelection::note_offers(const LeafView& view, const Answers& found) {
+  constexpr std::size_t kMostMeanings = 3;
+  constexpr float kClearly = 0.8f;  // IoU below which a person sees two things
+  Offers offers;
+  std::vector<std::vector<std::uint8_t>> taken;  // leaves of each
+  const auto alike = [&](const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+    float both = 0, either = 0;  // pixels
+    for (std::uint32_t l = 0; l < parts_.leaves; ++l) {
+      both += a[l] && b[l] ? view.leaf_px[l] : 0;
+      either += a[l] || b[l] ? view.leaf_px[l] : 0;
+    }
+    return both >= kClearly * either;
+  };
+  for (const Candidate& candidate : found.candidates) {
+    if (offers.meant.size() == kMostMeanings ||
+        candidate.cost > found.candidates.front().cost + model_.doubt)
+      break;
+    std::vector<std::uint8_t> leaves(parts_.leaves);
+    for (std::uint32_t l = 0; l < parts_.leaves; ++l) leaves[l] = found.changes(candidate, l);
+    if (std::ranges::any_of(taken, [&](const auto& other) { return alike(other, leaves); })) continue;
+    offers.meant.push_back(candidate);
+    offers.masks.push_back(shown(view.leaves, view.camera, leaves));
+    taken.push_back(std::move(leaves));
+  }
+  offers_ = std::make_shared<const Offers>(std::move(offers));
+}
+
+// Takes the meaning and the size that are wanted, and keeps the sizes that there are.
+void ClickSelection::note_first(const LeafView& view, const Answers& found, Candidate* best) {
+  note_offers(view, found);
+  choice_taken_ = std::min(static_cast<std::size_t>(std::max(choice_, 0)), offers_->meant.size() - 1);
+  if (choice_taken_ > 0) *best = offers_->meant[choice_taken_];
+  constexpr float kNextSize = 1.15f;  // in pixels that show it; less is not told apart
+  const Chain& chain = found.chains[best->chain];
+  const std::vector<float> px = displayed_px(view.leaves, chain.level, chain.nodes.size());
   std::vector<std::size_t> distinct{best->index};
   for (std::size_t i = best->index; i-- > 0;)
     if (px[i] >= kLeastChangePx && px[i] * kNextSize <= px[distinct.front()])
@@ -98,11 +158,12 @@ void ClickSelection::note_first(const std::vector<Chain>& chains, std::span<cons
   for (std::size_t i = best->index + 1; i < px.size(); ++i)
     if (px[i] >= kNextSize * px[distinct.back()]) distinct.push_back(i);
   constexpr float kAlike = 1.5f;
-  ambiguous_ = std::ranges::any_of(candidates, [&](const Candidate& c) {
-    const float folds = chains[c.chain].changed_px[c.index] / px[best->index];
+  ambiguous_ = std::ranges::any_of(found.candidates, [&](const Candidate& c) {
+    const float folds = found.chains[c.chain].changed_px[c.index] / chain.changed_px[best->index];
     return c.cost < best->cost + model_.doubt && (folds > kAlike || folds < 1 / kAlike);
   });
   const auto wanted = static_cast<std::ptrdiff_t>(likeliest) + part_step_;
+  likeliest_size_ = likeliest;
   sizes_ = distinct.size();
   size_ = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(wanted, 0, std::ssize(distinct) - 1));
   best->index = distinct[size_];
@@ -121,7 +182,8 @@ ClickSelection::Asked ClickSelection::asked(const LeafView& view, const glm::vec
   Asked asked{at,
               leaf_near(view, pixel, [&](std::uint32_t l) { return (selected_.object[l] != 0) != object; }),
               shown(view.gaussians, view.camera, labels_), 0};
-  if (any_ && asked.leaf != kNoPart) asked.radius_px = distance_to_border(asked.displayed, at, !object);
+  if (any_ && asked.leaf != kNoPart)
+    asked.radius_px = displayed_radius(view, asked.displayed, at, object, asked.leaf);
   return asked;
 }
 
@@ -149,7 +211,7 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool obj
   if (any_) {
     certain = certain_leaves(view, disc);
   } else {
-    note_first(found.chains, found.candidates, &best);
+    note_first(view, found, &best);
     certain[leaf] = 1;
   }
   change_leaves(found, best, certain, click);
@@ -166,18 +228,31 @@ void ClickSelection::change_leaves(const Answers& found, const Candidate& best,
   const std::int8_t sign = click.object ? 1 : -1;
   Change change{.leaves = {}, .object = click.object};
   const auto width = static_cast<float>(click.view.camera.width_px);
+  bool followed = false;
   for (std::uint32_t l = 0; l < parts_.leaves; ++l) {
     const bool follows = found.changes(best, l) && selected_.said[l] != -sign;
     if (certain[l]) selected_.said[l] = sign;
     if (!certain[l] && !follows) continue;
     if ((selected_.object[l] != 0) != click.object) {
+      followed |= !certain[l];
       change.leaves.push_back(l);
       change.share += click.view.leaf_px[l] / (width * width);
     }
     selected_.object[l] = click.object;
   }
+  constexpr float kSpotPx = 4;  // a click nearer to the border mends the border
+  spot_alone_ = !click.first && !followed && click.radius_px > kSpotPx;
   selected_.clicked[click.object].push_back(click.leaf);
   if (!click.first) selected_.changes.push_back(std::move(change));
+}
+
+// Distance to the displayed border. Where the object itself was left out of the picture there is none: the
+// clicked leaf's own size stands in its place.
+float ClickSelection::displayed_radius(const LeafView& view, const Mask& displayed, const glm::ivec2& at,
+                                       bool object, std::uint32_t leaf) const {
+  if (object && !view.whole && count(displayed) == 0)
+    return std::max(std::sqrt(view.leaf_px[leaf] / kPi), 1.0f);
+  return distance_to_border(displayed, at, !object);
 }
 
 // What is displayed as said already is held: a later click's parts do not take it back.
@@ -189,22 +264,25 @@ void ClickSelection::confirm(const LeafView& view, const glm::vec2& pixel, bool 
   pin(view,
       disc_pixels(view.camera, glm::vec2(at),
                   std::max({model_.disc_share * radius_px, least_radius_px, 1.0f})),
-      object);
+      object, Pin::kSaidAlready);
   const std::uint32_t leaf =
       leaf_near(view, pixel, [&](std::uint32_t l) { return (selected_.object[l] != 0) == object; });
   if (leaf != kNoPart) selected_.clicked[object].push_back(leaf);
   insist(view, static_cast<std::size_t>(at.y) * view.camera.width_px + at.x, object);
 }
 
-// The Gaussians that show mostly in these pixels take the label and keep it.
-void ClickSelection::pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object) {
+// The Gaussians that show mostly in these pixels take the label and keep it; or those alone that have it, as
+// something of the other side may shine through from behind.
+void ClickSelection::pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object,
+                         Pin which) {
   std::vector<float> inside(labels_.size(), 0), all(labels_.size(), 0);
   for (const std::uint32_t pixel : pixels)
     for (const GroupWeight& w : view.gaussians.at(pixel)) inside[w.group] += w.weight;
   for (const GroupWeight& w : view.gaussians.entry) all[w.group] += w.weight;
   const std::int8_t sign = object ? 1 : -1;
   for (std::size_t g = 0; g < labels_.size(); ++g) {
-    if (inside[g] > 0 && inside[g] > model_.disc_majority * all[g]) said_[g] = sign;
+    const bool mostly = inside[g] > 0 && inside[g] > model_.disc_majority * all[g];
+    if (mostly && (which == Pin::kAll || (labels_[g] != 0) == object)) said_[g] = sign;
   }
   label();
 }
@@ -254,6 +332,7 @@ bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
   if (!any_ && !object) return false;
   const auto anything = [](std::uint32_t) { return true; };
   bool hit = false;
+  spot_alone_ = false;
   for (const glm::vec2& point : stroke.points_px) {
     if (leaf_near(view, point, anything) == kNoPart) continue;
     const int x = std::clamp(static_cast<int>(point.x), 0, view.camera.width_px - 1),
@@ -275,6 +354,7 @@ bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
     if (drawn.pixels()[i] != kNoSeed) under.push_back(static_cast<std::uint32_t>(i));
   pin(view, under, object);
   for (const std::uint32_t pixel : under) insist(view, pixel, object);
+  spot_alone_ = false;  // a scribble says itself how much is meant
   return true;
 }
 

@@ -28,8 +28,9 @@ namespace splatcut {
 
 class ClickSelection {
  public:
-  // part_step: along the sizes that the first click can mean, from the likeliest; +1 the next larger.
-  ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step = 0);
+  // choice: of what the first click can mean, 0 the likeliest; see meanings(). part_step: along the sizes of
+  // that meaning; +1 the next larger. Both end at the last there is.
+  ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step = 0, int choice = 0);
 
   // A stroke in the pixels of the view. False: nothing of the scene is under it, or it speaks of the rest
   // before there is an object.
@@ -48,7 +49,16 @@ class ClickSelection {
   // likely.
   std::size_t sizes() const { return sizes_; }
   std::size_t size() const { return size_; }
+  std::size_t likeliest_size() const { return likeliest_size_; }  // at part_step 0
   bool ambiguous() const { return ambiguous_; }
+
+  // What else it can mean nearly as likely and clearly differently in its view: the masks of the likeliest
+  // meaning and of at most two more, in that view's size. Empty before the first click.
+  std::span<const Mask> meanings() const;
+  std::size_t choice() const { return choice_taken_; }
+
+  // The last stroke changed no more than the spot around it: no part of the scene fits it.
+  bool spot_alone() const { return spot_alone_; }
 
  private:
   struct Asked;
@@ -56,22 +66,31 @@ class ClickSelection {
   bool take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
   void confirm(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
   std::vector<std::uint8_t> certain_leaves(const LeafView& view, std::span<const std::uint32_t> disc) const;
-  void note_first(const std::vector<Chain>& chains, std::span<const Candidate> candidates, Candidate* best);
+  float displayed_radius(const LeafView& view, const Mask& displayed, const glm::ivec2& at, bool object,
+                         std::uint32_t leaf) const;
+  void note_offers(const LeafView& view, const Answers& answers);
+  void note_first(const LeafView& view, const Answers& answers, Candidate* best);
   void change_leaves(const Answers& answers, const Candidate& best, const std::vector<std::uint8_t>& certain,
                      const Click& click);
-  void pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object);
+  enum class Pin { kAll, kSaidAlready };
+  void pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object, Pin which = Pin::kAll);
   void insist(const LeafView& view, std::size_t pixel, bool object);
   void label();
 
   const PartHierarchy& parts_;
   SelectionModel model_;
-  int part_step_;
+  int part_step_, choice_;
   SelectedParts selected_;
+  struct Offers {
+    std::vector<Candidate> meant;
+    std::vector<Mask> masks;  // of each, in the first click's view
+  };
+  std::shared_ptr<const Offers> offers_;
   std::vector<std::uint8_t> labels_;
   std::vector<std::int8_t> said_;
   bool any_ = false;
-  std::size_t sizes_ = 0, size_ = 0;
-  bool ambiguous_ = false;
+  std::size_t sizes_ = 0, size_ = 0, likeliest_size_ = 0, choice_taken_ = 0;
+  bool ambiguous_ = false, spot_alone_ = false;
 };
 
 }  // namespace splatcut

@@ -65,12 +65,14 @@ void count_leaves(const PartHierarchy& parts, LeafView* of) {
 LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera, const Job& job) {
   LeafView view{
       .camera = camera, .gaussians = {}, .leaves = {}, .depth = {}, .leaf_px = {}, .leaf_frame_px = {}};
+  view.whole = seen == nullptr;
   std::vector<std::uint32_t> each(drawer.cloud().size());
   for (std::uint32_t g = 0; g < each.size(); ++g) each[g] = g;
   RasterOptions raster;
   raster.colour = false;
   raster.depth = true;
   raster.groups = each;
+  if (seen) raster.shown = *seen;
   raster.least_group_weight = kLeastGaussianWeight;
   RasterOutput drawn = drawer.draw(camera, raster, job);
   view.depth = std::move(drawn.expected_depth);

@@ -13,6 +13,7 @@
 
 #include "scene/projected_view.h"
 #include "segment/part_hierarchy.h"
+#include "segment/seeds.h"
 
 namespace splatcut {
 
@@ -29,13 +30,14 @@ struct LeafView {
   Camera camera;
   PixelWeights gaussians, leaves;
   Image<float> depth;                // of what is seen, in its mean; 0 where nothing is
+  bool whole = true;                 // false: Gaussians were left out
   std::vector<float> leaf_px;        // per leaf: sum of its weights, pixels
   std::vector<float> leaf_frame_px;  // the same at the picture's frame
 };
 
-// Cancelled: what comes back must not be used.
+// seen: Gaussians that are drawn; null: all. Cancelled: what comes back must not be used.
 LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera,
-                   const Job& job = {});
+                   const Job& job = {}, const SeenGaussians& seen = {});
 
 // The same at hand of what is at each pixel's median depth, sampled to at most max_width_px: rougher, and
 // free where a picture is drawn anyway. first_hit: RasterOutput::first_hit of the camera.

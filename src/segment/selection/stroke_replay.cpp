@@ -13,7 +13,7 @@ constexpr std::size_t kMostViews = 12;  // kept, some 10 MB each at 320 pixels
 constexpr std::size_t kMostKept = 6;    // selections, for undo: 2 bytes a Gaussian each
 
 bool same_stroke(const CameraStroke& a, const CameraStroke& b) {
-  return same_camera(a.camera, b.camera) && a.stroke.label == b.stroke.label &&
+  return same_camera(a.camera, b.camera) && same_set(a.seen, b.seen) && a.stroke.label == b.stroke.label &&
          a.stroke.radius_px == b.stroke.radius_px && a.stroke.points_px == b.stroke.points_px;
 }
 
@@ -27,19 +27,21 @@ std::vector<CameraStroke> object_first(std::span<const CameraStroke> strokes) {
 
 }  // namespace
 
-const LeafView* StrokeReplay::view(const Drawer& drawer, const Camera& full, int width_px, const Job& job) {
-  const Camera camera = limited_to_width(full, width_px);
-  const auto known =
-      std::ranges::find_if(views_, [&](const LeafView& v) { return same_camera(v.camera, camera); });
+const LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int width_px,
+                                   const Job& job) {
+  const Camera camera = limited_to_width(said.camera, width_px);
+  const auto known = std::ranges::find_if(views_, [&](const KnownView& v) {
+    return same_camera(v.view.camera, camera) && same_set(v.seen, said.seen);
+  });
   if (known != views_.end()) {
     views_.splice(views_.begin(), views_, known);
-    return &views_.front();
+    return &views_.front().view;
   }
-  LeafView made = leaf_view(drawer, parts_, camera, job);
+  LeafView made = leaf_view(drawer, parts_, camera, job, said.seen);
   if (job.cancelled()) return nullptr;  // it may be incomplete
-  views_.push_front(std::move(made));
+  views_.push_front({std::move(made), said.seen});
   if (views_.size() > kMostViews) views_.pop_back();
-  return &views_.front();
+  return &views_.front().view;
 }
 
 std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, const ClickSelection& before,
@@ -50,7 +52,7 @@ std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, 
     next->apply(seen, scaled({said.stroke}, factor).front());
     return next;
   };
-  const LeafView* seen = view(drawer, said.camera, options_.work_width_px, job);
+  const LeafView* seen = view(drawer, said, options_.work_width_px, job);
   if (!seen) return nullptr;
   auto next = attempt(*seen);
   const double side =
@@ -58,7 +60,7 @@ std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, 
   if (side == 0 || side >= options_.least_object_px || seen->camera.width_px >= said.camera.width_px)
     return next;
   const int wider = static_cast<int>(std::ceil(seen->camera.width_px * options_.least_object_px / side));
-  seen = view(drawer, said.camera, std::min(wider, said.camera.width_px), job);
+  seen = view(drawer, said, std::min(wider, said.camera.width_px), job);
   return seen ? attempt(*seen) : nullptr;
 }
 
@@ -72,8 +74,9 @@ const ClickSelection& StrokeReplay::replay(const Drawer& drawer, std::span<const
   options_ = options;
   done_.resize(same);
   after_.resize(same);
-  last_ =
-      same > 0 ? after_.back() : std::make_shared<ClickSelection>(parts_, options.model, options.part_step);
+  last_ = same > 0
+              ? after_.back()
+              : std::make_shared<ClickSelection>(parts_, options.model, options.part_step, options.choice);
   for (std::size_t i = same; i < order.size(); ++i) {
     auto next = after(drawer, *last_, order[i], job);
     if (!next) break;  // cancelled

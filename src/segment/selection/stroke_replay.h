@@ -17,12 +17,14 @@ namespace splatcut {
 
 struct CameraStroke {
   Camera camera;
-  Stroke stroke;  // in the camera's pixels
+  Stroke stroke;         // in the camera's pixels
+  SeenGaussians seen{};  // it speaks of these alone
 };
 
 struct ReplayOptions {
   SelectionModel model;
   int part_step = 0;         // see ClickSelection
+  int choice = 0;            // see ClickSelection
   int work_width_px = 320;   // views are looked at no wider than this
   int least_object_px = 48;  // square root of its pixels: wider where the object shows fewer
   bool operator==(const ReplayOptions&) const = default;
@@ -39,13 +41,17 @@ class StrokeReplay {
                                const ReplayOptions& options, const Job& job = {});
 
  private:
-  // Null: cancelled.
-  const LeafView* view(const Drawer& drawer, const Camera& full, int width_px, const Job& job);
+  struct KnownView {
+    LeafView view;
+    SeenGaussians seen;
+  };
+  // Of what the stroke speaks of. Null: cancelled.
+  const LeafView* view(const Drawer& drawer, const CameraStroke& said, int width_px, const Job& job);
   std::shared_ptr<const ClickSelection> after(const Drawer& drawer, const ClickSelection& before,
                                               const CameraStroke& said, const Job& job);
 
   const PartHierarchy& parts_;
-  std::list<LeafView> views_;  // the newest first
+  std::list<KnownView> views_;  // the newest first
   ReplayOptions options_;
   std::vector<CameraStroke> done_;  // in the order in which they were applied
   std::vector<std::shared_ptr<const ClickSelection>>

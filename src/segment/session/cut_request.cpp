@@ -43,6 +43,15 @@ class Key {
       list(stroke.points_px, [this](const glm::vec2& p) { numbers({&p.x, 2}); });
     });
   }
+  void seen(const SeenGaussians& seen) {
+    number(seen != nullptr);
+    if (seen) number(hash_bytes(std::as_bytes(std::span(*seen))));
+  }
+  void stroked(const StrokedView& view) {
+    camera(view.camera);
+    strokes(view.strokes);
+    seen(view.seen);
+  }
   void given(const GivenView& view) {
     camera(view.camera);
     number(view.mask.width());
@@ -62,6 +71,7 @@ void add_given(const CutRequest& request, Key* key) {
   key->list(request.masks, [key](const GivenView& view) { key->given(view); });
   key->number(static_cast<bool>(request.mask_source));
   key->cameras(request.views);
+  key->number(request.choice);
   key->number(request.part_step);
   key->number(request.up_world.has_value());
   if (request.up_world) key->numbers({&request.up_world->x, 3});
@@ -96,10 +106,7 @@ std::optional<ReferenceView> reference_of(const CutRequest& request,
 
 std::string key_of(const CutRequest& request) {
   Key key;
-  key.list(request.strokes, [&key](const StrokedView& view) {
-    key.camera(view.camera);
-    key.strokes(view.strokes);
-  });
+  key.list(request.strokes, [&key](const StrokedView& view) { key.stroked(view); });
   key.cameras(request.left_out);
   add_given(request, &key);
   return key.take();
@@ -107,11 +114,19 @@ std::string key_of(const CutRequest& request) {
 
 std::string key_of_strokes(const CutRequest& request) {
   Key key;
-  key.list(request.strokes, [&key](const StrokedView& view) {
-    key.camera(view.camera);
-    key.strokes(view.strokes);
-  });
+  key.list(request.strokes, [&key](const StrokedView& view) { key.stroked(view); });
   return key.take();
+}
+
+std::string key_of_first_stroke(const CutRequest& request) {
+  for (const StrokedView& view : request.strokes)
+    for (const Stroke& stroke : view.strokes) {
+      if (stroke.label != SeedLabel::kObject) continue;
+      Key key;
+      key.stroked({view.camera, {stroke}, view.seen});
+      return key.take();
+    }
+  return {};
 }
 
 std::string key_of_reference(const CutRequest& request, const ReferenceView& reference) {

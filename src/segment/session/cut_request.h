@@ -19,6 +19,7 @@ namespace splatcut {
 struct StrokedView {
   Camera camera;
   Strokes strokes;
+  SeenGaussians seen{};  // they speak of these alone
 };
 
 // A view whose mask is known. Mask: any size of the camera's aspect ratio.
@@ -39,7 +40,8 @@ struct CutRequest {
   MaskSource mask_source;               // of every orbit view
   std::vector<Camera> views;            // to look from beside the reference; empty: an orbit
   std::vector<Camera> left_out;         // views that do not count, the reference apart
-  int part_step = 0;                    // sizes above or below what the first click means most likely
+  int choice = 0;                       // of what the first click can mean, 0 the likeliest
+  int part_step = 0;                    // sizes above or below that meaning's own
   std::optional<glm::vec3> up_world;    // where the user says which way is up; the session's otherwise
 };
 
@@ -62,6 +64,9 @@ std::string key_of(const CutRequest& request);
 
 // Its strokes alone, in their order.
 std::string key_of_strokes(const CutRequest& request);
+
+// Its first stroke on the object, with its view: what the meanings of the first click depend on. Empty: none.
+std::string key_of_first_stroke(const CutRequest& request);
 
 // The part of the key that the cut from the reference depends on, see session.h.
 std::string key_of_reference(const CutRequest& request, const ReferenceView& reference);

@@ -31,12 +31,16 @@ struct CutResult {
   std::vector<std::uint8_t> prior;   // what the parts say, per Gaussian; it counts in every cut; or empty
   std::vector<std::int8_t> said;     // per Gaussian: +1, -1 as strokes themselves decide, 0 open; or empty
   std::size_t sizes = 0, size = 0;   // that the first click can mean, from small to large; the one taken
-  bool ambiguous = false;            // another size was nearly as likely
-  std::vector<ViewReport> views;     // the reference, the others, then stroked views that correct
-  std::string why_enough;            // why there are no more views
-  CutFigures cut;                    // of the last cut
-  std::size_t trimmed = 0;           // Gaussians that left the object after it
-  std::vector<StageTime> stages;     // in order, same names added up; what was kept costs and lists nothing
+  std::size_t likeliest_size = 0;    // the one at part_step 0
+  std::vector<Mask> meanings;     // of the first click in its view, the likeliest first; see ClickSelection
+  std::size_t choice = 0;         // the one taken
+  bool spot_alone = false;        // the last stroke changed the spot around it alone: no part fits it
+  bool ambiguous = false;         // another size was nearly as likely
+  std::vector<ViewReport> views;  // the reference, the others, then stroked views that correct
+  std::string why_enough;         // why there are no more views
+  CutFigures cut;                 // of the last cut
+  std::size_t trimmed = 0;        // Gaussians that left the object after it
+  std::vector<StageTime> stages;  // in order, same names added up; what was kept costs and lists nothing
 };
 
 // What strokes say of a Gaussian holds, whatever the views made of it.

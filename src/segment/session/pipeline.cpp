@@ -167,18 +167,16 @@ PartView Run::parts_in(const Camera& camera) {
 // What all strokes mean as parts becomes the labels.
 void Run::pick(const Camera& camera) {
   clock_.time("first mask", [&] {
-    ReplayOptions options{.model = scene_.model.selection};
-    options.part_step = request_.part_step;
-    options.work_width_px = settings_.work_width_px;
-    options.least_object_px = settings_.least_object_px;
-    std::vector<CameraStroke> strokes;
-    for (const StrokedView& view : request_.strokes)
-      for (const Stroke& stroke : view.strokes) strokes.push_back({view.camera, stroke});
-    const ClickSelection& picked = scene_.strokes.replay(drawer_, strokes, options, job_);
+    const ClickSelection& picked = scene_.strokes.replay(
+        drawer_, strokes_in_order(request_), replay_options(request_, settings_, scene_.model), job_);
     if (job_.cancelled()) return;
     result_.labels = picked.labels();
     result_.sizes = picked.sizes();
     result_.size = picked.size();
+    result_.likeliest_size = picked.likeliest_size();
+    result_.meanings.assign(picked.meanings().begin(), picked.meanings().end());
+    result_.choice = picked.choice();
+    result_.spot_alone = picked.spot_alone();
     result_.ambiguous = picked.ambiguous();
     result_.said = picked.said();
     join_enclosed_by(parts_in(camera));
@@ -412,6 +410,22 @@ void Run::trim_labels() {
 }
 
 }  // namespace
+
+ReplayOptions replay_options(const CutRequest& request, const CutSettings& settings, const PartModel& model) {
+  ReplayOptions options{.model = model.selection};
+  options.part_step = request.part_step;
+  options.choice = request.choice;
+  options.work_width_px = settings.work_width_px;
+  options.least_object_px = settings.least_object_px;
+  return options;
+}
+
+std::vector<CameraStroke> strokes_in_order(const CutRequest& request) {
+  std::vector<CameraStroke> strokes;
+  for (const StrokedView& view : request.strokes)
+    for (const Stroke& stroke : view.strokes) strokes.push_back({view.camera, stroke, view.seen});
+  return strokes;
+}
 
 std::size_t trim_to_views(const Drawer& drawer, const std::vector<ViewReport>& views,
                           const CutSettings& settings, std::vector<std::uint8_t>* labels, const Job& job) {

@@ -42,6 +42,10 @@ CutResult cut_from_reference(const CutScene& scene, const ReferenceView& referen
 Mask first_mask_of(const CutScene& scene, const ReferenceView& reference, const CutRequest& request,
                    const CutSettings& settings, const Job& job);
 
+// What strokes are replayed with, and all of them in their order.
+ReplayOptions replay_options(const CutRequest& request, const CutSettings& settings, const PartModel& model);
+std::vector<CameraStroke> strokes_in_order(const CutRequest& request);
+
 // trim() by the views that count. Returns how many Gaussians left the object.
 std::size_t trim_to_views(const Drawer& drawer, const std::vector<ViewReport>& views,
                           const CutSettings& settings, std::vector<std::uint8_t>* labels, const Job& job);

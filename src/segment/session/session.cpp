@@ -252,6 +252,21 @@ Mask Session::first_mask(const CutRequest& request, const CutSettings& settings,
   return first_mask_of(scene, *asked.reference, request, asked.first_settings, job);
 }
 
+Session::Preview Session::preview(const CutRequest& request, const CameraStroke& stroke,
+                                  const CutSettings& settings, const Job& job) {
+  if (settings.first_mask_from != FirstMaskFrom::kParts ||
+      scene_.prepared->parts.leaf_of.size() != scene_.cloud->size())
+    return {};
+  const Drawer drawer(*scene_.cloud, &views_);
+  const ReplayOptions options = replay_options(request, settings, scene_.prepared->model);
+  std::vector<CameraStroke> strokes = strokes_in_order(request);
+  Preview preview;
+  preview.before = strokes_.replay(drawer, strokes, options, job).labels();
+  strokes.push_back(stroke);
+  preview.after = strokes_.replay(drawer, strokes, options, job).labels();
+  return job.cancelled() ? Preview{} : preview;
+}
+
 std::vector<float> Session::likelihood_of(const CutRequest& request, const CutSettings& settings,
                                           const Job& job) {
   const Asked asked = this->asked(request, settings);

@@ -1,0 +1,204 @@
+// Clicks: what they hit, what the next one would change, what else the first one can mean.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/studio/document_edits.h"
+#include "app/studio/studio.h"
+#include "scene/error.h"
+#include "scene/rasterizer.h"
+
+namespace splatcut {
+
+namespace {
+
+bool any_mark(const ObjectItem& object) {
+  return std::ranges::any_of(object.views, marks_object);
+}
+
+std::size_t strokes_of(const ObjectItem& object) {
+  std::size_t count = 0;
+  for (const StrokedView& view : object.views) count += view.strokes.size();
+  return count;
+}
+
+std::string title_of(const Stroke& stroke) {
+  return fmt::format("{}: {}", stroke.points_px.size() == 1 ? "Click" : "Scribble",
+                     stroke.label == SeedLabel::kRest ? "rest" : "object");
+}
+
+}  // namespace
+
+// Whether anything can be seen within reach of one of the stroke's points: as far as the selection reaches.
+bool Studio::hits_anything(const AddStroke& c) const {
+  constexpr float kReachShare = 4.0f / 320;  // of the picture's width
+  constexpr float kLeastAlpha = 0.25f;       // less is not seen by anybody
+  const float reach = std::max(1.0f, kReachShare * static_cast<float>(c.camera.width_px));
+  glm::vec2 low = c.stroke.points_px.front(), high = low;
+  for (const glm::vec2& p : c.stroke.points_px) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const glm::vec2 most(c.camera.width_px, c.camera.height_px);
+  const glm::ivec2 from = glm::clamp(glm::floor(low - reach), glm::vec2(0), most),
+                   to = glm::clamp(glm::ceil(high + reach) + 1.0f, glm::vec2(0), most);
+  const PixelRect around{from.x, from.y, to.x, to.y};
+  if (around.empty()) return false;
+  const bool on_screen = panes() == 1 && picture_ && picture_->full && picture_->range == depth_range() &&
+                         same_camera(picture_->frames.front()->camera, c.camera);
+  Image<float> drawn;
+  if (!on_screen) {
+    RasterOptions options;
+    options.colour = false;
+    options.near_plane = depth_range().near_plane;
+    options.roi = around;
+    if (c.seen) options.shown = *c.seen;
+    drawn = rasterize(*scene_->cloud, c.camera, options).alpha;
+  }
+  const auto alpha = [&](int x, int y) {
+    return on_screen ? picture_->frames.front()->alpha.at(x, y) : drawn.at(x - from.x, y - from.y);
+  };
+  for (int y = from.y; y < to.y; ++y)
+    for (int x = from.x; x < to.x; ++x) {
+      if (alpha(x, y) < kLeastAlpha) continue;
+      const auto within = [&](const glm::vec2& p) { return glm::distance(glm::vec2(x, y), p) <= reach; };
+      if (std::ranges::any_of(c.stroke.points_px, within)) return true;
+    }
+  return false;
+}
+
+// Said where the click tells what is on the screen already; else empty.
+std::string Studio::already_so(const AddStroke& c) const {
+  const ObjectItem* object = document().active_object();
+  if (!object || !any_mark(*object) || c.stroke.points_px.size() != 1 || panes() == 2 || !active_labels_ ||
+      !same_camera(c.camera, viewport_camera()))
+    return {};
+  const auto hit = pick(c.stroke.points_px.front());
+  if (!hit) return {};
+  const bool is_part = (*active_labels_)[static_cast<std::size_t>(hit->gaussian)] != 0;
+  if (is_part != (c.stroke.label == SeedLabel::kObject)) return {};
+  return fmt::format("That is {} of {} already, and stays so", is_part ? "part" : "no part", object->name);
+}
+
+void Studio::perform(const AddStroke& c) {
+  require_scene();
+  if (!c.stroke.points_px.empty() && !hits_anything(c))
+    throw Error("click", "there is nothing in that place", "Click on something that can be seen");
+  const std::string held = already_so(c);
+  Document after = history_.now();
+  const std::string message = edit(&after, c, context());
+  push(title_of(c.stroke), std::move(after), {}, held.empty() ? message : held);
+}
+
+const ClickMeanings* Studio::meanings(const ObjectItem& object) const {
+  const CutRun* run = cut_run(object.id);
+  if (!run || !run->meanings) return nullptr;
+  const bool same_click = run->meanings->key == key_of_first_stroke(cut_request(document(), object));
+  return same_click ? run->meanings.get() : nullptr;
+}
+
+const ClickMeanings* Studio::offer() const {
+  const ObjectItem* object = document().active_object();
+  if (!object || object->locked || view_.tool != Tool::kClick || view_.display != DisplayMode::kWhole ||
+      view_.heat || strokes_of(*object) != 1)
+    return nullptr;
+  const ClickMeanings* known = meanings(*object);
+  return known && known->outlines.size() > 1 && known->key != declined_offer_ ? known : nullptr;
+}
+
+// Empty where the first click can mean a part that many sizes larger, as far as is known.
+std::string Studio::why_not_step(int steps) const {
+  const ObjectItem* object = document().active_object();
+  if (!object || !any_mark(*object)) return "Click an object first";
+  const ClickMeanings* known = meanings(*object);
+  if (!known || known->choice != object->choice) return {};
+  const auto size = static_cast<std::ptrdiff_t>(known->likeliest_size) + object->part_step;
+  const auto last = static_cast<std::ptrdiff_t>(known->sizes) - 1;
+  if (last == 0) return "The click means one size alone";
+  if (steps > 0 && size >= last) return fmt::format("This is the largest of {} sizes", known->sizes);
+  if (steps < 0 && size <= 0) return fmt::format("This is the smallest of {} sizes", known->sizes);
+  return {};
+}
+
+void Studio::perform(const StepScale& c) {
+  require_scene();
+  const std::string reason = why_not_step(c.steps);
+  if (!reason.empty()) throw Error(c.steps > 0 ? "larger part" : "smaller part", reason);
+  Document after = history_.now();
+  const ObjectItem* active = document().active_object();
+  const ClickMeanings* known = active ? meanings(*active) : nullptr;
+  if (known && known->choice != active->choice) known = nullptr;
+  const auto limit = [&] {  // steps that were asked for before anybody knew the sizes
+    const auto likeliest = static_cast<int>(known->likeliest_size), sizes = static_cast<int>(known->sizes);
+    int& step = after.find(after.active)->part_step;
+    step = std::clamp(step, -likeliest, sizes - 1 - likeliest);
+    return fmt::format(": size {} of {}", likeliest + step + 1, sizes);
+  };
+  if (known) limit();
+  std::string message = edit(&after, c, context());
+  if (known) message += limit();
+  push(c.steps > 0 ? "Larger part" : "Smaller part", std::move(after), {}, message);
+}
+
+// Nothing: no click tool, no still picture, nothing under the pointer, or a cut is on its way.
+std::optional<Studio::HoverAsk> Studio::hover_wanted() const {
+  const ObjectItem* active = document().active_object();
+  if (!pointer_inside_ || !session_ || view_.tool != Tool::kClick || panes() != 1 || view_.heat ||
+      tools_.dragging() || highlight_floaters_ || cutting_object_ != 0 || (active && active->locked))
+    return {};
+  const Camera camera = viewport_camera();
+  if (!picture_ || !picture_->full || !same_camera(picture_->frames.front()->camera, camera)) return {};
+  const auto hit = pick(tools_.pointer_px());
+  if (!hit) return {};
+  const bool on_object = active_labels_ && (*active_labels_)[static_cast<std::size_t>(hit->gaussian)] != 0;
+  const bool corrects = active && any_mark(*active);
+  return HoverAsk{document_serial_, view_serial_, camera, glm::floor(tools_.pointer_px()),
+                  corrects && (on_object || held_modifiers_.ctrl)};
+}
+
+// Outlines what a click would change: the object click outside of the object, the rest click on it. The
+// worker does what the click would; the newest place is asked for once it is free.
+void Studio::refresh_hover() {
+  const std::optional<HoverAsk> ask = hover_wanted();
+  if (!ask) {
+    if (hover_) show_hover(nullptr, false);
+    hover_.reset();
+    return;
+  }
+  if (hover_ && hover_->same_but_pixel(*ask) && hover_->pixel == ask->pixel) return;
+  if (tasks_.busy(TaskKind::kHover)) return;
+  hover_ = ask;
+  const ObjectItem* object = document().active_object();
+  const ObjectItem none;
+  CameraStroke stroke{ask->camera,
+                      click(tools_.pointer_px(), ask->rest ? SeedLabel::kRest : SeedLabel::kObject), seen(0)};
+  stroke.stroke.radius_px *= pixels_per_point_;
+  if (object) stroke.camera = known_camera(*object, stroke.camera);
+  tasks_.submit(TaskKind::kHover, [this, ask = *ask, stroke, session = session_, scene = scene_,
+                                   request = cut_request(document(), object ? *object : none),
+                                   settings =
+                                       cut_settings(document(), object ? *object : none)](const Job& job) {
+    const Session::Preview preview = session->preview(request, stroke, settings, {job.stop, {}});
+    if (preview.after.empty()) return;
+    std::vector<std::uint8_t> change(preview.after.size());
+    std::ranges::transform(preview.before, preview.after, change.begin(),
+                           [](std::uint8_t before, std::uint8_t after) { return before != after ? 1 : 0; });
+    tasks_.post([this, ask, scene, change = make_flags(std::move(change))] {
+      if (scene == scene_ && hover_ && hover_->same_but_pixel(ask)) show_hover(change, ask.rest);
+    });
+  });
+  if (options_.inline_tasks) tasks_.deliver();
+}
+
+void Studio::show_hover(const Flags& change, bool rest) {
+  constexpr Rgb8 kAdds{255, 255, 255}, kRemoves{225, 25, 60};
+  FrameStyle& style = style_[0];
+  const bool same = style.highlight && change ? *style.highlight == *change : style.highlight == change;
+  if (same && style.highlight_colour == (rest ? kRemoves : kAdds)) return;
+  style.highlight = change;
+  style.highlight_colour = rest ? kRemoves : kAdds;
+  ++style_version_;
+}
+
+}  // namespace splatcut
