@@ -118,7 +118,7 @@ TEST_CASE(
     "selection: what is at least half as likely and shows something else is offered, and can be chosen") {
   // Costs by hand: .09 ln(border / size) is -.65 for the pair, -.06 for all four, 0 for the leaf.
   SelectionModel unsure = borders_alone();
-  unsure.cut_weight = 0.09f;
+  weight(&unsure.first, Term::kCut) = 0.09f;
   const PartHierarchy parts = four_leaves();
   const LeafView view = stripes(parts);
   const std::vector<Labels> meant = {{1, 1, 0, 0}, {1, 1, 1, 1}, {1, 0, 0, 0}};
@@ -182,7 +182,7 @@ TEST_CASE("selection: strokes speak of what was seen alone") {
 
 TEST_CASE("selection: a click that no part fits changes its spot and says so, one at the border does not") {
   SelectionModel nothing_likely = borders_alone();
-  nothing_likely.disc_cost = -100;
+  weight(&nothing_likely.later, Term::kDisc) = -100;
   const PartHierarchy parts = four_leaves();
   const LeafView view = stripes(parts);
   for (const auto& [x, alone] : {std::pair{30.0f, true}, {22.0f, false}}) {

@@ -27,15 +27,16 @@ class Selections {
  public:
   Selections(const PartsScene& scene, const SelectionModel& model) : scene_(scene), model_(model) {}
 
-  const std::vector<std::uint8_t>& labels_after(std::span<const ViewClick> clicks) {
-    const bool continued = clicks.size() == applied_ + 1 && applied_ > 0;
+  const ClickSelection& after(std::span<const ViewClick> clicks, int choice) {
+    const bool continued = clicks.size() == applied_ + 1 && applied_ > 0 && choice == choice_;
     if (!continued) {
-      selection_ = std::make_unique<ClickSelection>(scene_.parts, model_);
+      selection_ = std::make_unique<ClickSelection>(scene_.parts, model_, 0, choice);
+      choice_ = choice;
       applied_ = 0;
     }
     for (; applied_ < clicks.size(); ++applied_)
       selection_->apply(view_of(scene_, clicks[applied_].camera), clicks[applied_].stroke);
-    return selection_->labels();
+    return *selection_;
   }
 
  private:
@@ -43,6 +44,7 @@ class Selections {
   SelectionModel model_;
   std::unique_ptr<ClickSelection> selection_;
   std::size_t applied_ = 0;
+  int choice_ = 0;
 };
 
 }  // namespace
@@ -86,8 +88,9 @@ PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const P
 AnyViewWorld parts_world(const PartsScene& scene, const SelectionModel& model) {
   auto selections = std::make_shared<Selections>(scene, model);
   return {scene.truths,
-          [selections](std::span<const ViewClick> clicks, const Job&) -> CutAnswer {
-            return {selections->labels_after(clicks), {}};
+          [selections](std::span<const ViewClick> clicks, int choice, const Job&) -> CutAnswer {
+            const ClickSelection& selection = selections->after(clicks, choice);
+            return {selection.labels(), {}, {selection.meanings().begin(), selection.meanings().end()}};
           },
           [&scene](const Camera& camera, const std::vector<std::uint8_t>& labels) {
             const LeafView& view = view_of(scene, camera);

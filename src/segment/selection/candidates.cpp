@@ -396,14 +396,17 @@ void Asking::add_disc() {
   out_.candidates.push_back(disc);
 }
 
-// Likeliest candidates first, until none that is left can win; those are dropped unless all are wanted.
+// Likeliest candidates first, until none that is left can win; those are dropped unless all are wanted. Of a
+// first click more are kept: a click on the rest may ask for another one.
 void Asking::measure_off_centre(bool all) {
-  constexpr std::size_t kMost = 24;  // looked at
+  constexpr float kUnlikely = 3;  // 20 times less likely than the likeliest
+  const std::size_t most = click_.first ? 48 : 24;
+  const float margin = click_.first ? kUnlikely : 0;
   const float weight = weights_[static_cast<std::size_t>(Term::kOffCentre)];
   float best = std::numeric_limits<float>::max();
   std::size_t looked_at = 0;
   for (Candidate& candidate : out_.candidates) {
-    if (!all && (looked_at == kMost || candidate.cost > best + model_.doubt)) break;
+    if (!all && (looked_at == most || candidate.cost > best + margin)) break;
     ++looked_at;
     if (candidate.index != Candidate::kDiscAlone) {
       const Image<std::uint32_t>& level = level_image(candidate.chain);

@@ -62,7 +62,8 @@ void count_leaves(const PartHierarchy& parts, LeafView* of) {
 
 }  // namespace
 
-LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera, const Job& job) {
+LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera, const Job& job,
+                   const SeenGaussians& seen) {
   LeafView view{
       .camera = camera, .gaussians = {}, .leaves = {}, .depth = {}, .leaf_px = {}, .leaf_frame_px = {}};
   view.whole = seen == nullptr;
