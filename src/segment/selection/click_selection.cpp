@@ -11,7 +11,6 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr int kReachPx = 4;  // a click beside the scene's edge still hits it
 
 // Per node of a chain: the pixels that would show it. level: per leaf, from which node on it belongs to them.
@@ -251,7 +250,7 @@ void ClickSelection::change_leaves(const Answers& found, const Candidate& best,
 float ClickSelection::displayed_radius(const LeafView& view, const Mask& displayed, const glm::ivec2& at,
                                        bool object, std::uint32_t leaf) const {
   if (object && !view.whole && count(displayed) == 0)
-    return std::max(std::sqrt(view.leaf_px[leaf] / kPi), 1.0f);
+    return std::max(std::sqrt(view.leaf_px[leaf] / std::numbers::pi_v<float>), 1.0f);
   return distance_to_border(displayed, at, !object);
 }
 
