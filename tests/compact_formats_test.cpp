@@ -64,8 +64,8 @@ TEST_CASE("spz: small scenes keep their shape, what 24 bits cannot hold is refus
     return report.loss;
   };
   CHECK(saved(1).find("sizes") == std::string::npos);
-  CHECK(saved(1e-4f).find("500 Gaussians are smaller or larger") != std::string::npos);
-  CHECK(saved(1e6f).find("Gaussians are smaller or larger") != std::string::npos);
+  CHECK(saved(1e-4f).find("sizes") != std::string::npos);
+  CHECK(saved(1e6f).find("sizes") != std::string::npos);
   for (const float unit : {1e-6f, 1e8f})
     CHECK_THROWS_WITH_AS(saved(unit), doctest::Contains("24 bits"), Error);
 }

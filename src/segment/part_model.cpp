@@ -105,25 +105,26 @@ SelectionModel::SelectionModel()
                      {Term::kShadeBlind, -2.9f},
                      {Term::kOffCentre, 3.9f},
                      {Term::kNoEdge, 9.1f},
-                     {Term::kSmall, 2.7f}})),
+                     {Term::kSmall, 2.7f},
+                     {Term::kLarge, 4}})),
       later(weights({{Term::kCut, 0.1f},
                      {Term::kJump, -0.1f},
                      {Term::kRare, 3},
                      {Term::kFrame, 1.9f},
                      {Term::kShadeBlind, 0.5f},
                      {Term::kOffCentre, 2},
-                     {Term::kScrap, 1.5f},
-                     {Term::kFold, 0.15f},
+                     {Term::kScrap, 0.5f},
+                     {Term::kFold, 1},
                      {Term::kGiant, 3.25f},
                      {Term::kBorder, 3.25f},
                      {Term::kOpposed, 5},
                      {Term::kBack, 1},
-                     {Term::kDisc, 4}})) {}
+                     {Term::kDisc, 2}})) {}
 
 std::span<const std::string> term_names() {
   static const std::array<std::string, kTerms> names = {
       "cut",   "jump", "rare",  "frame",  "shade_blind", "off_centre", "no_edge", "small", "large",
-      "scrap", "fold", "giant", "border", "growth",      "opposed",    "back",    "disc",  "repick"};
+      "scrap", "fold", "giant", "border", "opposed",     "back",       "disc",    "repick"};
   return names;
 }
 

@@ -81,13 +81,12 @@ enum class Term {
   kFold,
   kGiant,
   kBorder,
-  kGrowth,
   kOpposed,
   kBack,
   kDisc,
   kRepick
 };
-inline constexpr std::size_t kTerms = 18;
+inline constexpr std::size_t kTerms = 17;
 using TermValues = std::array<float, kTerms>;  // by Term
 inline float& weight(TermValues* of, Term term) {
   return (*of)[static_cast<std::size_t>(term)];

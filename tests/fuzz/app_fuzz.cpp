@@ -53,7 +53,8 @@ const Scene& small_scene() {
 // The header is made right, so that what follows it is read.
 [[maybe_unused]] void fuzz_cache(std::string_view bytes) {
   constexpr std::uint64_t kMagic = 0x50455250544c5053, kVersion = 2, kKey = 7;
-  std::uint64_t header[5] = {kMagic, kVersion, kKey, bytes.size() - std::min<std::size_t>(bytes.size(), 8), 0};
+  std::uint64_t header[5] = {kMagic, kVersion, kKey, bytes.size() - std::min<std::size_t>(bytes.size(), 8),
+                             0};
   if (bytes.size() < 8) return;
   std::memcpy(&header[4], bytes.data(), 8);
   std::string file(reinterpret_cast<const char*>(header), sizeof header);

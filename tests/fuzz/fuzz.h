@@ -47,11 +47,11 @@ inline const Place& place() {
 
 }  // namespace splatcut
 
-#define SPLATCUT_FUZZ_ENTRY                                                          \
+#define SPLATCUT_FUZZ_ENTRY                                                           \
   extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) { \
-    try {                                                                            \
+    try {                                                                             \
       splatcut::SPLATCUT_FUZZ_READER({reinterpret_cast<const char*>(data), size});    \
-    } catch (const splatcut::Error&) {                                               \
-    }                                                                                \
-    return 0;                                                                        \
+    } catch (const splatcut::Error&) {                                                \
+    }                                                                                 \
+    return 0;                                                                         \
   }

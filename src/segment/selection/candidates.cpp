@@ -304,9 +304,6 @@ void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
   term(candidate, Term::kFold) = at_least_0(f - kFoldSlack);
   term(candidate, Term::kGiant) = at_least_0(f - kGiantFolds);
   term(candidate, Term::kBorder) = click_.radius_px < kBorderPx ? at_least_0(f - kFoldSlack) : 0;
-  if (!selected_.changes.empty() && selected_.changes.back().share > 0)
-    term(candidate, Term::kGrowth) =
-        at_least_0(std::log(changed_px / (width * width) / selected_.changes.back().share));
 }
 
 void Asking::add_candidates(std::size_t c, float least_growth) {

@@ -17,7 +17,6 @@
 // - kScrap, kFold, kGiant: of later clicks, with f = ln(changed pixels / disc to the displayed border):
 //   max(0, -0.3 - f), max(0, f - 1), max(0, f - 3.25).
 // - kBorder: max(0, f - 1) where the click is within 2 pixels of the border.
-// - kGrowth: ln(changed pixels / those of the correction before), at least 0. Large faults are mended first.
 // - kOpposed: clicks of the other sign that it holds.
 // - kBack: IoU with what a click of the other sign has changed, the largest. People undo in that case.
 // - kDisc: 1 where nothing but the disc would change.
@@ -73,7 +72,6 @@ struct Answers {
 struct Change {
   std::vector<std::uint32_t> leaves;
   bool object = false;
-  float share = 0;  // of its view's width squared
 };
 
 // What the clicks so far have made of the parts.

@@ -128,8 +128,7 @@ void ClickSelection::note_offers(const LeafView& view, const Answers& found) {
     return both >= kClearly * either;
   };
   for (const Candidate& candidate : found.candidates) {
-    if (offers.meant.size() == kMostMeanings ||
-        candidate.cost > found.candidates.front().cost + model_.doubt)
+    if (offers.meant.size() == kMostMeanings || candidate.cost > found.candidates.front().cost + model_.doubt)
       break;
     std::vector<std::uint8_t> leaves(parts_.leaves);
     for (std::uint32_t l = 0; l < parts_.leaves; ++l) leaves[l] = found.changes(candidate, l);
@@ -226,7 +225,6 @@ void ClickSelection::change_leaves(const Answers& found, const Candidate& best,
                                    const std::vector<std::uint8_t>& certain, const Click& click) {
   const std::int8_t sign = click.object ? 1 : -1;
   Change change{.leaves = {}, .object = click.object};
-  const auto width = static_cast<float>(click.view.camera.width_px);
   bool followed = false;
   for (std::uint32_t l = 0; l < parts_.leaves; ++l) {
     const bool follows = found.changes(best, l) && selected_.said[l] != -sign;
@@ -235,7 +233,6 @@ void ClickSelection::change_leaves(const Answers& found, const Candidate& best,
     if ((selected_.object[l] != 0) != click.object) {
       followed |= !certain[l];
       change.leaves.push_back(l);
-      change.share += click.view.leaf_px[l] / (width * width);
     }
     selected_.object[l] = click.object;
   }
