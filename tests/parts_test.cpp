@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "four_leaves.h"
 #include "scene/counter_rng.h"
 #include "scene/rasterizer.h"
 #include "segment/mask_tools.h"
@@ -47,22 +48,7 @@ PartOptions one_tree() {
   return options;
 }
 
-// Four leaves in a row of a 40 x 10 picture, 10 pixels wide each: ((0 1) (2 3)).
-PartHierarchy four_leaves() {
-  PartHierarchy parts;
-  parts.leaves = 4;
-  parts.leaf_of = {0, 1, 2, 3};
-  PartTree tree;
-  tree.parent = {4, 4, 5, 5, 6, 6, kNoPart};
-  const std::array<std::uint32_t, 2> leaf{kNoPart, kNoPart};
-  tree.children = {leaf, leaf, leaf, leaf, {0, 1}, {2, 3}, {4, 5}};
-  tree.area = {1, 1, 1, 1, 2, 2, 4};
-  tree.cut = {1, 1, 1, 1, 0.001f, 0.001f, 1};
-  tree.merge_cost = {0, 0, 0, 0, 0.1f, 0.1f, 10};
-  parts.trees = {tree};
-  return parts;
-}
-
+// One leaf after the other in a row, 10 x 10 pixels each.
 Image<std::int32_t> four_stripes() {
   Image<std::int32_t> hit(40, 10);
   for (int y = 0; y < 10; ++y)

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "app/lab/robot_user.h"
+#include "four_leaves.h"
 #include "scene/counter_rng.h"
 #include "segment/mask_tools.h"
 #include "segment/selection/click_selection.h"
@@ -19,26 +20,8 @@ namespace {
 
 using Labels = std::vector<std::uint8_t>;
 
-// Four leaves of one Gaussian each in a row of a 40 x 10 picture, 10 pixels wide each: ((0 1) (2 3)).
-PartHierarchy four_leaves() {
-  PartHierarchy parts;
-  parts.leaves = 4;
-  parts.leaf_of = {0, 1, 2, 3};
-  PartTree tree;
-  tree.parent = {4, 4, 5, 5, 6, 6, kNoPart};
-  const std::array<std::uint32_t, 2> leaf{kNoPart, kNoPart};
-  tree.children = {leaf, leaf, leaf, leaf, {0, 1}, {2, 3}, {4, 5}};
-  tree.area = {1, 1, 1, 1, 2, 2, 4};
-  tree.cut = {1, 1, 1, 1, 0.001f, 0.001f, 1};
-  tree.merge_cost = {0, 0, 0, 0, 0.1f, 0.1f, 10};
-  parts.trees = {tree};
-  parts.plain_trees = 1;
-  parts.leaf_area = {1, 1, 1, 1};
-  for (int l = 0; l < 4; ++l) parts.leaf_centre_world.emplace_back(static_cast<float>(l) - 1.5f, 0.0f, 0.0f);
-  return parts;
-}
-
-// At 10 pixels a unit, as far as leaves of area 1 want it. columns: of leaf -1 show nothing.
+// Columns of 10 x 10 pixels, at 10 pixels a unit as leaves of area 1 want it. columns: of leaf -1 show
+// nothing.
 LeafView stripes(const PartHierarchy& parts, const std::vector<int>& leaf_of_column = {0, 1, 2, 3}) {
   Camera camera = look_at({0, 0, -10}, {0, 0, 0}, {0, -1, 0}, 1, 40, 10);
   camera.fx_px = camera.fy_px = 100;

@@ -93,12 +93,8 @@ std::vector<Meaning> worth(const PartsScene& scene, const ClickSelection& after_
 }
 
 SelectionModel disc_alone(SelectionModel model) {
-  model.later[static_cast<std::size_t>(Term::kDisc)] = -1e6f;
+  weight(&model.later, Term::kDisc) = -1e6f;
   return model;
-}
-
-const LeafView& seen_from(const PartsScene& scene, const Camera& camera) {
-  return *std::ranges::find_if(scene.views, [&](const LeafView& v) { return same_camera(v.camera, camera); });
 }
 
 }  // namespace
@@ -110,7 +106,7 @@ std::vector<Decision> decisions_of(const PartsScene& scene, const SelectionModel
   const AnyViewSession played = any_view_session(world, start, clicks);
   ClickSelection selection(scene.parts, model);
   for (const ViewClick& click : played.clicks) {
-    const LeafView& view = seen_from(scene, click.camera);
+    const LeafView& view = view_of(scene, click.camera);
     const glm::vec2 pixel = click.stroke.points_px.front();
     const bool object = click.stroke.label == SeedLabel::kObject, first = decisions.empty();
     if (const auto answers =

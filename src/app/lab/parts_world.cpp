@@ -9,11 +9,11 @@
 
 namespace splatcut {
 
-namespace {
-
 const LeafView& view_of(const PartsScene& scene, const Camera& camera) {
   return *std::ranges::find_if(scene.views, [&](const LeafView& v) { return same_camera(v.camera, camera); });
 }
+
+namespace {
 
 std::vector<TruthView> evenly(std::vector<TruthView> all, std::size_t most) {
   if (all.size() <= most) return all;

@@ -29,6 +29,9 @@ struct PartsSceneOptions {
   std::size_t most_views = 12;  // and so many views with truth, evenly chosen
 };
 
+// One of its views. The camera must be one of theirs.
+const LeafView& view_of(const PartsScene& scene, const Camera& camera);
+
 // Cancelled: must not be used.
 PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const PartsSceneOptions& options,
                        const Job& job = {});

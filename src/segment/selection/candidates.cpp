@@ -230,21 +230,10 @@ const Image<std::uint32_t>& Asking::level_image(std::size_t c) {
   Image<std::uint32_t>& image = level_of_pixel_[c];
   if (!image.empty()) return image;
   const Chain& chain = out_.chains[c];
-  image = Image<std::uint32_t>(camera_.width_px, camera_.height_px, kNoLevel);
-  std::vector<std::pair<std::uint32_t, float>> list;
-  for (std::size_t i = 0; i < image.size(); ++i) {
-    list.clear();
-    for (const GroupWeight& w : click_.view.leaves.at(i))
-      if ((wrong_px_[w.group] > 0 || !chain.of_tree) && chain.level[w.group] != kNoLevel)
-        list.emplace_back(chain.level[w.group], w.weight);
-    std::ranges::sort(list);
-    float sum = 0;
-    for (const auto& [level, share] : list)
-      if ((sum += share) >= 0.5f) {
-        image.pixels()[i] = level;
-        break;
-      }
-  }
+  std::vector<std::uint32_t> joins = chain.level;
+  for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf)
+    if (chain.of_tree && !(wrong_px_[leaf] > 0)) joins[leaf] = kNoLevel;
+  image = shown_from(click_.view, joins);
   return image;
 }
 

@@ -35,7 +35,6 @@
 
 namespace splatcut {
 
-inline constexpr std::uint32_t kNoLevel = 0xffffffffu;
 inline constexpr float kLeastChangePx = 0.3f;  // candidates that change less change nothing
 
 // One tree's answers to a click.

@@ -13,24 +13,12 @@ namespace {
 
 constexpr int kReachPx = 4;  // a click beside the scene's edge still hits it
 
-// Per node of a chain: the pixels that would show it. level: per leaf, from which node on it belongs to them.
-std::vector<float> displayed_px(const PixelWeights& leaves, std::span<const std::uint32_t> level,
-                                std::size_t nodes) {
-  std::vector<float> px(nodes, 0);
-  std::vector<std::pair<std::uint32_t, float>> list;
-  for (std::size_t i = 0; i + 1 < leaves.first.size(); ++i) {
-    list.clear();
-    for (const GroupWeight& w : leaves.at(i))
-      if (level[w.group] != kNoLevel) list.emplace_back(level[w.group], w.weight);
-    std::ranges::sort(list);
-    float sum = 0;
-    for (const auto& [from, share] : list)
-      if ((sum += share) >= 0.5f) {
-        px[from] += 1;
-        break;
-      }
-  }
-  for (std::size_t n = 1; n < nodes; ++n) px[n] += px[n - 1];
+// Per node of the chain: the pixels that would show it.
+std::vector<float> displayed_px(const LeafView& view, const Chain& chain) {
+  std::vector<float> px(chain.nodes.size(), 0);
+  for (const std::uint32_t from : shown_from(view, chain.level).pixels())
+    if (from != kNoLevel) px[from] += 1;
+  for (std::size_t n = 1; n < px.size(); ++n) px[n] += px[n - 1];
   return px;
 }
 
@@ -147,7 +135,7 @@ void ClickSelection::note_first(const LeafView& view, const Answers& found, Cand
   if (choice_taken_ > 0) *best = offers_->meant[choice_taken_];
   constexpr float kNextSize = 1.15f;  // in pixels that show it; less is not told apart
   const Chain& chain = found.chains[best->chain];
-  const std::vector<float> px = displayed_px(view.leaves, chain.level, chain.nodes.size());
+  const std::vector<float> px = displayed_px(view, chain);
   std::vector<std::size_t> distinct{best->index};
   for (std::size_t i = best->index; i-- > 0;)
     if (px[i] >= kLeastChangePx && px[i] * kNextSize <= px[distinct.front()])

@@ -1,6 +1,7 @@
 #include "segment/selection/leaf_view.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "segment/parallel.h"
 
@@ -108,6 +109,26 @@ LeafView leaf_view_of_hits(const PartHierarchy& parts, const Camera& camera,
   view.leaves = flat(lists);
   count_leaves(parts, &view);
   return view;
+}
+
+Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint32_t> level) {
+  Image<std::uint32_t> from(view.camera.width_px, view.camera.height_px, kNoLevel);
+  for_chunks(from.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<std::pair<std::uint32_t, float>> joining;  // level, share
+    for (std::size_t i = begin; i < end; ++i) {
+      joining.clear();
+      for (const GroupWeight& w : view.leaves.at(i))
+        if (level[w.group] != kNoLevel) joining.emplace_back(level[w.group], w.weight);
+      std::ranges::sort(joining);
+      float sum = 0;
+      for (const auto& [joins, share] : joining)
+        if ((sum += share) >= 0.5f) {
+          from.pixels()[i] = joins;
+          break;
+        }
+    }
+  });
+  return from;
 }
 
 Mask shown(const PixelWeights& weights, const Camera& camera, std::span<const std::uint8_t> labels) {

@@ -44,6 +44,12 @@ LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camer
 LeafView leaf_view_of_hits(const PartHierarchy& parts, const Camera& camera,
                            const Image<std::int32_t>& first_hit, int max_width_px);
 
+inline constexpr std::uint32_t kNoLevel = 0xffffffffu;
+
+// Parts that grow by levels, as along the chain of a tree: per pixel the first level at which what has joined
+// by then is shown there; kNoLevel where nothing ever is. level: per leaf, when it joins, or kNoLevel.
+Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint32_t> level);
+
 // Where the labels, one per group, are shown.
 Mask shown(const PixelWeights& weights, const Camera& camera, std::span<const std::uint8_t> labels);
 
