@@ -16,7 +16,8 @@ constexpr int kReachPx = 4;  // a click beside the scene's edge still hits it
 // Per node of the chain: the pixels that would show it.
 std::vector<float> displayed_px(const LeafView& view, const Chain& chain) {
   std::vector<float> px(chain.nodes.size(), 0);
-  for (const std::uint32_t from : shown_from(view, chain.level).pixels())
+  const Image<std::uint32_t> levels = shown_from(view, chain.level);
+  for (const std::uint32_t from : levels.pixels())
     if (from != kNoLevel) px[from] += 1;
   for (std::size_t n = 1; n < px.size(); ++n) px[n] += px[n - 1];
   return px;
