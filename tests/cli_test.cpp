@@ -300,10 +300,21 @@ TEST_CASE("convert goes through every format and back, and says what is lost") {
   CHECK(highest("--spz-axes ply") == doctest::Approx(-lowest).epsilon(1e-3));
   CHECK(place.run("info four.spz --spz-axes up").code == 2);
   CHECK(place.run("convert a.ply -o five.spz --spz-version 5").code == 2);
-  const Result read_only = place.run("convert a.ply -o a.ksplat");
-  CHECK(read_only.code == 1);
-  CHECK(read_only.err.find("only read") != std::string::npos);
   CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("convert refuses an ending that it reads but does not write, and lists what it writes") {
+  const StillLife& life = still_life();
+  const Workplace& place = life.place;
+  for (const std::string name : {"a.ksplat", "a.gltf", "meta.json", "a.obj", "a"}) {
+    CAPTURE(name);
+    const Result result = place.run("convert " + life.scene + " -o " + name);
+    CHECK(result.code == 1);
+    CHECK(result.err.find("Choose .ply, .compressed.ply, .splat, .spz, .sog or .glb.") != std::string::npos);
+    const bool read = name != "a.obj" && name != "a";
+    CHECK((result.err.find("only read, not written") != std::string::npos) == read);
+    CHECK_FALSE(place.exists(name));
+  }
 }
 
 TEST_CASE("eval reports every measure of a suite with truth labels") {

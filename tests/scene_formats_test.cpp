@@ -29,7 +29,12 @@ TEST_CASE("formats: names differ, every extension finds its row, lists follow fr
   CHECK(with_extension("/a/b.compressed.ply", SceneFormat::kSpz) == "/a/b.spz");
   CHECK(with_extension("b.2.ply", SceneFormat::kCompressedPly) == "b.2.compressed.ply");
   CHECK(with_extension("b.c", SceneFormat::kPly) == "b.c.ply");
+  CHECK(with_extension("b.gltf", SceneFormat::kGlb) == "b.glb");
   CHECK_FALSE(has_scene_extension("scene.png"));
+  CHECK(output_format_from_name("b.GLB") == SceneFormat::kGlb);
+  CHECK(format_from_name("b.gltf") == SceneFormat::kGlb);
+  for (const char* read_only : {"b.gltf", "meta.json", "b.ksplat", "b.png"})
+    CHECK_THROWS_AS(output_format_from_name(read_only), Error);
 }
 
 TEST_CASE("losses: the share of Gaussians beyond the range of bytes is said, rounding alone is not") {

@@ -114,7 +114,7 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
 
 void run_convert(const SceneArguments& args, const CommonOptions& common) {
   check_output_file(args.output, args.overwrite);
-  const SceneFormat format = format_from_name(args.output);
+  const SceneFormat format = output_format_from_name(args.output);
   const Job job = console_job(common.quiet);
   const Scene scene = args.how.load(args.scene, {}, common.quiet, job);
   end_progress();

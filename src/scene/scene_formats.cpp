@@ -41,6 +41,21 @@ std::string joined(const std::vector<std::string>& words, std::string_view conju
   return text;
 }
 
+struct Ending {
+  const SceneFormat* format = nullptr;  // null for none
+  std::string_view text;
+};
+
+// The longest of a format that the name ends with.
+Ending ending_of(const std::filesystem::path& path) {
+  const std::string name = lower_name(path);
+  Ending found;
+  for (const SceneFormat* row : kRows)
+    for (const std::string_view ending : endings_of(*row))
+      if (ending.size() > found.text.size() && name.ends_with(ending)) found = {row, ending};
+  return found;
+}
+
 }  // namespace
 
 std::vector<SceneFormat> scene_formats() {
@@ -56,16 +71,7 @@ std::vector<SceneFormat> written_formats() {
 }
 
 const SceneFormat* find_format(const std::filesystem::path& path) {
-  const std::string name = lower_name(path);
-  const SceneFormat* found = nullptr;
-  std::size_t longest = 0;
-  for (const SceneFormat* row : kRows)
-    for (const std::string_view ending : endings_of(*row)) {
-      if (ending.size() <= longest || !name.ends_with(ending)) continue;
-      found = row;
-      longest = ending.size();
-    }
-  return found;
+  return ending_of(path).format;
 }
 
 bool has_scene_extension(const std::filesystem::path& path) {
@@ -75,6 +81,15 @@ bool has_scene_extension(const std::filesystem::path& path) {
 SceneFormat format_from_name(const std::filesystem::path& path) {
   if (const SceneFormat* format = find_format(path)) return *format;
   throw Error(path.string(), "the file extension is none of " + spoken_extensions(scene_formats(), "and"));
+}
+
+SceneFormat output_format_from_name(const std::filesystem::path& path) {
+  const Ending ending = ending_of(path);
+  if (ending.format && ending.format->write && ending.text == ending.format->extension) return *ending.format;
+  throw Error(path.string(),
+              ending.format ? fmt::format("files that end with {} are only read, not written", ending.text)
+                            : "the file extension names no format of scenes",
+              "Choose " + spoken_extensions(written_formats(), "or"));
 }
 
 std::vector<std::string> extensions_of(std::span<const SceneFormat> formats) {
@@ -104,10 +119,8 @@ std::vector<std::string> names_of(std::span<const SceneFormat> formats) {
 
 std::filesystem::path with_extension(const std::filesystem::path& path, const SceneFormat& format) {
   std::string name = path.filename().string();
-  const SceneFormat* old = find_format(path);
-  const std::string_view ending = old ? old->extension : "";
-  if (name.size() > ending.size() && lower_name(path).ends_with(ending))
-    name.resize(name.size() - ending.size());
+  const std::string_view ending = ending_of(path).text;
+  if (name.size() > ending.size()) name.resize(name.size() - ending.size());
   return path.parent_path() / (name + format.extension);
 }
 

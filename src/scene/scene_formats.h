@@ -77,6 +77,10 @@ bool has_scene_extension(const std::filesystem::path& path);
 // The same. Throws Error for a name of no format.
 SceneFormat format_from_name(const std::filesystem::path& path);
 
+// Of a file to be written: by a format's own extension alone, as what `also` names is not what would be
+// written. Throws Error, which lists what can be, for any other name.
+SceneFormat output_format_from_name(const std::filesystem::path& path);
+
 // Extensions of the formats as a file dialog filters by them: none that another one covers.
 std::vector<std::string> extensions_of(std::span<const SceneFormat> formats);
 // ".ply, .splat or .spz"

@@ -86,7 +86,7 @@ Scene of_cloud(GaussianCloud cloud) {
 
 Scene through_file(const Scene& scene, const std::string& ending, const Job& job) {
   const TemporaryFile file(ending);
-  save_scene(file.path(), scene, {}, format_from_name(file.path()));
+  save_scene(file.path(), scene, {}, output_format_from_name(file.path()));
   return load_scene(file.path(), job);
 }
 

@@ -57,7 +57,7 @@ void write_still_life(const OutputFolder& folder, const LabelledScene& made, con
     label[row] = made.label[order[row]];
   }
   const std::string file = name + "." + format;
-  save_scene(folder.file(file), scene, {}, format_from_name(file));
+  save_scene(folder.file(file), scene, {}, output_format_from_name(file));
   const std::string labels_file = name + ".labels.u8";
   AtomicFile labels(folder.file(labels_file));
   labels.write(std::as_bytes(std::span(label)));
