@@ -512,7 +512,7 @@ TEST_CASE("files of objects that cannot be used are refused") {
   with(json::array({json{{"name", "apple"}, {"clicks", json::array({json{{"x", "left"}}})}}}),
        {"object 0", "form"});
   with(json::array({json{{"name", "apple"}, {"choice", 4}, {"clicks", clicks}}}), {"object 0", "\"choice\""});
-  with(json::array({json{{"name", "apple"}, {"choice", "second"}, {"clicks", clicks}}}), {"1, 2 or 3"});
+  with(json::array({json{{"name", "apple"}, {"choice", "second"}, {"clicks", clicks}}}), {"from 1 to 3"});
   with(json::array({apple}), {"--click", "in the file"}, " --click 5,5");
   place.write(
       "objects.json",

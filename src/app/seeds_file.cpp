@@ -1,10 +1,13 @@
 #include "app/seeds_file.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdio>
 
 #include "scene/error.h"
 #include "scene/json_file.h"
+#include "segment/selection/click_selection.h"
 
 namespace splatcut {
 
@@ -51,8 +54,9 @@ Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where)
 int choice_from_json(const nlohmann::json& seeds, const std::string& where) {
   if (!seeds.is_object() || !seeds.contains("choice")) return 0;
   const nlohmann::json& choice = seeds.at("choice");
-  if (!choice.is_number_integer() || choice < 1 || choice > 3)
-    throw Error(where, "\"choice\" is not 1, 2 or 3", "1 is what the first click means most likely");
+  if (!choice.is_number_integer() || choice < 1 || choice > kMostMeanings)
+    throw Error(where, fmt::format("\"choice\" is no number from 1 to {}", kMostMeanings),
+                "1 is what the first click means most likely");
   return choice.get<int>() - 1;
 }
 

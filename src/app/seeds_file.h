@@ -17,8 +17,8 @@ Strokes load_seeds(const std::filesystem::path& path);
 // Throws Error where the radius or a point cannot be one of a picture.
 void check_stroke(const Stroke& stroke, const std::string& where);
 
-// Beside them an optional "choice": 1, 2 or 3, which of its meanings the first click has, by likelihood and
-// as the window numbers them. Returns 0, 1 or 2; 0 where there is none.
+// Beside them an optional "choice": from 1 to kMostMeanings, which of its meanings the first click has, by
+// likelihood and as the window numbers them. Returns one less; 0 where there is none.
 int choice_from_json(const nlohmann::json& seeds, const std::string& where);
 
 // Throws Error where there is no such file or it is not JSON.

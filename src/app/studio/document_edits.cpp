@@ -7,6 +7,7 @@
 
 #include "app/studio/frame_thread.h"
 #include "scene/error.h"
+#include "segment/selection/click_selection.h"
 
 namespace splatcut {
 
@@ -308,8 +309,7 @@ std::string edit(Document* document, const ChooseMeaning& command, const EditCon
   if (!document->active_object()) throw Error("click", "no object is chosen", "Click an object first");
   ObjectItem& object = unlocked(document, document->active);
   if (object.views.empty()) throw Error(object.name, "has no clicks", "Click on it first");
-  constexpr int kMostChoice = 2;  // see ClickSelection::meanings()
-  object.choice = std::clamp(command.choice, 0, kMostChoice);
+  object.choice = std::clamp(command.choice, 0, kMostMeanings - 1);
   object.part_step = 0;
   return fmt::format("{}: meaning {} of the click", object.name, object.choice + 1);
 }

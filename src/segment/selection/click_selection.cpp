@@ -104,7 +104,6 @@ std::span<const Mask> ClickSelection::meanings() const {
 
 // The likeliest, then what is nearly as likely and shows something clearly different.
 void ClickSelection::note_offers(const LeafView& view, const Answers& found) {
-  constexpr std::size_t kMostMeanings = 3;
   constexpr float kClearly = 0.8f;  // IoU below which a person sees two things
   Offers offers;
   std::vector<std::vector<std::uint8_t>> taken;  // leaves of each
@@ -117,7 +116,8 @@ void ClickSelection::note_offers(const LeafView& view, const Answers& found) {
     return both >= kClearly * either;
   };
   for (const Candidate& candidate : found.candidates) {
-    if (offers.meant.size() == kMostMeanings || candidate.cost > found.candidates.front().cost + model_.doubt)
+    if (std::ssize(offers.meant) == kMostMeanings ||
+        candidate.cost > found.candidates.front().cost + model_.doubt)
       break;
     std::vector<std::uint8_t> leaves(parts_.leaves);
     for (std::uint32_t l = 0; l < parts_.leaves; ++l) leaves[l] = found.changes(candidate, l);

@@ -26,6 +26,8 @@
 
 namespace splatcut {
 
+constexpr int kMostMeanings = 3;  // that are told apart of what a first click can mean
+
 class ClickSelection {
  public:
   // choice: of what the first click can mean, 0 the likeliest; see meanings(). part_step: along the sizes of
@@ -52,8 +54,8 @@ class ClickSelection {
   std::size_t likeliest_size() const { return likeliest_size_; }  // at part_step 0
   bool ambiguous() const { return ambiguous_; }
 
-  // What else it can mean nearly as likely and clearly differently in its view: the masks of the likeliest
-  // meaning and of at most two more, in that view's size. Empty before the first click.
+  // The masks, in its view's size, of what it can mean nearly as likely and clearly differently there, the
+  // likeliest first; at most kMostMeanings. Empty before the first click.
   std::span<const Mask> meanings() const;
   std::size_t choice() const { return choice_taken_; }
 
