@@ -384,6 +384,22 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
   }
 }
 
+TEST_CASE("clicks: hovering is red while Ctrl is held, and no longer") {
+  HeadlessApp app(kWidth, kHeight);
+  REQUIRE(cut_out_apple(app));
+  const auto colour_with = [&](bool ctrl) {
+    app->handle(KeyChanged{key::kLeftControl, ctrl, false, {.ctrl = ctrl}});
+    REQUIRE(app.settle());
+    return app.studio().style(0).highlight_colour;
+  };
+  app.move(app.screen_of(kOnOrange));
+  REQUIRE(app.settle());
+  const Rgb8 adds = app.studio().style(0).highlight_colour;
+  const Rgb8 removes = colour_with(true);
+  CHECK(removes != adds);
+  CHECK(colour_with(false) == adds);
+}
+
 TEST_CASE("clicks: what is shown as said already gets a word") {
   Artist artist(on_sample("apple", kOnApple));
   artist.click_on_it();

@@ -279,6 +279,7 @@ void Studio::key_pressed(int code, const Modifiers& modifiers) {
 void Studio::key_released(int code) {
   held_keys_.erase(code);
   if (code == key::kLeftShift || code == key::kRightShift) held_modifiers_.shift = false;
+  if (code == key::kLeftControl || code == key::kRightControl) held_modifiers_.ctrl = false;
   if (code == key::kLeftAlt || code == key::kRightAlt) held_modifiers_.alt = false;
 }
 
