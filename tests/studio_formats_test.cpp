@@ -50,6 +50,16 @@ TEST_CASE(
   app.click({941, 482});  // "Take the other axes"
   REQUIRE(app.settle());
   CHECK(scene().taken_axes == SpzAxes::kRub);
+  // With work that is not saved it asks first, and then still takes the other axes.
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(app.settle());
+  app.click({941, 547});  // the button, below the object now
+  app.frames(3);
+  REQUIRE(app->interface().dialog_open());
+  CHECK(scene().taken_axes == SpzAxes::kRub);
+  app.click({550 + 215 - 62, 380 + 75 - 28});  // Open
+  REQUIRE(app.settle());
+  CHECK(scene().taken_axes == SpzAxes::kPly);
 }
 
 TEST_CASE("formats: every written format can be exported, with its ending, and loads again") {

@@ -124,7 +124,7 @@ void Application::handle_one(const FileDropped& event) {
 
 void Application::open(const OpenScene& command) {
   if (studio_.unsaved())
-    interface_.state().open_asked = command.path;
+    interface_.state().open_asked = command;
   else
     studio_.apply(command);
 }
@@ -176,7 +176,7 @@ bool Application::frame(double seconds) {
     else
       studio_.apply(command);
   }
-  if (const auto path = std::exchange(interface_.state().open_now, {})) studio_.apply(OpenScene{*path});
+  if (const auto command = std::exchange(interface_.state().open_now, {})) studio_.apply(*command);
   times.requests = lap();
   if (times.total() > longest_.total()) longest_ = times;
   return busy || !ask.actions.empty() || !ask.commands.empty();

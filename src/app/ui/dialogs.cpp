@@ -223,7 +223,7 @@ void open_anyway_dialog(UiContext& ui) {
   if (ui.state.open_asked && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
   centre_next_window({430, 150});
   if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
-  const std::string name = ui.state.open_asked ? ui.state.open_asked->filename().string() : "";
+  const std::string name = ui.state.open_asked ? ui.state.open_asked->path.filename().string() : "";
   wrapped_muted(
       ui, fmt::format("The objects and strokes were not saved since they changed; opening {} ends that work.",
                       name));

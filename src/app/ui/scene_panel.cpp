@@ -36,8 +36,8 @@ void axes_row(UiContext& ui) {
   if (!scene || !scene->taken_axes) return;
   wrapped_muted(ui, scene->axes_note);
   const SpzAxes other = *scene->taken_axes == SpzAxes::kRub ? SpzAxes::kPly : SpzAxes::kRub;
-  if (button(ui, "Take the other axes", "Loads the file again, with y and z the other way round",
-             ui.studio.unsaved() ? "Save the work first: a turned scene begins anew" : "", false, -1))
+  if (button(ui, "Take the other axes",
+             "Loads the file again, with y and z the other way round; work begins anew", {}, false, -1))
     ui.ask(OpenScene{scene->path, other});
 }
 

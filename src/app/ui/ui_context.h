@@ -57,10 +57,10 @@ struct UiState {
   bool dark = true;
   float ui_scale = 1;  // on top of the screen's own
   bool help_open = false, history_open = false, quit_asked = false, quit_wanted = false, export_open = false;
-  std::optional<std::filesystem::path> open_asked, open_now;  // asked: would end work that was not saved
-  std::optional<bool> history_wanted;                         // opens or closes the history section
-  bool hint_wanted = true;                                    // the first-run hint, until the first click
-  bool steady = false;  // for pictures that must repeat: no times, no blinking
+  std::optional<OpenScene> open_asked, open_now;  // asked: would end work that was not saved
+  std::optional<bool> history_wanted;             // opens or closes the history section
+  bool hint_wanted = true;                        // the first-run hint, until the first click
+  bool steady = false;                            // for pictures that must repeat: no times, no blinking
   std::vector<std::filesystem::path> recent;
   std::filesystem::path sample;  // offered on the start page where it exists
   FileBrowser files;
