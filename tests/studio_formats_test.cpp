@@ -1,6 +1,8 @@
 // The window and the table of formats: axes of a .spz, exports in every format.
 #include <doctest/doctest.h>
 
+#include <set>
+
 #include "headless_app.h"
 #include "scene_file_helpers.h"
 
@@ -77,4 +79,31 @@ TEST_CASE("formats: every written format can be exported, with its ending, and l
     CHECK(got.format == format);
     CHECK(got.cloud.size() == app.studio().gaussians_of(app.studio().document().active));
   }
+}
+
+TEST_CASE("formats: objects whose names become the same file are exported beside each other") {
+  const Folder folder;
+  std::set<std::string> taken;
+  for (const auto& [name, file] : {std::pair{"mug", "mug"},
+                                   {"mug_2", "mug_2"},
+                                   {"mug", "mug_3"},
+                                   {"\u00fc", "__"},
+                                   {"\u00e9", "___2"},
+                                   {"", "object"}})
+    CHECK(free_file_name(name, &taken) == file);
+
+  const Scene scene = load_scene(kSample);
+  Document document;
+  for (const std::size_t gaussians : {10u, 20u, 30u}) {
+    ObjectItem& object = add_object(&document);
+    object.name = "mug";
+    std::vector<std::uint8_t> hand(scene.cloud.size(), 0);
+    std::fill_n(hand.begin() + static_cast<std::ptrdiff_t>(100 * gaussians), gaussians, kHandObject);
+    object.hand = make_flags(std::move(hand));
+  }
+  const ExportReport report = run_export(
+      scene, document, 0, {.what = ExportWhat::kAllObjects, .path = folder / "all", .overwrite = true});
+  CHECK(report.files == 3);
+  for (const auto& [file, gaussians] : {std::pair{"mug.ply", 10u}, {"mug_2.ply", 20u}, {"mug_3.ply", 30u}})
+    CHECK(load_scene(folder / "all" / file).cloud.size() == gaussians);
 }

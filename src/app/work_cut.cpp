@@ -13,18 +13,6 @@
 
 namespace splatcut {
 
-namespace {
-
-// Two objects of one name get numbers.
-std::string free_file_name(const nlohmann::json& written, const ObjectItem& object) {
-  const std::string name = file_name_of(object.name);
-  for (const auto& entry : written)
-    if (entry.at("file") == name + ".ply") return fmt::format("{}_{}", name, object.id);
-  return name;
-}
-
-}  // namespace
-
 Document computed_again(const OpenedScene& scene, Document document, const Job& job,
                         const PreparedCache& cache) {
   Session session(session_scene(scene, prepare(scene, job, cache)));
@@ -51,11 +39,12 @@ void run_work_cut(const WorkCutOptions& options) {
   end_progress();
   if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
   nlohmann::json objects = nlohmann::json::array();
+  std::set<std::string> taken;
   for (const ObjectItem& object : document.objects) {
     const std::vector<std::uint8_t> labels = labels_of(document, object, scene->cloud->size());
     const std::size_t gaussians = count_flags(labels);
     if (gaussians == 0) continue;
-    const std::string name = free_file_name(objects, object);
+    const std::string name = free_file_name(object.name, &taken);
     save_scene(folder.file(name + ".ply"), *scene->scene, labels, SceneFormat::kPly);
     write_labels(folder.file(name + ".labels.u8"), *scene->scene, labels);
     objects.push_back({{"name", object.name},

@@ -29,17 +29,25 @@ std::string file_name_of(const std::string& object_name) {
   return name.empty() ? "object" : name;
 }
 
+std::string free_file_name(const std::string& object_name, std::set<std::string>* taken) {
+  const std::string name = file_name_of(object_name);
+  std::string free = name;
+  for (int number = 2; !taken->insert(free).second; ++number) free = fmt::format("{}_{}", name, number);
+  return free;
+}
+
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
                         const ExportRequest& request) {
   const std::size_t n = scene.cloud.size();
   ExportReport report;
   if (request.what == ExportWhat::kAllObjects) {
     std::filesystem::create_directories(request.path);
+    std::set<std::string> taken;
     for (const ObjectItem& item : document.objects) {
       const std::vector<std::uint8_t> labels = labels_of(document, item, n);
       if (count_flags(labels) == 0) continue;
-      save(request.path / (file_name_of(item.name) + request.format.extension), scene, labels, request,
-           &report);
+      const std::string name = free_file_name(item.name, &taken);
+      save(request.path / (name + request.format.extension), scene, labels, request, &report);
     }
     if (report.files == 0) throw Error("export", "no object holds any Gaussians", "Select something first");
     return report;

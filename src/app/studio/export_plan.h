@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
                         const ExportRequest& request);
 
 std::string file_name_of(const std::string& object_name);  // letters, digits, - and _
+
+// The same with a number behind it where `taken` has it; then it is taken, too.
+std::string free_file_name(const std::string& object_name, std::set<std::string>* taken);
 
 std::string human_bytes(std::uint64_t bytes);  // "4.4 MB"
 
