@@ -490,6 +490,23 @@ TEST_CASE("a choice in the seeds takes another meaning of the first click") {
   CHECK(others > 0);
 }
 
+TEST_CASE("seeds come through a pipe, too, of one object or several") {
+  const Workplace& place = still_life().place;
+  const json one = {{"clicks", one_click("apple")}, {"choice", 1}};
+  json several = {{"objects", json::array({one})}};
+  several["objects"][0]["name"] = "apple";
+  for (const json& seeds : {one, several}) {
+    place.write("seeds.json", seeds.dump());
+    place.write("piped.sh", "cat seeds.json | " SPLATCUT_PROGRAM " " +
+                                still_life().cut("--seeds /dev/stdin --parts-only --overwrite -o piped"));
+    const Result piped = place.run_program("/bin/sh", "piped.sh");
+    REQUIRE_MESSAGE(piped.code == 0, piped.err);
+    REQUIRE(place.run(still_life().cut("--seeds seeds.json --parts-only --overwrite -o from_file")).code ==
+            0);
+    CHECK(place.text("piped/labels.u8") == place.text("from_file/labels.u8"));
+  }
+}
+
 TEST_CASE("files of objects that cannot be used are refused") {
   const Workplace& place = still_life().place;
   const json clicks = one_click("apple");

@@ -116,21 +116,20 @@ void check_inside(const Strokes& strokes, const Camera& camera) {
                                            camera.width_px, camera.height_px));
 }
 
-std::vector<NamedSeeds> load_named_seeds(const std::filesystem::path& path) {
-  const json seeds = read_seeds_json(path);
+std::vector<NamedSeeds> named_seeds_from_json(const json& seeds, const std::string& where) {
   if (!seeds.is_object() || !seeds.contains("objects")) return {};
   const json& list = seeds.at("objects");
   if (!list.is_array() || list.empty() || list.size() > kMostObjects)
-    throw Error(path.string(), fmt::format("\"objects\" is not a list of 1 to {} objects", kMostObjects));
+    throw Error(where, fmt::format("\"objects\" is not a list of 1 to {} objects", kMostObjects));
   std::vector<NamedSeeds> objects;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string where = fmt::format("{}: object {}", path.string(), i);
-    if (!list[i].is_object()) throw Error(where, "is not an object with \"name\" and \"clicks\"");
-    objects.push_back({name_of(list[i], where), camera_of(list[i], where), strokes_from_json(list[i], where),
-                       choice_from_json(list[i], where)});
-    if (objects.back().strokes.empty()) throw Error(where, "holds neither clicks nor scribbles");
+    const std::string entry = fmt::format("{}: object {}", where, i);
+    if (!list[i].is_object()) throw Error(entry, "is not an object with \"name\" and \"clicks\"");
+    objects.push_back({name_of(list[i], entry), camera_of(list[i], entry), strokes_from_json(list[i], entry),
+                       choice_from_json(list[i], entry)});
+    if (objects.back().strokes.empty()) throw Error(entry, "holds neither clicks nor scribbles");
   }
-  check_names(objects, path.string());
+  check_names(objects, where);
   return objects;
 }
 

@@ -4,7 +4,6 @@
 // So each Gaussian lies in exactly one of NAME.ply ... and rest.ply.
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -26,10 +25,10 @@ struct NamedSeeds {
   int choice = 0;  // see CutRequest
 };
 
-// {"objects": [{"name", "camera", "clicks", "scribbles", "choice"}, ...]}, as load_seeds() for each; "object"
-// is read as "name", too (make-scene writes it). Empty where the file has no "objects". Throws Error naming
-// the entry.
-std::vector<NamedSeeds> load_named_seeds(const std::filesystem::path& path);
+// {"objects": [{"name", "camera", "clicks", "scribbles", "choice"}, ...]}, strokes_from_json() of each;
+// "object" is read as "name", too (make-scene writes it). Empty where there are no "objects". Throws Error
+// naming the entry.
+std::vector<NamedSeeds> named_seeds_from_json(const nlohmann::json& seeds, const std::string& where);
 
 // Throws Error for strokes outside of the camera's picture.
 void check_inside(const Strokes& strokes, const Camera& camera);

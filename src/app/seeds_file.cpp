@@ -60,16 +60,6 @@ int choice_from_json(const nlohmann::json& seeds, const std::string& where) {
   return choice.get<int>() - 1;
 }
 
-nlohmann::json read_seeds_json(const std::filesystem::path& path) {
-  return json_of_file(path);
-}
-
-Strokes load_seeds(const std::filesystem::path& path) {
-  const Strokes strokes = strokes_from_json(read_seeds_json(path), path.string());
-  if (strokes.empty()) throw Error(path.string(), "holds neither clicks nor scribbles");
-  return strokes;
-}
-
 Stroke parse_click(const std::string& text) {
   float x = 0, y = 0;
   int used = 0;

@@ -3,8 +3,24 @@
 #include "app/mask_folder.h"
 #include "app/seeds_file.h"
 #include "scene/error.h"
+#include "scene/json_file.h"
 
 namespace splatcut {
+
+namespace {
+
+// The file is read once: it may be a pipe.
+void read_seeds(const std::filesystem::path& file, Meant* meant) {
+  const nlohmann::json seeds = json_of_file(file);
+  const std::string where = file.string();
+  meant->objects = named_seeds_from_json(seeds, where);
+  if (!meant->objects.empty()) return;
+  meant->strokes = strokes_from_json(seeds, where);
+  if (meant->strokes.empty()) throw Error(where, "holds neither clicks nor scribbles");
+  meant->choice = choice_from_json(seeds, where);
+}
+
+}  // namespace
 
 void WaysIn::add_to(CLI::App& command) {
   CLI::Option* by_clicks = command.add_option(
@@ -37,11 +53,7 @@ Meant WaysIn::read(const CameraOptions& camera) const {
   meant.mask = mask;
   meant.masks_folder = masks_folder;
   if (by_text) meant.segmenter = make_segmenter({text, segmenter});
-  if (!seeds.empty()) meant.objects = load_named_seeds(seeds);
-  if (!seeds.empty() && meant.objects.empty()) {
-    meant.strokes = load_seeds(seeds);
-    meant.choice = choice_from_json(read_seeds_json(seeds), seeds.string());
-  }
+  if (!seeds.empty()) read_seeds(seeds, &meant);
   for (const std::string& pixel : clicks) meant.strokes.push_back(parse_click(pixel));
   if (!meant.objects.empty() && !meant.strokes.empty())
     throw Error("--click", "belongs to no object, as --seeds holds several",

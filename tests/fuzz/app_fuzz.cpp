@@ -32,9 +32,9 @@ const Scene& small_scene() {
 }
 
 [[maybe_unused]] void fuzz_seeds(std::string_view bytes) {
-  const fs::path file = place().write("seeds.json", bytes);
-  for (const NamedSeeds& seeds : load_named_seeds(file)) draw_seeds(seeds.strokes, 40, 30);
-  draw_seeds(load_seeds(file), 40, 30);
+  const nlohmann::json json = parse_json("seeds.json", bytes);
+  for (const NamedSeeds& seeds : named_seeds_from_json(json, "seeds.json")) draw_seeds(seeds.strokes, 40, 30);
+  draw_seeds(strokes_from_json(json, "seeds.json"), 40, 30);
 }
 
 [[maybe_unused]] void fuzz_work(std::string_view bytes) {
