@@ -263,8 +263,8 @@ TEST_CASE("clicks: with the object hidden, hover and click hit what is seen") {
     const auto file = folder / "seen.splatcut.json";
     artist.studio().apply(SaveWork{file});
     REQUIRE(artist.app.settle());
-    const auto scene = open_scene(read_work_header(file).scene);
-    Document read = read_work_file(file, *scene->scene, scene->hash).document;
+    const auto scene = open_scene(read_work_file(file).scene);
+    Document read = restored(read_work_file(file), *scene->scene, scene->hash).document;
     CHECK(bytes_of(read) == bytes_of(artist.studio().document()));
     read.objects.front().cut = nullptr;
     const Document again = computed_again(*scene, read);
@@ -443,8 +443,8 @@ TEST_CASE("clicks: other meanings of the first click are offered, chosen by keys
   const auto file = folder / "choice.splatcut.json";
   artist.studio().apply(SaveWork{file});
   REQUIRE(artist.app.settle());
-  const auto scene = open_scene(read_work_header(file).scene);
-  Document read = read_work_file(file, *scene->scene, scene->hash).document;
+  const auto scene = open_scene(read_work_file(file).scene);
+  Document read = restored(read_work_file(file), *scene->scene, scene->hash).document;
   CHECK(read.objects.front().choice == 1);
   read.objects.front().cut = nullptr;
   const Document again = computed_again(*scene, read);

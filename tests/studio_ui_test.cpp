@@ -163,8 +163,8 @@ TEST_CASE("saved work: read back the same, and computed again bit for bit") {
   const auto labels = active_labels(app);
   const std::string bytes = bytes_of(app.studio().document());
 
-  const auto scene = open_scene(read_work_header(file).scene);
-  const Document read = read_work_file(file, *scene->scene, scene->hash).document;
+  const auto scene = open_scene(read_work_file(file).scene);
+  const Document read = restored(read_work_file(file), *scene->scene, scene->hash).document;
   CHECK(bytes_of(read) == bytes);
   Document empty = read;
   for (ObjectItem& object : empty.objects) object.cut = nullptr;
@@ -207,8 +207,8 @@ TEST_CASE("a view left out is that view: after a save, and after another preset 
   const auto file = folder / "apple.splatcut.json";
   app.studio().apply(SaveWork{file});
   REQUIRE(app.settle());
-  const auto scene = open_scene(read_work_header(file).scene);
-  const WorkFile read = read_work_file(file, *scene->scene, scene->hash);
+  const auto scene = open_scene(read_work_file(file).scene);
+  const RestoredWork read = restored(read_work_file(file), *scene->scene, scene->hash);
   CHECK(read.warning.empty());
   CHECK(bytes_of(read.document) == bytes_of(app.studio().document()));
 
@@ -218,7 +218,7 @@ TEST_CASE("a view left out is that view: after a save, and after another preset 
   old["splatcut_work"] = 1;
   old["objects"][0]["left_out"] = {2};
   std::ofstream(file) << old;
-  const WorkFile numbered = read_work_file(file, *scene->scene, scene->hash);
+  const RestoredWork numbered = restored(read_work_file(file), *scene->scene, scene->hash);
   CHECK(numbered.warning.find("Leave them out again") != std::string::npos);
   CHECK(numbered.document.objects[0].left_out.empty());
   CHECK(is_stale(numbered.document, numbered.document.objects[0]));
@@ -262,8 +262,8 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   app.studio().leave();
   REQUIRE(std::filesystem::exists(folder / kAutosave));
   CHECK_FALSE(std::filesystem::exists(folder / kAutosaveBefore));
-  const auto again = open_scene(read_work_header(folder / kAutosave).scene);
-  CHECK(bytes_of(read_work_file(folder / kAutosave, *again->scene, again->hash).document) == bytes);
+  const auto again = open_scene(read_work_file(folder / kAutosave).scene);
+  CHECK(bytes_of(restored(read_work_file(folder / kAutosave), *again->scene, again->hash).document) == bytes);
 }
 
 TEST_CASE("opening asks before unsaved work goes, dropped files and recent ones alike") {
@@ -309,12 +309,12 @@ TEST_CASE("objects: one byte per Gaussian names 255 of them, the 256th is refuse
   const auto scene = open_scene(kSample);
   const auto file = folder / "many.splatcut.json";
   write_work_file(file, *scene->scene, scene->hash, document);
-  CHECK(read_work_file(file, *scene->scene, scene->hash).document.objects.size() == kMostObjects);
+  CHECK(restored(read_work_file(file), *scene->scene, scene->hash).document.objects.size() == kMostObjects);
   ObjectItem another = document.objects.back();
   another.id = document.next_id++;
   document.objects.push_back(another);
   write_work_file(file, *scene->scene, scene->hash, document);
-  CHECK_THROWS_AS(read_work_file(file, *scene->scene, scene->hash), Error);
+  CHECK_THROWS_AS(restored(read_work_file(file), *scene->scene, scene->hash), Error);
 }
 
 TEST_CASE("far limit: what lies beyond is neither drawn nor picked nor selected") {

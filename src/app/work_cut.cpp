@@ -30,10 +30,10 @@ Document computed_again(const OpenedScene& scene, Document document, const Job& 
 void run_work_cut(const WorkCutOptions& options) {
   OutputFolder folder(options.output, options.overwrite);
   const Job job = console_job(options.quiet);
-  const WorkFile header = read_work_header(options.work);
-  const auto scene = open_scene(header.scene, job, header.spz_axes);
+  const WorkFile file = read_work_file(options.work);
+  const auto scene = open_scene(file.scene, job, file.spz_axes);
   if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
-  WorkFile work = read_work_file(options.work, *scene->scene, scene->hash);
+  RestoredWork work = restored(file, *scene->scene, scene->hash);
   warn(work.warning, options.quiet);
   const Document document = computed_again(*scene, std::move(work.document), job, options.cache);
   end_progress();

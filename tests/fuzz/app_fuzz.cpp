@@ -40,8 +40,9 @@ const Scene& small_scene() {
 [[maybe_unused]] void fuzz_work(std::string_view bytes) {
   const Scene& scene = small_scene();
   const fs::path file = place().write("a.splatcut.json", bytes);
-  const WorkFile work = read_work_file(file, scene, read_work_header(file).scene_hash);
-  write_work_file(place().folder() / "again.splatcut.json", scene, work.scene_hash, work.document);
+  const WorkFile work = read_work_file(file);
+  write_work_file(place().folder() / "again.splatcut.json", scene, work.scene_hash,
+                  restored(work, scene, work.scene_hash).document);
 }
 
 [[maybe_unused]] void fuzz_suite(std::string_view bytes) {

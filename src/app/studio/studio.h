@@ -27,6 +27,7 @@
 namespace splatcut {
 
 struct EditContext;
+struct RestoredWork;
 
 // In the state folder: the work as it is now, and what was left by a program that ended badly before.
 inline constexpr const char* kAutosave = "autosave.splatcut.json";
@@ -217,7 +218,7 @@ class Studio {
   void run_all(const std::vector<Command>& commands);
 
   // studio_jobs.cpp
-  void opened(const std::shared_ptr<OpenedScene>& scene, std::optional<Document> document,
+  void opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
               const std::filesystem::path& work_path);
   void schedule_cut();
   void start_cut(const ObjectItem& object);

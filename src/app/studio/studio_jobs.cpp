@@ -99,30 +99,24 @@ void Studio::perform(const OpenScene& c) {
   say(Message::Kind::kInfo, "Opening " + c.path.filename().string());
   tasks_.cancel(TaskKind::kCut);
   tasks_.submit(TaskKind::kLoad, [this, path = c.path, axes = c.spz_axes, serial](const Job& job) {
-    const bool work = is_work_file(path);
-    WorkFile header;
-    header.scene = path;
-    header.spz_axes = axes;
-    if (work) header = read_work_header(path);
-    const std::shared_ptr<OpenedScene> opened_scene = open_scene(header.scene, job, header.spz_axes);
+    std::optional<WorkFile> file;
+    if (is_work_file(path)) file = read_work_file(path);
+    const std::shared_ptr<OpenedScene> opened_scene =
+        file ? open_scene(file->scene, job, file->spz_axes) : open_scene(path, job, axes);
     if (job.cancelled()) return;
     opened_scene->serial = serial;
-    std::optional<Document> document;
-    std::string warning = work || axes ? "" : opened_scene->scene->axes_note;
-    if (work) {
-      WorkFile read = read_work_file(path, *opened_scene->scene, opened_scene->hash);
-      document = std::move(read.document);
-      warning = std::move(read.warning);
-    }
-    tasks_.post([this, opened_scene, document, warning, work_path = work ? path : std::filesystem::path()] {
-      opened(opened_scene, document, work_path);
-      if (!warning.empty()) say(Message::Kind::kInfo, warning);
+    std::optional<RestoredWork> work;
+    if (file) work = restored(*file, *opened_scene->scene, opened_scene->hash);
+    const std::string note = work ? work->warning : axes ? "" : opened_scene->scene->axes_note;
+    tasks_.post([this, opened_scene, work, note, work_path = file ? path : std::filesystem::path()] {
+      opened(opened_scene, work, work_path);
+      if (!note.empty()) say(Message::Kind::kInfo, note);
     });
   });
   if (options_.inline_tasks) tasks_.deliver();
 }
 
-void Studio::opened(const std::shared_ptr<OpenedScene>& scene, std::optional<Document> document,
+void Studio::opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
                     const std::filesystem::path& work_path) {
   tasks_.cancel(TaskKind::kPrepare);
   prepared_ = nullptr;
@@ -144,7 +138,7 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, std::optional<Doc
                    : std::filesystem::path();
   Document start;
   start.up_world = scene->up_world;
-  history_.reset(document ? *document : start, document ? "Open work" : "Open scene");
+  history_.reset(work ? work->document : start, work ? "Open work" : "Open scene");
   camera_.reset(scene->bounds, history_.now().up_world);
   if (!scene->cameras.empty() || scene->first_view) {
     camera_.go_to(scene->cameras.empty() ? *scene->first_view : scene->cameras.front());
@@ -152,7 +146,7 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, std::optional<Doc
   }
   document_changed();
   autosaved_serial_ = saved_serial_ = document_serial_;
-  if (document && work_path_.empty()) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
+  if (work && work_path_.empty()) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
   ++view_serial_;
   const Scene& s = *scene->scene;
   std::string text = fmt::format("{}: {} Gaussians, SH degree {}", s.path.filename().string(), s.cloud.size(),

@@ -205,28 +205,31 @@ bool is_work_file(const std::filesystem::path& path) {
   return path.string().ends_with(".splatcut.json");
 }
 
-WorkFile read_work_header(const std::filesystem::path& path) {
+WorkFile read_work_file(const std::filesystem::path& path) {
   try {
-    const json work = parse(path);
+    json work = parse(path);
     WorkFile out;
+    out.path = path;
     out.scene = scene_path(work, path);
     const std::string hash = work.at("scene").at("hash");
     if (std::from_chars(hash.data(), hash.data() + hash.size(), out.scene_hash, 16).ec != std::errc())
       throw Error(path.string(), "does not say which scene it belongs to: its \"hash\" is no number");
     out.spz_axes = spz_axes_from_name(work.at("scene").value("spz_axes", ""));
+    out.content = std::make_shared<const json>(std::move(work));
     return out;
   } catch (const json::exception& error) {
     throw Error(path.string(), "does not have the expected form (" + fault_of(error) + ")");
   }
 }
 
-WorkFile read_work_file(const std::filesystem::path& path, const Scene& scene, std::uint64_t scene_hash) {
-  WorkFile out = read_work_header(path);
-  if (out.scene_hash != scene_hash)
-    throw Error(path.string(), fmt::format("belongs to another version of {}", out.scene.filename().string()),
+RestoredWork restored(const WorkFile& file, const Scene& scene, std::uint64_t scene_hash) {
+  if (file.scene_hash != scene_hash)
+    throw Error(file.path.string(),
+                fmt::format("belongs to another version of {}", file.scene.filename().string()),
                 "Its labels would be wrong; open the scene itself to start anew");
   try {
-    const json work = parse(path);
+    const json& work = *file.content;
+    RestoredWork out;
     Document& d = out.document;
     d.active = work.value("active", 0u);
     d.next_id = work.at("next_id");
@@ -253,9 +256,9 @@ WorkFile read_work_file(const std::filesystem::path& path, const Scene& scene, s
     }
     return out;
   } catch (const Error& error) {
-    throw Error(path.string(), error.what());
+    throw Error(file.path.string(), error.what());
   } catch (const json::exception& error) {
-    throw Error(path.string(), "does not have the expected form (" + fault_of(error) + ")");
+    throw Error(file.path.string(), "does not have the expected form (" + fault_of(error) + ")");
   }
 }
 

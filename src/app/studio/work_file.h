@@ -8,6 +8,9 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "app/studio/document.h"
@@ -15,22 +18,27 @@
 
 namespace splatcut {
 
+// A work file as it was read: the scene it belongs to, to load that, and the rest for restored().
 struct WorkFile {
+  std::filesystem::path path;
   std::filesystem::path scene;  // absolute
   std::uint64_t scene_hash = 0;
   std::optional<SpzAxes> spz_axes;  // of a scene whose file does not say them: those of the labels
+  std::shared_ptr<const nlohmann::json> content;
+};
+
+struct RestoredWork {
   Document document;
   std::string warning;  // a sentence about what the file could not say, or empty
 };
 
 bool is_work_file(const std::filesystem::path& path);  // by its name
 
-// The scene a work file belongs to, without its arrays: read first, to load the scene.
-WorkFile read_work_header(const std::filesystem::path& path);
+WorkFile read_work_file(const std::filesystem::path& path);
 
-// scene: the loaded scene of the header; its cloud gives the arrays their order. Throws Error where they
+// scene: the loaded scene of the file; its cloud gives the arrays their order. Throws Error where they
 // differ.
-WorkFile read_work_file(const std::filesystem::path& path, const Scene& scene, std::uint64_t scene_hash);
+RestoredWork restored(const WorkFile& file, const Scene& scene, std::uint64_t scene_hash);
 
 void write_work_file(const std::filesystem::path& path, const Scene& scene, std::uint64_t scene_hash,
                      const Document& document);
