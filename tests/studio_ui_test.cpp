@@ -177,6 +177,39 @@ TEST_CASE("saved work: read back the same, and computed again bit for bit") {
   CHECK(bytes_of(app.studio().document()) == bytes);
 }
 
+TEST_CASE("saved work: what is wrong with a file is said in one sentence") {
+  const ScratchFolder folder("wrong_work");
+  const auto file = folder / "wrong.splatcut.json";
+  const auto scene = open_scene(kSample);
+  Document document;
+  add_object(&document, "mug");
+  write_work_file(file, *scene->scene, scene->hash, document);
+  const nlohmann::json right = nlohmann::json::parse(std::ifstream(file));
+  const auto said_of = [&](const nlohmann::json& work) -> std::string {
+    std::ofstream(file) << work;
+    try {
+      restored(read_work_file(file), *scene->scene, scene->hash);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  CHECK(said_of(right).empty());
+  nlohmann::json no_up = right;
+  no_up["up"] = {0, 0, 0};
+  CHECK(said_of(no_up) == file.string() + ": up: is no direction.");
+  const auto said_of_version = [&](const nlohmann::json& version) {
+    nlohmann::json work = right;
+    work["splatcut_work"] = version;
+    return said_of(work);
+  };
+  CHECK(said_of_version(1000).find("newer splatcut") != std::string::npos);
+  for (const nlohmann::json& version :
+       {nlohmann::json(0), nlohmann::json(-2), nlohmann::json("3"), nlohmann::json(2.5)})
+    CHECK(said_of_version(version) ==
+          file.string() + ": its version " + version.dump() + " is none that a splatcut writes.");
+}
+
 TEST_CASE("a view left out is that view: after a save, and after another preset was tried") {
   const ScratchFolder folder("left_out");
   HeadlessApp app(kWidth, kHeight);

@@ -30,4 +30,10 @@ std::string sentence_of(const std::exception& error) {
 Error::Error(std::string_view where, std::string_view what, std::string_view remedy)
     : std::runtime_error(sentence(where, what, remedy)) {}
 
+std::string_view Error::unstopped() const {
+  std::string_view said = what();
+  said.remove_suffix(1);
+  return said;
+}
+
 }  // namespace splatcut

@@ -15,6 +15,9 @@ class Error : public std::runtime_error {
   // where: the file, option or stage. what: the fact, with property, row or byte. remedy: what the
   // user can do about it (may be empty). Message: "where: what. remedy."
   Error(std::string_view where, std::string_view what, std::string_view remedy = {});
+
+  // The message without its full stop: as the `what` of an error that says where more fully.
+  std::string_view unstopped() const;
 };
 
 // A sentence for the person on any exception: Error's own words, otherwise what the system says or that the

@@ -184,8 +184,10 @@ json parse(const std::filesystem::path& path) {
   if (!work.is_object() || !work.contains("splatcut_work"))
     throw Error(path.string(), "is no work file of splatcut");
   const json& version = work["splatcut_work"];
-  if (!version.is_number_integer() || version < 1 || version > kVersion)
-    throw Error(path.string(), "was written by a newer splatcut", "Update splatcut");
+  if (!version.is_number_integer() || version < 1)
+    throw Error(path.string(),
+                fmt::format("its version {} is none that a splatcut writes", json_text(version)));
+  if (version > kVersion) throw Error(path.string(), "was written by a newer splatcut", "Update splatcut");
   return work;
 }
 
@@ -256,7 +258,7 @@ RestoredWork restored(const WorkFile& file, const Scene& scene, std::uint64_t sc
     }
     return out;
   } catch (const Error& error) {
-    throw Error(file.path.string(), error.what());
+    throw Error(file.path.string(), error.unstopped());
   } catch (const json::exception& error) {
     throw Error(file.path.string(), "does not have the expected form (" + fault_of(error) + ")");
   }
