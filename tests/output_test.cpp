@@ -283,6 +283,20 @@ TEST_CASE(
   CHECK(place.leftovers().empty());
 }
 
+TEST_CASE("output: an empty folder that a killed process left is no replaced one") {
+  const Workplace place;
+  place.make_folder("out.splatcut.new");
+  place.write("out.splatcut.part", "");
+  {
+    OutputFolder folder(place / "out", false);
+    CHECK_FALSE(place.exists("out"));
+    write_text_file(folder.file("a.txt"), "text");
+    folder.commit();
+  }
+  CHECK(place.text("out/a.txt") == "text");
+  CHECK(place.leftovers().empty());
+}
+
 TEST_CASE("output: signals that end the program leave the old cutout as it was") {
   StillLife& life = still_life();
   const Workplace& place = life.place;

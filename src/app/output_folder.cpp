@@ -123,6 +123,7 @@ void OutputFolder::remove_unfinished() {
 
 void OutputFolder::set_right() {
   remove_unfinished();
+  ::rmdir(fresh_.c_str());  // an empty one: its maker was killed before its number was noted
   if (inode_of(fresh_) == 0) return;
   make_folder(target_, path_);
   bring_back();
