@@ -8,7 +8,10 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdio>
+#include <cstring>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
@@ -295,6 +298,65 @@ TEST_CASE("output: an empty folder that a killed process left is no replaced one
   }
   CHECK(place.text("out/a.txt") == "text");
   CHECK(place.leftovers().empty());
+}
+
+namespace {
+
+// As the window's work files have it: FNV-1a over words of 64 bits.
+std::uint64_t hash_of(const std::string& bytes) {
+  constexpr std::uint64_t kBegin = 14695981039346656037ull, kPrime = 1099511628211ull;
+  std::uint64_t hash = kBegin;
+  std::size_t i = 0;
+  for (; i + 8 <= bytes.size(); i += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + i, 8);
+    hash = (hash ^ word) * kPrime;
+  }
+  for (; i < bytes.size(); ++i) hash = (hash ^ static_cast<std::uint8_t>(bytes[i])) * kPrime;
+  return hash;
+}
+
+// Work of as many objects as there can be, each the whole scene by hand: little to compute, much to write.
+void write_large_work(const Workplace& place, const std::string& file) {
+  nlohmann::json objects = nlohmann::json::array();
+  for (int id = 1; id <= 255; ++id)
+    objects.push_back({{"id", id},
+                       {"name", "all"},
+                       {"colour", {1, 2, 3}},
+                       {"views", nlohmann::json::array()},
+                       {"hand", {1, 20000}}});
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx",
+                static_cast<unsigned long long>(hash_of(still_life().place.text("made/small.ply"))));
+  place.write(file, nlohmann::json{{"splatcut_work", 3},
+                                   {"scene", {{"path", still_life().scene}, {"hash", hash}}},
+                                   {"next_id", 256},
+                                   {"up", {0, -1, 0}},
+                                   {"preset", "fast"},
+                                   {"background", {0, 0, 0}},
+                                   {"objects", objects}}
+                        .dump());
+}
+
+}  // namespace
+
+TEST_CASE("output: saved work computed again and stopped while it is written leaves the old folder") {
+  const Workplace place;
+  write_large_work(place, "large.splatcut.json");
+  place.make_folder("out");
+  place.write("out/all.ply", "old");
+  for (const int signal : {SIGINT, SIGTERM}) {
+    CAPTURE(signal);
+    const pid_t run = place.begin("cut --work large.splatcut.json --overwrite -o out");
+    REQUIRE(place.appears("out.splatcut.new/all.ply"));
+    ::kill(run, signal);
+    const Result result = place.finish(run);
+    CHECK_MESSAGE(result.code == 1, result.err);
+    CHECK(result.err.find("cancelled, nothing was written") != std::string::npos);
+    CHECK(place.files_in("out") == std::set<std::string>{"all.ply"});
+    CHECK(place.text("out/all.ply") == "old");
+    CHECK(place.leftovers().empty());
+  }
 }
 
 TEST_CASE("output: signals that end the program leave the old cutout as it was") {

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <thread>
 
+#include "scene/error.h"
+
 namespace splatcut {
 
 namespace {
@@ -71,6 +73,10 @@ Job console_job(bool quiet) {
   job.stop = g_stop.get_token();
   if (!quiet && ::isatty(STDERR_FILENO)) job.on_progress = draw_bar;
   return job;
+}
+
+void stop_if_cancelled(const Job& job, std::string_view command) {
+  if (job.cancelled()) throw Error(command, "cancelled, nothing was written");
 }
 
 void warn(const std::string& sentence, bool quiet) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "scene/job.h"
 
@@ -11,6 +12,9 @@ namespace splatcut {
 // and SIGHUP cancel. A second one ends the program at once. A file that is cut short while it is read
 // ends it, too, with a sentence.
 Job console_job(bool quiet);
+
+// Throws Error where it was cancelled. command: which has written nothing so far.
+void stop_if_cancelled(const Job& job, std::string_view command);
 
 // Says the sentence on stderr; nothing for an empty one.
 void warn(const std::string& sentence, bool quiet);

@@ -49,10 +49,6 @@ CutSettings settings_of(const CutArguments& args) {
   return settings;
 }
 
-void stop_if_cancelled(const Job& job) {
-  if (job.cancelled()) throw Error("splatcut cut", "cancelled, nothing was written");
-}
-
 void print_summary(const CutArguments& args, const Scene& scene, const nlohmann::json& report) {
   if (report.contains("objects")) {
     for (const auto& o : report["objects"])
@@ -98,7 +94,7 @@ Session session_of(const std::shared_ptr<const Scene>& scene, const ChosenCamera
                    const CutSettings& settings, const PreparedCache& cache, const Job& job) {
   auto prepared = std::make_shared<const PreparedScene>(prepare_scene(
       scene->cloud, chosen.camera, chosen.up_world, chosen.given, prepare_options(settings, cache), job));
-  stop_if_cancelled(job);
+  stop_if_cancelled(job, "splatcut cut");
   return Session({{scene, &scene->cloud}, std::move(prepared), chosen.up_world, chosen.given});
 }
 
@@ -106,7 +102,7 @@ CutResult cut_one_object(Session* session, const CutRequest& request, const CutS
                          const Job& job) {
   CutResult result = session->cut(request, settings, job);
   end_progress();
-  stop_if_cancelled(job);
+  stop_if_cancelled(job, "splatcut cut");
   if (result.outcome == Outcome::kNothingFound)
     throw Error("splatcut cut", "no object was found: " + result.reason);
   const std::vector<StageTime>& before = session->scene().prepared->stages;
@@ -140,7 +136,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   };
   const auto scene =
       std::make_shared<const Scene>(args.how.load(args.scene, args.camera.cameras, common.quiet, job));
-  stop_if_cancelled(job);
+  stop_if_cancelled(job, "splatcut cut");
   const double load_ms = ms_since_start();
   ChosenCamera chosen = choose_camera(args.camera, scene->cloud);
   warn(chosen.warning, common.quiet);
@@ -150,7 +146,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   CutRequest request = request_of(meant, args.camera, scene->cloud, job, &chosen, &warning);
   request.part_step = args.scale;
   warn(warning, common.quiet);
-  stop_if_cancelled(job);
+  stop_if_cancelled(job, "splatcut cut");
   for (const StrokedView& view : request.strokes) check_inside(view.strokes, view.camera);
   const ManyObjects many{*scene, chosen, args.camera, settings, args.scale, meant.objects};
   check_objects(many);
@@ -168,7 +164,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   } else {
     json = cut_many_objects(many, &session, folder, job);
     end_progress();
-    stop_if_cancelled(job);
+    stop_if_cancelled(job, "splatcut cut");
     for (const auto& object : json["objects"])
       for (const auto& sentence : object["doubts"])
         warn(fmt::format("{}: {}", object["name"].get<std::string>(), sentence.get<std::string>()),
@@ -178,7 +174,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
     json.update(run_json(*scene, said, ms_since_start()));
   }
   write_text_file(folder.file("report.json"), json_text(json, 2) + "\n");
-  stop_if_cancelled(job);
+  stop_if_cancelled(job, "splatcut cut");
   folder.commit();
   if (args.json)
     fmt::print("{}\n", json_text(json, 2));

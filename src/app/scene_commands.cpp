@@ -98,7 +98,7 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
   }
   const RasterOutput out = rasterize(scene.cloud, chosen.camera, options, job);
   end_progress();
-  if (job.cancelled()) throw Error("splatcut render", "cancelled, nothing was written");
+  stop_if_cancelled(job, "splatcut render");
   if (args.what == "depth") {
     write_depth(args.output, out.expected_depth);
   } else if (args.what == "alpha") {
@@ -118,7 +118,7 @@ void run_convert(const SceneArguments& args, const CommonOptions& common) {
   const Job job = console_job(common.quiet);
   const Scene scene = args.how.load(args.scene, {}, common.quiet, job);
   end_progress();
-  if (job.cancelled()) throw Error("splatcut convert", "cancelled, nothing was written");
+  stop_if_cancelled(job, "splatcut convert");
   const SaveReport report = save_scene(args.output, scene, {}, format, {args.spz_version});
   if (common.quiet) return;
   fmt::print("{}: {} Gaussians, {} bytes\n", args.output.string(), report.gaussians, report.bytes);
