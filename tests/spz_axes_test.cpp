@@ -100,6 +100,11 @@ TEST_CASE("spz axes: the file's word, else right-up-back with a note, and the us
     CHECK_FALSE(load_scene(path).taken_axes);
     CHECK(load_scene(path).axes_note.empty());
     CHECK(position(asked(SpzAxes::kPly)) == glm::vec3(1, 2, -0.5f));
+    const Scene against = load_scene(path, asked(SpzAxes::kPly));
+    CHECK(against.taken_axes == SpzAxes::kPly);
+    CHECK(against.axes_note ==
+          "The .spz file says its axes, but others were asked for. Taken: x right, y down, z forward, as in "
+          "a .ply");
     put(plain_spz(2) + axes_record(kRdf));
     CHECK(position() == glm::vec3(1, 2, -0.5f));
     put(plain_spz(2) + axes_record(kLuf));

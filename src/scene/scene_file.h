@@ -37,7 +37,7 @@ struct Scene {
   std::vector<std::string> other_properties;  // columns of a .ply that say nothing of Gaussians
   bool antialiased = false;  // the file says that it was trained with the filter of Mip-Splatting
 
-  // Of a .spz that does not say its axes: those taken, and a sentence on why.
+  // Of a .spz that does not say its axes, or was not asked: those taken, and a sentence on why.
   std::optional<SpzAxes> taken_axes;
   std::string axes_note;
 };

@@ -145,6 +145,13 @@ void decode_unsaid(const LoadOptions& options, SpzRows* rows, Scene& scene, cons
       fmt::format("The .spz file does not say its axes. Taken: {} ({})", words_for(*scene.taken_axes), why);
 }
 
+// Against what the file says.
+void decode_asked(SpzAxes axes, SpzRows* rows, Scene& scene, const Job& job) {
+  decode_in(axes, rows, scene, job);
+  scene.axes_note =
+      fmt::format("The .spz file says its axes, but others were asked for. Taken: {}", words_for(axes));
+}
+
 SpzRows rows_for(const spz::Header& header) {
   SpzRows rows;
   rows.header = header;
@@ -158,10 +165,9 @@ void decode(const MappedFile& file, std::span<const std::byte> records, const Lo
             SpzRows rows, Scene& scene, const Job& job) {
   scene.antialiased = rows.header.flags & spz::kFlagAntialiased;
   const auto said = rows.header.flags & spz::kFlagExtensions ? axes_said(file, records) : std::nullopt;
-  if (said && !options.spz_axes)
-    decode_in(*said, &rows, scene, job);
-  else
-    decode_unsaid(options, &rows, scene, job);
+  if (!said) return decode_unsaid(options, &rows, scene, job);
+  if (options.spz_axes) return decode_asked(*options.spz_axes, &rows, scene, job);
+  decode_in(*said, &rows, scene, job);
 }
 
 std::size_t attributes_size(const spz::Header& header) {
