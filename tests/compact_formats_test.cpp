@@ -46,6 +46,33 @@ TEST_CASE("spz: versions 1 and 2 by hand, axes turned to x right, y down, z forw
   CHECK(load_scene(folder / "2.spz").cloud.rotation[0].y == doctest::Approx(-1).epsilon(0.01));
 }
 
+TEST_CASE("spz: of version 4 with spherical harmonics of degree 4, those up to 3 are read and that is said") {
+  const Folder folder;
+  constexpr std::size_t kPoints = 3, kCoefficients = 3 * 24;  // a row
+  std::string sh;
+  for (std::size_t row = 0; row < kPoints; ++row)
+    sh += std::string(3 * 15, '\xc0') + std::string(kCoefficients - 3 * 15, '\xff');
+  const std::string attributes[] = {std::string(9 * kPoints, '\1'),   std::string(kPoints, '\x80'),
+                                    std::string(3 * kPoints, '\x80'), std::string(3 * kPoints, '\x80'),
+                                    std::string(4 * kPoints, '\0'),   sh};
+  std::string text = "NGSP" + bytes_of(4u) + bytes_of(std::uint32_t{kPoints}) +
+                     std::string("\x04\x08\x00\x06", 4) + bytes_of(32u) + std::string(12, '\0');
+  std::string streams;
+  for (const std::string& attribute : attributes) {
+    const std::string packed = zstd(attribute);
+    text += bytes_of(std::uint64_t{packed.size()}) + bytes_of(std::uint64_t{attribute.size()});
+    streams += packed;
+  }
+  write(folder / "a.spz", text + streams);
+  const Scene scene = load_scene(folder / "a.spz");
+  REQUIRE(scene.cloud.size() == kPoints);
+  CHECK(scene.cloud.sh_degree == 3);
+  CHECK(std::ranges::all_of(scene.cloud.sh_rest, [](float v) { return std::abs(v) == 0.5f; }));
+  CHECK(scene.left_out == "Spherical harmonics of degree 4 are left out, those up to degree 3 are read");
+  save_scene(folder / "b.spz", scene, {}, SceneFormat::kSpz);
+  CHECK(load_scene(folder / "b.spz").left_out.empty());
+}
+
 TEST_CASE("spz: small scenes keep their shape, what 24 bits cannot hold is refused, sizes beyond are said") {
   const Folder folder;
   const auto saved = [&](float unit) {

@@ -22,6 +22,7 @@ Scene SceneOptions::load(const std::filesystem::path& scene, const std::filesyst
     end_progress();
     warn(loaded.axes_note + ". --spz-axes takes others", quiet);
   }
+  warn(loaded.left_out, quiet);
   return loaded;
 }
 

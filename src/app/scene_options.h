@@ -17,7 +17,7 @@ struct SceneOptions {
   std::optional<SpzAxes> axes() const { return spz_axes_from_name(spz_axes); }
 
   // cameras: file or folder of --cameras, which helps to tell the axes of a .spz, or empty. Where they had to
-  // be guessed, a sentence on stderr says so.
+  // be guessed, and where something is left out, a sentence on stderr says so.
   Scene load(const std::filesystem::path& scene, const std::filesystem::path& cameras, bool quiet,
              const Job& job) const;
 };

@@ -35,9 +35,10 @@ struct Scene {
   std::int64_t modified_ns = 0;
   bool rows_can_be_copied = false;            // to a .ply, byte for byte from path
   std::vector<std::string> other_properties;  // columns of a .ply that say nothing of Gaussians
-  bool antialiased = false;  // the file says that it was trained with the filter of Mip-Splatting
+  std::string left_out;                       // a sentence on what was not read of it, or empty
+  bool antialiased = false;                   // it says: trained with the filter of Mip-Splatting
 
-  // Of a .spz that does not say its axes, or was not asked: those taken, and a sentence on why.
+  // Of a .spz that does not say its axes, or was overruled: those taken, and a sentence on why.
   std::optional<SpzAxes> taken_axes;
   std::string axes_note;
 };

@@ -16,7 +16,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr int kMaxFileDegree = 4;  // v4 allows it; coefficients beyond degree 3 are left out
+constexpr int kMaxFileDegree = 4, kMaxDegree = 3;  // v4 allows the first, the second is read
 
 struct SpzRows {
   spz::Header header;
@@ -24,7 +24,7 @@ struct SpzRows {
   std::array<float, 15> sh_signs = kRightUpBack.sh();
   std::array<std::span<const std::byte>, spz::kAttributes> attributes;
   std::size_t sh_bytes = 0;
-  int degree = 0;  // at most 3
+  int degree = 0;  // at most kMaxDegree
 
   const std::byte* at(int attribute, std::size_t row, std::size_t bytes) const {
     return attributes[static_cast<std::size_t>(attribute)].data() + row * bytes;
@@ -87,7 +87,7 @@ void check_header(const MappedFile& file, const spz::Header& header) {
   if (header.magic != spz::kMagic) refuse("is not a .spz file: the mark \"NGSP\" is missing");
   if (header.version < 1 || header.version > 4)
     refuse(fmt::format("version {} of .spz is not supported", header.version));
-  if (header.sh_degree > (header.version == 4 ? kMaxFileDegree : 3))
+  if (header.sh_degree > (header.version == 4 ? kMaxFileDegree : kMaxDegree))
     refuse(fmt::format("spherical harmonics of degree {} are not supported", header.sh_degree));
   if (header.fractional_bits > kMaxFractionalBits)
     refuse(fmt::format("{} fractional bits in positions of 24 bits", header.fractional_bits));
@@ -156,7 +156,7 @@ SpzRows rows_for(const spz::Header& header) {
   SpzRows rows;
   rows.header = header;
   rows.sh_bytes = spz::attribute_bytes(header.version, header.sh_degree)[5];
-  rows.degree = std::min<int>(header.sh_degree, 3);
+  rows.degree = std::min<int>(header.sh_degree, kMaxDegree);
   return rows;
 }
 
@@ -164,6 +164,10 @@ SpzRows rows_for(const spz::Header& header) {
 void decode(const MappedFile& file, std::span<const std::byte> records, const LoadOptions& options,
             SpzRows rows, Scene& scene, const Job& job) {
   scene.antialiased = rows.header.flags & spz::kFlagAntialiased;
+  if (rows.header.sh_degree > rows.degree)
+    scene.left_out =
+        fmt::format("Spherical harmonics of degree {} are left out, those up to degree {} are read",
+                    rows.header.sh_degree, rows.degree);
   const auto said = rows.header.flags & spz::kFlagExtensions ? axes_said(file, records) : std::nullopt;
   if (!said) return decode_unsaid(options, &rows, scene, job);
   if (options.spz_axes) return decode_asked(*options.spz_axes, &rows, scene, job);
