@@ -76,3 +76,16 @@ TEST_CASE("losses: the share of Gaussians beyond the range of bytes is said, rou
   CHECK(save_scene(folder / "b.splat", scene, keep, SceneFormat::kSplat).loss.find("clamped") ==
         std::string::npos);
 }
+
+TEST_CASE("plans: nothing is said to be kept in full beside what is lost") {
+  Scene scene;
+  scene.cloud = varied_cloud(10, 1);
+  scene.other_properties = {"mask"};
+  scene.antialiased = true;
+  for (const SceneFormat& format : written_formats()) {
+    const FormatPlan plan = format.plan(scene, 10);
+    CAPTURE(format.name);
+    CHECK_FALSE(plan.lost.empty());
+    CHECK(plan.kept.find("Everything") == std::string::npos);
+  }
+}

@@ -143,7 +143,8 @@ std::string write_glb(AtomicFile& out, const Scene& scene, std::span<const std::
 FormatPlan plan_glb(const Scene& scene, std::size_t gaussians) {
   FormatPlan plan;
   plan.bytes = glb_bytes(scene.cloud, gaussians);
-  plan.kept = "Everything in 32 bits, for programs that read glTF with KHR_gaussian_splatting.";
+  plan.kept =
+      "What the scene says of Gaussians in 32 bits, for programs that read glTF with KHR_gaussian_splatting.";
   plan.lost = glb_losses(scene).in_full();
   return plan;
 }

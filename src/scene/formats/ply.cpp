@@ -279,7 +279,7 @@ FormatPlan plan_ply(const Scene& scene, std::size_t gaussians) {
   plan.bytes = gaussians * ply_row_bytes(scene) + 1500;
   plan.kept = scene.rows_can_be_copied
                   ? "Every property of every row, byte for byte as in the source file."
-                  : "Everything the source file holds, as ordinary 32-bit 3DGS properties.";
+                  : "What the source file says of Gaussians, as ordinary 32-bit 3DGS properties.";
   plan.lost = ply_losses(scene).in_full();
   return plan;
 }

@@ -211,7 +211,7 @@ FormatPlan plan_sog(const Scene& scene, std::size_t gaussians) {
   FormatPlan plan;
   plan.bytes = gaussians * kBytesPerGaussian + kCodebooks + sets * scene.cloud.sh_stride() * 3 / 4;
   plan.about = true;
-  plan.kept = "Everything, quantised and packed for the web.";
+  plan.kept = "What the scene says of Gaussians, quantised and packed for the web.";
   plan.lost = sog_losses(scene, gaussians).in_full();
   return plan;
 }

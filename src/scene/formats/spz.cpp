@@ -292,7 +292,7 @@ FormatPlan plan_spz(const Scene& scene, std::size_t gaussians) {
   FormatPlan plan;
   plan.bytes = gaussians * (20 + scene.cloud.sh_stride()) * 3 / 4 + 64;
   plan.about = true;
-  plan.kept = "Everything, quantised and packed.";
+  plan.kept = "What the scene says of Gaussians, quantised and packed.";
   plan.lost = spz_losses(scene, all_gaussians(scene.cloud)).in_full();
   return plan;
 }
