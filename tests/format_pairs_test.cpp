@@ -556,3 +556,19 @@ TEST_CASE("real files: .sog of three writers, .ksplat, text and colours, against
   for (const char* name : {"beetle.ascii.ply", "beetle.binary.ply"})
     CHECK(mentions(refusal(fixtures / "metalsplatter" / name), {"ordinary point cloud"}));
 }
+
+TEST_CASE("text in glTF and .sog that is no JSON, or another, is refused without the words of a library") {
+  const Folder folder;
+  const auto said = [&](const char* name, const char* text) {
+    write(folder / name, text);
+    const std::string sentence = refusal(folder / name);
+    CHECK(sentence.find("json.exception") == std::string::npos);
+    return sentence;
+  };
+  CHECK(mentions(said("a.gltf", "{\"asset\": "), {"a.gltf", "is not valid JSON at byte"}));
+  CHECK(mentions(said("a.gltf", "{\"asset\": {}}"), {"is not glTF as its standard has it", "not found"}));
+  CHECK(
+      mentions(said("meta.json", "{\"means\": 1, \"quats\": "), {"meta.json", "is not valid JSON at byte"}));
+  CHECK(mentions(said("meta.json", "{\"means\": 1, \"quats\": 2, \"version\": 2}"),
+                 {"is not that of a .sog", "'count'"}));
+}

@@ -11,11 +11,11 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "scene/error.h"
 #include "scene/formats/axes.h"
 #include "scene/formats/decode.h"
+#include "scene/json_file.h"
 #include "scene/quantise.h"
 
 namespace splatcut {
@@ -50,9 +50,8 @@ std::span<const std::byte> chunk_at(const MappedFile& file, std::size_t* at, std
   return chunk;
 }
 
-json parsed(std::span<const std::byte> text) {
-  const auto* begin = reinterpret_cast<const char*>(text.data());
-  return json::parse(begin, begin + text.size());
+json parsed(const MappedFile& file, std::span<const std::byte> text) {
+  return parse_json(file.path(), {reinterpret_cast<const char*>(text.data()), text.size()});
 }
 
 void open_buffers(const MappedFile& file, std::span<const std::byte> binary, Gltf* gltf) {
@@ -81,11 +80,11 @@ Gltf::Gltf(const MappedFile& file) {
       throw Error(file.path().string(), fmt::format("version {} of .glb is not supported", version));
     const auto chunk = chunk_at(file, &at, &type);
     if (type != kJsonChunk) throw Error(file.path().string(), "truncated: it has no text");
-    text = parsed(chunk);
+    text = parsed(file, chunk);
     binary = chunk_at(file, &at, &type);
     if (type != kBinaryChunk) binary = {};
   } else {
-    text = parsed(file.bytes());
+    text = parsed(file, file.bytes());
   }
   open_buffers(file, binary, this);
 }
@@ -352,7 +351,8 @@ void read_glb(const MappedFile& file, const LoadOptions&, Scene& scene, const Jo
                   fmt::format("{} Gaussians are more than can be handled", found.count));
     decode_rows(found.rows, found.count, found.rows.degree, scene, job);
   } catch (const json::exception& error) {
-    throw Error(file.path().string(), fmt::format("is not glTF as its standard has it ({})", error.what()));
+    throw Error(file.path().string(),
+                fmt::format("is not glTF as its standard has it ({})", fault_of(error)));
   } catch (const std::out_of_range&) {
     throw Error(file.path().string(), "is not glTF as its standard has it: a buffer is missing");
   }

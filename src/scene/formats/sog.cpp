@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "scene/error.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/webp.h"
 #include "scene/formats/zip_file.h"
+#include "scene/json_file.h"
 #include "scene/quantise.h"
 
 namespace splatcut {
@@ -40,8 +40,8 @@ class SogFiles {
   json meta() const {
     const std::vector<std::byte> packed = zip_ ? zip_->read(prefix_ + kMetaName) : std::vector<std::byte>();
     const std::span<const std::byte> bytes = zip_ ? std::span<const std::byte>(packed) : file_.bytes();
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    return json::parse(text, text + bytes.size());
+    return parse_json(zip_ ? file_.path() / kMetaName : file_.path(),
+                      {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
   Image<Rgba8> picture(const std::string& name) const {
     if (zip_) return read_webp(file_.path(), name, zip_->read(prefix_ + name), file_.bytes().size());
@@ -233,7 +233,8 @@ void read_sog(const MappedFile& file, const LoadOptions&, Scene& scene, const Jo
     scene.antialiased = meta.value("antialias", false);
     if (!job.cancelled()) decode_rows(rows, count, rows.degree, scene, job);
   } catch (const json::exception& error) {
-    throw Error(file.path().string(), fmt::format("its meta.json is not that of a .sog ({})", error.what()));
+    throw Error(file.path().string(),
+                fmt::format("its meta.json is not that of a .sog ({})", fault_of(error)));
   }
 }
 
