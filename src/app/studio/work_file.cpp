@@ -19,8 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kVersion =
-    3;  // 1 knew views that are left out by their number, 2 no choice and not what was seen
+// 1 knew views that are left out by their number, 2 no choice and not what was seen.
+constexpr int kVersion = 3;
 
 json list(const glm::vec3& v) {
   return {v.x, v.y, v.z};

@@ -6,9 +6,8 @@
 //                      sign(x) log(1 + |x|)
 //   quats              the three components that are not the largest, of w x y z, times sqrt(2), -1 to 1;
 //                      alpha - 252 is the number of the largest
-//   scales, sh0        numbers of entries in a codebook of 256: the logarithms of scales, f_dc; alpha of sh0
-//   is
-//                      the opacity
+//   scales, sh0        numbers of entries in a codebook of 256: the logarithms of scales, f_dc;
+//                      alpha of sh0 is the opacity
 //   shN_labels         16-bit number of a row of shN_centroids, which has 64 rows side by side, a pixel for
 //                      each coefficient, and holds numbers of entries in a codebook
 // Version 1 has ranges instead of codebooks, and opacities as logits. Axes are those of .ply.

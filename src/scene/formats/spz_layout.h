@@ -1,4 +1,4 @@
-// What reader and writer of .spz (Niantic) share. Internal to src/scene.
+// What reader and writer of .spz (Niantic) share. Internal to src/scene/formats.
 //
 // Attributes stand apart, in this order: positions, opacities, colours, scales, rotations, SH.
 //   position   v1: 3 half floats; v2+: 3 x 24-bit fixed point with fractional_bits
