@@ -42,6 +42,7 @@ click() { xdotool mousemove "$1" "$2" sleep 0.2 click "${3:-1}" sleep 0.2; }
 wait_for 60 "window" xdotool search --name sample
 sleep 1
 shot 1_opened
+wait_for 10 "settings, kept while it runs" grep -q sample "$work/config/splatcut/settings.json"
 click 668 524                                   # the apple
 wait_for 240 "cutout of the apple" grep -q '"cut_is_current": *true' "$autosave"
 shot 2_clicked

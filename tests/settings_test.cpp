@@ -5,6 +5,7 @@
 
 #include "app/ui/settings.h"
 #include "headless_app.h"
+#include "scene/error.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -37,4 +38,25 @@ TEST_CASE("settings: written and read back the same, and what cannot be read is 
     CHECK_FALSE(load_settings(file).position);
     CHECK(load_settings(file).width == Settings{}.width);
   }
+}
+
+TEST_CASE("settings: kept as they change, and tried again where they could not be written") {
+  const ScratchFolder place("settings_kept");
+  const std::filesystem::path file = place / "settings.json";
+  SettingsKeeper keeper(file);
+  Settings now = keeper.kept();
+  keeper.keep(now);
+  CHECK_FALSE(std::filesystem::exists(file));  // nothing changed
+  now.recent = {place.path()};
+  keeper.keep(now);
+  CHECK(load_settings(file).recent == now.recent);
+  std::filesystem::remove(file);
+  keeper.keep(now);
+  CHECK_FALSE(std::filesystem::exists(file));
+  std::filesystem::create_directories(file);  // in the way
+  now.dark = false;
+  CHECK_THROWS_AS(keeper.keep(now), Error);
+  std::filesystem::remove(file);
+  keeper.keep(now);
+  CHECK_FALSE(load_settings(file).dark);
 }

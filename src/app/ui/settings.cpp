@@ -52,4 +52,10 @@ void save_settings(const std::filesystem::path& file, const Settings& s) {
   write_text_file(file, json_text(json, 2) + "\n");
 }
 
+void SettingsKeeper::keep(const Settings& now) {
+  if (now == kept_) return;
+  save_settings(file_, now);
+  kept_ = now;
+}
+
 }  // namespace splatcut

@@ -18,9 +18,23 @@ struct Settings {
   float ui_scale = 1;
   std::vector<std::filesystem::path> recent;
   ViewState view;  // brush, tints and outline of it; tools and display modes start afresh
+
+  bool operator==(const Settings&) const = default;
 };
 
 Settings load_settings(const std::filesystem::path& file);
 void save_settings(const std::filesystem::path& file, const Settings& settings);  // throws Error
+
+// Writes them as they change, so that a program that is killed forgets none.
+class SettingsKeeper {
+ public:
+  explicit SettingsKeeper(std::filesystem::path file) : file_(std::move(file)), kept_(load_settings(file_)) {}
+  const Settings& kept() const { return kept_; }
+  void keep(const Settings& now);  // throws Error, and tries again when it is called again
+
+ private:
+  std::filesystem::path file_;
+  Settings kept_;
+};
 
 }  // namespace splatcut

@@ -183,6 +183,28 @@ void remember_place(GLFWwindow* window, Settings* settings) {
   if (glfwGetError(nullptr) == GLFW_NO_ERROR) settings->position = at;
 }
 
+// What is remembered, as it is now.
+Settings settings_now(const Loop& loop, Settings settings) {
+  remember_place(loop.window, &settings);
+  const UiState& state = loop.app.interface().state();
+  settings.dark = state.dark;
+  settings.hint_wanted = state.hint_wanted;
+  settings.recent = state.recent;
+  const ViewState& view = loop.app.studio().view();
+  settings.view.brush_px = view.brush_px;
+  settings.view.tint = view.tint;
+  settings.view.outline = view.outline;
+  return settings;
+}
+
+void keep_settings(const Loop& loop, SettingsKeeper* keeper) {
+  try {
+    keeper->keep(settings_now(loop, keeper->kept()));
+  } catch (const std::exception&) {
+    // Nothing that the work has to wait for; the end of the program says it.
+  }
+}
+
 std::string title_of(const Studio& studio) {
   if (!studio.scene()) return "splatcut";
   const std::filesystem::path& shown =
@@ -190,10 +212,11 @@ std::string title_of(const Studio& studio) {
   return fmt::format("{}{} - splatcut", studio.unsaved() ? "* " : "", shown.filename().string());
 }
 
-void run_loop(Loop& loop) {
+void run_loop(Loop& loop, SettingsKeeper* keeper) {
   constexpr double kAfterEventSeconds = 0.3, kIdleSeconds = 0.5, kMovingSeconds = 0.004;
   constexpr double kWorkingSeconds = 0.05;  // software OpenGL would take the cores that the work needs
-  double before = glfwGetTime();
+  constexpr double kKeepSeconds = 1;
+  double before = glfwGetTime(), kept_s = before;
   std::string title;
   while (!loop.app.wants_to_close()) {
     if (glfwWindowShouldClose(loop.window)) {
@@ -206,6 +229,10 @@ void run_loop(Loop& loop) {
     before = now;
     if (std::string wanted = title_of(loop.app.studio()); wanted != title)
       glfwSetWindowTitle(loop.window, (title = wanted).c_str());
+    if (now - kept_s > kKeepSeconds) {
+      keep_settings(loop, keeper);
+      kept_s = now;
+    }
     glfwSwapBuffers(loop.window);
     const bool fresh = glfwGetTime() - loop.last_event_s < kAfterEventSeconds;
     const bool moving = fresh || loop.app.studio().moving();
@@ -224,8 +251,8 @@ std::string why_no_window() {
 }
 
 void run_window(const WindowOptions& options) {
-  const std::filesystem::path settings_file = config_folder() / "settings.json";
-  Settings settings = load_settings(settings_file);
+  SettingsKeeper keeper(config_folder() / "settings.json");
+  const Settings settings = keeper.kept();
   const Glfw glfw;
   const bool as_remembered = options.width <= 0 && options.height <= 0;
   const GlfwWindow window(options.width > 0 ? options.width : settings.width,
@@ -249,15 +276,10 @@ void run_window(const WindowOptions& options) {
     glfwSetWindowUserPointer(window.handle, &loop);
     install_callbacks(window.handle);
     if (!options.open.empty()) app.studio().apply(OpenScene{options.open, options.spz_axes});
-    run_loop(loop);
-    remember_place(window.handle, &settings);
-    settings.dark = state.dark;
-    settings.hint_wanted = state.hint_wanted;
-    settings.recent = state.recent;
-    settings.view = app.studio().view();
+    run_loop(loop, &keeper);
     app.studio().leave();
+    keeper.keep(settings_now(loop, keeper.kept()));
   }
-  save_settings(settings_file, settings);
 }
 
 }  // namespace splatcut
