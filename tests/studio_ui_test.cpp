@@ -198,6 +198,10 @@ TEST_CASE("saved work: what is wrong with a file is said in one sentence") {
   nlohmann::json no_up = right;
   no_up["up"] = {0, 0, 0};
   CHECK(said_of(no_up) == file.string() + ": up: is no direction.");
+  nlohmann::json no_view = right;
+  no_view["view"] = {
+      {"camera_from_world", {0, 0, 0, 0}}, {"position", {0, 0, 0}}, {"distance", 1}, {"fov_y_rad", 1}};
+  CHECK(said_of(no_view) == file.string() + ": view: is no place to look from.");
   const auto said_of_version = [&](const nlohmann::json& version) {
     nlohmann::json work = right;
     work["splatcut_work"] = version;
@@ -260,6 +264,7 @@ TEST_CASE("a view left out is that view: after a save, and after another preset 
 TEST_CASE("work is saved by itself and offered after a crash") {
   const ScratchFolder folder("state");
   std::string bytes;
+  CameraPose pose;
   {
     ApplicationOptions options;
     options.studio.state_folder = folder.path();
@@ -271,12 +276,17 @@ TEST_CASE("work is saved by itself and offered after a crash") {
     app.frames(60 * 3);
     REQUIRE(app.settle());
     bytes = bytes_of(app.studio().document());
+    app.studio().camera().orbit({60, 20});  // the view alone
+    pose = app.studio().camera().pose();
+    app.frames(60 * 11);
+    REQUIRE(app.settle());
   }  // no leave(): as if it had crashed
   REQUIRE(std::filesystem::exists(folder / "autosave.splatcut.json"));
   ApplicationOptions options;
   options.studio.state_folder = folder.path();
   HeadlessApp app(kWidth, kHeight, 1, options);
   CHECK(app.studio().autosave_found());
+  CHECK(app.studio().autosave_says().starts_with("sample.compressed.ply, 20"));
   // Started with a scene and worked on: what is offered is still there.
   opened(app);
   app.click(app.screen_of(kOnOrange));
@@ -288,6 +298,10 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   app.studio().apply(RestoreAutosave{});
   REQUIRE(app.settle());
   CHECK(bytes_of(app.studio().document()) == bytes);
+  CHECK(app.studio().camera().pose() == pose);
+  CHECK(std::ranges::any_of(app.studio().messages(), [&](const Message& m) {
+    return m.text == "Restoring the work of last time: " + app.studio().autosave_says();
+  }));
   CHECK_FALSE(app.studio().autosave_found());
   CHECK(app.studio().unsaved());  // it is nowhere else yet
   app.frames(60 * 3);
@@ -297,6 +311,29 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   CHECK_FALSE(std::filesystem::exists(folder / kAutosaveBefore));
   const auto again = open_scene(read_work_file(folder / kAutosave).scene);
   CHECK(bytes_of(restored(read_work_file(folder / kAutosave), *again->scene, again->hash).document) == bytes);
+}
+
+TEST_CASE("work that was saved by itself stays offered where its scene cannot be opened") {
+  const ScratchFolder folder("state_without_scene");
+  const auto moved = folder / "moved.compressed.ply";
+  std::filesystem::copy_file(kSample, moved);
+  const auto scene = open_scene(moved);
+  Document document;
+  add_object(&document, "mug");
+  write_work_file(folder / kAutosave, *scene->scene, scene->hash, document);
+  std::filesystem::rename(moved, folder / "elsewhere");
+  ApplicationOptions options;
+  options.studio.state_folder = folder.path();
+  HeadlessApp app(kWidth, kHeight, 1, options);
+  app.studio().apply(RestoreAutosave{});
+  REQUIRE(app.settle());
+  CHECK(app.studio().messages().back().text.find("moved.compressed.ply") != std::string::npos);
+  CHECK(app.studio().autosave_found());
+  std::filesystem::rename(folder / "elsewhere", moved);
+  app.studio().apply(RestoreAutosave{});
+  REQUIRE(app.settle());
+  CHECK(app.studio().document().objects.size() == 1);
+  CHECK_FALSE(app.studio().autosave_found());
 }
 
 TEST_CASE("opening asks before unsaved work goes, dropped files and recent ones alike") {

@@ -20,6 +20,8 @@ struct CameraPose {
   glm::vec3 position_world{0};
   float distance = 4;             // to the pivot, scene units
   float fov_y_rad = 0.87266463f;  // 50 degrees, as on the command line
+
+  bool operator==(const CameraPose&) const = default;
 };
 
 // Steps of a flight: each -1, 0 or 1 along the camera's axes.

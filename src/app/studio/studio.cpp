@@ -28,9 +28,7 @@ bool is_tool(Action action) {
 Studio::Studio(StudioOptions options)
     : options_(std::move(options)), frames_(options_.wake), tasks_(options_.wake, options_.inline_tasks) {
   tasks_.on_error = [this](const std::string& text) { say(Message::Kind::kError, text); };
-  if (options_.state_folder.empty()) return;
-  for (const char* name : {kAutosaveBefore, kAutosave})
-    if (std::filesystem::exists(options_.state_folder / name)) restorable_ = options_.state_folder / name;
+  find_autosave();
 }
 
 Studio::~Studio() = default;

@@ -151,6 +151,8 @@ class Studio {
   double still_ms() const { return still_ms_; }
   // Work that the program did not get to save last time: offered until it is restored or dropped.
   bool autosave_found() const { return !restorable_.empty(); }
+  // "garden.ply, 2026-03-01 18:40": of which scene, and when it was written.
+  const std::string& autosave_says() const { return restorable_says_; }
   std::vector<UiRequest> take_ui_requests() { return std::exchange(ui_requests_, {}); }
   std::optional<PickedPoint> pick(const glm::vec2& pixel) const;
   DepthRange depth_range() const;
@@ -199,6 +201,7 @@ class Studio {
   void perform(const GoToCamera& c);
   void perform(const SetFieldOfView& c);
   // studio_files.cpp
+  void find_autosave();
   void perform(const OpenScene& c);
   void perform(const SaveWork& c);
   void perform(const RestoreAutosave&);
@@ -293,7 +296,9 @@ class Studio {
 
   std::filesystem::path work_path_;
   std::filesystem::path restorable_;  // empty: none
+  std::string restorable_says_;
   std::uint64_t autosaved_serial_ = 1, saved_serial_ = 1;
+  CameraPose autosaved_pose_;
   double autosave_wait_s_ = 0;
   std::uint64_t next_scene_serial_ = 1, next_card_serial_ = 1;
 

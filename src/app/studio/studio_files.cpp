@@ -1,6 +1,8 @@
 // Files out: work, exports, pictures.
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <glm/gtc/constants.hpp>
 
 #include "app/output_folder.h"
@@ -37,16 +39,35 @@ Image<Rgba8> capture(const GaussianCloud& cloud, const Camera& camera, const Fla
   return picture;
 }
 
+std::string described(const std::filesystem::path& work) {
+  const auto written = std::chrono::file_clock::to_sys(std::filesystem::last_write_time(work));
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(
+      std::chrono::time_point_cast<std::chrono::system_clock::duration>(written));
+  const std::string when = fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(seconds));
+  try {
+    return fmt::format("{}, {}", read_work_file(work).scene.filename().string(), when);
+  } catch (const Error&) {
+    return when;  // what is wrong with it is said when it is restored
+  }
+}
+
 }  // namespace
+
+void Studio::find_autosave() {
+  if (options_.state_folder.empty()) return;
+  for (const char* name : {kAutosaveBefore, kAutosave})
+    if (std::filesystem::exists(options_.state_folder / name)) restorable_ = options_.state_folder / name;
+  if (!restorable_.empty()) restorable_says_ = described(restorable_);
+}
 
 void Studio::perform(const SaveWork& c) {
   require_scene();
   std::filesystem::path path = c.path;
   if (!is_work_file(path)) path += ".splatcut.json";
   tasks_.submit(TaskKind::kSave, [this, path, serial = document_serial_, document = document(),
-                                  scene = scene_](const Job& job) {
+                                  view = camera_.pose(), scene = scene_](const Job& job) {
     job.progress("saving", 0);
-    write_work_file(path, *scene->scene, scene->hash, document);
+    write_work_file(path, *scene->scene, scene->hash, document, view);
     tasks_.post([this, path, serial, scene] {
       say(Message::Kind::kDone, "Work saved to " + path.string());
       if (scene != scene_) return;
@@ -67,7 +88,8 @@ void Studio::leave() {
 
 void Studio::perform(const RestoreAutosave&) {
   if (restorable_.empty()) throw Error("restore", "there is no autosaved work");
-  perform(OpenScene{std::exchange(restorable_, {})});
+  say(Message::Kind::kInfo, "Restoring the work of last time: " + restorable_says_);
+  perform(OpenScene{restorable_});  // once it is open, it is offered no longer
 }
 
 void Studio::perform(const DropAutosave&) {

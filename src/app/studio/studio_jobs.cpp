@@ -15,7 +15,8 @@ namespace splatcut {
 namespace {
 
 constexpr int kThumbnailWidth = 160;
-constexpr double kAutosaveAfterSeconds = 2;
+// The view alone is no reason to write all so soon: it changes all the time.
+constexpr double kAutosaveAfterSeconds = 2, kAutosaveViewAfterSeconds = 10;
 constexpr std::size_t kCoarseFrom = 300000;  // Gaussians; fewer are drawn fast enough as they are
 
 // The view's picture with its mask in the object's colour; dark where the view does not count.
@@ -146,8 +147,11 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, const std::option
     camera_.go_to(scene->cameras.empty() ? *scene->first_view : scene->cameras.front());
     camera_.finish_transition();
   }
+  if (work && work->view) camera_.set_pose(*work->view);
+  if (work_path == restorable_) restorable_.clear();
   document_changed();
   autosaved_serial_ = saved_serial_ = document_serial_;
+  autosaved_pose_ = camera_.pose();
   if (work && work_path_.empty()) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
   ++view_serial_;
   const Scene& s = *scene->scene;
@@ -355,12 +359,15 @@ void Studio::request_likelihood() {
 }
 
 void Studio::autosave(double seconds) {
-  if (options_.state_folder.empty() || !scene_ || autosaved_serial_ == document_serial_ ||
-      cutting_object_ != 0)
-    return;
+  if (options_.state_folder.empty() || !scene_ || cutting_object_ != 0) return;
+  const bool changed = autosaved_serial_ != document_serial_;
+  const bool looks_elsewhere = unsaved() && autosaved_pose_ != camera_.pose();
+  if (!changed && !looks_elsewhere) return;
   autosave_wait_s_ += seconds;
-  if (autosave_wait_s_ < kAutosaveAfterSeconds) return;
+  if (autosave_wait_s_ < (changed ? kAutosaveAfterSeconds : kAutosaveViewAfterSeconds)) return;
+  autosave_wait_s_ = 0;
   autosaved_serial_ = document_serial_;
+  autosaved_pose_ = camera_.pose();
   const std::filesystem::path path = options_.state_folder / kAutosave;
   if (restorable_ == path) {  // what is offered must not be written over
     std::error_code trouble;
@@ -370,9 +377,9 @@ void Studio::autosave(double seconds) {
   const auto before = options_.state_folder / kAutosaveBefore;
   tasks_.submit(TaskKind::kAutosave,
                 [path, restored = restorable_ == before ? std::filesystem::path() : before,
-                 document = document(), scene = scene_](const Job&) {
+                 document = document(), view = camera_.pose(), scene = scene_](const Job&) {
                   std::filesystem::create_directories(path.parent_path());
-                  write_work_file(path, *scene->scene, scene->hash, document);
+                  write_work_file(path, *scene->scene, scene->hash, document, view);
                   std::error_code ignored;  // what was restored is in the file now
                   if (!restored.empty()) std::filesystem::remove(restored, ignored);
                 });

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <glm/gtc/constants.hpp>
 
 #include "app/seeds_file.h"
 #include "scene/atomic_file.h"
@@ -66,6 +67,31 @@ Camera camera_from(const json& j) {
       c.camera_from_world_rotation[column][row] = rotation.at(static_cast<std::size_t>(3 * row + column));
   c.camera_from_world_translation = vec3_from(j.at("camera_from_world_translation"));
   return c;
+}
+
+json pose_json(const CameraPose& pose) {
+  const glm::quat& q = pose.camera_from_world;
+  return {{"camera_from_world", {q.w, q.x, q.y, q.z}},
+          {"position", list(pose.position_world)},
+          {"distance", pose.distance},
+          {"fov_y_rad", pose.fov_y_rad}};
+}
+
+CameraPose pose_from(const json& j) {
+  constexpr float kUnit = 1e-3f;  // how far from one a rotation may be
+  const json& q = j.at("camera_from_world");
+  CameraPose pose;
+  pose.camera_from_world = {q.at(0).get<float>(), q.at(1).get<float>(), q.at(2).get<float>(),
+                            q.at(3).get<float>()};
+  pose.position_world = vec3_from(j.at("position"));
+  pose.distance = j.at("distance");
+  pose.fov_y_rad = j.at("fov_y_rad");
+  if (!(std::abs(glm::length(pose.camera_from_world) - 1) < kUnit) ||
+      !std::isfinite(glm::length(pose.position_world)) ||
+      !(pose.distance > 0 && std::isfinite(pose.distance)) ||
+      !(pose.fov_y_rad > 0 && pose.fov_y_rad < glm::pi<float>()))
+    throw Error("view", "is no place to look from");
+  return pose;
 }
 
 json strokes_json(const Strokes& strokes) {
@@ -241,6 +267,7 @@ RestoredWork restored(const WorkFile& file, const Scene& scene, std::uint64_t sc
     d.preset = work.at("preset");
     preset(d.preset);  // throws for an unknown one
     d.background = vec3_from(work.at("background"));
+    if (work.contains("view")) out.view = pose_from(work.at("view"));
     d.deleted = flags_from(work.value("deleted", json()), scene, 1);
     if (work.at("objects").size() > kMostObjects)
       throw Error("objects", fmt::format("there are {}, more than {}", work["objects"].size(), kMostObjects));
@@ -265,7 +292,7 @@ RestoredWork restored(const WorkFile& file, const Scene& scene, std::uint64_t sc
 }
 
 void write_work_file(const std::filesystem::path& path, const Scene& scene, std::uint64_t scene_hash,
-                     const Document& document) {
+                     const Document& document, const std::optional<CameraPose>& view) {
   json objects = json::array();
   for (const ObjectItem& o : document.objects) objects.push_back(object_json(document, o, scene));
   // A scene beside or below the work file moves with it.
@@ -278,15 +305,16 @@ void write_work_file(const std::filesystem::path& path, const Scene& scene, std:
       {"path", place}, {"hash", fmt::format("{:016x}", scene_hash)}, {"gaussians", scene.cloud.size()}};
   if (!is_utf8(place)) source["path_bytes"] = std::vector<std::uint8_t>(place.begin(), place.end());
   if (scene.taken_axes) source["spz_axes"] = name_of(*scene.taken_axes);
-  const json work = {{"splatcut_work", kVersion},
-                     {"scene", source},
-                     {"active", document.active},
-                     {"next_id", document.next_id},
-                     {"up", list(document.up_world)},
-                     {"preset", document.preset},
-                     {"background", list(document.background)},
-                     {"deleted", runs_json(document.deleted, scene)},
-                     {"objects", objects}};
+  json work = {{"splatcut_work", kVersion},
+               {"scene", source},
+               {"active", document.active},
+               {"next_id", document.next_id},
+               {"up", list(document.up_world)},
+               {"preset", document.preset},
+               {"background", list(document.background)},
+               {"deleted", runs_json(document.deleted, scene)},
+               {"objects", objects}};
+  if (view) work["view"] = pose_json(*view);
   write_text_file(path, json_text(work) + "\n");
 }
 

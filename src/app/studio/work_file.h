@@ -2,9 +2,9 @@
 //
 // Holds the scene's path (relative to the work file where it lies below or beside it) and hash, and the
 // document: strokes with their cameras in full float precision, hand marks and labels as run lengths over the
-// Gaussians in file order, settings. The labels of an object are a function of scene, strokes, settings and
-// marks, so that `splatcut cut --work` computes the same bits again. Errors: Error naming the file and the
-// entry.
+// Gaussians in file order, settings, and where the user looked from. The labels of an object are a function
+// of scene, strokes, settings and marks, so that `splatcut cut --work` computes the same bits again. Errors:
+// Error naming the file and the entry.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 
+#include "app/studio/camera_controller.h"
 #include "app/studio/document.h"
 #include "scene/scene_file.h"
 
@@ -29,7 +30,8 @@ struct WorkFile {
 
 struct RestoredWork {
   Document document;
-  std::string warning;  // a sentence about what the file could not say, or empty
+  std::optional<CameraPose> view;  // none in files of older programs
+  std::string warning;             // a sentence about what the file could not say, or empty
 };
 
 bool is_work_file(const std::filesystem::path& path);  // by its name
@@ -41,7 +43,7 @@ WorkFile read_work_file(const std::filesystem::path& path);
 RestoredWork restored(const WorkFile& file, const Scene& scene, std::uint64_t scene_hash);
 
 void write_work_file(const std::filesystem::path& path, const Scene& scene, std::uint64_t scene_hash,
-                     const Document& document);
+                     const Document& document, const std::optional<CameraPose>& view = {});
 
 // FNV-1a over the 64-bit words of the file.
 std::uint64_t hash_of_file(const std::filesystem::path& path);

@@ -376,6 +376,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
 }
 
 void restore_buttons(UiContext& ui) {
+  wrapped_muted(ui, "Not saved last time: " + ui.studio.autosave_says());
   if (button(ui, fmt::format("{} Restore the work of last time", icon::kRefresh).c_str(),
              "It was saved by itself before the program ended"))
     ui.ask(RestoreAutosave{});
