@@ -1,6 +1,7 @@
 // Readers of the layer `scene`: scenes, cameras, pictures.
 #include "fuzz.h"
 #include "scene/camera_file.h"
+#include "scene/formats/webp.h"
 #include "scene/png_file.h"
 #include "scene/scene_file.h"
 
@@ -21,9 +22,16 @@ std::pair<std::string_view, std::string_view> two_files(std::string_view bytes) 
 // What can be read can be written again in any format, or is refused.
 void load_and_save(const fs::path& file) {
   const Scene scene = load_scene(file);
-  for (const SceneFormat format :
-       {SceneFormat::kPly, SceneFormat::kCompressedPly, SceneFormat::kSplat, SceneFormat::kSpz})
+  for (const SceneFormat& format : written_formats())
     save_scene(place().folder() / "saved", scene, {}, format);
+}
+
+// Of a .sog: small numbers of entries, and 255 for a rotation whose last component is the largest.
+void write_picture(const char* name, int width) {
+  Image<Rgba8> picture(width, 1);
+  for (int x = 0; x < width; ++x) picture.at(x, 0) = {static_cast<std::uint8_t>(x % 64), 0, 0, 255};
+  const std::vector<std::byte> bytes = write_webp(picture);
+  place().write(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 [[maybe_unused]] void fuzz_ply(std::string_view bytes) {
@@ -36,6 +44,34 @@ void load_and_save(const fs::path& file) {
 
 [[maybe_unused]] void fuzz_spz(std::string_view bytes) {
   load_and_save(place().write("a.spz", bytes));
+}
+
+[[maybe_unused]] void fuzz_sog(std::string_view bytes) {
+  load_and_save(place().write("a.sog", bytes));
+}
+
+// The text of a .sog in a folder, with pictures that it can name: in a ZIP a checksum guards it.
+[[maybe_unused]] void fuzz_sog_text(std::string_view bytes) {
+  static const bool beside = [] {
+    write_picture("p.webp", 4);
+    write_picture("c.webp", 192);  // spherical harmonics of degree 1
+    return true;
+  }();
+  if (beside) load_and_save(place().write("meta.json", bytes));
+}
+
+[[maybe_unused]] void fuzz_glb(std::string_view bytes) {
+  load_and_save(place().write("a.glb", bytes));
+}
+
+// The text alone: in a .glb its length is counted.
+[[maybe_unused]] void fuzz_gltf(std::string_view bytes) {
+  static const fs::path beside = place().write("a.bin", std::string(168, '\x3f'));
+  load_and_save(place().write("a.gltf", bytes));
+}
+
+[[maybe_unused]] void fuzz_ksplat(std::string_view bytes) {
+  load_and_save(place().write("a.ksplat", bytes));
 }
 
 [[maybe_unused]] void fuzz_json_cameras(std::string_view bytes) {
