@@ -45,7 +45,8 @@ TEST_CASE("fit: weights follow what candidates are worth, terms that say nothing
   CHECK(fitted_terms(decisions, false, std::vector<bool>(4, true)) ==
         TermValues{});  // no correction is known
   CHECK(fitted_terms(decisions, true, std::vector<bool>(4, true)) == fitted);
-  TermValues without = fitted_terms(decisions, true, std::vector<bool>(4, true), {.without = 1u << 2});
+  TermValues without = fitted_terms(decisions, true, std::vector<bool>(4, true),
+                                    {.without = 1u << static_cast<unsigned>(Term::kRare)});
   CHECK(weight(&without, Term::kRare) == 0);
 }
 

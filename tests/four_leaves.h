@@ -4,6 +4,7 @@
 #include <array>
 
 #include "segment/part_hierarchy.h"
+#include "segment/selection/leaf_view.h"
 
 namespace splatcut::testing {
 
@@ -25,6 +26,21 @@ inline PartHierarchy four_leaves() {
   parts.leaf_area = {1, 1, 1, 1};
   for (int l = 0; l < 4; ++l) parts.leaf_centre_world.emplace_back(static_cast<float>(l) - 1.5f, 0.0f, 0.0f);
   return parts;
+}
+
+// What is at each pixel, and nothing behind it. hit: a Gaussian, or -1.
+inline LeafView leaf_view_of_hits(const PartHierarchy& parts, const Camera& camera,
+                                  const Image<std::int32_t>& hit) {
+  Image<std::vector<GroupWeight>> lists(hit.width(), hit.height());
+  Image<float> depth(hit.width(), hit.height(), 0.0f);
+  for (std::size_t i = 0; i < hit.size(); ++i) {
+    if (hit.pixels()[i] < 0) continue;
+    const auto gaussian = static_cast<std::uint32_t>(hit.pixels()[i]);
+    lists.pixels()[i] = {{gaussian, 1}};
+    const std::uint32_t leaf = parts.leaf_of[gaussian];
+    if (leaf != kNoPart) depth.pixels()[i] = camera.camera_from_world(parts.leaf_centre_world[leaf]).z;
+  }
+  return leaf_view_of(parts, camera, std::move(lists), std::move(depth));
 }
 
 }  // namespace splatcut::testing

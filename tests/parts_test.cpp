@@ -119,7 +119,7 @@ TEST_CASE("parts: a cloud without surface has no part, and clicks there do nothi
     CHECK(parts.leaves == 0);
     CHECK(std::ranges::all_of(parts.leaf_of, [](std::uint32_t l) { return l == kNoPart; }));
     const Camera camera = look_at({0, 0, -1}, {0, 0, 0}, {0, -1, 0}, 1, 8, 8);
-    const LeafView view = leaf_view_of_hits(parts, camera, Image<std::int32_t>(8, 8, -1), 8);
+    const LeafView view = leaf_view_of_hits(parts, camera, Image<std::int32_t>(8, 8, -1));
     ClickSelection selection(parts, {});
     CHECK_FALSE(selection.apply(view, click({4, 4}, SeedLabel::kObject)));
     CHECK(std::ranges::none_of(selection.labels(), [](std::uint8_t l) { return l != 0; }));

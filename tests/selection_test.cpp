@@ -9,6 +9,7 @@
 #include "four_leaves.h"
 #include "scene/counter_rng.h"
 #include "segment/mask_tools.h"
+#include "segment/orbit.h"
 #include "segment/selection/click_selection.h"
 #include "segment/selection/stroke_replay.h"
 #include "still_life_table.h"
@@ -28,7 +29,7 @@ LeafView stripes(const PartHierarchy& parts, const std::vector<int>& leaf_of_col
   Image<std::int32_t> hit(40, 10, -1);
   for (int y = 0; y < 10; ++y)
     for (int x = 0; x < 40; ++x) hit.at(x, y) = leaf_of_column[static_cast<std::size_t>(x / 10)];
-  return leaf_view_of_hits(parts, camera, hit, 40);
+  return leaf_view_of_hits(parts, camera, hit);
 }
 
 // A model that looks at borders alone.
@@ -208,6 +209,66 @@ TEST_CASE("selection: a click is obeyed though no part is likely, by its disc al
   weight(&nothing_likely.later, Term::kDisc) = -100;
   const Labels labels = selected({object(5), object(25)}, 0, nothing_likely);
   CHECK(labels == Labels{1, 1, 1, 0});
+}
+
+TEST_CASE("selection: a click on something thin before another surface decides no more than it") {
+  PartHierarchy parts = four_leaves();
+  parts.leaf_centre_world[2].z = -5;  // a stem, half as far as the rest
+  Camera camera = look_at({0, 0, -10}, {0, 0, 0}, {0, -1, 0}, 1, 40, 10);
+  camera.fx_px = camera.fy_px = 100;
+  Image<std::int32_t> hit(40, 10, 3);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 40; ++x)
+      if (x < 20 || (x >= 31 && x < 34)) hit.at(x, y) = x < 20 ? x / 10 : 2;
+  SelectionModel nothing_likely = borders_alone();
+  weight(&nothing_likely.later, Term::kDisc) = -100;
+  nothing_likely.disc_share = 1;
+  nothing_likely.disc_majority = 0.2f;
+  for (const auto& [depth, expected] : {std::pair{-5.0f, Labels{1, 1, 1, 0}}, {0.0f, Labels{1, 1, 1, 1}}}) {
+    CAPTURE(depth);  // on the surface itself the displayed border is the nearest end there is
+    parts.leaf_centre_world[2].z = depth;
+    const LeafView view = leaf_view_of_hits(parts, camera, hit);
+    ClickSelection selection(parts, nothing_likely);
+    selection.apply(view, object(5));
+    selection.apply(view, object(32));
+    CHECK(selection.labels() == expected);
+  }
+}
+
+TEST_CASE("selection: a widened camera stands still and holds the pixel's ray") {
+  const Camera camera = look_at({1, 2, -10}, {0, 0, 0}, {0, -1, 0}, 1, 40, 30);
+  const glm::vec2 pixel(31, 7);
+  const Camera wide = widened(camera, pixel);
+  CHECK(same_pose(wide, camera));
+  CHECK(glm::distance(wide.world_from_pixel(pixel, 3), camera.world_from_pixel(pixel, 3)) < 1e-5f);
+  const glm::vec3 outside = camera.world_from_pixel({60, 7}, 3);
+  const glm::vec2 seen = wide.pixel_from_camera(wide.camera_from_world(outside));
+  CHECK(seen.x == doctest::Approx(31 + (60 - 31) / 2.5));
+}
+
+TEST_CASE("selection: the same first click from nearer means the same part") {
+  const Table& t = table();
+  for (const std::string object : {"mug", "apple", "orange", "pot", "books"}) {
+    const Target on = target(t, object);
+    const Stroke first = *robot_click(on.truth, Mask(on.camera.width_px, on.camera.height_px));
+    const glm::vec2 pixel = first.points_px.front();
+    RasterOptions raster;
+    raster.depth = true;
+    const float depth = rasterize(t.cloud, on.camera, raster)
+                            .median_depth.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
+    const auto labels_from = [&](const Camera& camera) {
+      StrokeReplay replay(t.prepared.parts);
+      return replay.replay(t.cloud, std::vector<CameraStroke>{{camera, first}}, {}).labels();
+    };
+    const Mask as_seen = shown(on.leaves.gaussians, on.camera, labels_from(on.camera));
+    for (const float share : {0.6f, 0.4f}) {
+      CAPTURE(object);
+      CAPTURE(share);
+      const Camera nearer = approached(on.camera, on.camera.world_from_pixel(pixel, depth), share);
+      CHECK(iou(shown(on.leaves.gaussians, on.camera, labels_from(nearer)), as_seen) >
+            0.93);  // the pot with a leaf less; else .99
+    }
+  }
 }
 
 TEST_CASE("selection: a scribble decides all that is under it") {

@@ -106,7 +106,8 @@ SelectionModel::SelectionModel()
                      {Term::kOffCentre, 3.9f},
                      {Term::kNoEdge, 9.1f},
                      {Term::kSmall, 2.7f},
-                     {Term::kLarge, 4}})),
+                     {Term::kLarge, 4},
+                     {Term::kWider, 6}})),
       later(weights({{Term::kCut, 0.1f},
                      {Term::kJump, -0.1f},
                      {Term::kRare, 3},
@@ -123,8 +124,8 @@ SelectionModel::SelectionModel()
 
 std::span<const std::string> term_names() {
   static const std::array<std::string, kTerms> names = {
-      "cut",   "jump", "rare",  "frame",  "shade_blind", "off_centre", "no_edge", "small", "large",
-      "scrap", "fold", "giant", "border", "opposed",     "back",       "disc",    "repick"};
+      "cut",   "jump",  "rare", "frame", "shade_blind", "off_centre", "no_edge", "small", "large",
+      "wider", "scrap", "fold", "giant", "border",      "opposed",    "back",    "disc",  "repick"};
   return names;
 }
 

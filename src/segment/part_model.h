@@ -1,7 +1,7 @@
 // The fitted model of parts: every weight of surface, superpoints, merging and picking that a search has set.
 //
 // Where the values come from: those of surface, superpoints and merging from searches on the captures and
-// compositions of docs/masks.md and on still lifes, for the mean IoU of a robot's first clicks. Version 3:
+// compositions of docs/masks.md and on still lifes, for the mean IoU of a robot's first clicks. Version 4:
 // what a first click means is fitted by `splatcut-lab fit`, which docs/clicks.md shows with its
 // leave-one-capture-out column; what corrections mean is set by hand on the same scenes. Nobody knows a value
 // by reason, so none is a setting: a person sees none of them, experiments give a whole model (see
@@ -75,8 +75,9 @@ enum class Term {
   kShadeBlind,
   kOffCentre,
   kNoEdge,
-  kSmall,  // this and the next: of first clicks alone
+  kSmall,  // this and the next two: of first clicks alone
   kLarge,
+  kWider,
   kScrap,  // this and the next: of corrections alone
   kFold,
   kGiant,
@@ -86,7 +87,7 @@ enum class Term {
   kDisc,
   kRepick
 };
-inline constexpr std::size_t kTerms = 17;
+inline constexpr std::size_t kTerms = 18;
 using TermValues = std::array<float, kTerms>;  // by Term
 inline float& weight(TermValues* of, Term term) {
   return (*of)[static_cast<std::size_t>(term)];
@@ -98,7 +99,7 @@ std::span<const std::string> term_names();
 // What a click means.
 struct SelectionModel {
   TermValues first, later;       // weights of the terms, of first clicks and of corrections
-  float disc_share = 0.7f;       // of the distance to the displayed border that is certain
+  float disc_share = 0.5f;       // of the distance to where the clicked region may end that is certain
   float disc_majority = 0.5f;    // of a leaf's or Gaussian's pixels that must lie in the disc
   float least_visible = 0.3f;    // share of a leaf that the view must show for the disc to decide it
   float nearer_majority = 0.7f;  // of trees, for a leaf to follow a correction
@@ -115,7 +116,7 @@ struct MaskToPartsOptions {
 };
 
 struct PartModel {
-  static constexpr int kVersion = 3;
+  static constexpr int kVersion = 4;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "app/lab/robot_user.h"
 #include "segment/mask_tools.h"
 #include "segment/selection/click_selection.h"
 
@@ -29,7 +28,8 @@ std::vector<float> object_shares(const LeafView& view, std::span<const std::uint
   return shares;
 }
 
-// From the shares as they stand: what each node of the chain would make of the view.
+// From the shares as they stand: what each node of the chain would make of the view. A leaf counts whole,
+// though a disc may hold some of its Gaussians: that is of the order of the disc itself.
 Shown shown_by_level(const LeafView& view, std::span<const float> shares, const Mask& truth,
                      const ClickSelection& selection, const Answers& answers, std::size_t chain,
                      bool object) {
@@ -109,8 +109,9 @@ std::vector<Decision> decisions_of(const PartsScene& scene, const SelectionModel
     const LeafView& view = view_of(scene, click.camera);
     const glm::vec2 pixel = click.stroke.points_px.front();
     const bool object = click.stroke.label == SeedLabel::kObject, first = decisions.empty();
+    const LeafView* wide = first ? &wide_view_of(scene, click.camera, click.stroke) : nullptr;
     if (const auto answers =
-            selection.considered(view, pixel, object, {.all_terms = true, .least_growth = 1.05f})) {
+            selection.considered(view, pixel, object, {.all_terms = true, .least_growth = 1.05f}, wide)) {
       ClickSelection after_disc = selection;
       if (!first) {
         after_disc.set_model(disc_alone(model));
@@ -118,7 +119,7 @@ std::vector<Decision> decisions_of(const PartsScene& scene, const SelectionModel
       }
       decisions.push_back({0, first, worth(scene, after_disc, *answers, object)});
     }
-    selection.apply(view, click.stroke);
+    selection.apply(view, click.stroke, wide);
   }
   return decisions;
 }

@@ -1,5 +1,7 @@
 #include "app/lab/parts_world.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,6 +13,10 @@ namespace splatcut {
 
 const LeafView& view_of(const PartsScene& scene, const Camera& camera) {
   return *std::ranges::find_if(scene.views, [&](const LeafView& v) { return same_camera(v.camera, camera); });
+}
+
+const LeafView& wide_view_of(const PartsScene& scene, const Camera& camera, const Stroke& first) {
+  return view_of(scene, widened(camera, first.points_px.front()));
 }
 
 namespace {
@@ -34,8 +40,11 @@ class Selections {
       choice_ = choice;
       applied_ = 0;
     }
-    for (; applied_ < clicks.size(); ++applied_)
-      selection_->apply(view_of(scene_, clicks[applied_].camera), clicks[applied_].stroke);
+    for (; applied_ < clicks.size(); ++applied_) {
+      const auto& [camera, stroke] = clicks[applied_];
+      selection_->apply(view_of(scene_, camera), stroke,
+                        applied_ == 0 ? &wide_view_of(scene_, camera, stroke) : nullptr);
+    }
     return *selection_;
   }
 
@@ -63,24 +72,34 @@ PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const P
                : limited_to_width(
                      full, static_cast<int>(std::ceil(camera.width_px * options.least_object_px / side)));
   };
+  const auto draw = [&](const Camera& camera, bool keep_gaussians = true) {
+    if (std::ranges::any_of(made.views, [&](const LeafView& v) { return same_camera(v.camera, camera); }))
+      return;
+    made.views.push_back(leaf_view(drawer, made.parts, camera, job));
+    if (!keep_gaussians) made.views.back().gaussians = {};
+  };
   const std::vector<TruthView> truths = evenly(truth_views(scene), options.most_views);
   for (const TruthView& full : truths) {
     const Camera camera = small(full.camera, &full.truth);
     made.views.push_back(leaf_view(drawer, made.parts, camera, job));
     made.truths.push_back({camera, resized_mask(full.truth, camera.width_px, camera.height_px)});
   }
-  for (AnyViewStart start : any_view_starts(scene, truths)) {
-    if (made.starts.size() == options.most_starts) break;
+  std::vector<AnyViewStart> starts = any_view_starts(scene, truths);
+  if (starts.size() > options.most_starts) starts.resize(options.most_starts);
+  for (const AnyViewStart& start : starts) {
     const auto known =
         std::ranges::find_if(truths, [&](const TruthView& t) { return same_camera(t.camera, start.camera); });
-    const Camera camera = small(start.camera, known == truths.end() ? nullptr : &known->truth);
-    start.first =
-        scaled({start.first}, static_cast<float>(camera.width_px) / static_cast<float>(start.camera.width_px))
-            .front();
-    start.camera = camera;
-    if (std::ranges::none_of(made.views, [&](const LeafView& v) { return same_camera(v.camera, camera); }))
-      made.views.push_back(leaf_view(drawer, made.parts, camera, job));
-    made.starts.push_back(std::move(start));
+    for (const float zoom : options.zooms) {
+      const auto from = zoomed_click(*scene.cloud, start, zoom);
+      if (!from) continue;
+      const Camera camera = small(from->camera, known == truths.end() || zoom != 1 ? nullptr : &known->truth);
+      const float scale = static_cast<float>(camera.width_px) / static_cast<float>(start.camera.width_px);
+      const Stroke first = scaled({from->stroke}, scale).front();
+      draw(camera);
+      draw(widened(camera, first.points_px.front()), false);
+      made.starts.push_back(
+          {zoom == 1 ? start.name : fmt::format("{} x{}", start.name, zoom), camera, first});
+    }
   }
   return made;
 }

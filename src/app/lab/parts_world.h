@@ -17,7 +17,7 @@ namespace splatcut {
 struct PartsScene {
   std::string name;
   PartHierarchy parts;
-  std::vector<LeafView> views;       // with truth, then those of starts without
+  std::vector<LeafView> views;       // with truth, then those of starts without and of starts widened
   std::vector<TruthView> truths;     // of the first of them, in their pixels
   std::vector<AnyViewStart> starts;  // in their pixels
 };
@@ -27,10 +27,14 @@ struct PartsSceneOptions {
   int least_object_px = 96;     // square root of the truth's pixels: wider where it has fewer
   std::size_t most_starts = 4;  // the first so many,
   std::size_t most_views = 12;  // and so many views with truth, evenly chosen
+  std::vector<float> zooms{1};  // each start at so many times the distance
 };
 
 // One of its views. The camera must be one of theirs.
 const LeafView& view_of(const PartsScene& scene, const Camera& camera);
+
+// Of a start with that first click, seen wider.
+const LeafView& wide_view_of(const PartsScene& scene, const Camera& camera, const Stroke& first);
 
 // Cancelled: must not be used.
 PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const PartsSceneOptions& options,

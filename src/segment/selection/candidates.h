@@ -87,9 +87,10 @@ struct Click {
   glm::ivec2 at;
   bool object;
   bool first;
-  std::uint32_t leaf;     // not on that side yet
-  float radius_px;        // to the displayed border; 0 for the first
-  const Mask& displayed;  // before the click
+  std::uint32_t leaf;              // not on that side yet
+  float radius_px;                 // to the displayed border; 0 for the first
+  const Mask& displayed;           // before the click
+  const LeafView* wide = nullptr;  // of a first click: the same eye, see widened()
 };
 
 struct AnswerOptions {

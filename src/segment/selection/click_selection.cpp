@@ -23,9 +23,19 @@ std::vector<float> displayed_px(const LeafView& view, const Chain& chain) {
   return px;
 }
 
-std::vector<std::uint32_t> disc_pixels(const Camera& camera, const glm::vec2& centre, float radius_px) {
+glm::ivec2 nearest_pixel(const Camera& camera, const glm::vec2& point) {
+  return {std::clamp(static_cast<int>(point.x), 0, camera.width_px - 1),
+          std::clamp(static_cast<int>(point.y), 0, camera.height_px - 1)};
+}
+
+std::size_t row_by_row(const Camera& camera, const glm::ivec2& at) {
+  return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(camera.width_px) +
+         static_cast<std::size_t>(at.x);
+}
+
+std::vector<std::uint32_t> disc_pixels(const Camera& camera, const glm::ivec2& centre, float radius_px) {
   std::vector<std::uint32_t> pixels;
-  const int cx = static_cast<int>(centre.x), cy = static_cast<int>(centre.y);
+  const int cx = centre.x, cy = centre.y;
   const int reach = static_cast<int>(radius_px) + 1;
   for (int y = std::max(0, cy - reach); y <= std::min(camera.height_px - 1, cy + reach); ++y)
     for (int x = std::max(0, cx - reach); x <= std::min(camera.width_px - 1, cx + reach); ++x)
@@ -61,6 +71,32 @@ float distance_to_border(const Mask& mask, const glm::ivec2& at, bool side) {
     same.pixels()[i] = (mask.pixels()[i] != 0) == side ? kMaskObject : 0;
   same.at(at.x, at.y) = kMaskObject;
   return std::max(distance_inside(same).at(at.x, at.y), 1.0f);
+}
+
+// Pixels around which depth jumps: another surface begins there.
+Mask depth_edges(const Image<float>& depth) {
+  constexpr float kJump = 0.15f;  // of the logarithm of depth, from one pixel before to one behind
+  Mask edges(depth.width(), depth.height());
+  const auto jumps = [&](int x, int y, int dx, int dy) {
+    const float before = depth.at(std::max(0, x - dx), std::max(0, y - dy)),
+                behind = depth.at(std::min(depth.width() - 1, x + dx), std::min(depth.height() - 1, y + dy));
+    if (before <= 0 || behind <= 0) return (before > 0) != (behind > 0);
+    return std::abs(std::log(before / behind)) > kJump;
+  };
+  for (int y = 0; y < depth.height(); ++y)
+    for (int x = 0; x < depth.width(); ++x)
+      if (jumps(x, y, 1, 0) || jumps(x, y, 0, 1)) edges.at(x, y) = kMaskObject;
+  return edges;
+}
+
+// Distance from the pixel to where what was clicked may end: the border of the displayed region of that side
+// that it lies in, or a depth edge before it: what is missing need not touch what is shown. Depth is rough on
+// captures, so an edge shortens the distance to a share of it at most.
+float distance_to_end(const LeafView& view, const Mask& displayed, const glm::ivec2& at, bool side) {
+  constexpr float kLeastShare = 0.3f, kEdgePx = 1.5f;  // an edge is as wide as its two pixels
+  const float to_border = distance_to_border(displayed, at, side);
+  const float to_edge = distance_to_border(depth_edges(view.depth), at, false) + kEdgePx;
+  return std::max(kLeastShare * to_border, std::min(to_border, to_edge));
 }
 
 }  // namespace
@@ -143,7 +179,7 @@ void ClickSelection::note_first(const LeafView& view, const Answers& found, Cand
       distinct.insert(distinct.begin(), i);
   const std::size_t likeliest = distinct.size() - 1;
   for (std::size_t i = best->index + 1; i < px.size(); ++i)
-    if (px[i] >= kNextSize * px[distinct.back()]) distinct.push_back(i);
+    if (px[i] >= std::max(kLeastChangePx, kNextSize * px[distinct.back()])) distinct.push_back(i);
   constexpr float kAlike = 1.5f;
   ambiguous_ = std::ranges::any_of(found.candidates, [&](const Candidate& c) {
     const float folds = found.chains[c.chain].changed_px[c.index] / chain.changed_px[best->index];
@@ -164,8 +200,7 @@ struct ClickSelection::Asked {
 };
 
 ClickSelection::Asked ClickSelection::asked(const LeafView& view, const glm::vec2& pixel, bool object) const {
-  const glm::ivec2 at(std::clamp(static_cast<int>(pixel.x), 0, view.camera.width_px - 1),
-                      std::clamp(static_cast<int>(pixel.y), 0, view.camera.height_px - 1));
+  const glm::ivec2 at = nearest_pixel(view.camera, pixel);
   Asked asked{at,
               leaf_near(view, pixel, [&](std::uint32_t l) { return (selected_.object[l] != 0) != object; }),
               shown(view.gaussians, view.camera, labels_), 0};
@@ -175,28 +210,29 @@ ClickSelection::Asked ClickSelection::asked(const LeafView& view, const glm::vec
 }
 
 std::optional<Answers> ClickSelection::considered(const LeafView& view, const glm::vec2& pixel, bool object,
-                                                  const AnswerOptions& options) const {
+                                                  const AnswerOptions& options, const LeafView* wide) const {
   const Asked a = asked(view, pixel, object);
   if (a.leaf == kNoPart) return std::nullopt;
-  return answers(parts_, selected_, {view, a.at, object, !any_, a.leaf, a.radius_px, a.displayed}, model_,
+  return answers(parts_, selected_,
+                 {view, a.at, object, !any_, a.leaf, a.radius_px, a.displayed, any_ ? nullptr : wide}, model_,
                  options);
 }
 
-bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px) {
+bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px,
+                          const LeafView* wide) {
   const auto [at, leaf, displayed, radius_px] = asked(view, pixel, object);
   if (leaf == kNoPart) {
     confirm(view, pixel, object, least_radius_px);
     return true;
   }
-  const Click click{view, at, object, !any_, leaf, radius_px, displayed};
-  const std::vector<std::uint32_t> disc = disc_pixels(
-      view.camera, glm::vec2(at), std::max({model_.disc_share * radius_px, least_radius_px, 1.0f}));
+  const Click click{view, at, object, !any_, leaf, radius_px, displayed, any_ ? nullptr : wide};
+  const std::vector<std::uint32_t> certain_px = disc(view.camera, at, radius_px, least_radius_px);
   Answers found = answers(parts_, selected_, click, model_);
   if (found.candidates.empty()) return false;
   Candidate best = found.candidates.front();
   std::vector<std::uint8_t> certain(parts_.leaves, 0);
   if (any_) {
-    certain = certain_leaves(view, disc);
+    certain = certain_leaves(view, certain_px);
   } else {
     note_first(view, found, &best);
     certain[leaf] = 1;
@@ -205,8 +241,8 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool obj
   if (!any_) selected_.first = std::make_shared<const Answers>(std::move(found));
   any_ = true;
   label();
-  pin(view, disc, object);
-  insist(view, static_cast<std::size_t>(at.y) * view.camera.width_px + at.x, object);
+  pin(view, certain_px, object);
+  insist(view, row_by_row(view.camera, at), object);
   return true;
 }
 
@@ -237,23 +273,25 @@ float ClickSelection::displayed_radius(const LeafView& view, const Mask& display
                                        bool object, std::uint32_t leaf) const {
   if (object && !view.whole && count(displayed) == 0)
     return std::max(std::sqrt(view.leaf_px[leaf] / std::numbers::pi_v<float>), 1.0f);
-  return distance_to_border(displayed, at, !object);
+  return distance_to_end(view, displayed, at, !object);
 }
 
 // What is displayed as said already is held: a later click's parts do not take it back.
 void ClickSelection::confirm(const LeafView& view, const glm::vec2& pixel, bool object,
                              float least_radius_px) {
-  const glm::ivec2 at(std::clamp(static_cast<int>(pixel.x), 0, view.camera.width_px - 1),
-                      std::clamp(static_cast<int>(pixel.y), 0, view.camera.height_px - 1));
-  const float radius_px = distance_to_border(shown(view.gaussians, view.camera, labels_), at, object);
-  pin(view,
-      disc_pixels(view.camera, glm::vec2(at),
-                  std::max({model_.disc_share * radius_px, least_radius_px, 1.0f})),
-      object, Pin::kSaidAlready);
+  const glm::ivec2 at = nearest_pixel(view.camera, pixel);
+  const float radius_px = distance_to_end(view, shown(view.gaussians, view.camera, labels_), at, object);
+  pin(view, disc(view.camera, at, radius_px, least_radius_px), object, Pin::kSaidAlready);
   const std::uint32_t leaf =
       leaf_near(view, pixel, [&](std::uint32_t l) { return (selected_.object[l] != 0) == object; });
   if (leaf != kNoPart) selected_.clicked[object].push_back(leaf);
-  insist(view, static_cast<std::size_t>(at.y) * view.camera.width_px + at.x, object);
+  insist(view, row_by_row(view.camera, at), object);
+}
+
+// What is certain around a click: radius_px to the displayed border, the stroke's own radius at least.
+std::vector<std::uint32_t> ClickSelection::disc(const Camera& camera, const glm::ivec2& at, float radius_px,
+                                                float least_radius_px) const {
+  return disc_pixels(camera, at, std::max({model_.disc_share * radius_px, least_radius_px, 1.0f}));
 }
 
 // The Gaussians that show mostly in these pixels take the label and keep it; or those alone that have it, as
@@ -312,7 +350,7 @@ void ClickSelection::label() {
   }
 }
 
-bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
+bool ClickSelection::apply(const LeafView& view, const Stroke& stroke, const LeafView* wide) {
   const bool object = stroke.label == SeedLabel::kObject;
   if (!any_ && !object) return false;
   const auto anything = [](std::uint32_t) { return true; };
@@ -320,13 +358,11 @@ bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
   spot_alone_ = false;
   for (const glm::vec2& point : stroke.points_px) {
     if (leaf_near(view, point, anything) == kNoPart) continue;
-    const int x = std::clamp(static_cast<int>(point.x), 0, view.camera.width_px - 1),
-              y = std::clamp(static_cast<int>(point.y), 0, view.camera.height_px - 1);
     float share = 0;
-    for (const GroupWeight& w : view.gaussians.at(static_cast<std::size_t>(y) * view.camera.width_px + x))
+    for (const GroupWeight& w : view.gaussians.at(row_by_row(view.camera, nearest_pixel(view.camera, point))))
       share += labels_[w.group] ? w.weight : 0;
     if (!any_ || (share >= 0.5f) != object)
-      hit = take(view, point, object, stroke.radius_px) || hit;
+      hit = take(view, point, object, stroke.radius_px, wide) || hit;
     else {
       if (stroke.points_px.size() == 1) confirm(view, point, object, stroke.radius_px);
       hit = true;

@@ -36,11 +36,11 @@ class ClickSelection {
 
   // A stroke in the pixels of the view. False: nothing of the scene is under it, or it speaks of the rest
   // before there is an object.
-  bool apply(const LeafView& view, const Stroke& stroke);
+  bool apply(const LeafView& view, const Stroke& stroke, const LeafView* wide = nullptr);
 
   // What a click here could mean. Nothing: the scene is not hit, or shows what is said already.
   std::optional<Answers> considered(const LeafView& view, const glm::vec2& pixel, bool object,
-                                    const AnswerOptions& options = {}) const;
+                                    const AnswerOptions& options = {}, const LeafView* wide = nullptr) const;
   void set_model(const SelectionModel& model) { model_ = model; }  // for the clicks to come
   const SelectedParts& selected() const { return selected_; }
 
@@ -49,6 +49,7 @@ class ClickSelection {
 
   // What the first click can mean: how many sizes, the one taken, and whether another one was nearly as
   // likely.
+  bool any() const { return any_; }  // clicks have found something
   std::size_t sizes() const { return sizes_; }
   std::size_t size() const { return size_; }
   std::size_t likeliest_size() const { return likeliest_size_; }  // at part_step 0
@@ -65,11 +66,14 @@ class ClickSelection {
  private:
   struct Asked;
   Asked asked(const LeafView& view, const glm::vec2& pixel, bool object) const;
-  bool take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
+  bool take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px,
+            const LeafView* wide);
   void confirm(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
   std::vector<std::uint8_t> certain_leaves(const LeafView& view, std::span<const std::uint32_t> disc) const;
   float displayed_radius(const LeafView& view, const Mask& displayed, const glm::ivec2& at, bool object,
                          std::uint32_t leaf) const;
+  std::vector<std::uint32_t> disc(const Camera& camera, const glm::ivec2& at, float radius_px,
+                                  float least_radius_px) const;
   void note_offers(const LeafView& view, const Answers& answers);
   void note_first(const LeafView& view, const Answers& answers, Candidate* best);
   void change_leaves(const Answers& answers, const Candidate& best, const std::vector<std::uint8_t>& certain,

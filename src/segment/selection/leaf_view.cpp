@@ -63,11 +63,22 @@ void count_leaves(const PartHierarchy& parts, LeafView* of) {
 
 }  // namespace
 
+LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera,
+                      Image<std::vector<GroupWeight>> gaussians, Image<float> depth) {
+  LeafView view{.camera = camera,
+                .gaussians = flat(gaussians),
+                .leaves = {},
+                .depth = std::move(depth),
+                .leaf_px = {},
+                .leaf_frame_px = {}};
+  sum_by_leaf(parts, &gaussians);
+  view.leaves = flat(gaussians);
+  count_leaves(parts, &view);
+  return view;
+}
+
 LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera, const Job& job,
                    const SeenGaussians& seen) {
-  LeafView view{
-      .camera = camera, .gaussians = {}, .leaves = {}, .depth = {}, .leaf_px = {}, .leaf_frame_px = {}};
-  view.whole = seen == nullptr;
   std::vector<std::uint32_t> each(drawer.cloud().size());
   for (std::uint32_t g = 0; g < each.size(); ++g) each[g] = g;
   RasterOptions raster;
@@ -77,38 +88,19 @@ LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camer
   if (seen) raster.shown = *seen;
   raster.least_group_weight = kLeastGaussianWeight;
   RasterOutput drawn = drawer.draw(camera, raster, job);
-  view.depth = std::move(drawn.expected_depth);
-  view.gaussians = flat(drawn.groups);
-  sum_by_leaf(parts, &drawn.groups);
-  view.leaves = flat(drawn.groups);
-  count_leaves(parts, &view);
+  LeafView view = leaf_view_of(parts, camera, std::move(drawn.groups), std::move(drawn.expected_depth));
+  view.whole = seen == nullptr;
   return view;
 }
 
-LeafView leaf_view_of_hits(const PartHierarchy& parts, const Camera& camera,
-                           const Image<std::int32_t>& first_hit, int max_width_px) {
-  LeafView view{.camera = limited_to_width(camera, max_width_px),
-                .gaussians = {},
-                .leaves = {},
-                .depth = {},
-                .leaf_px = {},
-                .leaf_frame_px = {}};
-  const int width = view.camera.width_px, height = view.camera.height_px;
-  Image<std::vector<GroupWeight>> lists(width, height);
-  view.depth = Image<float>(width, height, 0.0f);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const int hit = first_hit.at(x * first_hit.width() / width, y * first_hit.height() / height);
-      if (hit < 0) continue;
-      lists.at(x, y) = {{static_cast<std::uint32_t>(hit), 1}};
-      const std::uint32_t leaf = parts.leaf_of[static_cast<std::size_t>(hit)];
-      if (leaf != kNoPart) view.depth.at(x, y) = camera.camera_from_world(parts.leaf_centre_world[leaf]).z;
-    }
-  view.gaussians = flat(lists);
-  sum_by_leaf(parts, &lists);
-  view.leaves = flat(lists);
-  count_leaves(parts, &view);
-  return view;
+Camera widened(const Camera& camera, const glm::vec2& pixel) {
+  constexpr float kFolds = 2.5f;
+  Camera wide = camera;
+  wide.fx_px /= kFolds;
+  wide.fy_px /= kFolds;
+  wide.cx_px = pixel.x - (pixel.x - camera.cx_px) / kFolds;
+  wide.cy_px = pixel.y - (pixel.y - camera.cy_px) / kFolds;
+  return wide;
 }
 
 Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint32_t> level) {

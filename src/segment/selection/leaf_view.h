@@ -39,10 +39,13 @@ struct LeafView {
 LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera,
                    const Job& job = {}, const SeenGaussians& seen = {});
 
-// The same at hand of what is at each pixel's median depth, sampled to at most max_width_px: rougher, and
-// free where a picture is drawn anyway. first_hit: RasterOutput::first_hit of the camera.
-LeafView leaf_view_of_hits(const PartHierarchy& parts, const Camera& camera,
-                           const Image<std::int32_t>& first_hit, int max_width_px);
+// The same from lists that are known: per pixel the Gaussians that make it.
+LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera,
+                      Image<std::vector<GroupWeight>> gaussians, Image<float> depth);
+
+// The same eye with a wider field of view, the pixel looking where it did. Nothing moves, so no wall comes
+// between.
+Camera widened(const Camera& camera, const glm::vec2& pixel);
 
 inline constexpr std::uint32_t kNoLevel = 0xffffffffu;
 
