@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -26,12 +27,12 @@ namespace {
 struct FitArguments {
   std::vector<std::filesystem::path> suites;
   std::filesystem::path output, model;
-  std::vector<std::string> only, without;
+  std::vector<std::string> only, without, together;
   std::string of = "first";
   int clicks = 5;
   PartsSceneOptions scenes;
   TermFitOptions fit;
-  bool overwrite = false;
+  bool zoom = false, overwrite = false;
 };
 
 // All scenes, as the robot needs them.
@@ -45,7 +46,14 @@ struct Play {
   std::size_t scene, start;
 };
 
-using Curve = std::vector<double>;  // mean IoU after 1, 2, ... clicks
+using Curve = std::vector<double>;
+
+// Mean IoU of one scene: after 1, 2, ... clicks, and after one from nearer and farther.
+struct Score {
+  Curve after, zoomed;
+};
+
+constexpr std::array kZooms = {0.4f, 0.6f, 2.0f, 4.0f};
 
 void stop_if_fit_cancelled(const Job& job) {
   if (job.cancelled()) throw Error("splatcut-lab fit", "cancelled, nothing was written");
@@ -53,6 +61,8 @@ void stop_if_fit_cancelled(const Job& job) {
 
 Bank load_bank(const FitArguments& args, const PrepareOptions& prepare, const Job& job) {
   Bank bank;
+  PartsSceneOptions options = args.scenes;
+  if (args.zoom) options.zooms.insert(options.zooms.end(), kZooms.begin(), kZooms.end());
   std::map<std::filesystem::path, std::size_t> captures;
   for (const std::filesystem::path& suite : args.suites)
     for (const nlohmann::json& entry : read_suite(suite)) {
@@ -61,9 +71,10 @@ Bank load_bank(const FitArguments& args, const PrepareOptions& prepare, const Jo
       const auto loaded = load_case(entry, suite.parent_path(), prepare, job);
       stop_if_fit_cancelled(job);
       bank.scenes.push_back(std::make_unique<PartsScene>(
-          parts_scene(loaded->test, std::move(loaded->prepared.parts), args.scenes, Job{job.stop, {}})));
-      const std::filesystem::path file = suite.parent_path() / entry.at("scene").get<std::string>();
-      bank.capture.push_back(captures.try_emplace(file, captures.size()).first->second);
+          parts_scene(loaded->test, std::move(loaded->prepared.parts), options, Job{job.stop, {}})));
+      std::filesystem::path capture = suite.parent_path() / entry.at("scene").get<std::string>();
+      if (std::ranges::find(args.together, loaded->test.name) != args.together.end()) capture.clear();
+      bank.capture.push_back(captures.try_emplace(capture, captures.size()).first->second);
     }
   if (bank.scenes.empty()) throw Error("splatcut-lab fit", "no scene of the suites is left to fit to");
   bank.captures = captures.size();
@@ -92,8 +103,15 @@ std::vector<Decision> all_decisions(const Bank& bank, const SelectionModel& mode
   return all;
 }
 
-// Every scene's curve, each scene with the model given for it.
-std::vector<Curve> curves(const Bank& bank, const std::vector<SelectionModel>& model_of_scene, int clicks,
+Curve mean_curve(const std::vector<Curve>& curves) {
+  Curve mean(curves.empty() ? 0 : curves.front().size(), 0);
+  for (const Curve& curve : curves)
+    for (std::size_t c = 0; c < mean.size(); ++c) mean[c] += curve[c] / static_cast<double>(curves.size());
+  return mean;
+}
+
+// Every scene's score, each scene with the model given for it.
+std::vector<Score> scores(const Bank& bank, const std::vector<SelectionModel>& model_of_scene, int clicks,
                           const Job& job) {
   const std::vector<Play> plays = plays_of(bank);
   std::vector<Curve> of_play(plays.size());
@@ -101,21 +119,31 @@ std::vector<Curve> curves(const Bank& bank, const std::vector<SelectionModel>& m
     if (job.cancelled()) return;
     const PartsScene& scene = *bank.scenes[plays[p].scene];
     const AnyViewWorld world = parts_world(scene, model_of_scene[plays[p].scene]);
-    of_play[p] = any_view_session(world, scene.starts[plays[p].start], clicks, {}, job).iou_after;
+    const int played = scene.zoom[plays[p].start] == 1 ? clicks : 1;
+    of_play[p] = any_view_session(world, scene.starts[plays[p].start], played, {}, job).iou_after;
   });
   stop_if_fit_cancelled(job);
-  std::vector<Curve> mean(bank.scenes.size(), Curve(static_cast<std::size_t>(clicks), 0));
-  for (std::size_t p = 0; p < plays.size(); ++p)
-    for (std::size_t c = 0; c < of_play[p].size(); ++c)
-      mean[plays[p].scene][c] +=
-          of_play[p][c] / static_cast<double>(bank.scenes[plays[p].scene]->starts.size());
-  return mean;
+  const auto mean_at = [&](std::size_t scene, float zoom) {
+    std::vector<Curve> some;
+    for (std::size_t p = 0; p < plays.size(); ++p)
+      if (plays[p].scene == scene && bank.scenes[scene]->zoom[plays[p].start] == zoom)
+        some.push_back(of_play[p]);
+    return mean_curve(some);
+  };
+  std::vector<Score> all;
+  for (std::size_t i = 0; i < bank.scenes.size(); ++i) {
+    Score score{mean_at(i, 1), {}};
+    for (const float zoom : kZooms)
+      if (const Curve at = mean_at(i, zoom); !at.empty()) score.zoomed.push_back(at.front());
+    all.push_back(std::move(score));
+  }
+  return all;
 }
 
 struct FitTable {
   SelectionModel shipped, fitted;
   std::vector<SelectionModel> without;                  // per scene: fitted without its capture
-  std::vector<Curve> as_shipped, with, without_curves;  // per scene
+  std::vector<Score> as_shipped, with, without_scores;  // per scene
 };
 
 FitTable fit_table(const Bank& bank, const FitArguments& args, const SelectionModel& shipped,
@@ -134,7 +162,7 @@ FitTable fit_table(const Bank& bank, const FitArguments& args, const SelectionMo
                  .without = std::vector<SelectionModel>(bank.scenes.size(), shipped),
                  .as_shipped = {},
                  .with = {},
-                 .without_curves = {}};
+                 .without_scores = {}};
   job.progress("fits without each capture", 0.5);
   tbb::parallel_for(std::size_t{0}, bank.captures, [&](std::size_t left_out) {
     if (job.cancelled() || bank.captures == 1) return;
@@ -148,36 +176,42 @@ FitTable fit_table(const Bank& bank, const FitArguments& args, const SelectionMo
   const auto same = [&](const SelectionModel& model) {
     return std::vector<SelectionModel>(bank.scenes.size(), model);
   };
-  table.as_shipped = curves(bank, same(shipped), args.clicks, job);
-  table.with = curves(bank, same(table.fitted), args.clicks, job);
-  if (bank.captures > 1) table.without_curves = curves(bank, table.without, args.clicks, job);
+  table.as_shipped = scores(bank, same(shipped), args.clicks, job);
+  table.with = scores(bank, same(table.fitted), args.clicks, job);
+  if (bank.captures > 1) table.without_scores = scores(bank, table.without, args.clicks, job);
   return table;
 }
 
-Curve mean_curve(const std::vector<Curve>& curves) {
-  Curve mean(curves.empty() ? 0 : curves.front().size(), 0);
-  for (const Curve& curve : curves)
-    for (std::size_t c = 0; c < mean.size(); ++c) mean[c] += curve[c] / static_cast<double>(curves.size());
-  return mean;
+Score mean_score(const std::vector<Score>& of) {
+  std::vector<Curve> after, zoomed;
+  for (const Score& score : of) {
+    after.push_back(score.after);
+    if (!score.zoomed.empty()) zoomed.push_back(score.zoomed);
+  }
+  return {mean_curve(after), mean_curve(zoomed)};
 }
 
-std::string cells(const Curve& curve) {
+std::string cells(const Score& score) {
   std::string row;
   for (const std::size_t clicks : {1, 2, 3, 5, 10})
-    if (clicks <= curve.size()) row += fmt::format(" {:.3f}", curve[clicks - 1]);
+    if (clicks <= score.after.size()) row += fmt::format(" {:.3f}", score.after[clicks - 1]);
+  if (!score.zoomed.empty()) row += " x";
+  for (const double iou : score.zoomed) row += fmt::format(" {:.3f}", iou);
   return row.empty() ? " -" : row;
 }
 
 void print_table(const Bank& bank, const FitTable& table) {
   fmt::print(
-      "IoU after 1, 2, 3, 5, 10 clicks: as shipped | fitted with the scene | fitted without its capture\n");
-  const auto row = [](const std::string& name, const Curve& a, const Curve& b, const Curve& c) {
+      "IoU after 1, 2, 3, 5, 10 clicks (x: after one from {} of the distance): as shipped | fitted with the "
+      "scene | fitted without its capture\n",
+      fmt::join(kZooms, ", "));
+  const auto row = [](const std::string& name, const Score& a, const Score& b, const Score& c) {
     fmt::print("{:<16}{} |{} |{}\n", name, cells(a), cells(b), cells(c));
   };
   for (std::size_t i = 0; i < bank.scenes.size(); ++i)
     row(bank.scenes[i]->name, table.as_shipped[i], table.with[i],
-        table.without_curves.empty() ? Curve{} : table.without_curves[i]);
-  row("mean", mean_curve(table.as_shipped), mean_curve(table.with), mean_curve(table.without_curves));
+        table.without_scores.empty() ? Score{} : table.without_scores[i]);
+  row("mean", mean_score(table.as_shipped), mean_score(table.with), mean_score(table.without_scores));
   PartModel shipped, fitted;
   shipped.selection = table.shipped;
   fitted.selection = table.fitted;
@@ -197,12 +231,18 @@ nlohmann::json table_json(const Bank& bank, const FitArguments& args, const FitT
     nlohmann::json row = {{"name", bank.scenes[i]->name},
                           {"capture", bank.capture[i]},
                           {"starts", bank.scenes[i]->starts.size()},
-                          {"shipped", table.as_shipped[i]},
-                          {"fitted_with", table.with[i]},
+                          {"shipped", table.as_shipped[i].after},
+                          {"fitted_with", table.with[i].after},
                           {"fitted_without", nullptr}};
-    if (!table.without_curves.empty()) {
-      row["fitted_without"] = table.without_curves[i];
+    if (!table.without_scores.empty()) {
+      row["fitted_without"] = table.without_scores[i].after;
       row["weights_without"] = weights(table.without[i]);
+    }
+    if (args.zoom) {
+      row["zoom"] = {{"of_distance", kZooms},
+                     {"shipped", table.as_shipped[i].zoomed},
+                     {"fitted_with", table.with[i].zoomed}};
+      if (!table.without_scores.empty()) row["zoom"]["fitted_without"] = table.without_scores[i].zoomed;
     }
     rows.push_back(std::move(row));
   }
@@ -260,6 +300,9 @@ void add_fit_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--model", args->model, "Start from this model.json")->check(CLI::ExistingFile);
   command.add_option("--only", args->only, "Scenes of the suites, by name");
   command.add_option("--robot-clicks", args->clicks, "Clicks a session")->check(CLI::Range(1, 50));
+  command.add_option("--together", args->together,
+                     "Scenes of several files that show one capture: they are left out together");
+  command.add_flag("--zoom", args->zoom, "Fit to first clicks from .4, .6, 2 and 4 times the distance, too");
   command.add_option("--starts", args->scenes.most_starts, "The first so many starts of each scene")
       ->check(CLI::Range(1, 1000));
   command.add_option("--views", args->scenes.most_views, "At most so many views with truth of each scene")

@@ -60,7 +60,8 @@ class Selections {
 
 PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const PartsSceneOptions& options,
                        const Job& job) {
-  PartsScene made{.name = scene.name, .parts = std::move(parts), .views = {}, .truths = {}, .starts = {}};
+  PartsScene made{
+      .name = scene.name, .parts = std::move(parts), .views = {}, .truths = {}, .starts = {}, .zoom = {}};
   const Drawer drawer(*scene.cloud);
   const auto small = [&](const Camera& full, const Mask* truth) {
     const Camera camera = limited_to_width(full, options.max_width_px);
@@ -99,6 +100,7 @@ PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const P
       draw(widened(camera, first.points_px.front()), false);
       made.starts.push_back(
           {zoom == 1 ? start.name : fmt::format("{} x{}", start.name, zoom), camera, first});
+      made.zoom.push_back(zoom);
     }
   }
   return made;

@@ -20,6 +20,7 @@ struct PartsScene {
   std::vector<LeafView> views;       // with truth, then those of starts without and of starts widened
   std::vector<TruthView> truths;     // of the first of them, in their pixels
   std::vector<AnyViewStart> starts;  // in their pixels
+  std::vector<float> zoom;           // per start: at so many times its own distance
 };
 
 struct PartsSceneOptions {
