@@ -196,6 +196,7 @@ Settings settings_now(const Loop& loop, Settings settings) {
   settings.view.brush_px = view.brush_px;
   settings.view.tint = view.tint;
   settings.view.outline = view.outline;
+  settings.view.web_low_pass = view.web_low_pass;
   return settings;
 }
 
