@@ -1,10 +1,11 @@
 # One interface target carries the flags of every target of ours.
 #   -ffp-contract=off   a*b+c is fused only where the code says so: same bits on every machine
+#   -fmacro-prefix-map  asserts name their file from the project's folder, not from the builder's root
 #   -fno-math-errno, -fno-trapping-math   let sqrt and comparisons vectorise; no result changes
 add_library(splatcut_options INTERFACE)
 target_compile_options(splatcut_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
-  -ffp-contract=off -fno-math-errno -fno-trapping-math)
+  -ffp-contract=off -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/= -fno-math-errno -fno-trapping-math)
 if(SPLATCUT_SANITIZE)
   target_compile_options(splatcut_options INTERFACE
     -fsanitize=${SPLATCUT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -15,8 +15,8 @@ uniform vec2 principal_px;
 uniform vec2 size_px;
 uniform float near_plane;
 uniform float far_plane;
+uniform float low_pass_px2;
 
-const float kLowPassPx2 = 0.3;
 const float kAlphaMin = 1.0 / 255.0;
 const float kFrustumSlack = 1.3;
 const float kShC0 = 0.28209479177387814;
@@ -69,7 +69,7 @@ vec3 covariance_px2(vec3 point_camera, mat3 sigma_world) {
   mat3 world_from_camera = transpose(camera_from_world_rotation);
   vec3 u = world_from_camera * jacobian_u, v = world_from_camera * jacobian_v;
   vec3 sigma_u = sigma_world * u, sigma_v = sigma_world * v;
-  return vec3(dot(u, sigma_u) + kLowPassPx2, dot(u, sigma_v), dot(v, sigma_v) + kLowPassPx2);
+  return vec3(dot(u, sigma_u) + low_pass_px2, dot(u, sigma_v), dot(v, sigma_v) + low_pass_px2);
 }
 
 void main() {

@@ -28,8 +28,8 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   Workplace& place = life.place;
   CHECK(place.run("--version").code == 0);
   CHECK(place.run("cut --help").code == 0);
-  for (const char* usage :
-       {"fly", "cut", "info", "render a.ply", "cut a.ply -o b --no-such-option", "info a.ply --threads -1"})
+  for (const char* usage : {"fly", "cut", "info", "render a.ply", "cut a.ply -o b --no-such-option",
+                            "info a.ply --threads -1", "render a.ply -o a.png --lowpass -1"})
     CHECK_MESSAGE(place.run(usage).code == 2, usage);
   place.write("points.ply",
               "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float "
@@ -470,6 +470,18 @@ TEST_CASE("study measures, goes on where it was stopped, heals a line cut off, a
   CHECK(foreign.code == 1);
   CHECK(foreign.err.find("is not a list of measurements") != std::string::npos);
   CHECK(place.run("study made/suite.json -o other --only nonsense").code == 1);
+}
+
+TEST_CASE("render --lowpass draws thin splats thinner, and by default as in training") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  const auto picture = [&](const std::string& name, const std::string& how) {
+    REQUIRE(place.run("render " + life.scene + " --size 160x120 -o " + name + how).code == 0);
+    return place.text(name);
+  };
+  const std::string usual = picture("usual.png", "");
+  CHECK(picture("trained.png", " --lowpass 0.3") == usual);
+  CHECK(picture("web.png", " --lowpass 0.075") != usual);
 }
 
 TEST_CASE("Ctrl+C ends a run with 1 and leaves nothing half written") {

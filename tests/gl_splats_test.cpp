@@ -62,6 +62,25 @@ TEST_CASE("OSMesa: the sample looks as on the CPU, near edges and all") {
   compare(scene.cloud, limited_to_width(load_cameras(sample + "cameras.json")[3], 320));
 }
 
+TEST_CASE("OSMesa: one point of a low-pass looks as by hand and as on the CPU") {
+  const auto context = make_osmesa_context();
+  const GaussianCloud point = single_splat(2, 1e-6f, 0.8f, glm::vec3(1));
+  GlSplats splats;
+  splats.upload(point);
+  const std::uint32_t only[] = {0};
+  splats.upload_order(only);
+  for (const float low_pass_px2 : {kWebLowPassPx2, kLowPassPx2, 4.0f}) {
+    splats.draw(axis_camera(), {.low_pass_px2 = low_pass_px2});
+    const Image<glm::vec4> picture = splats.read_picture();
+    const double beside = 0.8 * std::exp(-0.5 / low_pass_px2);
+    CHECK(picture.at(16, 16).a == doctest::Approx(0.8).epsilon(1e-4));
+    CHECK(picture.at(17, 16).a == doctest::Approx(beside < 1 / 255.0 ? 0 : beside).epsilon(1e-4));
+    RasterOptions options;
+    options.low_pass_px2 = low_pass_px2;
+    CHECK(psnr_db(picture, rasterize(point, axis_camera(), options)) >= kGoalDb);
+  }
+}
+
 TEST_CASE("EGL without a surface draws the same picture") {
   const auto context = make_egl_context();
   compare(random_cloud(2000, 3, 1), front_camera());

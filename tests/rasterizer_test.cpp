@@ -52,6 +52,32 @@ TEST_CASE("one splat: alpha and colour at its centre and two pixels off, by hand
   CHECK(out.first_hit.at(0, 0) == -1);
 }
 
+TEST_CASE("the low-pass is what the options say, by hand: a point's variance is nothing else") {
+  const GaussianCloud point = single_splat(2, 1e-6f, 0.8f, glm::vec3(1));
+  for (const float low_pass_px2 : {kWebLowPassPx2, kLowPassPx2, 4.0f}) {
+    CAPTURE(low_pass_px2);
+    RasterOptions options = everything();
+    options.low_pass_px2 = low_pass_px2;
+    const RasterOutput out = rasterize(point, axis_camera(), options);
+    const RasterOutput slow = rasterize_reference(point, axis_camera(), options);
+    for (const int off : {0, 1, 2, 5, 6}) {
+      const double seen = 0.8 * std::exp(-0.5 * off * off / low_pass_px2);
+      CAPTURE(off);
+      CHECK(out.alpha.at(16 + off, 16) == doctest::Approx(seen < 1 / 255.0 ? 0 : seen).epsilon(1e-4));
+      CHECK(slow.alpha.at(16 + off, 16) == doctest::Approx(out.alpha.at(16 + off, 16)).epsilon(1e-4));
+    }
+  }
+}
+
+TEST_CASE("a wide low-pass reaches into the picture from beside it") {
+  RasterOptions options = everything();
+  options.low_pass_px2 = 16;
+  options.roi = PixelRect{26, 16, 27, 17};  // ten pixels off: 3.1 of 4 px sigmas are drawn
+  const double seen = 0.8 * std::exp(-0.5 * 100 / 16);
+  const RasterOutput out = rasterize(single_splat(2, 1e-6f, 0.8f, glm::vec3(1)), axis_camera(), options);
+  CHECK(out.alpha.at(0, 0) == doctest::Approx(seen).epsilon(1e-4));
+}
+
 TEST_CASE("a splat ends where alpha falls to 1/255, not at 3 sigma") {
   const GaussianCloud cloud = single_splat(2, 0.04f, 0.99f, glm::vec3(1));
   const RasterOutput out = rasterize(cloud, axis_camera(), everything());

@@ -20,6 +20,7 @@ TEST_CASE("settings: written and read back the same, and what cannot be read is 
   settings.position = {-1280, 35};  // a screen to the left of the first
   settings.maximized = true;
   settings.dark = false;
+  settings.view.web_low_pass = true;
   settings.recent = {place.path()};
   save_settings(file, settings);
   const Settings read = load_settings(file);
@@ -29,6 +30,7 @@ TEST_CASE("settings: written and read back the same, and what cannot be read is 
   CHECK(*read.position == glm::ivec2(-1280, 35));
   CHECK(read.maximized);
   CHECK_FALSE(read.dark);
+  CHECK(read.view.web_low_pass);
   CHECK(read.recent == settings.recent);
   settings.position.reset();
   save_settings(file, settings);
@@ -59,4 +61,13 @@ TEST_CASE("settings: kept as they change, and tried again where they could not b
   std::filesystem::remove(file);
   keeper.keep(now);
   CHECK_FALSE(load_settings(file).dark);
+}
+
+TEST_CASE("settings: as in web viewers is the low-pass of what is drawn") {
+  HeadlessApp app;
+  CHECK(app.studio().draw_limits().low_pass_px2 == kLowPassPx2);
+  ViewState view = app.studio().view();
+  view.web_low_pass = true;
+  app.studio().apply(SetView{view});
+  CHECK(app.studio().draw_limits().low_pass_px2 == kWebLowPassPx2);
 }

@@ -49,13 +49,13 @@ TEST_CASE(
   CHECK(scene().taken_axes == SpzAxes::kPly);
   app.click({831, 286});  // opens the section View
   app.frames(3);
-  app.click({941, 482});  // "Take the other axes"
+  app.click({941, 514});  // "Take the other axes"
   REQUIRE(app.settle());
   CHECK(scene().taken_axes == SpzAxes::kRub);
   // With work that is not saved it asks first, and then still takes the other axes.
   app.studio().apply(EditSelection{SelectionEdit::kAll});
   REQUIRE(app.settle());
-  app.click({941, 547});  // the button, below the object now
+  app.click({941, 579});  // the button, below the object now
   app.frames(3);
   REQUIRE(app->interface().dialog_open());
   CHECK(scene().taken_axes == SpzAxes::kRub);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/console.h"
+#include "app/version.h"
 #include "scene/error.h"
 
 namespace splatcut {
@@ -23,7 +24,7 @@ int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
   CLI::App program{line.description};
   program.name(line.program);
   program.footer("Example: " + line.example);
-  program.set_version_flag("--version", line.program + " " + SPLATCUT_VERSION);
+  program.set_version_flag("--version", line.program + " " + version());
   program.require_subcommand(1);
   program.fallthrough();
   CommonOptions common;

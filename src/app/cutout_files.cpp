@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/version.h"
 #include "scene/atomic_file.h"
 #include "scene/png_file.h"
 #include "scene/rasterizer.h"
@@ -125,7 +126,7 @@ double peak_rss_mb() {
 }
 
 nlohmann::json run_json(const Scene& scene, const nlohmann::json& settings, double total_ms) {
-  return {{"version", SPLATCUT_VERSION},
+  return {{"version", version()},
           {"settings", settings},
           {"scene",
            {{"gaussians", scene.cloud.size()}, {"file_rows", scene.file_rows}, {"dropped", scene.dropped}}},

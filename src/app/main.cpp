@@ -36,6 +36,7 @@ void add_commands(CLI::App& program, const CommonOptions& common) {
   add_convert_command(program, common);
   add_compare_command(program, common);
   add_view_command(program, common);
+  add_describe_command(program);
   for (const char* name : kMoved) add_moved_command(program, name);
 }
 

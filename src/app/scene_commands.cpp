@@ -26,6 +26,7 @@ struct SceneArguments {
   CameraOptions camera;
   int spz_version = SaveOptions{}.spz_version;
   std::string what = "colour", background = "0,0,0";
+  float low_pass_px2 = kLowPassPx2;
   bool json = false, overwrite = false;
 };
 
@@ -89,6 +90,7 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
   warn(chosen.warning, common.quiet);
   RasterOptions options;
   options.background = parse_vec3(args.background, "--background");
+  options.low_pass_px2 = args.low_pass_px2;
   options.depth = args.what == "depth";
   std::vector<glm::vec3> colours;
   if (args.what == "labels") {
@@ -147,6 +149,12 @@ void add_render_command(CLI::App& program, const CommonOptions& common) {
       ->check(CLI::IsMember({"colour", "depth", "alpha", "labels"}));
   command.add_option("--labels", args->labels, "labels.u8 of a cut, for --what labels");
   command.add_option("--background", args->background, "r,g,b from 0 to 1");
+  command
+      .add_option("--lowpass", args->low_pass_px2,
+                  fmt::format("px^2 added to the variance of every splat: {} as in training, {} as in web "
+                              "viewers",
+                              kLowPassPx2, kWebLowPassPx2))
+      ->check(CLI::Range(0.0f, 100.0f));
   command.add_option("-o,--output", args->output, "PNG to write")->required();
   command.add_flag("--overwrite", args->overwrite, "Replace an existing file");
   command.callback([args, &common] { run_render(*args, common); });

@@ -122,6 +122,7 @@ void GlSplats::draw(const Camera& camera, const SplatDrawOptions& options) {
   p.set("size_px", glm::vec2(camera.width_px, camera.height_px));
   p.set("near_plane", options.near_plane);
   p.set("far_plane", options.far_plane);
+  p.set("low_pass_px2", options.low_pass_px2);
   glBindVertexArray(vertex_array_.id());
   for (std::size_t first = 0; first < ordered_; first += kBatch) {
     const auto count = static_cast<GLsizei>(6 * std::min<std::size_t>(kBatch, ordered_ - first));

@@ -17,6 +17,7 @@
 #include "scene/camera.h"
 #include "scene/gaussian_cloud.h"
 #include "scene/image.h"
+#include "scene/splat_math.h"
 
 namespace splatcut {
 
@@ -26,6 +27,7 @@ using SplatStyle = std::array<std::uint8_t, 4>;
 struct SplatDrawOptions {
   float near_plane = 0.2f;  // camera z, scene units
   float far_plane = 1e30f;
+  float low_pass_px2 = kLowPassPx2;
 };
 
 struct ResolveOptions {

@@ -34,7 +34,8 @@ std::size_t ProjectedView::bytes() const {
 }
 
 RasterOutput ProjectedView::draw(const RasterOptions& options, const Job& job) const {
-  assert(!options.near_plane && options.colour_override.empty() && (coloured_ || !options.colour));
+  assert(!options.near_plane && options.low_pass_px2 == kLowPassPx2 && options.colour_override.empty() &&
+         (coloured_ || !options.colour));
   const PixelRect roi = drawn_region(cloud_, camera_, options);
   if (roi.empty() || !grid_) return empty_output(options, roi);
   return draw_kept_grid(grid_.get(), roi, options, job);
@@ -59,7 +60,7 @@ const ProjectedView& KeptViews::view(const Camera& camera, bool coloured, const 
 }
 
 RasterOutput Drawer::draw(const Camera& camera, const RasterOptions& options, const Job& job) const {
-  if (!kept_ || options.near_plane || !options.colour_override.empty())
+  if (!kept_ || options.near_plane || options.low_pass_px2 != kLowPassPx2 || !options.colour_override.empty())
     return rasterize(*cloud_, camera, options, job);
   return kept_->view(camera, options.colour, job).draw(options, job);
 }

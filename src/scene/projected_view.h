@@ -24,7 +24,8 @@ class ProjectedView {
   ProjectedView(const GaussianCloud& cloud, const Camera& camera, bool coloured, const Job& job = {});
   ~ProjectedView();
 
-  // options without near_plane and colour_override. `visible` and `pairs` are those of the whole picture.
+  // options without near_plane, low_pass_px2 and colour_override. `visible` and `pairs` are those of the
+  // whole picture.
   RasterOutput draw(const RasterOptions& options, const Job& job = {}) const;
 
   const Camera& camera() const { return camera_; }

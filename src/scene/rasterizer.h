@@ -1,7 +1,7 @@
 // CPU tile rasteriser: pictures of a Gaussian cloud and the masked sums of its blending weights.
 //
 // In: cloud, camera. Out: per pixel colour, alpha, depth, first-hit id; per Gaussian A_g and M_g.
-//   Sigma2  = (J W) Sigma (J W)^T + 0.3 I                      [px^2]
+//   Sigma2  = (J W) Sigma (J W)^T + low_pass I                 [px^2]
 //   alpha   = min(0.99, opacity exp(-1/2 d^T Sigma2^-1 d)),    skipped below 1/255
 //   weight  = alpha T,   T *= 1 - alpha,                       front to back by camera z, until T < 1e-4
 //   A_g     = sum of weight over pixels,  M_g = the same over mask pixels
@@ -22,6 +22,7 @@
 #include "scene/gaussian_cloud.h"
 #include "scene/image.h"
 #include "scene/job.h"
+#include "scene/splat_math.h"
 
 namespace splatcut {
 
@@ -45,7 +46,8 @@ struct RasterOptions {
   bool depth = false;  // expected depth, median depth and first-hit id
   glm::vec3 background{0};
   std::optional<float>
-      near_plane;                // scene units; Gaussians with camera z below are skipped; empty: the cloud's
+      near_plane;  // scene units; Gaussians with camera z below are skipped; empty: the cloud's
+  float low_pass_px2 = kLowPassPx2;
   std::optional<PixelRect> roi;  // draw these pixels only; outputs have the size of the rectangle
   std::span<const glm::vec3> colour_override;  // size of the cloud: replaces SH colour, >= 0
   std::span<const std::uint8_t> labels;        // size of the cloud, with colour = false: gives label_share

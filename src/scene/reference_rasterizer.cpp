@@ -21,7 +21,9 @@ std::vector<DepthSplat> front_to_back(const GaussianCloud& cloud, const Camera& 
   for (std::size_t g = 0; g < cloud.size(); ++g) {
     if (!options.shown.empty() && !options.shown[g]) continue;
     DepthSplat s{{}, static_cast<std::uint32_t>(g), {}};
-    if (!project(cloud, g, camera, options.near_plane.value_or(cloud.near_plane), &s.splat)) continue;
+    if (!project(cloud, g, camera, options.near_plane.value_or(cloud.near_plane), &s.splat,
+                 options.low_pass_px2))
+      continue;
     s.colour = options.colour_override.empty()
                    ? sh_colour(cloud.f_dc[g], cloud.sh_rest_of(g), cloud.sh_degree,
                                glm::normalize(cloud.position[g] - eye_world))

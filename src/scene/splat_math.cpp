@@ -53,7 +53,8 @@ glm::vec3 shortest_axis(const glm::vec3& scale, const glm::quat& rotation) {
   return world_from_local[axis];
 }
 
-Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, const glm::mat3& sigma_world) {
+Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, const glm::mat3& sigma_world,
+                          float low_pass_px2) {
   const float z = point_camera.z;
   const float limit_x = kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px;
   const float limit_y = kFrustumSlack * 0.5f * static_cast<float>(camera.height_px) / camera.fy_px;
@@ -64,17 +65,17 @@ Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, c
   const glm::mat3 world_from_camera = glm::transpose(camera.camera_from_world_rotation);
   const glm::vec3 u = world_from_camera * jacobian_u, v = world_from_camera * jacobian_v;
   const glm::vec3 sigma_u = sigma_world * u, sigma_v = sigma_world * v;
-  return {glm::dot(u, sigma_u) + kLowPassPx2, glm::dot(u, sigma_v), glm::dot(v, sigma_v) + kLowPassPx2};
+  return {glm::dot(u, sigma_u) + low_pass_px2, glm::dot(u, sigma_v), glm::dot(v, sigma_v) + low_pass_px2};
 }
 
-bool project(const GaussianCloud& cloud, std::size_t g, const Camera& camera, float near_plane,
-             Splat* splat) {
+bool project(const GaussianCloud& cloud, std::size_t g, const Camera& camera, float near_plane, Splat* splat,
+             float low_pass_px2) {
   const float opacity = cloud.opacity[g];
   if (opacity < kAlphaMin) return false;
   const glm::vec3 point_camera = camera.camera_from_world(cloud.position[g]);
   if (!(point_camera.z >= near_plane)) return false;
   const glm::mat3 sigma = covariance_world(cloud.scale[g], cloud.rotation[g]);
-  const Symmetric2 s = covariance_px2(camera, point_camera, sigma);
+  const Symmetric2 s = covariance_px2(camera, point_camera, sigma, low_pass_px2);
   const float det = s.a * s.c - s.b * s.b;
   if (!(det > 0) || !std::isfinite(det)) return false;
   splat->mean_px = camera.pixel_from_camera(point_camera);

@@ -10,8 +10,9 @@
 
 namespace splatcut {
 
-inline constexpr float kLowPassPx2 = 0.3f;  // added to Sigma2's diagonal: no splat thinner than a pixel
-inline constexpr float kAlphaMax = 0.99f;   // keeps T positive, as 3DGS is trained
+inline constexpr float kLowPassPx2 = 0.3f;       // added to Sigma2's diagonal: no splat thinner than a pixel
+inline constexpr float kWebLowPassPx2 = 0.075f;  // of PlayCanvas and SuperSplat: 0.3, but in half pixels
+inline constexpr float kAlphaMax = 0.99f;        // keeps T positive, as 3DGS is trained
 inline constexpr float kAlphaMin = 1.0f / 255.0f;  // below an 8-bit step a contribution is skipped
 inline constexpr float kTransmittanceStop = 1e-4f;
 inline constexpr float kFrustumSlack = 1.3f;  // x/z, y/z are clamped to this many half fields of view in J
@@ -38,10 +39,12 @@ glm::mat3 covariance_world(const glm::vec3& scale, const glm::quat& rotation);
 glm::vec3 shortest_axis(const glm::vec3& scale, const glm::quat& rotation);
 
 // Sigma2 of a Gaussian whose mean is at point_camera.
-Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, const glm::mat3& sigma_world);
+Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, const glm::mat3& sigma_world,
+                          float low_pass_px2 = kLowPassPx2);
 
 // False where the Gaussian is before the near plane, too faint (opacity < 1/255) or degenerate.
-bool project(const GaussianCloud& cloud, std::size_t g, const Camera& camera, float near_plane, Splat* splat);
+bool project(const GaussianCloud& cloud, std::size_t g, const Camera& camera, float near_plane, Splat* splat,
+             float low_pass_px2 = kLowPassPx2);
 
 // The SH basis functions beyond the constant one in a unit direction, with the signs of 3DGS files: the first
 // sh_rest_coefficients(degree) of `basis` are written. Returns that number.

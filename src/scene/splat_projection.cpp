@@ -28,8 +28,7 @@ constexpr std::size_t kWidth = hn::MaxLanes(kF);
 constexpr float kLog2E = 1.4426950408889634f;
 constexpr float kLn2 = 0.6931471805599453f;
 constexpr float kLog2Of255 = 7.994353436858858f;
-constexpr float kCutoffSigmas = 3.4f;    // a little more than sqrt(2 ln 255): beyond it alpha is below 1/255
-constexpr float kLowPassReachPx = 2.0f;  // the same of the low-pass, a little more than 3.4 sqrt(0.3)
+constexpr float kCutoffSigmas = 3.4f;  // a little more than sqrt(2 ln 255): beyond it alpha is below 1/255
 
 struct V3 {
   V x, y, z;
@@ -119,11 +118,12 @@ struct Frame {
   glm::vec3 eye_world;
   float limit_x, limit_y;  // of x/z and y/z in the Jacobian
   float reach_x, reach_y;  // at most so many times focal length / z and the longest axis from the mean
+  float low_pass_px2, low_pass_reach_px;
   float near_plane;
   PixelRect region;
 };
 
-Frame frame_of(const Camera& camera, float near_plane, const PixelRect& region) {
+Frame frame_of(const Camera& camera, float near_plane, float low_pass_px2, const PixelRect& region) {
   const glm::mat3 world_from_camera = glm::transpose(camera.camera_from_world_rotation);
   const float limit_x = kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px;
   const float limit_y = kFrustumSlack * 0.5f * static_cast<float>(camera.height_px) / camera.fy_px;
@@ -136,6 +136,8 @@ Frame frame_of(const Camera& camera, float near_plane, const PixelRect& region) 
           limit_y,
           kCutoffSigmas * std::sqrt(1 + limit_x * limit_x),
           kCutoffSigmas * std::sqrt(1 + limit_y * limit_y),
+          low_pass_px2,
+          kCutoffSigmas * std::sqrt(low_pass_px2),
           near_plane,
           region};
 }
@@ -165,8 +167,8 @@ HWY_INLINE void project_vector(const Attributes& a, M wanted, std::uint32_t firs
   // Neighbours in space are neighbours in the cloud: mostly all of a vector lie far from a small region. No
   // splat reaches farther than sqrt(2 ln 255) of its longest axis, seen at full length, and of the low-pass.
   const V longest = hn::Max(hn::Max(a.scale.x, a.scale.y), a.scale.z);
-  const V reach_x = hn::MulAdd(hn::Mul(longest, pixels_x), set(frame.reach_x), set(kLowPassReachPx));
-  const V reach_y = hn::MulAdd(hn::Mul(longest, pixels_y), set(frame.reach_y), set(kLowPassReachPx));
+  const V reach_x = hn::MulAdd(hn::Mul(longest, pixels_x), set(frame.reach_x), set(frame.low_pass_reach_px));
+  const V reach_y = hn::MulAdd(hn::Mul(longest, pixels_y), set(frame.reach_y), set(frame.low_pass_reach_px));
   const M near = hn::And(overlaps(x, reach_x, frame.region.x0, frame.region.x1),
                          overlaps(y, reach_y, frame.region.y0, frame.region.y1));
   if (hn::AllFalse(kF, hn::And(before, near))) return;
@@ -182,7 +184,8 @@ HWY_INLINE void project_vector(const Attributes& a, M wanted, std::uint32_t firs
   };
   const V3 u = scaled_to_local(a, row(pixels_x, right, bend_x)),
            v = scaled_to_local(a, row(pixels_y, down, bend_y));
-  const V sigma_xx = hn::Add(dot(u, u), set(kLowPassPx2)), sigma_yy = hn::Add(dot(v, v), set(kLowPassPx2));
+  const V sigma_xx = hn::Add(dot(u, u), set(frame.low_pass_px2)),
+          sigma_yy = hn::Add(dot(v, v), set(frame.low_pass_px2));
   const V sigma_xy = dot(u, v);
   const V det = hn::Sub(hn::Mul(sigma_xx, sigma_yy), hn::Mul(sigma_xy, sigma_xy));
 
@@ -276,7 +279,8 @@ HWY_INLINE M shown_lanes(const RasterOptions& options, std::uint32_t g, std::siz
 
 void project_batch(const GaussianCloud& cloud, std::uint32_t begin, std::uint32_t end, const Camera& camera,
                    const RasterOptions& options, const PixelRect& region, SplatBatch* batch) {
-  const Frame frame = frame_of(camera, options.near_plane.value_or(cloud.near_plane), region);
+  const Frame frame =
+      frame_of(camera, options.near_plane.value_or(cloud.near_plane), options.low_pass_px2, region);
   batch->size = 0;
   for (std::uint32_t g = begin; g < end; g += static_cast<std::uint32_t>(kWidth)) {
     const std::size_t count = std::min<std::size_t>(kWidth, end - g);

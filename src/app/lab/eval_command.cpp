@@ -18,6 +18,7 @@
 #include "app/mask_options.h"
 #include "app/output_folder.h"
 #include "app/setting_options.h"
+#include "app/version.h"
 #include "scene/atomic_file.h"
 #include "scene/json_file.h"
 #include "segment/session/settings_table.h"
@@ -286,7 +287,7 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
   OutputFolder folder(args.output, args.overwrite);
   const std::vector<nlohmann::json> scores = measure(args, evaluation_options(args), common, job);
   if (scores.empty()) throw Error("splatcut-lab eval", "no scene of the suite is left to measure");
-  nlohmann::json result = {{"version", SPLATCUT_VERSION}, {"preset", args.preset}, {"set", args.set},
+  nlohmann::json result = {{"version", version()},        {"preset", args.preset}, {"set", args.set},
                            {"clicks", clicks_json(args)}, {"draws", args.draws},   {"scenes", scores},
                            {"mean", mean_json(scores)}};
   result["values"] = values_json(evaluation_options(args).settings);

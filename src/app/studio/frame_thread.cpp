@@ -13,7 +13,7 @@ double ms_since(std::chrono::steady_clock::time_point start) {
 }
 
 bool same_views(const FrameRequest& a, const FrameRequest& b) {
-  if (a.scene != b.scene || a.panes.size() != b.panes.size() || a.range != b.range) return false;
+  if (a.scene != b.scene || a.panes.size() != b.panes.size() || a.limits != b.limits) return false;
   for (std::size_t i = 0; i < a.panes.size(); ++i)
     if (!same_camera(a.panes[i].camera, b.panes[i].camera) || a.panes[i].shown != b.panes[i].shown)
       return false;
@@ -24,7 +24,7 @@ bool same_views(const FrameRequest& a, const FrameRequest& b) {
 
 Flags within_far_plane(const GaussianCloud& cloud, const Camera& camera, const Flags& shown,
                        float far_plane) {
-  if (far_plane >= DepthRange{}.far_plane) return shown;
+  if (far_plane >= DrawLimits{}.far_plane) return shown;
   std::vector<std::uint8_t> set(cloud.size());
   for (std::size_t g = 0; g < set.size(); ++g)
     set[g] = (!shown || (*shown)[g]) && camera.camera_from_world(cloud.position[g]).z <= far_plane;
@@ -34,12 +34,13 @@ Flags within_far_plane(const GaussianCloud& cloud, const Camera& camera, const F
 namespace {
 
 std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera, const Flags& visible,
-                                const DepthRange& range, const Job& job) {
+                                const DrawLimits& limits, const Job& job) {
   const auto start = std::chrono::steady_clock::now();
   RasterOptions options;
   options.depth = true;
-  options.near_plane = range.near_plane;
-  const Flags shown = within_far_plane(cloud, camera, visible, range.far_plane);
+  options.near_plane = limits.near_plane;
+  options.low_pass_px2 = limits.low_pass_px2;
+  const Flags shown = within_far_plane(cloud, camera, visible, limits.far_plane);
   if (shown) options.shown = *shown;
   RasterOutput out = rasterize(cloud, camera, options, job);
   auto frame = std::make_shared<Frame>();
@@ -55,19 +56,19 @@ std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera
 }  // namespace
 
 std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
-                                          const Flags& shown, const DepthRange& range, const Job& job) {
-  return frame_of(cloud, camera, shown, range, job);
+                                          const Flags& shown, const DrawLimits& limits, const Job& job) {
+  return frame_of(cloud, camera, shown, limits, job);
 }
 
 std::shared_ptr<const Frame> coarse_frame(const CoarseCloud& coarse, const Camera& camera, const Flags& shown,
-                                          const DepthRange& range, const Job& job) {
+                                          const DrawLimits& limits, const Job& job) {
   Flags coarse_shown;
   if (shown) {
     std::vector<std::uint8_t> set;
     for (const std::uint32_t g : coarse.stands_for) set.push_back((*shown)[g]);
     coarse_shown = make_flags(std::move(set));
   }
-  auto frame = frame_of(coarse.cloud, camera, coarse_shown, range, job);
+  auto frame = frame_of(coarse.cloud, camera, coarse_shown, limits, job);
   for (std::int32_t& hit : frame->first_hit.pixels())
     if (hit >= 0) hit = static_cast<std::int32_t>(coarse.stands_for[static_cast<std::size_t>(hit)]);
   return frame;
@@ -111,19 +112,19 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
   Job job;
   job.stop = stop;
   kept_.resize(request.panes.size());
-  FrameResult result{request.scene, {}, {}, request.full, 0, request.range};
+  FrameResult result{request.scene, {}, {}, request.full, 0, request.limits};
   for (std::size_t i = 0; i < request.panes.size(); ++i) {
     const PaneRequest& pane = request.panes[i];
     Kept& kept = kept_[i];
     const bool reusable = kept.frame && (kept.full || !request.full) && kept.scene == request.scene &&
-                          kept.shown == pane.shown && kept.range == request.range &&
+                          kept.shown == pane.shown && kept.limits == request.limits &&
                           same_camera(kept.frame->camera, pane.camera);
     if (!reusable) {
       const bool coarse = request.coarse && !request.full;
-      auto frame = coarse ? coarse_frame(*request.coarse, pane.camera, pane.shown, request.range, job)
-                          : raster_frame(*request.cloud, pane.camera, pane.shown, request.range, job);
+      auto frame = coarse ? coarse_frame(*request.coarse, pane.camera, pane.shown, request.limits, job)
+                          : raster_frame(*request.cloud, pane.camera, pane.shown, request.limits, job);
       if (job.cancelled()) return std::nullopt;
-      kept = {request.scene, pane.shown, request.range, request.full, std::move(frame)};
+      kept = {request.scene, pane.shown, request.limits, request.full, std::move(frame)};
     }
     result.frames.push_back(kept.frame);
     result.pictures.push_back(shaded(*kept.frame, pane.style));

@@ -19,13 +19,16 @@
 #include "app/studio/frame_shading.h"
 #include "scene/coarse_cloud.h"
 #include "scene/gaussian_cloud.h"
+#include "scene/splat_math.h"
 
 namespace splatcut {
 
-// What lies nearer or farther than this along the view axis is not drawn, scene units.
-struct DepthRange {
+// What lies nearer or farther than this along the view axis is not drawn, scene units; nor is a splat drawn
+// thinner than the low-pass.
+struct DrawLimits {
   float near_plane = 0.2f, far_plane = 1e30f;
-  bool operator==(const DepthRange&) const = default;
+  float low_pass_px2 = kLowPassPx2;
+  bool operator==(const DrawLimits&) const = default;
 };
 
 // The Gaussians that are shown and not beyond the far plane. `shown` itself where there is none.
@@ -43,7 +46,7 @@ struct FrameRequest {
   std::shared_ptr<const GaussianCloud> cloud;
   std::shared_ptr<const CoarseCloud> coarse;  // may be null: what reduced pictures are drawn of
   std::vector<PaneRequest> panes;             // 1 or 2, left to right
-  DepthRange range;
+  DrawLimits limits;
   bool full = true;  // full resolution; may be stopped by the next request
 };
 
@@ -53,7 +56,7 @@ struct FrameResult {
   std::vector<Image<Rgba8>> pictures;
   bool full = true;
   double ms = 0;  // rasterising and shading
-  DepthRange range;
+  DrawLimits limits;
 };
 
 class FrameThread {
@@ -80,7 +83,7 @@ class FrameThread {
   struct Kept {
     std::uint64_t scene = 0;
     Flags shown;
-    DepthRange range;
+    DrawLimits limits;
     bool full = true;
     std::shared_ptr<const Frame> frame;
   };
@@ -91,8 +94,8 @@ class FrameThread {
 
 // The same on the calling thread, without reuse: for captures and tests.
 std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
-                                          const Flags& shown, const DepthRange& range, const Job& job = {});
+                                          const Flags& shown, const DrawLimits& limits, const Job& job = {});
 std::shared_ptr<const Frame> coarse_frame(const CoarseCloud& coarse, const Camera& camera, const Flags& shown,
-                                          const DepthRange& range, const Job& job = {});
+                                          const DrawLimits& limits, const Job& job = {});
 
 }  // namespace splatcut

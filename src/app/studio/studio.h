@@ -155,7 +155,7 @@ class Studio {
   const std::string& autosave_says() const { return restorable_says_; }
   std::vector<UiRequest> take_ui_requests() { return std::exchange(ui_requests_, {}); }
   std::optional<PickedPoint> pick(const glm::vec2& pixel) const;
-  DepthRange depth_range() const;
+  DrawLimits draw_limits() const;
   std::uint64_t document_serial() const { return document_serial_; }
   const std::filesystem::path& work_path() const { return work_path_; }
   // Also while the file is being written.

@@ -45,13 +45,14 @@ bool Studio::hits_anything(const AddStroke& c) const {
                    to = glm::clamp(glm::ceil(high + reach) + 1.0f, glm::vec2(0), most);
   const PixelRect around{from.x, from.y, to.x, to.y};
   if (around.empty()) return false;
-  const bool on_screen = panes() == 1 && picture_ && picture_->full && picture_->range == depth_range() &&
+  const bool on_screen = panes() == 1 && picture_ && picture_->full && picture_->limits == draw_limits() &&
                          same_camera(picture_->frames.front()->camera, c.camera);
   Image<float> drawn;
   if (!on_screen) {
     RasterOptions options;
     options.colour = false;
-    options.near_plane = depth_range().near_plane;
+    options.near_plane = draw_limits().near_plane;
+    options.low_pass_px2 = draw_limits().low_pass_px2;
     options.roi = around;
     if (c.seen) options.shown = *c.seen;
     drawn = rasterize(*scene_->cloud, c.camera, options).alpha;

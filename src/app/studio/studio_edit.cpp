@@ -159,7 +159,7 @@ void Studio::perform(const SelectRegion& c) {
   require_scene();
   if (std::ranges::none_of(c.region.pixels(), [](std::uint8_t p) { return p != 0; }))
     throw Error("selection", "the shape holds no pixel");
-  const Flags visible = within_far_plane(*scene_->cloud, c.camera, shown(0), depth_range().far_plane);
+  const Flags visible = within_far_plane(*scene_->cloud, c.camera, shown(0), draw_limits().far_plane);
   const std::string title =
       std::string(title_of(c.operation)) + (view_.see_through ? " (see-through)" : " (visible)");
   if (view_.see_through) {

@@ -19,10 +19,12 @@ namespace {
 
 // Straight alpha over nothing, or colour over the background.
 Image<Rgba8> capture(const GaussianCloud& cloud, const Camera& camera, const Flags& visible,
-                     const DepthRange& range, const glm::vec3& background, bool transparent, const Job& job) {
+                     const DrawLimits& limits, const glm::vec3& background, bool transparent,
+                     const Job& job) {
   RasterOptions options;
-  options.near_plane = range.near_plane;
-  const Flags shown = within_far_plane(cloud, camera, visible, range.far_plane);
+  options.near_plane = limits.near_plane;
+  options.low_pass_px2 = limits.low_pass_px2;
+  const Flags shown = within_far_plane(cloud, camera, visible, limits.far_plane);
   if (shown) options.shown = *shown;
   const RasterOutput out = rasterize(cloud, camera, options, job);
   Image<Rgba8> picture(camera.width_px, camera.height_px);
@@ -116,11 +118,11 @@ void Studio::perform(const Export& c) {
 void Studio::perform(const SaveSnapshot& c) {
   require_scene();
   const Camera camera = viewport_camera();
-  tasks_.submit(TaskKind::kExport, [this, c, camera, visible = shown(0), range = depth_range(),
+  tasks_.submit(TaskKind::kExport, [this, c, camera, visible = shown(0), limits = draw_limits(),
                                     background = document().background, scene = scene_](const Job& job) {
     job.progress("drawing", 0);
     const Image<Rgba8> picture =
-        capture(*scene->cloud, camera, visible, range, background, c.transparent, job);
+        capture(*scene->cloud, camera, visible, limits, background, c.transparent, job);
     if (job.cancelled()) return;
     write_png(c.path, picture);
     tasks_.post([this, c] { say(Message::Kind::kDone, "Picture saved to " + c.path.string()); });
@@ -142,30 +144,31 @@ void Studio::perform(const SaveTurntable& c) {
   const std::vector<std::uint8_t> own = labels(object->id);
   const ObjectExtent extent = object_extent(*scene_->cloud, own);
   const Camera front = viewport_camera();
-  tasks_.submit(
-      TaskKind::kExport, [this, c, extent, front, visible = make_flags(own), near = depth_range().near_plane,
-                          up = document().up_world, scene = scene_](const Job& job) {
-        OutputFolder folder(c.folder, true);
-        // The camera goes round at its own elevation, from where the user stands.
-        const glm::vec3 back = front.centre_world() - extent.centre_world;
-        const glm::vec3 offset = glm::normalize(back) * (extent.radius * 2 * OrbitOptions{}.distance_sizes);
-        const float fov_y = 2 * std::atan(0.5f * static_cast<float>(front.height_px) / front.fy_px);
-        const int width = c.width_px > 0 ? c.width_px : front.width_px;
-        const int height = c.height_px > 0 ? c.height_px : front.height_px;
-        for (int i = 0; i < c.frames && !job.cancelled(); ++i) {
-          job.progress("turntable", static_cast<double>(i) / c.frames);
-          const float angle = glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(c.frames);
-          const Camera camera = look_at(extent.centre_world + glm::angleAxis(angle, up) * offset,
-                                        extent.centre_world, up, fov_y, width, height);
-          write_png(folder.file(fmt::format("frame_{:04}.png", i)),
-                    capture(*scene->cloud, camera, visible, {.near_plane = near}, glm::vec3(0), true, job));
-        }
-        if (job.cancelled()) return;
-        folder.commit();
-        tasks_.post([this, c] {
-          say(Message::Kind::kDone, fmt::format("{} frames saved to {}", c.frames, c.folder.string()));
-        });
-      });
+  tasks_.submit(TaskKind::kExport, [this, c, extent, front, visible = make_flags(own), limits = draw_limits(),
+                                    up = document().up_world, scene = scene_](const Job& job) {
+    OutputFolder folder(c.folder, true);
+    DrawLimits all = limits;  // the far plane is that of another view
+    all.far_plane = DrawLimits{}.far_plane;
+    // The camera goes round at its own elevation, from where the user stands.
+    const glm::vec3 back = front.centre_world() - extent.centre_world;
+    const glm::vec3 offset = glm::normalize(back) * (extent.radius * 2 * OrbitOptions{}.distance_sizes);
+    const float fov_y = 2 * std::atan(0.5f * static_cast<float>(front.height_px) / front.fy_px);
+    const int width = c.width_px > 0 ? c.width_px : front.width_px;
+    const int height = c.height_px > 0 ? c.height_px : front.height_px;
+    for (int i = 0; i < c.frames && !job.cancelled(); ++i) {
+      job.progress("turntable", static_cast<double>(i) / c.frames);
+      const float angle = glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(c.frames);
+      const Camera camera = look_at(extent.centre_world + glm::angleAxis(angle, up) * offset,
+                                    extent.centre_world, up, fov_y, width, height);
+      write_png(folder.file(fmt::format("frame_{:04}.png", i)),
+                capture(*scene->cloud, camera, visible, all, glm::vec3(0), true, job));
+    }
+    if (job.cancelled()) return;
+    folder.commit();
+    tasks_.post([this, c] {
+      say(Message::Kind::kDone, fmt::format("{} frames saved to {}", c.frames, c.folder.string()));
+    });
+  });
   if (options_.inline_tasks) tasks_.deliver();
 }
 

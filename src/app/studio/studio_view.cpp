@@ -26,11 +26,12 @@ void Studio::set_viewport(int width_px, int height_px, float pixels_per_point) {
   pixels_per_point_ = pixels_per_point;
 }
 
-DepthRange Studio::depth_range() const {
-  DepthRange range;
-  if (scene_) range.near_plane = scene_->cloud->near_plane * (view_.near_share / kNaturalNearShare);
-  if (view_.far_share > 0) range.far_plane = view_.far_share * camera_.scene_size();
-  return range;
+DrawLimits Studio::draw_limits() const {
+  DrawLimits limits;
+  if (scene_) limits.near_plane = scene_->cloud->near_plane * (view_.near_share / kNaturalNearShare);
+  if (view_.far_share > 0) limits.far_plane = view_.far_share * camera_.scene_size();
+  if (view_.web_low_pass) limits.low_pass_px2 = kWebLowPassPx2;
+  return limits;
 }
 
 Camera Studio::viewport_camera() const {
@@ -62,7 +63,7 @@ ToolContext Studio::tool_context(const glm::vec2& pixel) {
 }
 
 Flags Studio::seen(int pane) const {
-  return within_far_plane(*scene_->cloud, viewport_camera(), shown(pane), depth_range().far_plane);
+  return within_far_plane(*scene_->cloud, viewport_camera(), shown(pane), draw_limits().far_plane);
 }
 
 std::optional<PickedPoint> Studio::pick(const glm::vec2& pixel) const {
@@ -71,7 +72,7 @@ std::optional<PickedPoint> Studio::pick(const glm::vec2& pixel) const {
   const auto x = static_cast<int>(std::floor(pixel.x)), y = static_cast<int>(std::floor(pixel.y));
   if (x < 0 || y < 0 || x >= camera.width_px || y >= camera.height_px) return {};
   // The picture on the screen knows, where it is this view; else one pixel is drawn.
-  if (picture_ && !picture_->frames.empty() && picture_->range == depth_range()) {
+  if (picture_ && !picture_->frames.empty() && picture_->limits == draw_limits()) {
     const Frame& frame = *picture_->frames.front();
     if (same_camera(frame.camera, camera)) {
       if (frame.first_hit.at(x, y) < 0) return {};
@@ -81,9 +82,10 @@ std::optional<PickedPoint> Studio::pick(const glm::vec2& pixel) const {
   RasterOptions options;
   options.colour = false;
   options.depth = true;
-  options.near_plane = depth_range().near_plane;
+  options.near_plane = draw_limits().near_plane;
+  options.low_pass_px2 = draw_limits().low_pass_px2;
   options.roi = PixelRect{x, y, x + 1, y + 1};
-  const Flags visible = within_far_plane(*scene_->cloud, camera, shown(0), depth_range().far_plane);
+  const Flags visible = within_far_plane(*scene_->cloud, camera, shown(0), draw_limits().far_plane);
   if (visible) options.shown = *visible;
   const RasterOutput out = rasterize(*scene_->cloud, camera, options);
   if (out.first_hit.at(0, 0) < 0) return {};
@@ -184,7 +186,7 @@ void Studio::request_picture() {
   requested_camera_ = camera;
   requested_full_ = still;
   requested_style_ = style_version_;
-  FrameRequest request{scene_->serial, scene_->cloud, coarse_, {}, depth_range(), still};
+  FrameRequest request{scene_->serial, scene_->cloud, coarse_, {}, draw_limits(), still};
   for (int pane = 0; pane < panes(); ++pane) request.panes.push_back({camera, shown_[pane], style_[pane]});
   frames_.request(std::move(request));
 }

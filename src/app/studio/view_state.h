@@ -31,8 +31,9 @@ struct ViewState {
   bool tint = true;
   bool outline = true;
   bool heat = false;
-  float near_share = 0.01f;  // near plane, of the scene's size; see natural_near_plane()
-  float far_share = 0;       // far plane, of the scene's size; 0: none
+  float near_share = 0.01f;   // near plane, of the scene's size; see natural_near_plane()
+  float far_share = 0;        // far plane, of the scene's size; 0: none
+  bool web_low_pass = false;  // splats as thin as web viewers draw them, see kWebLowPassPx2
 
   bool operator==(const ViewState&) const = default;
 };

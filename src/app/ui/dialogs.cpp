@@ -8,6 +8,7 @@
 
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
+#include "app/version.h"
 
 namespace splatcut {
 
@@ -214,6 +215,10 @@ void help_page(UiContext& ui) {
   if (ImGui::Button("Close", {110, 0}) || closed) {
     ui.state.help_open = false;
     ImGui::CloseCurrentPopup();
+  }
+  if (!ui.state.steady) {
+    ImGui::SameLine();
+    muted_text(ui, fmt::format("splatcut {}, MIT licence", version()));
   }
   ImGui::EndPopup();
 }

@@ -54,7 +54,7 @@ std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
     ++order_serial_;
   }
   if (!order_) return textures;
-  const DepthRange range = studio.depth_range();
+  const DrawLimits limits = studio.draw_limits();
   for (int i = 0; i < studio.panes(); ++i) {
     if (!panes_[i]) panes_[i] = std::make_unique<Pane>();
     refresh(panes_[i].get(), studio, i);
@@ -63,7 +63,7 @@ std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
       splats.upload_order(order_->back_to_front);
       uploaded_order_[i] = order_serial_;
     }
-    splats.draw(camera, {.near_plane = range.near_plane, .far_plane = range.far_plane});
+    splats.draw(camera, {limits.near_plane, limits.far_plane, limits.low_pass_px2});
     const FrameStyle style = studio.style(i);
     splats.resolve({.background = style.background,
                     .tint_strength = style.heat   ? kHeatStrength

@@ -74,6 +74,8 @@ void scene_panel(UiContext& ui) {
                if (ImGui::SliderFloat("##far", &view.far_share, 0, 3, view.far_share > 0 ? "%.2f" : "none"))
                  ui.ask(SetView{view});
              });
+  if (ImGui::Checkbox("As in web viewers", &view.web_low_pass)) ui.ask(SetView{view});
+  tooltip("Thin splats are drawn half as wide as in training; the cut does not change");
   axes_row(ui);
   up_buttons(ui);
   const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;

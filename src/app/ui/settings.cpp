@@ -25,6 +25,7 @@ Settings load_settings(const std::filesystem::path& file) {
     s.view.brush_px = std::clamp(json.value("brush_px", s.view.brush_px), 1.0f, 400.0f);
     s.view.tint = json.value("tint", s.view.tint);
     s.view.outline = json.value("outline", s.view.outline);
+    s.view.web_low_pass = json.value("web_low_pass", s.view.web_low_pass);
     for (const std::string& path : json.value("recent", std::vector<std::string>()))
       s.recent.emplace_back(path);
   } catch (const nlohmann::json::exception&) {
@@ -42,11 +43,17 @@ Settings load_settings(const std::filesystem::path& file) {
 void save_settings(const std::filesystem::path& file, const Settings& s) {
   nlohmann::json recent = nlohmann::json::array();
   for (const auto& path : s.recent) recent.push_back(path.string());
-  nlohmann::json json = {{"width", s.width},       {"height", s.height},
-                         {"dark", s.dark},         {"hint", s.hint_wanted},
-                         {"ui_scale", s.ui_scale}, {"brush_px", s.view.brush_px},
-                         {"tint", s.view.tint},    {"outline", s.view.outline},
-                         {"recent", recent},       {"maximized", s.maximized}};
+  nlohmann::json json = {{"width", s.width},
+                         {"height", s.height},
+                         {"dark", s.dark},
+                         {"hint", s.hint_wanted},
+                         {"ui_scale", s.ui_scale},
+                         {"brush_px", s.view.brush_px},
+                         {"tint", s.view.tint},
+                         {"outline", s.view.outline},
+                         {"recent", recent},
+                         {"maximized", s.maximized},
+                         {"web_low_pass", s.view.web_low_pass}};
   if (s.position) json["position"] = {s.position->x, s.position->y};
   std::filesystem::create_directories(file.parent_path());
   write_text_file(file, json_text(json, 2) + "\n");

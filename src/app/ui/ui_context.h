@@ -60,7 +60,7 @@ struct UiState {
   std::optional<OpenScene> open_asked, open_now;  // asked: would end work that was not saved
   std::optional<bool> history_wanted;             // opens or closes the history section
   bool hint_wanted = true;                        // the first-run hint, until the first click
-  bool steady = false;                            // for pictures that must repeat: no times, no blinking
+  bool steady = false;  // for pictures that must repeat: no times, no version, no blinking
   std::vector<std::filesystem::path> recent;
   std::filesystem::path sample;  // offered on the start page where it exists
   FileBrowser files;

@@ -163,12 +163,14 @@ void install_clipboard(GLFWwindow* window) {
   };
 }
 
-std::filesystem::path sample_beside_program() {
+// Beside the folder of an installed program, or above the build folder.
+std::filesystem::path sample_of_program() {
   std::error_code ignored;
   std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
   for (; folder.has_relative_path(); folder = folder.parent_path())
-    if (const auto sample = folder / "assets/sample/sample.compressed.ply"; std::filesystem::exists(sample))
-      return sample;
+    for (const char* place : {"share/splatcut/sample", "assets/sample"})
+      if (const auto sample = folder / place / "sample.compressed.ply"; std::filesystem::exists(sample))
+        return sample;
   return {};
 }
 
@@ -194,6 +196,7 @@ Settings settings_now(const Loop& loop, Settings settings) {
   settings.view.brush_px = view.brush_px;
   settings.view.tint = view.tint;
   settings.view.outline = view.outline;
+  settings.view.web_low_pass = view.web_low_pass;
   return settings;
 }
 
@@ -262,9 +265,8 @@ void run_window(const WindowOptions& options) {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   const float ui_scale = options.ui_scale > 0 ? options.ui_scale : settings.ui_scale;
   {
-    Application app({{glfwPostEmptyEvent, false, state_folder(), options.cache},
-                     options.renderer,
-                     sample_beside_program()});
+    Application app(
+        {{glfwPostEmptyEvent, false, state_folder(), options.cache}, options.renderer, sample_of_program()});
     Loop loop{window.handle, app, ui_scale};
     UiState& state = app.interface().state();
     state.dark = settings.dark;

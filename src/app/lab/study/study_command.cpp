@@ -19,6 +19,7 @@
 #include "app/lab/study/study_runner.h"
 #include "app/lab/study/study_scenes.h"
 #include "app/lab/study/study_store.h"
+#include "app/version.h"
 #include "scene/atomic_file.h"
 #include "scene/byte_hash.h"
 #include "scene/error.h"
@@ -47,8 +48,7 @@ std::string machine() {
       cpu = line.substr(line.find(':') + 2);
       break;
     }
-  return fmt::format("splatcut {}, {} threads of {}", SPLATCUT_VERSION, std::thread::hardware_concurrency(),
-                     cpu);
+  return fmt::format("splatcut {}, {} threads of {}", version(), std::thread::hardware_concurrency(), cpu);
 }
 
 std::string file_name_of(std::string experiment) {

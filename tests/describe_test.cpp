@@ -1,0 +1,108 @@
+// The manual page and the completion of bash, as the build has the program write them.
+#include <doctest/doctest.h>
+
+#include <set>
+#include <sstream>
+
+#include "program_runner.h"
+
+using namespace splatcut::testing;
+
+namespace {
+
+const char* const kCommands[] = {"info", "render", "cut", "convert", "compare", "view"};
+
+std::string described(const Workplace& place, const std::string& what) {
+  const Result result = place.run("describe " + what);
+  CHECK(result.code == 0);
+  CHECK(result.err.empty());
+  return result.out;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+// "--spz-axes" of "  --spz-axes TEXT:{ply,rub}   Axes ..."; "--output" of "  -o,--output TEXT".
+std::set<std::string> options_in_help(const std::string& help) {
+  std::set<std::string> options;
+  for (const std::string& line : lines_of(help)) {
+    const std::size_t start = line.find("--");
+    if (!line.starts_with("  -") || start > 5) continue;
+    options.insert(line.substr(start, line.find_first_of(" {", start) - start));
+  }
+  return options;
+}
+
+std::string troff_of(std::string text) {
+  for (std::size_t at = 0; (at = text.find('-', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+  return text;
+}
+
+// What bash offers where the last of the words is being typed.
+std::set<std::string> offered(const Workplace& place, const std::string& words) {
+  place.write(
+      "ask.sh",
+      "source ./completion\nCOMP_WORDS=(" + words +
+          ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_splatcut\nprintf '%s\\n' \"${COMPREPLY[@]}\"\n");
+  const Result result = place.run_program("/bin/bash", "ask.sh");
+  CHECK(result.code == 0);
+  CHECK(result.err.empty());
+  std::set<std::string> set;
+  for (const std::string& line : lines_of(result.out))
+    if (!line.empty()) set.insert(line);
+  return set;
+}
+
+}  // namespace
+
+TEST_CASE("the manual page has every command and option of --help, and only macros that troff knows") {
+  const Workplace place;
+  const std::string page = described(place, "man");
+  const std::set<std::string> macros = {".TH", ".SH", ".B", ".I", ".RI", ".br", ".TP", ".PP"};
+  for (const std::string& line : lines_of(page))
+    if (line.starts_with('.') || line.starts_with('\'')) {
+      CAPTURE(line);
+      CHECK(macros.contains(line.substr(0, line.find(' '))));
+    }
+  CHECK(page.find("splatcut " + place.run("--version").out.substr(9, 3)) != std::string::npos);
+  for (const char* command : kCommands) {
+    const std::string help = place.run(command + std::string(" --help")).out;
+    const std::size_t section = page.find(".SH \"splatcut " + std::string(command) + "\"");
+    REQUIRE(section != std::string::npos);
+    const std::string text = page.substr(section, page.find("\n.SH", section) - section);
+    for (const std::string& option : options_in_help(help)) {
+      CAPTURE(option);
+      CHECK((option == "--help" || text.find(troff_of(option)) != std::string::npos));
+    }
+  }
+}
+
+TEST_CASE("bash completes commands, options and words to choose from, and leaves the rest to files") {
+  const Workplace place;
+  place.write("completion", described(place, "bash"));
+  CHECK(offered(place, "splatcut ''") == std::set<std::string>(std::begin(kCommands), std::end(kCommands)));
+  CHECK(offered(place, "splatcut co") == std::set<std::string>{"convert", "compare"});
+  CHECK(offered(place, "splatcut --v") == std::set<std::string>{"--version"});
+  CHECK(offered(place, "splatcut render --wh") == std::set<std::string>{"--what"});
+  CHECK(offered(place, "splatcut render a.ply --what ''") ==
+        std::set<std::string>{"colour", "depth", "alpha", "labels"});
+  CHECK(offered(place, "splatcut render a.ply --what = d") == std::set<std::string>{"depth"});
+  CHECK(offered(place, "splatcut convert a.ply -o ''").empty());
+  CHECK(offered(place, "splatcut cut ''").empty());
+  CHECK(offered(place, "splatcut a.ply --ren") == std::set<std::string>{"--renderer"});
+  for (const char* command : kCommands) {
+    std::set<std::string> options = options_in_help(place.run(command + std::string(" --help")).out);
+    options.insert({"--version", "--threads", "--quiet", "--no-cache"});
+    CHECK(offered(place, "splatcut " + std::string(command) + " --") == options);
+  }
+}
+
+TEST_CASE("describe is not among the commands that --help shows") {
+  const Workplace place;
+  CHECK(place.run("--help").out.find("describe") == std::string::npos);
+  CHECK(place.run("describe html").code == 2);
+}
