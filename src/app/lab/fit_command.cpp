@@ -53,7 +53,7 @@ struct Score {
   Curve after, zoomed;
 };
 
-constexpr std::array kZooms = {0.4f, 0.6f, 2.0f, 4.0f};
+constexpr std::array kOtherDistances = {0.4f, 0.6f, 2.0f, 4.0f};
 
 void stop_if_fit_cancelled(const Job& job) {
   if (job.cancelled()) throw Error("splatcut-lab fit", "cancelled, nothing was written");
@@ -62,7 +62,7 @@ void stop_if_fit_cancelled(const Job& job) {
 Bank load_bank(const FitArguments& args, const PrepareOptions& prepare, const Job& job) {
   Bank bank;
   PartsSceneOptions options = args.scenes;
-  if (args.zoom) options.zooms.insert(options.zooms.end(), kZooms.begin(), kZooms.end());
+  if (args.zoom) options.zooms.insert(options.zooms.end(), kOtherDistances.begin(), kOtherDistances.end());
   std::map<std::filesystem::path, std::size_t> captures;
   for (const std::filesystem::path& suite : args.suites)
     for (const nlohmann::json& entry : read_suite(suite)) {
@@ -133,7 +133,7 @@ std::vector<Score> scores(const Bank& bank, const std::vector<SelectionModel>& m
   std::vector<Score> all;
   for (std::size_t i = 0; i < bank.scenes.size(); ++i) {
     Score score{mean_at(i, 1), {}};
-    for (const float zoom : kZooms)
+    for (const float zoom : kOtherDistances)
       if (const Curve at = mean_at(i, zoom); !at.empty()) score.zoomed.push_back(at.front());
     all.push_back(std::move(score));
   }
@@ -204,7 +204,7 @@ void print_table(const Bank& bank, const FitTable& table) {
   fmt::print(
       "IoU after 1, 2, 3, 5, 10 clicks (x: after one from {} of the distance): as shipped | fitted with the "
       "scene | fitted without its capture\n",
-      fmt::join(kZooms, ", "));
+      fmt::join(kOtherDistances, ", "));
   const auto row = [](const std::string& name, const Score& a, const Score& b, const Score& c) {
     fmt::print("{:<16}{} |{} |{}\n", name, cells(a), cells(b), cells(c));
   };
@@ -239,7 +239,7 @@ nlohmann::json table_json(const Bank& bank, const FitArguments& args, const FitT
       row["weights_without"] = weights(table.without[i]);
     }
     if (args.zoom) {
-      row["zoom"] = {{"of_distance", kZooms},
+      row["zoom"] = {{"of_distance", kOtherDistances},
                      {"shipped", table.as_shipped[i].zoomed},
                      {"fitted_with", table.with[i].zoomed}};
       if (!table.without_scores.empty()) row["zoom"]["fitted_without"] = table.without_scores[i].zoomed;

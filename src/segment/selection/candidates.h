@@ -5,22 +5,28 @@
 // and, after one click on the object, another meaning of that click are candidates, too. All pixels are the
 // view's. Terms:
 //
-// - kCut: ln(border's length, likeness-weighted / sqrt(area)) of the node, in the scene.
+// - kCut: ln(border's length, likeness-weighted / sqrt(area)) of the node, in the scene; at least -16, of a
+// part
+//   that touches nothing.
 // - kJump: ln of how much dearer the merge that ends the node is than the one that made it, at most 2.
-// - kRare: -ln of the mean IoU with the likest ancestors in the other trees of its kind.
+// - kRare: -ln of the mean IoU (at least 0.01) with the likest ancestors in the other trees of its kind.
 // - kFrame: pixels at the picture's frame / sqrt(all).
 // - kShadeBlind: 1 where the tree counts lightness less.
 // - kOffCentre: ln(0.7 / share), at least 0; share: the click's distance to the border of what would change
 //   over the largest such distance. People click in the middle of what they mean.
 // - kNoEdge: share of that border where the depth does not jump.
 // - kSmall, kLarge: of a first click, ln of folds of the picture below 1 % and above 35 %.
-// - kScrap, kFold, kGiant: of later clicks, with f = ln(changed pixels / disc to the displayed border):
+// - kWider: of a first click seen with a wider field of view, too, in which a candidate may be cheaper: ln of
+//   how much wider times how far the picture's grain lies below that of one from too near; see grain().
+// - kScrap, kFold, kGiant: of later clicks, with f = ln(changed pixels / disc to where the region may end):
 //   max(0, -0.3 - f), max(0, f - 1), max(0, f - 3.25).
 // - kBorder: max(0, f - 1) where the click is within 2 pixels of the border.
 // - kOpposed: clicks of the other sign that it holds.
 // - kBack: IoU with what a click of the other sign has changed, the largest. People undo in that case.
 // - kDisc: 1 where nothing but the disc would change.
-// - kRepick: 1 + how much less likely the first click's other meaning is; see ClickSelection.
+// - kRepick: 1 + how much less likely the first click's other meaning is; see ClickSelection. Its weight is
+// 0:
+//   more or less of it lost on the bank.
 // Cost: some 10 ms. The result depends on the arguments alone.
 #pragma once
 
@@ -88,7 +94,7 @@ struct Click {
   bool object;
   bool first;
   std::uint32_t leaf;              // not on that side yet
-  float radius_px;                 // to the displayed border; 0 for the first
+  float radius_px;                 // to where the wrong region may end; 0 for the first
   const Mask& displayed;           // before the click
   const LeafView* wide = nullptr;  // of a first click: the same eye, see widened()
 };

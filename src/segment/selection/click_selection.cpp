@@ -89,12 +89,13 @@ Mask depth_edges(const Image<float>& depth) {
   return edges;
 }
 
-// Distance from the pixel to where what was clicked may end: the border of the displayed region of that side
-// that it lies in, or a depth edge before it: what is missing need not touch what is shown. Depth is rough on
-// captures, so an edge shortens the distance to a share of it at most.
-float distance_to_end(const LeafView& view, const Mask& displayed, const glm::ivec2& at, bool side) {
+// Distance from the pixel to where the wrong region around it may end. What is wrongly object ends at the
+// displayed border. What is missing need not touch what is shown: it may end at a depth edge before that.
+// Depth is rough on captures, so an edge shortens the distance to a share of it at most.
+float distance_to_end(const LeafView& view, const Mask& displayed, const glm::ivec2& at, bool object) {
   constexpr float kLeastShare = 0.3f, kEdgePx = 1.5f;  // an edge is as wide as its two pixels
-  const float to_border = distance_to_border(displayed, at, side);
+  const float to_border = distance_to_border(displayed, at, !object);
+  if (!object) return to_border;
   const float to_edge = distance_to_border(depth_edges(view.depth), at, false) + kEdgePx;
   return std::max(kLeastShare * to_border, std::min(to_border, to_edge));
 }
@@ -273,14 +274,14 @@ float ClickSelection::displayed_radius(const LeafView& view, const Mask& display
                                        bool object, std::uint32_t leaf) const {
   if (object && !view.whole && count(displayed) == 0)
     return std::max(std::sqrt(view.leaf_px[leaf] / std::numbers::pi_v<float>), 1.0f);
-  return distance_to_end(view, displayed, at, !object);
+  return distance_to_end(view, displayed, at, object);
 }
 
 // What is displayed as said already is held: a later click's parts do not take it back.
 void ClickSelection::confirm(const LeafView& view, const glm::vec2& pixel, bool object,
                              float least_radius_px) {
   const glm::ivec2 at = nearest_pixel(view.camera, pixel);
-  const float radius_px = distance_to_end(view, shown(view.gaussians, view.camera, labels_), at, object);
+  const float radius_px = distance_to_border(shown(view.gaussians, view.camera, labels_), at, object);
   pin(view, disc(view.camera, at, radius_px, least_radius_px), object, Pin::kSaidAlready);
   const std::uint32_t leaf =
       leaf_near(view, pixel, [&](std::uint32_t l) { return (selected_.object[l] != 0) == object; });

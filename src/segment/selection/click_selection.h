@@ -3,14 +3,14 @@
 // In: the hierarchy of parts, and one stroke after the other with the view it was made in. Out: labels (1 =
 // object), and which Gaussians the strokes themselves have decided.
 // A click says two things. Certain: what is displayed around it is on the wrong side now. Within a disc of
-// disc_share times the distance to the displayed border, Gaussians that show mostly there take the said label
-// and keep it until a later disc of the other sign covers them; so do leaves that lie mostly in the disc.
-// Probable: one of the clicked leaf's ancestors in any tree is meant, the one of the least cost; see
-// candidates.h. A leaf follows a correction only where, in most trees, it meets no click of the other sign
-// below its common ancestor with this click. After one object click, a click on the rest may also say that
-// another part of that click was meant: the likeliest that holds none of the clicks on the rest. Where no
-// candidate is likely the disc alone changes. Cost: some 10 ms a click once its view is known. The result
-// depends on the strokes in their order alone.
+// disc_share times the distance to where the wrong region may end (the displayed border, or a jump of the
+// depth before it), Gaussians that show mostly there take the said label and keep it until a later disc of
+// the other sign covers them; so do leaves that lie mostly in the disc. Probable: one of the clicked leaf's
+// ancestors in any tree is meant, the one of the least cost; see candidates.h. A leaf follows a correction
+// only where, in most trees, it meets no click of the other sign below its common ancestor with this click.
+// After one object click, a click on the rest may also say that another part of that click was meant: the
+// likeliest that holds none of the clicks on the rest. Where no candidate is likely the disc alone changes.
+// Cost: some 10 ms a click once its view is known. The result depends on the strokes in their order alone.
 #pragma once
 
 #include <cstdint>
