@@ -360,10 +360,10 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
       REQUIRE(artist.app.settle());
       return artist.studio().style(0).highlight ? *artist.studio().style(0).highlight : Labels{};
     };
-    for (const bool rest : {false, true}) {
+    const glm::vec2 at = artist.beside(artist.labels(), 20);
+    for (const bool rest : {false, true}) {  // adds what is there, and takes it back
       CAPTURE(rest);
       const Labels before = artist.labels();
-      const glm::vec2 at = rest ? artist.screen_of(place.pixel) + glm::vec2(6, 5) : artist.beside(before, 20);
       const Labels outlined = hovered(at);
       REQUIRE(outlined.size() == before.size());
       CHECK(artist.studio().style(0).highlight_colour == (rest ? Rgb8{225, 25, 60} : Rgb8{255, 255, 255}));
