@@ -92,6 +92,16 @@ TEST_CASE("fit by the program: a row a scene, as shipped, fitted with it and wit
   CHECK(fit["scenes"][0]["weights_without"] == fit["scenes"][1]["weights_without"]);
   REQUIRE(place.run_program(SPLATCUT_LAB_PROGRAM, command + "again --threads 1").code == 0);
   CHECK(place.text("again/fit.json") == place.text("out/fit.json"));
+  // Objects of two files can be left out together; first clicks from elsewhere count, too.
+  REQUIRE(place.run_program(SPLATCUT_LAB_PROGRAM, command + "zoomed --zoom --together apple").code == 0);
+  const json zoomed = json::parse(place.text("zoomed/fit.json"));
+  CHECK(zoomed["scenes"][1]["capture"] == zoomed["scenes"][3]["capture"]);
+  CHECK(zoomed["scenes"][0]["capture"] != zoomed["scenes"][2]["capture"]);
+  for (const json& scene : zoomed["scenes"]) {
+    CHECK(scene["shipped"].size() == 2);
+    for (const char* key : {"of_distance", "shipped", "fitted_with", "fitted_without"})
+      CHECK_MESSAGE(scene["zoom"][key].size() == 4, key);
+  }
   // The model it writes is one to start from.
   const Result more =
       place.run_program(SPLATCUT_LAB_PROGRAM, command + "more --of later --model out/model.json");

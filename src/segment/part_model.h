@@ -93,6 +93,10 @@ inline float& weight(TermValues* of, Term term) {
   return (*of)[static_cast<std::size_t>(term)];
 }
 
+inline float weight(const TermValues& of, Term term) {
+  return of[static_cast<std::size_t>(term)];
+}
+
 // As in the table of weights, by Term.
 std::span<const std::string> term_names();
 

@@ -115,7 +115,7 @@ AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& s
   using Clock = std::chrono::steady_clock;
   AnyViewSession session{.start = start.name, .draw = hand.draw};
   std::vector<Mask> shown, meanings;
-  double ms = 0;
+  double ms = 0, cuts = 0;
   for (int i = 0; i < clicks && !job.cancelled(); ++i) {
     std::optional<ViewClick> next = ViewClick{start.camera, start.first};
     if (i > 0) next = next_click(world, shown, draw_of(hand.draw, static_cast<std::size_t>(i)));
@@ -126,6 +126,7 @@ AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& s
       const auto began = Clock::now();
       CutAnswer answer = world.cut(session.clicks, session.choice, job);
       ms += std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+      ++cuts;
       if (job.cancelled()) break;
       shown = pictures(world, answer.labels);
       meanings = std::move(answer.meanings);
@@ -138,7 +139,7 @@ AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& s
     }
     session.iou_after.push_back(mean_iou(world, shown));
   }
-  session.ms_per_click = ms / std::max(1.0, static_cast<double>(session.clicks.size()));
+  session.ms_per_click = ms / std::max(1.0, cuts);
   return session;
 }
 

@@ -16,7 +16,6 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kCentral = 0.7f, kSmallShare = 0.01f, kLargeShare = 0.35f;
 constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f;
 constexpr float kBorderPx = 2;
-constexpr float kCoarse = -1.8f;     // grain of a picture from too near
 constexpr float kDepthJump = 0.05f;  // of the logarithm of depth
 
 float& term(Candidate* candidate, Term which) {
@@ -254,11 +253,7 @@ std::vector<float> Asking::shares_without_edge(std::size_t c) {
     const int ox = first_inside ? x1 : x, oy = first_inside ? y1 : y;
     if (std::max(a, b) == nodes && (click_.displayed.at(ox, oy) != 0) == click_.object) return;
     // One pixel further on both sides: the border itself blends.
-    const float before = depth.at(std::max(0, x - dx), std::max(0, y - dy)),
-                behind =
-                    depth.at(std::min(level.width() - 1, x1 + dx), std::min(level.height() - 1, y1 + dy));
-    const bool jumps =
-        (before > 0) != (behind > 0) || (before > 0 && std::abs(std::log(before / behind)) > kDepthJump);
+    const bool jumps = depth_jump(depth, {x - dx, y - dy}, {x1 + dx, y1 + dy}) > kDepthJump;
     ++border[std::min(a, b)];
     --border[std::max(a, b)];
     plain[std::min(a, b)] += !jumps;
@@ -299,8 +294,7 @@ void Asking::add_candidates(std::size_t c, const AnswerOptions& options) {
   const Chain& chain = out_.chains[c];
   const PartTree& tree = parts_.trees[c];
   std::vector<float> no_edge(chain.nodes.size(), 0);
-  if (options.all_terms || weights_[static_cast<std::size_t>(Term::kNoEdge)] != 0)
-    no_edge = shares_without_edge(c);
+  if (options.all_terms || weight(weights_, Term::kNoEdge) != 0) no_edge = shares_without_edge(c);
   float last_px = 0;
   for (std::size_t i = 0; i < chain.nodes.size(); ++i) {
     if (chain.changed_px[i] < std::max(kLeastChangePx, options.least_growth * last_px)) continue;
@@ -390,7 +384,7 @@ void Asking::measure_off_centre(bool all) {
   constexpr float kUnlikely = 3;  // 20 times less likely than the likeliest
   const std::size_t most = click_.first ? 48 : 24;
   const float margin = click_.first ? kUnlikely : 0;
-  const float weight = weights_[static_cast<std::size_t>(Term::kOffCentre)];
+  const float dear = weight(weights_, Term::kOffCentre);
   float best = std::numeric_limits<float>::max();
   std::size_t looked_at = 0;
   for (Candidate& candidate : out_.candidates) {
@@ -404,7 +398,7 @@ void Asking::measure_off_centre(bool all) {
       region.at(click_.at.x, click_.at.y) = kMaskObject;
       const float off = at_least_0(std::log(kCentral / centrality(region, click_.at)));
       term(&candidate, Term::kOffCentre) = off;
-      candidate.cost += weight * off;
+      candidate.cost += dear * off;
     }
     best = std::min(best, candidate.cost);
   }
@@ -412,74 +406,11 @@ void Asking::measure_off_centre(bool all) {
   std::ranges::stable_sort(out_.candidates, {}, &Candidate::cost);
 }
 
-// The pixel of another focal length that looks the same way.
-glm::ivec2 same_ray(const Camera& from, const Camera& to, const glm::ivec2& at) {
-  const glm::vec2 pixel = glm::vec2(at) + 0.5f;
-  return {static_cast<int>(std::floor((pixel.x - from.cx_px) / from.fx_px * to.fx_px + to.cx_px)),
-          static_cast<int>(std::floor((pixel.y - from.cy_px) / from.fy_px * to.fy_px + to.cy_px))};
-}
-
-// How large the leaves around the click are in the picture: weighted median of ln(side / picture's width).
-// Superpoints hold alike many splats, and captures have splats as fine as their photographs saw: it says how
-// near the user stands for this scene.
-float grain(const PartHierarchy& parts, const Click& click) {
-  constexpr float kAround = 0.075f;  // of the picture's width
-  const Camera& camera = click.view.camera;
-  const auto width = static_cast<float>(camera.width_px);
-  const int reach = static_cast<int>(kAround * width);
-  std::vector<float> px(parts.leaves, 0);
-  float all_px = 0;
-  for (int y = std::max(0, click.at.y - reach); y <= std::min(camera.height_px - 1, click.at.y + reach); ++y)
-    for (int x = std::max(0, click.at.x - reach); x <= std::min(camera.width_px - 1, click.at.x + reach); ++x)
-      for (const GroupWeight& w : click.view.leaves.at(static_cast<std::size_t>(y) * camera.width_px + x)) {
-        px[w.group] += w.weight;
-        all_px += w.weight;
-      }
-  std::vector<std::pair<float, float>> sizes;  // with pixels
-  for (std::uint32_t leaf = 0; leaf < parts.leaves; ++leaf)
-    if (px[leaf] > 0) {
-      const float depth = std::max(camera.camera_from_world(parts.leaf_centre_world[leaf]).z, 1e-15f);
-      const float side = std::sqrt(std::max(parts.leaf_area[leaf], 1e-30f)) * camera.fx_px / depth;
-      sizes.emplace_back(std::log(side / width), px[leaf]);
-    }
-  std::ranges::sort(sizes);
-  float sum = 0;
-  for (const auto& [size, weight] : sizes)
-    if ((sum += weight) >= all_px / 2) return size;
-  return 0;
-}
-
-// Of each candidate the view counts in which it costs less.
-void join(const Answers& wide, float weight_of_wide, float unlikely, bool keep_both, Answers* found) {
-  for (Candidate other : wide.candidates) {
-    term(&other, Term::kWider) = unlikely;
-    other.cost += weight_of_wide * unlikely;
-    const auto known = std::ranges::find_if(found->candidates, [&](const Candidate& c) {
-      return c.chain == other.chain && c.index == other.index;
-    });
-    if (known == found->candidates.end() || keep_both)
-      found->candidates.push_back(other);
-    else if (other.cost < known->cost)
-      *known = other;
-  }
-  std::ranges::stable_sort(found->candidates, {}, &Candidate::cost);
-}
-
 }  // namespace
 
-Answers answers(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
-                const SelectionModel& model, const AnswerOptions& options) {
-  Answers found = Asking(parts, selected, click, model).take(options);
-  if (!click.wide) return found;
-  const Camera &near = click.view.camera, &far = click.wide->camera;
-  const glm::ivec2 at = same_ray(near, far, click.at);
-  if (!click.displayed.contains(at.x, at.y)) return found;
-  const Click there{*click.wide,     at,     click.object, click.first, click.leaf, click.radius_px,
-                    click.displayed, nullptr};
-  const float unlikely = std::log(near.fx_px / far.fx_px) * at_least_0(kCoarse - grain(parts, click));
-  join(Asking(parts, selected, there, model).take(options),
-       model.first[static_cast<std::size_t>(Term::kWider)], unlikely, options.all_terms, &found);
-  return found;
+Answers answers_in_view(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
+                        const SelectionModel& model, const AnswerOptions& options) {
+  return Asking(parts, selected, click, model).take(options);
 }
 
 }  // namespace splatcut

@@ -104,6 +104,12 @@ struct AnswerOptions {
   float least_growth = 1;  // in changed pixels from one node of a chain to the next that is a candidate
 };
 
+// At hand of the click's view alone.
+Answers answers_in_view(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
+                        const SelectionModel& model, const AnswerOptions& options = {});
+
+// Of a first click with a wider view, too: each candidate counts where it costs less, or with all_terms in
+// both.
 Answers answers(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
                 const SelectionModel& model, const AnswerOptions& options = {});
 

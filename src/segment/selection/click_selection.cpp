@@ -77,15 +77,11 @@ float distance_to_border(const Mask& mask, const glm::ivec2& at, bool side) {
 Mask depth_edges(const Image<float>& depth) {
   constexpr float kJump = 0.15f;  // of the logarithm of depth, from one pixel before to one behind
   Mask edges(depth.width(), depth.height());
-  const auto jumps = [&](int x, int y, int dx, int dy) {
-    const float before = depth.at(std::max(0, x - dx), std::max(0, y - dy)),
-                behind = depth.at(std::min(depth.width() - 1, x + dx), std::min(depth.height() - 1, y + dy));
-    if (before <= 0 || behind <= 0) return (before > 0) != (behind > 0);
-    return std::abs(std::log(before / behind)) > kJump;
-  };
   for (int y = 0; y < depth.height(); ++y)
     for (int x = 0; x < depth.width(); ++x)
-      if (jumps(x, y, 1, 0) || jumps(x, y, 0, 1)) edges.at(x, y) = kMaskObject;
+      if (std::max(depth_jump(depth, {x - 1, y}, {x + 1, y}), depth_jump(depth, {x, y - 1}, {x, y + 1})) >
+          kJump)
+        edges.at(x, y) = kMaskObject;
   return edges;
 }
 
@@ -268,8 +264,8 @@ void ClickSelection::change_leaves(const Answers& found, const Candidate& best,
   if (!click.first) selected_.changes.push_back(std::move(change));
 }
 
-// Distance to the displayed border. Where the object itself was left out of the picture there is none: the
-// clicked leaf's own size stands in its place.
+// Distance to where the wrong region may end. Where the object itself was left out of the picture there is
+// none: the clicked leaf's own size stands in its place.
 float ClickSelection::displayed_radius(const LeafView& view, const Mask& displayed, const glm::ivec2& at,
                                        bool object, std::uint32_t leaf) const {
   if (object && !view.whole && count(displayed) == 0)
@@ -289,7 +285,7 @@ void ClickSelection::confirm(const LeafView& view, const glm::vec2& pixel, bool 
   insist(view, row_by_row(view.camera, at), object);
 }
 
-// What is certain around a click: radius_px to the displayed border, the stroke's own radius at least.
+// What is certain around a click: radius_px to where the region may end; the stroke's own radius at least.
 std::vector<std::uint32_t> ClickSelection::disc(const Camera& camera, const glm::ivec2& at, float radius_px,
                                                 float least_radius_px) const {
   return disc_pixels(camera, at, std::max({model_.disc_share * radius_px, least_radius_px, 1.0f}));

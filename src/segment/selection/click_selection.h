@@ -26,7 +26,7 @@
 
 namespace splatcut {
 
-constexpr int kMostMeanings = 3;  // that are told apart of what a first click can mean
+inline constexpr int kMostMeanings = 3;  // that are told apart of what a first click can mean
 
 class ClickSelection {
  public:
@@ -34,8 +34,9 @@ class ClickSelection {
   // that meaning; +1 the next larger. Both end at the last there is.
   ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step = 0, int choice = 0);
 
-  // A stroke in the pixels of the view. False: nothing of the scene is under it, or it speaks of the rest
-  // before there is an object.
+  // A stroke in the pixels of the view. wide: of the first, the view as widened() has it; without it a part
+  // that reaches out of the picture is hardly meant. False: nothing of the scene is under it, or it speaks of
+  // the rest before there is an object.
   bool apply(const LeafView& view, const Stroke& stroke, const LeafView* wide = nullptr);
 
   // What a click here could mean. Nothing: the scene is not hit, or shows what is said already.
@@ -44,12 +45,12 @@ class ClickSelection {
   void set_model(const SelectionModel& model) { model_ = model; }  // for the clicks to come
   const SelectedParts& selected() const { return selected_; }
 
+  bool any() const { return any_; }                                    // a stroke has found something
   const std::vector<std::uint8_t>& labels() const { return labels_; }  // per Gaussian
   const std::vector<std::int8_t>& said() const { return said_; }       // per Gaussian: +1, -1, 0 = by no disc
 
   // What the first click can mean: how many sizes, the one taken, and whether another one was nearly as
   // likely.
-  bool any() const { return any_; }  // clicks have found something
   std::size_t sizes() const { return sizes_; }
   std::size_t size() const { return size_; }
   std::size_t likeliest_size() const { return likeliest_size_; }  // at part_step 0

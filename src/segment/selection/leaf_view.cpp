@@ -1,6 +1,8 @@
 #include "segment/selection/leaf_view.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "segment/parallel.h"
@@ -101,6 +103,15 @@ Camera widened(const Camera& camera, const glm::vec2& pixel) {
   wide.cx_px = pixel.x - (pixel.x - camera.cx_px) / kFolds;
   wide.cy_px = pixel.y - (pixel.y - camera.cy_px) / kFolds;
   return wide;
+}
+
+float depth_jump(const Image<float>& depth, const glm::ivec2& a, const glm::ivec2& b) {
+  const auto at = [&](const glm::ivec2& p) {
+    return depth.at(std::clamp(p.x, 0, depth.width() - 1), std::clamp(p.y, 0, depth.height() - 1));
+  };
+  const float one = at(a), other = at(b);
+  if (one > 0 && other > 0) return std::abs(std::log(one / other));
+  return (one > 0) == (other > 0) ? 0 : std::numeric_limits<float>::infinity();
 }
 
 Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint32_t> level) {

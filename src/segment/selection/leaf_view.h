@@ -47,6 +47,10 @@ LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera,
 // between.
 Camera widened(const Camera& camera, const glm::vec2& pixel);
 
+// |ln| of the ratio of two pixels' depths; outside of the picture its frame counts. Infinite where one of
+// them alone shows anything.
+float depth_jump(const Image<float>& depth, const glm::ivec2& a, const glm::ivec2& b);
+
 inline constexpr std::uint32_t kNoLevel = 0xffffffffu;
 
 // Parts that grow by levels, as along the chain of a tree: per pixel the first level at which what has joined
