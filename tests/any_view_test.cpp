@@ -267,7 +267,7 @@ TEST_CASE(
       for (const json& of : {robot, robot["least"], robot["p10"]})
         CHECK_MESSAGE(of["iou_after_clicks"][k].is_number(), k);
     for (const char* factor : {"0.4", "0.6", "1", "2", "4"})
-      CHECK_MESSAGE(s["zoom"][factor].is_number(), factor);
+      CHECK_MESSAGE((s["zoom"][factor].is_number() || s["zoom"][factor].is_null()), factor);
     for (const char* what : {"median", "least", "spread", "difference", "most_difference"})
       CHECK_MESSAGE(s["perturb"]["3"][what].is_number(), what);
   }
@@ -308,7 +308,8 @@ TEST_CASE("zoom: the camera stands on the ray of the clicked pixel, at so many t
     const glm::vec3 hit = start.camera.world_from_pixel(pixel, z);
     for (const float factor : {0.4f, 0.6f, 1.0f, 2.0f, 4.0f}) {
       const auto moved = zoomed_click(loaded->scene.cloud, start, factor);
-      REQUIRE(moved);
+      CHECK(moved.has_value() == (factor <= 1));  // from farther the mug stands before it
+      if (!moved) continue;
       CHECK(glm::distance(moved->camera.centre_world(), hit) ==
             doctest::Approx(factor * glm::distance(start.camera.centre_world(), hit)).epsilon(1e-4));
       const glm::vec2 at = moved->camera.pixel_from_camera(moved->camera.camera_from_world(hit));

@@ -70,7 +70,7 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused("eval made/suite.json -o cut --preset slow", {"slow", presets});
   refused(life.cut("-o cut --click 1,1 --refine foo"), {"views.refine", "foo", "none, grabcut or pixelcut"});
   refused(life.cut("-o cut --click 1,1 --first-mask foo"), {"foo", "parts, grabcut, pixelcut"});
-  refused(life.cut("-o cut --click 1,1 --views 401"), {"views.most", "401", "from 0 to 400"});
+  refused(life.cut("-o cut --click 1,1 --views 401"), {"views.most", "401", "from -1 to 400"});
   refused(life.cut("-o cut --click 1,1 --smoothness -1"), {"smoothness", "-1", "from 0 to 500"});
   place.write("w.splatcut.json", "{}");
   for (const char* beside : {"made/small.ply", "--click 1,1", "--preset best", "--set trim=0", "--coarse",
@@ -361,7 +361,7 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
   CHECK(scene["enough"]["views"] == 1);  // fast looks at the reference alone
   CHECK(scene["enough"]["pixels"].get<int>() > 0);
   CHECK(scene["enough"]["gaussians"].get<int>() > 0);
-  CHECK(scene["enough"]["why"] == "no view beside the first was asked for");
+  CHECK(scene["enough"]["why"] == "no view around the object was asked for");
   CHECK(measured["mean"]["enough"]["views"] == 1);
   CHECK_FALSE(measured["mean"]["enough"].contains("why"));
   CHECK(place.run("eval made/suite.json --preset fast -o measured").code == 1);

@@ -168,6 +168,7 @@ TEST_CASE("pipeline: one click cuts a ball off its floor, the same on 1 and 2 th
   // Small in its first view: more pixels there, and no more than usual where cameras come near.
   CutSettings coarse = preset("default");
   coarse.work_width_px = 80;
+  coarse.orbit.views = kViewsAround;
   const CutResult small = cut_in_view(cloud, camera, {0, -1, 0}, strokes, coarse);
   REQUIRE(small.views.size() > 1);
   CHECK(small.views.front().camera.width_px > 150);

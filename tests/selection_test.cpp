@@ -235,6 +235,46 @@ TEST_CASE("selection: a click on something thin before another surface decides n
   }
 }
 
+TEST_CASE("selection: what would mostly change where the view does not show it is dear") {
+  PartHierarchy parts = four_leaves();
+  parts.leaf_area[3] = 1000;
+  const LeafView view = stripes(parts, {0, 1, 2, 2});  // the fourth leaf is behind the third
+  SelectionModel model = borders_alone();
+  for (const bool dear : {false, true}) {
+    weight(&model.later, Term::kHidden) = dear ? 4 : 0;
+    ClickSelection selection(parts, model);
+    selection.apply(view, object(5));
+    selection.apply(view, object(25));
+    CHECK(selection.labels() == (dear ? Labels{1, 1, 1, 0} : Labels{1, 1, 1, 1}));
+  }
+}
+
+TEST_CASE("selection: a clicked pixel is obeyed by what is small, not by the wall that shines through") {
+  // From the third column on: a wall, two splats and the leaf, of which .65 are to show the object.
+  PartHierarchy parts = four_leaves();
+  constexpr std::uint32_t kWall = 4, kSplats[] = {5, 6};
+  parts.leaf_of.insert(parts.leaf_of.end(), 3, kNoPart);
+  const Camera camera = stripes(parts).camera;
+  Image<std::vector<GroupWeight>> lists(40, 10);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 40; ++x) {
+      const auto leaf = static_cast<std::uint32_t>(x / 10);
+      lists.at(x, y) = {{leaf, 1}};
+      if (leaf > 1)
+        lists.at(x, y) = {{kWall, 0.33f}, {kSplats[0], 0.31f}, {kSplats[1], 0.26f}, {leaf, 0.1f}};
+    }
+  LeafView view = leaf_view_of(parts, camera, lists, Image<float>(40, 10, 10.0f));
+  for (const bool sizes_known : {false, true}) {
+    if (sizes_known) view.alone_px = {100, 100, 100, 100, 1e6f, 10, 10};
+    ClickSelection selection(parts, borders_alone());
+    selection.apply(view, object(5));
+    selection.apply(view, object(25));
+    CHECK(shows_object(view, selection.labels(), {25, 5}));
+    CHECK(selection.labels()[kWall] == !sizes_known);
+    CHECK(selection.labels()[kSplats[1]] == sizes_known);
+  }
+}
+
 TEST_CASE("selection: a widened camera stands still and holds the pixel's ray") {
   const Camera camera = look_at({1, 2, -10}, {0, 0, 0}, {0, -1, 0}, 1, 40, 30);
   const glm::vec2 pixel(31, 7);

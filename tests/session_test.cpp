@@ -40,10 +40,16 @@ Session fresh_session() {
   return Session({table().cloud, table().prepared, {0, -1, 0}, {}});
 }
 
+CutSettings with_views_around() {
+  CutSettings settings = preset("default");
+  settings.orbit.views = kViewsAround;
+  return settings;
+}
+
 // An object's request and settings.
 struct Asked {
   CutRequest request;
-  CutSettings settings = preset("default");
+  CutSettings settings = with_views_around();
 };
 
 Asked click_on(const std::string& object) {
@@ -290,6 +296,26 @@ TEST_CASE(
     MESSAGE(name, ": IoU ", agrees, std::string(says_so ? ", in doubt" : ""));
     CHECK((agrees > 0.85 || says_so));
   }
+}
+
+TEST_CASE("session: views to look from show the labels, and have no say") {
+  auto [request, settings] = click_on("apple");
+  settings = preset("default");
+  Session session = fresh_session();
+  const CutResult result = session.cut(request, settings);
+  CHECK(result.views.size() == 1);  // after a click the default asks no view around the object
+  const std::vector<GivenView> around = session.look_around(request, result, settings, 6);
+  REQUIRE(around.size() > 3);
+  CHECK(around.size() <= 6);
+  for (const GivenView& view : around) {
+    CHECK_FALSE(same_view(view.camera, result.views.front().camera));
+    CHECK(count(view.mask) > 0);
+    CHECK(iou(view.mask, thresholded(render_labels(*table().cloud, view.camera, result.labels), 0.5f)) == 1);
+  }
+  CHECK(session.cut(request, settings).labels == result.labels);
+  CutResult nothing = result;
+  nothing.labels.assign(nothing.labels.size(), 0);
+  CHECK(session.look_around(request, nothing, settings, 6).empty());
 }
 
 TEST_CASE("session: snapshots tell how far the cut is") {

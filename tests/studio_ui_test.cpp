@@ -214,11 +214,26 @@ TEST_CASE("saved work: what is wrong with a file is said in one sentence") {
           file.string() + ": its version " + version.dump() + " is none that a splatcut writes.");
 }
 
+TEST_CASE("after a click, views around the object are there to look from; the cut did not ask them") {
+  HeadlessApp app(kWidth, kHeight);
+  opened(app);
+  app.click(app.screen_of(kOnApple));
+  REQUIRE(app.settle());
+  const auto& views = app.studio().cut_run(app.studio().document().active)->views;
+  REQUIRE(views.size() > 3);
+  CHECK_FALSE(views.front().only_to_look);
+  CHECK(views.front().used);
+  for (std::size_t i = 1; i < views.size(); ++i) {
+    CHECK(views[i].only_to_look);
+    CHECK(views[i].picture);
+  }
+}
+
 TEST_CASE("a view left out is that view: after a save, and after another preset was tried") {
   const ScratchFolder folder("left_out");
   HeadlessApp app(kWidth, kHeight);
   opened(app);
-  app.studio().apply(SetPreset{"default"});
+  app.studio().apply(SetPreset{"best"});
   app.click(app.screen_of(kOnApple));
   REQUIRE(app.settle());
   const ObjectId id = app.studio().document().active;
@@ -237,7 +252,7 @@ TEST_CASE("a view left out is that view: after a save, and after another preset 
   app.studio().apply(SetPreset{"fast"});
   REQUIRE(app.settle());
   CHECK(views().size() == 1);
-  app.studio().apply(SetPreset{"default"});
+  app.studio().apply(SetPreset{"best"});
   REQUIRE(app.settle());
   CHECK(counts(camera) == std::string("left out"));
   CHECK(active_labels(app) == labels);

@@ -14,7 +14,8 @@ void MaskOptions::add_to(CLI::App& command, bool with_truth) {
                      "lift: labels of the cut rendered into the next view; warp: masks through depth; dis: "
                      "along optical flow");
   command.add_option("--refine", refine, "What settles masks in the other views: none, grabcut or pixelcut");
-  command.add_option("--views", views, "Most views beside the first, 0 to 400");
+  command.add_option("--views", views,
+                     "Most views around the object, 0 to 400; else none after clicks, 12 with a mask");
   command.add_flag("--parts-only", parts_only, "The parts are the answer: no other views, no graph cut");
 }
 

@@ -22,8 +22,10 @@ struct ObjectExtent {
 // Centre and radius of the labelled Gaussians, tails of 2 % left out.
 ObjectExtent object_extent(const GaussianCloud& cloud, std::span<const std::uint8_t> labels);
 
+inline constexpr int kViewsAround = 12;
+
 struct OrbitOptions {
-  int views = 12;                       // without the reference
+  int views = kViewsAround;             // without the reference
   float distance_sizes = 1.6f;          // distance over object size (2 radius)
   float elevation_swing_rad = 0.1745f;  // alternately above and below the reference's elevation
   bool operator==(const OrbitOptions&) const = default;

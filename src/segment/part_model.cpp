@@ -118,14 +118,15 @@ SelectionModel::SelectionModel()
                      {Term::kFold, 1},
                      {Term::kGiant, 3.25f},
                      {Term::kBorder, 3.25f},
+                     {Term::kHidden, 2},
                      {Term::kOpposed, 5},
                      {Term::kBack, 1},
                      {Term::kDisc, 2}})) {}
 
 std::span<const std::string> term_names() {
   static const std::array<std::string, kTerms> names = {
-      "cut",   "jump",  "rare", "frame", "shade_blind", "off_centre", "no_edge", "small", "large",
-      "wider", "scrap", "fold", "giant", "border",      "opposed",    "back",    "disc",  "repick"};
+      "cut",   "jump", "rare",  "frame",  "shade_blind", "off_centre", "no_edge", "small", "large", "wider",
+      "scrap", "fold", "giant", "border", "hidden",      "opposed",    "back",    "disc",  "repick"};
   return names;
 }
 

@@ -210,14 +210,20 @@ std::vector<AnyViewStart> any_view_starts(const EvaluationCase& scene, std::span
 }
 
 std::optional<ViewClick> zoomed_click(const GaussianCloud& cloud, const AnyViewStart& start, float factor) {
+  constexpr float kSameThing = 0.2f;  // of the depth
   if (factor == 1) return ViewClick{start.camera, start.first};
-  RasterOptions options;
-  options.depth = true;
-  const Image<float> depth = rasterize(cloud, start.camera, options).median_depth;
   const glm::vec2 pixel = start.first.points_px.front();
-  const float z = depth.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
+  const auto depth_in = [&](const Camera& camera) {
+    RasterOptions options;
+    options.depth = true;
+    return rasterize(cloud, camera, options)
+        .median_depth.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
+  };
+  const float z = depth_in(start.camera);
   if (!(z > 0)) return std::nullopt;
-  return ViewClick{approached(start.camera, start.camera.world_from_pixel(pixel, z), factor), start.first};
+  const Camera moved = approached(start.camera, start.camera.world_from_pixel(pixel, z), factor);
+  if (std::abs(depth_in(moved) / (factor * z) - 1) > kSameThing) return std::nullopt;
+  return ViewClick{moved, start.first};
 }
 
 }  // namespace splatcut

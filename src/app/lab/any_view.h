@@ -108,7 +108,8 @@ std::vector<AnyViewStart> any_view_starts(const EvaluationCase& scene, std::span
                                           std::uint64_t draw = 0);
 
 // The start's first click with the camera at `factor` of its distance from what the click hits, along the
-// same ray: the same pixel. None where the click hits nothing.
+// same ray: the same pixel. None where the click hits nothing, or from there something else, as a wall that
+// now stands before it.
 std::optional<ViewClick> zoomed_click(const GaussianCloud& cloud, const AnyViewStart& start, float factor);
 
 }  // namespace splatcut

@@ -54,7 +54,8 @@ struct ViewCard {
   double confidence = 0;
   std::string reason;  // why it does not count
   std::shared_ptr<const Image<Rgba8>> picture;
-  std::uint64_t serial = 0;  // changes with the picture
+  bool only_to_look = false;  // the cut did not ask it
+  std::uint64_t serial = 0;   // changes with the picture
 };
 
 // What an object's first click can mean, once a cut has found out.

@@ -14,13 +14,14 @@ namespace splatcut {
 
 namespace {
 
+constexpr int kViewsToLookFrom = 6;
 constexpr int kThumbnailWidth = 160;
 // The view alone is no reason to write all so soon: it changes all the time.
 constexpr double kAutosaveAfterSeconds = 2, kAutosaveViewAfterSeconds = 10;
 constexpr std::size_t kCoarseFrom = 300000;  // Gaussians; fewer are drawn fast enough as they are
 
 // The view's picture with its mask in the object's colour; dark where the view does not count.
-Image<Rgba8> thumbnail(const GaussianCloud& cloud, const ViewReport& view, const Rgb8& colour,
+Image<Rgba8> thumbnail(const GaussianCloud& cloud, const GivenView& view, bool counts, const Rgb8& colour,
                        const Job& job) {
   const Camera camera = limited_to_width(view.camera, kThumbnailWidth);
   const RasterOutput drawn = rasterize(cloud, camera, {}, job);
@@ -31,7 +32,7 @@ Image<Rgba8> thumbnail(const GaussianCloud& cloud, const ViewReport& view, const
       const int u = x * view.mask.width() / out.width(), v = y * view.mask.height() / out.height();
       glm::vec3 c = drawn.colour.at(x, y);
       c = view.mask.at(u, v) ? glm::mix(c, hue, 0.55f) : 0.75f * c;
-      if (!view.used) c *= 0.35f;
+      if (!counts) c *= 0.35f;
       const glm::vec3 b = glm::clamp(c, 0.0f, 1.0f) * 255.0f;
       out.at(x, y) = {static_cast<std::uint8_t>(b.r), static_cast<std::uint8_t>(b.g),
                       static_cast<std::uint8_t>(b.b), 255};
@@ -56,7 +57,13 @@ ViewCard card_of(const ViewReport& view, Image<Rgba8> picture) {
           view.confidence,
           view.reason,
           std::make_shared<const Image<Rgba8>>(std::move(picture)),
+          false,
           0};
+}
+
+// After clicks the default asks no view around the object; a person wants to see it from there all the same.
+bool looked_around_by_none(const CutResult& result, const CutRequest& request, const CutSettings& settings) {
+  return result.outcome == Outcome::kDone && settings.orbit.views == kViewsAsNeeded && !request.first_mask;
 }
 
 // For the person who waited: how large the object is now, and what the last step did to it.
@@ -304,8 +311,16 @@ void Studio::start_cut(const ObjectItem& object) {
       if (job.cancelled()) return;
       job.progress("pictures of the views",
                    static_cast<double>(cards.size()) / static_cast<double>(result->views.size()));
-      cards.push_back(card_of(view, thumbnail(*scene->cloud, view, colour, job)));
+      cards.push_back(
+          card_of(view, thumbnail(*scene->cloud, {view.camera, view.mask}, view.used, colour, job)));
     }
+    if (looked_around_by_none(*result, request, settings))
+      for (const GivenView& view : session->look_around(request, *result, settings, kViewsToLookFrom, job)) {
+        if (job.cancelled()) return;
+        const auto picture =
+            std::make_shared<const Image<Rgba8>>(thumbnail(*scene->cloud, view, true, colour, job));
+        cards.push_back({.camera = view.camera, .picture = picture, .only_to_look = true});
+      }
     tasks_.post([this, id, key, scene, cards = std::move(cards), likelihood]() mutable {
       if (scene != scene_ || runs_[id].key != key) return;
       runs_[id].views = std::move(cards);

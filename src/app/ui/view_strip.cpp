@@ -1,4 +1,5 @@
-// The views that the cut used, each with its mask: click to look from there, or leave it out.
+// The views that the cut used, each with its mask, and some around the object: click to look from there, or
+// leave out what it used.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +20,9 @@ float card_width(const ViewCard& c) {
 
 std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
   std::string tip = index == 0 ? "Your view" : fmt::format("View {}", index);
-  if (!card.used)
+  if (card.only_to_look)
+    tip = "Around the object";
+  else if (!card.used)
     tip += "\nDoes not count: " + (card.reason.empty() ? std::string("left out") : card.reason);
   else if (index > 0 && !steady)
     tip += fmt::format("\nAgrees with the cutout: {:.0f} %", 100 * card.confidence);
@@ -45,7 +48,7 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
   if (index == 0) {
     list.AddRectFilled({at.x + 4, end.y - 21}, {at.x + 68, end.y - 4}, packed({0, 0, 0, 1}, 0.6f), 3);
     list.AddText({at.x + 8, end.y - 21}, 0xffffffffu, "your view");
-  } else if (hovered || left_out) {
+  } else if (!c.only_to_look && (hovered || left_out)) {
     ImGui::SetCursorScreenPos({end.x - 24, at.y + 3});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {3, 1});
     if (button(ui, left_out ? icon::kCheck : icon::kClose,

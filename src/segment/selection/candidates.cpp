@@ -14,7 +14,7 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 // Where costs begin; logarithms of folds unless they are shares.
 constexpr float kCentral = 0.7f, kSmallShare = 0.01f, kLargeShare = 0.35f;
-constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f;
+constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f, kHiddenFolds = 2;
 constexpr float kBorderPx = 2;
 constexpr float kDepthJump = 0.05f;  // of the logarithm of depth
 
@@ -194,9 +194,13 @@ void Asking::find_free() {
 // IoU in pixels that would change, of every two candidates of every two trees of a kind by one histogram of
 // levels.
 void Asking::measure_stability() {
+  std::vector<float> wrong_area(parts_.leaves, 0);
+  for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf)
+    if (out_.free[leaf] && wrong_side(leaf)) wrong_area[leaf] = parts_.leaf_area[leaf];
   for (std::size_t t = 0; t < out_.chains.size(); ++t) {
     Chain& chain = out_.chains[t];
     chain.changed_px = at_nodes(summed(parts_.trees[t], wrong_px_), chain.nodes);
+    if (!click_.first) chain.changed_area = at_nodes(summed(parts_.trees[t], wrong_area), chain.nodes);
     chain.stability.assign(chain.nodes.size(), 0);
   }
   for (Chain& a : out_.chains) {
@@ -288,6 +292,11 @@ void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
   term(candidate, Term::kFold) = at_least_0(f - kFoldSlack);
   term(candidate, Term::kGiant) = at_least_0(f - kGiantFolds);
   term(candidate, Term::kBorder) = click_.radius_px < kBorderPx ? at_least_0(f - kFoldSlack) : 0;
+  const float depth = click_.view.depth.at(click_.at.x, click_.at.y);
+  const float px_per_unit = depth > 0 ? camera_.fx_px / depth : 0;
+  const float area_px = chain.changed_area[candidate->index] * px_per_unit * px_per_unit;
+  const float shown_px = std::max(changed_px, kPi * click_.radius_px * click_.radius_px);
+  term(candidate, Term::kHidden) = at_least_0(std::log(std::max(area_px, 1.0f) / shown_px) - kHiddenFolds);
 }
 
 void Asking::add_candidates(std::size_t c, const AnswerOptions& options) {

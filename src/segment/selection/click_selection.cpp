@@ -308,21 +308,30 @@ void ClickSelection::pin(const LeafView& view, std::span<const std::uint32_t> pi
 }
 
 // The clicked pixel and those around it show what was said, clearly enough for pictures of another size to
-// agree. The Gaussians that make the clicked pixel are held: no later stage overrules them.
+// agree. The Gaussians that make the clicked pixel are held: no later stage overrules them. Those that turn
+// come in the order of how much of the pixel they make for how large they are: what a wall or the sky shows
+// of itself here is no reason to take the wall along.
 void ClickSelection::insist(const LeafView& view, std::size_t pixel, bool object) {
-  constexpr float kClearly = 0.65f;
+  constexpr float kClearly = 0.65f,
+                  kSmallest = 0.005f;  // of the picture: smaller ones harm nothing elsewhere
   const int width = view.camera.width_px, height = view.camera.height_px;
+  const float smallest_px = kSmallest * static_cast<float>(width) * static_cast<float>(height);
   const int cx = static_cast<int>(pixel) % width, cy = static_cast<int>(pixel) / width;
+  const auto per_size = [&](const GroupWeight& w) {
+    return w.weight / std::max(smallest_px, view.alone_px.empty() ? 0 : view.alone_px[w.group]);
+  };
   for (int y = std::max(0, cy - 1); y <= std::min(height - 1, cy + 1); ++y)
     for (int x = std::max(0, cx - 1); x <= std::min(width - 1, cx + 1); ++x) {
       float share = 0, all = 0;
       const auto entries = view.gaussians.at(static_cast<std::size_t>(y) * width + x);
+      std::vector<GroupWeight> in_turn(entries.begin(), entries.end());
+      std::ranges::stable_sort(in_turn, std::ranges::greater(), per_size);
       for (const GroupWeight& w : entries) {
         share += (labels_[w.group] != 0) == object ? w.weight : 0;
         all += w.weight;
       }
       const float enough = std::min(kClearly, all);
-      for (const GroupWeight& w : entries) {  // heaviest first
+      for (const GroupWeight& w : in_turn) {
         if (share >= enough) break;
         if ((labels_[w.group] != 0) == object) continue;
         said_[w.group] = object ? 1 : -1;
@@ -331,7 +340,7 @@ void ClickSelection::insist(const LeafView& view, std::size_t pixel, bool object
       }
       if (x != cx || y != cy) continue;
       float held = 0;
-      for (const GroupWeight& w : entries) {
+      for (const GroupWeight& w : in_turn) {
         if (held >= enough) break;
         if ((labels_[w.group] != 0) != object) continue;
         said_[w.group] = object ? 1 : -1;

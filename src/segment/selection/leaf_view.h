@@ -31,6 +31,7 @@ struct LeafView {
   PixelWeights gaussians, leaves;
   Image<float> depth;                // of what is seen, in its mean; 0 where nothing is
   bool whole = true;                 // false: Gaussians were left out
+  std::vector<float> alone_px;       // per Gaussian: as leaf_px, were nothing before it; empty: not known
   std::vector<float> leaf_px;        // per leaf: sum of its weights, pixels
   std::vector<float> leaf_frame_px;  // the same at the picture's frame
 };

@@ -22,6 +22,7 @@ CutSettings fast() {
 
 CutSettings best() {
   CutSettings settings;
+  settings.orbit.views = kViewsAround;
   settings.settled_change = 0;  // all of them
   return settings;
 }
@@ -45,9 +46,9 @@ CutSettings paper_code() {
 }
 
 constexpr Preset kPresets[] = {
-    {"fast", "Fast", "Your view only: quickest, for a first look", fast},
-    {"default", "Default", "Your view and a few around the object", by_default},
-    {"best", "Best", "More views, finer pictures: slower", best},
+    {"fast", "Fast", "Your views in few pixels: quickest, for a first look", fast},
+    {"default", "Default", "Your views; with a mask, some around the object, too", by_default},
+    {"best", "Best", "Your views and twelve around the object: slower", best},
     {"paper", "Paper", "GaussianCut's literal energy and number of views", paper},
     {"paper-code", "Code", "The energy of GaussianCut's published code, which differs from the paper",
      paper_code},

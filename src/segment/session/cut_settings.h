@@ -22,10 +22,15 @@ enum class FirstMaskFrom {
   kPixels,  // geodesic distance and GrabCut in the one picture
 };
 
+// No views around the object after clicks, which parts answer in all views at once: on the bank of
+// docs/clicks.md they cost three times the time and gained nothing. kViewsAround where a mask or pixels say
+// what is meant.
+inline constexpr int kViewsAsNeeded = -1;
+
 // As they stand here: the default preset. By name, with ranges and a sentence each: settings_table.h.
 struct CutSettings {
   int work_width_px = 320;  // views are rendered no wider than this
-  OrbitOptions orbit;
+  OrbitOptions orbit{.views = kViewsAsNeeded};
   int neighbours = 10;  // k of the graph
   FirstMaskFrom first_mask_from = FirstMaskFrom::kParts;
   FirstMaskOptions first_mask;  // kPixels, and strokes in other views

@@ -91,6 +91,10 @@ class Run {
   void add_given(const GivenView& given);
   void add_view(const Camera& camera, const glm::vec3& object_centre_world);
   void add_stroked_views(const glm::vec3& object_centre_world);
+  bool clicks_say_it() const {
+    return settings_.first_mask_from == FirstMaskFrom::kParts && !request_.first_mask &&
+           !request_.mask_source;
+  }
   bool needs_pictures() const {
     return settings_.propagate != Propagator::kLift || settings_.refine.solver != MaskSolver::kNone;
   }
@@ -345,9 +349,11 @@ void Run::other_views() {
     return;
   }
   const bool given = !request_.views.empty();
+  OrbitOptions orbit = settings_.orbit;
+  if (orbit.views == kViewsAsNeeded) orbit.views = clicks_say_it() ? 0 : kViewsAround;
   const std::vector<Camera> cameras =
       given ? request_.views
-            : cameras_around(reference_.camera, scene_.up_world, extent, scene_.photographs, settings_.orbit);
+            : cameras_around(reference_.camera, scene_.up_world, extent, scene_.photographs, orbit);
   // On a circle the object is large, however small it is in the first view. Flow compares pictures of one
   // size.
   const int width_px =
@@ -366,7 +372,7 @@ void Run::other_views() {
                                      100 * settings_.settled_change, steady);
     return;
   }
-  result_.why_enough = cameras.empty() ? "no view beside the first was asked for"
+  result_.why_enough = cameras.empty() ? "no view around the object was asked for"
                                        : fmt::format("all {} views were looked at", cameras.size() + 1);
 }
 

@@ -7,6 +7,8 @@
 #include "segment/cv_image.h"
 #include "segment/knn_graph.h"
 #include "segment/likelihood.h"
+#include "segment/mask_tools.h"
+#include "segment/orbit.h"
 #include "segment/session/correction.h"
 #include "segment/session/pipeline.h"
 #include "segment/stage_clock.h"
@@ -265,6 +267,26 @@ Session::Preview Session::preview(const CutRequest& request, const CameraStroke&
   strokes.push_back(stroke);
   preview.after = strokes_.replay(drawer, strokes, options, job).labels();
   return job.cancelled() ? Preview{} : preview;
+}
+
+std::vector<GivenView> Session::look_around(const CutRequest& request, const CutResult& result,
+                                            const CutSettings& settings, int views, const Job& job) {
+  std::vector<GivenView> around;
+  const Asked asked = this->asked(request, settings);
+  const ObjectExtent extent = object_extent(*scene_.cloud, result.labels);
+  if (!asked.reference || !(extent.radius > 0)) return around;
+  OrbitOptions orbit = settings.orbit;
+  orbit.views = views;
+  for (const Camera& camera :
+       cameras_around(limited_to_width(asked.reference->camera, settings.work_width_px),
+                      request.up_world.value_or(scene_.up_world), extent, scene_.photographs, orbit)) {
+    if (job.cancelled()) break;
+    if (std::ranges::any_of(result.views, [&](const ViewReport& v) { return same_view(v.camera, camera); }))
+      continue;
+    Mask seen = thresholded(render_labels({*scene_.cloud, &views_}, camera, result.labels, job), 0.5f);
+    if (count(seen) > 0) around.push_back({camera, std::move(seen)});
+  }
+  return around;
 }
 
 std::vector<float> Session::likelihood_of(const CutRequest& request, const CutSettings& settings,

@@ -69,6 +69,12 @@ class Session {
   // Makes now what the first cut would make: with these settings it then costs less.
   void make_ready(const CutSettings& settings, const Job& job = {});
 
+  // Views around a cut object to look from, at most so many, each with what its labels show there: cameras as
+  // cut() would choose them. None of them has a say. The result's own views, and those in which nothing of it
+  // shows, are not among them.
+  std::vector<GivenView> look_around(const CutRequest& request, const CutResult& result,
+                                     const CutSettings& settings, int views, const Job& job = {});
+
   // Of as many neighbours as the settings want; another number than was prepared is made and kept. Cancelled:
   // must not be used.
   const FlowGraph& graph(const CutSettings& settings, const Job& job = {});

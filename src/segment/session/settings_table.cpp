@@ -118,7 +118,9 @@ std::vector<Setting> make_table() {
   const Names<FirstMaskFrom> ways = {{"parts", FirstMaskFrom::kParts}, {"pixels", FirstMaskFrom::kPixels}};
   return {
       number("work_width_px", kPeople, 32, 8192, FIELD(work_width_px), "views are looked at no wider"),
-      number("views.most", kPeople, 0, 400, FIELD(orbit.views), "most views beside the first"),
+      number(
+          "views.most", kPeople, kViewsAsNeeded, 400, FIELD(orbit.views),
+          "most views around the object; -1: none after clicks, 12 where a mask or pixels say what is meant"),
       number("views.settled_change", kPeople, 0.0, 1.0, FIELD(settled_change),
              "no more views once less of the object changes; 0: all views"),
       choice("views.propagate", kPeople, propagators, FIELD(propagate),
