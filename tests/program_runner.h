@@ -83,6 +83,11 @@ class Workplace {
     return finish(start(words));
   }
 
+  // With variables NAME=VALUE added to its environment.
+  Result run_with(const std::vector<std::string>& variables, const std::string& arguments) const {
+    return finish(start(words_of(arguments), variables));
+  }
+
   Result run_interrupted(const std::string& arguments, int after_ms, int signal = SIGINT) const {
     const pid_t child = begin(arguments);
     std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
@@ -120,12 +125,13 @@ class Workplace {
     return words;
   }
 
-  pid_t start(std::vector<std::string> words) const {
+  pid_t start(std::vector<std::string> words, std::vector<std::string> variables = {}) const {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
-    std::string cache = "XDG_CACHE_HOME=" + (folder_ / "cache").string();  // not the user's own
-    std::vector<char*> environment = {cache.data()};
+    variables.push_back("XDG_CACHE_HOME=" + (folder_ / "cache").string());  // not the user's own
+    std::vector<char*> environment;
+    for (std::string& variable : variables) environment.push_back(variable.data());
     for (char** variable = environ; *variable; ++variable)
       if (!std::string_view(*variable).starts_with("XDG_CACHE_HOME=")) environment.push_back(*variable);
     environment.push_back(nullptr);
