@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,6 +27,7 @@ struct Result {
   int code = -1;  // exit code, -1 where a signal ended the program
   int signal = 0;
   std::string out, err;
+  double peak_mb = 0;  // of memory
 };
 
 class Workplace {
@@ -107,9 +109,11 @@ class Workplace {
   }
   Result finish(pid_t child) const {
     int status = 0;
-    REQUIRE(::waitpid(child, &status, 0) == child);
+    rusage usage{};
+    REQUIRE(::wait4(child, &status, 0, &usage) == child);
     Result result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
-                  text("stdout.txt"), text("stderr.txt")};
+                  text("stdout.txt"), text("stderr.txt"),
+                  static_cast<double>(usage.ru_maxrss) / 1024};
     return result;
   }
 

@@ -111,8 +111,8 @@ void Studio::perform(const OpenScene& c) {
     const std::string note = work ? work->warning : axes ? "" : opened_scene->scene->axes_note;
     tasks_.post([this, opened_scene, work, note, work_path = file ? path : std::filesystem::path()] {
       opened(opened_scene, work, work_path);
-      if (const std::string& left_out = opened_scene->scene->left_out; !left_out.empty())
-        say(Message::Kind::kInfo, left_out);
+      for (const std::string& note_of_file : {opened_scene->scene->left_out, opened_scene->scene->oddity})
+        if (!note_of_file.empty()) say(Message::Kind::kInfo, note_of_file);
       if (!note.empty()) say(Message::Kind::kInfo, note);
     });
   });
