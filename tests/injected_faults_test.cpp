@@ -226,10 +226,11 @@ class Bench {
 
 TEST_CASE(
     "injected faults: whatever call fails, an output is the old or the new, and one sentence says why") {
-  const bool every = std::getenv("SPLATCUT_EVERY_FAULT") != nullptr;
+  const char* every_nth = std::getenv("SPLATCUT_EVERY_FAULT");
+  const int stride = every_nth ? std::stoi(every_nth) : 0;
   const char* only = std::getenv("SPLATCUT_FAULTS_OF");  // a deed
   Bench bench;
-  if (every)
+  if (stride > 0)
     fmt::print(
         "| command | call | fails | runs | refused, old | refused, new | done | left until the next run "
         "|\n|---|---|---|---|---|---|---|---|\n");
@@ -240,8 +241,8 @@ TEST_CASE(
       Ends ends;
       const int first = fault.how == kNothingLeft ? 128 : 1;  // before main() nothing can be said
       for (int nth = first; bench.try_at(fault, nth, &ends);)
-        nth = every && fault.how != kNothingLeft ? nth + 1 : nth * deed.steps;
-      if (every && ends.runs > 0)
+        nth = stride > 0 && fault.how != kNothingLeft ? nth + stride : nth * deed.steps;
+      if (stride > 0 && ends.runs > 0)
         fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} |\n", deed.name, fault.call, fault.meant,
                    ends.runs, ends.old_said, ends.new_said, ends.new_unsaid - 1, ends.left);
       std::fflush(stdout);
