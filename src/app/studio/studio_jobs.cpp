@@ -214,7 +214,19 @@ void Studio::schedule_cut() {
   }
 }
 
+// Of objects that are gone the last few are kept, as undo may bring them back; those before have no pictures
+// of their views then, as in opened work, until they are cut again.
+void Studio::forget_runs() {
+  constexpr int kMostGone = 8;
+  int gone = 0;
+  for (auto run = runs_.end(); run != runs_.begin();) {
+    --run;
+    if (!document().find(run->first) && ++gone > kMostGone) run = runs_.erase(run);
+  }
+}
+
 void Studio::start_cut(const ObjectItem& object) {
+  forget_runs();
   cutting_object_ = object.id;
   cutting_key_ = wanted_key(object);
   CutRun& run = runs_[object.id];
