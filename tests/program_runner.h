@@ -112,8 +112,7 @@ class Workplace {
     rusage usage{};
     REQUIRE(::wait4(child, &status, 0, &usage) == child);
     Result result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
-                  text("stdout.txt"), text("stderr.txt"),
-                  static_cast<double>(usage.ru_maxrss) / 1024};
+                  text("stdout.txt"), text("stderr.txt"), static_cast<double>(usage.ru_maxrss) / 1024};
     return result;
   }
 
