@@ -29,9 +29,11 @@ Circle circle_of(const Camera& camera, const glm::vec3& up, const glm::vec3& cen
   const auto level = [&](const glm::vec3& v) { return v - glm::dot(v, up) * up; };
   const glm::vec3 back = camera.centre_world() - centre, flat = level(back);
   glm::vec3 azimuth = flat;
-  constexpr float kNothing = 1e-5f;
-  if (!(glm::length(azimuth) > kNothing * glm::length(back))) azimuth = level(-camera.forward_world());
-  if (!(glm::length(azimuth) > kNothing)) azimuth = level(camera.down_world());
+  constexpr float kNothing = 1e-6f;  // of the vector that is made level
+  if (!(glm::length(flat) > kNothing * glm::length(back))) {
+    azimuth = level(-camera.forward_world());
+    if (!(glm::length(azimuth) > kNothing)) azimuth = level(camera.down_world());
+  }
   return {up, glm::normalize(azimuth), std::atan2(glm::dot(back, up), glm::length(flat))};
 }
 
