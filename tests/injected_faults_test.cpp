@@ -64,8 +64,8 @@ const std::vector<Deed>& deeds() {
       "render made/a.ply --cameras made/cameras.json -o out.png --overwrite --quiet ";
   static const std::string eval = "eval made/one.json --preset fast --no-curve -o out --overwrite --quiet ";
   static const std::vector<Deed> all = {
-      {"cut", cut + "--no-cache --click 490,422", cut + "--click 670,490", "out", 8},
-      {"cut of two objects", cut + "--click 490,422", cut + "--no-cache --seeds made/two.json", "out", 16},
+      {"cut", cut + "--no-cache --click 490,422", cut + "--click 670,490", "out", 16},
+      {"cut of two objects", cut + "--click 490,422", cut + "--no-cache --seeds made/two.json", "out", 64},
       {"convert to .ply", "convert b.splat -o out.ply --overwrite --quiet",
        "convert made/a.ply -o out.ply --overwrite --quiet", "out.ply"},
       {"convert to .spz", "convert b.splat -o out.spz --overwrite --quiet",
@@ -77,7 +77,7 @@ const std::vector<Deed>& deeds() {
       {"convert from .sog", "convert b.splat -o out.splat --overwrite --quiet",
        "convert a.sog -o out.splat --overwrite --quiet", "out.splat"},
       {"render", render + "--camera 1", render + "--camera 0", "out.png"},
-      {"eval", eval + "--clicks 2", eval + "--clicks 1", "out", 64},
+      {"eval", eval + "--clicks 2", eval + "--clicks 1", "out", 256},
   };
   return all;
 }
