@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -28,16 +29,20 @@ constexpr int kCouldNot = 1, kWrongUsage = 2;
 // An exception that cannot travel on: memory ran out while another was on its way, or within a library that
 // lets none pass. Nothing can be cleaned then; the next run does it.
 std::terminate_handler g_terminate_before = nullptr;
+std::atomic<bool> g_memory_ran_out = false;
+
+void on_no_memory() {
+  g_memory_ran_out = true;
+  throw std::bad_alloc();
+}
+
 [[noreturn]] void on_terminate() {
   constexpr std::string_view kSaid = "splatcut: There is not enough memory for this.\n";
-  try {
-    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
-  } catch (const std::bad_alloc&) {
+  if (g_memory_ran_out) {
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kSaid.data(), kSaid.size());
     ::_exit(kCouldNot);
-  } catch (...) {  // a defect: the C++ library says which exception it was
-    g_terminate_before();
   }
+  g_terminate_before();  // a defect: the C++ library says which exception it was
   std::abort();
 }
 
@@ -75,6 +80,7 @@ int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
 
 int run_command_line(const CommandLine& line, std::vector<std::string> words) {
   g_terminate_before = std::set_terminate(on_terminate);
+  std::set_new_handler(on_no_memory);
   try {
     return parse_and_run(line, std::move(words));
   } catch (const std::exception& error) {
