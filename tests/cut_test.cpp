@@ -11,6 +11,7 @@
 
 #include "scene/scene_file.h"
 #include "scene/splat_math.h"
+#include "segment/k_nearest.h"
 #include "segment/knn_graph.h"
 #include "segment/mask_tools.h"
 #include "still_life_mug.h"
@@ -145,6 +146,34 @@ TEST_CASE("the same on captured scenes") {
           look_at(box.centre() + from * glm::length(box.extent()), box.centre(), {0, -1, 0}, 0.8f, 160, 120));
     check_view_by_view(scene, scene.cameras.size());
   }
+}
+
+TEST_CASE("k nearest: many points in one place are neighbours of each other, and near ones of others") {
+  constexpr std::size_t kTwins = 20000, kOthers = 300, kNear = 6;
+  std::vector<glm::vec3> points = random_cloud(kOthers, 3).position;
+  const glm::vec3 place = points[100];
+  points.insert(points.begin() + 100, kTwins, place);
+  const std::vector<std::uint32_t> nearest = k_nearest(points, kNear),
+                                   of = k_nearest_of(points, points, kNear);
+  std::vector<int> listed(points.size());
+  for (std::size_t g = 0; g < points.size(); ++g) {
+    std::vector<float> by_hand, others;
+    for (std::size_t h = 0; h < points.size(); ++h) {
+      if (h >= 100 + kNear + 1 && h < 100 + kTwins && g % 97 != 0) continue;  // as near as those before
+      others.push_back(glm::distance(points[g], points[h]));
+      if (h != g) by_hand.push_back(others.back());
+    }
+    std::partial_sort(by_hand.begin(), by_hand.begin() + kNear, by_hand.end());
+    std::partial_sort(others.begin(), others.begin() + kNear, others.end());
+    for (std::size_t i = 0; i < kNear; ++i) {
+      const std::uint32_t h = nearest[g * kNear + i];
+      REQUIRE((h < points.size() && h != g));
+      REQUIRE(glm::distance(points[g], points[h]) == by_hand[i]);
+      REQUIRE(glm::distance(points[g], points[of[g * kNear + i]]) == others[i]);
+      ++listed[h];
+    }
+  }
+  CHECK(*std::ranges::max_element(listed) < 200);  // no hub
 }
 
 TEST_CASE("k-NN graph: twins in one place, on any number of threads, every arc with its way back") {

@@ -6,13 +6,17 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "render/context.h"
 #include "render/depth_sorter.h"
 #include "scene/camera_file.h"
+#include "scene/error.h"
 #include "scene/rasterizer.h"
 #include "scene/scene_file.h"
 #include "synthetic_cloud.h"
+
+extern "C" splatcut::GlProc OSMesaGetProcAddress(const char* name);  // its header does not go with GL's
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -45,7 +49,31 @@ void compare(const GaussianCloud& cloud, const Camera& camera) {
   CHECK(db >= kGoalDb);
 }
 
+// A context whose driver was reset.
+constexpr unsigned kNoError = 0, kGuiltyContextReset = 0x8253;
+unsigned g_status = kNoError;
+unsigned told_status() {
+  return g_status;
+}
+GlProc with_told_status(const char* name) {
+  if (std::string_view(name).starts_with("glGetGraphicsResetStatus"))
+    return reinterpret_cast<GlProc>(told_status);
+  return OSMesaGetProcAddress(name);
+}
+
 }  // namespace
+
+TEST_CASE("OSMesa: a context that was lost is told with a sentence, one that was not is drawn on") {
+  const auto context = make_osmesa_context();
+  CHECK_NOTHROW(refuse_lost_context());
+  load_gl_functions(with_told_status);
+  g_status = kNoError;
+  CHECK_NOTHROW(refuse_lost_context());
+  g_status = kGuiltyContextReset;
+  CHECK_THROWS_WITH_AS(refuse_lost_context(), doctest::Contains("was reset"), Error);
+  context->make_current();
+  CHECK_NOTHROW(refuse_lost_context());
+}
 
 TEST_CASE("OSMesa: random clouds of every SH degree look as on the CPU") {
   const auto context = make_osmesa_context();

@@ -57,6 +57,17 @@ SeenView look(const MugScene& scene, const Camera& camera) {
 
 }  // namespace
 
+TEST_CASE("orbit: from straight above or below, and from within, the ring looks at the object") {
+  for (const glm::vec3& from : {glm::vec3(0, -3, 0), glm::vec3(0, 3, 0), glm::vec3(0)}) {
+    CAPTURE(from.y);
+    const Camera above = look_at(from, from + glm::vec3(0, from.y > 0 ? -1 : 1, 0), {0, 0, 1}, 0.9f, 64, 48);
+    const std::vector<Camera> ring = orbit_cameras(above, {0, -1, 0}, {{0, 0, 0}, 0.5f}, {});
+    REQUIRE(!ring.empty());
+    for (const Camera& camera : ring)
+      CHECK(glm::length(glm::cross(camera.forward_world(), camera.centre_world())) < 1e-4f);
+  }
+}
+
 TEST_CASE(
     "masks: both solvers find a painted disc from a prior two pixels off, and keep what is outside of the "
     "band") {

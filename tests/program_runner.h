@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,6 +27,7 @@ struct Result {
   int code = -1;  // exit code, -1 where a signal ended the program
   int signal = 0;
   std::string out, err;
+  double peak_mb = 0;  // of memory
 };
 
 class Workplace {
@@ -83,6 +85,11 @@ class Workplace {
     return finish(start(words));
   }
 
+  // With variables NAME=VALUE added to its environment.
+  Result run_with(const std::vector<std::string>& variables, const std::string& arguments) const {
+    return finish(start(words_of(arguments), variables));
+  }
+
   Result run_interrupted(const std::string& arguments, int after_ms, int signal = SIGINT) const {
     const pid_t child = begin(arguments);
     std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
@@ -102,9 +109,10 @@ class Workplace {
   }
   Result finish(pid_t child) const {
     int status = 0;
-    REQUIRE(::waitpid(child, &status, 0) == child);
+    rusage usage{};
+    REQUIRE(::wait4(child, &status, 0, &usage) == child);
     Result result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
-                  text("stdout.txt"), text("stderr.txt")};
+                  text("stdout.txt"), text("stderr.txt"), static_cast<double>(usage.ru_maxrss) / 1024};
     return result;
   }
 
@@ -120,12 +128,13 @@ class Workplace {
     return words;
   }
 
-  pid_t start(std::vector<std::string> words) const {
+  pid_t start(std::vector<std::string> words, std::vector<std::string> variables = {}) const {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
-    std::string cache = "XDG_CACHE_HOME=" + (folder_ / "cache").string();  // not the user's own
-    std::vector<char*> environment = {cache.data()};
+    variables.push_back("XDG_CACHE_HOME=" + (folder_ / "cache").string());  // not the user's own
+    std::vector<char*> environment;
+    for (std::string& variable : variables) environment.push_back(variable.data());
     for (char** variable = environ; *variable; ++variable)
       if (!std::string_view(*variable).starts_with("XDG_CACHE_HOME=")) environment.push_back(*variable);
     environment.push_back(nullptr);

@@ -39,6 +39,8 @@ TEST_CASE("a projected view draws what a fresh picture shows, bit for bit, with 
   // The first drawing of everything leaves lists for those after it: once the first of all, once the last but
   // few.
   const ProjectedView view(cloud, camera, true), backwards(cloud, camera, true);
+  const ProjectedView nothing_kept(cloud, camera, true, {}, 100);
+  CHECK(nothing_kept.bytes() == 0);
   const std::vector<std::uint8_t> labels = every(cloud.size(), 3), shown = every(cloud.size(), 2);
   Mask mask(camera.width_px, camera.height_px);
   for (int y = 0; y < mask.height(); ++y) std::fill_n(&mask.at(0, y), mask.width() / 2, kMaskObject);
@@ -59,6 +61,7 @@ TEST_CASE("a projected view draws what a fresh picture shows, bit for bit, with 
     };
     const Drawn fresh = draw([&](const RasterOptions& o) { return rasterize(cloud, camera, o); });
     REQUIRE(same(draw([&](const RasterOptions& o) { return (i < 64 ? view : backwards).draw(o); }), fresh));
+    if (i < 64) REQUIRE(same(draw([&](const RasterOptions& o) { return nothing_kept.draw(o); }), fresh));
     REQUIRE(std::ranges::any_of(fresh.out.alpha.pixels(), [](float a) { return a > 0.5f; }));
   }
 }

@@ -292,6 +292,31 @@ TEST_CASE("a region of interest holds the same bits as the whole picture, and co
   CHECK(weights / MaskedSums::kUnitsPerPixel == doctest::Approx(opaque).epsilon(1e-5));
 }
 
+TEST_CASE("more pairs than fit are drawn region by region, down to single tiles, to the same bits and sums") {
+  const GaussianCloud cloud = random_cloud(3000, 5, 1, 0.2f);
+  const Camera camera = front_camera();
+  const Mask mask = left_half(camera);
+  for (const std::optional<PixelRect>& roi :
+       {std::optional<PixelRect>(), std::optional(PixelRect{21, 13, 94, 60})}) {
+    RasterOptions options = everything();
+    options.roi = roi;
+    options.sum_mask = &mask;
+    MaskedSums whole_sums(cloud.size());
+    options.sums = &whole_sums;
+    const RasterOutput whole = rasterize(cloud, camera, options);
+    for (const std::size_t most : {std::size_t{1}, std::size_t{500}, std::size_t{5000}}) {
+      CAPTURE(most);
+      REQUIRE(most < whole.pairs);
+      MaskedSums sums(cloud.size());
+      options.sums = &sums;
+      options.most_pairs = most;
+      CHECK(same_bits(rasterize(cloud, camera, options), whole));
+      CHECK(sums.total == whole_sums.total);
+      CHECK(sums.inside == whole_sums.inside);
+    }
+  }
+}
+
 TEST_CASE("hidden Gaussians and colour overrides") {
   const GaussianCloud cloud = random_cloud(500, 9, 0, 0.2f);
   const std::vector<std::uint8_t> nothing(cloud.size(), 0);

@@ -270,6 +270,27 @@ TEST_CASE("saving: an empty selection and a changed source are refused, nothing 
   CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
 }
 
+TEST_CASE(
+    "saving: a source that another program changed, cut short or removed is refused, the older output "
+    "stays") {
+  const Folder folder;
+  const std::string whole = numbered_ply(splat_names(0), 10);
+  write(folder / "old.ply", "old");
+  for (const std::string& bytes : {whole.substr(0, whole.size() - 1), whole.substr(0, 10), std::string("x"),
+                                   std::string(whole.size(), 'x'), whole, std::string()}) {
+    CAPTURE(bytes.size());
+    write(folder / "a.ply", whole);
+    fs::last_write_time(folder / "a.ply", fs::file_time_type::clock::now() - std::chrono::hours(1));
+    const Scene scene = load_scene(folder / "a.ply");
+    write(folder / "a.ply", bytes);
+    if (bytes.empty()) fs::remove(folder / "a.ply");
+    CHECK_THROWS_AS(save_scene(folder / "old.ply", scene, {}, SceneFormat::kPly), Error);
+    CHECK(text_of(folder / "old.ply") == "old");
+    CHECK_NOTHROW(save_scene(folder / "b.splat", scene, {}, format_from_name("b.splat")));  // from memory
+    CHECK(!fs::exists(folder / "old.ply.splatcut.part"));
+  }
+}
+
 TEST_CASE("real files: the same object as compressed .ply and as .spz version 4") {
   const fs::path scenes = fs::path(SPLATCUT_SOURCE_DIR) / ".." / "shared" / "scenes";
   if (!fs::exists(scenes / "formats")) {

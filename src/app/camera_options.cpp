@@ -30,7 +30,7 @@ std::pair<int, int> parse_size(const std::string& text) {
 // Where the window would stand: the picture's size has no say in it.
 Camera first_view(const GaussianCloud& cloud, const glm::vec3& up, float fov_y_rad, int width, int height) {
   constexpr int kGuessWidth = 640, kGuessHeight = 480;
-  const Box bounds = robust_bounds(cloud.position, 0.9);
+  const Box bounds = framed_bounds(cloud);
   const Camera all = view_of_all(bounds, up, fov_y_rad, kGuessWidth, kGuessHeight);
   return resized(better_first_view(cloud, bounds, up, all).value_or(all), width, height);
 }

@@ -2,12 +2,18 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
+#include <new>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "app/console.h"
@@ -19,6 +25,26 @@ namespace splatcut {
 namespace {
 
 constexpr int kCouldNot = 1, kWrongUsage = 2;
+
+// An exception that cannot travel on: memory ran out while another was on its way, or within a library that
+// lets none pass. Nothing can be cleaned then; the next run does it.
+std::terminate_handler g_terminate_before = nullptr;
+std::atomic<bool> g_memory_ran_out = false;
+
+void on_no_memory() {
+  g_memory_ran_out = true;
+  throw std::bad_alloc();
+}
+
+[[noreturn]] void on_terminate() {
+  constexpr std::string_view kSaid = "splatcut: There is not enough memory for this.\n";
+  if (g_memory_ran_out) {
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kSaid.data(), kSaid.size());
+    ::_exit(kCouldNot);
+  }
+  g_terminate_before();  // a defect: the C++ library says which exception it was
+  std::abort();
+}
 
 int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
   CLI::App program{line.description};
@@ -53,6 +79,8 @@ int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
 }  // namespace
 
 int run_command_line(const CommandLine& line, std::vector<std::string> words) {
+  g_terminate_before = std::set_terminate(on_terminate);
+  std::set_new_handler(on_no_memory);
   try {
     return parse_and_run(line, std::move(words));
   } catch (const std::exception& error) {

@@ -102,8 +102,13 @@ OutputFolder::OutputFolder(const fs::path& path, bool overwrite)
   refuse_existing(target_, overwrite_);  // another process may have come first
   make_folder(fresh_, path_);
   const std::uint64_t number = inode_of(fresh_);
-  if (::pwrite(lock_->descriptor(), &number, sizeof number, 0) != sizeof number)
-    throw Error(path_.string(), "cannot be written", "Is the disk full?");
+  const auto noted = [&] {
+    return ::pwrite(lock_->descriptor(), &number, sizeof number, 0) == sizeof number;
+  };
+  if (!noted() && !noted()) {  // a write may take a part
+    ::rmdir(fresh_.c_str());   // no destructor will
+    throw Error(path_.string(), "cannot be written", "Make room there, or choose another place");
+  }
 }
 
 OutputFolder::~OutputFolder() {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "app/camera_options.h"
@@ -66,6 +67,47 @@ std::vector<std::uint8_t> load_labels(const std::filesystem::path& path, const S
   return labels;
 }
 
+// strip: the rows of the picture from y0 on.
+using TakeStrip = std::function<void(const RasterOutput& strip, int y0)>;
+
+// Strip by strip, to the same bits, so that a large picture takes little memory beside itself and says how
+// far it is.
+void draw_strips(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
+                 const Job& job, const TakeStrip& take) {
+  constexpr int kStripPixels = 1 << 24, kTiles = 16;  // px
+  const int rows = std::max(1, kStripPixels / camera.width_px / kTiles) * kTiles;
+  for (int y = 0; y < camera.height_px && !job.cancelled(); y += rows) {
+    job.progress("render", static_cast<double>(y) / camera.height_px);
+    RasterOptions strip = options;
+    strip.roi = PixelRect{0, y, camera.width_px, std::min(camera.height_px, y + rows)};
+    take(rasterize(cloud, camera, strip, job), y);
+  }
+}
+
+// The pixels of a strip, in their places of the whole.
+template <class Pixel>
+void put(const Image<Pixel>& strip, int y0, Image<Pixel>* whole) {
+  std::ranges::copy(strip.pixels(),
+                    whole->pixels().begin() + static_cast<std::ptrdiff_t>(y0) * whole->width());
+}
+
+Image<std::uint8_t> grey_of(const Image<float>& alpha) {
+  Image<std::uint8_t> grey(alpha.width(), alpha.height());
+  std::ranges::transform(alpha.pixels(), grey.pixels().begin(),
+                         [](float a) { return static_cast<std::uint8_t>(a * 255 + 0.5f); });
+  return grey;
+}
+
+// Before a picture that takes long: so that it can be stopped.
+void say_memory(const Camera& camera, std::size_t pixel_bytes, bool quiet) {
+  constexpr double kFrom = 0.25, kGb = 1e9;
+  const double gb =
+      static_cast<double>(camera.width_px) * camera.height_px * static_cast<double>(pixel_bytes) / kGb;
+  if (!quiet && gb >= kFrom)
+    to_stderr(fmt::format("{} x {} pixels take {:.1f} GB of memory beside the scene.\n", camera.width_px,
+                          camera.height_px, gb));
+}
+
 void write_depth(const std::filesystem::path& path, const Image<float>& depth) {
   // Near white, far black, over what is there; 16 bits.
   float nearest = 1e30f, farthest = 0;
@@ -98,19 +140,26 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
     for (const std::uint8_t l : load_labels(args.labels, scene)) colours.emplace_back(l ? 1.0f : 0.0f);
     options.colour_override = colours;
   }
-  const RasterOutput out = rasterize(scene.cloud, chosen.camera, options, job);
-  end_progress();
-  stop_if_cancelled(job, "splatcut render");
-  if (args.what == "depth") {
-    write_depth(args.output, out.expected_depth);
-  } else if (args.what == "alpha") {
-    Image<std::uint8_t> grey(out.alpha.width(), out.alpha.height());
-    std::ranges::transform(out.alpha.pixels(), grey.pixels().begin(),
-                           [](float a) { return static_cast<std::uint8_t>(a * 255 + 0.5f); });
-    write_png(args.output, grey);
-  } else {
-    write_png(args.output, rgb8_from_linear(out.colour));
-  }
+  const Camera& camera = chosen.camera;
+  const bool depth = args.what == "depth", alpha = args.what == "alpha";
+  say_memory(camera, depth ? sizeof(float) + sizeof(std::uint16_t) : alpha ? 1 : sizeof(Rgb8), common.quiet);
+  const auto drawn = [&](auto whole, const auto& of_strip) {
+    draw_strips(scene.cloud, camera, options, job,
+                [&](const RasterOutput& strip, int y0) { put(of_strip(strip), y0, &whole); });
+    end_progress();
+    stop_if_cancelled(job, "splatcut render");
+    return whole;
+  };
+  const int width = camera.width_px, height = camera.height_px;
+  if (depth)
+    write_depth(args.output, drawn(Image<float>(width, height),
+                                   [](const RasterOutput& strip) { return strip.expected_depth; }));
+  else if (alpha)
+    write_png(args.output, drawn(Image<std::uint8_t>(width, height),
+                                 [](const RasterOutput& strip) { return grey_of(strip.alpha); }));
+  else
+    write_png(args.output, drawn(Image<Rgb8>(width, height),
+                                 [](const RasterOutput& strip) { return rgb8_from_linear(strip.colour); }));
   if (!common.quiet) fmt::print("{}\n", args.output.string());
 }
 

@@ -23,6 +23,7 @@ Scene SceneOptions::load(const std::filesystem::path& scene, const std::filesyst
     warn(loaded.axes_note + ". --spz-axes takes others", quiet);
   }
   warn(loaded.left_out, quiet);
+  warn(loaded.oddity, quiet);
   return loaded;
 }
 

@@ -28,6 +28,10 @@ using GlGetProc = GlProc (*)(const char* name);
 // Fills the function table for the current context. Throws Error where it is older than 3.3.
 void load_gl_functions(GlGetProc get_proc);
 
+// Throws Error where the driver was reset, or the device taken away, so that nothing is drawn any more.
+// Contexts that cannot say it are taken for whole. After load_gl_functions().
+void refuse_lost_context();
+
 struct GlInfo {
   std::string renderer, version;
   bool software =

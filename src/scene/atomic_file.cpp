@@ -19,7 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 Error cannot_be_written(const fs::path& path, int error) {
-  return {path.string(), fmt::format("cannot be written ({})", std::strerror(error))};
+  const bool full = error == ENOSPC || error == EDQUOT;
+  return {path.string(), fmt::format("cannot be written ({})", std::strerror(error)),
+          full ? "Make room there, or choose another place" : "Choose another place"};
 }
 
 // No link is followed: in a folder that others may write to, it might lead anywhere.
@@ -114,18 +116,17 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::write(std::span<const std::byte> bytes) {
   if (bytes.empty()) return;
   if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size())
-    throw Error(path_.string(), fmt::format("writing failed ({})", std::strerror(errno)),
-                "Is the disk full?");
+    throw cannot_be_written(path_, errno);
   bytes_written_ += bytes.size();
 }
 
 void AtomicFile::commit() {
-  const bool flushed = std::fflush(stream_) == 0 && std::ferror(stream_) == 0;
-  const bool closed = std::fclose(std::exchange(stream_, nullptr)) == 0;
+  if (std::ferror(stream_) != 0) throw cannot_be_written(path_, EIO);  // whose number is long gone
+  if (std::fflush(stream_) != 0) throw cannot_be_written(path_, errno);
+  if (std::fclose(std::exchange(stream_, nullptr)) != 0) throw cannot_be_written(path_, errno);
   std::error_code failure;
-  if (flushed && closed && part_) fs::rename(part_->path(), target_, failure);
-  if (flushed && closed && !failure) return;
-  throw Error(path_.string(), failure ? failure.message() : "writing failed", "Is the disk full?");
+  if (part_) fs::rename(part_->path(), target_, failure);
+  if (failure) throw cannot_be_written(path_, failure.value());
 }
 
 void write_text_file(const fs::path& path, std::string_view text) {

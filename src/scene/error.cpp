@@ -17,7 +17,9 @@ std::string sentence(std::string_view where, std::string_view what, std::string_
 
 std::string sentence_of(const std::exception& error) {
   if (dynamic_cast<const Error*>(&error)) return error.what();
-  if (dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::length_error*>(&error))
+  const bool opencv =
+      std::string_view(error.what()).find("(-4:Insufficient memory)") != std::string_view::npos;
+  if (opencv || dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::length_error*>(&error))
     return "There is not enough memory for this. Close other programs, or use a smaller scene or fewer "
            "views.";
   if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))

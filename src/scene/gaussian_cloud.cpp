@@ -1,6 +1,7 @@
 #include "scene/gaussian_cloud.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 namespace splatcut {
@@ -57,9 +58,26 @@ Box robust_bounds(std::span<const glm::vec3> positions, double inside) {
   return box;
 }
 
+Box framed_bounds(const GaussianCloud& cloud) {
+  Box box = robust_bounds(cloud.position, 0.9);
+  if (glm::length(box.extent()) > 0 || cloud.scale.empty()) return box;
+  constexpr float kSigmas = 3;
+  float largest = 0;
+  for (const glm::vec3& s : cloud.scale) largest = std::max({largest, s.x, s.y, s.z});
+  box.min -= kSigmas * largest;
+  box.max += kSigmas * largest;
+  return box;
+}
+
 float natural_near_plane(std::span<const glm::vec3> positions) {
   const float diagonal = glm::length(robust_bounds(positions).extent());
   return diagonal > 0 ? kNaturalNearShare * diagonal : GaussianCloud{}.near_plane;
+}
+
+float near_plane_of(const GaussianCloud& cloud) {
+  if (glm::length(robust_bounds(cloud.position).extent()) > 0) return natural_near_plane(cloud.position);
+  const Box box = framed_bounds(cloud);
+  return natural_near_plane(std::array{box.min, box.max});
 }
 
 }  // namespace splatcut

@@ -48,10 +48,15 @@ struct Box {
 };
 Box robust_bounds(std::span<const glm::vec3> positions, double inside = 0.98);
 
+// What the first view shows: nine tenths of the positions in each axis; where all are one point, its
+// Gaussians.
+Box framed_bounds(const GaussianCloud& cloud);
+
 // That share of the diagonal of robust_bounds(): about the 0.2 units that scenes are trained with where those
 // have the usual units, and the same picture where they have others. load_scene() sets it. A scene without
 // extent has GaussianCloud's own.
 constexpr float kNaturalNearShare = 0.01f;
 float natural_near_plane(std::span<const glm::vec3> positions);
+float near_plane_of(const GaussianCloud& cloud);  // of framed_bounds() where all are one point
 
 }  // namespace splatcut

@@ -31,20 +31,18 @@ void check_sizes([[maybe_unused]] const GaussianCloud& cloud, [[maybe_unused]] c
 }
 
 // partly: not all entries of the grid are drawn.
-RasterOutput draw(TileBlend what, bool partly, const Job& job) {
+void draw(TileBlend what, bool partly, const Job& job, RasterOutput* out) {
   const RasterOptions& options = what.options;
-  RasterOutput out = empty_output(options, what.roi);
-  out.visible = what.grid.visible;
-  out.pairs = what.grid.entries.size();
+  out->visible += what.grid.visible;
+  out->pairs += what.grid.entries.size();
   LargeArray<PairSums> pair_sums;
   if (options.sums) {
     pair_sums = LargeArray<PairSums>(what.grid.entries.size());
     if (partly) std::fill_n(pair_sums.data(), pair_sums.size(), PairSums{0, 0});
     what.pair_sums = pair_sums.data();
   }
-  blend_tiles(what, job, &out);
+  blend_tiles(what, job, out);
   if (options.sums && !job.cancelled()) add_sums(what.grid, pair_sums, options.sums);
-  return out;
 }
 
 }  // namespace
@@ -70,22 +68,24 @@ PixelRect drawn_region(const GaussianCloud& cloud, const Camera& camera, const R
   return roi;
 }
 
-RasterOutput draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterOptions& options,
-                       const Job& job) {
-  return draw({.grid = grid, .options = options, .roi = roi, .shown = {}}, false, job);
+void draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterOptions& options, const Job& job,
+               RasterOutput* out) {
+  draw({.grid = grid, .options = options, .roi = roi, .shown = {}}, false, job, out);
 }
 
 RasterOutput draw_kept_grid(KeptGrid* kept, const PixelRect& roi, const RasterOptions& options,
                             const Job& job) {
   const PixelRect& all = kept->picture;
   const bool everything = roi.x0 == all.x0 && roi.y0 == all.y0 && roi.x1 == all.x1 && roi.y1 == all.y1;
-  return draw({.grid = kept->grid,
-               .options = options,
-               .roi = roi,
-               .shown = options.shown,
-               .lists = &kept->lists,
-               .picture = all},
-              !everything || !options.shown.empty(), job);
+  RasterOutput out = empty_output(options, roi);
+  draw({.grid = kept->grid,
+        .options = options,
+        .roi = roi,
+        .shown = options.shown,
+        .lists = &kept->lists,
+        .picture = all},
+       !everything || !options.shown.empty(), job, &out);
+  return out;
 }
 
 }  // namespace splatcut

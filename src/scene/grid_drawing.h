@@ -21,9 +21,10 @@ RasterOutput empty_output(const RasterOptions& options, const PixelRect& roi);
 // The pixels that are drawn. Asserts that arrays and masks have the sizes that cloud and camera ask for.
 PixelRect drawn_region(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options);
 
-// grid: holds what is drawn and nothing else.
-RasterOutput draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterOptions& options,
-                       const Job& job);
+// Into `out`, of roi: what the grid holds and nothing else. The grid may hold a part of roi, whose other
+// parts stay.
+void draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterOptions& options, const Job& job,
+               RasterOutput* out);
 
 // roi and options.shown choose what is drawn.
 RasterOutput draw_kept_grid(KeptGrid* kept, const PixelRect& roi, const RasterOptions& options,

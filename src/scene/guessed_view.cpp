@@ -169,11 +169,12 @@ std::optional<Camera> better_first_view(const GaussianCloud& cloud, const Box& b
   constexpr int kDirections = 8;
   constexpr float kDown = 0.2f;       // slightly down: what stands on the floor
   constexpr float kFarShare = 0.25f;  // of the scene's size: what is seen should be no nearer
+  const float size = glm::length(bounds.extent());
+  if (!(size > 0)) return {};  // all in one point
   const Sharpness given = sharpness(cloud, outside, job);
   if (given.of_covered > kSharpEnough) return {};
   const glm::vec3 up = glm::normalize(up_world), centre = bounds.centre(),
                   arm = outside.centre_world() - centre;
-  const float size = glm::length(bounds.extent());
   const float fov_y = 2 * std::atan(0.5f * static_cast<float>(outside.height_px) / outside.fy_px);
   std::optional<Camera> best;
   double best_score = kClearlySharper * given.of_picture;

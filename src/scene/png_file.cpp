@@ -24,7 +24,8 @@ void write_pixels(const std::filesystem::path& path, const void* pixels, int wid
   png.format = format;
   AtomicFile file(path);
   if (!png_image_write_to_stdio(&png, file.stream(), 0, pixels, 0, nullptr))
-    throw Error(path.string(), fmt::format("cannot be written as PNG ({})", png.message));
+    throw Error(path.string(), fmt::format("cannot be written as PNG ({})", png.message),
+                "Make room there, or choose another place");
   file.commit();
 }
 

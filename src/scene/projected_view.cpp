@@ -7,13 +7,17 @@
 
 namespace splatcut {
 
-ProjectedView::ProjectedView(const GaussianCloud& cloud, const Camera& camera, bool coloured, const Job& job)
+ProjectedView::ProjectedView(const GaussianCloud& cloud, const Camera& camera, bool coloured, const Job& job,
+                             std::size_t most_pairs)
     : cloud_(cloud), camera_(camera), coloured_(coloured) {
   RasterOptions options;
   options.colour = coloured;
+  options.most_pairs = most_pairs;
   KeptGrid kept{.grid = bin_splats(cloud, camera, options, job),
                 .picture = {0, 0, camera.width_px, camera.height_px},
                 .lists = {}};
+  too_large_ = kept.grid.too_large && !job.cancelled();
+  if (too_large_) return;
   if (!job.cancelled()) sort_tiles(&kept.grid, job);
   if (job.cancelled()) return;
   kept.lists.resize(static_cast<std::size_t>(kept.grid.tiles()));
@@ -36,6 +40,7 @@ std::size_t ProjectedView::bytes() const {
 RasterOutput ProjectedView::draw(const RasterOptions& options, const Job& job) const {
   assert(!options.near_plane && options.low_pass_px2 == kLowPassPx2 && options.colour_override.empty() &&
          (coloured_ || !options.colour));
+  if (too_large_) return rasterize(cloud_, camera_, options, job);
   const PixelRect roi = drawn_region(cloud_, camera_, options);
   if (roi.empty() || !grid_) return empty_output(options, roi);
   return draw_kept_grid(grid_.get(), roi, options, job);

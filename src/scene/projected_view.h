@@ -21,7 +21,9 @@ struct KeptGrid;
 class ProjectedView {
  public:
   // coloured: whether drawings may ask for colour. Cancelled: drawings are empty.
-  ProjectedView(const GaussianCloud& cloud, const Camera& camera, bool coloured, const Job& job = {});
+  // Beyond most_pairs nothing is kept, and each drawing projects again.
+  ProjectedView(const GaussianCloud& cloud, const Camera& camera, bool coloured, const Job& job = {},
+                std::size_t most_pairs = RasterOptions{}.most_pairs);
   ~ProjectedView();
 
   // options without near_plane, low_pass_px2 and colour_override. `visible` and `pairs` are those of the
@@ -30,13 +32,14 @@ class ProjectedView {
 
   const Camera& camera() const { return camera_; }
   bool coloured() const { return coloured_; }
-  bool complete() const { return grid_ != nullptr; }  // false: cancelled
+  bool complete() const { return grid_ || too_large_; }  // false: cancelled
   std::size_t bytes() const;
 
  private:
   const GaussianCloud& cloud_;
   Camera camera_;
   bool coloured_;
+  bool too_large_ = false;
   std::unique_ptr<KeptGrid> grid_;
 };
 

@@ -57,6 +57,9 @@ struct RasterOptions {
   const Mask* sum_mask = nullptr;              // with `sums`: size of the camera's picture, non-zero = object
   MaskedSums* sums = nullptr;                  // added to; arrays of the cloud's size
   bool sum_whole_pixels = false;               // a pixel counts 1, not by its weight, where alpha >= 1/255
+  std::size_t most_pairs =
+      std::size_t{1}
+      << 26;  // listed at once, 24 bytes each; more are drawn region by region, to the same bits
 };
 
 struct RasterOutput {
@@ -67,8 +70,8 @@ struct RasterOutput {
   Image<float> expected_depth;    // sum(weight z) / sum(weight), camera z in scene units; 0 where nothing is
   Image<float> median_depth;      // camera z of the Gaussian at which T falls below 0.5; 0 where none does
   Image<std::int32_t> first_hit;  // that Gaussian's index in the cloud, or -1
-  std::size_t visible = 0;        // Gaussians that touch the picture
-  std::size_t pairs = 0;          // (Gaussian, tile) pairs
+  std::size_t visible = 0;  // Gaussians that touch the picture, once a region where it is drawn in several
+  std::size_t pairs = 0;    // (Gaussian, tile) pairs
 };
 
 RasterOutput rasterize(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options = {},

@@ -53,6 +53,31 @@ void check_size(const Scene& scene) {
                 fmt::format("Scale it: lengths from {:g} to {:g} units can be handled", kSmallest, kLargest));
 }
 
+// Each of them is in every tile of every picture, so that a scene of many takes its time; a sky is a few.
+std::string oddity_of(const GaussianCloud& cloud) {
+  constexpr float kManySizes = 1, kManyShare = 0.05f, kFaint = 1.0f / 255;
+  const auto share = [&](const auto& is) {
+    std::size_t count = 0;
+    for (std::size_t g = 0; g < cloud.size(); ++g) count += is(g);
+    return static_cast<float>(count) / static_cast<float>(cloud.size());
+  };
+  const float size = glm::length(robust_bounds(cloud.position).extent());
+  const float huge = size > 0 ? share([&](std::size_t g) {
+    const glm::vec3& s = cloud.scale[g];
+    return s.x + s.y + s.z - std::max({s.x, s.y, s.z}) > kManySizes * size;  // in two directions: no needle
+  })
+                              : 0;
+  if (huge > kManyShare)
+    return fmt::format(
+        "{:.0f} % of its Gaussians are larger than the whole scene: pictures take long, and the file may say "
+        "sizes where "
+        "their logarithms are meant",
+        100 * huge);
+  if (share([&](std::size_t g) { return cloud.opacity[g] >= kFaint; }) == 0)
+    return "all of its Gaussians are too faint to be seen";
+  return {};
+}
+
 }  // namespace
 
 const char* name_of(SpzAxes axes) {
@@ -78,8 +103,10 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
         path.string(),
         fmt::format("none of the {} Gaussians is usable: each has NaN, a zero rotation, or lies beyond 1e15",
                     scene.file_rows));
-  scene.cloud.near_plane = natural_near_plane(scene.cloud.position);
-  if (!job.cancelled()) check_size(scene);
+  if (job.cancelled()) return scene;
+  scene.cloud.near_plane = near_plane_of(scene.cloud);
+  check_size(scene);
+  scene.oddity = oddity_of(scene.cloud);
   return scene;
 }
 

@@ -524,10 +524,10 @@ void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
                              : draw_tile_with<Paint::kNone>)(what.options.depth, what.pair_sums != nullptr);
   const TileGrid& grid = what.grid;
   const PixelRect& roi = what.roi;
-  const int left = roi.x0 / kTilePx - grid.first_tile_x,
-            right = (roi.x1 + kTilePx - 1) / kTilePx - grid.first_tile_x;
-  const int top = roi.y0 / kTilePx - grid.first_tile_y,
-            bottom = (roi.y1 + kTilePx - 1) / kTilePx - grid.first_tile_y;
+  const int left = std::max(0, roi.x0 / kTilePx - grid.first_tile_x),
+            right = std::min(grid.tiles_x, (roi.x1 + kTilePx - 1) / kTilePx - grid.first_tile_x);
+  const int top = std::max(0, roi.y0 / kTilePx - grid.first_tile_y),
+            bottom = std::min(grid.tiles_y, (roi.y1 + kTilePx - 1) / kTilePx - grid.first_tile_y);
   const int across = right - left;
   tbb::parallel_for(0, across * (bottom - top), [&](int i) {
     if (!job.cancelled()) draw(what, (top + i / across) * grid.tiles_x + left + i % across, out);

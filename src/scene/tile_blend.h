@@ -33,9 +33,9 @@ struct TileBlend {
   PairSums* pair_sums = nullptr;  // null, or an element for each entry of the grid, set for those drawn
 };
 
-// Draws those tiles of the grid that touch roi into `out`, whose images have the size of roi. Same bits on
-// every SIMD target and any number of threads, with lists or without: pixels are independent lanes, FMA is
-// explicit, sums are integers.
+// Draws those tiles of the grid that touch roi, which may reach beyond the grid, into `out`, whose images
+// have the size of roi. Same bits on every SIMD target and any number of threads, with lists or without:
+// pixels are independent lanes, FMA is explicit, sums are integers.
 void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out);
 
 // Name of the SIMD target in use.

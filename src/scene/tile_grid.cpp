@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -100,10 +101,10 @@ struct Run {
 };
 
 // Lists the splats of the Gaussians begin <= g < end with their tiles, which stand in SplatTile::entry for
-// now.
+// now. room: pairs that may be listed by all runs together; below 0, the run ends early.
 void project_run(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
                  const PixelRect& region, std::size_t begin, std::size_t end, TileGrid* grid, Run* run,
-                 std::vector<SplatTile>* pairs) {
+                 std::vector<SplatTile>* pairs, std::atomic<std::int64_t>* room) {
   run->place.assign(static_cast<std::size_t>(grid->tiles()), 0);
   pairs->reserve(2 * (end - begin));
   SplatBatch batch;
@@ -112,6 +113,7 @@ void project_run(const GaussianCloud& cloud, const Camera& camera, const RasterO
     project_batch(cloud, static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(last), camera, options,
                   region, &batch);
     run->visible += static_cast<std::size_t>(batch.size);
+    const std::size_t before = pairs->size();
     for (int i = 0; i < batch.size; ++i) {
       const std::uint32_t gaussian = batch.gaussian[i];
       grid->splats[gaussian] = {batch.x_px[i], batch.y_px[i],         batch.qa[i],  batch.qb[i],
@@ -122,6 +124,8 @@ void project_run(const GaussianCloud& cloud, const Camera& camera, const RasterO
         ++run->place[static_cast<std::size_t>(tile)];
       });
     }
+    const auto added = static_cast<std::int64_t>(pairs->size() - before);
+    if (room->fetch_sub(added, std::memory_order_relaxed) < added) return;
   }
 }
 
@@ -172,6 +176,11 @@ TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const Rast
   grid.first_tile_y = roi.y0 / kTilePx;
   grid.tiles_x = (roi.x1 + kTilePx - 1) / kTilePx - grid.first_tile_x;
   grid.tiles_y = (roi.y1 + kTilePx - 1) / kTilePx - grid.first_tile_y;
+  constexpr int kMostTiles = 1 << 16;  // each run counts in each tile
+  grid.too_large = grid.tiles() > kMostTiles;
+  if (grid.too_large) return grid;
+  std::atomic<std::int64_t> room = grid.tiles() > 1 ? static_cast<std::int64_t>(options.most_pairs)
+                                                    : std::numeric_limits<std::int64_t>::max();
   grid.splats = LargeArray<BlendSplat>(cloud.size());
   const std::size_t step = run_size(cloud.size()), count = (cloud.size() + step - 1) / step;
   std::vector<Run> runs(count);
@@ -179,8 +188,10 @@ TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const Rast
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t r) {
     if (job.cancelled()) return;
     project_run(cloud, camera, options, roi, r * step, std::min(cloud.size(), (r + 1) * step), &grid,
-                &runs[r], &grid.runs[r]);
+                &runs[r], &grid.runs[r], &room);
   });
+  grid.too_large = room < 0;
+  if (grid.too_large) return grid;
   grid.first_entry.assign(static_cast<std::size_t>(grid.tiles()) + 1, 0);
   if (job.cancelled()) return grid;
   for (const Run& run : runs) grid.visible += run.visible;

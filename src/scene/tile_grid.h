@@ -42,6 +42,7 @@ struct TileGrid {
   int tiles_x = 0, tiles_y = 0;
   int first_tile_x = 0, first_tile_y = 0;  // of the region drawn, in tiles of the whole picture
   std::size_t visible = 0;                 // splats that touch the region
+  bool too_large = false;                  // nothing else holds then: more tiles or pairs than fit in memory
   LargeArray<BlendSplat> splats;           // by Gaussian; only those in entries have a value
   LargeArray<TileEntry> entries;           // tile by tile; within a tile in cloud order
   std::vector<std::uint32_t> first_entry;  // tiles_x * tiles_y + 1
@@ -52,6 +53,7 @@ struct TileGrid {
   int tiles() const { return tiles_x * tiles_y; }
 };
 
+// too_large: beyond options.most_pairs, except for a region of one tile, or beyond 16 million pixels.
 TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
                     const Job& job);
 

@@ -23,11 +23,18 @@ struct Circle {
   float elevation_rad = 0;
 };
 
+// Where the camera stands from the centre, level; straight above or below it, where the picture's lower side
+// points.
 Circle circle_of(const Camera& camera, const glm::vec3& up, const glm::vec3& centre) {
-  const glm::vec3 back = camera.centre_world() - centre;
-  const glm::vec3 flat = back - glm::dot(back, up) * up;
-  return {up, glm::length(flat) > 1e-6f * glm::length(back) ? glm::normalize(flat) : -camera.forward_world(),
-          std::atan2(glm::dot(back, up), glm::length(flat))};
+  const auto level = [&](const glm::vec3& v) { return v - glm::dot(v, up) * up; };
+  const glm::vec3 back = camera.centre_world() - centre, flat = level(back);
+  glm::vec3 azimuth = flat;
+  constexpr float kNothing = 1e-6f;  // of the vector that is made level
+  if (!(glm::length(flat) > kNothing * glm::length(back))) {
+    azimuth = level(-camera.forward_world());
+    if (!(glm::length(azimuth) > kNothing)) azimuth = level(camera.down_world());
+  }
+  return {up, glm::normalize(azimuth), std::atan2(glm::dot(back, up), glm::length(flat))};
 }
 
 // The object fills 1 / distance_sizes of the picture's smaller side at the reference's field of view or

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,8 +31,12 @@ class StageClock {
     std::string_view name;
     std::chrono::steady_clock::time_point start;
     ~Booking() {
-      clock->book(
-          name, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+      const auto now = std::chrono::steady_clock::now();
+      try {
+        clock->book(name, std::chrono::duration<double, std::milli>(now - start).count());
+      } catch (const std::bad_alloc&) {
+        // Without memory the stage goes without its time; an exception may be on its way already.
+      }
     }
   };
 

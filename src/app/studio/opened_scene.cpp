@@ -49,7 +49,7 @@ std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const
   auto scene = std::make_shared<Scene>(load_scene(file, {spz_axes, opened->cameras}, job));
   if (job.cancelled()) return opened;
   opened->cloud = std::shared_ptr<const GaussianCloud>(scene, &scene->cloud);
-  opened->bounds = robust_bounds(scene->cloud.position, 0.9);
+  opened->bounds = framed_bounds(scene->cloud);
   opened->hash = hash_of_file(scene->path);
   if (opened->cameras.empty())
     look_around(opened.get(), job);

@@ -226,6 +226,7 @@ class Studio {
               const std::filesystem::path& work_path);
   void schedule_cut();
   void start_cut(const ObjectItem& object);
+  void forget_runs();
   void give_up_cut(ObjectId id, const std::string& key);
   void request_likelihood();
   const std::string& wanted_key(const ObjectItem& object);

@@ -118,8 +118,8 @@ void Studio::perform(const OpenScene& c) {
     const std::string note = work ? work->warning : axes ? "" : opened_scene->scene->axes_note;
     tasks_.post([this, opened_scene, work, note, work_path = file ? path : std::filesystem::path()] {
       opened(opened_scene, work, work_path);
-      if (const std::string& left_out = opened_scene->scene->left_out; !left_out.empty())
-        say(Message::Kind::kInfo, left_out);
+      for (const std::string& note_of_file : {opened_scene->scene->left_out, opened_scene->scene->oddity})
+        if (!note_of_file.empty()) say(Message::Kind::kInfo, note_of_file);
       if (!note.empty()) say(Message::Kind::kInfo, note);
     });
   });
@@ -221,7 +221,19 @@ void Studio::schedule_cut() {
   }
 }
 
+// Of objects that are gone the last few are kept, as undo may bring them back; those before have no pictures
+// of their views then, as in opened work, until they are cut again.
+void Studio::forget_runs() {
+  constexpr int kMostGone = 8;
+  int gone = 0;
+  for (auto run = runs_.end(); run != runs_.begin();) {
+    --run;
+    if (!document().find(run->first) && ++gone > kMostGone) run = runs_.erase(run);
+  }
+}
+
 void Studio::start_cut(const ObjectItem& object) {
+  forget_runs();
   cutting_object_ = object.id;
   cutting_key_ = wanted_key(object);
   CutRun& run = runs_[object.id];

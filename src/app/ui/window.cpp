@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <optional>
 
+#include "app/console.h"
 #include "app/ui/settings.h"
 #include "app/user_folders.h"
 #include "scene/error.h"
@@ -23,7 +25,8 @@ std::string last_glfw_error() {
 }
 
 struct Glfw {
-  Glfw() {
+  Glfw() { start(); }
+  static void start() {
     if (!glfwInit())
       throw Error("window", "cannot be opened: " + last_glfw_error(),
                   "Is there a display? Without one, use splatcut cut");
@@ -47,19 +50,47 @@ bool on_a_screen(const glm::ivec2& position, int width) {
   });
 }
 
+// Null where there is no OpenGL 3.3 by that interface.
+GLFWwindow* hidden_window(int width, int height, bool maximized, int interface_to_gl) {
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_MAXIMIZED, maximized);
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  glfwWindowHint(GLFW_CONTEXT_CREATION_API, interface_to_gl);
+  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "splatcut");
+  return glfwCreateWindow(width, height, "splatcut", nullptr, nullptr);
+}
+
+// By the driver, by EGL where the display has no GLX, then by Mesa's software, which has 3.3 where an old
+// card has not.
+GLFWwindow* hidden_window(int width, int height, bool maximized) {
+  std::string first_reason;
+  for (const bool software : {false, true}) {
+    if (software) {
+      glfwTerminate();  // what is loaded for a display stays until then
+      ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+      ::setenv("__GLX_VENDOR_LIBRARY_NAME", "mesa", 1);
+      ::unsetenv("MESA_GL_VERSION_OVERRIDE");
+      Glfw::start();
+    }
+    for (const int interface_to_gl : {GLFW_NATIVE_CONTEXT_API, GLFW_EGL_CONTEXT_API}) {
+      if (GLFWwindow* window = hidden_window(width, height, maximized, interface_to_gl)) {
+        if (software) warn("OpenGL is Mesa's software: " + first_reason, false);
+        return window;
+      }
+      if (first_reason.empty()) first_reason = last_glfw_error();
+    }
+  }
+  throw Error("window", "no OpenGL 3.3: " + first_reason, "Install a driver, or Mesa's libgl1-mesa-dri");
+}
+
 struct GlfwWindow {
-  GlfwWindow(int width, int height, const std::optional<glm::ivec2>& position, bool maximized) {
-    glfwWindowHint(GLFW_MAXIMIZED, maximized);
-    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-    glfwWindowHintString(GLFW_X11_CLASS_NAME, "splatcut");
-    handle = glfwCreateWindow(width, height, "splatcut", nullptr, nullptr);
-    if (!handle)
-      throw Error("window", "no OpenGL 3.3: " + last_glfw_error(),
-                  "Install a driver, or Mesa's libgl1-mesa-dri");
+  GlfwWindow(int width, int height, const std::optional<glm::ivec2>& position, bool maximized)
+      : handle(hidden_window(width, height, maximized)) {
     if (position && on_a_screen(*position, width)) glfwSetWindowPos(handle, position->x, position->y);
     glfwShowWindow(handle);
     glfwMakeContextCurrent(handle);
@@ -228,6 +259,7 @@ void run_loop(Loop& loop, SettingsKeeper* keeper) {
     }
     loop.fit();
     const double now = glfwGetTime();
+    refuse_lost_context();
     const bool busy = loop.app.frame(now - before);
     before = now;
     if (std::string wanted = title_of(loop.app.studio()); wanted != title)

@@ -54,12 +54,16 @@ std::string header_for(std::size_t count, std::size_t rest) {
   return header + "end_header\n";
 }
 
+void refuse_changed(const MappedFile& source, const Scene& scene) {
+  if (source.bytes().size() != scene.file_bytes || source.modified_ns() != scene.modified_ns)
+    throw Error(scene.path.string(), "the file changed since it was loaded", "Load it again");
+}
+
 }  // namespace
 
 void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians) {
   const MappedFile source(scene.path);
-  if (source.bytes().size() != scene.file_bytes || source.modified_ns() != scene.modified_ns)
-    throw Error(scene.path.string(), "the file changed since it was loaded", "Load it again");
+  refuse_changed(source, scene);
   const PlyHeader header = parse_ply_header(scene.path, source.bytes());
   const PlyElement* vertex = header.find("vertex");
   if (!vertex) throw Error(scene.path.string(), "the header has no element \"vertex\"");
@@ -80,6 +84,7 @@ void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::
   }
   out.write(buffer);
   out.write(source.bytes().subspan(vertex->data_begin + rows.size()));  // elements after the Gaussians
+  refuse_changed(MappedFile(scene.path), scene);                        // while its rows were copied
 }
 
 void write_ply_rows(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {

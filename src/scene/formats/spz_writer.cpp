@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 #include <zlib.h>
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <algorithm>
 #include <array>
+#include <new>
 
 #include "scene/atomic_file.h"
 #include "scene/error.h"
@@ -100,9 +102,10 @@ class GzipWriter {
  public:
   explicit GzipWriter(AtomicFile& out) : out_(out) {
     constexpr int kGzip = 16 + MAX_WBITS, kMemoryLevel = 8;
-    if (deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY) !=
-        Z_OK)
-      throw Error("spz", "the gzip writer failed to start");
+    const int result =
+        deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY);
+    if (result == Z_MEM_ERROR) throw std::bad_alloc();
+    if (result != Z_OK) throw Error("spz", "the gzip writer failed to start");
   }
   GzipWriter(const GzipWriter&) = delete;
   GzipWriter& operator=(const GzipWriter&) = delete;
@@ -150,6 +153,7 @@ Buffer zstd_packed(const Buffer& data) {
   constexpr int kLevel = 9;  // a tenth smaller than the usual 3, still faster than gzip
   Buffer packed(ZSTD_compressBound(data.size()));
   const std::size_t bytes = ZSTD_compress(packed.data(), packed.size(), data.data(), data.size(), kLevel);
+  if (ZSTD_getErrorCode(bytes) == ZSTD_error_memory_allocation) throw std::bad_alloc();
   if (ZSTD_isError(bytes)) throw Error("spz", ZSTD_getErrorName(bytes));
   packed.resize(bytes);
   return packed;

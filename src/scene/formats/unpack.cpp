@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <algorithm>
 #include <memory>
+#include <new>
 
 #include "scene/error.h"
 
@@ -25,8 +27,9 @@ void grow(Bytes& bytes, std::size_t wanted) {
 
 GzipReader::GzipReader(const MappedFile& file) : file_(file), in_(file.bytes()) {
   constexpr int kGzipOnly = 16 + MAX_WBITS;
-  if (inflateInit2(&stream_, kGzipOnly) != Z_OK)
-    throw Error(file.path().string(), "the gzip reader failed to start");
+  const int result = inflateInit2(&stream_, kGzipOnly);
+  if (result == Z_MEM_ERROR) throw std::bad_alloc();
+  if (result != Z_OK) throw Error(file.path().string(), "the gzip reader failed to start");
 }
 
 Bytes GzipReader::read(std::size_t count, const Job& job) {
@@ -70,6 +73,7 @@ std::size_t GzipReader::read_some(std::span<std::byte> out) {
   const std::size_t written = room - stream_.avail_out;
   if (written > 0) return written;
   if (result == Z_OK || result == Z_STREAM_END || result == Z_BUF_ERROR) return 0;
+  if (result == Z_MEM_ERROR) throw std::bad_alloc();
   throw Error(file_.path().string(),
               fmt::format("the gzip data is damaged at byte {}", file_.bytes().size() - in_.size()));
 }
@@ -78,12 +82,14 @@ Bytes unpack_zstd(const MappedFile& file, std::span<const std::byte> packed, std
                   std::size_t index, const Job& job) {
   const std::unique_ptr<ZSTD_DStream, std::size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(),
                                                                              ZSTD_freeDStream);
+  if (!stream) throw std::bad_alloc();
   ZSTD_inBuffer in{packed.data(), packed.size(), 0};
   Bytes bytes;
   for (std::size_t done = 0; done < size && !job.cancelled();) {
     if (done == bytes.size()) grow(bytes, size);
     ZSTD_outBuffer out{bytes.data(), std::min(bytes.size(), done + kChunk), done};
     const std::size_t result = ZSTD_decompressStream(stream.get(), &out, &in);
+    if (ZSTD_getErrorCode(result) == ZSTD_error_memory_allocation) throw std::bad_alloc();
     if (ZSTD_isError(result))
       throw Error(file.path().string(),
                   fmt::format("stream {} is damaged ({})", index, ZSTD_getErrorName(result)));

@@ -4,6 +4,8 @@
 #include <webp/decode.h>
 #include <webp/encode.h>
 
+#include <new>
+
 #include "scene/error.h"
 #include "scene/formats/decode.h"
 
@@ -21,9 +23,15 @@ Image<Rgba8> read_webp(const std::filesystem::path& file, std::string_view pictu
   const std::size_t pixel_bytes = row_bytes * static_cast<std::size_t>(height);
   check_expansion(file, file_bytes, pixel_bytes);
   Image<Rgba8> out(width, height);
-  if (!WebPDecodeRGBAInto(data, bytes.size(), reinterpret_cast<std::uint8_t*>(out.pixels().data()),
-                          pixel_bytes, static_cast<int>(row_bytes)))
-    refuse("is truncated or damaged");
+  WebPDecoderConfig config;
+  if (!WebPInitDecoderConfig(&config)) throw Error("webp", "the WebP reader failed to start");
+  config.output.colorspace = MODE_RGBA;
+  config.output.is_external_memory = 1;
+  config.output.u.RGBA = {reinterpret_cast<std::uint8_t*>(out.pixels().data()), static_cast<int>(row_bytes),
+                          pixel_bytes};
+  const VP8StatusCode status = WebPDecode(data, bytes.size(), &config);
+  if (status == VP8_STATUS_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (status != VP8_STATUS_OK) refuse("is truncated or damaged");
   return out;
 }
 
@@ -47,10 +55,13 @@ std::vector<std::byte> write_webp(const Image<Rgba8>& image) {
       WebPEncode(&config, &picture);
   const std::span<const std::byte> written(reinterpret_cast<const std::byte*>(memory.mem), memory.size);
   std::vector<std::byte> out(written.begin(), written.end());
-  const int failure = picture.error_code;
+  const WebPEncodingError failure = picture.error_code;
   WebPPictureFree(&picture);
   WebPMemoryWriterClear(&memory);
-  if (!good) throw Error("webp", fmt::format("a picture could not be packed (error {} of libwebp)", failure));
+  if (failure == VP8_ENC_ERROR_OUT_OF_MEMORY || failure == VP8_ENC_ERROR_BITSTREAM_OUT_OF_MEMORY)
+    throw std::bad_alloc();
+  if (!good)
+    throw Error("webp", fmt::format("a picture could not be packed (error {} of libwebp)", int{failure}));
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <zip.h>
 
 #include <filesystem>
+#include <new>
 
 #include "scene/error.h"
 #include "scene/formats/decode.h"
@@ -12,7 +13,13 @@ namespace splatcut {
 
 namespace {
 
+void refuse_without_memory(zip_error_t* failure) {
+  if (zip_error_code_zip(failure) == ZIP_ER_MEMORY) throw std::bad_alloc();
+}
+
+// Throws std::bad_alloc where it was that.
 std::string words_of(zip_error_t& failure) {
+  refuse_without_memory(&failure);
   std::string words = zip_error_strerror(&failure);
   zip_error_fini(&failure);
   return words;
@@ -46,6 +53,7 @@ std::vector<std::byte> ZipReader::read(const std::string& path) const {
   check_expansion(file_.path(), file_.bytes().size(), about.size);
   const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> entry(
       zip_fopen_index(archive_.get(), about.index, 0), zip_fclose);
+  if (!entry) refuse_without_memory(zip_get_error(archive_.get()));
   std::vector<std::byte> bytes(about.size);
   if (!entry || zip_fread(entry.get(), bytes.data(), bytes.size()) != static_cast<zip_int64_t>(bytes.size()))
     refuse("is truncated or damaged");
@@ -74,8 +82,9 @@ std::vector<std::byte> zip_of(std::span<const ZipEntry> entries) {
            zip_file_set_dostime(archive, at, 0, kFirstDay, 0) == 0;
   }
   if (!good || zip_close(archive) != 0) {
+    const std::unique_ptr<zip_t, void (*)(zip_t*)> discarded(archive, zip_discard);
+    refuse_without_memory(zip_get_error(archive));
     const std::string words = zip_strerror(archive);
-    zip_discard(archive);
     throw Error("zip", "the archive could not be put together: " + words);
   }
   zip_stat_t about;
