@@ -260,8 +260,7 @@ TEST_CASE("selection: a clicked pixel is obeyed by what is small, not by the wal
     for (int x = 0; x < 40; ++x) {
       const auto leaf = static_cast<std::uint32_t>(x / 10);
       lists.at(x, y) = {{leaf, 1}};
-      if (leaf > 1)
-        lists.at(x, y) = {{kWall, 0.33f}, {kSplats[0], 0.31f}, {kSplats[1], 0.26f}, {leaf, 0.1f}};
+      if (leaf > 1) lists.at(x, y) = {{kWall, 0.33f}, {kSplats[0], 0.31f}, {kSplats[1], 0.26f}, {leaf, 0.1f}};
     }
   LeafView view = leaf_view_of(parts, camera, lists, Image<float>(40, 10, 10.0f));
   for (const bool sizes_known : {false, true}) {
