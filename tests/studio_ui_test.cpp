@@ -214,7 +214,7 @@ TEST_CASE("saved work: what is wrong with a file is said in one sentence") {
           file.string() + ": its version " + version.dump() + " is none that a splatcut writes.");
 }
 
-TEST_CASE("after a click, views around the object are there to look from; the cut did not ask them") {
+TEST_CASE("after a click, views around the object are there to look from, and have no say") {
   HeadlessApp app(kWidth, kHeight);
   opened(app);
   app.click(app.screen_of(kOnApple));
