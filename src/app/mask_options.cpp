@@ -1,5 +1,7 @@
 #include "app/mask_options.h"
 
+#include <algorithm>
+
 #include "scene/error.h"
 #include "segment/session/settings_table.h"
 
@@ -15,7 +17,8 @@ void MaskOptions::add_to(CLI::App& command, bool with_truth) {
                      "along optical flow");
   command.add_option("--refine", refine, "What settles masks in the other views: none, grabcut or pixelcut");
   command.add_option("--views", views,
-                     "Most views around the object, 0 to 400; else none after clicks, 12 with a mask");
+                     "Most views around the object, 0 to 400; else by the preset: default none after clicks, "
+                     "12 with a mask");
   command.add_flag("--parts-only", parts_only, "The parts are the answer: no other views, no graph cut");
 }
 
@@ -31,7 +34,10 @@ void MaskOptions::apply(CutSettings* settings) const {
   }
   if (!propagate.empty()) set_setting("views.propagate", propagate, settings);
   if (!refine.empty()) set_setting("views.refine", refine, settings);
-  if (views) set_setting("views.most", std::to_string(*views), settings);
+  if (views)
+    set_setting("views.most", std::to_string(*views), settings);
+  else if (!propagate.empty() || !refine.empty())
+    settings->orbit.views = std::max(settings->orbit.views, kViewsAround);  // they speak of other views
   settings->parts_only = parts_only;
 }
 

@@ -44,8 +44,9 @@ void load_gl_functions(GlGetProc get_proc) {
 
 void refuse_lost_context() {
   if (g_reset_status && g_reset_status() != GL_NO_ERROR)
-    throw Error("OpenGL", "the graphics driver was reset, and the window with it",
-                "Start again: your work was kept. --renderer cpu asks less of the driver");
+    throw Error(
+        "OpenGL", "the graphics driver was reset, and the window with it",
+        "Start again: your work is offered as it was saved last. --renderer cpu asks less of the driver");
 }
 
 GlInfo current_gl_info() {

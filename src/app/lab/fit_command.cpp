@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -40,6 +42,7 @@ struct Bank {
   std::vector<std::unique_ptr<PartsScene>> scenes;
   std::vector<std::size_t> capture;  // per scene: left out together
   std::size_t captures = 0;
+  bool zoomed = false;  // first clicks from kOtherDistances, too
 };
 
 struct Play {
@@ -50,7 +53,7 @@ using Curve = std::vector<double>;
 
 // Mean IoU of one scene: after 1, 2, ... clicks, and after one from nearer and farther.
 struct Score {
-  Curve after, zoomed;
+  Curve after, zoomed;  // NaN where no first click hits the same thing from there
 };
 
 constexpr std::array kOtherDistances = {0.4f, 0.6f, 2.0f, 4.0f};
@@ -61,6 +64,7 @@ void stop_if_fit_cancelled(const Job& job) {
 
 Bank load_bank(const FitArguments& args, const PrepareOptions& prepare, const Job& job) {
   Bank bank;
+  bank.zoomed = args.zoom;
   PartsSceneOptions options = args.scenes;
   if (args.zoom) options.zooms.insert(options.zooms.end(), kOtherDistances.begin(), kOtherDistances.end());
   std::map<std::filesystem::path, std::size_t> captures;
@@ -103,10 +107,18 @@ std::vector<Decision> all_decisions(const Bank& bank, const SelectionModel& mode
   return all;
 }
 
+// Of those that are numbers; NaN where none is.
 Curve mean_curve(const std::vector<Curve>& curves) {
   Curve mean(curves.empty() ? 0 : curves.front().size(), 0);
-  for (const Curve& curve : curves)
-    for (std::size_t c = 0; c < mean.size(); ++c) mean[c] += curve[c] / static_cast<double>(curves.size());
+  for (std::size_t c = 0; c < mean.size(); ++c) {
+    double count = 0;
+    for (const Curve& curve : curves) {
+      if (std::isnan(curve[c])) continue;
+      mean[c] += curve[c];
+      ++count;
+    }
+    mean[c] /= count;
+  }
   return mean;
 }
 
@@ -133,8 +145,11 @@ std::vector<Score> scores(const Bank& bank, const std::vector<SelectionModel>& m
   std::vector<Score> all;
   for (std::size_t i = 0; i < bank.scenes.size(); ++i) {
     Score score{mean_at(i, 1), {}};
-    for (const float zoom : kOtherDistances)
-      if (const Curve at = mean_at(i, zoom); !at.empty()) score.zoomed.push_back(at.front());
+    for (const float zoom : kOtherDistances) {
+      if (!bank.zoomed) break;
+      const Curve at = mean_at(i, zoom);
+      score.zoomed.push_back(at.empty() ? std::numeric_limits<double>::quiet_NaN() : at.front());
+    }
     all.push_back(std::move(score));
   }
   return all;
@@ -196,7 +211,7 @@ std::string cells(const Score& score) {
   for (const std::size_t clicks : {1, 2, 3, 5, 10})
     if (clicks <= score.after.size()) row += fmt::format(" {:.3f}", score.after[clicks - 1]);
   if (!score.zoomed.empty()) row += " x";
-  for (const double iou : score.zoomed) row += fmt::format(" {:.3f}", iou);
+  for (const double iou : score.zoomed) row += std::isnan(iou) ? "     -" : fmt::format(" {:.3f}", iou);
   return row.empty() ? " -" : row;
 }
 

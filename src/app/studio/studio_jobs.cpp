@@ -61,9 +61,10 @@ ViewCard card_of(const ViewReport& view, Image<Rgba8> picture) {
           0};
 }
 
-// After clicks the default asks no view around the object; a person wants to see it from there all the same.
+// After clicks neither fast nor default asks a view around the object; a person wants to see it from there
+// all the same.
 bool looked_around_by_none(const CutResult& result, const CutRequest& request, const CutSettings& settings) {
-  return result.outcome == Outcome::kDone && settings.orbit.views == kViewsAsNeeded && !request.first_mask;
+  return result.outcome == Outcome::kDone && settings.orbit.views <= 0 && !request.first_mask;
 }
 
 // For the person who waited: how large the object is now, and what the last step did to it.
@@ -333,6 +334,7 @@ void Studio::start_cut(const ObjectItem& object) {
             std::make_shared<const Image<Rgba8>>(thumbnail(*scene->cloud, view, true, colour, job));
         cards.push_back({.camera = view.camera, .picture = picture, .only_to_look = true});
       }
+    if (job.cancelled()) return;
     tasks_.post([this, id, key, scene, cards = std::move(cards), likelihood]() mutable {
       if (scene != scene_ || runs_[id].key != key) return;
       runs_[id].views = std::move(cards);

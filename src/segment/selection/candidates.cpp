@@ -292,8 +292,8 @@ void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
   term(candidate, Term::kFold) = at_least_0(f - kFoldSlack);
   term(candidate, Term::kGiant) = at_least_0(f - kGiantFolds);
   term(candidate, Term::kBorder) = click_.radius_px < kBorderPx ? at_least_0(f - kFoldSlack) : 0;
-  const float depth = click_.view.depth.at(click_.at.x, click_.at.y);
-  const float px_per_unit = depth > 0 ? camera_.fx_px / depth : 0;
+  const float px_per_unit =
+      camera_.fx_px / std::max(camera_.camera_from_world(parts_.leaf_centre_world[click_.leaf]).z, 1e-15f);
   const float area_px = chain.changed_area[candidate->index] * px_per_unit * px_per_unit;
   const float shown_px = std::max(changed_px, kPi * click_.radius_px * click_.radius_px);
   term(candidate, Term::kHidden) = at_least_0(std::log(std::max(area_px, 1.0f) / shown_px) - kHiddenFolds);

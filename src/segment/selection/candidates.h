@@ -21,14 +21,14 @@
 // - kScrap, kFold, kGiant: of later clicks, with f = ln(changed pixels / disc to where the region may end):
 //   max(0, -0.3 - f), max(0, f - 1), max(0, f - 3.25).
 // - kBorder: max(0, f - 1) where the click is within 2 pixels of the border.
-// - kHidden: max(0, ln(area that would change, at the click's depth / changed pixels or that disc) - 2): what
-//   would mostly change where the user cannot see it.
+// - kHidden: max(0, ln(area that would change, at the clicked leaf's depth / changed pixels or that disc) -
+// 2):
+//   what would mostly change where the user cannot see it.
 // - kOpposed: clicks of the other sign that it holds.
 // - kBack: IoU with what a click of the other sign has changed, the largest. People undo in that case.
 // - kDisc: 1 where nothing but the disc would change.
-// - kRepick: 1 + how much less likely the first click's other meaning is; see ClickSelection. Weight 0: more
-// or
-//   less of it lost on the bank.
+// - kRepick: 1 + how much less likely the first click's other meaning is; see ClickSelection. It weighs
+//   nothing: more or less of it lost on the bank.
 // Cost: some 10 ms. The result depends on the arguments alone.
 #pragma once
 

@@ -324,13 +324,15 @@ void ClickSelection::insist(const LeafView& view, std::size_t pixel, bool object
     for (int x = std::max(0, cx - 1); x <= std::min(width - 1, cx + 1); ++x) {
       float share = 0, all = 0;
       const auto entries = view.gaussians.at(static_cast<std::size_t>(y) * width + x);
-      std::vector<GroupWeight> in_turn(entries.begin(), entries.end());
-      std::ranges::stable_sort(in_turn, std::ranges::greater(), per_size);
       for (const GroupWeight& w : entries) {
         share += (labels_[w.group] != 0) == object ? w.weight : 0;
         all += w.weight;
       }
       const float enough = std::min(kClearly, all);
+      const bool centre = x == cx && y == cy;
+      if (share >= enough && !centre) continue;
+      std::vector<GroupWeight> in_turn(entries.begin(), entries.end());
+      std::ranges::stable_sort(in_turn, std::ranges::greater(), per_size);
       for (const GroupWeight& w : in_turn) {
         if (share >= enough) break;
         if ((labels_[w.group] != 0) == object) continue;
@@ -338,7 +340,7 @@ void ClickSelection::insist(const LeafView& view, std::size_t pixel, bool object
         labels_[w.group] = object;
         share += w.weight;
       }
-      if (x != cx || y != cy) continue;
+      if (!centre) continue;
       float held = 0;
       for (const GroupWeight& w : in_turn) {
         if (held >= enough) break;

@@ -9,7 +9,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::size_t kMostViews = 12;  // kept, some 10 MB each at 320 pixels
+constexpr std::size_t kMostViews = 12;  // kept, some 10 MB each at 320 pixels and 4 bytes a Gaussian
 constexpr std::size_t kMostKept = 6;    // selections, for undo: 2 bytes a Gaussian each
 
 bool same_stroke(const CameraStroke& a, const CameraStroke& b) {

@@ -3,7 +3,8 @@
 // In: a scene with what is prepared of it, the reference with its strokes (or a mask of it).
 // Out: labels (1 = object), the views used with their masks, likelihood, energy, milliseconds per stage.
 // Source: Jain et al., GaussianCut, NeurIPS 2024; the propagator is ours: labels of a 3D cut rendered into
-// the next view are its mask. Views are added until the labels stop changing.
+// the next view are its mask. Where views around the object are asked, they are added until the labels stop
+// changing.
 // Expected outcomes (nothing found, cancelled) are in `outcome`. Called by Session alone, see session.h.
 #pragma once
 

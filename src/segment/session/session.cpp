@@ -283,7 +283,8 @@ std::vector<GivenView> Session::look_around(const CutRequest& request, const Cut
     if (job.cancelled()) break;
     if (std::ranges::any_of(result.views, [&](const ViewReport& v) { return same_view(v.camera, camera); }))
       continue;
-    Mask seen = thresholded(render_labels({*scene_.cloud, &views_}, camera, result.labels, job), 0.5f);
+    // Not of the kept views: these cameras come once, and would put those out that the user stands in.
+    Mask seen = thresholded(render_labels(*scene_.cloud, camera, result.labels, job), 0.5f);
     if (count(seen) > 0) around.push_back({camera, std::move(seen)});
   }
   return around;

@@ -70,8 +70,8 @@ class Session {
   void make_ready(const CutSettings& settings, const Job& job = {});
 
   // Views around a cut object to look from, at most so many, each with what its labels show there: cameras as
-  // cut() would choose them. None of them has a say. The result's own views, and those in which nothing of it
-  // shows, are not among them.
+  // cut() would try them first. None of them has a say. The result's own views, and those in which nothing of
+  // it shows, are not among them. Cancelled: must not be used.
   std::vector<GivenView> look_around(const CutRequest& request, const CutResult& result,
                                      const CutSettings& settings, int views, const Job& job = {});
 

@@ -166,7 +166,7 @@ void plan_tables(StudyGrid* grid) {
   sweep(grid, "threshold tau", "energy.coarse", {0});  // x = 0: the cut in its place
   sweep(grid, "soft and hard counts", "energy.hard", {0, 1});
   sweep(grid, "trim", "trim", {1, 0});
-  sweep(grid, "hidden view test", "views.hidden_test", {1, 0}, {"views.settled_change=0"});
+  sweep(grid, "hidden view test", "views.hidden_test", {1, 0}, {"views.most=12", "views.settled_change=0"});
   plan_terms(grid);
   plan_sparse(grid);
 }

@@ -155,7 +155,10 @@ void StudyRunner::change_scene(const StudyCell& cell, const CutSettings& setting
 
 void StudyRunner::say(const StudyCell& cell, const Job& job, Setup* setup) const {
   const EvaluationCase& test = setup->test;
-  if (cell.true_masks) setup->request.mask_source = true_masks(test, cell, setup->settings.orbit.views);
+  if (cell.true_masks) {
+    const int views = setup->settings.orbit.views;
+    setup->request.mask_source = true_masks(test, cell, views == kViewsAsNeeded ? kViewsAround : views);
+  }
   if (cell.first == "truth") {
     setup->request.first_mask = {test.reference, test.reference_truth.value()};
     return;
