@@ -16,7 +16,7 @@ unset WAYLAND_DISPLAY DISPLAY
 mkdir "$work/empty"
 
 start_display() { # NAME OPTIONS...: its number is in $work/NAME
-  Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp "${@:2}" 3>"$work/$1" 2>/dev/null &
+  Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp -noreset "${@:2}" 3>"$work/$1" 2>/dev/null &
   children+=($!)
   for _ in $(seq 300); do [ -s "$work/$1" ] && return; sleep 0.1; done
   echo "skipped: Xvfb does not start here"

@@ -332,7 +332,7 @@ void Studio::start_cut(const ObjectItem& object) {
         if (job.cancelled()) return;
         const auto picture =
             std::make_shared<const Image<Rgba8>>(thumbnail(*scene->cloud, view, true, colour, job));
-        cards.push_back({.camera = view.camera, .picture = picture, .only_to_look = true});
+        cards.push_back({.camera = view.camera, .used = false, .picture = picture, .only_to_look = true});
       }
     if (job.cancelled()) return;
     tasks_.post([this, id, key, scene, cards = std::move(cards), likelihood]() mutable {

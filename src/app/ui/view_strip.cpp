@@ -40,7 +40,7 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end = {at.x + width, at.y + kCardHeight};
   list.AddImageRounded(ui.renderer.texture(kCardKey + index, c.serial, *c.picture), at, end, {0, 0}, {1, 1},
-                       c.used ? 0xffffffffu : 0x70ffffffu, 4);
+                       c.used || c.only_to_look ? 0xffffffffu : 0x70ffffffu, 4);
   list.AddRect(at, end, packed(hovered ? ui.theme.colour.accent : ui.theme.colour.line), 4, 0,
                hovered ? 2.0f : 1.0f);
   const bool left_out =
