@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/mask_options.h"
 #include "program_runner.h"
 #include "small_still_life.h"
 
@@ -22,6 +23,25 @@ bool has_keys(const json& object, std::initializer_list<const char*> keys) {
 }
 
 }  // namespace
+
+using namespace splatcut;
+
+TEST_CASE("cli: what settles masks of other views asks for such views, unless their number is said") {
+  const auto views = [](const char* preset_name, const MaskOptions& options) {
+    CutSettings settings = preset(preset_name);
+    options.apply(&settings);
+    return settings.orbit.views;
+  };
+  MaskOptions none, refined, warped, both;
+  refined.refine = "grabcut";
+  warped.propagate = both.propagate = "warp";
+  both.views = 3;
+  CHECK(views("default", none) == kViewsAsNeeded);
+  CHECK(views("default", refined) == kViewsAround);
+  CHECK(views("default", warped) == kViewsAround);
+  CHECK(views("default", both) == 3);
+  CHECK(views("fast", refined) == 0);
+}
 
 TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a sentence on stderr") {
   StillLife& life = still_life();

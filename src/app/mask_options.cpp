@@ -1,7 +1,5 @@
 #include "app/mask_options.h"
 
-#include <algorithm>
-
 #include "scene/error.h"
 #include "segment/session/settings_table.h"
 
@@ -36,8 +34,8 @@ void MaskOptions::apply(CutSettings* settings) const {
   if (!refine.empty()) set_setting("views.refine", refine, settings);
   if (views)
     set_setting("views.most", std::to_string(*views), settings);
-  else if (!propagate.empty() || !refine.empty())
-    settings->orbit.views = std::max(settings->orbit.views, kViewsAround);  // they speak of other views
+  else if (settings->orbit.views == kViewsAsNeeded && (!propagate.empty() || !refine.empty()))
+    settings->orbit.views = kViewsAround;  // they speak of other views
   settings->parts_only = parts_only;
 }
 
