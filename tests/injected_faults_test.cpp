@@ -230,6 +230,7 @@ TEST_CASE(
   const int stride = every_nth ? std::stoi(every_nth) : 0;
   const char* only = std::getenv("SPLATCUT_FAULTS_OF");  // a deed
   Bench bench;
+  std::vector<int> reached(faults().size(), 0);
   if (stride > 0)
     fmt::print(
         "| command | call | fails | runs | refused, old | refused, new | done | left until the next run "
@@ -239,13 +240,20 @@ TEST_CASE(
     bench.prepare(deed);
     for (const Fault& fault : faults()) {
       Ends ends;
+      int& runs = reached[static_cast<std::size_t>(&fault - faults().data())];
       const int first = fault.how == kNothingLeft ? 128 : 1;  // before main() nothing can be said
       for (int nth = first; bench.try_at(fault, nth, &ends);)
         nth = stride > 0 && fault.how != kNothingLeft ? nth + stride : nth * deed.steps;
+      runs += ends.runs;
       if (stride > 0 && ends.runs > 0)
         fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} |\n", deed.name, fault.call, fault.meant,
                    ends.runs, ends.old_said, ends.new_said, ends.new_unsaid - 1, ends.left);
       std::fflush(stdout);
     }
+  }
+  for (std::size_t f = 0; f < reached.size() && !only; ++f) {
+    CAPTURE(faults()[f].call);
+    CAPTURE(faults()[f].meant);
+    CHECK(reached[f] > 0);
   }
 }

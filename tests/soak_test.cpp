@@ -163,5 +163,6 @@ TEST_CASE("soak: opened, cut and closed again and again, nothing stays open") {
     if (i == 1) first = held();
     if (i > 1) CHECK(held().files == first.files);
     if (i > 1) CHECK(held().threads == first.threads);
+    if (i > 1) CHECK(held().heap_mb < first.heap_mb + 4);
   }
 }
