@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "scene/morton.h"
-#include "scene/scene_file.h"
+#include "scene/cloud/morton.h"
+#include "scene/formats/scene_file.h"
 #include "still_life_mug.h"
 #include "synthetic_cloud.h"
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "scene/camera.h"
-#include "scene/gaussian_cloud.h"
+#include "scene/camera/camera.h"
+#include "scene/cloud/gaussian_cloud.h"
 
 namespace splatcut::bench {
 

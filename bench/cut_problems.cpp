@@ -6,12 +6,12 @@
 #include <random>
 
 #include "bench_scenes.h"
-#include "scene/scene_file.h"
-#include "segment/energy.h"
-#include "segment/knn_graph.h"
-#include "segment/likelihood.h"
-#include "segment/mask_tools.h"
-#include "segment/orbit.h"
+#include "scene/formats/scene_file.h"
+#include "segment/graphcut/energy.h"
+#include "segment/graphcut/knn_graph.h"
+#include "segment/graphcut/likelihood.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/superpoints/orbit.h"
 #include "still_life_mug.h"
 
 namespace splatcut::bench {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/gaussian_cloud.h"
-#include "segment/max_flow.h"
+#include "scene/cloud/gaussian_cloud.h"
+#include "segment/graphcut/max_flow.h"
 
 namespace splatcut::bench {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "scene/scene_file.h"
+#include "scene/formats/scene_file.h"
 #include "scene/still_life/still_life.h"
 
 namespace splatcut::bench {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench_scenes.h"
-#include "scene/rasterizer.h"
+#include "scene/raster/rasterizer.h"
 
 namespace splatcut::bench {
 

@@ -2,8 +2,8 @@
 #include <benchmark/benchmark.h>
 
 #include "bench_scenes.h"
-#include "segment/energy.h"
-#include "segment/knn_graph.h"
+#include "segment/graphcut/energy.h"
+#include "segment/graphcut/knn_graph.h"
 
 namespace splatcut::bench {
 

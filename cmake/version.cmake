@@ -22,5 +22,5 @@ endfunction()
 if(DEFINED OUTPUT)
   splatcut_version(version ${FALLBACK})
   file(CONFIGURE OUTPUT ${OUTPUT} CONTENT
-    "#include \"app/version.h\"\n\nconst char* splatcut::version() {\n  return \"@version@\";\n}\n" @ONLY)
+    "#include \"app/console/version.h\"\n\nconst char* splatcut::version() {\n  return \"@version@\";\n}\n" @ONLY)
 endif()

@@ -1,5 +1,5 @@
 #version 330 core
-// One Gaussian as a screen-aligned box: the maths of src/scene/splat_math.cpp, with its names.
+// One Gaussian as a screen-aligned box: the maths of src/scene/raster/splat_math.cpp, with its names.
 // Four vertices per Gaussian; the k-th quad drawn is the k-th Gaussian from the back.
 uniform usamplerBuffer order;        // back to front: index of the Gaussian
 uniform samplerBuffer geometry;      // 3 texels: position, opacity | Sigma xx xy xz yy | Sigma yz zz, -, -

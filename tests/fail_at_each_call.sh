@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# tests/fail_at_each_call.sh [COMMAND [STRIDE]]: every fault of tests/injected_faults_test.cpp at every call, or every
+# tests/fail_at_each_call.sh [COMMAND [STRIDE]]: every fault of tests/app/cli/injected_faults_test.cpp at every call, or every
 # STRIDE-th, one run a call, for all its commands or one ("cut", "convert to .spz"...). Prints the table of
 # docs/reliability.md; ends with 1 where one run was wrong. BUILD chooses other programs.
 set -euo pipefail

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "segment/flow_graph.h"
+#include "segment/graphcut/flow_graph.h"
 
 namespace splatcut::testing {
 

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "segment/part_hierarchy.h"
 #include "segment/selection/leaf_view.h"
+#include "segment/superpoints/part_hierarchy.h"
 
 namespace splatcut::testing {
 

@@ -14,7 +14,7 @@
 #include "render/context.h"
 #include "render/gl_objects.h"
 #include "render/read_back.h"
-#include "scene/camera_file.h"
+#include "scene/camera/camera_file.h"
 
 namespace splatcut::testing {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "scene/scene_file.h"
+#include "scene/formats/scene_file.h"
 #include "synthetic_cloud.h"
 
 namespace splatcut::testing {

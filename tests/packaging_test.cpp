@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <set>
 
-#include "scene/mapped_file.h"
-#include "scene/scene_formats.h"
+#include "core/mapped_file.h"
+#include "scene/formats/scene_formats.h"
 
 using namespace splatcut;
 

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/error.h"
-#include "scene/scene_file.h"
+#include "core/error.h"
+#include "scene/formats/scene_file.h"
 
 namespace splatcut::testing {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/morton.h"
-#include "scene/rasterizer.h"
+#include "scene/cloud/morton.h"
+#include "scene/raster/rasterizer.h"
 #include "scene/still_life/still_life.h"
 
 namespace splatcut::testing {

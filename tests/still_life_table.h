@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "scene/morton.h"
-#include "scene/rasterizer.h"
+#include "scene/cloud/morton.h"
+#include "scene/raster/rasterizer.h"
 #include "scene/still_life/still_life.h"
-#include "segment/mask_tools.h"
-#include "segment/part_view.h"
-#include "segment/prepared_scene.h"
+#include "segment/masks/mask_tools.h"
 #include "segment/selection/leaf_view.h"
+#include "segment/superpoints/part_view.h"
+#include "segment/superpoints/prepared_scene.h"
 
 namespace splatcut::testing {
 

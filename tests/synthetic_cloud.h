@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "scene/camera.h"
-#include "scene/gaussian_cloud.h"
+#include "scene/camera/camera.h"
+#include "scene/cloud/gaussian_cloud.h"
 
 namespace splatcut::testing {
 

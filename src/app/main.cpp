@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.h"
-#include "scene/error.h"
-#include "scene/scene_formats.h"
+#include "app/cli/commands.h"
+#include "core/error.h"
+#include "scene/formats/scene_formats.h"
 
 using namespace splatcut;
 

@@ -1,8 +1,8 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
+#include "core/error.h"
 #include "render/context.h"
-#include "scene/error.h"
 
 namespace splatcut {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "core/error.h"
 #include "render/context.h"
-#include "scene/error.h"
 
 namespace splatcut {
 

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "scene/radix_sort.h"
+#include "core/radix_sort.h"
 
 namespace splatcut {
 

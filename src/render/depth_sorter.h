@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "scene/camera.h"
-#include "scene/gaussian_cloud.h"
+#include "scene/camera/camera.h"
+#include "scene/cloud/gaussian_cloud.h"
 
 namespace splatcut {
 

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/error.h"
 #include "render/context.h"
-#include "scene/error.h"
 
 namespace splatcut {
 

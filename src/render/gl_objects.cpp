@@ -5,7 +5,7 @@
 #include <cassert>
 #include <string>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace splatcut {
 

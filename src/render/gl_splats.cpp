@@ -6,10 +6,10 @@
 #include <cassert>
 #include <vector>
 
+#include "core/error.h"
 #include "render/read_back.h"
 #include "render/shader_sources.h"
-#include "scene/error.h"
-#include "scene/splat_math.h"
+#include "scene/raster/splat_math.h"
 
 namespace splatcut {
 

@@ -2,10 +2,10 @@
 // into 32-bit float targets (8-bit targets lose up to 100/255 on real scenes; 32F costs what 16F costs).
 //
 // In: cloud, back-to-front order, camera. Out: premultiplied colour, and the selection colours blended the
-// same way. The maths is that of scene/splat_math.h; pictures differ from rasterize() by what T < 1e-4 still
-// lets through. Source: Kerbl et al. 2023; Zwicker et al. 2001. Cost: 4 vertices a Gaussian, bound by fill on
-// a software GL. Errors: Error where the scene is larger than the driver's texel buffers. Main thread only,
-// context current.
+// same way. The maths is that of scene/raster/splat_math.h; pictures differ from rasterize() by what T < 1e-4
+// still lets through. Source: Kerbl et al. 2023; Zwicker et al. 2001. Cost: 4 vertices a Gaussian, bound by
+// fill on a software GL. Errors: Error where the scene is larger than the driver's texel buffers. Main thread
+// only, context current.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "core/image.h"
 #include "render/gl_objects.h"
-#include "scene/camera.h"
-#include "scene/gaussian_cloud.h"
-#include "scene/image.h"
-#include "scene/splat_math.h"
+#include "scene/camera/camera.h"
+#include "scene/cloud/gaussian_cloud.h"
+#include "scene/raster/splat_math.h"
 
 namespace splatcut {
 

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "scene/image.h"
+#include "core/image.h"
 
 namespace splatcut {
 

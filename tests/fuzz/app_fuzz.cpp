@@ -1,15 +1,15 @@
 // Readers above the layer `scene`: what is meant, what is kept, suites.
 #include <cstring>
 
-#include "app/camera_options.h"
+#include "app/cli/many_objects.h"
+#include "app/cli/segmenter.h"
+#include "app/console/camera_options.h"
+#include "app/console/seeds_file.h"
 #include "app/lab/eval_suite.h"
-#include "app/many_objects.h"
-#include "app/seeds_file.h"
-#include "app/segmenter.h"
 #include "app/studio/work_file.h"
+#include "core/json_file.h"
 #include "fuzz.h"
-#include "scene/json_file.h"
-#include "segment/prepared_cache.h"
+#include "segment/superpoints/prepared_cache.h"
 
 namespace splatcut {
 

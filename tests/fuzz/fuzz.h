@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace splatcut {
 

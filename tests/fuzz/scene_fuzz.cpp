@@ -1,9 +1,9 @@
 // Readers of the layer `scene`: scenes, cameras, pictures.
+#include "core/png_file.h"
 #include "fuzz.h"
-#include "scene/camera_file.h"
+#include "scene/camera/camera_file.h"
+#include "scene/formats/scene_file.h"
 #include "scene/formats/webp.h"
-#include "scene/png_file.h"
-#include "scene/scene_file.h"
 
 namespace splatcut {
 

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "app/lab/robot_user.h"
-#include "scene/error.h"
-#include "scene/rasterizer.h"
-#include "segment/doubts.h"
-#include "segment/mask_tools.h"
-#include "segment/orbit.h"
+#include "core/error.h"
+#include "scene/raster/rasterizer.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/session/doubts.h"
+#include "segment/superpoints/orbit.h"
 
 namespace splatcut {
 

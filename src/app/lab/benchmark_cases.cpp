@@ -8,13 +8,13 @@
 #include <numeric>
 #include <optional>
 
-#include "app/camera_options.h"
+#include "app/console/camera_options.h"
+#include "app/console/mask_folder.h"
 #include "app/lab/benchmark_folders.h"
 #include "app/lab/scribble_picture.h"
-#include "app/mask_folder.h"
-#include "scene/camera_file.h"
-#include "scene/error.h"
-#include "scene/png_file.h"
+#include "core/error.h"
+#include "core/png_file.h"
+#include "scene/camera/camera_file.h"
 
 namespace splatcut {
 

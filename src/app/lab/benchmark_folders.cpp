@@ -6,9 +6,9 @@
 #include <cctype>
 #include <charconv>
 
-#include "app/mask_folder.h"
-#include "scene/error.h"
-#include "scene/scene_formats.h"
+#include "app/console/mask_folder.h"
+#include "core/error.h"
+#include "scene/formats/scene_formats.h"
 
 namespace splatcut {
 

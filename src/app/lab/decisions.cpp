@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "segment/mask_tools.h"
+#include "segment/masks/mask_tools.h"
 #include "segment/selection/click_selection.h"
 
 namespace splatcut {

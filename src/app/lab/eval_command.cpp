@@ -7,7 +7,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/console.h"
+#include "app/console/console.h"
+#include "app/console/mask_options.h"
+#include "app/console/output_folder.h"
+#include "app/console/setting_options.h"
+#include "app/console/version.h"
 #include "app/lab/any_view_report.h"
 #include "app/lab/benchmark_folders.h"
 #include "app/lab/click_draws.h"
@@ -15,12 +19,8 @@
 #include "app/lab/lab_commands.h"
 #include "app/lab/part_model_file.h"
 #include "app/lab/published_scores.h"
-#include "app/mask_options.h"
-#include "app/output_folder.h"
-#include "app/setting_options.h"
-#include "app/version.h"
-#include "scene/atomic_file.h"
-#include "scene/json_file.h"
+#include "core/atomic_file.h"
+#include "core/json_file.h"
 #include "segment/session/settings_table.h"
 
 namespace splatcut {

@@ -4,13 +4,13 @@
 
 #include <chrono>
 
-#include "app/camera_options.h"
-#include "app/seeds_file.h"
-#include "scene/camera_file.h"
-#include "scene/error.h"
-#include "scene/json_file.h"
-#include "scene/mapped_file.h"
-#include "scene/png_file.h"
+#include "app/console/camera_options.h"
+#include "app/console/seeds_file.h"
+#include "core/error.h"
+#include "core/json_file.h"
+#include "core/mapped_file.h"
+#include "core/png_file.h"
+#include "scene/camera/camera_file.h"
 
 namespace splatcut {
 

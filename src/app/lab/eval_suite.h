@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "app/lab/evaluate.h"
-#include "scene/scene_file.h"
+#include "scene/formats/scene_file.h"
 
 namespace splatcut {
 

@@ -6,9 +6,9 @@
 
 #include "app/lab/evaluate_picture.h"
 #include "app/lab/robot_user.h"
-#include "scene/error.h"
-#include "segment/doubts.h"
-#include "segment/mask_tools.h"
+#include "core/error.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/session/doubts.h"
 
 namespace splatcut {
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "scene/error.h"
-#include "scene/picture_difference.h"
-#include "scene/png_file.h"
-#include "scene/rasterizer.h"
-#include "scene/splat_math.h"
+#include "core/error.h"
+#include "core/picture_difference.h"
+#include "core/png_file.h"
+#include "scene/raster/rasterizer.h"
+#include "scene/raster/splat_math.h"
 
 namespace splatcut {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/lab/evaluate.h"
-#include "scene/image.h"
+#include "core/image.h"
 
 namespace splatcut {
 

@@ -12,15 +12,15 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "app/console.h"
+#include "app/console/console.h"
+#include "app/console/output_folder.h"
 #include "app/lab/decisions.h"
 #include "app/lab/eval_suite.h"
 #include "app/lab/lab_commands.h"
 #include "app/lab/part_model_file.h"
-#include "app/output_folder.h"
-#include "scene/atomic_file.h"
-#include "scene/error.h"
-#include "scene/json_file.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/json_file.h"
 
 namespace splatcut {
 

@@ -1,7 +1,7 @@
 // The subcommands of splatcut-lab. Each adds itself to the command line; its work runs from the callback.
 #pragma once
 
-#include "app/command_line.h"
+#include "app/console/command_line.h"
 
 namespace splatcut {
 

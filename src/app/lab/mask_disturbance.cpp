@@ -1,8 +1,8 @@
 #include "app/lab/mask_disturbance.h"
 
-#include "scene/counter_rng.h"
-#include "scene/error.h"
-#include "segment/mask_tools.h"
+#include "core/counter_rng.h"
+#include "core/error.h"
+#include "segment/masks/mask_tools.h"
 
 namespace splatcut {
 

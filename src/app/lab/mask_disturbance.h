@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "scene/image.h"
+#include "core/image.h"
 
 namespace splatcut {
 

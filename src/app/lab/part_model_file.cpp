@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "scene/error.h"
-#include "scene/json_file.h"
+#include "core/error.h"
+#include "core/json_file.h"
 
 namespace splatcut {
 

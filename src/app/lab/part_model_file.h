@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
-#include "segment/part_model.h"
+#include "segment/superpoints/part_model.h"
 
 namespace splatcut {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "segment/mask_tools.h"
+#include "segment/masks/mask_tools.h"
 #include "segment/selection/click_selection.h"
 
 namespace splatcut {

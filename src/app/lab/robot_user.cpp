@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "scene/counter_rng.h"
-#include "segment/mask_tools.h"
+#include "core/counter_rng.h"
+#include "segment/masks/mask_tools.h"
 
 namespace splatcut {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "scene/image.h"
-#include "segment/seeds.h"
+#include "core/image.h"
+#include "segment/masks/seeds.h"
 
 namespace splatcut {
 

@@ -10,8 +10,8 @@
 #include <span>
 #include <utility>
 
-#include "scene/counter_rng.h"
-#include "scene/error.h"
+#include "core/counter_rng.h"
+#include "core/error.h"
 
 namespace splatcut {
 

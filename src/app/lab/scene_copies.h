@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/job.h"
-#include "scene/scene_file.h"
+#include "core/job.h"
+#include "scene/formats/scene_file.h"
 
 namespace splatcut {
 

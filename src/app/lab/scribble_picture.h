@@ -1,8 +1,8 @@
 // Scribbles that were saved as a picture.
 #pragma once
 
-#include "scene/image.h"
-#include "segment/seeds.h"
+#include "core/image.h"
+#include "segment/masks/seeds.h"
 
 namespace splatcut {
 

@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "scene/atomic_file.h"
-#include "scene/camera_file.h"
-#include "scene/json_file.h"
-#include "scene/morton.h"
-#include "scene/scene_file.h"
+#include "core/atomic_file.h"
+#include "core/json_file.h"
+#include "scene/camera/camera_file.h"
+#include "scene/cloud/morton.h"
+#include "scene/formats/scene_file.h"
 
 namespace splatcut {
 

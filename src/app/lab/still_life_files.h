@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/output_folder.h"
+#include "app/console/output_folder.h"
 #include "scene/still_life/still_life.h"
 
 namespace splatcut {

@@ -10,8 +10,8 @@
 #include <optional>
 #include <span>
 
-#include "scene/camera.h"
-#include "scene/gaussian_cloud.h"
+#include "scene/camera/camera.h"
+#include "scene/cloud/gaussian_cloud.h"
 
 namespace splatcut {
 

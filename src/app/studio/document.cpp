@@ -6,7 +6,7 @@
 #include <array>
 #include <cassert>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace splatcut {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/image.h"
+#include "core/image.h"
 #include "segment/session/cut_request.h"
 #include "segment/session/cut_settings.h"
 

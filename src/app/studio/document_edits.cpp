@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/studio/frame_thread.h"
-#include "scene/error.h"
+#include "core/error.h"
 #include "segment/selection/click_selection.h"
 
 namespace splatcut {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "app/studio/command.h"
-#include "scene/gaussian_cloud.h"
-#include "segment/max_flow.h"
+#include "scene/cloud/gaussian_cloud.h"
+#include "segment/graphcut/max_flow.h"
 
 namespace splatcut {
 

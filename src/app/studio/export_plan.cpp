@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "app/output_folder.h"
-#include "scene/error.h"
+#include "app/console/output_folder.h"
+#include "core/error.h"
 
 namespace splatcut {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/studio/document.h"
-#include "scene/scene_file.h"
+#include "scene/formats/scene_file.h"
 
 namespace splatcut {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "app/studio/document.h"
-#include "scene/camera.h"
-#include "scene/image.h"
+#include "core/image.h"
+#include "scene/camera/camera.h"
 
 namespace splatcut {
 

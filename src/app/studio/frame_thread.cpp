@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "scene/rasterizer.h"
+#include "scene/raster/rasterizer.h"
 
 namespace splatcut {
 

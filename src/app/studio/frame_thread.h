@@ -17,9 +17,9 @@
 #include <thread>
 
 #include "app/studio/frame_shading.h"
-#include "scene/coarse_cloud.h"
-#include "scene/gaussian_cloud.h"
-#include "scene/splat_math.h"
+#include "scene/cloud/coarse_cloud.h"
+#include "scene/cloud/gaussian_cloud.h"
+#include "scene/raster/splat_math.h"
 
 namespace splatcut {
 

@@ -1,11 +1,11 @@
 #include "app/studio/opened_scene.h"
 
-#include "app/camera_options.h"
+#include "app/console/camera_options.h"
 #include "app/studio/camera_controller.h"
 #include "app/studio/work_file.h"
-#include "scene/camera_file.h"
-#include "scene/error.h"
-#include "scene/guessed_view.h"
+#include "core/error.h"
+#include "scene/camera/camera_file.h"
+#include "scene/raster/guessed_view.h"
 
 namespace splatcut {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "scene/camera.h"
-#include "scene/scene_file.h"
+#include "scene/camera/camera.h"
+#include "scene/formats/scene_file.h"
 #include "segment/session/session.h"
 
 namespace splatcut {

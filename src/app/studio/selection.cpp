@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "scene/rasterizer.h"
-#include "scene/splat_math.h"
-#include "segment/seeds.h"
+#include "scene/raster/rasterizer.h"
+#include "scene/raster/splat_math.h"
+#include "segment/masks/seeds.h"
 
 namespace splatcut {
 

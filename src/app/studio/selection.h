@@ -1,8 +1,8 @@
 // From a region of the picture, or a property, to Gaussians. One byte per Gaussian, 1 = selected.
 //
 // Visible-only takes what the picture shows: Gaussians most of whose visible weight (alpha T, see
-// scene/rasterizer.h) lies in the region. See-through takes every Gaussian whose centre projects into the
-// region, down to a depth limit behind the visible surface.
+// scene/raster/rasterizer.h) lies in the region. See-through takes every Gaussian whose centre projects into
+// the region, down to a depth limit behind the visible surface.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 #include <span>
 #include <vector>
 
-#include "scene/camera.h"
-#include "scene/gaussian_cloud.h"
-#include "scene/image.h"
-#include "scene/job.h"
-#include "segment/max_flow.h"
+#include "core/image.h"
+#include "core/job.h"
+#include "scene/camera/camera.h"
+#include "scene/cloud/gaussian_cloud.h"
+#include "segment/graphcut/max_flow.h"
 
 namespace splatcut {
 

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <thread>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace splatcut {
 

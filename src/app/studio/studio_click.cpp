@@ -6,8 +6,8 @@
 
 #include "app/studio/document_edits.h"
 #include "app/studio/studio.h"
-#include "scene/error.h"
-#include "scene/rasterizer.h"
+#include "core/error.h"
+#include "scene/raster/rasterizer.h"
 
 namespace splatcut {
 

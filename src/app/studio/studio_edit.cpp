@@ -5,7 +5,7 @@
 
 #include "app/studio/document_edits.h"
 #include "app/studio/studio.h"
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace splatcut {
 

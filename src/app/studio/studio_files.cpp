@@ -5,13 +5,13 @@
 #include <chrono>
 #include <glm/gtc/constants.hpp>
 
-#include "app/output_folder.h"
+#include "app/console/output_folder.h"
 #include "app/studio/studio.h"
 #include "app/studio/work_file.h"
-#include "scene/error.h"
-#include "scene/png_file.h"
-#include "scene/rasterizer.h"
-#include "segment/orbit.h"
+#include "core/error.h"
+#include "core/png_file.h"
+#include "scene/raster/rasterizer.h"
+#include "segment/superpoints/orbit.h"
 
 namespace splatcut {
 

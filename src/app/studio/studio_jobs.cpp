@@ -5,10 +5,10 @@
 
 #include "app/studio/studio.h"
 #include "app/studio/work_file.h"
-#include "scene/error.h"
-#include "scene/rasterizer.h"
-#include "segment/doubts.h"
-#include "segment/mask_tools.h"
+#include "core/error.h"
+#include "scene/raster/rasterizer.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/session/doubts.h"
 
 namespace splatcut {
 

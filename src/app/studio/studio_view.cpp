@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "app/studio/studio.h"
-#include "scene/rasterizer.h"
+#include "scene/raster/rasterizer.h"
 
 namespace splatcut {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace splatcut {
 

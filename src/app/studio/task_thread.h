@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "scene/job.h"
+#include "core/job.h"
 
 namespace splatcut {
 

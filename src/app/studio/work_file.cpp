@@ -8,11 +8,11 @@
 #include <cstring>
 #include <glm/gtc/constants.hpp>
 
-#include "app/seeds_file.h"
-#include "scene/atomic_file.h"
-#include "scene/error.h"
-#include "scene/json_file.h"
-#include "scene/mapped_file.h"
+#include "app/console/seeds_file.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/json_file.h"
+#include "core/mapped_file.h"
 
 namespace splatcut {
 

@@ -15,7 +15,7 @@
 
 #include "app/studio/camera_controller.h"
 #include "app/studio/document.h"
-#include "scene/scene_file.h"
+#include "scene/formats/scene_file.h"
 
 namespace splatcut {
 

@@ -6,9 +6,9 @@
 
 #include <cstring>
 
+#include "app/console/version.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
-#include "app/version.h"
 
 namespace splatcut {
 

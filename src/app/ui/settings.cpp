@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "scene/atomic_file.h"
-#include "scene/error.h"
-#include "scene/json_file.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/json_file.h"
 
 namespace splatcut {
 

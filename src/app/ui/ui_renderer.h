@@ -7,8 +7,8 @@
 #include <map>
 #include <memory>
 
+#include "core/image.h"
 #include "render/triangle_renderer.h"
-#include "scene/image.h"
 
 namespace splatcut {
 

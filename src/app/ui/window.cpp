@@ -9,10 +9,10 @@
 #include <cstdlib>
 #include <optional>
 
-#include "app/console.h"
+#include "app/console/console.h"
+#include "app/console/user_folders.h"
 #include "app/ui/settings.h"
-#include "app/user_folders.h"
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace splatcut {
 

@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/scene_file.h"
+#include "scene/formats/scene_file.h"
 
 namespace splatcut {
 

@@ -7,12 +7,12 @@
 #include <array>
 #include <limits>
 
-#include "scene/atomic_file.h"
-#include "scene/error.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/losses.h"
 #include "scene/formats/ply_header.h"
-#include "scene/quantise.h"
 
 namespace splatcut {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "scene/error.h"
-#include "scene/large_array.h"
+#include "core/error.h"
+#include "core/large_array.h"
 
 namespace splatcut {
 

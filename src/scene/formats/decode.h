@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/mapped_file.h"
-#include "scene/morton.h"
-#include "scene/scene_file.h"
+#include "core/mapped_file.h"
+#include "scene/cloud/morton.h"
+#include "scene/formats/scene_file.h"
 
 namespace splatcut {
 

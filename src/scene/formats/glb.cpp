@@ -12,11 +12,11 @@
 #include <map>
 #include <memory>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "core/json_file.h"
+#include "scene/cloud/quantise.h"
 #include "scene/formats/axes.h"
 #include "scene/formats/decode.h"
-#include "scene/json_file.h"
-#include "scene/quantise.h"
 
 namespace splatcut {
 

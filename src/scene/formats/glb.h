@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/scene_file.h"
+#include "scene/formats/scene_file.h"
 
 namespace splatcut::gltf {
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "scene/atomic_file.h"
-#include "scene/error.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
 #include "scene/formats/axes.h"
 #include "scene/formats/glb.h"
 #include "scene/formats/losses.h"

@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
-#include "scene/quantise.h"
 
 namespace splatcut {
 

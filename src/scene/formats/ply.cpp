@@ -8,13 +8,13 @@
 #include <bit>
 #include <cstring>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/losses.h"
 #include "scene/formats/ply_header.h"
 #include "scene/formats/ply_text.h"
 #include "scene/formats/ply_writer.h"
-#include "scene/quantise.h"
 
 namespace splatcut {
 

@@ -8,7 +8,7 @@
 #include <charconv>
 #include <limits>
 
-#include "scene/error.h"
+#include "core/error.h"
 #include "scene/formats/decode.h"
 
 namespace splatcut {

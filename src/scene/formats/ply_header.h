@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/mapped_file.h"
+#include "core/mapped_file.h"
 
 namespace splatcut {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace splatcut {
 

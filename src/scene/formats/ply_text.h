@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "core/job.h"
 #include "scene/formats/ply_header.h"
-#include "scene/job.h"
 
 namespace splatcut {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "core/mapped_file.h"
 #include "scene/formats/ply_header.h"
-#include "scene/mapped_file.h"
 
 namespace splatcut {
 

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "scene/atomic_file.h"
-#include "scene/scene_file.h"
+#include "core/atomic_file.h"
+#include "scene/formats/scene_file.h"
 
 namespace splatcut {
 

@@ -9,12 +9,12 @@
 #include <limits>
 #include <optional>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "core/json_file.h"
+#include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/webp.h"
 #include "scene/formats/zip_file.h"
-#include "scene/json_file.h"
-#include "scene/quantise.h"
 
 namespace splatcut {
 

@@ -17,7 +17,7 @@
 #include <span>
 #include <string>
 
-#include "scene/scene_file.h"
+#include "scene/formats/scene_file.h"
 
 namespace splatcut {
 

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "scene/atomic_file.h"
+#include "core/atomic_file.h"
+#include "scene/cloud/quantise.h"
 #include "scene/formats/losses.h"
 #include "scene/formats/palette.h"
 #include "scene/formats/sog.h"
 #include "scene/formats/webp.h"
 #include "scene/formats/zip_file.h"
-#include "scene/quantise.h"
 
 namespace splatcut {
 

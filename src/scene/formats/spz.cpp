@@ -6,11 +6,11 @@
 #include <bit>
 #include <optional>
 
-#include "scene/error.h"
+#include "core/error.h"
+#include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/spz_layout.h"
 #include "scene/formats/unpack.h"
-#include "scene/quantise.h"
 
 namespace splatcut {
 

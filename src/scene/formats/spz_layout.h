@@ -21,7 +21,7 @@
 
 #include "scene/formats/axes.h"
 #include "scene/formats/losses.h"
-#include "scene/scene_file.h"
+#include "scene/formats/scene_file.h"
 
 namespace splatcut::spz {
 

@@ -8,10 +8,10 @@
 #include <array>
 #include <new>
 
-#include "scene/atomic_file.h"
-#include "scene/error.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "scene/cloud/quantise.h"
 #include "scene/formats/spz_layout.h"
-#include "scene/quantise.h"
 
 namespace splatcut {
 

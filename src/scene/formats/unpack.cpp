@@ -8,7 +8,7 @@
 #include <memory>
 #include <new>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace splatcut {
 

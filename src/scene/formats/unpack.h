@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "scene/job.h"
-#include "scene/mapped_file.h"
+#include "core/job.h"
+#include "core/mapped_file.h"
 
 namespace splatcut {
 

@@ -6,7 +6,7 @@
 
 #include <new>
 
-#include "scene/error.h"
+#include "core/error.h"
 #include "scene/formats/decode.h"
 
 namespace splatcut {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/image.h"
+#include "core/image.h"
 
 namespace splatcut {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/mapped_file.h"
+#include "core/mapped_file.h"
 
 struct zip;
 

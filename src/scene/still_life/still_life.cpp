@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "scene/counter_rng.h"
-#include "scene/error.h"
-#include "scene/quantise.h"
+#include "core/counter_rng.h"
+#include "core/error.h"
+#include "scene/cloud/quantise.h"
 #include "scene/still_life/still_life_model.h"
 
 namespace splatcut {

@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/camera.h"
-#include "scene/gaussian_cloud.h"
+#include "scene/camera/camera.h"
+#include "scene/cloud/gaussian_cloud.h"
 
 namespace splatcut {
 

@@ -1,7 +1,7 @@
 // Shared helpers of the model, and the background: table, wall, floor.
 #include <cmath>
 
-#include "scene/counter_rng.h"
+#include "core/counter_rng.h"
 #include "scene/still_life/still_life_model.h"
 
 namespace splatcut::still_life {

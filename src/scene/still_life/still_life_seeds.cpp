@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/image.h"
+#include "core/image.h"
 #include "scene/still_life/still_life_model.h"
 
 namespace splatcut::still_life {

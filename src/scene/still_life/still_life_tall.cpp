@@ -1,7 +1,7 @@
 // The tall ones: the potted plant with its thin leaves and the lamp with its cable.
 #include <cmath>
 
-#include "scene/counter_rng.h"
+#include "core/counter_rng.h"
 #include "scene/still_life/still_life_model.h"
 
 namespace splatcut::still_life {

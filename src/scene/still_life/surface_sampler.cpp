@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "scene/counter_rng.h"
+#include "core/counter_rng.h"
 
 namespace splatcut {
 namespace {

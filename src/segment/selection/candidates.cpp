@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "segment/mask_tools.h"
+#include "segment/masks/mask_tools.h"
 
 namespace splatcut {
 

@@ -37,9 +37,9 @@
 #include <span>
 #include <vector>
 
-#include "segment/part_hierarchy.h"
-#include "segment/part_model.h"
 #include "segment/selection/leaf_view.h"
+#include "segment/superpoints/part_hierarchy.h"
+#include "segment/superpoints/part_model.h"
 
 namespace splatcut {
 

@@ -19,10 +19,10 @@
 #include <span>
 #include <vector>
 
-#include "segment/part_model.h"
-#include "segment/seeds.h"
+#include "segment/masks/seeds.h"
 #include "segment/selection/candidates.h"
 #include "segment/selection/leaf_view.h"
+#include "segment/superpoints/part_model.h"
 
 namespace splatcut {
 

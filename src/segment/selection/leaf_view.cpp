@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "segment/parallel.h"
+#include "core/parallel.h"
 
 namespace splatcut {
 

@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "scene/projected_view.h"
-#include "segment/part_hierarchy.h"
-#include "segment/seeds.h"
+#include "scene/raster/projected_view.h"
+#include "segment/masks/seeds.h"
+#include "segment/superpoints/part_hierarchy.h"
 
 namespace splatcut {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "segment/mask_tools.h"
+#include "segment/masks/mask_tools.h"
 
 namespace splatcut {
 

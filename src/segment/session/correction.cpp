@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "scene/png_file.h"
-#include "scene/rasterizer.h"
-#include "segment/likelihood.h"
-#include "segment/mask_tools.h"
+#include "core/png_file.h"
+#include "scene/raster/rasterizer.h"
+#include "segment/graphcut/likelihood.h"
+#include "segment/masks/mask_tools.h"
 
 namespace splatcut {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/job.h"
-#include "scene/projected_view.h"
+#include "core/job.h"
+#include "scene/raster/projected_view.h"
 #include "segment/session/cut_request.h"
 #include "segment/session/cut_settings.h"
 

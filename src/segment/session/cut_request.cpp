@@ -5,7 +5,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "scene/byte_hash.h"
+#include "core/byte_hash.h"
 
 namespace splatcut {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/camera.h"
-#include "scene/image.h"
-#include "segment/seeds.h"
+#include "core/image.h"
+#include "scene/camera/camera.h"
+#include "segment/masks/seeds.h"
 
 namespace splatcut {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "scene/camera.h"
-#include "scene/image.h"
-#include "segment/cut.h"
-#include "segment/stage_clock.h"
+#include "core/image.h"
+#include "core/stage_clock.h"
+#include "scene/camera/camera.h"
+#include "segment/graphcut/cut.h"
 
 namespace splatcut {
 

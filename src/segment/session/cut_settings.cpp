@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace splatcut {
 

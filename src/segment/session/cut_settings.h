@@ -5,14 +5,14 @@
 #include <span>
 #include <string>
 
-#include "segment/cut.h"
-#include "segment/enclosed.h"
-#include "segment/first_mask.h"
-#include "segment/orbit.h"
-#include "segment/prepared_scene.h"
-#include "segment/propagate.h"
-#include "segment/refine_mask.h"
-#include "segment/trim.h"
+#include "segment/graphcut/cut.h"
+#include "segment/masks/enclosed.h"
+#include "segment/masks/first_mask.h"
+#include "segment/masks/propagate.h"
+#include "segment/masks/refine_mask.h"
+#include "segment/masks/trim.h"
+#include "segment/superpoints/orbit.h"
+#include "segment/superpoints/prepared_scene.h"
 
 namespace splatcut {
 

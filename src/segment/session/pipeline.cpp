@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/png_file.h"
-#include "scene/rasterizer.h"
-#include "segment/cv_image.h"
-#include "segment/knn_graph.h"
-#include "segment/likelihood.h"
-#include "segment/mask_tools.h"
-#include "segment/part_view.h"
-#include "segment/stage_clock.h"
-#include "segment/trim.h"
+#include "core/png_file.h"
+#include "core/stage_clock.h"
+#include "scene/raster/rasterizer.h"
+#include "segment/graphcut/knn_graph.h"
+#include "segment/graphcut/likelihood.h"
+#include "segment/masks/cv_image.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/masks/trim.h"
+#include "segment/superpoints/part_view.h"
 
 namespace splatcut {
 

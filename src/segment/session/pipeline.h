@@ -11,14 +11,14 @@
 #include <span>
 #include <vector>
 
-#include "scene/job.h"
-#include "scene/projected_view.h"
-#include "segment/cut.h"
-#include "segment/part_hierarchy.h"
+#include "core/job.h"
+#include "scene/raster/projected_view.h"
+#include "segment/graphcut/cut.h"
 #include "segment/selection/stroke_replay.h"
 #include "segment/session/cut_request.h"
 #include "segment/session/cut_result.h"
 #include "segment/session/cut_settings.h"
+#include "segment/superpoints/part_hierarchy.h"
 
 namespace splatcut {
 

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <string_view>
 
-#include "scene/error.h"
-#include "segment/cv_image.h"
-#include "segment/knn_graph.h"
-#include "segment/likelihood.h"
-#include "segment/mask_tools.h"
-#include "segment/orbit.h"
+#include "core/error.h"
+#include "core/stage_clock.h"
+#include "segment/graphcut/knn_graph.h"
+#include "segment/graphcut/likelihood.h"
+#include "segment/masks/cv_image.h"
+#include "segment/masks/mask_tools.h"
 #include "segment/session/correction.h"
 #include "segment/session/pipeline.h"
-#include "segment/stage_clock.h"
+#include "segment/superpoints/orbit.h"
 
 namespace splatcut {
 

@@ -18,13 +18,13 @@
 #include <string>
 #include <vector>
 
-#include "scene/job.h"
-#include "scene/projected_view.h"
-#include "segment/prepared_scene.h"
+#include "core/job.h"
+#include "scene/raster/projected_view.h"
 #include "segment/selection/stroke_replay.h"
 #include "segment/session/cut_request.h"
 #include "segment/session/cut_result.h"
 #include "segment/session/cut_settings.h"
+#include "segment/superpoints/prepared_scene.h"
 
 namespace splatcut {
 

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <utility>
 
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace splatcut {
 

@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
+#include "app/console/run_program.h"
 #include "app/lab/study/study_plan.h"
-#include "app/run_program.h"
-#include "scene/atomic_file.h"
-#include "scene/error.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
 
 namespace splatcut {
 

@@ -11,7 +11,8 @@
 #include <set>
 #include <thread>
 
-#include "app/console.h"
+#include "app/console/console.h"
+#include "app/console/version.h"
 #include "app/lab/lab_commands.h"
 #include "app/lab/study/study_charts.h"
 #include "app/lab/study/study_page.h"
@@ -19,12 +20,11 @@
 #include "app/lab/study/study_runner.h"
 #include "app/lab/study/study_scenes.h"
 #include "app/lab/study/study_store.h"
-#include "app/version.h"
-#include "scene/atomic_file.h"
-#include "scene/byte_hash.h"
-#include "scene/error.h"
-#include "scene/json_file.h"
-#include "scene/png_file.h"
+#include "core/atomic_file.h"
+#include "core/byte_hash.h"
+#include "core/error.h"
+#include "core/json_file.h"
+#include "core/png_file.h"
 
 namespace splatcut {
 

@@ -9,7 +9,7 @@
 #include "app/lab/study/paper_tables.h"
 #include "app/lab/study/study_markdown.h"
 #include "app/lab/study/study_plan.h"
-#include "scene/json_file.h"
+#include "core/json_file.h"
 
 namespace splatcut {
 

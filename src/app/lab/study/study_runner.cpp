@@ -11,13 +11,13 @@
 
 #include "app/lab/robot_user.h"
 #include "app/lab/study/study_variants.h"
-#include "scene/byte_hash.h"
-#include "scene/counter_rng.h"
-#include "scene/error.h"
-#include "scene/png_file.h"
-#include "scene/rasterizer.h"
-#include "segment/doubts.h"
-#include "segment/mask_tools.h"
+#include "core/byte_hash.h"
+#include "core/counter_rng.h"
+#include "core/error.h"
+#include "core/png_file.h"
+#include "scene/raster/rasterizer.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/session/doubts.h"
 #include "segment/session/settings_table.h"
 
 namespace splatcut {

@@ -8,7 +8,7 @@
 
 #include "app/lab/eval_suite.h"
 #include "app/lab/study/study_cell.h"
-#include "scene/projected_view.h"
+#include "scene/raster/projected_view.h"
 
 namespace splatcut {
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "app/console/output_folder.h"
 #include "app/lab/eval_suite.h"
 #include "app/lab/still_life_files.h"
-#include "app/output_folder.h"
-#include "scene/error.h"
+#include "core/error.h"
 
 namespace splatcut {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/job.h"
+#include "core/job.h"
 #include "scene/still_life/still_life.h"
 
 namespace splatcut {

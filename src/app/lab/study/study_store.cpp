@@ -7,8 +7,8 @@
 #include <fstream>
 #include <utility>
 
-#include "scene/error.h"
-#include "scene/json_file.h"
+#include "core/error.h"
+#include "core/json_file.h"
 
 namespace splatcut {
 

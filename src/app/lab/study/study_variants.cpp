@@ -5,9 +5,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
-#include "scene/rasterizer.h"
-#include "segment/mask_tools.h"
-#include "segment/orbit.h"
+#include "scene/raster/rasterizer.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/superpoints/orbit.h"
 
 namespace splatcut {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/lab/evaluate.h"
-#include "scene/gaussian_cloud.h"
+#include "scene/cloud/gaussian_cloud.h"
 
 namespace splatcut {
 

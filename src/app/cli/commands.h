@@ -1,0 +1,17 @@
+// The subcommands of splatcut. Each adds itself to the command line; its work runs from the callback.
+#pragma once
+
+#include "app/console/command_line.h"
+
+namespace splatcut {
+
+void add_info_command(CLI::App& program, const CommonOptions& common);
+void add_render_command(CLI::App& program, const CommonOptions& common);
+void add_convert_command(CLI::App& program, const CommonOptions& common);
+void add_cut_command(CLI::App& program, const CommonOptions& common);
+void add_compare_command(CLI::App& program, const CommonOptions& common);
+void add_view_command(CLI::App& program, const CommonOptions& common);
+// Hidden, for the build: the manual page and the completion of all commands that were added before.
+void add_describe_command(CLI::App& program);
+
+}  // namespace splatcut

@@ -1,0 +1,49 @@
+// What `splatcut cut` leaves behind: scenes, labels, pictures, report.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/console/output_folder.h"
+#include "scene/formats/scene_file.h"
+#include "segment/session/cut_result.h"
+
+namespace splatcut {
+
+// object.png, rest.png, tint.png from `camera`, masks.png of the views.
+void write_cutout_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
+                           const CutResult& report);
+
+struct PictureNames {
+  std::string object = "object.png", tint = "tint.png", masks = "masks.png";
+};
+// The same without rest.png.
+void write_object_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
+                           const CutResult& report, const PictureNames& names = {});
+
+// The Gaussians whose flag in `shown` is 1, on nothing.
+void write_cutout_picture(const std::filesystem::path& path, const GaussianCloud& cloud, const Camera& camera,
+                          std::span<const std::uint8_t> shown);
+
+// A byte for each row of the file, 0 for rows that the cloud lacks.
+void write_labels(const std::filesystem::path& path, const Scene& scene,
+                  const std::vector<std::uint8_t>& labels);
+
+// object.ply, rest.ply (for .ply sources rows unchanged), labels.u8 in file order.
+void write_cutout_scenes(const OutputFolder& folder, const Scene& scene,
+                         const std::vector<std::uint8_t>& labels);
+
+// What a report says of the run as a whole: version, settings, scene, time, memory.
+nlohmann::json run_json(const Scene& scene, const nlohmann::json& settings, double total_ms);
+// What it says of one object: views, cut, stages.
+nlohmann::json object_json(const CutResult& report);
+// Both.
+nlohmann::json report_json(const Scene& scene, const CutResult& report, const nlohmann::json& settings,
+                           double total_ms);
+
+double peak_rss_mb();
+
+}  // namespace splatcut

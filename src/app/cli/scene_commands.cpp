@@ -1,0 +1,227 @@
+// splatcut info, render, convert.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+#include "app/cli/commands.h"
+#include "app/console/camera_options.h"
+#include "app/console/console.h"
+#include "app/console/output_folder.h"
+#include "app/console/scene_options.h"
+#include "core/error.h"
+#include "core/json_file.h"
+#include "core/mapped_file.h"
+#include "core/png_file.h"
+#include "scene/formats/scene_file.h"
+#include "scene/raster/rasterizer.h"
+
+namespace splatcut {
+
+namespace {
+
+struct SceneArguments {
+  std::filesystem::path scene, output, labels;
+  SceneOptions how;
+  CameraOptions camera;
+  int spz_version = SaveOptions{}.spz_version;
+  std::string what = "colour", background = "0,0,0";
+  float low_pass_px2 = kLowPassPx2;
+  bool json = false, overwrite = false;
+};
+
+nlohmann::json info_json(const Scene& scene) {
+  const Box box = robust_bounds(scene.cloud.position);
+  const auto list = [](const glm::vec3& v) { return nlohmann::json{v.x, v.y, v.z}; };
+  nlohmann::json info = {
+      {"file", scene.path.string()},        {"format", scene.format.name},
+      {"file_bytes", scene.file_bytes},     {"file_rows", scene.file_rows},
+      {"gaussians", scene.cloud.size()},    {"dropped", scene.dropped},
+      {"sh_degree", scene.cloud.sh_degree}, {"bounds_98", {{"min", list(box.min)}, {"max", list(box.max)}}},
+      {"antialiased", scene.antialiased}};
+  if (scene.taken_axes) info["spz_axes"] = name_of(*scene.taken_axes);
+  return info;
+}
+
+void run_info(const SceneArguments& args, const CommonOptions& common) {
+  const Scene scene = args.how.load(args.scene, {}, common.quiet, console_job(common.quiet));
+  end_progress();
+  const nlohmann::json info = info_json(scene);
+  if (args.json) {
+    fmt::print("{}\n", json_text(info, 2));
+    return;
+  }
+  for (const auto& [key, value] : info.items())
+    fmt::print("{:<10} {}\n", key, value.is_string() ? value.get<std::string>() : json_text(value));
+}
+
+// Labels in file order, as `cut` writes them, for the Gaussians of the cloud.
+std::vector<std::uint8_t> load_labels(const std::filesystem::path& path, const Scene& scene) {
+  const std::string bytes = text_of_file(path);
+  if (bytes.size() != scene.file_rows)
+    throw Error(path.string(),
+                fmt::format("holds {} labels, the scene {} rows", bytes.size(), scene.file_rows));
+  std::vector<std::uint8_t> labels(scene.cloud.size());
+  for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = bytes[scene.cloud.file_row[g]] != 0;
+  return labels;
+}
+
+// strip: the rows of the picture from y0 on.
+using TakeStrip = std::function<void(const RasterOutput& strip, int y0)>;
+
+// Strip by strip, to the same bits, so that a large picture takes little memory beside itself and says how
+// far it is.
+void draw_strips(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
+                 const Job& job, const TakeStrip& take) {
+  constexpr int kStripPixels = 1 << 24, kTiles = 16;  // px
+  const int rows = std::max(1, kStripPixels / camera.width_px / kTiles) * kTiles;
+  for (int y = 0; y < camera.height_px && !job.cancelled(); y += rows) {
+    job.progress("render", static_cast<double>(y) / camera.height_px);
+    RasterOptions strip = options;
+    strip.roi = PixelRect{0, y, camera.width_px, std::min(camera.height_px, y + rows)};
+    take(rasterize(cloud, camera, strip, job), y);
+  }
+}
+
+// The pixels of a strip, in their places of the whole.
+template <class Pixel>
+void put(const Image<Pixel>& strip, int y0, Image<Pixel>* whole) {
+  std::ranges::copy(strip.pixels(),
+                    whole->pixels().begin() + static_cast<std::ptrdiff_t>(y0) * whole->width());
+}
+
+Image<std::uint8_t> grey_of(const Image<float>& alpha) {
+  Image<std::uint8_t> grey(alpha.width(), alpha.height());
+  std::ranges::transform(alpha.pixels(), grey.pixels().begin(),
+                         [](float a) { return static_cast<std::uint8_t>(a * 255 + 0.5f); });
+  return grey;
+}
+
+// Before a picture that takes long: so that it can be stopped.
+void say_memory(const Camera& camera, std::size_t pixel_bytes, bool quiet) {
+  constexpr double kFrom = 0.25, kGb = 1e9;
+  const double gb =
+      static_cast<double>(camera.width_px) * camera.height_px * static_cast<double>(pixel_bytes) / kGb;
+  if (!quiet && gb >= kFrom)
+    to_stderr(fmt::format("{} x {} pixels take {:.1f} GB of memory beside the scene.\n", camera.width_px,
+                          camera.height_px, gb));
+}
+
+void write_depth(const std::filesystem::path& path, const Image<float>& depth) {
+  // Near white, far black, over what is there; 16 bits.
+  float nearest = 1e30f, farthest = 0;
+  for (const float z : depth.pixels())
+    if (z > 0) {
+      nearest = std::min(nearest, z);
+      farthest = std::max(farthest, z);
+    }
+  Image<std::uint16_t> grey(depth.width(), depth.height());
+  const float range = std::max(1e-30f, farthest - nearest);
+  std::ranges::transform(depth.pixels(), grey.pixels().begin(), [&](float z) {
+    return z > 0 ? static_cast<std::uint16_t>(65535 - 60000 * (z - nearest) / range) : std::uint16_t{0};
+  });
+  write_png(path, grey);
+}
+
+void run_render(const SceneArguments& args, const CommonOptions& common) {
+  check_output_file(args.output, args.overwrite);
+  const Job job = console_job(common.quiet);
+  const Scene scene = args.how.load(args.scene, args.camera.cameras, common.quiet, job);
+  const ChosenCamera chosen = choose_camera(args.camera, scene.cloud);
+  warn(chosen.warning, common.quiet);
+  RasterOptions options;
+  options.background = parse_vec3(args.background, "--background");
+  options.low_pass_px2 = args.low_pass_px2;
+  options.depth = args.what == "depth";
+  std::vector<glm::vec3> colours;
+  if (args.what == "labels") {
+    if (args.labels.empty()) throw Error("splatcut render", "--what labels needs --labels FILE");
+    for (const std::uint8_t l : load_labels(args.labels, scene)) colours.emplace_back(l ? 1.0f : 0.0f);
+    options.colour_override = colours;
+  }
+  const Camera& camera = chosen.camera;
+  const bool depth = args.what == "depth", alpha = args.what == "alpha";
+  say_memory(camera, depth ? sizeof(float) + sizeof(std::uint16_t) : alpha ? 1 : sizeof(Rgb8), common.quiet);
+  const auto drawn = [&](auto whole, const auto& of_strip) {
+    draw_strips(scene.cloud, camera, options, job,
+                [&](const RasterOutput& strip, int y0) { put(of_strip(strip), y0, &whole); });
+    end_progress();
+    stop_if_cancelled(job, "splatcut render");
+    return whole;
+  };
+  const int width = camera.width_px, height = camera.height_px;
+  if (depth)
+    write_depth(args.output, drawn(Image<float>(width, height),
+                                   [](const RasterOutput& strip) { return strip.expected_depth; }));
+  else if (alpha)
+    write_png(args.output, drawn(Image<std::uint8_t>(width, height),
+                                 [](const RasterOutput& strip) { return grey_of(strip.alpha); }));
+  else
+    write_png(args.output, drawn(Image<Rgb8>(width, height),
+                                 [](const RasterOutput& strip) { return rgb8_from_linear(strip.colour); }));
+  if (!common.quiet) fmt::print("{}\n", args.output.string());
+}
+
+void run_convert(const SceneArguments& args, const CommonOptions& common) {
+  check_output_file(args.output, args.overwrite);
+  const SceneFormat format = output_format_from_name(args.output);
+  const Job job = console_job(common.quiet);
+  const Scene scene = args.how.load(args.scene, {}, common.quiet, job);
+  end_progress();
+  stop_if_cancelled(job, "splatcut convert");
+  const SaveReport report = save_scene(args.output, scene, {}, format, {args.spz_version});
+  if (common.quiet) return;
+  fmt::print("{}: {} Gaussians, {} bytes\n", args.output.string(), report.gaussians, report.bytes);
+  if (!report.loss.empty()) fmt::print("Lost: {}\n", report.loss);
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& program, const CommonOptions& common) {
+  auto args = std::make_shared<SceneArguments>();
+  CLI::App& command = *program.add_subcommand("info", "Say what a scene file holds");
+  command.add_option("scene", args->scene, "Scene file")->required();
+  args->how.add_to(command);
+  command.add_flag("--json", args->json, "Print JSON");
+  command.callback([args, &common] { run_info(*args, common); });
+}
+
+void add_render_command(CLI::App& program, const CommonOptions& common) {
+  auto args = std::make_shared<SceneArguments>();
+  CLI::App& command = *program.add_subcommand("render", "Draw a view of a scene as PNG");
+  command.footer("Example: splatcut render scene.ply --camera-pos 0,-1,-4 --camera-target 0,0,0 -o view.png");
+  command.add_option("scene", args->scene, "Scene file")->required();
+  args->how.add_to(command);
+  args->camera.add_to(command);
+  command.add_option("--what", args->what, "colour, depth, alpha or labels")
+      ->check(CLI::IsMember({"colour", "depth", "alpha", "labels"}));
+  command.add_option("--labels", args->labels, "labels.u8 of a cut, for --what labels");
+  command.add_option("--background", args->background, "r,g,b from 0 to 1");
+  command
+      .add_option("--lowpass", args->low_pass_px2,
+                  fmt::format("px^2 added to the variance of every splat: {} as in training, {} as in web "
+                              "viewers",
+                              kLowPassPx2, kWebLowPassPx2))
+      ->check(CLI::Range(0.0f, 100.0f));
+  command.add_option("-o,--output", args->output, "PNG to write")->required();
+  command.add_flag("--overwrite", args->overwrite, "Replace an existing file");
+  command.callback([args, &common] { run_render(*args, common); });
+}
+
+void add_convert_command(CLI::App& program, const CommonOptions& common) {
+  auto args = std::make_shared<SceneArguments>();
+  CLI::App& command = *program.add_subcommand(
+      "convert", "Write a scene in another format (" + spoken_extensions(written_formats(), "or") + ")");
+  command.add_option("scene", args->scene, "Scene file")->required();
+  args->how.add_to(command);
+  command.add_option("-o,--output", args->output, "File to write; its ending names the format")->required();
+  command
+      .add_option("--spz-version", args->spz_version,
+                  "Version of a .spz to write: 3, which all programs read, or 4, which is smaller")
+      ->check(CLI::IsMember({3, 4}));
+  command.add_flag("--overwrite", args->overwrite, "Replace an existing file");
+  command.callback([args, &common] { run_convert(*args, common); });
+}
+
+}  // namespace splatcut

@@ -1,0 +1,54 @@
+// splatcut view: the window.
+#include <memory>
+
+#include "app/cli/commands.h"
+#include "app/console/scene_options.h"
+#include "app/ui/window.h"
+#include "core/error.h"
+
+namespace splatcut {
+
+namespace {
+
+struct ViewArguments {
+  WindowOptions window;
+  SceneOptions how;
+  std::string renderer = "auto";
+  bool check = false;
+};
+
+void run_view(ViewArguments args) {
+  if (const std::string reason = args.check ? why_no_window() : ""; !reason.empty())
+    throw Error("window", "cannot be opened here: " + reason);
+  if (args.check) return;
+  args.window.renderer = args.renderer == "gl"    ? RendererChoice::kGl
+                         : args.renderer == "cpu" ? RendererChoice::kCpu
+                                                  : RendererChoice::kAuto;
+  args.window.spz_axes = args.how.axes();
+  run_window(args.window);
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& program, const CommonOptions& common) {
+  auto args = std::make_shared<ViewArguments>();
+  CLI::App& command = *program.add_subcommand("view", "Open the window (splatcut SCENE does the same)");
+  command.footer("Example: splatcut view scene.ply");
+  command.add_option("scene", args->window.open, "Scene file or .splatcut.json");
+  args->how.add_to(command);
+  command
+      .add_option("--renderer", args->renderer,
+                  "auto, gl or cpu: auto takes the CPU where OpenGL is software")
+      ->check(CLI::IsMember({"auto", "gl", "cpu"}));
+  command.add_option("--ui-scale", args->window.ui_scale, "Size of the interface, 1 is usual")
+      ->check(CLI::Range(0.5, 4.0));
+  command.add_option("--width", args->window.width, "Width of the window")->check(CLI::Range(640, 8192));
+  command.add_option("--height", args->window.height, "Height of the window")->check(CLI::Range(480, 8192));
+  command.add_flag("--check", args->check, "Only say whether a window can open here (exit code 0 or 1)");
+  command.callback([args, &common] {
+    args->window.cache = prepared_cache(common);
+    run_view(*args);
+  });
+}
+
+}  // namespace splatcut

@@ -1,0 +1,93 @@
+#include "app/cli/ways_in.h"
+
+#include "app/console/mask_folder.h"
+#include "app/console/seeds_file.h"
+#include "core/error.h"
+#include "core/json_file.h"
+
+namespace splatcut {
+
+namespace {
+
+// The file is read once: it may be a pipe.
+void read_seeds(const std::filesystem::path& file, Meant* meant) {
+  const nlohmann::json seeds = json_of_file(file);
+  const std::string where = file.string();
+  meant->objects = named_seeds_from_json(seeds, where);
+  if (!meant->objects.empty()) return;
+  meant->strokes = strokes_from_json(seeds, where);
+  if (meant->strokes.empty()) throw Error(where, "holds neither clicks nor scribbles");
+  meant->choice = choice_from_json(seeds, where);
+}
+
+}  // namespace
+
+void WaysIn::add_to(CLI::App& command) {
+  CLI::Option* by_clicks = command.add_option(
+      "--click", clicks, "Pixel x,y[:object|:rest] of the reference view; may be repeated");
+  CLI::Option* by_seeds = command.add_option("--seeds", seeds,
+                                             "JSON file with clicks and scribbles, or with several objects "
+                                             "of them: what two claim is the later one's");
+  CLI::Option* by_mask = command.add_option("--mask", mask, "PNG mask of the reference view, white = object");
+  CLI::Option* by_masks = command.add_option(
+      "--masks", masks_folder, "Folder with a PNG mask per camera of --cameras, NAME.png or NAME.jpg.png");
+  CLI::Option* by_words = command.add_option_function<std::string>(
+      "--text",
+      [this](const std::string& words) {
+        text = words;
+        by_text = true;
+      },
+      "What is meant in words, for the program of --segmenter");
+  command
+      .add_option("--segmenter", segmenter,
+                  "Program that writes a mask: 'PROGRAM {image} {text} {mask}' (or the environment's "
+                  "SPLATCUT_SEGMENTER)")
+      ->needs(by_words);
+  for (CLI::Option* alone : {by_mask, by_masks, by_words})
+    for (CLI::Option* other : {by_clicks, by_seeds, by_mask, by_masks, by_words})
+      if (alone != other) alone->excludes(other);
+}
+
+Meant WaysIn::read(const CameraOptions& camera) const {
+  Meant meant;
+  meant.mask = mask;
+  meant.masks_folder = masks_folder;
+  if (by_text) meant.segmenter = make_segmenter({text, segmenter});
+  if (!seeds.empty()) read_seeds(seeds, &meant);
+  for (const std::string& pixel : clicks) meant.strokes.push_back(parse_click(pixel));
+  if (!meant.objects.empty() && !meant.strokes.empty())
+    throw Error("--click", "belongs to no object, as --seeds holds several",
+                "Add it to one of them in the file");
+  if (!masks_folder.empty() && camera.cameras.empty())
+    throw Error("--masks", "needs the cameras of the masks", "Give them with --cameras");
+  if (!masks_folder.empty() && !(camera.position + camera.target).empty())
+    throw Error("--masks", "belongs to the cameras of --cameras, not to --camera-pos",
+                "Choose the reference with --camera");
+  const bool masked = !mask.empty() || !masks_folder.empty() || by_text;
+  if (meant.strokes.empty() && meant.objects.empty() && !masked)
+    throw Error("splatcut cut", "nothing says which object is meant",
+                "Give --click x,y, --seeds FILE, --mask FILE, --masks FOLDER or --text WORDS");
+  return meant;
+}
+
+CutRequest request_of(const Meant& meant, const CameraOptions& camera, const GaussianCloud& cloud,
+                      const Job& job, ChosenCamera* chosen, std::string* warning) {
+  CutRequest request;
+  request.choice = meant.choice;
+  if (!meant.strokes.empty()) request.strokes = {{chosen->camera, meant.strokes}};
+  if (!meant.mask.empty()) request.first_mask = {chosen->camera, read_given_mask(meant.mask, chosen->camera)};
+  if (meant.segmenter)
+    request.first_mask = {chosen->camera, mask_from_text(*meant.segmenter, cloud, chosen->camera, job)};
+  if (meant.masks_folder.empty()) return request;
+  MaskFolderOptions wanted{meant.masks_folder, {}, {}};
+  if (!camera.camera.empty()) wanted.reference = chosen->camera.name;
+  if (!camera.size.empty()) wanted.size_px = {chosen->camera.width_px, chosen->camera.height_px};
+  MaskFolder found = load_mask_folder(chosen->given, wanted);
+  chosen->camera = found.reference.camera;
+  request.first_mask = std::move(found.reference);
+  request.masks = std::move(found.others);
+  *warning = found.warning;
+  return request;
+}
+
+}  // namespace splatcut

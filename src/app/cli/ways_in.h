@@ -1,0 +1,45 @@
+// The part of the command line that says which object is meant: clicks, a file of them, masks of other tools,
+// words.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/many_objects.h"
+#include "app/cli/segmenter.h"
+#include "app/console/camera_options.h"
+#include "segment/masks/seeds.h"
+#include "segment/session/cut_request.h"
+
+namespace splatcut {
+
+// What was said, read and checked as far as that needs no scene.
+struct Meant {
+  Strokes strokes;
+  int choice = 0;                   // of the first click's meanings
+  std::vector<NamedSeeds> objects;  // several, each with strokes of its own
+  std::filesystem::path mask, masks_folder;
+  std::optional<Segmenter> segmenter;
+};
+
+struct WaysIn {
+  std::filesystem::path seeds, mask, masks_folder;
+  std::vector<std::string> clicks;
+  std::string text, segmenter;
+  bool by_text = false;
+
+  // Clicks and a file of them add up, the others stand alone. The command must not outlive this.
+  void add_to(CLI::App& command);
+  // Throws Error where nothing is meant, or what is meant lacks something.
+  Meant read(const CameraOptions& camera) const;
+};
+
+// What is meant, of one object. With a folder of masks the reference may become another camera; `warning` is
+// then a sentence about that. Throws Error for masks that cannot be used. Cancelled: incomplete.
+CutRequest request_of(const Meant& meant, const CameraOptions& camera, const GaussianCloud& cloud,
+                      const Job& job, ChosenCamera* chosen, std::string* warning);
+
+}  // namespace splatcut

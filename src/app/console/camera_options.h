@@ -1,0 +1,44 @@
+// The camera part of the command line: given cameras, a look-at camera, or the view in which the window opens
+// a scene without cameras.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/camera/camera.h"
+#include "scene/cloud/gaussian_cloud.h"
+
+namespace splatcut {
+
+struct CameraOptions {
+  std::string position, target, up;  // "x,y,z"
+  float fov_y_deg = 50;
+  std::string size;               // "WxH"
+  std::filesystem::path cameras;  // file or COLMAP folder
+  std::string camera;             // name, or index
+
+  void add_to(CLI::App& command);
+};
+
+struct ChosenCamera {
+  Camera camera;
+  glm::vec3 up_world{0, -1, 0};
+  std::vector<Camera> given;  // all cameras of --cameras, if any
+  std::string warning;        // a sentence about those cameras, or empty
+};
+
+// Throws Error for a camera that cannot be made.
+ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cloud);
+
+// The mean up direction of cameras held by a person; where they are rolled, what they agree on most.
+glm::vec3 common_up(const std::vector<Camera>& cameras);
+
+const Camera& find_camera(const std::vector<Camera>& cameras, const std::string& name,
+                          const std::string& where);
+
+glm::vec3 parse_vec3(const std::string& text, const std::string& where);
+
+}  // namespace splatcut

@@ -1,0 +1,93 @@
+#include "app/console/command_line.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "app/console/console.h"
+#include "app/console/version.h"
+#include "core/error.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr int kCouldNot = 1, kWrongUsage = 2;
+
+// An exception that cannot travel on: memory ran out while another was on its way, or within a library that
+// lets none pass. Nothing can be cleaned then; the next run does it.
+std::terminate_handler g_terminate_before = nullptr;
+std::atomic<bool> g_memory_ran_out = false;
+
+void on_no_memory() {
+  g_memory_ran_out = true;
+  throw std::bad_alloc();
+}
+
+[[noreturn]] void on_terminate() {
+  constexpr std::string_view kSaid = "splatcut: There is not enough memory for this.\n";
+  if (g_memory_ran_out) {
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, kSaid.data(), kSaid.size());
+    ::_exit(kCouldNot);
+  }
+  g_terminate_before();  // a defect: the C++ library says which exception it was
+  std::abort();
+}
+
+int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
+  CLI::App program{line.description};
+  program.name(line.program);
+  program.footer("Example: " + line.example);
+  program.set_version_flag("--version", line.program + " " + version());
+  program.require_subcommand(1);
+  program.fallthrough();
+  CommonOptions common;
+  program
+      .add_option("--threads", common.threads, "Worker threads (0: all cores); results do not depend on it")
+      ->check(CLI::NonNegativeNumber);
+  program.add_flag("--quiet", common.quiet, "Print errors only");
+  program.add_flag("!--no-cache", common.cache,
+                   "Keep nothing of scenes that were prepared, and use nothing that was kept");
+  std::optional<tbb::global_control> limit;
+  program.parse_complete_callback([&] {
+    if (common.threads > 0)
+      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(common.threads));
+  });
+  line.add_commands(program, common);
+  std::ranges::reverse(words);  // as CLI11 wants them
+  try {
+    program.parse(std::move(words));
+    if (std::fflush(stdout) != 0) throw Error("standard output", std::strerror(errno));
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : kWrongUsage;
+  }
+}
+
+}  // namespace
+
+int run_command_line(const CommandLine& line, std::vector<std::string> words) {
+  g_terminate_before = std::set_terminate(on_terminate);
+  std::set_new_handler(on_no_memory);
+  try {
+    return parse_and_run(line, std::move(words));
+  } catch (const std::exception& error) {
+    end_progress();
+    to_stderr(fmt::format("{}: {}\n", line.program, sentence_of(error)));
+  }
+  return kCouldNot;
+}
+
+}  // namespace splatcut

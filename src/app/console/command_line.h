@@ -1,0 +1,36 @@
+// What both programs share: the options of every subcommand, exit codes, and errors as sentences.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/console/user_folders.h"
+#include "segment/superpoints/prepared_scene.h"
+
+namespace splatcut {
+
+// What every subcommand shares.
+struct CommonOptions {
+  int threads = 0;  // 0: all cores
+  bool quiet = false;
+  bool cache = true;  // scenes once prepared are kept in the user's cache folder
+};
+
+inline PreparedCache prepared_cache(const CommonOptions& common) {
+  PreparedCache cache;
+  if (common.cache) cache.folder = cache_folder();
+  return cache;
+}
+
+struct CommandLine {
+  std::string program, description, example;
+  std::function<void(CLI::App&, const CommonOptions&)> add_commands;
+};
+
+// words: what follows the program's name. Returns the exit code: 0 done, 1 could not (a sentence on stderr
+// says why), 2 wrong usage.
+int run_command_line(const CommandLine& line, std::vector<std::string> words);
+
+}  // namespace splatcut

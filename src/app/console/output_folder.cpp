@@ -1,0 +1,175 @@
+#include "app/console/output_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <vector>
+
+#include "core/error.h"
+
+namespace splatcut {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// 0 where there is none.
+std::uint64_t inode_of(const fs::path& path) {
+  struct stat status {};
+  return ::lstat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+}
+
+std::vector<fs::path> names_in(const fs::path& folder) {
+  std::vector<fs::path> names;
+  std::error_code failure;
+  for (fs::directory_iterator at(folder, failure), end; !failure && at != end; at.increment(failure))
+    names.push_back(at->path().filename());
+  if (failure) throw Error(folder.string(), "cannot be read (" + failure.message() + ")");
+  return names;
+}
+
+void move(const fs::path& from, const fs::path& to) {
+  std::error_code failure;
+  fs::rename(from, to, failure);
+  if (failure)
+    throw Error(to.string(), fmt::format("cannot be written ({}), it lies in {}", failure.message(),
+                                         from.parent_path().string()));
+}
+
+void make_folder(const fs::path& folder, const fs::path& meant) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) throw Error(meant.string(), "cannot be created (" + failure.message() + ")");
+}
+
+// A shell that stands in the folder, and a mount point, want it to stay the one it is.
+bool can_be_exchanged(const fs::path& folder) {
+  struct stat own {};
+  struct stat parent {};
+  std::error_code failure;
+  return ::stat(folder.c_str(), &own) == 0 && ::stat(folder.parent_path().c_str(), &parent) == 0 &&
+         own.st_dev == parent.st_dev && ::access(folder.parent_path().c_str(), W_OK) == 0 &&
+         folder != fs::current_path(failure);
+}
+
+void make_like(const fs::path& model, const fs::path& folder) {
+  struct stat status {};
+  constexpr mode_t kPermissions = 07777;
+  if (::stat(model.c_str(), &status) != 0) return;
+  [[maybe_unused]] const int owner = ::chown(folder.c_str(), status.st_uid, status.st_gid);  // root alone may
+  ::chmod(folder.c_str(), status.st_mode & kPermissions);
+}
+
+bool exchanged(const fs::path& a, const fs::path& b) {
+  return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
+}
+
+fs::path resolved(fs::path path) {
+  if (path.filename().empty()) path = path.parent_path();
+  std::error_code failure;
+  const fs::path target = fs::weakly_canonical(fs::absolute(behind_links(path)), failure);
+  if (failure) throw Error(path.string(), "cannot be reached (" + failure.message() + ")");
+  return target;
+}
+
+}  // namespace
+
+void refuse_existing(const fs::path& path, bool overwrite) {
+  std::error_code failure;
+  if (!overwrite && fs::exists(path, failure))
+    throw Error(path.string(), "exists already", "Give --overwrite to replace it, or another -o");
+}
+
+void check_output_file(const fs::path& path, bool overwrite) {
+  if (!is_stream(path)) refuse_existing(path, overwrite);
+}
+
+OutputFolder::OutputFolder(const fs::path& path, bool overwrite)
+    : path_(path), target_(resolved(path)), overwrite_(overwrite) {
+  refuse_existing(target_, overwrite_);
+  std::error_code failure;
+  const fs::file_type there = fs::status(target_, failure).type();
+  if (fs::exists(fs::file_status(there)) && there != fs::file_type::directory)
+    throw Error(path_.string(), "is a file, where a folder is to be written");
+  exchangeable_ = there != fs::file_type::directory || can_be_exchanged(target_);
+  const fs::path ours = exchangeable_ ? target_ : target_ / "";
+  make_folder(ours.parent_path(), path_);
+  lock_.emplace(fs::path(ours) += ".splatcut.part", path_);
+  fresh_ = fs::path(ours) += ".splatcut.new";
+  set_right();
+  refuse_existing(target_, overwrite_);  // another process may have come first
+  make_folder(fresh_, path_);
+  const std::uint64_t number = inode_of(fresh_);
+  const auto noted = [&] {
+    return ::pwrite(lock_->descriptor(), &number, sizeof number, 0) == sizeof number;
+  };
+  if (!noted() && !noted()) {  // a write may take a part
+    ::rmdir(fresh_.c_str());   // no destructor will
+    throw Error(path_.string(), "cannot be written", "Make room there, or choose another place");
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  remove_unfinished();
+}
+
+std::uint64_t OutputFolder::number_in_lock() const {
+  std::uint64_t number = 0;
+  return ::pread(lock_->descriptor(), &number, sizeof number, 0) == sizeof number ? number : 0;
+}
+
+// By its number: after an exchange the name is that of the folder that was replaced.
+void OutputFolder::remove_unfinished() {
+  std::error_code ignored;
+  if (inode_of(fresh_) != 0 && inode_of(fresh_) == number_in_lock()) fs::remove_all(fresh_, ignored);
+}
+
+void OutputFolder::set_right() {
+  remove_unfinished();
+  ::rmdir(fresh_.c_str());  // an empty one: its maker was killed before its number was noted
+  if (inode_of(fresh_) == 0) return;
+  make_folder(target_, path_);
+  bring_back();
+}
+
+// From the folder that was replaced. Files whose place is taken are older ones of ours.
+void OutputFolder::bring_back() {
+  for (const fs::path& name : names_in(fresh_))
+    if (inode_of(target_ / name) == 0) move(fresh_ / name, target_ / name);
+  std::error_code failure;
+  for (const fs::path& name : names_in(fresh_))
+    if (!fs::remove(fresh_ / name, failure))
+      throw Error((fresh_ / name).string(), "cannot be removed (" + failure.message() + ")",
+                  "It is left of an earlier run; move what is yours to another place");
+  fs::remove(fresh_, failure);
+}
+
+// So that they are there at the moment of the exchange; folders cannot be linked and come after it.
+void OutputFolder::link_other_files() {
+  for (const fs::path& name : names_in(target_))
+    if (inode_of(fresh_ / name) == 0) ::link((target_ / name).c_str(), (fresh_ / name).c_str());
+}
+
+void OutputFolder::move_each() {
+  for (const fs::path& name : names_in(fresh_)) move(fresh_ / name, target_ / name);
+  std::error_code ignored;
+  fs::remove(fresh_, ignored);
+}
+
+void OutputFolder::commit() {
+  refuse_existing(target_, overwrite_);
+  if (inode_of(target_) == 0) return move(fresh_, target_);
+  std::error_code failure;
+  for (const fs::path& name : names_in(fresh_))
+    if (fs::is_directory(fs::symlink_status(target_ / name, failure)))
+      throw Error((path_ / name).string(), "is a folder, where a file is to be written");
+  if (!exchangeable_) return move_each();
+  make_like(target_, fresh_);
+  link_other_files();
+  if (!exchanged(fresh_, target_)) return move_each();
+  bring_back();
+}
+
+}  // namespace splatcut

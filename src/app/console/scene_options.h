@@ -1,0 +1,25 @@
+// The scene part of the command line: how a file is read that does not say all of itself.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "scene/formats/scene_file.h"
+
+namespace splatcut {
+
+struct SceneOptions {
+  std::string spz_axes;  // ply, rub, or empty
+
+  void add_to(CLI::App& command);
+  std::optional<SpzAxes> axes() const { return spz_axes_from_name(spz_axes); }
+
+  // cameras: file or folder of --cameras, which helps to tell the axes of a .spz, or empty. Where they had to
+  // be guessed, and where something is left out, a sentence on stderr says so.
+  Scene load(const std::filesystem::path& scene, const std::filesystem::path& cameras, bool quiet,
+             const Job& job) const;
+};
+
+}  // namespace splatcut

@@ -1,0 +1,25 @@
+// Clicks and scribbles from a file or from the command line.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "segment/masks/seeds.h"
+
+namespace splatcut {
+
+// {"clicks": [{"x","y","label":"object"|"rest"}], "scribbles": [{"label","radius_px","points":[[x,y],...]}]}
+Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where);
+
+// Throws Error where the radius or a point cannot be one of a picture.
+void check_stroke(const Stroke& stroke, const std::string& where);
+
+// Beside them an optional "choice": from 1 to kMostMeanings, which of its meanings the first click has, by
+// likelihood and as the window numbers them. Returns one less; 0 where there is none.
+int choice_from_json(const nlohmann::json& seeds, const std::string& where);
+
+// "x,y", "x,y:object" or "x,y:rest".
+Stroke parse_click(const std::string& text);
+
+}  // namespace splatcut

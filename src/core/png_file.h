@@ -1,0 +1,24 @@
+// PNG in and out. Files appear whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+
+#include "core/image.h"
+
+namespace splatcut {
+
+// Throw Error when the file cannot be written.
+void write_png(const std::filesystem::path& path, const Image<Rgb8>& image);
+void write_png(const std::filesystem::path& path, const Image<Rgba8>& image);
+void write_png(const std::filesystem::path& path, const Image<std::uint8_t>& grey);
+void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& grey16);
+
+// Any PNG as 8-bit RGB, or as 8-bit grey. Throw Error when it is missing, no PNG or damaged.
+Image<Rgb8> read_png_rgb(const std::filesystem::path& path);
+Image<std::uint8_t> read_png_grey(const std::filesystem::path& path);
+
+// Clamps to [0, 1] and rounds.
+Image<Rgb8> rgb8_from_linear(const Image<glm::vec3>& colour);
+
+}  // namespace splatcut

@@ -1,0 +1,240 @@
+// Cameras from JSON: the list that Inria's training writes, and NeRF's transforms.json.
+#include "scene/camera/camera_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/json_file.h"
+#include "core/mapped_file.h"
+#include "scene/camera/camera_formats.h"
+
+namespace splatcut {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+// No pipe: nobody may have named this file.
+json json_of_regular_file(const fs::path& path) {
+  const MappedFile file(path);
+  return parse_json(path, {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()});
+}
+
+glm::dvec3 vec3_from(const json& list) {
+  return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
+}
+
+// Rows as in the file; further columns and rows of a 4x4 matrix are not looked at.
+glm::dmat3 mat3_from(const json& rows) {
+  return glm::transpose(glm::dmat3(vec3_from(rows.at(0)), vec3_from(rows.at(1)), vec3_from(rows.at(2))));
+}
+
+Camera inria_camera(const json& entry) {
+  Camera camera;
+  camera.name = entry.value("img_name", std::string());
+  camera.width_px = entry.at("width").get<int>();
+  camera.height_px = entry.at("height").get<int>();
+  camera.fx_px = entry.at("fx").get<float>();
+  camera.fy_px = entry.at("fy").get<float>();
+  camera.cx_px = entry.value("cx", 0.5f * static_cast<float>(camera.width_px));
+  camera.cy_px = entry.value("cy", 0.5f * static_cast<float>(camera.height_px));
+  if (!set_pose(camera, mat3_from(entry.at("rotation")), vec3_from(entry.at("position"))))
+    throw std::domain_error("\"rotation\" or \"position\" is not a pose");
+  return camera;
+}
+
+// Width and height in the first chunk of a PNG; zeros when there is none.
+glm::ivec2 png_size(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  unsigned char b[24] = {};
+  if (!file.read(reinterpret_cast<char*>(b), sizeof b) || b[1] != 'P' || b[2] != 'N' || b[3] != 'G')
+    return {0, 0};
+  const auto number = [&](int at) { return b[at] << 24 | b[at + 1] << 16 | b[at + 2] << 8 | b[at + 3]; };
+  return {number(16), number(20)};
+}
+
+// A value of the frame, or else of the whole file.
+float lens_value(const json& frame, const json& file, const char* name, float otherwise) {
+  return frame.value(name, file.value(name, otherwise));
+}
+
+Camera transforms_camera(const fs::path& path, const json& file, const json& frame) {
+  Camera camera;
+  const fs::path picture = frame.value("file_path", std::string());
+  camera.name = picture.stem().string();
+  camera.width_px = static_cast<int>(lens_value(frame, file, "w", 0));
+  camera.height_px = static_cast<int>(lens_value(frame, file, "h", 0));
+  if (camera.width_px == 0 ||
+      camera.height_px == 0) {  // NeRF's synthetic scenes leave the size to the pictures
+    fs::path png = path.parent_path() / picture;
+    if (!png.has_extension()) png += ".png";
+    const glm::ivec2 size = png_size(png);
+    if (size.x <= 0)
+      throw std::domain_error("\"w\" and \"h\" are missing and " + png.string() + " is no PNG");
+    camera.width_px = size.x;
+    camera.height_px = size.y;
+  }
+  const auto width = static_cast<float>(camera.width_px), height = static_cast<float>(camera.height_px);
+  const float angle_x = lens_value(frame, file, "camera_angle_x", 0),
+              angle_y = lens_value(frame, file, "camera_angle_y", 0);
+  const float from_angle = angle_x > 0 ? 0.5f * width / std::tan(0.5f * angle_x) : 0.0f;
+  camera.fx_px = lens_value(frame, file, "fl_x", from_angle);
+  const float fy_otherwise = angle_y > 0 ? 0.5f * height / std::tan(0.5f * angle_y) : camera.fx_px;
+  camera.fy_px = lens_value(frame, file, "fl_y", fy_otherwise);
+  camera.cx_px = lens_value(frame, file, "cx", 0.5f * width);
+  camera.cy_px = lens_value(frame, file, "cy", 0.5f * height);
+  const json& matrix = frame.at("transform_matrix");
+  glm::dmat3 axes = mat3_from(matrix);  // OpenGL: x right, y up, z back
+  axes[1] = -axes[1];
+  axes[2] = -axes[2];
+  const glm::dvec3 centre(matrix.at(0).at(3).get<double>(), matrix.at(1).at(3).get<double>(),
+                          matrix.at(2).at(3).get<double>());
+  if (!set_pose(camera, axes, centre)) throw std::domain_error("\"transform_matrix\" is not a pose");
+  return camera;
+}
+
+// One camera per entry of the list; what is wrong with an entry is said with its number.
+template <class Read>
+std::vector<Camera> each_entry(const fs::path& path, const json& list, const char* kind, Read read) {
+  std::vector<Camera> cameras;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string entry = fmt::format("{} {}", kind, i);
+    try {
+      cameras.push_back(read(list[i]));
+    } catch (const json::exception& error) {
+      throw Error(path.string(), fmt::format("{}: {}", entry, fault_of(error)));
+    } catch (const std::domain_error& error) {
+      throw Error(path.string(), fmt::format("{}: {}", entry, error.what()));
+    }
+    check_lens(path, entry, cameras.back());
+  }
+  if (cameras.empty()) throw Error(path.string(), "holds no cameras");
+  return cameras;
+}
+
+// The frame's or the file's k1 k2 p1 p2 k3.
+Distortion distortion_of(const json& frame, const json& file) {
+  const auto value = [&](const char* name) { return frame.value(name, file.value(name, 0.0)); };
+  return {value("k1"), value("k2"), value("p1"), value("p2"), value("k3")};
+}
+
+std::vector<Camera> load_json_cameras(const fs::path& path, double& largest_shift_px) {
+  const json file = json_of_regular_file(path);
+  if (file.is_array()) return each_entry(path, file, "camera", inria_camera);
+  if (file.is_object() && file.contains("frames") && file["frames"].is_array())
+    return each_entry(path, file["frames"], "frame", [&](const json& frame) {
+      const Camera camera = transforms_camera(path, file, frame);
+      const double shift_px = corner_shift_px(camera, distortion_of(frame, file));
+      largest_shift_px = std::max(largest_shift_px, shift_px);
+      return camera;
+    });
+  throw Error(path.string(), "is neither a list of cameras (Inria) nor an object with \"frames\" (NeRF)");
+}
+
+}  // namespace
+
+bool set_pose(Camera& camera, const glm::dmat3& world_from_camera, const glm::dvec3& centre_world) {
+  glm::dmat3 axes = world_from_camera;
+  for (int column = 0; column < 3; ++column) axes[column] /= glm::length(axes[column]);
+  constexpr double kTolerance = 0.01;
+  const bool finite_centre = std::isfinite(centre_world.x + centre_world.y + centre_world.z);
+  if (!(std::abs(glm::determinant(axes) - 1.0) < kTolerance) || !finite_centre) return false;
+  const glm::dmat3 camera_from_world = glm::transpose(axes);
+  camera.camera_from_world_rotation = glm::mat3(camera_from_world);
+  camera.camera_from_world_translation = glm::vec3(-(camera_from_world * centre_world));
+  return true;
+}
+
+void check_lens(const fs::path& path, std::string_view entry, const Camera& camera) {
+  constexpr int kLargestSide = 1 << 17;
+  const bool size = camera.width_px > 0 && camera.height_px > 0 && camera.width_px <= kLargestSide &&
+                    camera.height_px <= kLargestSide;
+  if (!size)
+    throw Error(path.string(),
+                fmt::format("{}: a picture of {} x {} pixels", entry, camera.width_px, camera.height_px));
+  const bool focal =
+      camera.fx_px > 0 && camera.fy_px > 0 && std::isfinite(camera.fx_px) && std::isfinite(camera.fy_px);
+  if (!focal || !std::isfinite(camera.cx_px) || !std::isfinite(camera.cy_px))
+    throw Error(path.string(), fmt::format("{}: focal lengths {} and {}, principal point {}, {}", entry,
+                                           camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px));
+}
+
+double corner_shift_px(const Camera& camera, const Distortion& d) {
+  double farthest = 0;
+  for (const int u : {0, camera.width_px})
+    for (const int v : {0, camera.height_px}) {
+      const double x = (static_cast<float>(u) - camera.cx_px) / camera.fx_px;
+      const double y = (static_cast<float>(v) - camera.cy_px) / camera.fy_px;
+      const double r2 = x * x + y * y, radial = r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
+      const double dx = x * radial + 2 * d.p1 * x * y + d.p2 * (r2 + 2 * x * x);
+      const double dy = y * radial + d.p1 * (r2 + 2 * y * y) + 2 * d.p2 * x * y;
+      farthest = std::max(farthest, std::hypot(dx * camera.fx_px, dy * camera.fy_px));
+    }
+  return farthest;
+}
+
+namespace {
+
+std::vector<Camera> load_any_cameras(const fs::path& path, double& largest_shift_px) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) throw Error(path.string(), "there is no such file or folder");
+  if (fs::is_directory(path, ignored)) {
+    for (const fs::path& folder : {path, path / "sparse" / "0", path / "sparse"})
+      if (has_colmap_cameras(folder)) return load_colmap_cameras(folder, largest_shift_px);
+    for (const char* name : {"cameras.json", "transforms.json"})
+      if (fs::exists(path / name, ignored)) return load_json_cameras(path / name, largest_shift_px);
+    throw Error(path.string(),
+                "the folder has no cameras: cameras.bin, cameras.txt, cameras.json and transforms.json "
+                "are looked for");
+  }
+  const bool colmap = path.extension() == ".bin" || path.extension() == ".txt";
+  if (!colmap) return load_json_cameras(path, largest_shift_px);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!has_colmap_cameras(folder))
+    throw Error(path.string(),
+                "cameras and images of COLMAP are wanted beside each other, both .bin or both .txt");
+  return load_colmap_cameras(folder, largest_shift_px);
+}
+
+}  // namespace
+
+std::vector<Camera> load_cameras(const fs::path& path, std::string* warning) {
+  double largest_shift_px = 0;
+  std::vector<Camera> cameras = load_any_cameras(path, largest_shift_px);
+  if (!warning) return cameras;
+  warning->clear();
+  constexpr double kVisiblePx = 0.1;
+  if (largest_shift_px >= kVisiblePx)
+    *warning = fmt::format(
+        "{}: the lens distortion, up to {:.1f} pixels in the corners, is left out; masks and clicks on the "
+        "photographs themselves are off by as much (colmap image_undistorter makes pictures without it)",
+        path.string(), largest_shift_px);
+  return cameras;
+}
+
+void save_inria_cameras(const fs::path& path, const std::vector<Camera>& cameras) {
+  json list = json::array();
+  for (const Camera& camera : cameras) {
+    const glm::mat3& r = camera.camera_from_world_rotation;  // its columns are the rows of world_from_camera
+    const glm::vec3 centre = camera.centre_world();
+    json rows = json::array();
+    for (int i = 0; i < 3; ++i) rows.push_back({r[i].x, r[i].y, r[i].z});
+    json entry = {{"id", list.size()},        {"img_name", camera.name},
+                  {"width", camera.width_px}, {"height", camera.height_px},
+                  {"fx", camera.fx_px},       {"fy", camera.fy_px},
+                  {"rotation", rows},         {"position", {centre.x, centre.y, centre.z}}};
+    // Inria's own files put the principal point in the middle and do not name it.
+    if (camera.cx_px != 0.5f * static_cast<float>(camera.width_px)) entry["cx"] = camera.cx_px;
+    if (camera.cy_px != 0.5f * static_cast<float>(camera.height_px)) entry["cy"] = camera.cy_px;
+    list.push_back(entry);
+  }
+  write_text_file(path, json_text(list, 1) + "\n");
+}
+
+}  // namespace splatcut

@@ -1,0 +1,20 @@
+// Cameras of a capture: Inria cameras.json, COLMAP (folder with cameras/images .txt or .bin),
+// NeRF transforms.json. All become world->camera, x right, y down, z forward.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/camera/camera.h"
+
+namespace splatcut {
+
+// By name and content. Throws Error naming file and entry.
+// warning, if given: a sentence where the lenses are distorted, which is left out here (everything is drawn
+// through a pinhole); empty otherwise.
+std::vector<Camera> load_cameras(const std::filesystem::path& path, std::string* warning = nullptr);
+
+void save_inria_cameras(const std::filesystem::path& path, const std::vector<Camera>& cameras);
+
+}  // namespace splatcut

@@ -1,0 +1,83 @@
+#include "scene/cloud/gaussian_cloud.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace splatcut {
+
+void GaussianCloud::resize(std::size_t n, int degree) {
+  assert(degree >= 0 && degree <= 3);
+  sh_degree = degree;
+  position.resize(n);
+  scale.resize(n);
+  rotation.resize(n, glm::quat(1, 0, 0, 0));
+  opacity.resize(n);
+  f_dc.resize(n);
+  sh_rest.resize(n * sh_stride());
+  file_row.resize(n);
+}
+
+GaussianCloud permuted(const GaussianCloud& cloud, std::span<const std::uint32_t> order) {
+  GaussianCloud out;
+  out.resize(order.size(), cloud.sh_degree);
+  out.near_plane = cloud.near_plane;
+  const std::size_t stride = cloud.sh_stride();
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::uint32_t g = order[i];
+    assert(g < cloud.size());
+    out.position[i] = cloud.position[g];
+    out.scale[i] = cloud.scale[g];
+    out.rotation[i] = cloud.rotation[g];
+    out.opacity[i] = cloud.opacity[g];
+    out.f_dc[i] = cloud.f_dc[g];
+    out.file_row[i] = cloud.file_row[g];
+    std::copy_n(cloud.sh_rest.data() + g * stride, stride, out.sh_rest.data() + i * stride);
+  }
+  return out;
+}
+
+Box robust_bounds(std::span<const glm::vec3> positions, double inside) {
+  Box box;
+  if (positions.empty()) return box;
+  // A sample of every k-th point is enough for a percentile and keeps this linear and deterministic.
+  constexpr std::size_t kSample = 1 << 16;
+  const std::size_t step = std::max<std::size_t>(1, positions.size() / kSample);
+  std::vector<float> values;
+  for (int axis = 0; axis < 3; ++axis) {
+    values.clear();
+    for (std::size_t i = 0; i < positions.size(); i += step) values.push_back(positions[i][axis]);
+    const double tail = 0.5 * (1.0 - inside) * static_cast<double>(values.size() - 1);
+    const auto low = values.begin() + static_cast<std::ptrdiff_t>(tail);
+    std::nth_element(values.begin(), low, values.end());
+    box.min[axis] = *low;
+    const auto high = values.end() - 1 - static_cast<std::ptrdiff_t>(tail);
+    std::nth_element(values.begin(), high, values.end());
+    box.max[axis] = *high;
+  }
+  return box;
+}
+
+Box framed_bounds(const GaussianCloud& cloud) {
+  Box box = robust_bounds(cloud.position, 0.9);
+  if (glm::length(box.extent()) > 0 || cloud.scale.empty()) return box;
+  constexpr float kSigmas = 3;
+  float largest = 0;
+  for (const glm::vec3& s : cloud.scale) largest = std::max({largest, s.x, s.y, s.z});
+  box.min -= kSigmas * largest;
+  box.max += kSigmas * largest;
+  return box;
+}
+
+float natural_near_plane(std::span<const glm::vec3> positions) {
+  const float diagonal = glm::length(robust_bounds(positions).extent());
+  return diagonal > 0 ? kNaturalNearShare * diagonal : GaussianCloud{}.near_plane;
+}
+
+float near_plane_of(const GaussianCloud& cloud) {
+  if (glm::length(robust_bounds(cloud.position).extent()) > 0) return natural_near_plane(cloud.position);
+  const Box box = framed_bounds(cloud);
+  return natural_near_plane(std::array{box.min, box.max});
+}
+
+}  // namespace splatcut

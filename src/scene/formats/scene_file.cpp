@@ -1,0 +1,135 @@
+#include "scene/formats/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/mapped_file.h"
+#include "scene/formats/foreign_files.h"
+
+namespace splatcut {
+
+namespace {
+
+// The content decides among files that carry a mark; the name is needed for those without.
+SceneFormat format_of(const MappedFile& file) {
+  for (const SceneFormat& format : scene_formats())
+    if (format.recognises && format.recognises(file)) return format;
+  refuse_foreign(file);
+  return format_from_name(file.path());
+}
+
+// A folder stands for the scene of several files in it.
+std::filesystem::path in_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::path meta = path / "meta.json";
+  return std::filesystem::is_directory(path, ignored) && std::filesystem::exists(meta, ignored) ? meta : path;
+}
+
+std::vector<std::uint32_t> kept_in_file_order(const GaussianCloud& cloud,
+                                              std::span<const std::uint8_t> keep) {
+  assert(keep.empty() || keep.size() == cloud.size());
+  std::vector<std::uint32_t> kept;
+  for (std::size_t g = 0; g < cloud.size(); ++g)
+    if (keep.empty() || keep[g]) kept.push_back(static_cast<std::uint32_t>(g));
+  std::ranges::sort(kept, {}, [&](std::uint32_t g) { return cloud.file_row[g]; });
+  return kept;
+}
+
+// Beyond, squares of lengths leave the range of numbers.
+void check_size(const Scene& scene) {
+  constexpr float kSmallest = 1e-12f, kLargest = 1e12f;
+  const Box box = robust_bounds(scene.cloud.position);
+  const glm::vec3 far = glm::max(glm::abs(box.min), glm::abs(box.max));
+  const float size = glm::length(box.extent());
+  const bool small = size > 0 && size < kSmallest;
+  if (small || !(std::max({far.x, far.y, far.z}) < kLargest))
+    throw Error(scene.path.string(),
+                small ? fmt::format("the scene is only {:g} units wide", size)
+                      : fmt::format("coordinates go up to {:g}", std::max({far.x, far.y, far.z})),
+                fmt::format("Scale it: lengths from {:g} to {:g} units can be handled", kSmallest, kLargest));
+}
+
+// Each of them is in every tile of every picture, so that a scene of many takes its time; a sky is a few.
+std::string oddity_of(const GaussianCloud& cloud) {
+  constexpr float kManySizes = 1, kManyShare = 0.05f, kFaint = 1.0f / 255;
+  const auto share = [&](const auto& is) {
+    std::size_t count = 0;
+    for (std::size_t g = 0; g < cloud.size(); ++g) count += is(g);
+    return static_cast<float>(count) / static_cast<float>(cloud.size());
+  };
+  const float size = glm::length(robust_bounds(cloud.position).extent());
+  const float huge = size > 0 ? share([&](std::size_t g) {
+    const glm::vec3& s = cloud.scale[g];
+    return s.x + s.y + s.z - std::max({s.x, s.y, s.z}) > kManySizes * size;  // in two directions: no needle
+  })
+                              : 0;
+  if (huge > kManyShare)
+    return fmt::format(
+        "{:.0f} % of its Gaussians are larger than the whole scene: pictures take long, and the file may say "
+        "sizes where "
+        "their logarithms are meant",
+        100 * huge);
+  if (share([&](std::size_t g) { return cloud.opacity[g] >= kFaint; }) == 0)
+    return "all of its Gaussians are too faint to be seen";
+  return {};
+}
+
+}  // namespace
+
+const char* name_of(SpzAxes axes) {
+  return axes == SpzAxes::kPly ? "ply" : "rub";
+}
+
+std::optional<SpzAxes> spz_axes_from_name(std::string_view name) {
+  for (const SpzAxes axes : {SpzAxes::kRub, SpzAxes::kPly})
+    if (name == name_of(axes)) return axes;
+  return {};
+}
+
+Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, const Job& job) {
+  const MappedFile file(in_folder(path));
+  Scene scene;
+  scene.path = file.path();
+  scene.format = format_of(file);
+  scene.file_bytes = file.bytes().size();
+  scene.modified_ns = file.modified_ns();
+  scene.format.read(file, options, scene, job);
+  if (!job.cancelled() && scene.cloud.empty())
+    throw Error(
+        path.string(),
+        fmt::format("none of the {} Gaussians is usable: each has NaN, a zero rotation, or lies beyond 1e15",
+                    scene.file_rows));
+  if (job.cancelled()) return scene;
+  scene.cloud.near_plane = near_plane_of(scene.cloud);
+  check_size(scene);
+  scene.oddity = oddity_of(scene.cloud);
+  return scene;
+}
+
+Scene load_scene(const std::filesystem::path& path, const Job& job) {
+  return load_scene(path, LoadOptions{}, job);
+}
+
+SaveReport save_scene(const std::filesystem::path& path, const Scene& scene,
+                      std::span<const std::uint8_t> keep, const SceneFormat& format,
+                      const SaveOptions& options) {
+  if (!format.write)
+    throw Error(path.string(), fmt::format("{} is only read, not written", format.extension),
+                "Choose " + spoken_extensions(written_formats(), "or"));
+  const std::vector<std::uint32_t> kept = kept_in_file_order(scene.cloud, keep);
+  if (kept.empty())
+    throw Error(path.string(), "nothing is selected: a scene without Gaussians is not written");
+  AtomicFile out(path);
+  SaveReport report;
+  report.gaussians = kept.size();
+  report.loss = format.write(out, scene, kept, options);
+  report.bytes = out.bytes_written();
+  out.commit();
+  return report;
+}
+
+}  // namespace splatcut

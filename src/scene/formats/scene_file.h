@@ -1,0 +1,73 @@
+// Scenes in and out, in the formats of scene_formats.h.
+// Loading orders the Gaussians along a Morton curve and keeps the file row of each.
+// Errors: every unreadable or unsuitable file is an Error naming file, property, row or byte; sizes are
+// checked against the file before memory is taken. A scene narrower than 1e-12 units or wider than 1e12 is
+// refused; within, nothing depends on the unit.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/job.h"
+#include "scene/camera/camera.h"
+#include "scene/cloud/gaussian_cloud.h"
+#include "scene/formats/scene_formats.h"
+
+namespace splatcut {
+
+// What the axes of a .spz are. Its own text says x right, y up, z back; a widely used editor stores there
+// those of the .ply it converts, x right, y down, z forward. Few files say it.
+enum class SpzAxes { kRub, kPly };
+const char* name_of(SpzAxes axes);  // as --spz-axes takes them
+std::optional<SpzAxes> spz_axes_from_name(std::string_view name);
+
+struct Scene {
+  GaussianCloud cloud;         // Morton order
+  std::filesystem::path path;  // where it came from; reopened to copy rows
+  SceneFormat format = SceneFormat::kPly;
+  std::size_t file_rows = 0;     // Gaussians in the file, dropped ones included
+  std::size_t dropped = 0;       // rows left out: NaN, zero quaternion, beyond 1e15 units
+  std::uint64_t file_bytes = 0;  // with modified_ns: to notice that the file changed since
+  std::int64_t modified_ns = 0;
+  bool rows_can_be_copied = false;            // to a .ply, byte for byte from path
+  std::vector<std::string> other_properties;  // columns of a .ply that say nothing of Gaussians
+  std::string left_out;                       // a sentence on what was not read of it, or empty
+  std::string oddity;                         // a sentence on what no training makes, or empty
+  bool antialiased = false;                   // it says: trained with the filter of Mip-Splatting
+
+  // Of a .spz that does not say its axes, or was overruled: those taken, and a sentence on why.
+  std::optional<SpzAxes> taken_axes;
+  std::string axes_note;
+};
+
+struct LoadOptions {
+  std::optional<SpzAxes> spz_axes;  // none: as the file says, else as the cameras see more, else kRub
+  std::vector<Camera> cameras;      // of the capture, if any are known
+};
+
+Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, const Job& job = {});
+Scene load_scene(const std::filesystem::path& path, const Job& job = {});
+
+struct SaveOptions {
+  int spz_version = 3;  // 3, which every reader of .spz knows, or 4, which is smaller
+};
+
+struct SaveReport {
+  std::size_t gaussians = 0;
+  std::uint64_t bytes = 0;
+  std::string loss;  // empty, or a sentence: "spherical harmonics of degree 2 are dropped"
+};
+
+// Writes the Gaussians with keep[g] != 0 (empty: all), in file order; compressed .ply in Morton order,
+// because neighbours must share a chunk for its bounds to be narrow. From binary .ply to .ply the rows
+// are copied byte for byte from scene.path (Error if that file changed since it was loaded). Throws Error for
+// a format that is only read.
+SaveReport save_scene(const std::filesystem::path& path, const Scene& scene,
+                      std::span<const std::uint8_t> keep, const SceneFormat& format,
+                      const SaveOptions& options = {});
+
+}  // namespace splatcut

@@ -1,0 +1,91 @@
+#include "scene/raster/grid_drawing.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace splatcut {
+
+namespace {
+
+// Every Gaussian collects what its tiles have added, so no two threads write to the same sum.
+void add_sums(const TileGrid& grid, const LargeArray<PairSums>& pair_sums, MaskedSums* sums) {
+  tbb::parallel_for(std::size_t{0}, grid.runs.size(), [&](std::size_t run) {
+    for (const SplatTile& pair : grid.runs[run]) {
+      const PairSums& added = pair_sums[pair.entry];
+      sums->total[pair.gaussian] += added.total;
+      sums->inside[pair.gaussian] += added.inside;
+    }
+  });
+}
+
+void check_sizes([[maybe_unused]] const GaussianCloud& cloud, [[maybe_unused]] const Camera& camera,
+                 [[maybe_unused]] const RasterOptions& options) {
+  [[maybe_unused]] const auto fits = [&](std::size_t size) { return size == 0 || size == cloud.size(); };
+  assert(fits(options.colour_override.size()) && fits(options.labels.size()) && fits(options.shown.size()));
+  assert(options.labels.empty() || !options.colour);
+  assert(!options.sums ||
+         (options.sum_mask && options.sums->total.size() == cloud.size() &&
+          options.sum_mask->width() == camera.width_px && options.sum_mask->height() == camera.height_px));
+}
+
+// partly: not all entries of the grid are drawn.
+void draw(TileBlend what, bool partly, const Job& job, RasterOutput* out) {
+  const RasterOptions& options = what.options;
+  out->visible += what.grid.visible;
+  out->pairs += what.grid.entries.size();
+  LargeArray<PairSums> pair_sums;
+  if (options.sums) {
+    pair_sums = LargeArray<PairSums>(what.grid.entries.size());
+    if (partly) std::fill_n(pair_sums.data(), pair_sums.size(), PairSums{0, 0});
+    what.pair_sums = pair_sums.data();
+  }
+  blend_tiles(what, job, out);
+  if (options.sums && !job.cancelled()) add_sums(what.grid, pair_sums, options.sums);
+}
+
+}  // namespace
+
+RasterOutput empty_output(const RasterOptions& options, const PixelRect& roi) {
+  const int width = roi.width(), height = roi.height();
+  RasterOutput out;
+  if (options.colour) out.colour = Image<glm::vec3>(width, height);
+  if (!options.labels.empty()) out.label_share = Image<float>(width, height);
+  if (!options.groups.empty()) out.groups = Image<std::vector<GroupWeight>>(width, height);
+  out.alpha = Image<float>(width, height);
+  if (options.depth) {
+    out.expected_depth = out.median_depth = Image<float>(width, height);
+    out.first_hit = Image<std::int32_t>(width, height, -1);
+  }
+  return out;
+}
+
+PixelRect drawn_region(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options) {
+  check_sizes(cloud, camera, options);
+  const PixelRect roi = options.roi.value_or(PixelRect{0, 0, camera.width_px, camera.height_px});
+  assert(roi.x0 >= 0 && roi.y0 >= 0 && roi.x1 <= camera.width_px && roi.y1 <= camera.height_px);
+  return roi;
+}
+
+void draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterOptions& options, const Job& job,
+               RasterOutput* out) {
+  draw({.grid = grid, .options = options, .roi = roi, .shown = {}}, false, job, out);
+}
+
+RasterOutput draw_kept_grid(KeptGrid* kept, const PixelRect& roi, const RasterOptions& options,
+                            const Job& job) {
+  const PixelRect& all = kept->picture;
+  const bool everything = roi.x0 == all.x0 && roi.y0 == all.y0 && roi.x1 == all.x1 && roi.y1 == all.y1;
+  RasterOutput out = empty_output(options, roi);
+  draw({.grid = kept->grid,
+        .options = options,
+        .roi = roi,
+        .shown = options.shown,
+        .lists = &kept->lists,
+        .picture = all},
+       !everything || !options.shown.empty(), job, &out);
+  return out;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,182 @@
+#include "segment/masks/mask_tools.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+#include "core/parallel.h"
+#include "scene/raster/rasterizer.h"
+#include "scene/raster/splat_math.h"
+#include "segment/masks/cv_image.h"
+
+namespace splatcut {
+
+namespace {
+
+cv::Mat disc(int radius_px) {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius_px + 1, 2 * radius_px + 1});
+}
+
+Mask border_band(const Mask& mask) {
+  const double diagonal = std::hypot(mask.width(), mask.height());
+  const Image<float> depth = distance_inside(mask);
+  Mask band(mask.width(), mask.height());
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    band.pixels()[i] = mask.pixels()[i] && depth.pixels()[i] <= 0.02 * diagonal ? kMaskObject : 0;
+  return band;
+}
+
+}  // namespace
+
+std::size_t count(const Mask& mask) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(mask.pixels(), [](std::uint8_t m) { return m != 0; }));
+}
+
+double iou(const Mask& a, const Mask& b) {
+  assert(a.width() == b.width() && a.height() == b.height());
+  std::size_t both = 0, either = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    both += a.pixels()[i] && b.pixels()[i];
+    either += a.pixels()[i] || b.pixels()[i];
+  }
+  return either ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
+}
+
+double pixel_accuracy(const Mask& a, const Mask& b) {
+  std::size_t equal = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) equal += !a.pixels()[i] == !b.pixels()[i];
+  return a.empty() ? 1.0 : static_cast<double>(equal) / static_cast<double>(a.size());
+}
+
+double boundary_iou(const Mask& a, const Mask& b) {
+  return iou(border_band(a), border_band(b));
+}
+
+Mask dilated(const Mask& mask, int radius_px) {
+  Mask out(mask.width(), mask.height());
+  cv::Mat to = as_mat(out);
+  cv::dilate(as_const_mat(mask), to, disc(radius_px));
+  return out;
+}
+
+Mask eroded(const Mask& mask, int radius_px) {
+  Mask out(mask.width(), mask.height());
+  cv::Mat to = as_mat(out);
+  cv::erode(as_const_mat(mask), to, disc(radius_px));
+  return out;
+}
+
+Mask resized_mask(const Mask& mask, int width_px, int height_px) {
+  Mask out(width_px, height_px);
+  for (int y = 0; y < height_px; ++y)
+    for (int x = 0; x < width_px; ++x)
+      out.at(x, y) = mask.at(static_cast<int>((x + 0.5) * mask.width() / width_px),
+                             static_cast<int>((y + 0.5) * mask.height() / height_px));
+  return out;
+}
+
+PixelRect bounds(const Mask& mask) {
+  PixelRect r{mask.width(), mask.height(), 0, 0};
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x)
+      if (mask.at(x, y))
+        r = {std::min(r.x0, x), std::min(r.y0, y), std::max(r.x1, x + 1), std::max(r.y1, y + 1)};
+  return r.empty() ? PixelRect{} : r;
+}
+
+PixelRect grown(const PixelRect& rect, int margin_px, int width, int height) {
+  return {std::max(0, rect.x0 - margin_px), std::max(0, rect.y0 - margin_px),
+          std::min(width, rect.x1 + margin_px), std::min(height, rect.y1 + margin_px)};
+}
+
+Image<float> distance_inside(const Mask& mask) {
+  cv::Mat framed, distance;
+  cv::copyMakeBorder(as_const_mat(mask), framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
+  cv::distanceTransform(framed, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  Image<float> out(mask.width(), mask.height());
+  distance(cv::Rect(1, 1, mask.width(), mask.height())).copyTo(as_mat(out));
+  return out;
+}
+
+std::vector<std::vector<glm::vec2>> outlines(const Mask& mask, int least_px) {
+  std::vector<std::vector<cv::Point>> borders;
+  cv::findContours(as_const_mat(mask).clone(), borders, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::erase_if(borders, [&](const auto& border) { return cv::contourArea(border) < least_px; });
+  std::ranges::stable_sort(borders, std::ranges::greater(),
+                           [](const auto& border) { return cv::contourArea(border); });
+  std::vector<std::vector<glm::vec2>> out;
+  for (const auto& border : borders) {
+    out.emplace_back();
+    for (const cv::Point& p : border) out.back().emplace_back(p.x + 0.5f, p.y + 0.5f);
+  }
+  return out;
+}
+
+Mask largest_region(const Mask& mask) {
+  cv::Mat region, statistics, centroids;
+  const int regions = cv::connectedComponentsWithStats(as_const_mat(mask), region, statistics, centroids, 8);
+  int best = 0;
+  for (int r = 1; r < regions; ++r)
+    if (best == 0 || statistics.at<int>(r, cv::CC_STAT_AREA) > statistics.at<int>(best, cv::CC_STAT_AREA))
+      best = r;
+  Mask out(mask.width(), mask.height());
+  if (best == 0) return out;
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x) out.at(x, y) = region.at<int>(y, x) == best ? kMaskObject : 0;
+  return out;
+}
+
+PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera,
+                             std::span<const std::uint8_t> labels) {
+  constexpr float kCutoffSigmas = 3.34f;  // sqrt(2 ln 255): beyond it alpha is below 1/255
+  const float slope_x = kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px;
+  const float slope_y = kFrustumSlack * 0.5f * static_cast<float>(camera.height_px) / camera.fy_px;
+  // The Jacobian's norm is at most focal length / z times this.
+  const float bend = std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
+  glm::vec2 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+  for (std::size_t g = 0; g < cloud.size(); ++g) {
+    if (!labels[g]) continue;
+    const glm::vec3 at = camera.camera_from_world(cloud.position[g]);
+    if (at.z < cloud.near_plane) continue;
+    const glm::vec3& scale = cloud.scale[g];
+    const float sigma_px =
+        std::max(camera.fx_px, camera.fy_px) / at.z * bend * std::max({scale.x, scale.y, scale.z});
+    const float radius_px = kCutoffSigmas * std::sqrt(sigma_px * sigma_px + kLowPassPx2) + 1;
+    const glm::vec2 centre = camera.pixel_from_camera(at);
+    low = glm::min(low, centre - radius_px);
+    high = glm::max(high, centre + radius_px);
+  }
+  const glm::vec2 size(camera.width_px, camera.height_px);
+  low = glm::clamp(low, glm::vec2(0), size);
+  high = glm::clamp(high, glm::vec2(0), size);
+  const PixelRect rect{static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(std::ceil(high.x)),
+                       static_cast<int>(std::ceil(high.y))};
+  return rect.empty() ? PixelRect{} : rect;
+}
+
+Image<float> render_labels(const Drawer& drawer, const Camera& camera, std::span<const std::uint8_t> labels,
+                           const Job& job) {
+  Image<float> share(camera.width_px, camera.height_px);
+  const PixelRect rect = labelled_rectangle(drawer.cloud(), camera, labels);
+  if (rect.empty()) return share;
+  RasterOptions options;
+  options.colour = false;
+  options.labels = labels;
+  options.roi = rect;
+  const RasterOutput picture = drawer.draw(camera, options, job);
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x) share.at(x, y) = picture.label_share.at(x - rect.x0, y - rect.y0);
+  return share;
+}
+
+Mask thresholded(const Image<float>& image, float threshold) {
+  Mask mask(image.width(), image.height());
+  std::ranges::transform(image.pixels(), mask.pixels().begin(),
+                         [&](float v) { return v >= threshold ? kMaskObject : std::uint8_t{0}; });
+  return mask;
+}
+
+}  // namespace splatcut

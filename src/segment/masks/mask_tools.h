@@ -1,0 +1,48 @@
+// Measures and morphology of masks.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "core/image.h"
+#include "core/job.h"
+#include "scene/camera/camera.h"
+#include "scene/cloud/gaussian_cloud.h"
+#include "scene/raster/projected_view.h"
+
+namespace splatcut {
+
+std::size_t count(const Mask& mask);
+double iou(const Mask& a, const Mask& b);             // 1 where both are empty
+double pixel_accuracy(const Mask& a, const Mask& b);  // share of equal pixels
+// IoU of the bands within 2 % of the diagonal of each mask's border (Cheng et al., Boundary IoU, 2021).
+double boundary_iou(const Mask& a, const Mask& b);
+
+Mask dilated(const Mask& mask, int radius_px);
+Mask eroded(const Mask& mask, int radius_px);
+Mask resized_mask(const Mask& mask, int width_px, int height_px);  // the nearest pixel of the mask
+PixelRect bounds(const Mask& mask);                                // empty where the mask is
+PixelRect grown(const PixelRect& rect, int margin_px, int width, int height);  // clipped to the picture
+
+// Distance of each object pixel to the nearest other pixel or to the frame, px.
+Image<float> distance_inside(const Mask& mask);
+
+// Closed outer borders of the 8-connected regions of at least that many pixels, the largest first; points in
+// pixels, centres at +0.5.
+std::vector<std::vector<glm::vec2>> outlines(const Mask& mask, int least_px = 12);
+
+// The largest 8-connected region.
+Mask largest_region(const Mask& mask);
+
+// Pixels outside of it show nothing of the labelled Gaussians; empty where none is in view.
+PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera,
+                             std::span<const std::uint8_t> labels);
+
+// Object white, everything else black and occluding; the share of white, before a threshold.
+Image<float> render_labels(const Drawer& drawer, const Camera& camera, std::span<const std::uint8_t> labels,
+                           const Job& job = {});
+Mask thresholded(const Image<float>& image, float threshold);
+
+}  // namespace splatcut

@@ -1,0 +1,79 @@
+#include "segment/session/doubts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "segment/masks/mask_tools.h"
+
+namespace splatcut {
+
+namespace {
+
+double share_of_frame(const Mask& mask) {
+  std::size_t frame = 0, object = 0;
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x) {
+      if (x > 0 && x + 1 < mask.width() && y > 0 && y + 1 < mask.height()) continue;
+      ++frame;
+      object += mask.at(x, y) != 0;
+    }
+  return frame ? static_cast<double>(object) / static_cast<double>(frame) : 0;
+}
+
+// Whether the view that was clicked in shows the object large enough, and whole.
+void add_doubts_of_first(const ViewReport& view, std::vector<std::string>* sentences) {
+  constexpr double kSmall = 0.08,
+                   kMuchOfFrame =
+                       0.15;  // docs/study.md: what fails is beyond these, what does not, mostly is not
+  const double across = std::sqrt(static_cast<double>(count(view.mask))) / std::max(1, view.mask.width());
+  if (across > 0 && across < kSmall)
+    sentences->push_back(fmt::format(
+        "the object is small in the first view, {:.0f} % of its width: come nearer", 100 * across));
+  if (share_of_frame(view.mask) > kMuchOfFrame)
+    sentences->push_back("the object runs out of the first view: step back");
+}
+
+}  // namespace
+
+std::vector<std::string> doubts(const CutResult& result, double view_agreement) {
+  std::vector<std::string> sentences = doubts_of(result, view_agreement);
+  if (result.meanings.size() > 1)
+    sentences.insert(sentences.begin(), fmt::format("the first click could mean one of {} things: this is {}",
+                                                    result.meanings.size(), result.choice + 1));
+  if (result.ambiguous)
+    sentences.insert(sentences.begin(),
+                     fmt::format("the first click could mean a part of another size: this is size {} of {}",
+                                 result.size + 1, result.sizes));
+  return sentences;
+}
+
+std::vector<std::string> doubts_of(const CutResult& result, double view_agreement) {
+  std::vector<std::string> sentences = doubts_of_views(result.views, view_agreement);
+  if (result.spot_alone)
+    sentences.insert(
+        sentences.begin(),
+        "the last click changed the spot around it alone, as no part of the scene ends there: where two "
+        "things touch, scribble on both sides of their border or use the brush");
+  return sentences;
+}
+
+std::vector<std::string> doubts_of_views(std::span<const ViewReport> views, double view_agreement) {
+  std::vector<std::string> sentences;
+  if (!views.empty()) add_doubts_of_first(views.front(), &sentences);
+  const auto left_out = std::ranges::count_if(views, &ViewReport::disagreed);
+  if (left_out)
+    sentences.push_back(
+        fmt::format("{} of {} masks were left out, they disagree with the others", left_out, views.size()));
+  const auto used = std::ranges::count_if(views, &ViewReport::used);
+  const auto against = std::ranges::count_if(
+      views, [&](const ViewReport& v) { return v.used && v.confidence < view_agreement; });
+  if (used > 1 && against)
+    sentences.push_back(
+        fmt::format("{} of {} masks disagree with the cutout: it is not to be trusted, look at the masks",
+                    against, used));
+  return sentences;
+}
+
+}  // namespace splatcut

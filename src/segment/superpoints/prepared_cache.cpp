@@ -1,0 +1,265 @@
+#include "segment/superpoints/prepared_cache.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "core/atomic_file.h"
+#include "core/byte_hash.h"
+#include "core/error.h"
+#include "core/mapped_file.h"
+#include "core/parallel.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr std::uint32_t kFormatVersion = 2;
+constexpr std::uint64_t kMagic =
+    0x50455250544c5053;  // "SPLTPREP", read backwards on a machine of the other byte order
+constexpr const char* kEnding = ".prepared";
+
+struct Header {
+  std::uint64_t magic = kMagic, version = kFormatVersion;
+  std::uint64_t key = 0;
+  std::uint64_t payload_bytes = 0, checksum = 0;
+};
+static_assert(sizeof(Header) == 40);
+
+// Every array of a prepared scene, in the order of the file. Scene may be const.
+template <class Scene, class Visit>
+void visit_arrays(Scene& scene, const Visit& visit) {
+  visit(scene.graph.first_arc);
+  visit(scene.graph.head);
+  visit(scene.graph.reverse_arc);
+  visit(scene.parts.leaf_of);
+  visit(scene.parts.leaf_centre_world);
+  visit(scene.parts.leaf_area);
+  for (auto& tree : scene.parts.trees) {
+    visit(tree.parent);
+    visit(tree.children);
+    visit(tree.area);
+    visit(tree.cut);
+    visit(tree.merge_cost);
+  }
+}
+
+// What the payload starts with: four numbers and the size of each array.
+std::vector<std::uint64_t> sizes_of(const PreparedScene& scene) {
+  std::vector<std::uint64_t> sizes = {scene.graph.listed, scene.parts.leaves, scene.parts.trees.size(),
+                                      scene.parts.plain_trees};
+  visit_arrays(scene, [&](const auto& array) { sizes.push_back(array.size()); });
+  return sizes;
+}
+
+std::uint64_t checksum_of(const PreparedScene& scene, std::span<const std::uint64_t> sizes) {
+  Hasher hash(kFormatVersion);
+  hash.add(sizes);
+  visit_arrays(scene, [&](const auto& array) { hash.add(std::as_bytes(std::span(array))); });
+  return hash.value();
+}
+
+std::uint64_t payload_bytes(const PreparedScene& scene, std::span<const std::uint64_t> sizes) {
+  std::uint64_t bytes = sizes.size_bytes();
+  visit_arrays(scene, [&](const auto& array) { bytes += std::span(array).size_bytes(); });
+  return bytes;
+}
+
+class Reader {
+ public:
+  // A pipe is not opened: it would be waited for.
+  explicit Reader(const std::filesystem::path& path) : file_(nullptr, &std::fclose) {
+    std::error_code failure;
+    if (std::filesystem::is_regular_file(path, failure)) file_.reset(std::fopen(path.c_str(), "rb"));
+    left_ = file_ ? std::filesystem::file_size(path, failure) : 0;
+    if (failure) left_ = 0;
+  }
+  std::uint64_t left() const { return left_; }
+
+  // False, and nothing taken from memory, where the file is shorter.
+  template <class T>
+  bool read(std::uint64_t count, std::vector<T>* values) {
+    if (count > left_ / sizeof(T)) return false;
+    values->resize(count);
+    left_ -= count * sizeof(T);
+    return count == 0 || std::fread(values->data(), sizeof(T), count, file_.get()) == count;
+  }
+
+ private:
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::uint64_t left_ = 0;
+};
+
+// Whether body(i) holds for all i.
+template <class Body>
+bool all_of_range(std::size_t n, const Body& body) {
+  std::atomic<bool> all = true;
+  for_chunks(n, [&](std::size_t from, std::size_t to) {
+    bool good = true;
+    for (std::size_t i = from; i < to; ++i) good &= body(i);
+    if (!good) all = false;
+  });
+  return all;
+}
+
+bool sound(const FlowGraph& g, std::size_t gaussians) {
+  if (g.first_arc.size() != gaussians + 1 || g.first_arc.front() != 0 ||
+      g.first_arc.back() != g.head.size() || g.reverse_arc.size() != g.head.size())
+    return false;
+  return all_of_range(gaussians, [&](std::size_t i) { return g.first_arc[i] <= g.first_arc[i + 1]; }) &&
+         all_of_range(g.head.size(), [&](std::size_t a) {
+           return g.head[a] < gaussians && g.reverse_arc[a] < g.head.size();
+         });
+}
+
+bool sound(const PartTree& t, std::uint32_t leaves) {
+  const std::size_t n = t.nodes();
+  if (n < leaves || t.children.size() != n || t.area.size() != n || t.cut.size() != n ||
+      t.merge_cost.size() != n)
+    return false;
+  return all_of_range(n, [&](std::size_t i) {
+    const auto below = [&](std::uint32_t child) { return child == kNoPart || child < i; };
+    return (t.parent[i] == kNoPart || (t.parent[i] > i && t.parent[i] < n)) && below(t.children[i][0]) &&
+           below(t.children[i][1]);
+  });
+}
+
+// No index of the scene leads outside of it: what is read may be used without looking again.
+bool sound(const PreparedScene& scene, std::size_t gaussians) {
+  const PartHierarchy& parts = scene.parts;
+  if (!sound(scene.graph, gaussians) || (!parts.leaf_of.empty() && parts.leaf_of.size() != gaussians))
+    return false;
+  if (parts.plain_trees > parts.trees.size() || parts.leaf_centre_world.size() != parts.leaves ||
+      parts.leaf_area.size() != parts.leaves)
+    return false;
+  return all_of_range(
+             parts.leaf_of.size(),
+             [&](std::size_t g) { return parts.leaf_of[g] == kNoPart || parts.leaf_of[g] < parts.leaves; }) &&
+         std::ranges::all_of(parts.trees, [&](const PartTree& t) { return sound(t, parts.leaves); });
+}
+
+void add_camera(const Camera& c, Hasher* hash) {
+  hash->number(c.width_px);
+  hash->number(c.height_px);
+  for (const float f : {c.fx_px, c.fy_px, c.cx_px, c.cy_px}) hash->number(f);
+  hash->add(std::span(&c.camera_from_world_rotation[0][0], 9));
+  hash->add(std::span(&c.camera_from_world_translation.x, 3));
+}
+
+void add_options(const PrepareOptions& o, Hasher* hash) {
+  for (const double value :
+       {static_cast<double>(o.graph.neighbours), static_cast<double>(o.with_parts),
+        static_cast<double>(o.observing.width_px), static_cast<double>(o.observing.most_given),
+        static_cast<double>(o.observing.ring), static_cast<double>(o.observing.elevation_swing_rad)})
+    hash->number(value);
+  for (const PartWeight& weight : part_weights())
+    if (weight.prepared) hash->number(weight.get(o.model));
+}
+
+}  // namespace
+
+std::uint64_t prepared_key(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world,
+                           std::span<const Camera> given, const PrepareOptions& options) {
+  Hasher hash(kFormatVersion);
+  hash.number(hash_of_program());
+  hash.number(cloud.size());
+  hash.number(cloud.sh_degree);
+  hash.number(cloud.near_plane);  // what the observing views show
+  hash.add(std::as_bytes(std::span(cloud.position)));
+  hash.add(std::as_bytes(std::span(cloud.scale)));
+  hash.add(std::as_bytes(std::span(cloud.rotation)));
+  hash.add(std::as_bytes(std::span(cloud.opacity)));
+  hash.add(std::as_bytes(std::span(cloud.f_dc)));
+  hash.add(std::as_bytes(std::span(cloud.sh_rest)));
+  add_options(options, &hash);
+  if (options.with_parts) {  // the graph alone sees no camera
+    add_camera(reference, &hash);
+    hash.add(std::span(&up_world.x, 3));
+    hash.number(given.size());
+    for (const Camera& camera : given) add_camera(camera, &hash);
+  }
+  return hash.value();
+}
+
+std::filesystem::path prepared_file(const std::filesystem::path& folder, std::uint64_t key) {
+  return folder / fmt::format("{:016x}{}", key, kEnding);
+}
+
+std::optional<PreparedScene> read_prepared(const std::filesystem::path& path, std::uint64_t key,
+                                           std::size_t gaussians) {
+  Reader file(path);
+  std::vector<Header> header;
+  std::vector<std::uint64_t> counts, sizes;
+  if (!file.read(1, &header)) return {};
+  const Header& h = header.front();
+  if (h.magic != kMagic || h.version != kFormatVersion || h.key != key || h.payload_bytes != file.left())
+    return {};
+  constexpr std::uint64_t kCounts = 4, kMostTrees = 1000, kArraysBefore = 6, kArraysOfTree = 5;
+  if (!file.read(kCounts, &counts) || counts[2] > kMostTrees ||
+      !file.read(kArraysBefore + kArraysOfTree * counts[2], &sizes))
+    return {};
+  PreparedScene scene;
+  scene.graph.listed = static_cast<std::uint32_t>(counts[0]);
+  scene.parts.leaves = static_cast<std::uint32_t>(counts[1]);
+  scene.parts.trees.resize(counts[2]);
+  scene.parts.plain_trees = counts[3];
+  bool whole = true;
+  std::size_t next = 0;
+  visit_arrays(scene, [&](auto& array) { whole = whole && file.read(sizes[next++], &array); });
+  counts.insert(counts.end(), sizes.begin(), sizes.end());
+  if (!whole || file.left() != 0 || checksum_of(scene, counts) != h.checksum || !sound(scene, gaussians))
+    return {};
+  return scene;
+}
+
+void write_prepared(const std::filesystem::path& path, std::uint64_t key, const PreparedScene& scene) {
+  const std::vector<std::uint64_t> sizes = sizes_of(scene);
+  Header header;
+  header.key = key;
+  header.payload_bytes = payload_bytes(scene, sizes);
+  header.checksum = checksum_of(scene, sizes);
+  AtomicFile file(path);
+  file.write(std::as_bytes(std::span(&header, 1)));
+  file.write(std::as_bytes(std::span(sizes)));
+  visit_arrays(scene, [&](const auto& array) { file.write(std::as_bytes(std::span(array))); });
+  file.commit();
+}
+
+void trim_cache(const std::filesystem::path& folder, std::uintmax_t most_bytes) {
+  struct Kept {
+    std::filesystem::file_time_type used;
+    std::uintmax_t bytes;
+    std::filesystem::path path;
+  };
+  std::vector<Kept> files;
+  std::uintmax_t sum = 0;
+  std::error_code failure;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {
+    const bool interrupted =
+        entry.path().extension() == ".part" && entry.path().string().find(kEnding) != std::string::npos;
+    if (!entry.is_regular_file(failure) || (!interrupted && entry.path().extension() != kEnding)) continue;
+    const auto used = entry.last_write_time(failure);
+    constexpr std::chrono::hours kLongestWrite(1);
+    if (failure) continue;
+    if (interrupted) {
+      if (std::filesystem::file_time_type::clock::now() - used > kLongestWrite)
+        std::filesystem::remove(entry.path(), failure);
+      continue;
+    }
+    files.push_back({used, entry.file_size(failure), entry.path()});
+    sum += files.back().bytes;
+  }
+  std::ranges::sort(files, {}, &Kept::used);
+  for (const Kept& file : files) {
+    if (sum <= most_bytes) return;
+    if (std::filesystem::remove(file.path, failure)) sum -= file.bytes;
+  }
+}
+
+}  // namespace splatcut

@@ -1,0 +1,528 @@
+// The program itself, run in folders of its own: exit codes, sentences, files, bytes.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/console/mask_options.h"
+#include "program_runner.h"
+#include "small_still_life.h"
+
+using namespace splatcut::testing;
+using nlohmann::json;
+
+namespace {
+
+bool has_keys(const json& object, std::initializer_list<const char*> keys) {
+  for (const char* key : keys)
+    if (!object.contains(key)) {
+      MESSAGE("lacks ", std::string(key));
+      return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+using namespace splatcut;
+
+TEST_CASE("cli: what settles masks of other views asks for such views, unless their number is said") {
+  const auto views = [](const char* preset_name, const MaskOptions& options) {
+    CutSettings settings = preset(preset_name);
+    options.apply(&settings);
+    return settings.orbit.views;
+  };
+  MaskOptions none, refined, warped, both;
+  refined.refine = "grabcut";
+  warped.propagate = both.propagate = "warp";
+  both.views = 3;
+  CHECK(views("default", none) == kViewsAsNeeded);
+  CHECK(views("default", refined) == kViewsAround);
+  CHECK(views("default", warped) == kViewsAround);
+  CHECK(views("default", both) == 3);
+  CHECK(views("fast", refined) == 0);
+}
+
+TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a sentence on stderr") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  CHECK(place.run("--version").code == 0);
+  CHECK(place.run("cut --help").code == 0);
+  for (const char* usage : {"fly", "cut", "info", "render a.ply", "cut a.ply -o b --no-such-option",
+                            "info a.ply --threads -1", "render a.ply -o a.png --lowpass -1"})
+    CHECK_MESSAGE(place.run(usage).code == 2, usage);
+  place.write("points.ply",
+              "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float "
+              "y\nproperty float z\nend_header\n" +
+                  std::string(12, 'a'));
+  place.write("short.ply", place.text("made/small.ply").substr(0, 100000));
+  place.write("bad.json", "{");
+  place.write("empty.ply", "");
+  const auto refused = [&](const std::string& arguments, std::initializer_list<const char*> parts) {
+    const Result result = place.run(arguments);
+    CAPTURE(arguments);
+    CAPTURE(result.err);
+    CHECK(result.code == 1);
+    CHECK((result.err.starts_with("splatcut: ") || result.err.starts_with("splatcut-lab: ")));
+    CHECK(result.err.ends_with(".\n"));
+    for (const char* part : parts) CHECK(result.err.find(part) != std::string::npos);
+  };
+  refused("info none.ply", {"none.ply", "No such file"});
+  refused("info made", {"made", "directory"});
+  refused("info empty.ply", {"empty.ply", "empty"});
+  refused("info points.ply", {"points.ply", "ordinary point cloud"});
+  refused("info short.ply", {"short.ply", "truncated", "row", "byte"});
+  refused("convert " + life.scene + " -o a.obj", {"a.obj", "extension"});
+  refused("render " + life.scene + " -o a.png --size 0x7", {"--size 0x7"});
+  refused("render " + life.scene + " -o a.png --camera-pos 1,2", {"--camera-pos"});
+  refused("render " + life.scene + " -o a.png --cameras none.json", {"none.json"});
+  refused("render " + life.scene + " -o a.png --cameras bad.json", {"bad.json", "JSON"});
+  refused("render " + life.scene + " -o a.png --cameras made/cameras.json --camera 99", {"camera \"99\""});
+  refused("render " + life.scene + " -o nowhere/a.png", {"nowhere/a.png"});
+  refused(life.cut("-o cut"), {"--click"});
+  refused(life.cut("-o cut --click 1"), {"--click 1", "x,y"});
+  refused(life.cut("-o cut --click 1,2:sky"), {"sky", "object or rest"});
+  refused(life.cut("-o cut --click 5000,2"), {"5000", "outside"});
+  refused(life.cut("-o cut --seeds bad.json"), {"bad.json", "JSON"});
+  refused(life.cut("-o cut --mask none.png"), {"none.png"});
+  const char* const presets = "fast, default, best, paper or paper-code";
+  refused("cut " + life.scene + " -o cut --click 1,1 --preset slow", {"slow", presets});
+  refused("eval made/suite.json -o cut --preset slow", {"slow", presets});
+  refused(life.cut("-o cut --click 1,1 --refine foo"), {"views.refine", "foo", "none, grabcut or pixelcut"});
+  refused(life.cut("-o cut --click 1,1 --first-mask foo"), {"foo", "parts, grabcut, pixelcut"});
+  refused(life.cut("-o cut --click 1,1 --views 401"), {"views.most", "401", "from -1 to 400"});
+  refused(life.cut("-o cut --click 1,1 --smoothness -1"), {"smoothness", "-1", "from 0 to 500"});
+  place.write("w.splatcut.json", "{}");
+  for (const char* beside : {"made/small.ply", "--click 1,1", "--preset best", "--set trim=0", "--coarse",
+                             "--masks masks", "--camera 0", "--scale 1", "--smoothness 2"})
+    refused(std::string("cut --work w.splatcut.json -o cut ") + beside,
+            {"--work", "cannot go with",
+             std::string_view(beside).starts_with("--")
+                 ? std::string(beside).substr(0, std::string(beside).find(' ')).c_str()
+                 : "scene"});
+  refused("eval bad.json -o cut", {"bad.json", "JSON"});
+  place.write("no_truth.json", R"({"scenes": [{"name": "a", "scene": "made/small.ply"}]})");
+  refused("eval no_truth.json -o cut", {"entry a", "reference"});
+  refused(life.cut("--click " + life.click + " -o cut --first-mask grabcut --parts-only"),
+          {"parts", "pixels"});
+  CHECK_FALSE(place.exists("cut"));
+  CHECK_FALSE(place.exists("a.png"));
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("what became the laboratory's is said to be there, whatever the options") {
+  const Workplace place;
+  for (const std::string command : {"eval", "study", "make-scene"})
+    for (const char* rest :
+         {"", " suite.json -o out --preset fast", " --help", " --only views --no-such-option"}) {
+      const Result result = place.run_program(SPLATCUT_PROGRAM, command + rest);
+      CAPTURE(command);
+      CHECK(result.code == 1);
+      CHECK(result.err.find("splatcut-lab " + command) != std::string::npos);
+      CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
+      CHECK_FALSE(place.exists("out"));
+    }
+  CHECK(place.run("--help").out.find("make-scene") == std::string::npos);
+  CHECK(place.run_program(SPLATCUT_LAB_PROGRAM, "cut").code == 2);
+}
+
+TEST_CASE("cut writes every file of a cutout, by click, by seeds and by mask, and a complete report") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  REQUIRE(place.run(life.cut("--click " + life.click + " -o by_click")).code == 0);
+  const std::set<std::string> files = {"labels.u8",   "masks.png", "object.ply", "object.png",
+                                       "report.json", "rest.ply",  "rest.png",   "tint.png"};
+  CHECK(place.files_in("by_click") == files);
+
+  const json report = json::parse(place.text("by_click/report.json"));
+  CHECK(has_keys(report, {"version", "settings", "scene", "object", "views", "cut", "stages", "total_ms",
+                          "peak_rss_mb"}));
+  CHECK(report["scene"]["gaussians"] == 20000);
+  CHECK(has_keys(report["cut"], {"nodes", "arcs", "energy", "flow"}));
+  CHECK(report["cut"]["energy"].get<double>() == report["cut"]["flow"].get<double>());
+  REQUIRE(report["views"].size() >= 1);  // fast looks from the first view alone
+  CHECK(has_keys(report["enough"], {"views", "pixels", "gaussians", "why"}));
+  CHECK(report["enough"]["views"] == 1);
+  for (const json& view : report["views"]) CHECK(has_keys(view, {"used", "confidence", "mask_px"}));
+  for (const json& stage : report["stages"]) CHECK(has_keys(stage, {"name", "ms"}));
+
+  // Labels, object and rest agree in their numbers, and the apple is in the object.
+  const std::string labels = place.text("by_click/labels.u8"), truth = place.text("made/small.labels.u8");
+  REQUIRE(labels.size() == 20000);
+  const auto ones = static_cast<std::size_t>(std::count(labels.begin(), labels.end(), '\1'));
+  CHECK(report["object"]["gaussians"] == ones);
+  CHECK(json::parse(place.run("info by_click/object.ply --json").out)["gaussians"] == ones);
+  CHECK(json::parse(place.run("info by_click/rest.ply --json").out)["gaussians"] == 20000 - ones);
+  const json names = json::parse(place.text("made/seeds.json"))["labels"];
+  const auto apple = static_cast<char>(std::find(names.begin(), names.end(), "apple") - names.begin());
+  std::size_t both = 0;
+  for (std::size_t row = 0; row < labels.size(); ++row) both += labels[row] == '\1' && truth[row] == apple;
+  CHECK(2 * both > static_cast<std::size_t>(std::count(truth.begin(), truth.end(), apple)));
+  CHECK(2 * ones < labels.size());
+
+  const auto comma = life.click.find(',');
+  place.write("seeds.json", R"({"clicks": [{"x": )" + life.click.substr(0, comma) + R"(, "y": )" +
+                                life.click.substr(comma + 1) + "}]}");
+  REQUIRE(place.run(life.cut("--seeds seeds.json -o by_seeds")).code == 0);
+  CHECK(place.text("by_seeds/labels.u8") == labels);
+
+  REQUIRE(place
+              .run("render " + life.scene + " " + life.camera +
+                   " --what labels --labels by_click/labels.u8 -o mask.png")
+              .code == 0);
+  const Result by_mask = place.run(life.cut("--mask mask.png -o by_mask --json"));
+  REQUIRE(by_mask.code == 0);
+  CHECK(json::parse(by_mask.out)["object"]["gaussians"].get<double>() ==
+        doctest::Approx(static_cast<double>(ones)).epsilon(0.2));
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("existing output is refused without --overwrite, and nothing in it changes") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  place.make_folder("there");
+  place.write("there/object.ply", "precious");
+  place.write("there/notes.txt", "mine");
+  place.write("view.png", "precious");
+  place.write("copy.splat", "precious");
+  const std::string cut = life.cut("--click " + life.click + " -o there");
+  for (const std::string& arguments :
+       {cut, "render " + life.scene + " -o view.png", "convert " + life.scene + " -o copy.splat"}) {
+    const Result result = place.run(arguments);
+    CHECK(result.code == 1);
+    CHECK_MESSAGE(result.err.find("--overwrite") != std::string::npos, result.err);
+  }
+  CHECK(place.text("there/object.ply") == "precious");
+  CHECK(place.text("view.png") == "precious");
+  CHECK(place.text("copy.splat") == "precious");
+  REQUIRE(place.run(cut + " --overwrite").code == 0);
+  CHECK(place.text("there/object.ply").starts_with("ply"));
+  CHECK(place.text("there/notes.txt") == "mine");
+}
+
+TEST_CASE("the bytes of a cutout do not depend on --threads") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  for (const char* threads : {"1", "2", "3"})
+    REQUIRE(
+        place
+            .run(life.cut("--click " + life.click + " --no-cache --threads " + threads + " -o on_" + threads))
+            .code == 0);
+  for (const char* file :
+       {"object.ply", "rest.ply", "labels.u8", "object.png", "rest.png", "tint.png", "masks.png"}) {
+    CAPTURE(file);
+    const std::string one = place.text(std::string("on_1/") + file);
+    CHECK(place.text(std::string("on_2/") + file) == one);
+    CHECK(place.text(std::string("on_3/") + file) == one);
+  }
+}
+
+TEST_CASE(
+    "what was prepared is kept: the second run reads it and writes the same bytes, --no-cache does neither") {
+  StillLife& life = still_life();
+  Workplace place;  // its cache is empty
+  const auto stages = [&](const std::string& folder) {
+    std::set<std::string> names;
+    const json report = json::parse(place.text(folder + "/report.json"));
+    for (const json& stage : report["stages"]) names.insert(stage["name"]);
+    return names;
+  };
+  const std::string cut = life.cut("--click " + life.click);
+  REQUIRE(place.run(cut + " --no-cache -o without").code == 0);
+  CHECK_FALSE(place.exists("cache"));
+  REQUIRE(place.run(cut + " -o first").code == 0);
+  REQUIRE(place.files_in("cache/splatcut").size() == 1);
+  CHECK(stages("first").contains("graph"));
+  REQUIRE(place.run(cut + " -o second").code == 0);
+  CHECK(stages("second").contains("cache"));
+  CHECK_FALSE(stages("second").contains("graph"));
+  for (const char* file :
+       {"object.ply", "rest.ply", "labels.u8", "object.png", "rest.png", "tint.png", "masks.png"}) {
+    CAPTURE(file);
+    const std::string one = place.text(std::string("without/") + file);
+    CHECK(place.text(std::string("first/") + file) == one);
+    CHECK(place.text(std::string("second/") + file) == one);
+  }
+  // Damaged: made again, written again.
+  const std::string kept = "cache/splatcut/" + *place.files_in("cache/splatcut").begin();
+  const std::string bytes = place.text(kept);
+  place.write(kept, bytes.substr(0, bytes.size() / 2));
+  REQUIRE(place.run(cut + " -o third").code == 0);
+  CHECK(stages("third").contains("graph"));
+  CHECK(place.text("third/labels.u8") == place.text("without/labels.u8"));
+  CHECK(place.text(kept) == bytes);
+  // A folder that cannot be made is no reason to stop.
+  std::filesystem::remove_all(place / "cache");
+  place.write("cache", "a file");
+  CHECK(place.run(cut + " -o fourth").code == 0);
+}
+
+TEST_CASE("--set sets what a switch sets, and refuses what it does not know with a list of what it does") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  REQUIRE(place.run(life.cut("--click " + life.click + " --smoothness 3 -o by_switch")).code == 0);
+  REQUIRE(place.run(life.cut("--click " + life.click + " --set smoothness=3 -o by_set")).code == 0);
+  CHECK(place.text("by_set/labels.u8") == place.text("by_switch/labels.u8"));
+  CHECK(json::parse(place.text("by_set/report.json"))["settings"]["set"] == json({"smoothness=3"}));
+  REQUIRE(place
+              .run(life.cut("--click " + life.click +
+                            " --set energy.pairwise=paper --set energy.hard=1 -o other"))
+              .code == 0);
+  CHECK(json::parse(place.text("other/report.json"))["cut"]["energy"] !=
+        json::parse(place.text("by_set/report.json"))["cut"]["energy"]);
+  const auto refused = [&](const std::string& assignment, const char* says) {
+    const Result result =
+        place.run(life.cut("--click " + life.click + " --set " + assignment + " -o refused"));
+    CHECK_MESSAGE(result.code == 1, assignment);
+    CHECK_MESSAGE(result.err.find(says) != std::string::npos, result.err);
+  };
+  refused("energy.lamda=3", "energy.lambda, ");
+  refused("=3", "there is no such setting");
+  refused("energy.lambda", "from 0 to 500");
+  refused("energy.lambda=", "from 0 to 500");
+  refused("energy.lambda=3x", "from 0 to 500");
+  refused("energy.lambda=nan", "from 0 to 500");
+  refused("energy.lambda=-1", "from 0 to 500");
+  refused("energy.pairwise=best", "overlap, paper or paper-code");
+  refused("energy.hard=yes", "0 or 1");
+  refused("neighbours=0", "a whole number from 1 to 254");
+  CHECK_FALSE(place.exists("refused"));
+}
+
+TEST_CASE("convert goes through every format and back, and says what is lost") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  REQUIRE(place.run("make-scene lit -o lit --gaussians 5000 --sh-degree 3").code == 0);
+  std::string from = "lit/lit.ply";
+  for (const std::string name : {"a.ply", "a.glb", "a.spz", "a.compressed.ply", "a.sog", "a.splat"}) {
+    CAPTURE(name);
+    const Result result = place.run("convert " + from + " -o " + name);
+    REQUIRE_MESSAGE(result.code == 0, result.err);
+    CHECK((result.out.find("Lost:") != std::string::npos) == (name != "a.ply" && name != "a.glb"));
+    const json info = json::parse(place.run("info " + name + " --json").out);
+    CHECK(info["gaussians"] == 5000);
+    CHECK(info["sh_degree"] == (name == "a.splat" ? 0 : 3));
+    REQUIRE(place.run("convert " + name + " -o back_" + name + ".ply").code == 0);
+    CHECK(json::parse(place.run("info back_" + name + ".ply --json").out)["gaussians"] == 5000);
+    from = name;
+  }
+  CHECK(place.text("a.ply") == place.text("lit/lit.ply"));
+
+  // Version 4; axes against what the file says, which only the user may ask for.
+  REQUIRE(place.run("convert a.ply -o four.spz --spz-version 4").code == 0);
+  CHECK(place.text("four.spz").starts_with("NGSP"));
+  const auto highest = [&](const std::string& options) {
+    return json::parse(place.run("info four.spz --json " + options).out)["bounds_98"]["max"][1].get<float>();
+  };
+  const float lowest =
+      json::parse(place.run("info four.spz --json --spz-axes rub").out)["bounds_98"]["min"][1].get<float>();
+  CHECK(highest("") == highest("--spz-axes rub"));
+  CHECK(highest("--spz-axes ply") == doctest::Approx(-lowest).epsilon(1e-3));
+  CHECK(place.run("info four.spz --spz-axes up").code == 2);
+  CHECK(place.run("convert a.ply -o five.spz --spz-version 5").code == 2);
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("convert refuses an ending that it reads but does not write, and lists what it writes") {
+  const StillLife& life = still_life();
+  const Workplace& place = life.place;
+  for (const std::string name : {"a.ksplat", "a.gltf", "meta.json", "a.obj", "a"}) {
+    CAPTURE(name);
+    const Result result = place.run("convert " + life.scene + " -o " + name);
+    CHECK(result.code == 1);
+    CHECK(result.err.find("Choose .ply, .compressed.ply, .splat, .spz, .sog or .glb.") != std::string::npos);
+    const bool read = name != "a.obj" && name != "a";
+    CHECK((result.err.find("only read, not written") != std::string::npos) == read);
+    CHECK_FALSE(place.exists(name));
+  }
+}
+
+TEST_CASE("eval reports every measure of a suite with truth labels") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  const std::string truth = place.text("made/small.labels.u8");
+  const json names = json::parse(place.text("made/seeds.json"))["labels"];
+  const auto apple = static_cast<char>(std::find(names.begin(), names.end(), "apple") - names.begin());
+  std::string apple_only = truth;
+  for (char& label : apple_only) label = label == apple ? '\1' : '\0';
+  place.write("made/apple.labels.u8", apple_only);
+  const json view = {{"position", {0.3, -1.2, -2.4}},
+                     {"target", {0.3, -0.2, 0}},
+                     {"up", {0, -1, 0}},
+                     {"fov_y_deg", 45},
+                     {"size", {240, 180}}};
+  json entry = {{"name", "apple"},
+                {"scene", "small.ply"},
+                {"cameras", "cameras.json"},
+                {"truth", {{"labels", "apple.labels.u8"}}},
+                {"reference", {{"camera", "view_00"}}},
+                {"clicks", "robot"},
+                {"test_views", {view}}};
+  place.write("made/suite.json", json{{"scenes", {entry}}}.dump());
+  const Result result = place.run("eval made/suite.json --preset fast --draws 2 -o measured");
+  REQUIRE_MESSAGE(result.code == 0, result.err);
+  CHECK(result.out.find("median / least of 2 draws") != std::string::npos);
+  CHECK(result.out.find("apple") != std::string::npos);
+  const json measured = json::parse(place.text("measured/eval.json"));
+  REQUIRE(measured["scenes"].size() == 1);
+  const json& scene = measured["scenes"][0];
+  for (const json& scores : {scene, measured["mean"]}) {
+    CHECK(has_keys(scores,
+                   {"name", "image_iou", "accuracy", "boundary_iou", "gaussian_iou", "mask_iou_after_clicks",
+                    "image_iou_after_clicks", "noc85", "noc90", "ms", "total_ms"}));
+    CHECK(has_keys(scores["image_iou_after_clicks"], {"1", "3", "5"}));
+    CHECK(scores["mask_iou_after_clicks"].size() == 8);
+  }
+  CHECK(scene["draws"]["median"].size() == 8);
+  CHECK(scene["draws"]["least"][7] <= scene["draws"]["median"][7]);
+  CHECK(scene["image_iou"].get<double>() > 0.7);
+  CHECK(scene["image_iou"].get<double>() <= 1.0);
+  CHECK(scene["ms"].contains("cut"));
+  CHECK(scene["enough"]["views"] == 1);  // fast looks at the reference alone
+  CHECK(scene["enough"]["pixels"].get<int>() > 0);
+  CHECK(scene["enough"]["gaussians"].get<int>() > 0);
+  CHECK(scene["enough"]["why"] == "no view around the object was asked for");
+  CHECK(measured["mean"]["enough"]["views"] == 1);
+  CHECK_FALSE(measured["mean"]["enough"].contains("why"));
+  CHECK(place.run("eval made/suite.json --preset fast -o measured").code == 1);
+
+  // A scene known by masks of photographs only has no truth of the reference: such a scene is left out, by
+  // name.
+  json photographed = entry;
+  photographed["name"] = "photographed";
+  photographed["truth"] = {{"masks", "photos"}};
+  photographed["clicks"] = {{{"x", 10}, {"y", 10}}};
+  place.make_folder("made/photos");
+  REQUIRE(place.run("render " + life.scene + " --what alpha " + life.camera + " -o view_00.png").code == 0);
+  place.write("made/photos/view_00.png", place.text("view_00.png"));
+  place.write("made/both.json", json{{"scenes", {photographed, entry}}}.dump());
+  const Result truth_given =
+      place.run("eval made/both.json --preset fast --first-mask truth --masks truth -o from_truth");
+  REQUIRE_MESSAGE(truth_given.code == 0, truth_given.err);
+  CHECK(truth_given.err.find("photographed: left out") != std::string::npos);
+  const json from_truth = json::parse(place.text("from_truth/eval.json"));
+  REQUIRE(from_truth["scenes"].size() == 1);
+  CHECK(from_truth["scenes"][0]["image_iou"].get<double>() > 0.8);
+  place.write("made/photos_only.json", json{{"scenes", {photographed}}}.dump());
+  const Result nothing_left = place.run("eval made/photos_only.json --first-mask truth -o nothing");
+  CHECK(nothing_left.code == 1);
+  CHECK(nothing_left.err.find("no scene of the suite") != std::string::npos);
+}
+
+TEST_CASE("scribbles of a suite are an answer of their own, beside clicks or alone") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  json entry;
+  const json suite = json::parse(place.text("made/suite.json"));
+  for (const json& e : suite["scenes"])
+    if (e["name"] == "apple") entry = e;
+  REQUIRE(entry.is_object());
+  const auto comma = life.click.find(',');
+  const int x = std::stoi(life.click.substr(0, comma)), y = std::stoi(life.click.substr(comma + 1));
+  const auto line = [](int x0, int y0, int x1, int y1) {
+    return json::array({{{"label", "object"}, {"radius_px", 4}, {"points", {{x0, y0}, {x1, y1}}}}});
+  };
+  entry["test_views"] = json::array({entry["test_views"][0]});
+  const auto measured = [&](const json& e, const std::string& name) {
+    place.write("made/" + name + ".json", json{{"scenes", {e}}}.dump());
+    const Result result = place.run("eval made/" + name + ".json --preset fast --no-curve -o " + name);
+    REQUIRE_MESSAGE(result.code == 0, result.err);
+    return json::parse(place.text(name + "/eval.json"))["scenes"][0];
+  };
+  CHECK(measured(entry, "robot_only")["image_iou_by_scribbles"].is_null());
+  json both = entry;
+  both["scribbles"] = line(x - 10, y, x + 10, y);
+  const json of_both = measured(both, "robot_and_scribbles");
+  CHECK(of_both["mask_iou_after_clicks"].size() == 3);
+  json alone = both;
+  alone.erase("clicks");
+  const json of_alone = measured(alone, "scribbles_alone");
+  CHECK(of_alone["mask_iou_after_clicks"].empty());
+  CHECK(of_alone["image_iou"] == of_alone["image_iou_by_scribbles"]);
+  CHECK(of_alone["image_iou"] == of_both["image_iou_by_scribbles"]);
+  CHECK(of_alone["image_iou"].get<double>() > 0.4);  // a part of it, as the hierarchy has it
+  alone["clicks"] = json::array();
+  CHECK(measured(alone, "no_clicks")["image_iou"] == of_alone["image_iou"]);
+  alone["scribbles"] = line(5, 5, 25, 5);  // a corner: not the apple
+  CHECK(measured(alone, "corner")["image_iou"].get<double>() < 0.2);
+  alone.erase("scribbles");
+  place.write("made/neither.json", json{{"scenes", {alone}}}.dump());
+  const Result neither = place.run("eval made/neither.json -o neither");
+  CHECK(neither.code == 1);
+  CHECK(neither.err.find("neither clicks nor scribbles") != std::string::npos);
+}
+
+TEST_CASE("study measures, goes on where it was stopped, heals a line cut off, and draws charts and a page") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  const std::string command =
+      "study made/suite.json -o studied --quick --draws 2 --cells 3 --only needed --only views --only "
+      "trade-off";
+  const Result stopped = place.run_interrupted(command, 1500);
+  CHECK((stopped.code == 1 || stopped.signal == SIGINT || stopped.code == 0));
+  if (stopped.code == 1) CHECK(stopped.err.find("goes on") != std::string::npos);
+  const Result done = place.run(command);
+  REQUIRE_MESSAGE(done.code == 0, done.err);
+  const std::string cells = place.text("studied/cells.jsonl");
+  for (const char* file :
+       {"results.csv", "results.json", "study.md", "charts/views.svg", "charts/views.csv",
+        "charts/trade_off.svg", "charts/stages.png", "charts/views.png", "charts/needed_width.svg"})
+    CHECK_MESSAGE(place.exists(std::string("studied/") + file), file);
+  CHECK(place.text("studied/study.md").find("](charts/views.svg)") != std::string::npos);
+  const json results = json::parse(place.text("studied/results.json"));
+  const auto lines = static_cast<std::size_t>(std::count(cells.begin(), cells.end(), '\n'));
+  CHECK(results["results"].size() == lines);
+  const std::string csv = place.text("studied/results.csv");
+  CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == lines + 1);
+  for (const json& r : results["results"]) {
+    CHECK(r["image_iou"].get<double>() >= 0);
+    CHECK(r["image_iou"].get<double>() <= 1);
+    CHECK(r["ms"].get<double>() > 0);
+  }
+  REQUIRE(place.run(command + " --no-charts").code == 0);
+  CHECK(place.text("studied/cells.jsonl") == cells);  // nothing was left to measure
+  place.write("studied/cells.jsonl", cells.substr(0, cells.size() - 20));
+  REQUIRE(place.run(command + " --no-charts").code == 0);
+  const std::string healed = place.text("studied/cells.jsonl");
+  CHECK(static_cast<std::size_t>(std::count(healed.begin(), healed.end(), '\n')) == lines);
+  place.write("studied/cells.jsonl", "no measurement\n");
+  const Result foreign = place.run(command);
+  CHECK(foreign.code == 1);
+  CHECK(foreign.err.find("is not a list of measurements") != std::string::npos);
+  CHECK(place.run("study made/suite.json -o other --only nonsense").code == 1);
+}
+
+TEST_CASE("render --lowpass draws thin splats thinner, and by default as in training") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  const auto picture = [&](const std::string& name, const std::string& how) {
+    REQUIRE(place.run("render " + life.scene + " --size 160x120 -o " + name + how).code == 0);
+    return place.text(name);
+  };
+  const std::string usual = picture("usual.png", "");
+  CHECK(picture("trained.png", " --lowpass 0.3") == usual);
+  CHECK(picture("web.png", " --lowpass 0.075") != usual);
+}
+
+TEST_CASE("Ctrl+C ends a run with 1 and leaves nothing half written") {
+  StillLife& life = still_life();
+  Workplace& place = life.place;
+  REQUIRE(place.run("make-scene large -o large --gaussians 300000 --format ply").code == 0);
+  place.write("large/suite.json",
+              R"({"scenes": [{"name": "a", "scene": "large.ply", "cameras": "cameras.json",
+      "truth": {"labels": "large.labels.u8"}, "reference": {"camera": "view_00"}, "clicks": "robot", "test_views": []}]})");
+  for (const std::string& arguments :
+       {"cut large/large.ply --cameras large/cameras.json --camera 0 --preset best --click " + life.click,
+        std::string("eval large/suite.json --preset best"),
+        std::string("make-scene more --gaussians 3000000")})
+    for (const int after_ms : {5, 60, 300, 700}) {
+      CAPTURE(arguments);
+      CAPTURE(after_ms);
+      const Result result = place.run_interrupted(arguments + " -o stopped", after_ms);
+      // A signal before the program has set its handler ends it by that signal.
+      CHECK_MESSAGE((result.code == 1 || result.signal == SIGINT), result.code);
+      if (result.code == 1) CHECK_MESSAGE(result.err.find("cancelled") != std::string::npos, result.err);
+      CHECK_FALSE(place.exists("stopped"));
+      CHECK(place.leftovers().empty());
+    }
+}

@@ -1,0 +1,381 @@
+// What is written appears whole or not at all, whoever else writes there, and nothing else is lost.
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "app/console/output_folder.h"
+#include "core/error.h"
+#include "program_runner.h"
+#include "small_still_life.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string what_is_said(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool says(const std::function<void()>& work, const std::string& part) {
+  const std::string said = what_is_said(work);
+  CAPTURE(said);
+  CHECK(said.find(part) != std::string::npos);
+  return said.find(part) != std::string::npos;
+}
+
+void write_folder(const fs::path& path, const std::vector<std::pair<std::string, std::string>>& files) {
+  OutputFolder folder(path, true);
+  for (const auto& [name, text] : files) write_text_file(folder.file(name), text);
+  folder.commit();
+}
+
+// Work that is killed before it ends: no destructor runs.
+void killed_after(const std::function<void()>& work) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    work();
+    ::_exit(0);
+  }
+  REQUIRE(::waitpid(child, nullptr, 0) == child);
+}
+
+}  // namespace
+
+TEST_CASE("output: a device stays one and is written to, and that it is full is said") {
+  const Workplace place;
+  constexpr mode_t kMode = 0600;
+  const bool made = ::mknod((place / "full").c_str(), S_IFCHR | kMode, ::makedev(1, 7)) == 0 &&
+                    ::mknod((place / "null").c_str(), S_IFCHR | kMode, ::makedev(1, 3)) == 0;
+  if (!made) {
+    MESSAGE("only root can make devices");
+    return;
+  }
+  CHECK(says([&] { write_text_file(place / "full", "text"); }, "full"));
+  write_text_file(place / "null", "text");
+  const Result drawn = place.run("render " + still_life().scene + " --size 64x48 --overwrite -o full");
+  CHECK(drawn.code == 1);
+  CHECK_MESSAGE(drawn.err.find("full") != std::string::npos, drawn.err);
+  CHECK(place.run("render " + still_life().scene + " --size 64x48 -o null").code == 0);
+  for (const char* device : {"full", "null"}) CHECK(fs::is_character_file(place / device));
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: a pipe gets the bytes, and one that nobody reads is refused") {
+  const Workplace place;
+  REQUIRE(::mkfifo((place / "pipe").c_str(), 0600) == 0);
+  CHECK(says([&] { write_text_file(place / "pipe", "text"); }, "no program reads"));
+  const int reader = ::open((place / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  REQUIRE(reader >= 0);
+  write_text_file(place / "pipe", "text");
+  char text[8] = {};
+  CHECK(::read(reader, text, sizeof text) == 4);
+  CHECK(std::string(text) == "text");
+  ::close(reader);
+  CHECK(fs::is_fifo(place / "pipe"));
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: folders and sockets are refused before any work is done") {
+  const Workplace place;
+  place.make_folder("folder");
+  place.write("folder/mine.txt", "mine");
+  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = "socket"};
+  const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  const fs::path before = fs::current_path();
+  fs::current_path(place / "");
+  REQUIRE(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+  fs::current_path(before);
+  ::close(socket);
+  for (const auto& [output, part] : {std::pair{"folder", "is a folder"}, {"socket", "is a socket"}}) {
+    CHECK(says([&] { check_output_file(place / output, true); }, part));
+    CHECK(says([&] { write_text_file(place / output, "text"); }, part));
+    const Result result = place.run(std::string("render missing.ply --overwrite -o ") + output);
+    CHECK_MESSAGE(result.err.find(part) != std::string::npos, result.err);
+  }
+  CHECK(place.text("folder/mine.txt") == "mine");
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: links are followed and stay links, also one that leads nowhere yet") {
+  const Workplace place;
+  place.make_folder("far");
+  place.write("far/old.txt", "old");
+  fs::create_symlink("far/old.txt", place / "to_old");
+  fs::create_symlink("to_old", place / "to_link");
+  fs::create_symlink("far/new.txt", place / "to_new");
+  write_text_file(place / "to_link", "text");
+  write_text_file(place / "to_new", "text");
+  CHECK(place.text("far/old.txt") == "text");
+  CHECK(place.text("far/new.txt") == "text");
+  for (const char* link : {"to_old", "to_link", "to_new"}) CHECK(fs::is_symlink(place / link));
+  fs::create_directory_symlink("far", place / "to_far");
+  write_folder(place / "to_far", {{"old.txt", "again"}});
+  CHECK(fs::is_symlink(place / "to_far"));
+  CHECK(place.text("far/old.txt") == "again");
+  CHECK(place.text("far/new.txt") == "text");
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: a file is held by one process, and what a killed one left is written over") {
+  const Workplace place;
+  {
+    AtomicFile first(place / "a.txt");
+    CHECK(says([&] { write_text_file(place / "a.txt", "second"); }, "is being written by another program"));
+    first.commit();
+  }
+  write_text_file(place / "a.txt", "third");
+  CHECK(place.text("a.txt") == "third");
+  killed_after([&] {
+    AtomicFile file(place / "a.txt");
+    const std::string text(10000, 'x');
+    file.write(std::as_bytes(std::span(text)));
+    std::fflush(file.stream());
+    ::_exit(0);
+  });
+  CHECK(place.text("a.txt") == "third");
+  CHECK(place.leftovers().size() == 1);
+  write_text_file(place / "a.txt", "fourth");
+  CHECK(place.text("a.txt") == "fourth");
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: twenty writers of one file leave one whole file") {
+  const Workplace place;
+  std::vector<std::jthread> writers;
+  std::atomic<int> written = 0;
+  for (int w = 0; w < 20; ++w)
+    writers.emplace_back([&, w] {
+      for (int i = 0; i < 50; ++i)
+        written += what_is_said([&] {
+                     write_text_file(place / "a.txt", std::string(5000, static_cast<char>('a' + w)));
+                   }).empty();
+    });
+  writers.clear();
+  const std::string text = place.text("a.txt");
+  CHECK(text == std::string(5000, text[0]));
+  CHECK(written > 0);
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: a folder is replaced as a whole, what is not the program's stays") {
+  const Workplace place;
+  write_folder(place / "out", {{"object.ply", "old"}, {"report.json", "old"}});
+  place.write("out/notes.txt", "mine");
+  place.make_folder("out/photos/deep");
+  place.write("out/photos/deep/a.jpg", "mine");
+  fs::create_symlink("/nowhere", place / "out/link");
+  fs::permissions(place / "out", fs::perms::owner_all | fs::perms::group_read);
+  struct stat before {
+  }, after{};
+  REQUIRE(::stat((place / "out/photos").c_str(), &before) == 0);
+  write_folder(place / "out/", {{"object.ply", "new"}, {"report.json", "new"}});
+  CHECK(place.files_in("out") ==
+        std::set<std::string>{"link", "notes.txt", "object.ply", "photos", "report.json"});
+  CHECK(place.text("out/object.ply") == "new");
+  CHECK(place.text("out/report.json") == "new");
+  CHECK(place.text("out/notes.txt") == "mine");
+  CHECK(place.text("out/photos/deep/a.jpg") == "mine");
+  CHECK(fs::is_symlink(place / "out/link"));
+  CHECK(fs::status(place / "out").permissions() == (fs::perms::owner_all | fs::perms::group_read));
+  REQUIRE(::stat((place / "out/photos").c_str(), &after) == 0);
+  CHECK(before.st_ino == after.st_ino);
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: a name that is a folder there is refused, and both stay as they were") {
+  const Workplace place;
+  place.make_folder("out/object.ply");
+  place.write("out/object.ply/mine.txt", "mine");
+  place.write("out/report.json", "old");
+  CHECK(says(
+      [&] {
+        write_folder(place / "out", {{"report.json", "new"}, {"object.ply", "new"}});
+      },
+      "is a folder"));
+  CHECK(place.text("out/object.ply/mine.txt") == "mine");
+  CHECK(place.text("out/report.json") == "old");
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: the current folder is filled in place") {
+  const Workplace place;
+  place.make_folder("out");
+  place.write("out/notes.txt", "mine");
+  const fs::path before = fs::current_path();
+  fs::current_path(place / "out");
+  write_folder(".", {{"object.ply", "new"}});
+  const bool there = fs::exists("object.ply");
+  fs::current_path(before);
+  CHECK(there);
+  CHECK(place.files_in("out") == std::set<std::string>{"notes.txt", "object.ply"});
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE(
+    "output: a second writer of a folder is refused, and existing is looked for again once it is free") {
+  const Workplace place;
+  {
+    OutputFolder first(place / "out", false);
+    CHECK(says([&] { OutputFolder(place / "out", true); }, "is being written by another program"));
+    write_text_file(first.file("a.txt"), "first");
+    first.commit();
+  }
+  CHECK(says([&] { OutputFolder(place / "out", false); }, "exists already"));
+  CHECK(place.text("out/a.txt") == "first");
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE(
+    "output: what a killed process left beside a folder is set right by the next, whenever it was killed") {
+  const Workplace place;
+  const auto fresh = [&] {
+    fs::remove_all(place / "out");
+    write_folder(place / "out", {{"a.txt", "old"}, {"b.txt", "old"}});
+    place.write("out/notes.txt", "mine");
+    place.make_folder("out/photos");
+    place.write("out/photos/a.jpg", "mine");
+  };
+  const auto is_right = [&](const std::string& text) {
+    CHECK(place.files_in("out") == std::set<std::string>{"a.txt", "b.txt", "notes.txt", "photos"});
+    CHECK(place.text("out/a.txt") == text);
+    CHECK(place.text("out/b.txt") == text);
+    CHECK(place.text("out/notes.txt") == "mine");
+    CHECK(place.text("out/photos/a.jpg") == "mine");
+  };
+  SUBCASE("while it wrote") {
+    fresh();
+    killed_after([&] {
+      OutputFolder folder(place / "out", true);
+      write_text_file(folder.file("a.txt"), "unfinished");
+      ::_exit(0);
+    });
+    is_right("old");
+  }
+  SUBCASE("after the exchange, before the folders were brought back") {
+    fresh();
+    // As it is then: the replaced folder has the name of the new one, and links to its files are in the new.
+    fs::rename(place / "out", place / "out.splatcut.new");
+    place.make_folder("out");
+    for (const char* name : {"a.txt", "b.txt"}) place.write(std::string("out/") + name, "new");
+    fs::create_hard_link(place / "out.splatcut.new/notes.txt", place / "out/notes.txt");
+    place.write("out.splatcut.part", std::string(8, '\1'));
+  }
+  CHECK_FALSE(place.leftovers().empty());
+  write_folder(place / "out", {{"a.txt", "next"}, {"b.txt", "next"}});
+  is_right("next");
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: an empty folder that a killed process left is no replaced one") {
+  const Workplace place;
+  place.make_folder("out.splatcut.new");
+  place.write("out.splatcut.part", "");
+  {
+    OutputFolder folder(place / "out", false);
+    CHECK_FALSE(place.exists("out"));
+    write_text_file(folder.file("a.txt"), "text");
+    folder.commit();
+  }
+  CHECK(place.text("out/a.txt") == "text");
+  CHECK(place.leftovers().empty());
+}
+
+namespace {
+
+// As the window's work files have it: FNV-1a over words of 64 bits.
+std::uint64_t hash_of(const std::string& bytes) {
+  constexpr std::uint64_t kBegin = 14695981039346656037ull, kPrime = 1099511628211ull;
+  std::uint64_t hash = kBegin;
+  std::size_t i = 0;
+  for (; i + 8 <= bytes.size(); i += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + i, 8);
+    hash = (hash ^ word) * kPrime;
+  }
+  for (; i < bytes.size(); ++i) hash = (hash ^ static_cast<std::uint8_t>(bytes[i])) * kPrime;
+  return hash;
+}
+
+// Work of as many objects as there can be, each the whole scene by hand: little to compute, much to write.
+void write_large_work(const Workplace& place, const std::string& file) {
+  nlohmann::json objects = nlohmann::json::array();
+  for (int id = 1; id <= 255; ++id)
+    objects.push_back({{"id", id},
+                       {"name", "all"},
+                       {"colour", {1, 2, 3}},
+                       {"views", nlohmann::json::array()},
+                       {"hand", {1, 20000}}});
+  char hash[17];
+  std::snprintf(hash, sizeof hash, "%016llx",
+                static_cast<unsigned long long>(hash_of(still_life().place.text("made/small.ply"))));
+  place.write(file, nlohmann::json{{"splatcut_work", 3},
+                                   {"scene", {{"path", still_life().scene}, {"hash", hash}}},
+                                   {"next_id", 256},
+                                   {"up", {0, -1, 0}},
+                                   {"preset", "fast"},
+                                   {"background", {0, 0, 0}},
+                                   {"objects", objects}}
+                        .dump());
+}
+
+}  // namespace
+
+TEST_CASE("output: saved work computed again and stopped while it is written leaves the old folder") {
+  const Workplace place;
+  write_large_work(place, "large.splatcut.json");
+  place.make_folder("out");
+  place.write("out/all.ply", "old");
+  for (const int signal : {SIGINT, SIGTERM}) {
+    CAPTURE(signal);
+    const pid_t run = place.begin("cut --work large.splatcut.json --overwrite -o out");
+    REQUIRE(place.appears("out.splatcut.new/all.ply"));
+    ::kill(run, signal);
+    const Result result = place.finish(run);
+    CHECK_MESSAGE(result.code == 1, result.err);
+    CHECK(result.err.find("cancelled, nothing was written") != std::string::npos);
+    CHECK(place.files_in("out") == std::set<std::string>{"all.ply"});
+    CHECK(place.text("out/all.ply") == "old");
+    CHECK(place.leftovers().empty());
+  }
+}
+
+TEST_CASE("output: signals that end the program leave the old cutout as it was") {
+  StillLife& life = still_life();
+  const Workplace& place = life.place;
+  place.make_folder("kept");
+  for (const char* name : {"object.ply", "report.json", "notes.txt"})
+    place.write(std::string("kept/") + name, "old");
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    for (const int after_ms : {1, 30, 60, 100, 200}) {
+      CAPTURE(signal);
+      CAPTURE(after_ms);
+      const Result result =
+          place.run_interrupted("cut " + life.scene + " " + life.camera +
+                                    " --no-cache --preset best --overwrite -o kept --click " + life.click,
+                                after_ms, signal);
+      CHECK((result.code == 1 || result.signal == signal));
+      CHECK(place.files_in("kept") == std::set<std::string>{"notes.txt", "object.ply", "report.json"});
+      CHECK(place.text("kept/object.ply") == "old");
+      if (result.code == 1) CHECK(place.leftovers().empty());
+    }
+}

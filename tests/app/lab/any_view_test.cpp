@@ -1,0 +1,321 @@
+// The any-view robot: its clicks and its figures on pictures drawn by hand, and by the program on a still
+// life.
+#include "app/lab/any_view.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/lab/any_view_report.h"
+#include "app/lab/scene_copies.h"
+#include "core/error.h"
+#include "program_runner.h"
+#include "scene/raster/rasterizer.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+using nlohmann::json;
+
+namespace {
+
+constexpr int kWidth = 12, kHeight = 8, kPixels = kWidth * kHeight;
+
+Mask block(int x0, int y0, int width, int height) {
+  Mask mask(kWidth, kHeight);
+  for (int y = y0; y < y0 + height; ++y)
+    for (int x = x0; x < x0 + width; ++x) mask.at(x, y) = kMaskObject;
+  return mask;
+}
+
+Mask both(Mask a, const Mask& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a.pixels()[i] |= b.pixels()[i];
+  return a;
+}
+
+Camera camera_called(const std::string& name) {
+  Camera camera;
+  camera.name = name;
+  camera.width_px = kWidth;
+  camera.height_px = kHeight;
+  camera.fx_px = camera.fy_px = 10;
+  camera.camera_from_world_translation.x = static_cast<float>(name.back());  // cameras differ
+  return camera;
+}
+
+// Two views "0" and "1" whose labels are their pixels, and a cut that answers what was written down for it.
+struct Toy {
+  AnyViewWorld world;
+  std::vector<std::pair<Mask, Mask>> answers;
+  std::size_t asked = 0;
+  std::vector<Mask> meanings;  // of the first click
+  std::vector<int> choices;    // with which it was asked
+
+  Toy(Mask truth_0, Mask truth_1) {
+    world.views = {{camera_called("0"), std::move(truth_0)}, {camera_called("1"), std::move(truth_1)}};
+    world.cut = [this](std::span<const ViewClick> clicks, int choice, const Job&) {
+      REQUIRE(clicks.size() == asked + (choice > 0 ? 0 : 1));  // all that were made so far
+      choices.push_back(choice);
+      const auto& [a, b] = answers.at(asked++);
+      CutAnswer answer;
+      answer.meanings = meanings;
+      for (const Mask* m : {&a, &b})
+        for (const std::uint8_t p : m->pixels()) answer.labels.push_back(p != 0);
+      return answer;
+    };
+    world.picture = [](const Camera& camera, const std::vector<std::uint8_t>& labels) {
+      Mask mask(kWidth, kHeight);
+      const std::size_t first = camera.name == "0" ? 0 : kPixels;
+      for (std::size_t i = 0; i < mask.size(); ++i) mask.pixels()[i] = labels[first + i] ? kMaskObject : 0;
+      return mask;
+    };
+  }
+  AnyViewStart start_in_1(const glm::vec2& pixel) const {
+    return {"1", world.views[1].camera, click(pixel, SeedLabel::kObject)};
+  }
+};
+
+void check_click(const ViewClick& c, const std::string& view, const glm::vec2& pixel, SeedLabel label) {
+  CHECK(c.camera.name == view);
+  CHECK(c.stroke.points_px.front() == pixel);
+  CHECK(c.stroke.label == label);
+}
+
+}  // namespace
+
+TEST_CASE("any view: clicks, obedience, falls and clicks to a goal are those counted by hand") {
+  const Mask wide = block(2, 1, 5, 3), square = block(4, 2, 3, 3), none(kWidth, kHeight),
+             extra = block(8, 4, 4, 4);
+  Toy toy(wide, square);
+  toy.answers = {{none, square}, {both(wide, extra), square}, {none, none}, {none, none}, {wide, square}};
+  const AnyViewSession session = any_view_session(toy.world, toy.start_in_1({5.5f, 3.5f}), 7);
+  REQUIRE(session.clicks.size() == 5);
+  check_click(session.clicks[0], "1", {5.5f, 3.5f}, SeedLabel::kObject);
+  check_click(session.clicks[1], "0", {3.5f, 2.5f},
+              SeedLabel::kObject);  // the first of its three deepest pixels
+  check_click(session.clicks[2], "0", {9.5f, 5.5f}, SeedLabel::kRest);    // 16 pixels too many in view 0
+  check_click(session.clicks[3], "0", {3.5f, 2.5f}, SeedLabel::kObject);  // 15 are missing there, 9 in view 1
+  check_click(session.clicks[4], "0", {3.5f, 2.5f}, SeedLabel::kObject);
+  const double second = (15.0 / 31 + 1) / 2;
+  const std::vector<double> expected = {0.5, second, 0, 0, 1, 1, 1};
+  REQUIRE(session.iou_after.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    CHECK(session.iou_after[i] == doctest::Approx(expected[i]));
+  CHECK(session.obeyed == std::vector<bool>{true, true, true, false, true});
+  CHECK(session.obeyed_share() == doctest::Approx(0.8));
+  CHECK(session.worst_fall() == doctest::Approx(second));
+  const json j = sessions_json({session}, 7);
+  CHECK(j["iou_after_clicks"]["2"].get<double>() == doctest::Approx(second));
+  CHECK(j["iou_after_clicks"]["5"] == 1);
+  CHECK_FALSE(j["iou_after_clicks"].contains("8"));  // seven were made
+  CHECK(j["noc85"] == 5);
+  CHECK(j["noc90"] == 5);
+  CHECK(j["obeyed"].get<double>() == doctest::Approx(0.8));
+}
+
+TEST_CASE("any view: an offered meaning is taken by what the clicked view shows, and costs a click") {
+  const Mask wide = block(2, 1, 5, 3), square = block(4, 2, 3, 3), none(kWidth, kHeight);
+  const std::vector<Mask> offered = {block(4, 2, 3, 1), none, square};  // IoU 1/3, 0, 1 in the clicked view
+  Toy toy(wide, square);
+  toy.meanings = offered;
+  toy.answers = {{none, offered[0]}, {none, square}, {wide, square}};
+  const AnyViewSession session =
+      any_view_session(toy.world, toy.start_in_1({5.5f, 2.5f}), 4, {.choices = true});
+  CHECK(session.choice == 2);
+  CHECK(toy.choices == std::vector<int>{0, 2, 2});
+  const std::vector<double> expected = {1.0 / 6, 0.5, 1, 1};
+  REQUIRE(session.iou_after.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    CHECK(session.iou_after[i] == doctest::Approx(expected[i]));
+  CHECK(session.clicks.size() == 2);
+  CHECK(session.obeyed.size() == 2);
+  for (const auto& [asked_for, third] : {std::pair{false, square}, {true, block(4, 2, 3, 1)}}) {
+    Toy other(wide, square);  // not asked for, or no better by a twentieth
+    other.meanings = {offered[0], none, third};
+    other.answers = {{none, offered[0]}, {wide, square}};
+    CHECK(any_view_session(other.world, other.start_in_1({5.5f, 2.5f}), 2, {.choices = asked_for}).choice ==
+          0);
+    CHECK(other.choices == std::vector<int>{0, 0});
+  }
+}
+
+TEST_CASE("any view: least and 10th percentile are of sessions, means are over them, never reached is 20") {
+  std::vector<AnyViewSession> sessions(20);
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    sessions[i].iou_after = {0.05 * static_cast<double>(i + 1), 0.5};
+    sessions[i].ms_per_click = 10;
+  }
+  const json j = sessions_json(sessions, 2);
+  CHECK(j["iou_after_clicks"]["1"].get<double>() == doctest::Approx(0.525));
+  CHECK(j["least"]["iou_after_clicks"]["1"].get<double>() == doctest::Approx(0.05));
+  CHECK(j["p10"]["iou_after_clicks"]["1"].get<double>() == doctest::Approx(0.1));
+  CHECK(j["noc90"].get<double>() == doctest::Approx((3 * 1 + 17 * 20) / 20.0));
+  CHECK(j["most_fall"].get<double>() == doctest::Approx(0.5));
+  CHECK(j["worst_fall"].get<double>() == doctest::Approx(0.05 * 55 / 20));  // 10 of them fall, by .05 to .5
+}
+
+TEST_CASE(
+    "any view: of equal regions the lowest view's, missing before extra; a label 2 px away obeys, 3 px not") {
+  const Mask square = block(4, 2, 3, 3), none(kWidth, kHeight), elsewhere = block(0, 5, 3, 3);
+  Toy toy(square, square);
+  toy.answers = {
+      {none, elsewhere}, {none, elsewhere}, {block(7, 3, 1, 1), square}, {block(8, 3, 1, 1), square}};
+  const AnyViewSession session = any_view_session(toy.world, toy.start_in_1({5.5f, 3.5f}), 4);
+  REQUIRE(session.clicks.size() == 4);
+  for (const std::size_t i : {1, 2, 3}) check_click(session.clicks[i], "0", {5.5f, 3.5f}, SeedLabel::kObject);
+  CHECK(session.obeyed == std::vector<bool>{false, false, true, false});
+  CHECK(session.obeyed_pixel == std::vector<bool>{false, false, false, false});
+}
+
+TEST_CASE("any view: starts are the references and the views whose truth counts, each once") {
+  EvaluationCase scene;
+  scene.name = "toy";
+  Mask speck(100, 100), large(100, 100);
+  speck.at(50, 50) = kMaskObject;  // a ten thousandth
+  for (int x = 0; x < 40; ++x) large.at(x, 20) = kMaskObject;
+  scene.test_views = {camera_called("0"), camera_called("1"), camera_called("2")};
+  scene.truth_masks = {large, speck, large};
+  scene.reference = camera_called("3");
+  CHECK(any_view_starts(scene, truth_views(scene)).size() == 2);  // nobody knows where to click in "3"
+  scene.clicks = {click({7, 8}, SeedLabel::kObject), click({9, 9}, SeedLabel::kRest)};
+  scene.more_references = {{camera_called("2"), {}},
+                           {camera_called("4"), {click({1, 2}, SeedLabel::kObject)}}};
+  const std::vector<TruthView> views = truth_views(scene);
+  REQUIRE(views.size() == 2);
+  const std::vector<AnyViewStart> starts = any_view_starts(scene, views);
+  REQUIRE(starts.size() == 4);
+  CHECK(starts[0].name == "reference 3");
+  CHECK(starts[0].first.points_px.front() == glm::vec2(7, 8));
+  CHECK(starts[1].name == "reference 4");
+  CHECK(starts[2].name == "view 0");
+  CHECK(large.at(static_cast<int>(starts[2].first.points_px.front().x), 20) != 0);
+  CHECK(starts[3].name == "reference 2");
+  // An unsteady hand clicks elsewhere, on the same things.
+  int others = 0;
+  for (std::uint64_t draw = 1; draw < 6; ++draw) {
+    const AnyViewStart other = any_view_starts(scene, views, draw)[2];
+    others += other.first.points_px != starts[2].first.points_px;
+    CHECK(large.at(static_cast<int>(other.first.points_px.front().x),
+                   static_cast<int>(other.first.points_px.front().y)) != 0);
+  }
+  CHECK(others > 0);
+  scene.truth_masks = {speck, speck, speck};
+  CHECK_THROWS_AS(truth_views(scene), Error);
+}
+
+TEST_CASE(
+    "copies of a scene: every Gaussian is where it was, whatever its row, and a hundredth of its size off at "
+    "most") {
+  const Workplace place;
+  REQUIRE(place.run("make-scene small -o made --gaussians 3000").code == 0);
+  const Scene scene = load_scene(place / "made/small.ply");
+  std::vector<std::string> names;
+  for (int number = 0; number < 8; ++number) {
+    const SceneCopy copy = scene_copy(scene, number);
+    CAPTURE(copy.name);
+    names.push_back(copy.name);
+    REQUIRE(copy.scene.cloud.size() == scene.cloud.size());
+    std::vector<std::uint32_t> seen = copy.origin;
+    std::ranges::sort(seen);
+    CHECK(std::ranges::adjacent_find(seen) == seen.end());
+    float most = 0, most_sizes = 0;
+    for (std::size_t g = 0; g < copy.origin.size(); ++g) {
+      const std::size_t was = copy.origin[g];
+      const float off = glm::distance(copy.scene.cloud.position[g], scene.cloud.position[was]);
+      const glm::vec3& size = scene.cloud.scale[was];
+      most = std::max(most, off);
+      most_sizes = std::max(most_sizes, off / std::max({size.x, size.y, size.z}));
+    }
+    CHECK(most < 0.02f);  // of a room of about four units
+    if (copy.name.starts_with("shuffled")) CHECK(most == 0);
+    if (copy.name.starts_with("splats moved")) {
+      CHECK(most > 0);
+      CHECK(most_sizes < 0.0101f);
+    }
+    CHECK(scene_copy(scene, number).scene.cloud.position == copy.scene.cloud.position);
+  }
+  std::ranges::sort(names);
+  CHECK(std::ranges::adjacent_find(names) == names.end());
+}
+
+TEST_CASE(
+    "eval --any-view: every field, zoom along the ray, copies, several references, and what it refuses") {
+  const Workplace place;
+  REQUIRE(place.run("make-scene small -o made --gaussians 8000").code == 0);
+  const json suite = json::parse(place.text("made/suite.json"));
+  json entry;
+  for (const json& e : suite["scenes"])
+    if (e["name"] == "apple") entry = e;
+  const json views = entry["test_views"];
+  entry["test_views"] = {views[0], views[4]};
+  entry.erase("reference");
+  entry["references"] = {views[0], views[8], views[12]};
+  json other = entry;
+  other["name"] = "left out by its name";
+  place.write("made/some.json", json{{"scenes", {other, entry}}}.dump());
+  const std::string command = "eval made/some.json --only apple --preset fast --no-curve";
+  const Result result =
+      place.run(command + " -o out --any-view --robot-clicks 3 --draws 2 --zoom --perturb 2");
+  REQUIRE_MESSAGE(result.code == 0, result.err);
+  CHECK(result.out.find("NoC85") != std::string::npos);
+  const json measured = json::parse(place.text("out/eval.json"));
+  REQUIRE(measured["scenes"].size() == 1);
+  for (const json& s : {measured["scenes"][0], measured["mean"]}) {
+    const json& robot = s["any_view"];
+    for (const char* key :
+         {"noc85", "noc90", "obeyed", "obeyed_pixel", "worst_fall", "most_fall", "ms_per_click"})
+      CHECK_MESSAGE(robot[key].is_number(), key);
+    for (const char* k : {"1", "2", "3"})
+      for (const json& of : {robot, robot["least"], robot["p10"]})
+        CHECK_MESSAGE(of["iou_after_clicks"][k].is_number(), k);
+    for (const char* factor : {"0.4", "0.6", "1", "2", "4"})
+      CHECK_MESSAGE((s["zoom"][factor].is_number() || (s["zoom"][factor].is_null() && *factor != '0')),
+                    factor);
+    for (const char* what : {"median", "least", "spread", "difference", "most_difference"})
+      CHECK_MESSAGE(s["perturb"]["3"][what].is_number(), what);
+  }
+  const json& scene = measured["scenes"][0];
+  CHECK(scene["doubts"].is_array());
+  const json& sessions = scene["any_view"]["sessions"];
+  REQUIRE(sessions.size() == 8);  // views 0 and 4, references 8 and 12: each twice
+  CHECK(scene["any_view"]["views"] == 4);
+  double first = 0;
+  for (std::size_t i = 0; i < 4; ++i) first += sessions[i]["iou_after"][0].get<double>() / 4;
+  CHECK(scene["zoom"]["1"].get<double>() == doctest::Approx(first));
+  CHECK(sessions[0]["doubts"].size() == sessions[0]["clicks"].size());
+  CHECK(measured["mean"]["any_view"].contains("sessions") == false);
+  // The same again: nothing hangs on what was cut before, nor on the number of threads.
+  REQUIRE(place.run(command + " -o again --any-view --robot-clicks 3 --starts 2 --threads 1").code == 0);
+  const json again = json::parse(place.text("again/eval.json"))["scenes"][0]["any_view"]["sessions"];
+  REQUIRE(again.size() == 2);
+  CHECK(again[0] == sessions[0]);
+  CHECK(again[1] == sessions[1]);
+  for (const char* usage : {" --any-view --set trim=0", " --any-view --parts-only",
+                            " --any-view --masks truth", " --zoom", " --perturb 2"})
+    CHECK_MESSAGE(place.run(command + " -o refused" + usage).code == 2, usage);
+  CHECK_FALSE(place.exists("refused"));
+}
+
+TEST_CASE("zoom: the camera stands on the ray of the clicked pixel, at so many times the distance") {
+  const Workplace place;
+  REQUIRE(place.run("make-scene small -o made --gaussians 3000").code == 0);
+  for (const json& entry : read_suite(place / "made/suite.json")) {
+    if (entry["name"] != "apple") continue;
+    const auto loaded = load_case(entry, place / "made", {}, {});
+    const AnyViewStart start = any_view_starts(loaded->test, truth_views(loaded->test)).front();
+    const glm::vec2 pixel = start.first.points_px.front();
+    RasterOptions options;
+    options.depth = true;
+    const float z = rasterize(loaded->scene.cloud, start.camera, options)
+                        .median_depth.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
+    const glm::vec3 hit = start.camera.world_from_pixel(pixel, z);
+    for (const float factor : {0.4f, 0.6f, 1.0f, 2.0f, 4.0f}) {
+      const auto moved = zoomed_click(loaded->scene.cloud, start, factor);
+      CHECK(moved.has_value() == (factor <= 1));  // from farther the mug stands before it
+      if (!moved) continue;
+      CHECK(glm::distance(moved->camera.centre_world(), hit) ==
+            doctest::Approx(factor * glm::distance(start.camera.centre_world(), hit)).epsilon(1e-4));
+      const glm::vec2 at = moved->camera.pixel_from_camera(moved->camera.camera_from_world(hit));
+      CHECK(glm::distance(at, pixel) < 0.1f);
+      CHECK(moved->stroke.points_px.front() == pixel);
+    }
+  }
+}

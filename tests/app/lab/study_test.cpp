@@ -1,0 +1,218 @@
+// The study: its arithmetic by hand, what it does to scenes, that every experiment runs, and that the shipped
+// presets are those it chose.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/lab/eval_suite.h"
+#include "app/lab/study/study_plan.h"
+#include "app/lab/study/study_scenes.h"
+#include "app/lab/study/study_tables.h"
+#include "app/lab/study/study_variants.h"
+#include "program_runner.h"
+#include "segment/masks/mask_tools.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+using nlohmann::json;
+
+namespace {
+
+json result(const std::string& series, double x, double iou, double ms, const std::string& warned = "") {
+  return {{"experiment", "e"},
+          {"series", series},
+          {"x", x},
+          {"preset", "default"},
+          {"set", json::array()},
+          {"scene", "s"},
+          {"image_iou", iou},
+          {"boundary_iou", 0.5},
+          {"gaussian_iou", nullptr},
+          {"ms", ms},
+          {"looked_at_mpx", ms / 100},
+          {"warned", warned},
+          {"stages", {{"cut", ms}}}};
+}
+
+// The apple of a still life of 8,000 Gaussians, loaded.
+std::unique_ptr<LoadedCase> apple(const Workplace& place) {
+  REQUIRE(place.run("make-scene small -o made --gaussians 8000").code == 0);
+  for (const json& entry : read_suite(place / "made/suite.json"))
+    if (entry.at("name") == "apple") return load_case(entry, place / "made", {}, {});
+  FAIL("there is no apple");
+  return nullptr;
+}
+
+double share_seen(const EvaluationCase& test, int width) {
+  const Mask mask = labels_seen(test, limited_to_width(test.reference, width), test.truth_labels);
+  return static_cast<double>(count(mask)) / static_cast<double>(mask.size());
+}
+
+}  // namespace
+
+TEST_CASE("scores over scenes and draws: quantiles, failures, and whether they were said") {
+  StudyResults results;
+  for (int i = 1; i <= 20; ++i)
+    results.push_back(result("a", 1, 0.05 * i, i, i == 3 || i == 20 ? "another size" : ""));
+  results.push_back(result("a", 2, 1, 5));
+  const std::vector<SettingScore> scores = scores_of(results);
+  REQUIRE(scores.size() == 2);
+  const SettingScore& s = scores[0];
+  CHECK(s.runs == 20);
+  CHECK(s.iou == doctest::Approx(0.525));
+  CHECK(s.least == doctest::Approx(0.05));
+  CHECK(s.p10 == doctest::Approx(0.1));
+  CHECK(s.median == doctest::Approx(0.5));
+  CHECK(s.p90 == doctest::Approx(0.9));
+  CHECK(s.ms == 10);
+  CHECK(s.failed == 17);  // .05 to .85
+  CHECK(s.failed_warned == 1);
+  CHECK(s.fine_warned == 1);
+  CHECK(s.stages.at("cut") == doctest::Approx(10.5));
+}
+
+TEST_CASE("the front: what nothing cheaper beats, and how far others are behind it") {
+  const std::vector<SettingScore> scores =
+      scores_of({result("slow", 0, 0.9, 400), result("quick", 0, 0.7, 100), result("worse", 0, 0.6, 200),
+                 result("middle", 0, 0.8, 200)});
+  const std::vector<SettingScore> front = pareto_front(scores);
+  REQUIRE(front.size() == 3);
+  CHECK(front[0].series == "quick");
+  CHECK(front[1].series == "middle");
+  CHECK(front[2].series == "slow");
+  CHECK(behind_front(scores[0], scores, &SettingScore::ms) == 0);
+  CHECK(behind_front(scores[2], scores, &SettingScore::ms) == doctest::Approx(0.2));
+  CHECK(behind_front(scores[2], scores, &SettingScore::looked_at_mpx) == doctest::Approx(0.2));
+}
+
+TEST_CASE("a board hides the stated share of the object in the first view, and nothing in the truth") {
+  const Workplace place;
+  const auto loaded = apple(place);
+  const double whole = share_seen(loaded->test, 320);
+  for (const double hidden : {0.25, 0.5, 0.75}) {
+    const GaussianCloud cloud = with_board(loaded->test, hidden);
+    EvaluationCase test = loaded->test;
+    test.cloud = &cloud;
+    test.truth_labels.resize(cloud.size(), 0);
+    CHECK(share_seen(test, 320) / whole == doctest::Approx(1 - hidden).epsilon(0.12));
+    CHECK(cloud.sh_rest.size() == cloud.size() * cloud.sh_stride());
+    CHECK(std::equal(loaded->scene.cloud.position.begin(), loaded->scene.cloud.position.end(),
+                     cloud.position.begin()));
+  }
+  CHECK(with_board(loaded->test, 0).size() == loaded->scene.cloud.size());
+}
+
+TEST_CASE("the first view is aimed so that the object fills the stated share of it") {
+  const Workplace place;
+  const auto loaded = apple(place);
+  for (const double share : {0.002, 0.05, 0.3}) {
+    EvaluationCase test = loaded->test;
+    fill_picture(&test, share);
+    CHECK(share_seen(test, 640) == doctest::Approx(share).epsilon(0.15));
+    CHECK(test.reference.centre_world().x == doctest::Approx(loaded->test.reference.centre_world().x));
+    REQUIRE(test.reference_truth);
+    CHECK(test.reference_truth->width() == test.reference.width_px);
+  }
+  EvaluationCase half = loaded->test;
+  resize_tests(&half, 0.5);
+  CHECK(half.test_views[0].width_px == 504);
+  CHECK(half.truth_masks[0].height() == 378);
+  CHECK(score_images(half, half.truth_labels).iou == 1);
+}
+
+TEST_CASE(
+    "every experiment of the study runs on still lifes of its own, is drawn, and shows its worst case") {
+  const Workplace place;
+  const Result done = place.run("study -o study --quick --cells 1 --draws 1 --gaussians 2500");
+  REQUIRE_MESSAGE(done.code == 0, done.err);
+  std::set<std::string> planned, measured;
+  for (const StudyCell& cell : study_plan(1, true)) planned.insert(cell.experiment);
+  const json results = json::parse(place.text("study/results.json"))["results"];
+  for (const json& r : results) {
+    measured.insert(r["experiment"]);
+    CHECK(r["warned"].is_string());
+    // Where the robot finds nothing to click, nothing is looked at.
+    CHECK((r["looked_at_mpx"].get<double>() > 0 || !r["found"].get<bool>()));
+  }
+  CHECK(planned == measured);
+  for (const StabilityAxis& axis : stability_axes())
+    for (const char* ending : {".csv", ".svg", ".png"})
+      CHECK_MESSAGE(place.exists("study/charts/" + axis.file + ending), axis.file);
+  CHECK(planned.size() >= stability_axes().size() + 12);
+  const std::string page = place.text("study/study.md");
+  std::size_t pictures = 0, named = 0;
+  for (std::size_t at = 0; (at = page.find("](", at)) != std::string::npos; at += 2) {
+    const std::string file = page.substr(at + 2, page.find(')', at) - at - 2);
+    CHECK_MESSAGE(place.exists("study/" + file), file);
+    pictures += file.ends_with(".svg");
+    named += file.starts_with("worst_");
+  }
+  CHECK(named == planned.size());
+  CHECK(pictures >= stability_axes().size() + 4);
+  CHECK(page.find("The paper's tables") != std::string::npos);
+  CHECK(place.run("study -o study --quick --cells 1 --draws 1 --gaussians 2500 --no-charts").code == 0);
+  CHECK(json::parse(place.text("study/results.json"))["results"] == results);  // nothing was left to measure
+}
+
+TEST_CASE("a study counts what its own program measured, not what another one left in the folder") {
+  const Workplace place;
+  const std::string command =
+      "study -o study --quick --cells 1 --draws 1 --gaussians 2500 --only views --no-charts";
+  const auto lines = [&] {
+    const std::string cells = place.text("study/cells.jsonl");
+    return std::ranges::count(cells, '\n');
+  };
+  const auto results = [&] { return std::ssize(json::parse(place.text("study/results.json"))["results"]); };
+  REQUIRE(place.run(command).code == 0);
+  const auto own = lines();
+  REQUIRE(own > 0);
+  CHECK(results() == own);
+  // The same program but for a byte that nobody reads.
+  std::filesystem::copy(SPLATCUT_LAB_PROGRAM, place / "other-lab");
+  std::ofstream(place / "other-lab", std::ios::binary | std::ios::app) << 'x';
+  const Result other = place.run_program((place / "other-lab").string(), command);
+  CHECK(other.code == 0);
+  CHECK(other.err.find("measurements of another program") != std::string::npos);
+  CHECK(lines() == 2 * own);
+  CHECK(results() == own);
+  REQUIRE(place.run(command).code == 0);  // its own are still there
+  CHECK(lines() == 2 * own);
+  CHECK(results() == own);
+}
+
+TEST_CASE("the presets that are shipped are those of the study, and near its front") {
+  const Workplace place;
+  REQUIRE(place.run("make-scene small -o made --gaussians 12000").code == 0);
+  json some = json::array();
+  for (json entry : read_suite(place / "made/suite.json")) {
+    if (entry["name"] != "apple" && entry["name"] != "mug") continue;
+    const json views = entry["test_views"];
+    entry["test_views"] = {views[0], views[9], views[18]};
+    some.push_back(entry);
+  }
+  place.write("made/some.json", json{{"scenes", some}}.dump());
+  REQUIRE(place.run("study made/some.json -o study --quick --only trade-off --cells 13 --no-charts").code ==
+          0);
+  const json results = json::parse(place.text("study/results.json"))["results"];
+  const std::vector<SettingScore> all = scores_of({results.begin(), results.end()});
+  for (const std::string name : {"fast", "default", "best"}) {
+    const auto shipped = std::ranges::find_if(
+        all, [&](const SettingScore& s) { return s.series == "preset" && s.label == name; });
+    REQUIRE_MESSAGE(shipped != all.end(), name);
+    // By what it looks at, which is the same on every machine: seconds are not.
+    // Parts alone are hard to beat on clean still lifes: default and best pay .01 to .021 there for what
+    // captures and straddling splats gain (docs/study.md).
+    const double behind = behind_front(*shipped, all, &SettingScore::looked_at_mpx);
+    CHECK_MESSAGE(behind <= (name == "fast" ? 0.005 : 0.025), name << " " << behind);
+    // What the study measured is what the command does: nothing is set beside the preset.
+    REQUIRE(place.run("eval made/some.json -o " + name + " --no-curve --preset " + name).code == 0);
+    for (const json& scene : json::parse(place.text(name + "/eval.json"))["scenes"]) {
+      const auto own = std::ranges::find_if(results, [&](const json& r) {
+        return r["series"] == "preset" && r["preset"] == name && r["scene"] == scene["name"];
+      });
+      REQUIRE(own != results.end());
+      CHECK((*own)["set"].empty());
+      CHECK((*own)["image_iou"] == scene["image_iou"]);
+    }
+  }
+}

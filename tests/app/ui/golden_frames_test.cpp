@@ -1,0 +1,144 @@
+// Whole frames of the program against stored pictures. SPLATCUT_UPDATE_GOLDENS=1 stores new ones; look at
+// them before they are committed. Failures leave NAME.actual.png and NAME.difference.png in the build folder.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "core/error.h"
+#include "core/picture_difference.h"
+#include "core/png_file.h"
+#include "headless_app.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+constexpr int kLevels = 5;
+constexpr double kMostPixels = 0.001;
+
+void check_golden(const std::string& name, const Image<Rgb8>& picture) {
+  const std::filesystem::path golden =
+      std::filesystem::path(SPLATCUT_SOURCE_DIR "/tests/goldens") / (name + ".png");
+  const char* update = std::getenv("SPLATCUT_UPDATE_GOLDENS");
+  if (update && std::string(update) == "1") {
+    write_png(golden, picture);
+    return;
+  }
+  REQUIRE_MESSAGE(std::filesystem::exists(golden), golden.string());
+  const Image<Rgb8> expected = read_png_rgb(golden);
+  REQUIRE(expected.width() == picture.width());
+  REQUIRE(expected.height() == picture.height());
+  const PictureDifference d = picture_difference(expected, picture, kLevels);
+  if (d.share_beyond > kMostPixels) {
+    const std::filesystem::path folder = SPLATCUT_BINARY_DIR "/goldens";
+    std::filesystem::create_directories(folder);
+    write_png(folder / (name + ".actual.png"), picture);
+    write_png(folder / (name + ".difference.png"), difference_picture(expected, picture));
+    MESSAGE("see " << (folder / (name + ".actual.png")).string());
+  }
+  CAPTURE(name);
+  CAPTURE(d.largest);
+  CHECK(d.share_beyond <= kMostPixels);
+}
+
+}  // namespace
+
+TEST_CASE("frames: start page, dark and light") {
+  ApplicationOptions options;
+  options.sample = kSample;
+  HeadlessApp app(1040, 600, 1, options);
+  app.frames(3);
+  check_golden("start_dark", app.picture());
+  app.key('L');
+  app.frames(2);
+  check_golden("start_light", app.picture());
+}
+
+TEST_CASE("frames: the sample with the hint, the keys, twice the scale") {
+  HeadlessApp app;
+  app.open(kSample);
+  REQUIRE(app.settle());
+  app.wait_for_message_to_go();
+  check_golden("sample", app.picture());
+  app.key(key::kF1);
+  app.frames(3);
+  check_golden("keys", app.picture());
+}
+
+TEST_CASE("frames: the OpenGL renderer shows what the CPU renderer shows") {
+  Image<Rgb8> pictures[2];
+  for (const RendererChoice renderer : {RendererChoice::kCpu, RendererChoice::kGl}) {
+    ApplicationOptions options;
+    options.renderer = renderer;
+    HeadlessApp app(760, 420, 1, options);
+    app.interface_state().hint_wanted = false;
+    app.open(kSample);
+    REQUIRE(app.settle());
+    app.studio().apply(EditSelection{SelectionEdit::kAll});  // the tint, too
+    ViewState view = app.studio().view();
+    view.outline = false;  // drawn with other filters
+    app.studio().apply(SetView{view});
+    REQUIRE(app.settle());
+    app.frames(3);  // the sorter's order arrives
+    app.wait_for_message_to_go();
+    const UiRect area = app->interface().viewport();
+    const Image<Rgb8> frame = app.picture();
+    Image<Rgb8>& cut = pictures[static_cast<int>(renderer == RendererChoice::kGl)];
+    cut = Image<Rgb8>(static_cast<int>(area.size().x), static_cast<int>(area.size().y));
+    for (int y = 0; y < cut.height(); ++y)
+      for (int x = 0; x < cut.width(); ++x)
+        cut.at(x, y) = frame.at(x + static_cast<int>(area.min.x), y + static_cast<int>(area.min.y));
+  }
+  const PictureDifference d = picture_difference(pictures[0], pictures[1]);
+  MESSAGE("PSNR " << d.psnr_db << " dB, SSIM " << d.ssim);
+  CHECK(d.psnr_db > 35);
+  CHECK(d.ssim > 0.98);
+}
+
+TEST_CASE("frames: HiDPI") {
+  HeadlessApp app(1600, 900, 1.5f);
+  app.frames(3);
+  check_golden("start_hidpi", app.picture());
+}
+
+TEST_CASE("frames: after one click, alone, side by side") {
+  HeadlessApp app;
+  app.open(kSample);
+  REQUIRE(app.settle());
+  app.click(app.screen_of(kOnApple));
+  app.move({5, 590});  // no hover
+  REQUIRE(app.settle());
+  app.wait_for_message_to_go();
+  check_golden("clicked", app.picture());
+  app.key('I');
+  REQUIRE(app.settle());
+  app.wait_for_message_to_go();
+  check_golden("isolated", app.picture());
+  app.key('B');
+  REQUIRE(app.settle());
+  app.wait_for_message_to_go();
+  check_golden("side_by_side", app.picture());
+}
+
+TEST_CASE("frames: the program over EGL without a surface shows what it shows over OSMesa") {
+  std::unique_ptr<OffscreenContext> context;
+  try {
+    context = make_egl_context();
+  } catch (const Error& error) {
+    MESSAGE("skipped: no EGL context here, " << error.what());
+    return;
+  }
+  const bool software = current_gl_info().software;
+  HeadlessApp app(1040, 600, 1, {}, std::move(context));
+  app.open(kSample);
+  REQUIRE(app.settle());
+  app.wait_for_message_to_go();
+  const Image<Rgb8> picture = app.picture();
+  if (software) return check_golden("sample", picture);
+  // A GPU rounds lines and text in its own way, and draws the splats itself.
+  const PictureDifference d =
+      picture_difference(read_png_rgb(SPLATCUT_SOURCE_DIR "/tests/goldens/sample.png"), picture);
+  MESSAGE("on a GPU: PSNR " << d.psnr_db << " dB");
+  CHECK(d.ssim > 0.95);
+}

@@ -1,0 +1,73 @@
+// What the window remembers between runs.
+#include <doctest/doctest.h>
+
+#include <fstream>
+
+#include "app/ui/settings.h"
+#include "core/error.h"
+#include "headless_app.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("settings: written and read back the same, and what cannot be read is as good as none") {
+  const ScratchFolder place("settings");
+  const std::filesystem::path file = place / "deeper/settings.json";
+  CHECK(load_settings(file).width == Settings{}.width);
+  Settings settings;
+  settings.width = 1200;
+  settings.height = 700;
+  settings.position = {-1280, 35};  // a screen to the left of the first
+  settings.maximized = true;
+  settings.dark = false;
+  settings.view.web_low_pass = true;
+  settings.recent = {place.path()};
+  save_settings(file, settings);
+  const Settings read = load_settings(file);
+  CHECK(read.width == 1200);
+  CHECK(read.height == 700);
+  REQUIRE(read.position);
+  CHECK(*read.position == glm::ivec2(-1280, 35));
+  CHECK(read.maximized);
+  CHECK_FALSE(read.dark);
+  CHECK(read.view.web_low_pass);
+  CHECK(read.recent == settings.recent);
+  settings.position.reset();
+  save_settings(file, settings);
+  CHECK_FALSE(load_settings(file).position);
+  for (const char* text : {"{", "[]", R"({"position": 3})", R"({"position": [1]})", R"({"width": "wide"})"}) {
+    std::ofstream(file, std::ios::trunc) << text;
+    CHECK_FALSE(load_settings(file).position);
+    CHECK(load_settings(file).width == Settings{}.width);
+  }
+}
+
+TEST_CASE("settings: kept as they change, and tried again where they could not be written") {
+  const ScratchFolder place("settings_kept");
+  const std::filesystem::path file = place / "settings.json";
+  SettingsKeeper keeper(file);
+  Settings now = keeper.kept();
+  keeper.keep(now);
+  CHECK_FALSE(std::filesystem::exists(file));  // nothing changed
+  now.recent = {place.path()};
+  keeper.keep(now);
+  CHECK(load_settings(file).recent == now.recent);
+  std::filesystem::remove(file);
+  keeper.keep(now);
+  CHECK_FALSE(std::filesystem::exists(file));
+  std::filesystem::create_directories(file);  // in the way
+  now.dark = false;
+  CHECK_THROWS_AS(keeper.keep(now), Error);
+  std::filesystem::remove(file);
+  keeper.keep(now);
+  CHECK_FALSE(load_settings(file).dark);
+}
+
+TEST_CASE("settings: as in web viewers is the low-pass of what is drawn") {
+  HeadlessApp app;
+  CHECK(app.studio().draw_limits().low_pass_px2 == kLowPassPx2);
+  ViewState view = app.studio().view();
+  view.web_low_pass = true;
+  app.studio().apply(SetView{view});
+  CHECK(app.studio().draw_limits().low_pass_px2 == kWebLowPassPx2);
+}

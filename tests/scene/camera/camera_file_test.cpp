@@ -1,0 +1,205 @@
+#include "scene/camera/camera_file.h"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "core/error.h"
+
+using namespace splatcut;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("splatcut_camera_file_test_" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  fs::path operator/(const std::string& name) const { return path / name; }
+};
+
+void write(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+template <class T>
+std::string bytes_of(const T& value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+bool near(const glm::vec3& a, const glm::vec3& b) {
+  return glm::length(a - b) < 1e-5f;
+}
+
+std::string refusal(const fs::path& path) {
+  try {
+    load_cameras(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// The camera of all the files below: at (1, 2, 3), looking along world +x, world -z up in the picture.
+void check_camera(const Camera& camera) {
+  CHECK(camera.width_px == 640);
+  CHECK(camera.height_px == 480);
+  CHECK(camera.fx_px == 500);
+  CHECK(camera.fy_px == 510);
+  CHECK(camera.cx_px == 320);
+  CHECK(camera.cy_px == 240);
+  CHECK(near(camera.centre_world(), {1, 2, 3}));
+  CHECK(near(camera.forward_world(), {1, 0, 0}));
+  CHECK(near(camera.down_world(), {0, 0, 1}));
+  // 10 in front, 1 to the right (world -y: down x forward), 2 below
+  CHECK(near(camera.camera_from_world({11, 3, 5}), {1, 2, 10}));
+}
+
+// world->camera of that camera: rows x = (0, 1, 0), y = (0, 0, 1), z = (1, 0, 0): a third of a turn about (1,
+// 1, 1).
+const char* const kColmapPose = "0.5 -0.5 -0.5 -0.5 -2 -3 -1";
+
+}  // namespace
+
+TEST_CASE("Inria cameras.json: read, written, read again") {
+  const Folder folder;
+  write(folder / "cameras.json",
+        R"([{"id": 0, "img_name": "a", "width": 640, "height": 480, "position": [1, 2, 3],
+             "rotation": [[0, 0, 1], [1, 0, 0], [0, 1, 0]], "fy": 510, "fx": 500}])");
+  std::vector<Camera> cameras = load_cameras(folder / "cameras.json");
+  REQUIRE(cameras.size() == 1);
+  CHECK(cameras[0].name == "a");
+  check_camera(cameras[0]);
+  cameras.push_back(cameras[0]);
+  cameras[1].name = 'b';
+  cameras[1].cx_px = 300;
+  save_inria_cameras(folder / "again.json", cameras);
+  const std::vector<Camera> again = load_cameras(folder / "again.json");
+  REQUIRE(again.size() == 2);
+  check_camera(again[0]);
+  CHECK(again[1].name == "b");
+  CHECK(again[1].cx_px == 300);
+}
+
+TEST_CASE("COLMAP text: comments, an image without points, the folder or one of its files") {
+  const Folder folder;
+  write(folder / "cameras.txt",
+        "# lenses\n1 PINHOLE 640 480 500 510 320 240\n2 SIMPLE_RADIAL 640 480 500 320 240 0.1\n");
+  write(folder / "images.txt", std::string("# poses\n7 ") + kColmapPose + " 2 b c.jpg\n\n3 " + kColmapPose +
+                                   " 1 a.png\n1.5 2.5 -1 3 4 5\n");
+  for (const fs::path& path : {folder.path, folder / "images.txt"}) {
+    const std::vector<Camera> cameras = load_cameras(path);
+    REQUIRE(cameras.size() == 2);
+    CHECK(cameras[0].name == "a");
+    check_camera(cameras[0]);
+    CHECK(cameras[1].name == "b c");
+    CHECK(cameras[1].fy_px == 500);
+  }
+}
+
+TEST_CASE("COLMAP binary, below sparse/0, and cut short") {
+  const Folder folder;
+  fs::create_directories(folder / "sparse/0");
+  std::string lenses = bytes_of(std::uint64_t{1}) + bytes_of(4u) + bytes_of(1) +
+                       bytes_of(std::uint64_t{640}) + bytes_of(std::uint64_t{480});
+  for (const double v : {500.0, 510.0, 320.0, 240.0}) lenses += bytes_of(v);
+  std::string images = bytes_of(std::uint64_t{1}) + bytes_of(9u);
+  for (const double v : {0.5, -0.5, -0.5, -0.5, -2.0, -3.0, -1.0}) images += bytes_of(v);
+  images += bytes_of(4u) + "a.png" + '\0' + bytes_of(std::uint64_t{2}) + std::string(48, 'p');
+  write(folder / "sparse/0/cameras.bin", lenses);
+  write(folder / "sparse/0/images.bin", images);
+  const std::vector<Camera> cameras = load_cameras(folder.path);
+  REQUIRE(cameras.size() == 1);
+  CHECK(cameras[0].name == "a");
+  check_camera(cameras[0]);
+  for (const std::size_t size : {4, 50, 75, 90}) {
+    write(folder / "sparse/0/images.bin", images.substr(0, size));
+    CHECK(refusal(folder.path).find("truncated") != std::string::npos);
+  }
+}
+
+TEST_CASE("transforms.json: OpenGL axes, lens by frame, by file or by angle") {
+  const Folder folder;
+  // columns: x right = (0, 1, 0), y up = (0, 0, -1), z back = (-1, 0, 0)
+  const std::string matrix =
+      R"("transform_matrix": [[0, 0, -1, 1], [1, 0, 0, 2], [0, -1, 0, 3], [0, 0, 0, 1]])";
+  write(folder / "transforms.json",
+        R"({"w": 640, "h": 480, "fl_x": 500, "fl_y": 510, "frames": [{"file_path": "images/a.png", )" +
+            matrix + R"(}, {"file_path": "b.png", "fl_x": 700, )" + matrix + "}]}");
+  const std::vector<Camera> cameras = load_cameras(folder.path);
+  REQUIRE(cameras.size() == 2);
+  CHECK(cameras[0].name == "a");
+  check_camera(cameras[0]);
+  CHECK(cameras[1].fx_px == 700);
+  write(folder / "angle.json",
+        R"({"camera_angle_x": 1.5707963267948966, "w": 640, "h": 480, "frames": [{)" + matrix + "}]}");
+  CHECK(load_cameras(folder / "angle.json")[0].fy_px == doctest::Approx(320));
+}
+
+TEST_CASE("lens distortion is left out with a warning that says how much it is") {
+  const Folder folder;
+  const std::string pose =
+      R"(, "transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])";
+  const std::string lens = R"({"w": 600, "h": 800, "fl_x": 500, "fl_y": 500, )";
+  write(folder / "plain.json", lens + R"("frames": [{"file_path": "a")" + pose + "}]}");
+  std::string warning = "from before";
+  load_cameras(folder / "plain.json", &warning);
+  CHECK(warning.empty());
+  // The corner is 500 px from the middle, r = 1: k1 = 0.01 moves it by 5 px.
+  write(folder / "bent.json", lens + R"("k1": 0.01, "frames": [{"file_path": "a")" + pose + "}]}");
+  load_cameras(folder / "bent.json", &warning);
+  CHECK_MESSAGE(warning.find("5.0 pixels") != warning.npos, warning);
+  CHECK(warning.find("bent.json") != warning.npos);
+  write(folder / "images.txt", "1 1 0 0 0 0 0 0 1 a.png\n\n");
+  for (const char* camera :
+       {"1 RADIAL 600 800 500 300 400 0.015 -0.005\n", "1 OPENCV 600 800 500 500 300 400 0 0.01 0 0\n"}) {
+    write(folder / "cameras.txt", camera);
+    CHECK(load_cameras(folder.path, &warning).size() == 1);
+    CHECK_MESSAGE(warning.find("5.0 pixels") != warning.npos, warning);
+  }
+}
+
+TEST_CASE("bad cameras are refused with file and entry") {
+  const Folder folder;
+  const auto check = [&](const std::string& name, const std::string& text, const char* part) {
+    write(folder / name, text);
+    const std::string message = refusal(folder / name);
+    CHECK_MESSAGE(message.find(part) != message.npos, message);
+    CHECK(message.find(name) != message.npos);
+  };
+  CHECK(refusal(folder / "none.json").find("no such file") != std::string::npos);
+  CHECK(refusal(folder.path).find("no cameras") != std::string::npos);
+  const std::string pose = R"("position": [0, 0, 0], "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]])";
+  check("empty.json", "", "empty");
+  check("cut.json", "[{\"id\": 0", "not valid JSON at byte");
+  check("other.json", "{\"a\": 1}", "frames");
+  check("list.json", "[]", "no cameras");
+  check("number.json", "[1]", "camera 0");
+  check("width.json", "[{\"height\": 4, \"fx\": 1, \"fy\": 1, " + pose + "}]", "width");
+  check("size.json", "[{\"width\": -4, \"height\": 4, \"fx\": 1, \"fy\": 1, " + pose + "}]", "-4 x 4");
+  check("focal.json", "[{\"width\": 4, \"height\": 4, \"fx\": 0, \"fy\": 1, " + pose + "}]", "focal");
+  check("flat.json", R"([{"width": 4, "height": 4, "fx": 1, "fy": 1, "position": [0, 0, 0],
+                         "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 0]]}])",
+        "pose");
+  check("images.txt", "1 1 0 0 0 0 0 0 5 a.png\n\n", "cameras and images");
+  write(folder / "cameras.txt", "1 PINHOLE 640 480 500 510 320 240\n");
+  check("images.txt", "1 1 0 0 0 0 0 0 5 a.png\n\n", "camera 5");
+  check("images.txt", "1 0 0 0 0 0 0 0 1 a.png\n\n", "pose");
+  check("images.txt", "1 1 0 0\n\n", "line 1");
+  check("cameras.txt", "1 PINHOLE 640 480 500\n", "line 1");
+  check("cameras.txt", "1 OPENCV_FISHEYE 640 480 500 510 320 240 0 0 0 0\n", "pinhole");
+}
+
+TEST_CASE("real cameras look at the scene they belong to") {
+  const fs::path cup = fs::path(SPLATCUT_SOURCE_DIR) / ".." / "shared" / "scenes" / "cup";
+  if (!fs::exists(cup)) {
+    MESSAGE("skipped: no scenes");
+    return;
+  }
+  const std::vector<Camera> cameras = load_cameras(cup / "cameras.json");
+  REQUIRE(cameras.size() > 5);
+  CHECK(cameras[0].name == "1");
+  CHECK(cameras[0].fx_px == doctest::Approx(353.416274));
+}

@@ -1,0 +1,124 @@
+#include "scene/raster/guessed_view.h"
+
+#include <doctest/doctest.h>
+
+#include <glm/gtc/constants.hpp>
+
+#include "scene/still_life/still_life.h"
+#include "synthetic_cloud.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+// The cloud turned so that what points along `from` points along `to`.
+GaussianCloud turned(GaussianCloud cloud, const glm::vec3& from, const glm::vec3& to) {
+  const glm::vec3 across = std::abs(from.x) > 0.5f ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
+  const glm::quat turn = glm::dot(from, to) < -0.9f ? glm::angleAxis(glm::pi<float>(), across)
+                         : glm::dot(from, to) > 0.9f
+                             ? glm::quat(1, 0, 0, 0)
+                             : glm::angleAxis(glm::half_pi<float>(), glm::cross(from, to));
+  for (glm::vec3& p : cloud.position) p = turn * p;
+  for (glm::quat& q : cloud.rotation) q = turn * q;
+  return cloud;
+}
+
+// A disc facing `normal`.
+void add_disc(GaussianCloud* cloud, const glm::vec3& centre, const glm::vec3& normal, float sigma) {
+  cloud->position.push_back(centre);
+  cloud->scale.push_back({sigma, sigma, 0.02f * sigma});
+  cloud->rotation.push_back(std::abs(normal.z) > 0.5f ? glm::quat(1, 0, 0, 0)
+                            : std::abs(normal.y) > 0.5f
+                                ? glm::angleAxis(glm::half_pi<float>(), glm::vec3(1, 0, 0))
+                                : glm::angleAxis(glm::half_pi<float>(), glm::vec3(0, 1, 0)));
+  cloud->opacity.push_back(0.98f);
+  cloud->f_dc.push_back(glm::vec3(0));
+}
+
+// The faces of the box [-1, 1]^3 times `half`, each with steps x steps discs.
+void add_box(GaussianCloud* cloud, float half, int steps) {
+  const float pitch = 2 * half / static_cast<float>(steps);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float side : {-half, half})
+      for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j) {
+          glm::vec3 p, normal(0);
+          normal[axis] = 1;
+          p[axis] = side;
+          p[(axis + 1) % 3] = -half + pitch * (static_cast<float>(i) + 0.5f);
+          p[(axis + 2) % 3] = -half + pitch * (static_cast<float>(j) + 0.5f);
+          add_disc(cloud, p, normal, 0.6f * pitch);
+        }
+}
+
+Camera outside_of(const Box& bounds) {
+  return look_at(bounds.centre() + glm::vec3(0, -1, -3) * glm::length(bounds.extent()) * 0.5f,
+                 bounds.centre(), {0, -1, 0}, 0.87f, 320, 240);
+}
+
+}  // namespace
+
+TEST_CASE("up is guessed whichever way the still life is turned") {
+  StillLifeOptions options;
+  options.gaussians = 30000;
+  const GaussianCloud cloud = make_still_life(options).cloud;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float sign : {-1.0f, 1.0f}) {
+      glm::vec3 up(0);
+      up[axis] = sign;
+      CAPTURE(axis);
+      CAPTURE(sign);
+      CHECK(glm::dot(guessed_up(turned(cloud, {0, -1, 0}, up)), up) == 1);
+    }
+}
+
+TEST_CASE("up: nothing known is the usual up of a capture") {
+  CHECK(guessed_up(GaussianCloud{}) == glm::vec3(0, -1, 0));
+  CHECK(guessed_up(single_splat(2, 0.1f, 0.9f, {1, 0, 0})) == glm::vec3(0, -1, 0));
+}
+
+TEST_CASE(
+    "first view: a room whose walls are blurs from behind is seen from within, an object from outside") {
+  GaussianCloud room;
+  add_box(&room, 3, 120);   // what was photographed
+  add_box(&room, 3.4f, 5);  // haze behind the walls
+  const Box bounds{glm::vec3(-3), glm::vec3(3)};
+  const auto within = better_first_view(room, bounds, {0, -1, 0}, outside_of(bounds));
+  REQUIRE(within);
+  const glm::vec3 eye = within->centre_world();
+  for (int axis = 0; axis < 3; ++axis) CHECK(std::abs(eye[axis]) < 3);
+  CHECK(glm::dot(within->down_world(), glm::vec3(0, 1, 0)) > 0.9f);
+
+  GaussianCloud object;
+  add_box(&object, 1, 120);
+  const Box around{glm::vec3(-1), glm::vec3(1)};
+  CHECK_FALSE(better_first_view(object, around, {0, -1, 0}, outside_of(around)));
+}
+
+TEST_CASE(
+    "view of all: the box lies in the picture with air around it, upright, seen from above, whatever is up") {
+  const Box bounds{{-2, -1, -3}, {4, 1, 2}};
+  for (const glm::vec3 up :
+       {glm::vec3(0, -1, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 2), glm::vec3(1, 0, 0)}) {
+    CAPTURE(up.x);
+    CAPTURE(up.y);
+    const Camera view = view_of_all(bounds, up, 0.87f, 640, 480);
+    const glm::vec3 unit_up = glm::normalize(up);
+    CHECK(glm::dot(view.centre_world() - bounds.centre(), unit_up) > 0);
+    CHECK(glm::dot(view.down_world(), unit_up) < -0.9f);
+    float lowest = 480, highest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::vec3 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
+                        corner & 4 ? bounds.max.z : bounds.min.z);
+      const glm::vec2 at = view.pixel_from_camera(view.camera_from_world(p));
+      CHECK(at.x > 0);
+      CHECK(at.x < 640);
+      lowest = std::min(lowest, at.y);
+      highest = std::max(highest, at.y);
+    }
+    CHECK(lowest > 0);
+    CHECK(highest < 480);
+    CHECK(highest - lowest > 120);  // and is no dot in it
+  }
+}

@@ -1,0 +1,259 @@
+// Masks settled by pixels and carried between views, trajectories, disturbances: by hand, by geometry, by
+// brute force.
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <random>
+#include <set>
+
+#include "app/lab/mask_disturbance.h"
+#include "app/lab/robot_user.h"
+#include "core/error.h"
+#include "core/png_file.h"
+#include "scene/raster/rasterizer.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/masks/propagate.h"
+#include "segment/masks/refine_mask.h"
+#include "segment/session/doubts.h"
+#include "segment/superpoints/orbit.h"
+#include "still_life_mug.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+Mask disc(int width, int height, float cx, float cy, float radius) {
+  Mask mask(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      mask.at(x, y) = std::hypot(x + 0.5 - cx, y + 0.5 - cy) <= radius ? kMaskObject : 0;
+  return mask;
+}
+
+// The mask in red over grey, both with noise.
+Image<Rgb8> painted(const Mask& mask, unsigned seed) {
+  std::mt19937 random(seed);
+  Image<Rgb8> picture(mask.width(), mask.height());
+  const auto byte = [&](int middle) {
+    return static_cast<std::uint8_t>(middle + static_cast<int>(random() % 31) - 15);
+  };
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    picture.pixels()[i] =
+        mask.pixels()[i] ? Rgb8{byte(190), byte(60), byte(50)} : Rgb8{byte(110), byte(120), byte(125)};
+  return picture;
+}
+
+// What a view of the mug scene shows, with the true mask.
+SeenView look(const MugScene& scene, const Camera& camera) {
+  RasterOptions options;
+  options.depth = true;
+  const RasterOutput out = rasterize(scene.cloud, camera, options);
+  return {camera, rgb8_from_linear(out.colour), out.expected_depth,
+          thresholded(render_labels(scene.cloud, camera, scene.mug), 0.5f)};
+}
+
+}  // namespace
+
+TEST_CASE("orbit: from straight above or below, and from within, the ring looks at the object") {
+  for (const glm::vec3& from : {glm::vec3(0, -3, 0), glm::vec3(0, 3, 0), glm::vec3(0)}) {
+    CAPTURE(from.y);
+    const Camera above = look_at(from, from + glm::vec3(0, from.y > 0 ? -1 : 1, 0), {0, 0, 1}, 0.9f, 64, 48);
+    const std::vector<Camera> ring = orbit_cameras(above, {0, -1, 0}, {{0, 0, 0}, 0.5f}, {});
+    REQUIRE(!ring.empty());
+    for (const Camera& camera : ring)
+      CHECK(glm::length(glm::cross(camera.forward_world(), camera.centre_world())) < 1e-4f);
+  }
+}
+
+TEST_CASE(
+    "masks: both solvers find a painted disc from a prior two pixels off, and keep what is outside of the "
+    "band") {
+  const Mask truth = disc(120, 90, 60, 45, 25);
+  const Image<Rgb8> picture = painted(truth, 5);
+  const Image<float> depth(120, 90, 1.0f);
+  for (const float radius : {22.0f, 28.0f}) {
+    const Mask prior = disc(120, 90, 60, 45, radius);
+    for (const MaskSolver solver : {MaskSolver::kGrabCut, MaskSolver::kPixelCut}) {
+      const Mask found = refine_mask(picture, depth, prior, {.solver = solver, .band_px = 5});
+      CHECK(iou(found, truth) > 0.97);
+      CHECK(iou(found, truth) > iou(prior, truth));
+      const Mask kept = refine_mask(picture, depth, prior, {.solver = solver, .band_px = 1});
+      const Mask core = eroded(prior, 1), reach = dilated(prior, 1);
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        if (core.pixels()[i]) CHECK(kept.pixels()[i]);
+        if (!reach.pixels()[i]) CHECK_FALSE(kept.pixels()[i]);
+      }
+    }
+    CHECK(refine_mask(picture, depth, prior, {.solver = MaskSolver::kNone}) == prior);
+  }
+  const Mask nothing(120, 90);
+  CHECK(refine_mask(picture, depth, nothing, {.solver = MaskSolver::kPixelCut}) == nothing);
+}
+
+TEST_CASE("masks: the pixel cut follows a jump of depth where colours are equal, and obeys strokes") {
+  const Mask truth = disc(100, 80, 50, 40, 20);
+  const Image<Rgb8> grey(100, 80, Rgb8{120, 120, 120});
+  Image<float> depth(100, 80, 2.0f);
+  for (std::size_t i = 0; i < depth.size(); ++i)
+    if (truth.pixels()[i]) depth.pixels()[i] = 1;
+  RefineOptions options{.solver = MaskSolver::kPixelCut, .band_px = 6};
+  options.prior_weight = 0.2f;
+  const Mask prior = disc(100, 80, 50, 40, 17);
+  CHECK(iou(refine_mask(grey, depth, prior, options), truth) > 0.97);
+  Image<std::uint8_t> seeds(100, 80, kNoSeed);
+  seeds.at(50, 40) = kRestSeed;
+  seeds.at(90, 70) = kNoSeed;
+  CHECK(refine_mask(grey, depth, prior, options, seeds).at(50, 40) == 0);
+}
+
+TEST_CASE("masks: a grown band reaches further outside, not further inside") {
+  const Mask truth = disc(120, 90, 60, 45, 30), prior = disc(120, 90, 60, 45, 24);
+  const Image<Rgb8> picture = painted(truth, 9);
+  const Image<float> depth(120, 90, 1.0f);
+  RefineOptions narrow{.solver = MaskSolver::kPixelCut, .band_px = 2}, wide = narrow;
+  wide.grow_px = 6;
+  CHECK(iou(refine_mask(picture, depth, prior, wide), truth) > 0.97);
+  CHECK(iou(refine_mask(picture, depth, prior, narrow), truth) < 0.9);
+}
+
+TEST_CASE("masks: through depth and along flow into a view some degrees on, the true mask is nearly found") {
+  const MugScene scene = still_life_with_mug(60000);
+  const Camera first = limited_to_width(scene.cameras[0], 320);
+  const SeenView from = look(scene, first);
+  const ObjectExtent mug = object_extent(scene.cloud, scene.mug);
+  OrbitOptions orbit;
+  orbit.views = 60;  // six degrees
+  orbit.elevation_swing_rad = 0;
+  orbit.distance_sizes = glm::distance(first.centre_world(), mug.centre_world) / (2 * mug.radius);
+  const std::vector<Camera> around = orbit_cameras(first, {0, -1, 0}, mug, orbit);
+  const SeenView aimed =
+      look(scene, look_at(first.centre_world(), mug.centre_world, {0, -1, 0}, 0.8f, 320, 240));
+  const SeenView to = look(scene, limited_to_width(around[0], 320));
+  REQUIRE(count(to.mask) > 200);
+  CHECK(iou(warped_by_depth(from, to.camera, to.depth), to.mask) > 0.85);
+  Camera near = aimed.camera;
+  near.camera_from_world_translation += glm::vec3(0.05f, 0, 0) * mug.radius;
+  const SeenView beside = look(scene, near);
+  CHECK(iou(warped_by_flow(aimed, beside.picture), beside.mask) > 0.9);
+  tbb::task_arena(1).execute(
+      [&] { CHECK(warped_by_flow(aimed, beside.picture) == warped_by_flow(aimed, beside.picture)); });
+  // Into itself: everything comes back but what its own depth cannot vouch for.
+  CHECK(iou(warped_by_depth(from, first, from.depth), from.mask) > 0.999);
+}
+
+TEST_CASE(
+    "trajectories: a circle of cameras is no front, cameras side by side are, the spiral stays within their "
+    "angles") {
+  std::vector<Camera> ring, row;
+  for (int i = 0; i < 12; ++i) {
+    const float angle = glm::two_pi<float>() * static_cast<float>(i) / 12;
+    ring.push_back(
+        look_at({4 * std::cos(angle), -2, 4 * std::sin(angle)}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120));
+    row.push_back(
+        look_at({0.2f * static_cast<float>(i) - 1.1f, -0.3f, -4}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120));
+  }
+  CHECK_FALSE(front_facing(ring));
+  CHECK(front_facing(row));
+  CHECK_FALSE(front_facing({}));
+  const ObjectExtent object{{0, 0, 0}, 0.5f};
+  OrbitOptions options;
+  options.views = 10;
+  const auto sideways = [](const Camera& c) {
+    return std::abs(std::atan2(c.centre_world().x, -c.centre_world().z));
+  };
+  float widest = 0;
+  for (const Camera& camera : row) widest = std::max(widest, sideways(camera));
+  for (const Camera& camera : cameras_around(row[5], {0, -1, 0}, object, row, options)) {
+    CHECK(sideways(camera) <= widest * 1.01f);
+    CHECK(glm::length(camera.centre_world()) == doctest::Approx(1.6f));
+    CHECK(glm::dot(camera.forward_world(), -glm::normalize(camera.centre_world())) == doctest::Approx(1));
+  }
+  // Around: the photographs' elevation, not the reference's.
+  options.elevation_swing_rad = 0;
+  const Camera low = look_at({0, 0, -4}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120);
+  for (const Camera& camera : cameras_around(low, {0, -1, 0}, object, ring, options))
+    CHECK(std::asin(-camera.centre_world().y / glm::length(camera.centre_world())) ==
+          doctest::Approx(std::atan(0.5f)).epsilon(0.01));
+}
+
+TEST_CASE("trajectories: an approached camera keeps its direction at its share of the distance") {
+  const Camera camera = look_at({1, -2, -4}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120);
+  const Camera nearer = approached(camera, {0, 0, 0}, 0.5f);
+  CHECK(glm::distance(nearer.centre_world(), glm::vec3(0.5f, -1, -2)) < 1e-5f);
+  CHECK(nearer.forward_world() == camera.forward_world());
+}
+
+TEST_CASE(
+    "the unsteady robot clicks the same region as the steady one, elsewhere, the same for the same draw") {
+  const Mask truth = disc(120, 90, 60, 45, 25), nothing(120, 90);
+  std::set<std::pair<float, float>> places;
+  for (std::uint64_t draw = 1; draw <= 20; ++draw) {
+    const auto click = robot_click(truth, nothing, draw);
+    REQUIRE(click);
+    const glm::vec2 p = click->points_px.front();
+    CHECK(std::hypot(p.x - 60, p.y - 45) <= 13);  // at least half as deep as the middle
+    CHECK(robot_click(truth, nothing, draw)->points_px.front() == p);
+    places.insert({p.x, p.y});
+  }
+  CHECK(places.size() > 15);
+  CHECK(robot_click(truth, nothing, 0)->points_px == robot_click(truth, nothing)->points_px);
+}
+
+TEST_CASE("disturbed masks: shifted, emptied, filled, with holes only inside, an unknown kind is refused") {
+  const Mask mask = disc(120, 90, 50, 45, 20);
+  const Mask right = disturbed(mask, {"shift", 7}, 1);
+  for (int y = 0; y < 90; ++y)
+    for (int x = 7; x < 120; ++x) CHECK(right.at(x, y) == mask.at(x - 7, y));
+  CHECK(count(disturbed(mask, {"empty", 1}, 1)) == 0);
+  CHECK(count(disturbed(mask, {"full", 1}, 1)) == mask.size());
+  const Mask holes = disturbed(mask, {"holes", 4}, 1);
+  CHECK(count(holes) < count(mask));
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (holes.pixels()[i]) CHECK(mask.pixels()[i]);
+  CHECK(disturbed(mask, {"none", 9}, 1) == mask);
+  CHECK_THROWS_AS(disturbed(mask, {"melt", 1}, 1), Error);
+}
+
+TEST_CASE("doubts: another size, masks left out, and a cutout that most masks speak against, in words") {
+  CutResult report;
+  report.views.resize(4);
+  for (ViewReport& view : report.views) {
+    view.used = true;
+    view.confidence = 0.95;
+  }
+  CHECK(doubts(report).empty());
+  report.ambiguous = true;
+  report.sizes = 5;
+  report.size = 1;
+  CHECK(doubts(report) ==
+        std::vector<std::string>{"the first click could mean a part of another size: this is size 2 of 5"});
+  report.ambiguous = false;
+  report.views[1].used = false;
+  report.views[1].reason = "the object is hidden here";
+  CHECK(doubts(report).empty());
+  report.views[1].disagreed = true;
+  CHECK(doubts(report) ==
+        std::vector<std::string>{"1 of 4 masks were left out, they disagree with the others"});
+  report.views[1].disagreed = false;
+  report.views[2].confidence = report.views[3].confidence = 0.1;
+  CHECK(doubts(report) ==
+        std::vector<std::string>{
+            "2 of 3 masks disagree with the cutout: it is not to be trusted, look at the masks"});
+
+  Mask& first = report.views.front().mask;
+  const auto of_first = [&](int x0, int y0, int x1, int y1) {
+    first = Mask(200, 100);
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) first.at(x, y) = kMaskObject;
+    return doubts_of_views(std::span(report.views).first(1));
+  };
+  CHECK(of_first(80, 40, 97, 57).empty());
+  CHECK(of_first(80, 40, 92, 52) ==
+        std::vector<std::string>{"the object is small in the first view, 6 % of its width: come nearer"});
+  CHECK(of_first(0, 0, 40, 20).empty());  // a corner: 60 of 596 pixels of the frame
+  CHECK(of_first(0, 0, 200, 20) ==
+        std::vector<std::string>{"the object runs out of the first view: step back"});
+}

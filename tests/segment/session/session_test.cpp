@@ -1,0 +1,337 @@
+// The one door to a cut: the same labels whatever was cut before, requests told apart, and a heat map of
+// what was weighed.
+#include "segment/session/session.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "app/lab/robot_user.h"
+#include "scene/still_life/still_life.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/session/doubts.h"
+
+using namespace splatcut;
+
+namespace {
+
+struct Table {
+  LabelledScene scene;
+  std::shared_ptr<const GaussianCloud> cloud;
+  std::shared_ptr<const PreparedScene> prepared;
+};
+
+const Table& table() {
+  static const Table made = [] {
+    Table t;
+    StillLifeOptions options;
+    options.gaussians = 25000;
+    t.scene = make_still_life(options);
+    t.cloud = std::make_shared<const GaussianCloud>(t.scene.cloud);
+    t.prepared = std::make_shared<const PreparedScene>(
+        prepare_scene(*t.cloud, t.scene.cameras.front(), {0, -1, 0}, t.scene.cameras));
+    return t;
+  }();
+  return made;
+}
+
+Session fresh_session() {
+  return Session({table().cloud, table().prepared, {0, -1, 0}, {}});
+}
+
+CutSettings with_views_around() {
+  CutSettings settings = preset("default");
+  settings.orbit.views = kViewsAround;
+  return settings;
+}
+
+// An object's request and settings.
+struct Asked {
+  CutRequest request;
+  CutSettings settings = with_views_around();
+};
+
+Asked click_on(const std::string& object) {
+  const LabelledScene& scene = table().scene;
+  const auto seed = std::ranges::find(scene.seeds, object, &LabelledScene::SeedClick::object);
+  REQUIRE(seed != scene.seeds.end());
+  Asked asked;
+  asked.request.strokes = {
+      {scene.cameras[static_cast<std::size_t>(seed->camera)], {click(seed->pixel, SeedLabel::kObject)}}};
+  return asked;
+}
+
+// A stroke on the object from the other side of the table.
+StrokedView stroke_from_behind(const std::string& object, SeedLabel label) {
+  const LabelledScene& scene = table().scene;
+  const auto number = std::ranges::find(scene.label_name, object) - scene.label_name.begin();
+  glm::vec3 middle(0);
+  float count = 0;
+  for (std::size_t g = 0; g < scene.label.size(); ++g)
+    if (scene.label[g] == number) middle += scene.cloud.position[g], ++count;
+  const Camera& camera = scene.cameras[5];
+  const glm::vec2 at = camera.pixel_from_camera(camera.camera_from_world(middle / count));
+  return {camera, {Stroke{label, 6, {at - glm::vec2(12, 0), at + glm::vec2(12, 0)}}}};
+}
+
+}  // namespace
+
+TEST_CASE("session: kept steps, flow and other objects before it change no label") {
+  Session session = fresh_session();
+  std::vector<Asked> steps;
+  Asked a = click_on("apple"), m = click_on("mug");
+  steps.push_back(a);
+  a.settings.smoothness = 30;
+  steps.push_back(a);
+  steps.push_back(m);
+  a.request.strokes.push_back(stroke_from_behind("apple", SeedLabel::kRest));
+  steps.push_back(a);
+  a.settings.smoothness = 0.05f;
+  steps.push_back(a);
+  m.request.left_out = {fresh_session().cut(m.request, m.settings).views.at(1).camera};
+  steps.push_back(m);
+  Asked code = click_on("apple");
+  code.settings = preset("paper-code");
+  steps.push_back(code);
+  code.settings.smoothness = 0.7f;
+  steps.push_back(code);
+  a.settings.smoothness.reset();
+  steps.push_back(a);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    CAPTURE(i);
+    // Cancelled on the way, sooner or later: that must leave no trace either.
+    std::stop_source stop;
+    Job cancelled;
+    cancelled.stop = stop.get_token();
+    std::size_t snapshots = 0;
+    const auto stop_soon = [&](CutPhase, const CutResult&) {
+      if (snapshots++ == i % 3) stop.request_stop();
+    };
+    cancelled.on_progress = [&](std::string_view stage, double) {
+      if (stage == "cut") stop.request_stop();
+    };
+    const auto& [request, settings] = steps[i];
+    session.cut(request, settings, cancelled, stop_soon);
+    const CutResult kept = session.cut(request, settings);
+    REQUIRE(kept.outcome == Outcome::kDone);
+    CHECK(std::ranges::count(kept.labels, 1) > 0);
+    CHECK(kept.labels == fresh_session().cut(request, settings).labels);
+  }
+}
+
+TEST_CASE("session: paper-code cuts on its nine neighbours, not on the ten that are prepared") {
+  const CutSettings code = preset("paper-code");
+  REQUIRE(code.neighbours == 9);
+  Session session = fresh_session();
+  CHECK(session.graph(code).listed == 9);
+  CHECK(&session.graph(preset("default")) == &table().prepared->graph);
+}
+
+TEST_CASE("session: without neighbours the heat map decides every label, corrections and all") {
+  auto [request, settings] = click_on("apple");
+  settings.smoothness = 0;  // label = w > 1/2, but for what the trimming takes
+  for (const bool corrected : {false, true}) {
+    CAPTURE(corrected);
+    if (corrected) request.strokes.push_back(stroke_from_behind("apple", SeedLabel::kRest));
+    Session session = fresh_session();
+    const CutResult report = session.cut(request, settings);
+    REQUIRE(report.outcome == Outcome::kDone);
+    if (corrected) {
+      CHECK(std::ranges::any_of(report.views, [&](const ViewReport& view) {
+        return glm::distance(view.camera.centre_world(), request.strokes.back().camera.centre_world()) <
+               1e-4f;
+      }));
+    }
+    const std::vector<float> w = session.likelihood_of(request, settings);
+    REQUIRE(w.size() == report.labels.size());
+    std::size_t object = 0, wrong = 0, trimmed = 0;
+    for (std::size_t g = 0; g < w.size(); ++g) {
+      constexpr float kRounding = 1e-5f;
+      object += report.labels[g];
+      wrong += report.labels[g] ? w[g] < 0.5f - kRounding : 0;
+      trimmed += !report.labels[g] && w[g] > 0.5f + kRounding;
+    }
+    MESSAGE(object << " object, " << trimmed << " trimmed");
+    CHECK(object > 100);
+    CHECK(wrong == 0);
+    CHECK(10 * trimmed < object);
+  }
+}
+
+TEST_CASE("session: a view that comes again is known again, whatever comes in between") {
+  const auto [request, settings] = click_on("apple");
+  const StrokedView behind = stroke_from_behind("apple", SeedLabel::kRest);
+  const StrokedView first = request.strokes.front();
+  StrokedView again = first;
+  again.strokes = {click(first.strokes.front().points_px.front() + glm::vec2(30, -20), SeedLabel::kRest)};
+  StrokedView both = first;
+  both.strokes.push_back(again.strokes.front());
+  again.camera.camera_from_world_translation *= 1 + 1e-6f;  // as it comes out of a file
+  CutRequest in_turns, by_view;
+  in_turns.strokes = {first, behind, again};
+  by_view.strokes = {both, behind};
+  CHECK(strokes_by_view(in_turns.strokes).size() == 2);
+  CutRequest exact = in_turns;
+  exact.strokes.back().camera = first.camera;
+  CHECK(fresh_session().cut(in_turns, settings).labels == fresh_session().cut(exact, settings).labels);
+  CHECK(key_of(in_turns) != key_of(by_view));
+}
+
+TEST_CASE("session: a view is left out by its camera, one that is not looked at changes nothing") {
+  auto [request, settings] = click_on("mug");
+  settings.settled_views = 12;  // the orbit is looked at whole
+  Session session = fresh_session();
+  const CutResult all = session.cut(request, settings);
+  REQUIRE(all.views.size() > 3);
+  request.left_out = {table().scene.cameras[3]};  // none of the orbit's
+  CHECK(session.cut(request, settings).labels == all.labels);
+  request.left_out.push_back(all.views[2].camera);
+  const CutResult without = session.cut(request, settings);
+  REQUIRE(without.views.size() == all.views.size());
+  CHECK_FALSE(without.views[2].used);
+  CHECK(without.views[2].reason == "left out");
+  for (const std::size_t v : {1u, 3u}) CHECK(without.views[v].used == all.views[v].used);
+}
+
+TEST_CASE("session: what marks nothing is an outcome, from parts and from pixels alike") {
+  for (const bool parts : {true, false}) {
+    CAPTURE(parts);
+    CutSettings settings = preset("fast");
+    settings.first_mask_from = parts ? FirstMaskFrom::kParts : FirstMaskFrom::kPixels;
+    Session session = fresh_session();
+    CutRequest request;
+    const auto nothing = [&] {
+      const CutResult result = session.cut(request, settings);
+      CHECK(result.outcome == Outcome::kNothingFound);
+      CHECK(std::ranges::count(result.labels, 1) == 0);
+      return result.reason;
+    };
+    CHECK(nothing().starts_with("no stroke marks the object"));
+    request.strokes = {{table().scene.cameras[0], {click({5, 5}, SeedLabel::kRest)}}};
+    CHECK(nothing().starts_with("no stroke marks the object"));
+    request.strokes = {{table().scene.cameras[0], {click({-500, -500}, SeedLabel::kObject)}}};
+    CHECK(nothing().starts_with("the strokes mark nothing"));
+    const Camera& camera = table().scene.cameras[0];
+    request.first_mask = {camera, Mask(camera.width_px, camera.height_px)};
+    CHECK(nothing() == "the mask covers nothing of the scene");
+  }
+}
+
+TEST_CASE("session: keys of two requests differ where anything that is said does") {
+  const CutRequest base = click_on("mug").request;
+  const Camera& camera = table().scene.cameras[2];
+  std::vector<CutRequest> requests(8, base);
+  requests[1].strokes.push_back(requests[1].strokes.front());
+  requests[2].strokes.push_back({requests[2].strokes.front().camera, {}});
+  requests[3].left_out = {camera};
+  requests[4].views = {camera};
+  requests[5].masks = {{camera, Mask(4, 3)}};
+  requests[6].first_mask = {camera, Mask(4, 3)};
+  requests[7].up_world = glm::vec3(0, -1, 0);
+  requests.push_back(base);
+  requests.back().part_step = 1;
+  std::set<std::string> keys;
+  for (const CutRequest& request : requests) keys.insert(key_of(request));
+  CHECK(keys.size() == requests.size());
+}
+
+TEST_CASE("session: a preview is what the next click makes of the parts, and leaves no trace") {
+  auto [request, settings] = click_on("mug");
+  settings.parts_only = true;
+  settings.join_enclosed = false;
+  Session session = fresh_session();
+  const StrokedView behind = stroke_from_behind("apple", SeedLabel::kObject);
+  const CameraStroke next{behind.camera, click(behind.strokes.front().points_px.front(), SeedLabel::kObject)};
+  CutRequest nothing, told = request;
+  told.strokes.push_back({next.camera, {next.stroke}});
+  const CameraStroke first{request.strokes.front().camera, request.strokes.front().strokes.front()};
+  const Session::Preview before_all = session.preview(nothing, first, settings);
+  CHECK(std::ranges::count(before_all.before, 1) == 0);
+  CHECK(before_all.after == fresh_session().cut(request, settings).labels);
+  const Session::Preview preview = session.preview(request, next, settings);
+  CHECK(preview.before == before_all.after);
+  CHECK(preview.after == fresh_session().cut(told, settings).labels);
+  CHECK(preview.after != preview.before);
+  CHECK(session.cut(request, settings).labels == preview.before);
+  CHECK(session.cut(told, settings).labels == preview.after);
+  std::stop_source stop;
+  stop.request_stop();
+  CHECK(fresh_session()
+            .preview(request, next, settings, {.stop = stop.get_token(), .on_progress = {}})
+            .after.empty());
+}
+
+TEST_CASE(
+    "session: things of one colour that touch are parted by three corrections, or it says that it cannot") {
+  StillLifeOptions options;
+  options.gaussians = 40000;
+  options.contact = options.low_contrast = true;
+  const LabelledScene scene = make_still_life(options);
+  const auto cloud = std::make_shared<const GaussianCloud>(scene.cloud);
+  Session session({cloud,
+                   std::make_shared<const PreparedScene>(
+                       prepare_scene(*cloud, scene.cameras.front(), {0, -1, 0}, scene.cameras)),
+                   {0, -1, 0},
+                   {}});
+  for (const std::string name : {"apple", "mug", "orange"}) {
+    CAPTURE(name);
+    const auto seed = std::ranges::find(scene.seeds, name, &LabelledScene::SeedClick::object);
+    const Camera& camera = scene.cameras[static_cast<std::size_t>(seed->camera)];
+    const auto number = std::ranges::find(scene.label_name, name) - scene.label_name.begin();
+    std::vector<std::uint8_t> labels(scene.label.size());
+    for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = scene.label[g] == number;
+    const Mask truth = thresholded(render_labels(*cloud, camera, labels), 0.5f);
+    CutRequest request;
+    request.strokes = {{camera, {click(seed->pixel, SeedLabel::kObject)}}};
+    bool says_so = false;
+    double agrees = 0;
+    for (int corrections = 0; corrections <= 3; ++corrections) {
+      const CutResult result = session.cut(request, preset("fast"));
+      const Mask shown = thresholded(render_labels(*cloud, camera, result.labels), 0.5f);
+      agrees = iou(shown, truth);
+      says_so |= !doubts(result).empty();
+      if (const auto next = robot_click(truth, shown)) request.strokes.front().strokes.push_back(*next);
+    }
+    MESSAGE(name, ": IoU ", agrees, std::string(says_so ? ", in doubt" : ""));
+    CHECK((agrees > 0.85 || says_so));
+  }
+}
+
+TEST_CASE("session: views to look from show the labels, and have no say") {
+  auto [request, settings] = click_on("apple");
+  settings = preset("default");
+  Session session = fresh_session();
+  const CutResult result = session.cut(request, settings);
+  CHECK(result.views.size() == 1);  // after a click the default asks no view around the object
+  const std::vector<GivenView> around = session.look_around(request, result, settings, 6);
+  REQUIRE(around.size() > 3);
+  CHECK(around.size() <= 6);
+  for (const GivenView& view : around) {
+    CHECK_FALSE(same_view(view.camera, result.views.front().camera));
+    CHECK(count(view.mask) > 0);
+    CHECK(iou(view.mask, thresholded(render_labels(*table().cloud, view.camera, result.labels), 0.5f)) == 1);
+  }
+  CutRequest more = request;
+  more.strokes.push_back(stroke_from_behind("apple", SeedLabel::kRest));
+  CHECK(session.cut(more, settings).labels == fresh_session().cut(more, settings).labels);
+  CutResult nothing = result;
+  nothing.labels.assign(nothing.labels.size(), 0);
+  CHECK(session.look_around(request, nothing, settings, 6).empty());
+}
+
+TEST_CASE("session: snapshots tell how far the cut is") {
+  const auto [request, settings] = click_on("apple");
+  std::vector<CutPhase> phases;
+  std::size_t views = 0;
+  fresh_session().cut(request, settings, {}, [&](CutPhase phase, const CutResult& result) {
+    phases.push_back(phase);
+    CHECK(result.views.size() >= views);  // they are only added
+    views = result.views.size();
+  });
+  REQUIRE(phases.size() > 3);
+  CHECK(phases.front() == CutPhase::kFirstMask);
+  CHECK(phases.back() == CutPhase::kSettled);
+  CHECK(std::ranges::is_sorted(phases));
+  CHECK(std::ranges::count(phases, CutPhase::kFirstMask) == 1);
+}
