@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <memory>
 
+#include "app/lab/click_sheet.h"
 #include "app/lab/scene_copies.h"
 #include "app/lab/study/study_tables.h"
 
@@ -26,6 +28,15 @@ double mean_of(const std::vector<AnyViewSession>& sessions, Value value) {
   double sum = 0;
   for (const AnyViewSession& s : sessions) sum += value(s);
   return sum / static_cast<double>(sessions.size());
+}
+
+// "sheet_fox_view_0012_draw_1".
+std::string sheet_name(const std::string& scene, const AnyViewSession& session) {
+  std::string name = "sheet_" + scene + "_" + session.start;
+  if (session.draw) name += fmt::format("_draw_{}", session.draw);
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
+  return name;
 }
 
 nlohmann::json session_json(const AnyViewSession& s) {
@@ -275,6 +286,9 @@ nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& opt
       sessions.push_back(any_view_session(world, start, options.clicks,
                                           {static_cast<std::uint64_t>(draw), options.choices}, silent));
       if (job.cancelled()) return {};
+      if (options.on_sheet)
+        options.on_sheet(sheet_name(scene.name, sessions.back()),
+                         click_sheet(*scene.cloud, world, sessions.back(), silent));
     }
   nlohmann::json result = {{"any_view", sessions_json(sessions, options.clicks)}};
   result["any_view"]["views"] = views.size();

@@ -11,6 +11,7 @@
 // median and the largest of |IoU of a copy - IoU of the scene| over starts and copies.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ struct AnyViewOptions {
   bool zoom = false;
   bool choices = false;  // the robot takes what is offered for the first click
   int copies = 0;        // of the scene, for "perturb"
+  // Where set, each session's click_sheet(), with a name that serves as a file's.
+  std::function<void(const std::string& name, const Image<Rgb8>& sheet)> on_sheet{};
 };
 
 // {"any_view": ..., and "zoom", "perturb" where asked}. Cancelled: incomplete.

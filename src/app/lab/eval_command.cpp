@@ -21,6 +21,7 @@
 #include "app/lab/published_scores.h"
 #include "core/atomic_file.h"
 #include "core/json_file.h"
+#include "core/png_file.h"
 #include "segment/session/settings_table.h"
 
 namespace splatcut {
@@ -36,6 +37,7 @@ struct EvalArguments {
   bool any_view = false;
   AnyViewOptions robot;
   bool curve = true, json = false, overwrite = false, clicks_given = false;
+  bool sheets = false;
   bool robot_asked = false;  // an option that only the any-view robot has
 };
 
@@ -204,7 +206,7 @@ PartModel part_model_of(const EvalArguments& args) {
 
 // The measures of each scene that has the truth it takes; prints a row each.
 std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationOptions& options,
-                                    const CommonOptions& common, const Job& job) {
+                                    const CommonOptions& common, const OutputFolder& folder, const Job& job) {
   std::vector<nlohmann::json> scores;
   const std::vector<Loader> scenes = loaders(args);
   const PrepareOptions prepare =
@@ -229,6 +231,10 @@ std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationO
       AnyViewOptions robot = args.robot;
       robot.preset = args.preset;
       robot.draws = std::max(1, args.draws);
+      if (args.sheets)
+        robot.on_sheet = [&folder](const std::string& name, const Image<Rgb8>& sheet) {
+          write_png(folder.file(name + ".png"), sheet);
+        };
       scores.back().update(any_view_json(*loaded, robot, prepare, job));
       stop_if_cancelled(job);
     } else if (args.draws > 0) {
@@ -267,7 +273,7 @@ void check_any_view(const EvalArguments& args) {
   if (!args.any_view) {
     if (args.robot_asked)
       throw CLI::ValidationError(
-          "--robot-clicks, --starts, --zoom, --choices and --perturb go with --any-view");
+          "--robot-clicks, --starts, --zoom, --choices, --sheets and --perturb go with --any-view");
     return;
   }
   const MaskOptions& mask = args.mask;
@@ -285,7 +291,7 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
   const Job job =
       console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
   OutputFolder folder(args.output, args.overwrite);
-  const std::vector<nlohmann::json> scores = measure(args, evaluation_options(args), common, job);
+  const std::vector<nlohmann::json> scores = measure(args, evaluation_options(args), common, folder, job);
   if (scores.empty()) throw Error("splatcut-lab eval", "no scene of the suite is left to measure");
   nlohmann::json result = {{"version", version()},        {"preset", args.preset}, {"set", args.set},
                            {"clicks", clicks_json(args)}, {"draws", args.draws},   {"scenes", scores},
@@ -361,6 +367,9 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
           "rows shuffled, splats moved by a hundredth of their size, and so on")
       ->check(CLI::Range(1, 100))
       ->excludes("--choices");  // it plays clicks again
+  command.add_flag(
+      "--sheets", args->sheets,
+      "A picture a session, sheet_SCENE_START.png: the clicked view before and after each click");
   command.add_option("--only", args->only, "Scenes of the suite, by name");
   args->mask.add_to(command, true);
   command.add_option("--masks", args->masks, "truth: the true masks in all orbit views")
@@ -373,7 +382,7 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
   command.callback([args, &command, &common] {
     args->clicks_given = command.count("--clicks") > 0;
-    for (const char* option : {"--robot-clicks", "--starts", "--zoom", "--choices", "--perturb"})
+    for (const char* option : {"--robot-clicks", "--starts", "--zoom", "--choices", "--sheets", "--perturb"})
       args->robot_asked |= command.count(option) > 0;
     run_eval(*args, common);
   });

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/lab/any_view_report.h"
+#include "app/lab/click_sheet.h"
 #include "app/lab/scene_copies.h"
 #include "core/error.h"
 #include "program_runner.h"
@@ -135,6 +136,53 @@ TEST_CASE("any view: an offered meaning is taken by what the clicked view shows,
           0);
     CHECK(other.choices == std::vector<int>{0, 0});
   }
+}
+
+TEST_CASE(
+    "any view: a sheet shows each click's view before and after it, right, missing and too much apart") {
+  constexpr int kWide = 60, kHigh = 40;
+  constexpr int kGap = 4;  // between pictures
+  const auto box = [](int x0, int x1) {
+    Mask mask(kWide, kHigh);
+    for (int y = 0; y < kHigh; ++y)
+      for (int x = x0; x < x1; ++x) mask.at(x, y) = kMaskObject;
+    return mask;
+  };
+  Camera camera = camera_called("0");
+  camera.width_px = kWide;
+  camera.height_px = kHigh;
+  AnyViewWorld world;
+  world.views = {{camera, box(0, 30)}};
+  world.cut = [](std::span<const ViewClick> clicks, int, const Job&) {
+    return CutAnswer{std::vector<std::uint8_t>(clicks.size()), {}};
+  };
+  // Nothing, then too far to the right, then right.
+  world.picture = [&](const Camera&, const std::vector<std::uint8_t>& labels) {
+    return labels.empty() ? Mask(kWide, kHigh) : labels.size() == 1 ? box(10, 40) : box(0, 30);
+  };
+  const AnyViewSession session =
+      any_view_session(world, {"0", camera, click({20.5f, 20.5f}, SeedLabel::kObject)}, 5);
+  REQUIRE(session.clicks.size() == 2);
+  const Image<Rgb8> sheet = click_sheet({}, world, session);  // of nothing: black below the tints
+  REQUIRE(sheet.width() == 2 * kWide + 3 * kGap);
+  REQUIRE(sheet.height() == 2 * kHigh + 3 * kGap);
+  const auto at = [&](int column, int row, int x) {
+    return sheet.at(kGap + column * (kWide + kGap) + x, kGap + row * (kHigh + kGap) + 2);
+  };
+  const Rgb8 black{}, missing = at(0, 0, 5);
+  CHECK(missing[0] > missing[1]);
+  CHECK(at(0, 0, 29) == missing);
+  CHECK(at(0, 0, 35) == black);
+  CHECK(at(0, 1, 5) == missing);
+  const Rgb8 right = at(0, 1, 15), too_much = at(0, 1, 35);
+  CHECK(right[1] > std::max(right[0], right[2]));
+  CHECK(too_much[2] > std::max(too_much[0], too_much[1]));
+  CHECK(at(0, 1, 45) == black);
+  CHECK(at(1, 0, 35) == too_much);  // the second click finds what the first left
+  CHECK(at(1, 1, 5) == right);
+  CHECK(at(1, 1, 35) == black);
+  CHECK(sheet.at(kGap + 20, kGap + 20) != missing);  // the click
+  CHECK(sheet.at(kGap + 26, kGap + 20) == Rgb8{255, 255, 255});
 }
 
 TEST_CASE("any view: least and 10th percentile are of sessions, means are over them, never reached is 20") {
@@ -283,7 +331,12 @@ TEST_CASE(
   CHECK(sessions[0]["doubts"].size() == sessions[0]["clicks"].size());
   CHECK(measured["mean"]["any_view"].contains("sessions") == false);
   // The same again: nothing hangs on what was cut before, nor on the number of threads.
-  REQUIRE(place.run(command + " -o again --any-view --robot-clicks 3 --starts 2 --threads 1").code == 0);
+  REQUIRE(place.run(command + " -o again --any-view --robot-clicks 3 --starts 2 --threads 1 --sheets").code ==
+          0);
+  const std::set<std::string> written = place.files_in("again");
+  const auto sheets = std::ranges::count_if(
+      written, [](const std::string& name) { return name.starts_with("sheet_apple_"); });
+  CHECK(sheets == 2);
   const json again = json::parse(place.text("again/eval.json"))["scenes"][0]["any_view"]["sessions"];
   REQUIRE(again.size() == 2);
   CHECK(again[0] == sessions[0]);
