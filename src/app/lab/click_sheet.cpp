@@ -37,7 +37,8 @@ void tint(const Mask& shown, const Mask* truth, Image<Rgb8>* picture) {
 void mark(const glm::vec2& at_px, SeedLabel label, Image<Rgb8>* picture) {
   for (int y = 0; y < picture->height(); ++y)
     for (int x = 0; x < picture->width(); ++x) {
-      const float r = std::hypot(static_cast<float>(x) + 0.5f - at_px.x, static_cast<float>(y) + 0.5f - at_px.y);
+      const float r =
+          std::hypot(static_cast<float>(x) + 0.5f - at_px.x, static_cast<float>(y) + 0.5f - at_px.y);
       if (r > kClickRadiusPx + kRimPx) continue;
       picture->at(x, y) = r > kClickRadiusPx ? kRim : label == SeedLabel::kObject ? kRight : kMissing;
     }

@@ -292,6 +292,7 @@ void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
   term(candidate, Term::kFold) = at_least_0(f - kFoldSlack);
   term(candidate, Term::kGiant) = at_least_0(f - kGiantFolds);
   term(candidate, Term::kBorder) = click_.radius_px < kBorderPx ? at_least_0(f - kFoldSlack) : 0;
+  if (!chain.of_tree) return;  // another meaning of the first click: most of it is out of sight by nature
   const float px_per_unit =
       camera_.fx_px / std::max(camera_.camera_from_world(parts_.leaf_centre_world[click_.leaf]).z, 1e-15f);
   const float area_px = chain.changed_area[candidate->index] * px_per_unit * px_per_unit;
@@ -372,11 +373,11 @@ void Asking::add_repick() {
       chain.level[leaf] = 0;
       px += click_.view.leaf_px[leaf];
     }
-  if (px < kLeastChangePx) return;
+  if (px < kLeastChangePx || folds(px) > kFoldSlack) return;
   chain.changed_px = {px};
   Candidate candidate{.chain = out_.chains.size(), .index = 0};
-  term(&candidate, Term::kRepick) = 1 + other->cost - first.candidates.front().cost;
-  term(&candidate, Term::kScrap) = at_least_0(kScrapFolds - folds(px));
+  term(&candidate, Term::kRepick) = 1;
+  add_size_terms(chain, &candidate);
   out_.chains.push_back(std::move(chain));
   out_.candidates.push_back(candidate);
 }
@@ -390,8 +391,8 @@ void Asking::add_disc() {
 // Likeliest candidates first, until none that is left can win; those are dropped unless all are wanted. Of a
 // first click more are kept: a click on the rest may ask for another one.
 void Asking::measure_off_centre(bool all) {
-  constexpr float kUnlikely = 3;  // 20 times less likely than the likeliest
-  const std::size_t most = click_.first ? 48 : 24;
+  constexpr float kUnlikely = 5;  // 150 times less likely than the likeliest
+  const std::size_t most = click_.first ? 96 : 24;
   const float margin = click_.first ? kUnlikely : 0;
   const float dear = weight(weights_, Term::kOffCentre);
   float best = std::numeric_limits<float>::max();
@@ -399,7 +400,8 @@ void Asking::measure_off_centre(bool all) {
   for (Candidate& candidate : out_.candidates) {
     if (!all && (looked_at == most || candidate.cost > best + margin)) break;
     ++looked_at;
-    if (candidate.index != Candidate::kDiscAlone) {
+    const bool of_tree = candidate.index != Candidate::kDiscAlone && out_.chains[candidate.chain].of_tree;
+    if (of_tree) {
       const Image<std::uint32_t>& level = level_image(candidate.chain);
       Mask region(camera_.width_px, camera_.height_px);
       for (std::size_t i = 0; i < region.size(); ++i)

@@ -27,8 +27,8 @@
 // - kOpposed: clicks of the other sign that it holds.
 // - kBack: IoU with what a click of the other sign has changed, the largest. People undo in that case.
 // - kDisc: 1 where nothing but the disc would change.
-// - kRepick: 1 + how much less likely the first click's other meaning is; see ClickSelection. It weighs
-//   nothing: more or less of it lost on the bank.
+// - kRepick: 1 where the first click is given another meaning; see ClickSelection. It is a candidate while f
+//   is at most 1, and has none of the other terms but those of size.
 // Cost: some 10 ms. The result depends on the arguments alone.
 #pragma once
 

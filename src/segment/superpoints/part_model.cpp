@@ -121,7 +121,8 @@ SelectionModel::SelectionModel()
                      {Term::kHidden, 2},
                      {Term::kOpposed, 5},
                      {Term::kBack, 1},
-                     {Term::kDisc, 2}})) {}
+                     {Term::kDisc, 2},
+                     {Term::kRepick, -0.5f}})) {}
 
 std::span<const std::string> term_names() {
   static const std::array<std::string, kTerms> names = {

@@ -1,7 +1,7 @@
 // The fitted model of parts: every weight of surface, superpoints, merging and picking that a search has set.
 //
 // Where the values come from: those of surface, superpoints and merging from searches on the captures and
-// compositions of docs/masks.md and on still lifes, for the mean IoU of a robot's first clicks. Version 5:
+// compositions of docs/masks.md and on still lifes, for the mean IoU of a robot's first clicks. Version 6:
 // what a first click means is fitted by `splatcut-lab fit`, which docs/clicks.md shows with its
 // leave-one-capture-out column; what corrections mean is set by hand on the same scenes. Nobody knows a value
 // by reason, so none is a setting: a person sees none of them, experiments give a whole model (see
@@ -121,7 +121,7 @@ struct MaskToPartsOptions {
 };
 
 struct PartModel {
-  static constexpr int kVersion = 5;
+  static constexpr int kVersion = 6;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;
