@@ -17,6 +17,11 @@ struct AddStroke {
   Stroke stroke;  // in the camera's pixels
   Flags seen{};   // Gaussians on the screen; null: all
 };
+struct IntersectStroke {  // keeps of the object what this stroke alone would take
+  Camera camera;
+  Stroke stroke;
+  Flags seen{};
+};
 struct AddBox {
   Camera camera;
   glm::vec2 a_px, b_px;  // opposite corners
@@ -35,6 +40,14 @@ struct SelectSphere {
 struct SelectColour {
   glm::vec3 colour;
   float tolerance;
+  SetOperation operation = SetOperation::kAdd;
+};
+struct PickColour {  // selects by a Gaussian's colour, within the view's tolerance
+  std::int32_t gaussian;
+  SetOperation operation = SetOperation::kAdd;
+};
+struct SelectFlood {  // what hangs together with a Gaussian and has its colour, within that tolerance
+  std::int32_t gaussian;
   SetOperation operation = SetOperation::kAdd;
 };
 struct SelectRange {
@@ -56,6 +69,7 @@ struct ChooseMeaning {
   int choice;  // of what the active object's first click can mean, 0 the likeliest
 };
 struct ClearStrokes {};
+struct ComeNearer {};  // to where the active object was clicked
 
 // Objects.
 struct NewObject {
@@ -134,6 +148,13 @@ struct SetView {
 struct GoToCamera {
   Camera camera;
 };
+struct LookAlong {
+  glm::vec3 direction_world;  // of the view, any length but 0
+};
+struct NextBackdrop {};
+struct SetBackdrop {
+  std::size_t number;  // in backdrops()
+};
 struct SetFieldOfView {
   float fov_y_rad;
 };
@@ -162,12 +183,13 @@ struct SaveTurntable {
 };
 
 using Command =
-    std::variant<AddStroke, AddBox, SelectRegion, SelectSphere, SelectColour, SelectRange, EditSelection,
-                 ShowFloaters, StepScale, ChooseMeaning, ClearStrokes, NewObject, RemoveObject, RenameObject,
-                 RecolourObject, ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject,
-                 DuplicateObject, SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness,
-                 SetPreset, SetBackground, SetUp, Undo, Redo, JumpHistory, Cancel, Recompute, SetView,
-                 GoToCamera, SetFieldOfView, OpenScene, SaveWork, RestoreAutosave, DropAutosave, Export,
+    std::variant<AddStroke, IntersectStroke, AddBox, SelectRegion, SelectSphere, SelectColour, PickColour,
+                 SelectFlood, SelectRange, EditSelection, ShowFloaters, StepScale, ChooseMeaning,
+                 ClearStrokes, ComeNearer, NewObject, RemoveObject, RenameObject, RecolourObject, ShowObject,
+                 LockObject, ActivateObject, MergeObjects, SplitObject, DuplicateObject, SeparateObject,
+                 DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness, SetPreset, SetBackground, SetUp,
+                 Undo, Redo, JumpHistory, Cancel, Recompute, SetView, GoToCamera, LookAlong, NextBackdrop,
+                 SetBackdrop, SetFieldOfView, OpenScene, SaveWork, RestoreAutosave, DropAutosave, Export,
                  SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/studio/frame_thread.h"
+#include "app/studio/words.h"
 #include "core/error.h"
 #include "segment/selection/click_selection.h"
 
@@ -30,6 +31,14 @@ ObjectItem& target(Document* document) {
   return document->active_object() ? unlocked(document, document->active) : add_object(document);
 }
 
+// The same for strokes. The first settles for the object which way is up: views around it depend on it, and
+// turning the scene later is no reason to compute it again.
+ObjectItem& stroked(Document* document) {
+  ObjectItem& object = target(document);
+  if (object.views.empty()) object.up_world = document->up_world;
+  return object;
+}
+
 const FlowGraph& required_graph(const EditContext& context) {
   if (!context.graph) throw Error("neighbours", "are still being prepared", "Try again in a moment");
   return *context.graph;
@@ -41,8 +50,8 @@ std::vector<std::uint8_t> labels(const Document& document, const ObjectItem& obj
 }
 
 std::string counted(const Document& document, const ObjectItem& object, const EditContext& context) {
-  return fmt::format("{}: {} of {} Gaussians", object.name, count_flags(labels(document, object, context)),
-                     context.cloud.size());
+  return fmt::format("{}: {} of {} Gaussians", object.name,
+                     grouped(count_flags(labels(document, object, context))), grouped(context.cloud.size()));
 }
 
 // Where the next stroke goes: strokes stay in order, so another view in between starts a new entry.
@@ -75,9 +84,25 @@ ObjectItem& add_by_hand(Document* document, const std::string& name,
 
 }  // namespace
 
+std::span<const Backdrop> backdrops() {
+  static constexpr Backdrop kBackdrops[] = {{"Dark", {0.11f, 0.115f, 0.125f}},
+                                            {"Grey", {0.5f, 0.5f, 0.5f}},
+                                            {"White", {1, 1, 1}},
+                                            {"Checker", {0.5f, 0.5f, 0.5f}, true},
+                                            {"Magenta", {1, 0, 1}}};
+  return kBackdrops;
+}
+
+bool shows(const Backdrop& backdrop, const Document& document, const ViewState& view) {
+  constexpr float kSame = 1e-3f;
+  if (backdrop.checker || view.checker) return backdrop.checker && view.checker;
+  const glm::vec3 d = glm::abs(backdrop.colour - document.background);
+  return std::max({d.r, d.g, d.b}) < kSame;
+}
+
 std::string edit(Document* document, const AddStroke& command, const EditContext&) {
   if (command.stroke.points_px.empty()) throw Error("stroke", "it has no points");
-  ObjectItem& object = target(document);
+  ObjectItem& object = stroked(document);
   view_for(&object, command.camera, command.seen).strokes.push_back(command.stroke);
   const bool dot = command.stroke.points_px.size() == 1;
   const bool rest = command.stroke.label == SeedLabel::kRest;
@@ -98,7 +123,7 @@ std::string edit(Document* document, const AddBox& command, const EditContext&) 
   constexpr float kSmallestPx = 6;
   if (std::min(size.x, size.y) < kSmallestPx)
     throw Error("box", "it is too small", "Drag from one corner to the other");
-  ObjectItem& object = target(document);
+  ObjectItem& object = stroked(document);
   StrokedView& view = view_for(&object, command.camera, command.seen);
   for (Stroke& stroke : box_strokes(command.a_px, command.b_px)) view.strokes.push_back(std::move(stroke));
   return "Box around " + object.name;
@@ -127,7 +152,7 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
   const char* what = operation == SetOperation::kAdd      ? "added"
                      : operation == SetOperation::kRemove ? "removed"
                                                           : "changed";
-  return fmt::format("{} Gaussians {}. {}", changed, what, counted(*document, object, context));
+  return fmt::format("{} Gaussians {}. {}", grouped(changed), what, counted(*document, object, context));
 }
 
 std::string edit(Document* document, const EditSelection& command, const EditContext& context) {
@@ -234,7 +259,7 @@ std::string edit(Document* document, const SplitObject& command, const EditConte
   while (pieces < static_cast<std::int32_t>(parts.size.size()) &&
          parts.size[static_cast<std::size_t>(pieces)] >= std::max<std::size_t>(1, least))
     ++pieces;
-  if (pieces < 2) throw Error(object.name, "hangs together: there is nothing to split");
+  if (pieces < 2) throw Error(object.name, "is one connected piece: there is nothing to split");
   Selection rest = whole;
   for (std::int32_t p = 1; p < pieces; ++p) {
     Selection piece(whole.size());
@@ -274,7 +299,7 @@ std::string edit(Document* document, const SeparateObject& command, const EditCo
     taken += count_flags(before) - count_flags(after);
     set_labels(document, &other, after);
   }
-  return fmt::format("{} Gaussians now belong to {} alone", taken, name);
+  return fmt::format("{} Gaussians now belong to {} alone", grouped(taken), name);
 }
 
 std::string edit(Document* document, const DeleteSelected&, const EditContext& context) {
@@ -286,7 +311,7 @@ std::string edit(Document* document, const DeleteSelected&, const EditContext& c
   Selection deleted(context.cloud.size(), 0);
   if (document->deleted) deleted = *document->deleted;
   document->deleted = make_flags(combined(deleted, selected, SetOperation::kAdd));
-  return fmt::format("{} Gaussians of {} deleted from the scene (the file stays as it is)", count,
+  return fmt::format("{} Gaussians of {} deleted from the scene (the file stays as it is)", grouped(count),
                      object.name);
 }
 

@@ -42,6 +42,15 @@ std::string edit(Document* document, const SetPreset& command, const EditContext
 std::string edit(Document* document, const SetBackground& command, const EditContext& context);
 std::string edit(Document* document, const SetUp& command, const EditContext& context);
 
+// What can stand behind the scene.
+struct Backdrop {
+  const char* name;
+  glm::vec3 colour;
+  bool checker = false;
+};
+std::span<const Backdrop> backdrops();
+bool shows(const Backdrop& backdrop, const Document& document, const ViewState& view);
+
 // The active object's labels, combined with a selection found by any tool.
 std::string edit_selection(Document* document, const Selection& region, SetOperation operation,
                            const EditContext& context);

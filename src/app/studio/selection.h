@@ -42,6 +42,9 @@ Selection select_sphere(const GaussianCloud& cloud, const glm::vec3& centre_worl
 
 // tolerance: largest difference in any channel of the base colour, [0, 1].
 Selection select_colour(const GaussianCloud& cloud, const glm::vec3& colour, float tolerance);
+// From `start` over the graph's edges, as long as the base colour stays that near to the start's.
+Selection select_flood(const GaussianCloud& cloud, const FlowGraph& graph, std::size_t start, float tolerance,
+                       std::span<const std::uint8_t> shown);
 glm::vec3 base_colour(const GaussianCloud& cloud, std::size_t g);
 
 enum class Property { kOpacity, kSize, kDepth };

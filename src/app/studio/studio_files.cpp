@@ -7,6 +7,7 @@
 
 #include "app/console/output_folder.h"
 #include "app/studio/studio.h"
+#include "app/studio/words.h"
 #include "app/studio/work_file.h"
 #include "core/error.h"
 #include "core/png_file.h"
@@ -103,11 +104,13 @@ void Studio::perform(const DropAutosave&) {
 
 void Studio::perform(const Export& c) {
   require_scene();
-  tasks_.submit(TaskKind::kExport, [this, request = c.request, document = document(),
-                                    object = document().active, scene = scene_](const Job& job) {
+  const TaskThread::Order export_order(TaskKind::kExport,
+                                       [this] { ui_requests_.push_back(UiRequest::kExportFailed); });
+  tasks_.submit(export_order, [this, request = c.request, document = document(), object = document().active,
+                               scene = scene_](const Job& job) {
     job.progress("exporting", 0);
     const ExportReport report = run_export(*scene->scene, document, object, request);
-    std::string text = fmt::format("{} Gaussians, {} saved to {}", report.gaussians,
+    std::string text = fmt::format("{} Gaussians, {} saved to {}", grouped(report.gaussians),
                                    human_bytes(report.bytes), request.path.string());
     if (!report.loss.empty()) text += ". Lost: " + report.loss;
     tasks_.post([this, text] { say(Message::Kind::kDone, text); });

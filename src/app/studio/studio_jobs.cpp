@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/studio/studio.h"
+#include "app/studio/words.h"
 #include "app/studio/work_file.h"
 #include "core/error.h"
 #include "scene/raster/rasterizer.h"
@@ -77,9 +78,10 @@ std::string what_changed(const std::vector<std::uint8_t>& before, const std::vec
     added += after[g] && !before[g];
   }
   const std::size_t removed = was + added - is;
-  if (was == 0) return fmt::format("{} Gaussians cut out in {:.1f} s", is, seconds);
-  if (added + removed == 0) return fmt::format("{} Gaussians, as before", is);
-  return fmt::format("{} Gaussians, {} added and {} removed in {:.1f} s", is, added, removed, seconds);
+  if (was == 0) return fmt::format("{} Gaussians cut out in {:.1f} s", grouped(is), seconds);
+  if (added + removed == 0) return fmt::format("{} Gaussians, as before", grouped(is));
+  return fmt::format("{} Gaussians, {} added and {} removed in {:.1f} s", grouped(is), grouped(added),
+                     grouped(removed), seconds);
 }
 
 std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result) {
@@ -134,6 +136,7 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, const std::option
   session_ = nullptr;
   coarse_ = nullptr;
   runs_.clear();
+  runs_before_.clear();
   given_up_.clear();
   cutting_object_ = 0;
   picture_.reset();
@@ -142,6 +145,10 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, const std::option
   tools_.abandon();
   view_.display = DisplayMode::kWhole;
   view_.heat = false;
+  view_.tool = Tool::kClick;
+  view_.fly_speed = 1;
+  view_.operation = SetOperation::kAdd;
+  view_.brush_px = std::min(view_.brush_px, kMostKeptBrushPx);
   highlight_floaters_ = false;
   scene_ = scene;
   work_path_ = is_work_file(work_path) && work_path.parent_path() != options_.state_folder
@@ -163,9 +170,9 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, const std::option
   if (work && work_path_.empty()) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
   ++view_serial_;
   const Scene& s = *scene->scene;
-  std::string text = fmt::format("{}: {} Gaussians, SH degree {}", s.path.filename().string(), s.cloud.size(),
-                                 s.cloud.sh_degree);
-  if (s.dropped) text += fmt::format(", {} unusable rows left out", s.dropped);
+  std::string text = fmt::format("{}: {} Gaussians, SH degree {}", s.path.filename().string(),
+                                 grouped(s.cloud.size()), s.cloud.sh_degree);
+  if (s.dropped) text += fmt::format(", {} unusable rows left out", grouped(s.dropped));
   text += scene->cameras.empty()
               ? std::string(". Does it lean or stand on its head? Set what is up under View")
               : fmt::format(", {} cameras (N, P)", scene->cameras.size());
@@ -233,8 +240,47 @@ void Studio::forget_runs() {
   }
 }
 
+void Studio::keep_run(ObjectId object, CutRun run) {
+  constexpr std::size_t kMostBefore = 24;
+  std::erase_if(runs_before_, [&](const auto& b) { return b.first == object && b.second.key == run.key; });
+  runs_before_.emplace_back(object, std::move(run));
+  if (runs_before_.size() > kMostBefore) runs_before_.pop_front();
+}
+
+// Of that key, shown now or kept for a step in the history; null: forgotten.
+CutRun* Studio::run_of(ObjectId object, const std::string& key) {
+  const auto now = runs_.find(object);
+  if (now != runs_.end() && now->second.key == key) return &now->second;
+  const auto before = std::ranges::find_if(
+      runs_before_, [&](const auto& b) { return b.first == object && b.second.key == key; });
+  return before == runs_before_.end() ? nullptr : &before->second;
+}
+
+// Thumbnails, doubts and times follow the history: those of the labels that are shown.
+void Studio::show_runs_of_now() {
+  for (const ObjectItem& object : document().objects) {
+    const auto now = runs_.find(object.id);
+    const bool differs = now == runs_.end() ? !object.cut_key.empty()
+                                            : !now->second.running && now->second.key != object.cut_key;
+    if (!differs || object.id == cutting_object_) continue;
+    if (now != runs_.end() && now->second.result) {
+      keep_run(object.id, std::move(now->second));
+    }
+    if (now != runs_.end()) runs_.erase(now);
+    const auto then = std::ranges::find_if(runs_before_, [&](const auto& run) {
+      return run.first == object.id && run.second.key == object.cut_key;
+    });
+    if (then == runs_before_.end()) continue;
+    runs_[object.id] = std::move(then->second);
+    runs_before_.erase(then);
+  }
+}
+
 void Studio::start_cut(const ObjectItem& object) {
   forget_runs();
+  if (const CutRun* before = cut_run(object.id);
+      before && before->result && before->key != wanted_key(object))
+    keep_run(object.id, *before);
   cutting_object_ = object.id;
   cutting_key_ = wanted_key(object);
   CutRun& run = runs_[object.id];
@@ -336,10 +382,11 @@ void Studio::start_cut(const ObjectItem& object) {
       }
     if (job.cancelled()) return;
     tasks_.post([this, id, key, scene, cards = std::move(cards), likelihood]() mutable {
-      if (scene != scene_ || runs_[id].key != key) return;
-      runs_[id].views = std::move(cards);
-      for (ViewCard& card : runs_[id].views) card.serial = next_card_serial_++;
-      if (likelihood) runs_[id].likelihood = likelihood;
+      CutRun* of_key = scene == scene_ ? run_of(id, key) : nullptr;
+      if (!of_key) return;
+      of_key->views = std::move(cards);
+      for (ViewCard& card : of_key->views) card.serial = next_card_serial_++;
+      if (likelihood) of_key->likelihood = likelihood;
       ++view_serial_;
     });
   });

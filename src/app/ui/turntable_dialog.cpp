@@ -92,15 +92,17 @@ void turntable_dialog(UiContext& ui) {
   ImGui::SameLine(0, 4);
   const bool browse = button(ui, icon::kFolder, "Choose a folder and name");
   wrapped_muted(
-      ui, fmt::format(
-              "frame_0000.png to frame_{:04}.png, the object alone on nothing. The camera goes round once "
-              "at the height from which you look. Pictures of the same names there are replaced.",
-              choice.frames - 1));
+      ui, fmt::format("frame_0000.png to frame_{:04}.png, the object alone, transparent around it. The "
+                      "camera goes round once "
+                      "at the height from which you look. Pictures of the same names there are replaced.",
+                      choice.frames - 1));
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
   const bool cancelled = ImGui::Button("Cancel", {110, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);
   const std::string reason = choice.folder.empty() ? "Type where they should go" : "";
-  const bool done = button(ui, "Save", "Draw and write them", reason, reason.empty(), 110);
+  const bool pressed =
+      button(ui, "Save", "Draw and write the pictures  (Enter)", reason, reason.empty(), 110);
+  const bool done = pressed || (reason.empty() && !cancelled && !browse && enter_pressed());
   if (done) ui.ask(SaveTurntable{choice.folder, choice.frames, choice.width_px, choice.height_px});
   if (done || cancelled || browse) {
     ui.state.turntable_open = false;

@@ -165,8 +165,8 @@ void install_callbacks(GLFWwindow* window) {
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
     if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
-    loop_of(w).send(
-        PointerButtonChanged{static_cast<PointerButton>(button), action == GLFW_PRESS, modifiers_of(mods)});
+    loop_of(w).send(PointerButtonChanged{static_cast<PointerButton>(button), action == GLFW_PRESS,
+                                         modifiers_of(mods), glfwGetTime()});
   });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) {
     loop_of(w).send(WheelTurned{static_cast<float>(y), held_modifiers(w)});
