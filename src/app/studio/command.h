@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <variant>
 
+#include "app/studio/capture.h"
 #include "app/studio/document.h"
 #include "app/studio/export_plan.h"
 #include "app/studio/view_state.h"
@@ -177,9 +178,11 @@ struct SaveSnapshot {
   bool transparent = true;
 };
 struct SaveTurntable {
-  std::filesystem::path folder;
+  std::filesystem::path path;  // a folder, or a file of animation or video
   int frames = 72;
   int width_px = 0, height_px = 0;  // 0: as large as the view
+  TurntableAs as = TurntableAs::kPictures;
+  float turn_s = 3;  // of animation and video
 };
 
 using Command =

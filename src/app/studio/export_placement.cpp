@@ -73,7 +73,8 @@ void solve(BandMatrix* matrix, BandMatrix* right, std::size_t n) {
 
 // Coefficients of a band before the turn to those after it.
 BandMatrix band_turn(int band, const glm::mat3& rotation) {
-  const std::size_t first = static_cast<std::size_t>(band * band - 1), n = static_cast<std::size_t>(2 * band + 1);
+  const std::size_t first = static_cast<std::size_t>(band * band - 1),
+                    n = static_cast<std::size_t>(2 * band + 1);
   BandMatrix after{}, before{};
   for (std::size_t row = 0; row < n; ++row) {
     const glm::vec3 d = direction(static_cast<int>(row));
@@ -141,7 +142,8 @@ GaussianCloud placed(const GaussianCloud& cloud, std::span<const std::uint8_t> k
     out.position[g] = to.scale * (rotation * (out.position[g] - to.origin)) + to.move;
     out.scale[g] *= to.scale;
     out.rotation[g] = glm::normalize(to.rotation * out.rotation[g]);
-    turn_harmonics(std::span(out.sh_rest).subspan(g * out.sh_stride(), out.sh_stride()), out.sh_degree, turns);
+    turn_harmonics(std::span(out.sh_rest).subspan(g * out.sh_stride(), out.sh_stride()), out.sh_degree,
+                   turns);
   });
   out.near_plane *= to.scale;
   return out;

@@ -19,9 +19,9 @@ enum class ExportUp { kScene, kPlusY, kMinusY, kPlusZ };  // where the document'
 struct ExportPlacement {
   ExportOrigin origin = ExportOrigin::kScene;
   ExportUp up = ExportUp::kScene;
-  float turn_deg = 0;       // about that up, counterclockwise seen from above
-  float scale = 1;          // > 0
-  glm::vec3 move{0};        // scene units, after all else
+  float turn_deg = 0;  // about that up, counterclockwise seen from above
+  float scale = 1;     // > 0
+  glm::vec3 move{0};   // scene units, after all else
   bool operator==(const ExportPlacement&) const = default;
 };
 

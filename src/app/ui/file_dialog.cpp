@@ -35,7 +35,7 @@ Kind kind_of(FilePurpose purpose) {
     case FilePurpose::kSnapshot:
       return {"Save a picture of the view, with transparency", "Save", ".png", {".png"}};
     case FilePurpose::kTurntable:
-      return {"A folder of this name for the turntable pictures", "Choose", "", {"/"}};
+      return {"Where should the turntable go?", "Choose", "", {"/"}};
     case FilePurpose::kExport:
       return {"Where should it go?", "Choose", "", extensions_of(written_formats())};
   }
@@ -59,7 +59,7 @@ void use_choice(UiContext& ui, std::filesystem::path path) {
     case FilePurpose::kSnapshot:
       return ui.ask(SaveSnapshot{path, true});
     case FilePurpose::kTurntable:
-      ui.state.turntable.folder = path.string();
+      ui.state.turntable.path = path.string();
       ui.state.turntable_open = true;
       return;
     case FilePurpose::kExport:
@@ -167,9 +167,9 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
   if (purpose == FilePurpose::kExport)
     files.name = std::filesystem::path(ui.state.exporting.path).filename().string();
   std::filesystem::path start = files.folder;
-  if (purpose == FilePurpose::kTurntable && !ui.state.turntable.folder.empty()) {
-    files.name = std::filesystem::path(ui.state.turntable.folder).filename().string();
-    start = std::filesystem::path(ui.state.turntable.folder).parent_path();
+  if (purpose == FilePurpose::kTurntable && !ui.state.turntable.path.empty()) {
+    files.name = std::filesystem::path(ui.state.turntable.path).filename().string();
+    start = std::filesystem::path(ui.state.turntable.path).parent_path();
   }
   if (start.empty())
     start = ui.studio.scene() ? std::filesystem::absolute(ui.studio.scene()->scene->path).parent_path()

@@ -39,7 +39,9 @@ struct ExportChoice {
 // Choices in the turntable dialog.
 struct TurntableChoice {
   int frames = 72, width_px = 0, height_px = 0;  // 0: as large as the view
-  std::string folder;
+  std::string path;
+  TurntableAs as = TurntableAs::kPictures;
+  float turn_s = 3;
 };
 
 // By-property selection of the repair panel.

@@ -1,4 +1,5 @@
-// What is drawn over the picture: points that were set, centres of Gaussians, a sign at the pointer, the axes.
+// What is drawn over the picture: points that were set, centres of Gaussians, a sign at the pointer, the
+// axes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,8 +46,8 @@ struct Axis {
 std::array<Axis, 6> axes_seen_by(const Camera& camera) {
   const ImU32 red = IM_COL32(235, 85, 80, 255), green = IM_COL32(110, 195, 80, 255),
               blue = IM_COL32(80, 140, 245, 255);
-  std::array<Axis, 6> axes = {Axis{"X", {1, 0, 0}, red, {}},    Axis{"Y", {0, 1, 0}, green, {}},
-                              Axis{"Z", {0, 0, 1}, blue, {}},   Axis{"-X", {-1, 0, 0}, red, {}},
+  std::array<Axis, 6> axes = {Axis{"X", {1, 0, 0}, red, {}},     Axis{"Y", {0, 1, 0}, green, {}},
+                              Axis{"Z", {0, 0, 1}, blue, {}},    Axis{"-X", {-1, 0, 0}, red, {}},
                               Axis{"-Y", {0, -1, 0}, green, {}}, Axis{"-Z", {0, 0, -1}, blue, {}}};
   for (Axis& axis : axes) axis.seen = camera.camera_from_world_rotation * axis.direction_world;
   std::ranges::stable_sort(axes, [](const Axis& a, const Axis& b) { return a.seen.z > b.seen.z; });
@@ -89,7 +90,7 @@ void draw_points(const UiContext& ui, const UiRect& area) {
   }
   if (overlay.length && at.size() == 2)
     boxed_text(list, {0.5f * (at[0].x + at[1].x), 0.5f * (at[0].y + at[1].y) - 18},
-          length_text(*overlay.length) + " units", ui);
+               length_text(*overlay.length) + " units", ui);
 }
 
 // Every n-th, so that a frame stays a frame; those of the object in white.

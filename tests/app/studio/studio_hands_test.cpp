@@ -21,7 +21,8 @@ constexpr int kWidth = 900, kHeight = 520;
 
 class Hands {
  public:
-  explicit Hands(bool cut = true, ApplicationOptions options = {}) : app(kWidth, kHeight, 1, std::move(options)) {
+  explicit Hands(bool cut = true, ApplicationOptions options = {})
+      : app(kWidth, kHeight, 1, std::move(options)) {
     app.interface_state().hint_wanted = false;
     app.open(kSample);
     REQUIRE(app.settle());
@@ -147,7 +148,8 @@ TEST_CASE("hands: up by three points draws marks, and computes no object again")
   const std::vector<std::uint8_t> before = hands.studio().labels(hands.studio().document().active);
   hands.app.key('0');
   const glm::vec2 low = hands.app->interface().viewport().min;
-  const glm::vec2 ground[] = {low + glm::vec2(200, 330), low + glm::vec2(400, 330), low + glm::vec2(300, 260)};
+  const glm::vec2 ground[] = {low + glm::vec2(200, 330), low + glm::vec2(400, 330),
+                              low + glm::vec2(300, 260)};
   for (std::size_t i = 0; i < 2; ++i) {
     hands.app.click(ground[i]);
     CHECK(hands.studio().overlay().points_px.size() == i + 1);
@@ -410,7 +412,8 @@ TEST_CASE("hands: the eyedropper takes one colour everywhere, the flood where it
     beyond += flooded[g] && !by_colour[g];
     of_orange += flooded[g] && orange[g];
   }
-  MESSAGE(count_flags(by_colour), " by colour, ", count_flags(flooded), " by flood, ", of_orange, " of the orange");
+  MESSAGE(count_flags(by_colour), " by colour, ", count_flags(flooded), " by flood, ", of_orange,
+          " of the orange");
   CHECK(count_flags(flooded) > 100);
   CHECK(beyond == 0);
   CHECK(static_cast<double>(of_orange) > 0.8 * static_cast<double>(count_flags(flooded)));
@@ -448,8 +451,10 @@ TEST_CASE("hands: backgrounds go round, and the checker is behind the object alo
     hands.app.key('J');
     REQUIRE(hands.app.settle());
     seen.push_back(corner(3, 3));
-    if (hands.studio().view().checker) CHECK(corner(3, 3) != corner(3 + 12, 3));
-    else CHECK(corner(3, 3) == corner(3 + 12, 3));
+    if (hands.studio().view().checker)
+      CHECK(corner(3, 3) != corner(3 + 12, 3));
+    else
+      CHECK(corner(3, 3) == corner(3 + 12, 3));
   }
   CHECK(seen[1] == Rgba8{255, 255, 255, 255});
   CHECK(seen[3] == Rgba8{255, 0, 255, 255});
@@ -465,7 +470,8 @@ TEST_CASE("hands: an export stands where it is asked to, and looks the same from
   const ExportPlacement placement{ExportOrigin::kFoot, ExportUp::kPlusZ, 30, 2.5f, {1, 2, 3}};
   const Similarity to = similarity_of(placement, cloud, labels, up);
   CHECK(glm::distance(to.rotation * up, glm::vec3(0, 0, 1)) < 1e-5f);
-  hands.studio().apply(Export{{ExportWhat::kObject, SceneFormat::kPly, folder / "apple.ply", false, placement}});
+  hands.studio().apply(
+      Export{{ExportWhat::kObject, SceneFormat::kPly, folder / "apple.ply", false, placement}});
   REQUIRE(hands.app.settle());
   const Scene written = load_scene(folder / "apple.ply");
   REQUIRE(written.cloud.size() == count_flags(labels));
@@ -508,7 +514,8 @@ TEST_CASE("hands: harmonics of every degree turn with the object") {
     cloud.sh_rest[i] = std::sin(static_cast<float>(7 * i + 1)) * 0.2f;
   const glm::quat turn = glm::normalize(glm::quat(0.3f, 0.8f, -0.2f, 0.45f));
   const GaussianCloud turned = placed(cloud, {}, {turn, 1, {}, {}});
-  for (const glm::vec3& d : {glm::vec3(1, 0, 0), glm::vec3(0.2f, -0.7f, 0.4f), glm::vec3(-0.5f, 0.1f, -0.9f)}) {
+  for (const glm::vec3& d :
+       {glm::vec3(1, 0, 0), glm::vec3(0.2f, -0.7f, 0.4f), glm::vec3(-0.5f, 0.1f, -0.9f)}) {
     float basis[15], basis_turned[15];
     sh_rest_basis(3, glm::normalize(d), basis);
     sh_rest_basis(3, turn * glm::normalize(d), basis_turned);
