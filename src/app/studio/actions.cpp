@@ -33,6 +33,7 @@ constexpr std::array kBindings = {
     Binding{Action::kToolRectangle, '7', kPlain, "Tools", "Rectangle"},
     Binding{Action::kToolPolygon, '8', kPlain, "Tools", "Polygon"},
     Binding{Action::kToolSphere, '9', kPlain, "Tools", "Sphere"},
+    Binding{Action::kToolVolume, 'Y', kPlain, "Tools", "Box in space"},
     Binding{Action::kToolColour, 'C', kPlain, "Tools", "Eyedropper: select by colour"},
     Binding{Action::kToolFlood, 'G', kPlain, "Tools", "Flood: neighbours of one colour"},
     Binding{Action::kToolGround, '0', kPlain, "Tools", "Set up: three points of the ground"},

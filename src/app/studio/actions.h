@@ -58,6 +58,7 @@ enum class Action {
   kToolRectangle,
   kToolPolygon,
   kToolSphere,
+  kToolVolume,
   kToolColour,
   kToolFlood,
   kToolGround,

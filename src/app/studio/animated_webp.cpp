@@ -40,9 +40,8 @@ std::size_t number_at(std::span<const std::byte> bytes, std::size_t at) {
 Bytes still(const Image<Rgba8>& picture) {
   constexpr float kQuality = 85;
   std::uint8_t* data = nullptr;
-  const std::size_t size =
-      WebPEncodeRGBA(picture.pixels().data()->data(), picture.width(), picture.height(),
-                     picture.width() * static_cast<int>(sizeof(Rgba8)), kQuality, &data);
+  const std::size_t size = WebPEncodeRGBA(picture.pixels().data()->data(), picture.width(), picture.height(),
+                                          picture.width() * static_cast<int>(sizeof(Rgba8)), kQuality, &data);
   if (size == 0) throw Error("webp", "a picture could not be packed", "Take a smaller size");
   const auto* first = reinterpret_cast<const std::byte*>(data);
   Bytes out(first, first + size);

@@ -54,8 +54,7 @@ bool write_pictures(const TurntableOptions& options, std::size_t frames, const D
 }
 
 bool write_animation(const TurntableOptions& options, std::size_t frames, const Draw& draw, const Job& job) {
-  const auto frame_ms =
-      static_cast<int>(std::lround(1000 * options.turn_s / static_cast<float>(frames)));
+  const auto frame_ms = static_cast<int>(std::lround(1000 * options.turn_s / static_cast<float>(frames)));
   AnimatedWebp animation(std::max(1, frame_ms));
   for (std::size_t i = 0; i < frames && !job.cancelled(); ++i) animation.add(draw(i));
   if (job.cancelled()) return false;
@@ -66,8 +65,7 @@ bool write_animation(const TurntableOptions& options, std::size_t frames, const 
 }
 
 void check_ffmpeg(const ProgramEnd& end) {
-  if (end.start_error != 0)
-    throw Error("ffmpeg", "is not installed", "Install it, or save an animated WebP");
+  if (end.start_error != 0) throw Error("ffmpeg", "is not installed", "Install it, or save an animated WebP");
   if (end.signal != 0 || end.exit_code != 0)
     throw Error("ffmpeg", "could not make the video", "What it printed says why; or save an animated WebP");
 }

@@ -20,8 +20,8 @@ struct TurntableOptions {
   glm::vec3 background{0};     // of the video, which knows no transparency
 };
 
-// One picture per camera. False where it was cancelled: then nothing is written. Throws Error: the disk is full, ffmpeg is missing
-// or fails.
+// One picture per camera. False where it was cancelled: then nothing is written. Throws Error: the disk is
+// full, ffmpeg is missing or fails.
 bool save_turntable(const GaussianCloud& cloud, const std::vector<Camera>& cameras, const Flags& visible,
                     const DrawLimits& limits, const TurntableOptions& options, const Job& job);
 

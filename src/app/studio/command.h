@@ -33,10 +33,10 @@ struct SelectRegion {
   Mask region;  // in the camera's size
   SetOperation operation = SetOperation::kAdd;
 };
-struct SelectSphere {
-  glm::vec3 centre_world;
-  float radius;
+struct SelectVolume {
+  Volume volume;
   SetOperation operation = SetOperation::kAdd;
+  bool adjusts = false;  // takes the place of the last such selection, where nothing was done since
 };
 struct SelectColour {
   glm::vec3 colour;
@@ -186,7 +186,7 @@ struct SaveTurntable {
 };
 
 using Command =
-    std::variant<AddStroke, IntersectStroke, AddBox, SelectRegion, SelectSphere, SelectColour, PickColour,
+    std::variant<AddStroke, IntersectStroke, AddBox, SelectRegion, SelectVolume, SelectColour, PickColour,
                  SelectFlood, SelectRange, EditSelection, ShowFloaters, StepScale, ChooseMeaning,
                  ClearStrokes, ComeNearer, NewObject, RemoveObject, RenameObject, RecolourObject, ShowObject,
                  LockObject, ActivateObject, MergeObjects, SplitObject, DuplicateObject, SeparateObject,

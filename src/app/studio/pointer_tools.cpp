@@ -16,6 +16,10 @@ bool drags_navigate(Tool tool) {
   return tool == Tool::kNavigate || tool == Tool::kClick || tool == Tool::kPolygon || tool >= Tool::kColour;
 }
 
+bool is_volume(Tool tool) {
+  return tool == Tool::kSphere || tool == Tool::kVolume;
+}
+
 }  // namespace
 
 SetOperation PointerTools::operation(const ViewState& view, const Modifiers& m) const {
@@ -43,6 +47,7 @@ std::vector<Command> PointerTools::press(const glm::vec2& pixel, PointerButton b
   } else if (drags_navigate(tool)) {
     drag_ = Drag::kMaybeClick;
   } else if (button == PointerButton::kLeft || tool == Tool::kScribble) {
+    if (is_volume(tool) && grab_handle(pixel, context)) return {};
     start_shape(pixel);
   } else {
     drag_ = Drag::kMaybeClick;
@@ -66,9 +71,10 @@ std::vector<Command> PointerTools::move(const glm::vec2& pixel, const Modifiers&
                        pressed_depth_);
   if (drag_ != Drag::kShape) return {};
   const Tool tool = context.view.tool;
-  if (tool == Tool::kBox || tool == Tool::kRectangle || tool == Tool::kSphere) {
+  if (tool == Tool::kBox || tool == Tool::kRectangle || is_volume(tool)) {
     path_.resize(1);
     path_.push_back(pixel);
+    if (is_volume(tool)) shape_volume(context);
   } else if (glm::length(pixel - path_.back()) >= kPathStepPoints * context.pixels_per_point) {
     path_.push_back(pixel);
   }
@@ -172,16 +178,70 @@ std::vector<Command> PointerTools::finish_shape(const ToolContext& context) {
     case Tool::kRectangle:
       return path.size() == 2 ? region(rectangle_region(path[0], path[1], camera.width_px, camera.height_px))
                               : std::vector<Command>{};
-    case Tool::kSphere: {
-      const auto centre = context.pick(path.front());
-      if (!centre || path.size() < 2) return {};
-      const float depth = camera.camera_from_world(centre->position_world).z;
-      return {
-          SelectSphere{centre->position_world, glm::length(path[1] - path[0]) * depth / camera.fy_px, set}};
-    }
+    case Tool::kSphere:
+    case Tool::kVolume:
+      return finish_volume(set);
     default:
       return {};
   }
+}
+
+bool PointerTools::grab_handle(const glm::vec2& pixel, const ToolContext& context) {
+  constexpr float kReachPoints = 10;
+  if (!volume_ || volume_->round != (context.view.tool == Tool::kSphere)) return false;
+  const std::vector<glm::vec2> handles = handles_px(*volume_, context.pane_camera);
+  std::size_t nearest = 0;
+  for (std::size_t h = 0; h < handles.size(); ++h)
+    if (glm::distance(handles[h], pixel) < glm::distance(handles[nearest], pixel)) nearest = h;
+  if (handles.empty() || glm::distance(handles[nearest], pixel) > kReachPoints * context.pixels_per_point)
+    return false;
+  handle_ = nearest;
+  volume_before_ = volume_;
+  drag_ = Drag::kShape;
+  path_.assign(1, pixel);
+  return true;
+}
+
+// While it is dragged: a new one around the point that was pressed, or the old one by its handle.
+void PointerTools::shape_volume(const ToolContext& context) {
+  if (handle_) {
+    volume_ = dragged(*volume_before_, *handle_, path_[0], path_[1], context.pane_camera);
+    return;
+  }
+  const Camera& camera = context.pane_camera;
+  if (!volume_before_) {
+    const auto centre = context.pick(path_.front());
+    if (!centre) return;
+    const glm::vec3 up = context.camera.up_world(), y(0, 1, 0);
+    const float cosine = glm::dot(y, up);
+    const glm::vec3 axis = glm::cross(y, up);
+    volume_before_ = Volume{context.view.tool == Tool::kSphere, centre->position_world, glm::vec3(0),
+                            cosine < -0.999f ? glm::quat(0, 1, 0, 0)
+                                             : glm::normalize(glm::quat(1 + cosine, axis.x, axis.y, axis.z))};
+  }
+  volume_ = volume_before_;
+  const float depth = camera.camera_from_world(volume_->centre_world).z;
+  volume_->half = glm::vec3(glm::length(path_[1] - path_[0]) * depth / camera.fy_px);
+}
+
+std::vector<Command> PointerTools::finish_volume(SetOperation set) {
+  const bool adjusts = handle_.has_value();
+  const bool made = volume_ && volume_before_ && volume_->half.x > 0;
+  handle_.reset();
+  volume_before_.reset();
+  if (!made) return {};
+  if (!adjusts) volume_set_ = set;
+  return {SelectVolume{*volume_, volume_set_, adjusts}};
+}
+
+void PointerTools::show_volume(const Camera& camera, ToolOverlay* out) const {
+  if (!volume_) return;
+  out->handles_px = handles_px(*volume_, camera);
+  if (out->handles_px.empty()) return;
+  out->points_px = {out->handles_px.front()};
+  out->shape = ToolOverlay::Shape::kCircle;
+  out->radius_px = volume_->round ? glm::distance(out->handles_px[0], out->handles_px[1]) : 0;
+  if (!volume_->round) out->edges_px = edges_px(*volume_, camera);
 }
 
 std::vector<Command> PointerTools::confirm(const ToolContext& context) {
@@ -193,7 +253,10 @@ std::vector<Command> PointerTools::confirm(const ToolContext& context) {
 }
 
 bool PointerTools::abandon() {
-  const bool any = at_work() || !points_.empty();
+  const bool any = at_work() || !points_.empty() || volume_;
+  volume_.reset();
+  volume_before_.reset();
+  handle_.reset();
   path_.clear();
   corners_.clear();
   points_.clear();
@@ -249,8 +312,9 @@ ToolOverlay PointerTools::overlay(const ViewState& view, const Camera& camera, f
       out.shape = ToolOverlay::Shape::kRectangle;
       break;
     case Tool::kSphere:
-      out.shape = ToolOverlay::Shape::kCircle;
-      if (path_.size() == 2) out.radius_px = glm::length(path_[1] - path_[0]);
+    case Tool::kVolume:
+      out.points_px.clear();
+      show_volume(camera, &out);
       break;
     case Tool::kPolygon:
       out.shape = ToolOverlay::Shape::kPolygon;

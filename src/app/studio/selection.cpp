@@ -112,12 +112,10 @@ Selection select_through(const GaussianCloud& cloud, const Camera& camera, const
   });
 }
 
-Selection select_sphere(const GaussianCloud& cloud, const glm::vec3& centre_world, float radius,
+Selection select_volume(const GaussianCloud& cloud, const Volume& volume,
                         std::span<const std::uint8_t> shown) {
-  return where(cloud.size(), [&](std::size_t g) {
-    const glm::vec3 d = cloud.position[g] - centre_world;
-    return is_shown(shown, g) && glm::dot(d, d) <= radius * radius;
-  });
+  return where(cloud.size(),
+               [&](std::size_t g) { return is_shown(shown, g) && inside(volume, cloud.position[g]); });
 }
 
 glm::vec3 base_colour(const GaussianCloud& cloud, std::size_t g) {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "app/studio/volume.h"
 #include "core/image.h"
 #include "core/job.h"
 #include "scene/camera/camera.h"
@@ -37,7 +38,7 @@ struct SeeThroughOptions {
 Selection select_through(const GaussianCloud& cloud, const Camera& camera, const Mask& region,
                          std::span<const std::uint8_t> shown, const SeeThroughOptions& options = {});
 
-Selection select_sphere(const GaussianCloud& cloud, const glm::vec3& centre_world, float radius,
+Selection select_volume(const GaussianCloud& cloud, const Volume& volume,
                         std::span<const std::uint8_t> shown);
 
 // tolerance: largest difference in any channel of the base colour, [0, 1].

@@ -197,7 +197,7 @@ class Studio {
   // studio_edit.cpp
   void perform(const AddBox& c);
   void perform(const SelectRegion& c);
-  void perform(const SelectSphere& c);
+  void perform(const SelectVolume& c);
   void perform(const SelectColour& c);
   void perform(const SelectRange& c);
   void perform(const PickColour& c);
@@ -298,6 +298,7 @@ class Studio {
   std::uint64_t style_version_ = 0, requested_style_ = 0;
   mutable std::map<ObjectId, std::size_t> counts_;
   bool highlight_floaters_ = false;
+  std::uint64_t volume_serial_ = 0;  // of the document right after a volume selected
   // Asked of the worker, or shown already.
   struct HoverAsk {
     std::uint64_t document = 0, view = 0;  // serials

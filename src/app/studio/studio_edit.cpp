@@ -194,12 +194,18 @@ void Studio::perform(const SelectRegion& c) {
   if (options_.inline_tasks) tasks_.deliver();
 }
 
-void Studio::perform(const SelectSphere& c) {
+void Studio::perform(const SelectVolume& c) {
   require_scene();
+  if (c.adjusts && document_serial_ == volume_serial_ && history_.can_undo()) {
+    history_.undo();
+    document_changed();
+  }
   const Flags visible = shown(0);
-  apply_selection(select_sphere(*scene_->cloud, c.centre_world, c.radius,
+  apply_selection(select_volume(*scene_->cloud, c.volume,
                                 visible ? std::span(*visible) : std::span<const std::uint8_t>()),
-                  c.operation, std::string(title_of(c.operation)) + " (sphere)");
+                  c.operation,
+                  std::string(title_of(c.operation)) + (c.volume.round ? " (sphere)" : " (box)"));
+  volume_serial_ = document_serial_;
 }
 
 void Studio::perform(const SelectColour& c) {

@@ -35,8 +35,8 @@ std::vector<Camera> cameras_of_turn(const ObjectExtent& extent, const Camera& fr
   std::vector<Camera> cameras;
   for (int i = 0; i < c.frames; ++i) {
     const float angle = glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(c.frames);
-    cameras.push_back(look_at(extent.centre_world + glm::angleAxis(angle, up) * offset, extent.centre_world, up,
-                              fov_y, width, height));
+    cameras.push_back(look_at(extent.centre_world + glm::angleAxis(angle, up) * offset, extent.centre_world,
+                              up, fov_y, width, height));
   }
   return cameras;
 }
@@ -50,8 +50,8 @@ void Studio::perform(const SaveTurntable& c) {
   if (!object || gaussians_of(object->id) == 0)
     throw Error("turntable", "there is no object to turn", "Click an object first");
   const std::vector<std::uint8_t> own = labels(object->id);
-  const std::vector<Camera> cameras = cameras_of_turn(object_extent(*scene_->cloud, own), viewport_camera(),
-                                                      document().up_world, c);
+  const std::vector<Camera> cameras =
+      cameras_of_turn(object_extent(*scene_->cloud, own), viewport_camera(), document().up_world, c);
   DrawLimits limits = draw_limits();
   limits.far_plane = DrawLimits{}.far_plane;  // that of another view
   const TurntableOptions options{c.as, c.path, c.turn_s, document().background};

@@ -15,12 +15,13 @@ enum class Tool {
   kRectangle,
   kPolygon,
   kSphere,
+  kVolume,  // a box in space
   kColour,  // eyedropper
   kFlood,
   kGround,
   kMeasure
 };
-inline constexpr int kTools = 13;
+inline constexpr int kTools = 14;
 
 // Brush radii, logical pixels. A brush larger than kMostKeptBrushPx was meant for the scene it was used in.
 inline constexpr float kLeastBrushPx = 1, kMostBrushPx = 120, kMostKeptBrushPx = 40;

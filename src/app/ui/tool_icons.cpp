@@ -91,6 +91,12 @@ void sphere_icon(const Pen& pen) {
   pen.list.PathStroke(pen.colour, 0, pen.line);
 }
 
+void volume_icon(const Pen& pen) {
+  pen.stroke({{0, -0.95f}, {0.85f, -0.5f}, {0.85f, 0.5f}, {0, 0.95f}, {-0.85f, 0.5f}, {-0.85f, -0.5f}}, true);
+  pen.stroke({{-0.85f, -0.5f}, {0, 0}, {0.85f, -0.5f}});
+  pen.stroke({{0, 0}, {0, 0.95f}});
+}
+
 void dropper_icon(const Pen& pen) {
   pen.stroke({{0.35f, -0.9f}, {0.9f, -0.35f}, {0.55f, 0}, {0, -0.55f}}, true);
   pen.stroke({{0.15f, -0.35f}, {-0.75f, 0.5f}, {-0.9f, 0.9f}, {-0.5f, 0.75f}, {0.35f, -0.15f}});
@@ -138,6 +144,8 @@ void draw_tool_icon(ImDrawList& list, Tool tool, const ImVec2& centre, float rad
       return polygon_icon(pen);
     case Tool::kSphere:
       return sphere_icon(pen);
+    case Tool::kVolume:
+      return volume_icon(pen);
     case Tool::kColour:
       return dropper_icon(pen);
     case Tool::kFlood:

@@ -14,8 +14,8 @@ namespace {
 constexpr Action kToolActions[kTools] = {Action::kToolNavigate,  Action::kToolClick,   Action::kToolScribble,
                                          Action::kToolBox,       Action::kToolBrush,   Action::kToolLasso,
                                          Action::kToolRectangle, Action::kToolPolygon, Action::kToolSphere,
-                                         Action::kToolColour,    Action::kToolFlood,   Action::kToolGround,
-                                         Action::kToolMeasure};
+                                         Action::kToolVolume,    Action::kToolColour,  Action::kToolFlood,
+                                         Action::kToolGround,    Action::kToolMeasure};
 constexpr const char* kToolHints[kTools] = {
     "Left drag turns, right drag shifts, the wheel zooms. Double-click sets the point to turn around.",
     "Left click: this is the object. Right click (or Ctrl): this is not. Dragging turns the view.",
@@ -25,7 +25,8 @@ constexpr const char* kToolHints[kTools] = {
     "Draw around Gaussians to select them by hand.",
     "Drag a rectangle around Gaussians to select them by hand.",
     "Click corners; Enter, a double-click or a click on the first corner closes the shape.",
-    "Drag from a point on a surface: everything in the sphere is selected.",
+    "Drag from a point on a surface: everything in the sphere is selected. Its handles change it afterwards.",
+    "Drag from a point on a surface: everything in the box is selected. Its handles change it afterwards.",
     "Click a colour in the picture: every Gaussian that has it is selected.",
     "Click a spot: what hangs together with it and has its colour is selected.",
     "Click three points of the ground: that is where down is.",
@@ -57,6 +58,13 @@ void brush_size(UiContext& ui, bool half) {
                       keys_of(Action::kBrushLarger)));
 }
 
+// Where there is room for it beside the display buttons.
+void hint(UiContext& ui, const char* text) {
+  ImGui::AlignTextToFramePadding();
+  if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x <= ImGui::GetWindowWidth() - kDisplayWidth)
+    muted_text(ui, text);
+}
+
 void tolerance(UiContext& ui) {
   ViewState view = ui.studio.view();
   ImGui::SetNextItemWidth(150);
@@ -82,7 +90,10 @@ void region_options(UiContext& ui) {
       set_view(ui, view);
     }
   }
-  if (view.tool == Tool::kSphere) return;
+  if (view.tool == Tool::kSphere || view.tool == Tool::kVolume) {
+    gap();
+    return hint(ui, "drag from a surface, then its handles");
+  }
   gap();
   if (view.tool == Tool::kColour || view.tool == Tool::kFlood) return tolerance(ui);
   const bool visible =
@@ -100,13 +111,6 @@ void region_options(UiContext& ui) {
           : "no depth limit";
   if (ImGui::SliderFloat("##depth", &view.depth_limit, 0, 0.5f, depth.c_str())) set_view(ui, view);
   tooltip("How far behind the visible surface it reaches, in scene units; at the left end there is no limit");
-}
-
-// Where there is room for it beside the display buttons.
-void hint(UiContext& ui, const char* text) {
-  ImGui::AlignTextToFramePadding();
-  if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x <= ImGui::GetWindowWidth() - kDisplayWidth)
-    muted_text(ui, text);
 }
 
 void tool_options(UiContext& ui) {

@@ -186,8 +186,13 @@ void draw_tool_shape(const UiContext& ui, ImDrawList& list, const Placement& pla
         if (ui.studio.view().tool == Tool::kPolygon) list.AddCircleFilled(p, 3.5f, ink);
       break;
     case ToolOverlay::Shape::kCircle:
-      list.AddCircleFilled(points[0], points.size() > 1 ? radius : 3.0f, wash);
-      list.AddCircle(points[0], points.size() > 1 ? radius : 3.0f, ink, 0, 1.8f);
+      if (radius > 0) list.AddCircleFilled(points[0], radius, wash);
+      if (radius > 0) list.AddCircle(points[0], radius, ink, 0, 1.8f);
+      for (const auto& [from, to] : overlay.edges_px) list.AddLine(place(from), place(to), ink, 1.8f);
+      for (const glm::vec2& handle : overlay.handles_px) {
+        list.AddCircleFilled(place(handle), 5, IM_COL32(255, 255, 255, 235));
+        list.AddCircle(place(handle), 5, ink, 0, 2);
+      }
       break;
     case ToolOverlay::Shape::kPoints:
     case ToolOverlay::Shape::kNone:

@@ -128,6 +128,7 @@ const std::map<Action, Check> kChecks = {
     {Action::kToolRectangle, tool_is(Tool::kRectangle)},
     {Action::kToolPolygon, tool_is(Tool::kPolygon)},
     {Action::kToolSphere, tool_is(Tool::kSphere)},
+    {Action::kToolVolume, tool_is(Tool::kVolume)},
     {Action::kToolColour, tool_is(Tool::kColour)},
     {Action::kToolFlood, tool_is(Tool::kFlood)},
     {Action::kToolMeasure, tool_is(Tool::kMeasure)},
