@@ -23,7 +23,7 @@ for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
 export DISPLAY=:$(cat "$work/display")
 unset WAYLAND_DISPLAY
 
-"$program" "$work/sample.compressed.ply" --width 1280 --height 800 >"$work/program.log" 2>&1 &
+"$program" --width 1280 --height 800 "$work/sample.compressed.ply" >"$work/program.log" 2>&1 &
 pid=$!
 children+=($pid)
 autosave=$work/state/splatcut/autosave.splatcut.json
