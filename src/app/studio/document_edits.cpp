@@ -109,13 +109,24 @@ std::string edit(Document* document, const AddStroke& command, const EditContext
   return fmt::format("{} {} {}", dot ? "Click:" : "Scribble:", rest ? "not part of" : "part of", object.name);
 }
 
-Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px) {
+Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px, const glm::vec2& picture_px) {
   const glm::vec2 low = glm::min(a_px, b_px), high = glm::max(a_px, b_px), middle = 0.5f * (low + high),
                   size = high - low;
   constexpr float kBorderPx = 2, kMiddleShare = 0.12f;
   const float radius = std::max(2.0f, kMiddleShare * std::min(size.x, size.y));
-  return {{SeedLabel::kRest, kBorderPx, {low, {high.x, low.y}, high, {low.x, high.y}, low}},
-          {SeedLabel::kObject, radius, {middle}}};
+  const auto frame = [&](float outwards, float radius_px) {
+    const glm::vec2 from = low - outwards, to = high + outwards;
+    return Stroke{SeedLabel::kRest, radius_px, {from, {to.x, from.y}, to, {from.x, to.y}, from}};
+  };
+  Strokes strokes{frame(0, kBorderPx)};
+  // Broad frames around it, as far as the picture goes: nothing beyond the border is meant.
+  constexpr float kFrameShare = 0.04f;
+  const float broad = std::max(4.0f, kFrameShare * std::max(picture_px.x, picture_px.y));
+  const float farthest = std::max({low.x, low.y, picture_px.x - high.x, picture_px.y - high.y}) + broad;
+  for (float outwards = kBorderPx + broad; outwards < farthest; outwards += 2 * broad)
+    strokes.push_back(frame(outwards, broad));
+  strokes.push_back({SeedLabel::kObject, radius, {middle}});
+  return strokes;
 }
 
 std::string edit(Document* document, const AddBox& command, const EditContext&) {
@@ -125,7 +136,9 @@ std::string edit(Document* document, const AddBox& command, const EditContext&) 
     throw Error("box", "it is too small", "Drag from one corner to the other");
   ObjectItem& object = stroked(document);
   StrokedView& view = view_for(&object, command.camera, command.seen);
-  for (Stroke& stroke : box_strokes(command.a_px, command.b_px)) view.strokes.push_back(std::move(stroke));
+  for (Stroke& stroke :
+       box_strokes(command.a_px, command.b_px, {command.camera.width_px, command.camera.height_px}))
+    view.strokes.push_back(std::move(stroke));
   return "Box around " + object.name;
 }
 

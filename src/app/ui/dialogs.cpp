@@ -145,7 +145,7 @@ void placement_choices(UiContext& ui) {
   placement_number("##turn", &p.turn_deg, 1, "turn %.1f deg", 110);
   tooltip("About that axis. Drag, or double-click and type.");
   placement_row("Scale, move");
-  placement_number("##scale", &p.scale, 0.01f, "x %.4g", 90);
+  placement_number("##scale", &p.scale, 0.01f, "%.4g times", 90);
   tooltip("Every length of the file times this. Drag, or double-click and type.");
   constexpr const char *kIds[] = {"##x", "##y", "##z"}, *kFormats[] = {"x %.4g", "y %.4g", "z %.4g"};
   for (int i = 0; i < 3; ++i) {

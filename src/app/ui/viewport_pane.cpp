@@ -87,6 +87,15 @@ bool strokes_wanted(const ViewState& view) {
   return is_stroke_tool(view.tool) || (view.display == DisplayMode::kWhole && !view.heat);
 }
 
+constexpr float kThinPx = 2;
+
+// As box_strokes() makes them: rest, closed, four corners.
+bool is_frame(const Stroke& stroke) {
+  const std::vector<glm::vec2>& p = stroke.points_px;
+  return stroke.label == SeedLabel::kRest && p.size() == 5 && p[0] == p[4] && p[0].y == p[1].y &&
+         p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x;
+}
+
 // Strokes are kept per view: they show where the camera stands as it did when they were drawn.
 void draw_strokes(const UiContext& ui, ImDrawList& list, const Placement& place) {
   const ObjectItem* object = ui.studio.document().active_object();
@@ -102,6 +111,11 @@ void draw_strokes(const UiContext& ui, ImDrawList& list, const Placement& place)
         continue;
       }
       const ImU32 ink = is_object ? kObjectInk : kRestInk;
+      if (is_frame(stroke)) {  // of a box: its border says it all
+        if (stroke.radius_px <= kThinPx)
+          list.AddRect(there(stroke.points_px[0]), there(stroke.points_px[2]), ink, 0, 0, 2);
+        continue;
+      }
       smooth_path(list, placed(stroke.points_px, there), (ink & 0x00ffffffu) | 0x90000000u,
                   std::max(2.0f, 2 * stroke.radius_px * there.points_per_pixel));
     }

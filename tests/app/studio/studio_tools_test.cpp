@@ -154,3 +154,50 @@ TEST_CASE("hands: a sphere and a box in space select by a drag, and again by the
     CHECK(hands.selected() == 0);
   }
 }
+
+TEST_CASE("hands: a box around a thing takes nothing that stands outside of it") {
+  Hands hands(false);
+  const Scene& scene = *hands.studio().scene()->scene;
+  for (const auto& [thing, name] : {std::pair{kApple, "apple"}, {kOrange, "orange"}, {kMug, "mug"}}) {
+    CAPTURE(name);
+    const auto truth = sample_truth(scene, thing);
+    glm::vec2 low(1e9f), high(-1e9f);
+    for (std::size_t g = 0; g < truth.size(); ++g) {
+      if (!truth[g]) continue;
+      const glm::vec2 at = hands.seen_at(scene.cloud.position[g]);
+      low = glm::min(low, at), high = glm::max(high, at);
+    }
+    hands.studio().apply(NewObject{});
+    hands.app.key('4');
+    const glm::vec2 a = low - 4.0f, b = high + 4.0f;
+    hands.app.drag({a, 0.5f * (a + b), b});
+    REQUIRE(hands.app.settle());
+    const auto labels = hands.studio().labels(hands.studio().document().active);
+    std::size_t outside = 0;
+    for (std::size_t g = 0; g < labels.size(); ++g) {
+      const glm::vec2 at = hands.seen_at(scene.cloud.position[g]);
+      outside += labels[g] && (at.x < a.x || at.y < a.y || at.x > b.x || at.y > b.y);
+    }
+    MESSAGE(std::string(name), ": IoU ", iou_of(labels, truth), ", outside ", outside, " of ",
+            count_flags(labels));
+    CHECK(static_cast<double>(outside) < 0.01 * static_cast<double>(count_flags(labels)));
+    CHECK(iou_of(labels, truth) > 0.8);
+  }
+}
+
+TEST_CASE("hands: a box around a pot leaves the plant that grows out of it, but for what hangs over") {
+  Hands hands(false);
+  const GaussianCloud& cloud = *hands.studio().scene()->cloud;
+  hands.app.key('4');
+  const glm::vec2 a = hands.app.screen_of({560, 268}), b = hands.app.screen_of({728, 404});
+  hands.app.drag({a, 0.5f * (a + b), b});
+  REQUIRE(hands.app.settle());
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  std::size_t outside = 0;
+  for (std::size_t g = 0; g < labels.size(); ++g) {
+    const glm::vec2 at = hands.seen_at(cloud.position[g]);
+    outside += labels[g] && (at.x < a.x || at.y < a.y || at.x > b.x || at.y > b.y);
+  }
+  MESSAGE("outside ", outside, " of ", count_flags(labels));
+  CHECK(static_cast<double>(outside) < 0.25 * static_cast<double>(count_flags(labels)));
+}
