@@ -199,6 +199,7 @@ void tool_column(UiContext& ui) {
       ImGui::Dummy({0, 1});
     }
     const bool on = ui.studio.view().tool == tool;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 0.5f * (kLargest - side));
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::PushID(i);
     if (!on) ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
