@@ -230,6 +230,7 @@ class Studio {
 
   EditContext context() const;
   void require_scene() const;
+  void require_gaussian(std::int32_t gaussian) const;
   void push(std::string title, Document after, std::string merge_key, const std::string& message);
   void apply_selection(const Selection& region, SetOperation operation, const std::string& title);
   void document_changed();

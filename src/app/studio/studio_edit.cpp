@@ -214,14 +214,20 @@ void Studio::perform(const SelectColour& c) {
                   std::string(title_of(c.operation)) + " (colour)");
 }
 
-void Studio::perform(const PickColour& c) {
+void Studio::require_gaussian(std::int32_t gaussian) const {
   require_scene();
+  if (gaussian < 0 || static_cast<std::size_t>(gaussian) >= scene_->cloud->size())
+    throw Error("selection", "there is no such Gaussian");
+}
+
+void Studio::perform(const PickColour& c) {
+  require_gaussian(c.gaussian);
   perform(SelectColour{base_colour(*scene_->cloud, static_cast<std::size_t>(c.gaussian)),
                        view_.colour_tolerance, c.operation});
 }
 
 void Studio::perform(const SelectFlood& c) {
-  require_scene();
+  require_gaussian(c.gaussian);
   if (!prepared_) throw Error("flood", "neighbours are still being prepared", "Try again in a moment");
   const Flags visible = shown(0);
   apply_selection(
