@@ -3,6 +3,7 @@
 uniform sampler2D picture;
 uniform sampler2D selected;
 uniform vec3 background;
+uniform int checker_px;          // side of a checker's squares in place of the background; 0: none
 uniform float tint_strength;     // [0, 1]
 uniform bool tint_shaded;        // the tint keeps the picture's light and dark
 uniform float outline_strength;  // [0, 1]
@@ -19,10 +20,16 @@ vec3 shaded_tint(vec3 hue, vec3 colour) {
   return hue * (0.7 + 0.5 * dot(colour, vec3(0.299, 0.587, 0.114)));
 }
 
+// As checker_colour() has it.
+vec3 behind(ivec2 p) {
+  if (checker_px == 0) return background;
+  return vec3((p.x / checker_px + p.y / checker_px) % 2 == 0 ? 0.62 : 0.42);
+}
+
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
   vec4 premultiplied = texelFetch(picture, p, 0);
-  vec3 colour = premultiplied.rgb + (1.0 - premultiplied.a) * background;
+  vec3 colour = premultiplied.rgb + (1.0 - premultiplied.a) * behind(p);
   vec3 selection = texelFetch(selected, p, 0).rgb;
   float here = strength(p);
   vec3 hue = here > 0.0 ? selection / here : vec3(1.0);

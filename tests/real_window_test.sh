@@ -23,7 +23,7 @@ for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
 export DISPLAY=:$(cat "$work/display")
 unset WAYLAND_DISPLAY
 
-"$program" "$work/sample.compressed.ply" --width 1280 --height 800 >"$work/program.log" 2>&1 &
+"$program" --width 1280 --height 800 "$work/sample.compressed.ply" >"$work/program.log" 2>&1 &
 pid=$!
 children+=($pid)
 autosave=$work/state/splatcut/autosave.splatcut.json
@@ -53,13 +53,13 @@ wait_for 240 "new cutout after the stroke" changed
 shot 3_scribbled
 xdotool key i; shot 4_isolated
 xdotool key ctrl+e sleep 1; shot 5_export
-click 883 551
+click 883 599   # Export
 exported() { ls "$work"/sample_*.ply; }
 wait_for 60 "exported file" exported
 shot 6_exported
 cp "$autosave" "$work/apple.splatcut.json"       # leaving the program for good removes it
 xdotool key ctrl+q sleep 1; shot 7_quit
-click 793 448
+click 595 448   # Leave
 for _ in $(seq 100); do kill -0 $pid 2>/dev/null || break; sleep 0.1; done
 kill -0 $pid 2>/dev/null && fail "it does not quit"
 wait $pid || fail "it ended with an error"

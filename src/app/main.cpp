@@ -13,11 +13,27 @@ namespace {
 
 constexpr std::array kMoved = {"eval", "study", "make-scene"};
 
-// `splatcut` and `splatcut SCENE` mean `splatcut view`; of a command that has moved, its name is enough.
+bool is_scene(const std::string& word) {
+  return has_scene_extension(word) || word.ends_with(".splatcut.json");
+}
+
+// Options first, then a scene and no command: `splatcut --width 1280 scene.ply`.
+bool only_options_before_scene(const std::vector<std::string>& words) {
+  constexpr std::array kCommands = {"view", "info", "render", "cut", "convert", "compare", "describe"};
+  if (words.empty() || !words.front().starts_with('-')) return false;
+  const auto first = std::ranges::find_if(words, [&](const std::string& word) {
+    return is_scene(word) || std::ranges::find(kCommands, word) != kCommands.end() ||
+           std::ranges::find(kMoved, word) != kMoved.end();
+  });
+  return first != words.end() && is_scene(*first);
+}
+
+// `splatcut`, `splatcut SCENE` and `splatcut OPTIONS SCENE` mean `splatcut view`; of a command that has
+// moved, its name is enough.
 std::vector<std::string> with_command(std::vector<std::string> words) {
   const std::string first = words.empty() ? "" : words.front();
-  const bool scene = has_scene_extension(first) || first.ends_with(".splatcut.json");
-  if (words.empty() || scene) words.insert(words.begin(), "view");
+  if (words.empty() || is_scene(first) || only_options_before_scene(words))
+    words.insert(words.begin(), "view");
   if (std::ranges::find(kMoved, first) != kMoved.end()) words.resize(1);
   return words;
 }

@@ -145,6 +145,7 @@ void GlSplats::resolve(const ResolveOptions& options) {
   p.set("picture", 0);
   p.set("selected", 1);
   p.set("background", options.background);
+  p.set("checker_px", options.checker_px);
   p.set("tint_strength", options.tint_strength);
   p.set("tint_shaded", options.tint_shaded ? 1 : 0);
   p.set("outline_strength", options.outline_strength);

@@ -33,7 +33,11 @@ constexpr std::array kBindings = {
     Binding{Action::kToolRectangle, '7', kPlain, "Tools", "Rectangle"},
     Binding{Action::kToolPolygon, '8', kPlain, "Tools", "Polygon"},
     Binding{Action::kToolSphere, '9', kPlain, "Tools", "Sphere"},
+    Binding{Action::kToolVolume, 'Y', kPlain, "Tools", "Box in space"},
+    Binding{Action::kToolColour, 'C', kPlain, "Tools", "Eyedropper: select by colour"},
+    Binding{Action::kToolFlood, 'G', kPlain, "Tools", "Flood: neighbours of one colour"},
     Binding{Action::kToolGround, '0', kPlain, "Tools", "Set up: three points of the ground"},
+    Binding{Action::kToolMeasure, 'K', kPlain, "Tools", "Measure between two points"},
     Binding{Action::kBrushSmaller, '[', kPlain, "Tools", "Smaller brush"},
     Binding{Action::kBrushLarger, ']', kPlain, "Tools", "Larger brush"},
     Binding{Action::kSeeThrough, 'V', kPlain, "Tools", "Visible only, or see-through"},
@@ -59,6 +63,8 @@ constexpr std::array kBindings = {
     Binding{Action::kTint, 'T', kPlain, "Display", "Tint"},
     Binding{Action::kOutline, 'O', kPlain, "Display", "Outline"},
     Binding{Action::kHeat, 'M', kPlain, "Display", "Likelihood heat map"},
+    Binding{Action::kBackdrop, 'J', kPlain, "Display", "Next background"},
+    Binding{Action::kCentres, 'X', kPlain, "Display", "Centres of the Gaussians"},
     Binding{Action::kTheme, 'L', kPlain, "Display", "Light or dark"},
     Binding{Action::kHelp, key::kF1, kPlain, "Display", "This page"},
     Binding{Action::kHelp, '/', kShift, "Display", "This page"},
@@ -67,7 +73,10 @@ constexpr std::array kBindings = {
     Binding{Action::kFrameScene, key::kHome, kPlain, "Camera", "Frame the scene"},
     Binding{Action::kNextCamera, 'N', kPlain, "Camera", "Next camera of the capture"},
     Binding{Action::kPreviousCamera, 'P', kPlain, "Camera", "Previous camera"},
-    Binding{Action::kFlyForward, 'W', kPlain, "Camera", "Fly forward (Shift fast, Alt slow)"},
+    Binding{Action::kViewFront, key::kKeypad1, kPlain, "Camera", "Look from the front"},
+    Binding{Action::kViewRight, key::kKeypad3, kPlain, "Camera", "Look from the right"},
+    Binding{Action::kViewTop, key::kKeypad7, kPlain, "Camera", "Look from above"},
+    Binding{Action::kFlyForward, 'W', kPlain, "Camera", "Fly forward (Shift fast, Alt slow, wheel: speed)"},
     Binding{Action::kFlyBack, 'S', kPlain, "Camera", "Fly back"},
     Binding{Action::kFlyLeft, 'A', kPlain, "Camera", "Fly left"},
     Binding{Action::kFlyRight, 'D', kPlain, "Camera", "Fly right"},
@@ -97,6 +106,12 @@ std::string plain_name(int code) {
       return "F1";
     case key::kF12:
       return "F12";
+    case key::kKeypad1:
+      return "Keypad 1";
+    case key::kKeypad3:
+      return "Keypad 3";
+    case key::kKeypad7:
+      return "Keypad 7";
     case key::kKeypadAdd:
       return "Keypad +";
     case key::kKeypadSubtract:

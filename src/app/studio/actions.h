@@ -12,6 +12,7 @@ inline constexpr int kEscape = 256, kEnter = 257, kTab = 258, kBackspace = 259, 
 inline constexpr int kRight = 262, kLeft = 263, kDown = 264, kUp = 265, kPageUp = 266, kPageDown = 267,
                      kHome = 268, kEnd = 269;
 inline constexpr int kF1 = 290, kF11 = 300, kF12 = 301;
+inline constexpr int kKeypad1 = 321, kKeypad3 = 323, kKeypad7 = 327;
 inline constexpr int kKeypadSubtract = 333, kKeypadAdd = 334, kKeypadEnter = 335;
 inline constexpr int kLeftShift = 340, kLeftControl = 341, kLeftAlt = 342, kRightShift = 344,
                      kRightControl = 345, kRightAlt = 346;
@@ -57,7 +58,11 @@ enum class Action {
   kToolRectangle,
   kToolPolygon,
   kToolSphere,
+  kToolVolume,
+  kToolColour,
+  kToolFlood,
   kToolGround,
+  kToolMeasure,
   kBrushSmaller,
   kBrushLarger,
   kPartLarger,
@@ -69,10 +74,15 @@ enum class Action {
   kTint,
   kOutline,
   kHeat,
+  kBackdrop,
+  kCentres,
   kFrameObject,
   kFrameScene,
   kNextCamera,
   kPreviousCamera,
+  kViewFront,
+  kViewRight,
+  kViewTop,
   kFlyForward,
   kFlyBack,
   kFlyLeft,

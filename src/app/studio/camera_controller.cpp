@@ -11,9 +11,9 @@ namespace {
 constexpr float kTransitionSeconds = 0.25f;
 constexpr float kOrbitRadPerPx = 0.006f;
 constexpr float kZoomPerStep = 0.88f;
-constexpr float kFramesPerRadius = 1.15f;    // a little air around what is framed
-constexpr float kFlySizesPerSecond = 0.35f;  // scene diagonals
-constexpr float kPoleRad = 0.02f;            // the view axis never meets the up axis
+constexpr float kFramesPerRadius = 1.15f;       // a little air around what is framed
+constexpr float kFlyDistancesPerSecond = 0.6f;  // to the pivot: slow in small rooms, fast in wide ones
+constexpr float kPoleRad = 0.02f;               // the view axis never meets the up axis
 
 glm::mat3 world_from_camera(const CameraPose& pose) {
   return glm::transpose(glm::mat3_cast(pose.camera_from_world));
@@ -36,6 +36,7 @@ void CameraController::reset(const Box& scene, const glm::vec3& up_world) {
   if (!(scene_size_ > 0)) scene_size_ = 1;
   up_world_ = glm::normalize(up_world);
   target_.reset();
+  orbit_centre_.reset();
   const glm::vec3 sideways = std::abs(up_world_.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
   const glm::vec3 forward = sideways - glm::dot(sideways, up_world_) * up_world_ - 0.35f * up_world_;
   pose_ = CameraPose{};
@@ -48,14 +49,24 @@ glm::vec3 CameraController::pivot_world() const {
   return pose_.position_world + pose_.distance * world_from_camera(pose_)[2];
 }
 
+// In front, and not far beside what a picture shows.
+glm::vec3 CameraController::turned_around() const {
+  if (!orbit_centre_) return pivot_world();
+  const glm::vec3 seen = glm::mat3_cast(pose_.camera_from_world) * (*orbit_centre_ - pose_.position_world);
+  const float beside = 2 * seen.z * std::tan(0.5f * pose_.fov_y_rad);
+  const bool in_picture = seen.z > 0 && std::max(std::abs(seen.x), std::abs(seen.y)) < beside;
+  return in_picture ? *orbit_centre_ : pivot_world();
+}
+
 void CameraController::set_pose(const CameraPose& pose) {
   target_.reset();
+  orbit_centre_.reset();
   pose_ = pose;
 }
 
 void CameraController::orbit(const glm::vec2& delta_px) {
   finish_transition();
-  const glm::vec3 pivot = pivot_world();
+  const glm::vec3 centre = turned_around();
   const glm::mat3 axes = world_from_camera(pose_);
   const glm::quat around = glm::angleAxis(-delta_px.x * kOrbitRadPerPx, up_world_);
   // Tilt stops short of the poles, where left and right would swap.
@@ -67,22 +78,26 @@ void CameraController::orbit(const glm::vec2& delta_px) {
   const glm::quat over = glm::angleAxis(upright ? tilt : -tilt, axes[0]);
   const glm::quat turn = glm::normalize(around * over);
   pose_.camera_from_world = glm::normalize(pose_.camera_from_world * glm::conjugate(turn));
-  pose_.position_world = pivot - pose_.distance * world_from_camera(pose_)[2];
+  pose_.position_world = centre + turn * (pose_.position_world - centre);
 }
 
-void CameraController::pan(const glm::vec2& delta_px, float viewport_height_px) {
+void CameraController::pan(const glm::vec2& delta_px, float viewport_height_px, std::optional<float> depth) {
   finish_transition();
-  const float per_px = 2 * pose_.distance * std::tan(0.5f * pose_.fov_y_rad) / viewport_height_px;
+  const float per_px =
+      2 * depth.value_or(pose_.distance) * std::tan(0.5f * pose_.fov_y_rad) / viewport_height_px;
   const glm::mat3 axes = world_from_camera(pose_);
   pose_.position_world -= per_px * (delta_px.x * axes[0] + delta_px.y * axes[1]);
 }
 
-void CameraController::zoom(float steps) {
+void CameraController::zoom(float steps, const std::optional<glm::vec3>& point_world) {
   finish_transition();
-  const glm::vec3 pivot = pivot_world();
-  pose_.distance =
-      std::clamp(pose_.distance * std::pow(kZoomPerStep, steps), 1e-4f * scene_size_, 1e3f * scene_size_);
-  pose_.position_world = pivot - pose_.distance * world_from_camera(pose_)[2];
+  const glm::vec3 forward = world_from_camera(pose_)[2];
+  const glm::vec3 point = point_world.value_or(pivot_world());
+  const float depth = std::max(1e-6f * scene_size_, glm::dot(point - pose_.position_world, forward));
+  const float wanted =
+      std::clamp(depth * std::pow(kZoomPerStep, steps), 1e-4f * scene_size_, 1e3f * scene_size_);
+  pose_.position_world = point + (wanted / depth) * (pose_.position_world - point);
+  pose_.distance = wanted;  // the pivot comes to the depth of what is looked at
 }
 
 void CameraController::fly(const Flight& flight, float seconds) {
@@ -91,7 +106,9 @@ void CameraController::fly(const Flight& flight, float seconds) {
   const glm::vec3 step = static_cast<float>(flight.right) * axes[0] -
                          static_cast<float>(flight.down) * up_world_ +
                          static_cast<float>(flight.forward) * axes[2];
-  pose_.position_world += flight.speed * kFlySizesPerSecond * scene_size_ * seconds * step;
+  const float usual = kFlyDistancesPerSecond * std::clamp(pose_.distance, 0.02f * scene_size_, scene_size_);
+  pose_.position_world += flight.speed * usual * seconds * step;
+  orbit_centre_.reset();
 }
 
 void CameraController::focus(const glm::vec3& point_world) {
@@ -99,6 +116,29 @@ void CameraController::focus(const glm::vec3& point_world) {
   target.distance = std::max(1e-4f * scene_size_, glm::length(point_world - pose_.position_world));
   target.position_world = point_world - target.distance * world_from_camera(pose_)[2];
   start(target);
+  orbit_centre_ = point_world;
+}
+
+void CameraController::approach(const glm::vec3& point_world, float share) {
+  CameraPose target = pose_;
+  target.distance = std::max(1e-4f * scene_size_, share * glm::length(point_world - pose_.position_world));
+  target.position_world = point_world - target.distance * world_from_camera(pose_)[2];
+  start(target);
+  orbit_centre_ = point_world;
+}
+
+void CameraController::frame(const Box& box, const Camera& camera, float covered_bottom_px) {
+  CameraPose target = pose_;
+  const auto width = static_cast<float>(camera.width_px), height = static_cast<float>(camera.height_px);
+  const float free = std::max(0.3f * height, height - covered_bottom_px);
+  const float slope = 0.5f * std::min(free / camera.fy_px, width / camera.fx_px);  // of the free cone's side
+  const float radius = std::max(1e-6f * scene_size_, 0.5f * glm::length(box.extent()));
+  target.distance = kFramesPerRadius * radius * std::sqrt(1 + slope * slope) / slope;
+  const glm::mat3 axes = world_from_camera(pose_);
+  const float lower = 0.5f * (height - free) * target.distance / camera.fy_px;
+  target.position_world = box.centre() - target.distance * axes[2] + lower * axes[1];
+  start(target);
+  orbit_centre_ = box.centre();
 }
 
 void CameraController::frame(const Box& box) {
@@ -107,6 +147,7 @@ void CameraController::frame(const Box& box) {
   target.distance = kFramesPerRadius * radius / std::sin(0.5f * pose_.fov_y_rad);
   target.position_world = box.centre() - target.distance * world_from_camera(pose_)[2];
   start(target);
+  orbit_centre_ = box.centre();
 }
 
 void CameraController::go_to(const Camera& camera) {

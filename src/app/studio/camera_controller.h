@@ -37,11 +37,20 @@ class CameraController {
   void reset(const Box& scene, const glm::vec3& up_world);
 
   void orbit(const glm::vec2& delta_px);
-  void pan(const glm::vec2& delta_px, float viewport_height_px);
-  void zoom(float steps);  // wheel notches; positive goes nearer
+  // What lies at `depth` (camera z, scene units; the pivot's where not given) follows the pointer.
+  void pan(const glm::vec2& delta_px, float viewport_height_px, std::optional<float> depth = {});
+  // Wheel notches; positive goes nearer to the point, which stays where it is in the picture. Without one, to
+  // the pivot.
+  void zoom(float steps, const std::optional<glm::vec3>& point_world = {});
   void fly(const Flight& flight, float seconds);
-  void focus(const glm::vec3& point_world);  // pivot there, same direction
-  void frame(const Box& box);                // the box fills the picture, same direction
+  void focus(const glm::vec3& point_world);                  // pivot there, same direction
+  void approach(const glm::vec3& point_world, float share);  // the same, at that share of the distance
+  // orbit() turns around it as long as it is in front of the camera, and around the pivot otherwise.
+  void set_orbit_centre(const glm::vec3& point_world) { orbit_centre_ = point_world; }
+  const std::optional<glm::vec3>& orbit_centre() const { return orbit_centre_; }
+  void frame(const Box& box);  // the box fills the picture, same direction
+  // The same in what is free of a camera's picture above its lowest covered_bottom_px pixels.
+  void frame(const Box& box, const Camera& camera, float covered_bottom_px);
   void frame_scene() { frame(scene_); }
   void go_to(const Camera& camera);                   // the exact pose; the pivot stays at its distance
   void look_along(const glm::vec3& direction_world);  // at the pivot
@@ -61,12 +70,14 @@ class CameraController {
 
  private:
   void start(const CameraPose& target);
+  glm::vec3 turned_around() const;
 
   Box scene_;
   float scene_size_ = 1;
   glm::vec3 up_world_{0, -1, 0};
   CameraPose pose_, from_;
   std::optional<CameraPose> target_;
+  std::optional<glm::vec3> orbit_centre_;  // world
   float progress_ = 0;
 };
 

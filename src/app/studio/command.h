@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <variant>
 
+#include "app/studio/capture.h"
 #include "app/studio/document.h"
 #include "app/studio/export_plan.h"
 #include "app/studio/view_state.h"
@@ -17,6 +18,11 @@ struct AddStroke {
   Stroke stroke;  // in the camera's pixels
   Flags seen{};   // Gaussians on the screen; null: all
 };
+struct IntersectStroke {  // keeps of the object what this stroke alone would take
+  Camera camera;
+  Stroke stroke;
+  Flags seen{};
+};
 struct AddBox {
   Camera camera;
   glm::vec2 a_px, b_px;  // opposite corners
@@ -27,14 +33,22 @@ struct SelectRegion {
   Mask region;  // in the camera's size
   SetOperation operation = SetOperation::kAdd;
 };
-struct SelectSphere {
-  glm::vec3 centre_world;
-  float radius;
+struct SelectVolume {
+  Volume volume;
   SetOperation operation = SetOperation::kAdd;
+  bool adjusts = false;  // takes the place of the last such selection, where nothing was done since
 };
 struct SelectColour {
   glm::vec3 colour;
   float tolerance;
+  SetOperation operation = SetOperation::kAdd;
+};
+struct PickColour {  // selects by a Gaussian's colour, within the view's tolerance
+  std::int32_t gaussian;
+  SetOperation operation = SetOperation::kAdd;
+};
+struct SelectFlood {  // what hangs together with a Gaussian and has its colour, within that tolerance
+  std::int32_t gaussian;
   SetOperation operation = SetOperation::kAdd;
 };
 struct SelectRange {
@@ -56,6 +70,7 @@ struct ChooseMeaning {
   int choice;  // of what the active object's first click can mean, 0 the likeliest
 };
 struct ClearStrokes {};
+struct ComeNearer {};  // to where the active object was clicked
 
 // Objects.
 struct NewObject {
@@ -134,6 +149,13 @@ struct SetView {
 struct GoToCamera {
   Camera camera;
 };
+struct LookAlong {
+  glm::vec3 direction_world;  // of the view, any length but 0
+};
+struct NextBackdrop {};
+struct SetBackdrop {
+  std::size_t number;  // in backdrops()
+};
 struct SetFieldOfView {
   float fov_y_rad;
 };
@@ -156,18 +178,21 @@ struct SaveSnapshot {
   bool transparent = true;
 };
 struct SaveTurntable {
-  std::filesystem::path folder;
+  std::filesystem::path path;  // a folder, or a file of animation or video
   int frames = 72;
   int width_px = 0, height_px = 0;  // 0: as large as the view
+  TurntableAs as = TurntableAs::kPictures;
+  float turn_s = 3;  // of animation and video
 };
 
 using Command =
-    std::variant<AddStroke, AddBox, SelectRegion, SelectSphere, SelectColour, SelectRange, EditSelection,
-                 ShowFloaters, StepScale, ChooseMeaning, ClearStrokes, NewObject, RemoveObject, RenameObject,
-                 RecolourObject, ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject,
-                 DuplicateObject, SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness,
-                 SetPreset, SetBackground, SetUp, Undo, Redo, JumpHistory, Cancel, Recompute, SetView,
-                 GoToCamera, SetFieldOfView, OpenScene, SaveWork, RestoreAutosave, DropAutosave, Export,
+    std::variant<AddStroke, IntersectStroke, AddBox, SelectRegion, SelectVolume, SelectColour, PickColour,
+                 SelectFlood, SelectRange, EditSelection, ShowFloaters, StepScale, ChooseMeaning,
+                 ClearStrokes, ComeNearer, NewObject, RemoveObject, RenameObject, RecolourObject, ShowObject,
+                 LockObject, ActivateObject, MergeObjects, SplitObject, DuplicateObject, SeparateObject,
+                 DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness, SetPreset, SetBackground, SetUp,
+                 Undo, Redo, JumpHistory, Cancel, Recompute, SetView, GoToCamera, LookAlong, NextBackdrop,
+                 SetBackdrop, SetFieldOfView, OpenScene, SaveWork, RestoreAutosave, DropAutosave, Export,
                  SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

@@ -44,7 +44,7 @@ CutRequest cut_request(const Document& document, const ObjectItem& object) {
   request.left_out = object.left_out;
   request.choice = object.choice;
   request.part_step = object.part_step;
-  request.up_world = document.up_world;
+  request.up_world = object.up_world.value_or(document.up_world);
   return request;
 }
 

@@ -31,15 +31,16 @@ struct ObjectItem {
   Rgb8 colour{255, 140, 30};
   bool visible = true;
   bool locked = false;
-  ObjectId within = 0;              // part of that object: labels outside of it do not count
-  std::vector<StrokedView> views;   // in the order in which they were stroked, see CutRequest
-  int choice = 0;                   // of what the first click can mean, 0 the likeliest
-  int part_step = 0;                // sizes above or below that meaning's own
-  std::vector<Camera> left_out;     // views that do not count, see CutRequest
-  std::optional<float> smoothness;  // the preset's own where not given
-  Flags cut;                        // labels from the strokes, 1 = object
-  std::string cut_key;              // cut_key() of what they were computed from; empty: none yet
-  Flags hand;                       // HandMark
+  ObjectId within = 0;                // part of that object: labels outside of it do not count
+  std::vector<StrokedView> views;     // in the order in which they were stroked, see CutRequest
+  int choice = 0;                     // of what the first click can mean, 0 the likeliest
+  int part_step = 0;                  // sizes above or below that meaning's own
+  std::vector<Camera> left_out;       // views that do not count, see CutRequest
+  std::optional<glm::vec3> up_world;  // as it was at the first stroke; the document's where not given
+  std::optional<float> smoothness;    // the preset's own where not given
+  Flags cut;                          // labels from the strokes, 1 = object
+  std::string cut_key;                // cut_key() of what they were computed from; empty: none yet
+  Flags hand;                         // HandMark
 };
 
 inline constexpr std::size_t kMostObjects = 255;  // one byte per Gaussian names its object

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/studio/frame_thread.h"
+#include "app/studio/words.h"
 #include "core/error.h"
 #include "segment/selection/click_selection.h"
 
@@ -30,6 +31,14 @@ ObjectItem& target(Document* document) {
   return document->active_object() ? unlocked(document, document->active) : add_object(document);
 }
 
+// The same for strokes. The first settles for the object which way is up: views around it depend on it, and
+// turning the scene later is no reason to compute it again.
+ObjectItem& stroked(Document* document) {
+  ObjectItem& object = target(document);
+  if (object.views.empty()) object.up_world = document->up_world;
+  return object;
+}
+
 const FlowGraph& required_graph(const EditContext& context) {
   if (!context.graph) throw Error("neighbours", "are still being prepared", "Try again in a moment");
   return *context.graph;
@@ -41,8 +50,8 @@ std::vector<std::uint8_t> labels(const Document& document, const ObjectItem& obj
 }
 
 std::string counted(const Document& document, const ObjectItem& object, const EditContext& context) {
-  return fmt::format("{}: {} of {} Gaussians", object.name, count_flags(labels(document, object, context)),
-                     context.cloud.size());
+  return fmt::format("{}: {} of {} Gaussians", object.name,
+                     grouped(count_flags(labels(document, object, context))), grouped(context.cloud.size()));
 }
 
 // Where the next stroke goes: strokes stay in order, so another view in between starts a new entry.
@@ -75,22 +84,49 @@ ObjectItem& add_by_hand(Document* document, const std::string& name,
 
 }  // namespace
 
+std::span<const Backdrop> backdrops() {
+  static constexpr Backdrop kBackdrops[] = {{"Dark", {0.11f, 0.115f, 0.125f}},
+                                            {"Grey", {0.5f, 0.5f, 0.5f}},
+                                            {"White", {1, 1, 1}},
+                                            {"Checker", {0.5f, 0.5f, 0.5f}, true},
+                                            {"Magenta", {1, 0, 1}}};
+  return kBackdrops;
+}
+
+bool shows(const Backdrop& backdrop, const Document& document, const ViewState& view) {
+  constexpr float kSame = 1e-3f;
+  if (backdrop.checker || view.checker) return backdrop.checker && view.checker;
+  const glm::vec3 d = glm::abs(backdrop.colour - document.background);
+  return std::max({d.r, d.g, d.b}) < kSame;
+}
+
 std::string edit(Document* document, const AddStroke& command, const EditContext&) {
   if (command.stroke.points_px.empty()) throw Error("stroke", "it has no points");
-  ObjectItem& object = target(document);
+  ObjectItem& object = stroked(document);
   view_for(&object, command.camera, command.seen).strokes.push_back(command.stroke);
   const bool dot = command.stroke.points_px.size() == 1;
   const bool rest = command.stroke.label == SeedLabel::kRest;
   return fmt::format("{} {} {}", dot ? "Click:" : "Scribble:", rest ? "not part of" : "part of", object.name);
 }
 
-Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px) {
+Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px, const glm::vec2& picture_px) {
   const glm::vec2 low = glm::min(a_px, b_px), high = glm::max(a_px, b_px), middle = 0.5f * (low + high),
                   size = high - low;
   constexpr float kBorderPx = 2, kMiddleShare = 0.12f;
   const float radius = std::max(2.0f, kMiddleShare * std::min(size.x, size.y));
-  return {{SeedLabel::kRest, kBorderPx, {low, {high.x, low.y}, high, {low.x, high.y}, low}},
-          {SeedLabel::kObject, radius, {middle}}};
+  const auto frame = [&](float outwards, float radius_px) {
+    const glm::vec2 from = low - outwards, to = high + outwards;
+    return Stroke{SeedLabel::kRest, radius_px, {from, {to.x, from.y}, to, {from.x, to.y}, from}};
+  };
+  Strokes strokes{frame(0, kBorderPx)};
+  // Broad frames around it, as far as the picture goes: nothing beyond the border is meant.
+  constexpr float kFrameShare = 0.04f;
+  const float broad = std::max(4.0f, kFrameShare * std::max(picture_px.x, picture_px.y));
+  const float farthest = std::max({low.x, low.y, picture_px.x - high.x, picture_px.y - high.y}) + broad;
+  for (float outwards = kBorderPx + broad; outwards < farthest; outwards += 2 * broad)
+    strokes.push_back(frame(outwards, broad));
+  strokes.push_back({SeedLabel::kObject, radius, {middle}});
+  return strokes;
 }
 
 std::string edit(Document* document, const AddBox& command, const EditContext&) {
@@ -98,9 +134,11 @@ std::string edit(Document* document, const AddBox& command, const EditContext&) 
   constexpr float kSmallestPx = 6;
   if (std::min(size.x, size.y) < kSmallestPx)
     throw Error("box", "it is too small", "Drag from one corner to the other");
-  ObjectItem& object = target(document);
+  ObjectItem& object = stroked(document);
   StrokedView& view = view_for(&object, command.camera, command.seen);
-  for (Stroke& stroke : box_strokes(command.a_px, command.b_px)) view.strokes.push_back(std::move(stroke));
+  for (Stroke& stroke :
+       box_strokes(command.a_px, command.b_px, {command.camera.width_px, command.camera.height_px}))
+    view.strokes.push_back(std::move(stroke));
   return "Box around " + object.name;
 }
 
@@ -127,7 +165,7 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
   const char* what = operation == SetOperation::kAdd      ? "added"
                      : operation == SetOperation::kRemove ? "removed"
                                                           : "changed";
-  return fmt::format("{} Gaussians {}. {}", changed, what, counted(*document, object, context));
+  return fmt::format("{} Gaussians {}. {}", grouped(changed), what, counted(*document, object, context));
 }
 
 std::string edit(Document* document, const EditSelection& command, const EditContext& context) {
@@ -234,7 +272,7 @@ std::string edit(Document* document, const SplitObject& command, const EditConte
   while (pieces < static_cast<std::int32_t>(parts.size.size()) &&
          parts.size[static_cast<std::size_t>(pieces)] >= std::max<std::size_t>(1, least))
     ++pieces;
-  if (pieces < 2) throw Error(object.name, "hangs together: there is nothing to split");
+  if (pieces < 2) throw Error(object.name, "is one connected piece: there is nothing to split");
   Selection rest = whole;
   for (std::int32_t p = 1; p < pieces; ++p) {
     Selection piece(whole.size());
@@ -274,7 +312,7 @@ std::string edit(Document* document, const SeparateObject& command, const EditCo
     taken += count_flags(before) - count_flags(after);
     set_labels(document, &other, after);
   }
-  return fmt::format("{} Gaussians now belong to {} alone", taken, name);
+  return fmt::format("{} Gaussians now belong to {} alone", grouped(taken), name);
 }
 
 std::string edit(Document* document, const DeleteSelected&, const EditContext& context) {
@@ -286,7 +324,7 @@ std::string edit(Document* document, const DeleteSelected&, const EditContext& c
   Selection deleted(context.cloud.size(), 0);
   if (document->deleted) deleted = *document->deleted;
   document->deleted = make_flags(combined(deleted, selected, SetOperation::kAdd));
-  return fmt::format("{} Gaussians of {} deleted from the scene (the file stays as it is)", count,
+  return fmt::format("{} Gaussians of {} deleted from the scene (the file stays as it is)", grouped(count),
                      object.name);
 }
 

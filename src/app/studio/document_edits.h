@@ -42,11 +42,20 @@ std::string edit(Document* document, const SetPreset& command, const EditContext
 std::string edit(Document* document, const SetBackground& command, const EditContext& context);
 std::string edit(Document* document, const SetUp& command, const EditContext& context);
 
+// What can stand behind the scene.
+struct Backdrop {
+  const char* name;
+  glm::vec3 colour;
+  bool checker = false;
+};
+std::span<const Backdrop> backdrops();
+bool shows(const Backdrop& backdrop, const Document& document, const ViewState& view);
+
 // The active object's labels, combined with a selection found by any tool.
 std::string edit_selection(Document* document, const Selection& region, SetOperation operation,
                            const EditContext& context);
 
-// Strokes of a box: its border is rest, its middle is object.
-Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px);
+// Strokes of a box in a picture of that size: its border and all around it is rest, its middle is object.
+Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px, const glm::vec2& picture_px);
 
 }  // namespace splatcut

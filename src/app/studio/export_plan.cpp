@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <optional>
+
 #include "app/console/output_folder.h"
 #include "core/error.h"
 
@@ -9,16 +12,40 @@ namespace splatcut {
 
 namespace {
 
+// Written from what was read, as rows of the source would stand where they stood.
+SaveReport save_placed(const std::filesystem::path& path, const Scene& scene,
+                       const std::vector<std::uint8_t>& keep, const SceneFormat& format,
+                       const Similarity& to) {
+  Scene moved;
+  moved.path = scene.path;
+  moved.format = scene.format;
+  moved.file_rows = scene.file_rows;
+  moved.other_properties = scene.other_properties;
+  moved.antialiased = scene.antialiased;
+  moved.cloud = placed(scene.cloud, keep, to);
+  return save_scene(path, moved, {}, format);
+}
+
 void save(const std::filesystem::path& path, const Scene& scene, const std::vector<std::uint8_t>& keep,
-          const ExportRequest& request, ExportReport* report) {
+          const ExportRequest& request, const std::optional<Similarity>& to, ExportReport* report) {
   if (count_flags(keep) == 0)
     throw Error(path.filename().string(), "would hold no Gaussians", "Select something first");
   check_output_file(path, request.overwrite);
-  const SaveReport saved = save_scene(path, scene, keep, request.format);
+  const SaveReport saved = to ? save_placed(path, scene, keep, request.format, *to)
+                              : save_scene(path, scene, keep, request.format);
   report->gaussians += saved.gaussians;
   report->bytes += saved.bytes;
   report->loss = saved.loss;
   ++report->files;
+}
+
+std::vector<std::uint8_t> labels_of_all(const Document& document, std::size_t gaussians) {
+  std::vector<std::uint8_t> all(gaussians, 0);
+  for (const ObjectItem& item : document.objects) {
+    const std::vector<std::uint8_t> labels = labels_of(document, item, gaussians);
+    for (std::size_t g = 0; g < gaussians; ++g) all[g] |= labels[g];
+  }
+  return all;
 }
 
 }  // namespace
@@ -39,15 +66,22 @@ std::string free_file_name(const std::string& object_name, std::set<std::string>
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
                         const ExportRequest& request) {
   const std::size_t n = scene.cloud.size();
+  if (!(request.placement.scale > 0) || !std::isfinite(request.placement.scale))
+    throw Error("export", "the scale must be larger than 0");
+  const auto place = [&](const std::vector<std::uint8_t>& kept) -> std::optional<Similarity> {
+    if (request.placement == ExportPlacement{}) return {};
+    return similarity_of(request.placement, scene.cloud, kept, document.up_world);
+  };
   ExportReport report;
   if (request.what == ExportWhat::kAllObjects) {
     std::filesystem::create_directories(request.path);
     std::set<std::string> taken;
+    const auto to = place(labels_of_all(document, n));  // objects stay beside each other
     for (const ObjectItem& item : document.objects) {
       const std::vector<std::uint8_t> labels = labels_of(document, item, n);
       if (count_flags(labels) == 0) continue;
       const std::string name = free_file_name(item.name, &taken);
-      save(request.path / (name + request.format.extension), scene, labels, request, &report);
+      save(request.path / (name + request.format.extension), scene, labels, request, to, &report);
     }
     if (report.files == 0) throw Error("export", "no object holds any Gaussians", "Select something first");
     return report;
@@ -57,8 +91,19 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
   std::vector<std::uint8_t> keep = labels_of(document, *item, n);
   if (request.what == ExportWhat::kRest)
     for (std::size_t g = 0; g < n; ++g) keep[g] = !keep[g] && !(document.deleted && (*document.deleted)[g]);
-  save(request.path, scene, keep, request, &report);
+  save(request.path, scene, keep, request, place(keep), &report);
   return report;
+}
+
+std::filesystem::path free_path(const std::filesystem::path& path, const std::string& extension) {
+  std::error_code ignored;
+  const std::string name = path.filename().string();
+  const bool ends = !extension.empty() && name.ends_with(extension);
+  const std::string stem = ends ? name.substr(0, name.size() - extension.size()) : name;
+  std::filesystem::path free = path;
+  for (int number = 2; std::filesystem::exists(free, ignored); ++number)
+    free = path.parent_path() / fmt::format("{}_{}{}", stem, number, ends ? extension : "");
+  return free;
 }
 
 std::string human_bytes(std::uint64_t bytes) {

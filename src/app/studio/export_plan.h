@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/studio/document.h"
+#include "app/studio/export_placement.h"
 #include "scene/formats/scene_file.h"
 
 namespace splatcut {
@@ -19,6 +20,7 @@ struct ExportRequest {
   SceneFormat format = SceneFormat::kPly;
   std::filesystem::path path;  // a file; for kAllObjects a folder
   bool overwrite = false;
+  ExportPlacement placement = {};
 };
 
 struct ExportReport {
@@ -35,6 +37,9 @@ std::string file_name_of(const std::string& object_name);  // letters, digits, -
 
 // The same with a number behind it where `taken` has it; then it is taken, too.
 std::string free_file_name(const std::string& object_name, std::set<std::string>* taken);
+
+// The same with a number before its extension where a file of that name is there already.
+std::filesystem::path free_path(const std::filesystem::path& path, const std::string& extension);
 
 std::string human_bytes(std::uint64_t bytes);  // "4.4 MB"
 

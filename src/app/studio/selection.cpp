@@ -112,12 +112,10 @@ Selection select_through(const GaussianCloud& cloud, const Camera& camera, const
   });
 }
 
-Selection select_sphere(const GaussianCloud& cloud, const glm::vec3& centre_world, float radius,
+Selection select_volume(const GaussianCloud& cloud, const Volume& volume,
                         std::span<const std::uint8_t> shown) {
-  return where(cloud.size(), [&](std::size_t g) {
-    const glm::vec3 d = cloud.position[g] - centre_world;
-    return is_shown(shown, g) && glm::dot(d, d) <= radius * radius;
-  });
+  return where(cloud.size(),
+               [&](std::size_t g) { return is_shown(shown, g) && inside(volume, cloud.position[g]); });
 }
 
 glm::vec3 base_colour(const GaussianCloud& cloud, std::size_t g) {
@@ -129,6 +127,29 @@ Selection select_colour(const GaussianCloud& cloud, const glm::vec3& colour, flo
     const glm::vec3 d = glm::abs(base_colour(cloud, g) - colour);
     return std::max({d.r, d.g, d.b}) <= tolerance;
   });
+}
+
+Selection select_flood(const GaussianCloud& cloud, const FlowGraph& graph, std::size_t start, float tolerance,
+                       std::span<const std::uint8_t> shown) {
+  const glm::vec3 wanted = base_colour(cloud, start);
+  const auto alike = [&](std::uint32_t g) {
+    const glm::vec3 d = glm::abs(base_colour(cloud, g) - wanted);
+    return is_shown(shown, g) && std::max({d.r, d.g, d.b}) <= tolerance;
+  };
+  Selection out(cloud.size(), 0);
+  std::vector<std::uint32_t> open{static_cast<std::uint32_t>(start)};
+  out[start] = 1;
+  while (!open.empty()) {
+    const std::uint32_t g = open.back();
+    open.pop_back();
+    for (std::uint32_t a = graph.first_arc[g]; a < graph.first_arc[g + 1]; ++a) {
+      const std::uint32_t h = graph.head[a];
+      if (out[h] || !alike(h)) continue;
+      out[h] = 1;
+      open.push_back(h);
+    }
+  }
+  return out;
 }
 
 std::vector<float> property_values(const GaussianCloud& cloud, Property property, const Camera* camera) {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "app/studio/volume.h"
 #include "core/image.h"
 #include "core/job.h"
 #include "scene/camera/camera.h"
@@ -37,11 +38,14 @@ struct SeeThroughOptions {
 Selection select_through(const GaussianCloud& cloud, const Camera& camera, const Mask& region,
                          std::span<const std::uint8_t> shown, const SeeThroughOptions& options = {});
 
-Selection select_sphere(const GaussianCloud& cloud, const glm::vec3& centre_world, float radius,
+Selection select_volume(const GaussianCloud& cloud, const Volume& volume,
                         std::span<const std::uint8_t> shown);
 
 // tolerance: largest difference in any channel of the base colour, [0, 1].
 Selection select_colour(const GaussianCloud& cloud, const glm::vec3& colour, float tolerance);
+// From `start` over the graph's edges, as long as the base colour stays that near to the start's.
+Selection select_flood(const GaussianCloud& cloud, const FlowGraph& graph, std::size_t start, float tolerance,
+                       std::span<const std::uint8_t> shown);
 glm::vec3 base_colour(const GaussianCloud& cloud, std::size_t g);
 
 enum class Property { kOpacity, kSize, kDepth };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "core/error.h"
@@ -19,8 +20,15 @@ Tool tool_of(Action action) {
   return static_cast<Tool>(static_cast<int>(action) - static_cast<int>(Action::kToolNavigate));
 }
 
+// Of the axes across `up`, one that a view can follow: z (or y) for the front, x (or y) for the right.
+glm::vec3 level_direction(const glm::vec3& up, bool right) {
+  const glm::vec3 ahead = std::abs(up.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+  const glm::vec3 front = glm::normalize(ahead - glm::dot(ahead, up) * up);
+  return right ? -glm::cross(front, up) : front;
+}
+
 bool is_tool(Action action) {
-  return action >= Action::kToolNavigate && action <= Action::kToolGround;
+  return action >= Action::kToolNavigate && action <= Action::kToolMeasure;
 }
 
 }  // namespace
@@ -128,7 +136,7 @@ void Studio::run(Action action) {
   const auto display = [&](DisplayMode mode) {
     change_view([&](ViewState& v) { v.display = v.display == mode ? DisplayMode::kWhole : mode; });
   };
-  constexpr float kBrushStep = 1.25f;
+  constexpr float kBrushStep = 1.12f;
   switch (action) {
     case Action::kOpen:
       ui_requests_.push_back(UiRequest::kOpenDialog);
@@ -200,10 +208,10 @@ void Studio::run(Action action) {
       apply(NewObject{});
       break;
     case Action::kBrushSmaller:
-      change_view([](ViewState& v) { v.brush_px = std::max(1.0f, v.brush_px / kBrushStep); });
+      scale_brush(1 / kBrushStep);
       break;
     case Action::kBrushLarger:
-      change_view([](ViewState& v) { v.brush_px = std::min(400.0f, v.brush_px * kBrushStep); });
+      scale_brush(kBrushStep);
       break;
     case Action::kPartLarger:
       apply(StepScale{1});
@@ -237,11 +245,26 @@ void Studio::run(Action action) {
       std::vector<glm::vec3> positions;
       for (std::size_t g = 0; g < own.size(); ++g)
         if (own[g]) positions.push_back(scene_->cloud->position[g]);
-      camera_.frame(robust_bounds(positions, 0.96));
+      camera_.frame(robust_bounds(positions, 0.96), viewport_camera(), covered_bottom_px_);
       break;
     }
     case Action::kFrameScene:
       camera_.frame_scene();
+      break;
+    case Action::kViewFront:
+      apply(LookAlong{level_direction(document().up_world, false)});
+      break;
+    case Action::kViewRight:
+      apply(LookAlong{level_direction(document().up_world, true)});
+      break;
+    case Action::kViewTop:
+      apply(LookAlong{-document().up_world});
+      break;
+    case Action::kBackdrop:
+      apply(NextBackdrop{});
+      break;
+    case Action::kCentres:
+      change_view([](ViewState& v) { v.centres = !v.centres; });
       break;
     case Action::kNextCamera:
     case Action::kPreviousCamera: {
@@ -262,12 +285,33 @@ void Studio::run(Action action) {
   }
 }
 
-void Studio::key_pressed(int code, const Modifiers& modifiers) {
+void Studio::scale_brush(float factor) {
+  ViewState view = view_;
+  view.brush_px = std::clamp(view.brush_px * factor, kLeastBrushPx, kMostBrushPx);
+  apply(SetView{view});
+}
+
+void Studio::hold(const Modifiers& modifiers) {
   held_modifiers_ = modifiers;
+  tools_.hold(modifiers);
+}
+
+void Studio::key_pressed(int code, const Modifiers& modifiers, bool repeated) {
+  Modifiers now = modifiers;  // X11 does not count the key itself yet
+  now.shift |= code == key::kLeftShift || code == key::kRightShift;
+  now.ctrl |= code == key::kLeftControl || code == key::kRightControl;
+  now.alt |= code == key::kLeftAlt || code == key::kRightAlt;
+  hold(now);
   const ClickMeanings* offered = modifiers == Modifiers{} ? offer() : nullptr;
   if (offered && code >= '1' && code - '1' < std::ssize(offered->outlines))
     return apply(ChooseMeaning{code - '1'});
   const Action action = action_for(code, modifiers);
+  if (action == Action::kBrushSmaller || action == Action::kBrushLarger) {
+    // A keyboard repeats 30 times a second: the size doubles in one all the same.
+    constexpr double kStepSeconds = 0.16;
+    if (repeated && clock_s_ - brush_repeated_s_ < kStepSeconds) return;
+    brush_repeated_s_ = clock_s_;
+  }
   if (is_flight(action))
     held_keys_.insert(code);
   else
@@ -276,14 +320,16 @@ void Studio::key_pressed(int code, const Modifiers& modifiers) {
 
 void Studio::key_released(int code) {
   held_keys_.erase(code);
-  if (code == key::kLeftShift || code == key::kRightShift) held_modifiers_.shift = false;
-  if (code == key::kLeftControl || code == key::kRightControl) held_modifiers_.ctrl = false;
-  if (code == key::kLeftAlt || code == key::kRightAlt) held_modifiers_.alt = false;
+  Modifiers now = held_modifiers_;
+  if (code == key::kLeftShift || code == key::kRightShift) now.shift = false;
+  if (code == key::kLeftControl || code == key::kRightControl) now.ctrl = false;
+  if (code == key::kLeftAlt || code == key::kRightAlt) now.alt = false;
+  hold(now);
 }
 
 void Studio::release_keys() {
   held_keys_.clear();
-  held_modifiers_ = {};
+  hold({});
 }
 
 Flight Studio::flight() const {
@@ -294,7 +340,7 @@ Flight Studio::flight() const {
     flight.right += (action == Action::kFlyRight) - (action == Action::kFlyLeft);
     flight.down += (action == Action::kFlyDown) - (action == Action::kFlyUp);
   }
-  flight.speed = held_modifiers_.shift ? 4.0f : held_modifiers_.alt ? 0.2f : 1.0f;
+  flight.speed = view_.fly_speed * (held_modifiers_.shift ? 4.0f : held_modifiers_.alt ? 0.2f : 1.0f);
   return flight;
 }
 
@@ -308,7 +354,7 @@ void Studio::pointer_left() {
 
 void Studio::pointer_moved(const glm::vec2& pixel, const Modifiers& modifiers) {
   pointer_inside_ = true;
-  held_modifiers_ = modifiers;
+  hold(modifiers);
   if (scene_) run_all(tools_.move(in_pane(pixel), modifiers, tool_context(pixel)));
 }
 
@@ -321,7 +367,13 @@ void Studio::pointer_double_clicked(const glm::vec2& pixel) {
 }
 
 void Studio::wheel(float steps, const Modifiers& modifiers) {
-  if (scene_) run_all(tools_.wheel(steps, modifiers, tool_context(tools_.pointer_px())));
+  if (!scene_) return;
+  if (!flight().moving()) return run_all(tools_.wheel(steps, modifiers, tool_context(tools_.pointer_px())));
+  constexpr float kSpeedStep = 1.25f, kSlowest = 0.02f, kFastest = 50;
+  ViewState view = view_;
+  view.fly_speed = std::clamp(view.fly_speed * std::pow(kSpeedStep, steps), kSlowest, kFastest);
+  apply(SetView{view});
+  say(Message::Kind::kInfo, fmt::format("Flying at {:.2g} times the usual speed", view.fly_speed));
 }
 
 bool Studio::settle(double most_seconds) {

@@ -92,7 +92,8 @@ enum class UiRequest {
   kTheme,
   kHistory,
   kQuit,
-  kSnapshotDialog
+  kSnapshotDialog,
+  kExportFailed  // the dialog comes back as it was
 };
 
 class Studio {
@@ -104,13 +105,14 @@ class Studio {
   void apply(const Command& command);
   void run(Action action);
   std::string why_not(Action action) const;  // empty where it is allowed
-  void set_viewport(int width_px, int height_px, float pixels_per_point);
+  // covered_bottom_px: of the viewport, by thumbnails; framing keeps clear of it.
+  void set_viewport(int width_px, int height_px, float pixels_per_point, float covered_bottom_px = 0);
   void pointer_pressed(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers);
   void pointer_moved(const glm::vec2& pixel, const Modifiers& modifiers);
   void pointer_released(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers);
   void pointer_double_clicked(const glm::vec2& pixel);
   void wheel(float steps, const Modifiers& modifiers);
-  void key_pressed(int key, const Modifiers& modifiers);
+  void key_pressed(int key, const Modifiers& modifiers, bool repeated = false);  // repeated: still held
   void key_released(int key);
   void release_keys();  // the window lost the focus
   void pointer_left();  // the viewport
@@ -134,7 +136,7 @@ class Studio {
   double clock_s() const { return clock_s_; }
   const FrameResult* picture() const { return picture_ ? &*picture_ : nullptr; }
   std::uint64_t picture_serial() const { return picture_serial_; }
-  ToolOverlay overlay() const { return tools_.overlay(view_, pixels_per_point_); }
+  ToolOverlay overlay() const;
   const PointerTools& tools() const { return tools_; }
   CameraController& camera() { return camera_; }
   const CameraController& camera() const { return camera_; }
@@ -142,6 +144,8 @@ class Studio {
   // Other meanings of the active object's first click, as long as nothing else was said; null: nothing is
   // offered.
   const ClickMeanings* offer() const;
+  // The active object's clicks found nothing: too far away, mostly.
+  bool found_nothing() const;
   int panes() const { return view_.display == DisplayMode::kSideBySide && scene_ ? 2 : 1; }
   std::vector<std::uint8_t> labels(ObjectId object) const;
   std::size_t gaussians_of(ObjectId object) const;  // cached: free to ask every frame
@@ -156,6 +160,8 @@ class Studio {
   const std::string& autosave_says() const { return restorable_says_; }
   std::vector<UiRequest> take_ui_requests() { return std::exchange(ui_requests_, {}); }
   std::optional<PickedPoint> pick(const glm::vec2& pixel) const;
+  const Flags& active_labels() const { return active_labels_; }  // as they are shown; null: none yet
+  const Modifiers& held() const { return held_modifiers_; }
   DrawLimits draw_limits() const;
   std::uint64_t document_serial() const { return document_serial_; }
   const std::filesystem::path& work_path() const { return work_path_; }
@@ -176,6 +182,8 @@ class Studio {
  private:
   // studio_click.cpp
   void perform(const AddStroke& c);
+  void perform(const ComeNearer&);
+  void perform(const IntersectStroke& c);
   void perform(const StepScale& c);
   bool hits_anything(const AddStroke& c) const;
   std::string already_so(const AddStroke& c) const;
@@ -189,18 +197,25 @@ class Studio {
   // studio_edit.cpp
   void perform(const AddBox& c);
   void perform(const SelectRegion& c);
-  void perform(const SelectSphere& c);
+  void perform(const SelectVolume& c);
   void perform(const SelectColour& c);
   void perform(const SelectRange& c);
+  void perform(const PickColour& c);
+  void perform(const SelectFlood& c);
+  void select_or_refuse(const Selection& region, SetOperation operation, const std::string& title);
   void perform(const ShowFloaters& c);
   void perform(const Undo&);
   void perform(const Redo&);
   void perform(const JumpHistory& c);
   void perform(const Cancel&);
   void perform(const Recompute&);
+  void perform(const SetUp& c);
   void perform(const SetView& c);
   void perform(const GoToCamera& c);
   void perform(const SetFieldOfView& c);
+  void perform(const LookAlong& c);
+  void perform(const NextBackdrop&);
+  void perform(const SetBackdrop& c);
   // studio_files.cpp
   void find_autosave();
   void perform(const OpenScene& c);
@@ -215,11 +230,14 @@ class Studio {
 
   EditContext context() const;
   void require_scene() const;
+  void require_gaussian(std::int32_t gaussian) const;
   void push(std::string title, Document after, std::string merge_key, const std::string& message);
   void apply_selection(const Selection& region, SetOperation operation, const std::string& title);
   void document_changed();
   void say(Message::Kind kind, std::string text);
   void run_all(const std::vector<Command>& commands);
+  void scale_brush(float factor);
+  void hold(const Modifiers& modifiers);
 
   // studio_jobs.cpp
   void opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
@@ -227,6 +245,9 @@ class Studio {
   void schedule_cut();
   void start_cut(const ObjectItem& object);
   void forget_runs();
+  void show_runs_of_now();
+  void keep_run(ObjectId object, CutRun run);
+  CutRun* run_of(ObjectId object, const std::string& key);
   void give_up_cut(ObjectId id, const std::string& key);
   void request_likelihood();
   const std::string& wanted_key(const ObjectItem& object);
@@ -238,6 +259,9 @@ class Studio {
   void take_picture();
   Flight flight() const;
   ToolContext tool_context(const glm::vec2& pixel);
+  std::optional<float> depth_on_screen(const glm::vec2& pixel) const;
+  // One pixel drawn for the question. visible: null for all.
+  std::optional<PickedPoint> hit_in(const Camera& camera, const glm::vec2& pixel, const Flags& visible) const;
   Flags seen(int pane) const;  // what is drawn there now; null: all
   glm::vec2 in_pane(const glm::vec2& pixel) const;
   Camera pane_camera() const;
@@ -252,7 +276,8 @@ class Studio {
   std::shared_ptr<Session> session_;           // for the worker
   std::shared_ptr<const CoarseCloud> coarse_;  // of large scenes, for pictures while the view moves
   std::map<ObjectId, CutRun> runs_;
-  std::map<ObjectId, std::string> wanted_keys_;  // cut_key() of the document with wanted_serial_
+  std::deque<std::pair<ObjectId, CutRun>> runs_before_;  // of other states of the history, the newest last
+  std::map<ObjectId, std::string> wanted_keys_;          // cut_key() of the document with wanted_serial_
   std::uint64_t wanted_serial_ = 0;
   ObjectId cutting_object_ = 0;
   std::string cutting_key_;
@@ -261,9 +286,11 @@ class Studio {
   std::vector<UiRequest> ui_requests_;
   std::set<int> held_keys_;
   Modifiers held_modifiers_;
+  double brush_repeated_s_ = -1e9;
   double clock_s_ = 0;
 
   int width_px_ = 0, height_px_ = 0;
+  float covered_bottom_px_ = 0;
   float pixels_per_point_ = 1;
   bool gpu_view_ = false;
   std::uint64_t document_serial_ = 1, style_serial_ = 0, view_serial_ = 1, styled_view_serial_ = 0;
@@ -272,6 +299,7 @@ class Studio {
   std::uint64_t style_version_ = 0, requested_style_ = 0;
   mutable std::map<ObjectId, std::size_t> counts_;
   bool highlight_floaters_ = false;
+  std::uint64_t volume_serial_ = 0;  // of the document right after a volume selected
   // Asked of the worker, or shown already.
   struct HoverAsk {
     std::uint64_t document = 0, view = 0;  // serials

@@ -88,8 +88,54 @@ void Studio::perform(const AddStroke& c) {
     throw Error("click", "there is nothing in that place", "Click on something that can be seen");
   const std::string held = already_so(c);
   Document after = history_.now();
-  const std::string message = edit(&after, c, context());
+  std::string message = edit(&after, c, context());
+  if (!session_) message += ". It is cut out as soon as the scene is prepared, in the background";
+  // The view turns around what was clicked.
+  if (c.stroke.points_px.size() == 1 && c.stroke.label == SeedLabel::kObject && panes() == 1 &&
+      same_camera(c.camera, viewport_camera()))
+    if (const auto hit = pick(c.stroke.points_px.front())) camera_.set_orbit_centre(hit->position_world);
   push(title_of(c.stroke), std::move(after), {}, held.empty() ? message : held);
+}
+
+// What the click alone would take, and the object has already.
+void Studio::perform(const IntersectStroke& c) {
+  require_scene();
+  const ObjectItem* object = document().active_object();
+  if (!object || gaussians_of(object->id) == 0)
+    throw Error("intersect", "there is no object yet", "Click one first");
+  if (!session_) throw Error("intersect", "the scene is still being prepared", "Try again in a moment");
+  if (!hits_anything({c.camera, c.stroke, c.seen}))
+    throw Error("click", "there is nothing in that place", "Click on something that can be seen");
+  tasks_.submit(TaskKind::kSelect, [this, c, id = object->id, session = session_, scene = scene_,
+                                    settings = cut_settings(document(), *object)](const Job& job) {
+    const Session::Preview preview =
+        session->preview({}, {c.camera, c.stroke, c.seen}, settings, {job.stop, {}});
+    if (job.cancelled() || preview.after.empty()) return;
+    tasks_.post([this, id, scene, meant = preview.after] {
+      if (scene == scene_ && document().active == id)
+        select_or_refuse(meant, SetOperation::kIntersect, "Intersect (click)");
+    });
+  });
+  if (options_.inline_tasks) tasks_.deliver();
+}
+
+bool Studio::found_nothing() const {
+  const CutRun* run = cut_run(document().active);
+  return run && !run->running && run->result && run->result->outcome == Outcome::kNothingFound;
+}
+
+// A third of the way is left to what was clicked; it comes to the middle.
+void Studio::perform(const ComeNearer&) {
+  require_scene();
+  constexpr float kDistanceLeft = 1.0f / 3;
+  const ObjectItem* object = document().active_object();
+  if (!object || !any_mark(*object))
+    throw Error("come nearer", "nothing is clicked yet", "Click an object first");
+  const auto clicked = std::ranges::find_if(object->views, marks_object);
+  const auto stroke = std::ranges::find(clicked->strokes, SeedLabel::kObject, &Stroke::label);
+  const auto hit = hit_in(clicked->camera, stroke->points_px.front(), nullptr);
+  if (!hit) throw Error("come nearer", "there is nothing in that place");
+  camera_.approach(hit->position_world, kDistanceLeft);
 }
 
 const ClickMeanings* Studio::meanings(const ObjectItem& object) const {
@@ -134,11 +180,10 @@ void Studio::perform(const StepScale& c) {
     const auto likeliest = static_cast<int>(known->likeliest_size), sizes = static_cast<int>(known->sizes);
     int& step = after.find(after.active)->part_step;
     step = std::clamp(step, -likeliest, sizes - 1 - likeliest);
-    return fmt::format(": size {} of {}", likeliest + step + 1, sizes);
   };
   if (known) limit();
-  std::string message = edit(&after, c, context());
-  if (known) message += limit();
+  const std::string message = edit(&after, c, context());
+  if (known) limit();
   push(c.steps > 0 ? "Larger part" : "Smaller part", std::move(after), {}, message);
 }
 

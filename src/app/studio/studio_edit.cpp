@@ -5,6 +5,7 @@
 
 #include "app/studio/document_edits.h"
 #include "app/studio/studio.h"
+#include "app/studio/words.h"
 #include "core/error.h"
 
 namespace splatcut {
@@ -140,7 +141,6 @@ template void Studio::perform(const LeaveOutView&);
 template void Studio::perform(const SetSmoothness&);
 template void Studio::perform(const SetPreset&);
 template void Studio::perform(const SetBackground&);
-template void Studio::perform(const SetUp&);
 
 void Studio::perform(const AddBox& c) {
   require_scene();
@@ -153,6 +153,15 @@ void Studio::apply_selection(const Selection& region, SetOperation operation, co
   Document after = history_.now();
   const std::string message = splatcut::edit_selection(&after, region, operation, context());
   push(title, std::move(after), {}, message);
+}
+
+// For what arrives from the worker.
+void Studio::select_or_refuse(const Selection& region, SetOperation operation, const std::string& title) {
+  try {
+    apply_selection(region, operation, title);
+  } catch (const Error& error) {
+    say(Message::Kind::kRefused, error.what());
+  }
 }
 
 void Studio::perform(const SelectRegion& c) {
@@ -179,29 +188,52 @@ void Studio::perform(const SelectRegion& c) {
                                 visible ? std::span(*visible) : std::span<const std::uint8_t>(), job);
     if (job.cancelled()) return;
     tasks_.post([this, found = std::move(found), c, title, scene] {
-      if (scene != scene_) return;
-      try {
-        apply_selection(found, c.operation, title);
-      } catch (const Error& error) {
-        say(Message::Kind::kRefused, error.what());
-      }
+      if (scene == scene_) select_or_refuse(found, c.operation, title);
     });
   });
   if (options_.inline_tasks) tasks_.deliver();
 }
 
-void Studio::perform(const SelectSphere& c) {
+void Studio::perform(const SelectVolume& c) {
   require_scene();
+  if (c.adjusts && document_serial_ == volume_serial_ && history_.can_undo()) {
+    history_.undo();
+    document_changed();
+  }
   const Flags visible = shown(0);
-  apply_selection(select_sphere(*scene_->cloud, c.centre_world, c.radius,
+  apply_selection(select_volume(*scene_->cloud, c.volume,
                                 visible ? std::span(*visible) : std::span<const std::uint8_t>()),
-                  c.operation, std::string(title_of(c.operation)) + " (sphere)");
+                  c.operation,
+                  std::string(title_of(c.operation)) + (c.volume.round ? " (sphere)" : " (box)"));
+  volume_serial_ = document_serial_;
 }
 
 void Studio::perform(const SelectColour& c) {
   require_scene();
   apply_selection(select_colour(*scene_->cloud, c.colour, c.tolerance), c.operation,
                   std::string(title_of(c.operation)) + " (colour)");
+}
+
+void Studio::require_gaussian(std::int32_t gaussian) const {
+  require_scene();
+  if (gaussian < 0 || static_cast<std::size_t>(gaussian) >= scene_->cloud->size())
+    throw Error("selection", "there is no such Gaussian");
+}
+
+void Studio::perform(const PickColour& c) {
+  require_gaussian(c.gaussian);
+  perform(SelectColour{base_colour(*scene_->cloud, static_cast<std::size_t>(c.gaussian)),
+                       view_.colour_tolerance, c.operation});
+}
+
+void Studio::perform(const SelectFlood& c) {
+  require_gaussian(c.gaussian);
+  if (!prepared_) throw Error("flood", "neighbours are still being prepared", "Try again in a moment");
+  const Flags visible = shown(0);
+  apply_selection(
+      select_flood(*scene_->cloud, prepared_->graph, static_cast<std::size_t>(c.gaussian),
+                   view_.colour_tolerance, visible ? std::span(*visible) : std::span<const std::uint8_t>()),
+      c.operation, std::string(title_of(c.operation)) + " (flood)");
 }
 
 void Studio::perform(const SelectRange& c) {
@@ -218,7 +250,7 @@ void Studio::perform(const ShowFloaters& c) {
   ++view_serial_;
   if (!c.shown) return;
   refresh_style();
-  say(Message::Kind::kInfo, fmt::format("{} Gaussians float apart from the object{}", floater_count_,
+  say(Message::Kind::kInfo, fmt::format("{} Gaussians float apart from the object{}", grouped(floater_count_),
                                         floater_count_ ? ", shown in white" : ""));
 }
 
@@ -281,6 +313,15 @@ void Studio::perform(const Recompute&) {
   start_cut(*object);
 }
 
+// Asked for again it sets the view upright: a capture's camera may lean.
+void Studio::perform(const SetUp& c) {
+  require_scene();
+  Document after = history_.now();
+  const std::string message = edit(&after, c, context());
+  push(Titles{}(c), std::move(after), {}, message);
+  camera_.set_up(document().up_world);
+}
+
 void Studio::perform(const SetView& c) {
   if (c.view.tool != view_.tool) tools_.abandon();
   view_ = c.view;
@@ -291,6 +332,31 @@ void Studio::perform(const GoToCamera& c) {
   require_scene();
   camera_.go_to(c.camera);
   if (!c.camera.name.empty()) say(Message::Kind::kInfo, "Camera " + c.camera.name);
+}
+
+void Studio::perform(const LookAlong& c) {
+  require_scene();
+  if (!(glm::length(c.direction_world) > 0)) throw Error("view", "that is no direction");
+  camera_.look_along(c.direction_world);
+}
+
+// Dark, grey, white, checker, magenta, and dark again.
+void Studio::perform(const NextBackdrop&) {
+  require_scene();
+  const auto& all = backdrops();
+  const auto now = std::ranges::find_if(all, [&](const Backdrop& b) { return shows(b, document(), view_); });
+  const auto step = now == all.end() ? 0 : (now - all.begin() + 1) % std::ssize(all);
+  perform(SetBackdrop{static_cast<std::size_t>(step)});
+}
+
+void Studio::perform(const SetBackdrop& c) {
+  require_scene();
+  if (c.number >= backdrops().size()) throw Error("background", "there is no such one");
+  const Backdrop& backdrop = backdrops()[c.number];
+  ViewState view = view_;
+  view.checker = backdrop.checker;
+  perform(SetView{view});
+  if (!backdrop.checker) perform(SetBackground{backdrop.colour});
 }
 
 void Studio::perform(const SetFieldOfView& c) {
@@ -304,6 +370,13 @@ void Studio::document_changed() {
   constexpr float kSameDirection = 0.99999f;  // the controller keeps it normalised
   if (glm::dot(glm::normalize(document().up_world), camera_.up_world()) < kSameDirection)
     camera_.set_up(document().up_world);
+  show_runs_of_now();
+  // Alone, an empty object would be a black picture.
+  if (scene_ && view_.display != DisplayMode::kWhole && gaussians_of(document().active) == 0 &&
+      cutting_object_ == 0) {
+    view_.display = DisplayMode::kWhole;
+    ++view_serial_;
+  }
 }
 
 std::vector<std::uint8_t> Studio::labels(ObjectId object) const {

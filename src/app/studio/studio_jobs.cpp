@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/studio/studio.h"
+#include "app/studio/words.h"
 #include "app/studio/work_file.h"
 #include "core/error.h"
 #include "scene/raster/rasterizer.h"
@@ -77,9 +78,10 @@ std::string what_changed(const std::vector<std::uint8_t>& before, const std::vec
     added += after[g] && !before[g];
   }
   const std::size_t removed = was + added - is;
-  if (was == 0) return fmt::format("{} Gaussians cut out in {:.1f} s", is, seconds);
-  if (added + removed == 0) return fmt::format("{} Gaussians, as before", is);
-  return fmt::format("{} Gaussians, {} added and {} removed in {:.1f} s", is, added, removed, seconds);
+  if (was == 0) return fmt::format("{} Gaussians cut out in {:.1f} s", grouped(is), seconds);
+  if (added + removed == 0) return fmt::format("{} Gaussians, as before", grouped(is));
+  return fmt::format("{} Gaussians, {} added and {} removed in {:.1f} s", grouped(is), grouped(added),
+                     grouped(removed), seconds);
 }
 
 std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result) {
@@ -134,6 +136,7 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, const std::option
   session_ = nullptr;
   coarse_ = nullptr;
   runs_.clear();
+  runs_before_.clear();
   given_up_.clear();
   cutting_object_ = 0;
   picture_.reset();
@@ -142,6 +145,10 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, const std::option
   tools_.abandon();
   view_.display = DisplayMode::kWhole;
   view_.heat = false;
+  view_.tool = Tool::kClick;
+  view_.fly_speed = 1;
+  view_.operation = SetOperation::kAdd;
+  view_.brush_px = std::min(view_.brush_px, kMostKeptBrushPx);
   highlight_floaters_ = false;
   scene_ = scene;
   work_path_ = is_work_file(work_path) && work_path.parent_path() != options_.state_folder
@@ -163,9 +170,9 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, const std::option
   if (work && work_path_.empty()) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
   ++view_serial_;
   const Scene& s = *scene->scene;
-  std::string text = fmt::format("{}: {} Gaussians, SH degree {}", s.path.filename().string(), s.cloud.size(),
-                                 s.cloud.sh_degree);
-  if (s.dropped) text += fmt::format(", {} unusable rows left out", s.dropped);
+  std::string text = fmt::format("{}: {} Gaussians, SH degree {}", s.path.filename().string(),
+                                 grouped(s.cloud.size()), s.cloud.sh_degree);
+  if (s.dropped) text += fmt::format(", {} unusable rows left out", grouped(s.dropped));
   text += scene->cameras.empty()
               ? std::string(". Does it lean or stand on its head? Set what is up under View")
               : fmt::format(", {} cameras (N, P)", scene->cameras.size());
@@ -186,11 +193,6 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, const std::option
     });
   });
   if (options_.inline_tasks) tasks_.deliver();
-}
-
-const CutRun* Studio::cut_run(ObjectId object) const {
-  const auto found = runs_.find(object);
-  return found == runs_.end() ? nullptr : &found->second;
 }
 
 // Made once per state of the document: it holds all strokes.
@@ -222,19 +224,11 @@ void Studio::schedule_cut() {
   }
 }
 
-// Of objects that are gone the last few are kept, as undo may bring them back; those before have no pictures
-// of their views then, as in opened work, until they are cut again.
-void Studio::forget_runs() {
-  constexpr int kMostGone = 8;
-  int gone = 0;
-  for (auto run = runs_.end(); run != runs_.begin();) {
-    --run;
-    if (!document().find(run->first) && ++gone > kMostGone) run = runs_.erase(run);
-  }
-}
-
 void Studio::start_cut(const ObjectItem& object) {
   forget_runs();
+  if (const CutRun* before = cut_run(object.id);
+      before && before->result && before->key != wanted_key(object))
+    keep_run(object.id, *before);
   cutting_object_ = object.id;
   cutting_key_ = wanted_key(object);
   CutRun& run = runs_[object.id];
@@ -336,10 +330,11 @@ void Studio::start_cut(const ObjectItem& object) {
       }
     if (job.cancelled()) return;
     tasks_.post([this, id, key, scene, cards = std::move(cards), likelihood]() mutable {
-      if (scene != scene_ || runs_[id].key != key) return;
-      runs_[id].views = std::move(cards);
-      for (ViewCard& card : runs_[id].views) card.serial = next_card_serial_++;
-      if (likelihood) runs_[id].likelihood = likelihood;
+      CutRun* of_key = scene == scene_ ? run_of(id, key) : nullptr;
+      if (!of_key) return;
+      of_key->views = std::move(cards);
+      for (ViewCard& card : of_key->views) card.serial = next_card_serial_++;
+      if (likelihood) of_key->likelihood = likelihood;
       ++view_serial_;
     });
   });

@@ -12,6 +12,7 @@ namespace {
 constexpr double kStillAfterSeconds = 0.15;  // without a move the picture is drawn in full
 constexpr double kMovingGoalMs = 32;         // a reduced picture should take no longer
 constexpr float kLeastScale = 0.2f;
+constexpr float kCheckerPoints = 12;
 
 // Scales in steps of 5 %: the same size again and again costs no new textures.
 float stepped(float scale) {
@@ -20,7 +21,8 @@ float stepped(float scale) {
 
 }  // namespace
 
-void Studio::set_viewport(int width_px, int height_px, float pixels_per_point) {
+void Studio::set_viewport(int width_px, int height_px, float pixels_per_point, float covered_bottom_px) {
+  covered_bottom_px_ = covered_bottom_px;
   width_px_ = std::max(1, width_px);
   height_px_ = std::max(1, height_px);
   pixels_per_point_ = pixels_per_point;
@@ -59,7 +61,24 @@ ToolContext Studio::tool_context(const glm::vec2& pixel) {
           pane_camera(),
           pixels_per_point_,
           [this](const glm::vec2& at) { return pick(at); },
+          [this](const glm::vec2& at) { return depth_on_screen(at); },
           [this, pane] { return seen(pane); }};
+}
+
+ToolOverlay Studio::overlay() const {
+  return tools_.overlay(view_, viewport_camera(), pixels_per_point_);
+}
+
+// Of the last picture, whatever its size: while the view moves it is a little behind, which no hand feels.
+std::optional<float> Studio::depth_on_screen(const glm::vec2& pixel) const {
+  if (!picture_ || picture_->frames.empty() || picture_->scene != scene_->serial) return {};
+  const Image<float>& depth = picture_->frames.front()->depth;
+  const Camera camera = pane_camera();
+  const glm::vec2 at = pixel / glm::vec2(camera.width_px, camera.height_px);
+  const auto x = static_cast<int>(at.x * static_cast<float>(depth.width())),
+             y = static_cast<int>(at.y * static_cast<float>(depth.height()));
+  if (at.x < 0 || at.y < 0 || !depth.contains(x, y) || !(depth.at(x, y) > 0)) return {};
+  return depth.at(x, y);
 }
 
 Flags Studio::seen(int pane) const {
@@ -79,13 +98,19 @@ std::optional<PickedPoint> Studio::pick(const glm::vec2& pixel) const {
       return PickedPoint{camera.world_from_pixel(pixel, frame.depth.at(x, y)), frame.first_hit.at(x, y)};
     }
   }
+  return hit_in(camera, pixel, shown(0));
+}
+
+std::optional<PickedPoint> Studio::hit_in(const Camera& camera, const glm::vec2& pixel,
+                                          const Flags& visible_set) const {
+  const auto x = static_cast<int>(std::floor(pixel.x)), y = static_cast<int>(std::floor(pixel.y));
   RasterOptions options;
   options.colour = false;
   options.depth = true;
   options.near_plane = draw_limits().near_plane;
   options.low_pass_px2 = draw_limits().low_pass_px2;
   options.roi = PixelRect{x, y, x + 1, y + 1};
-  const Flags visible = within_far_plane(*scene_->cloud, camera, shown(0), draw_limits().far_plane);
+  const Flags visible = within_far_plane(*scene_->cloud, camera, visible_set, draw_limits().far_plane);
   if (visible) options.shown = *visible;
   const RasterOutput out = rasterize(*scene_->cloud, camera, options);
   if (out.first_hit.at(0, 0) < 0) return {};
@@ -112,6 +137,7 @@ void Studio::refresh_style() {
   std::vector<std::uint8_t> owner(n, 0), active(n, 0);
   FrameStyle style;
   style.background = document.background;
+  style.checker_px = view_.checker ? std::lround(kCheckerPoints * pixels_per_point_) : 0;
   style.tint = view_.tint;
   style.outline = view_.outline;
   bool any = false;

@@ -15,9 +15,16 @@ enum class Tool {
   kRectangle,
   kPolygon,
   kSphere,
-  kGround
+  kVolume,  // a box in space
+  kColour,  // eyedropper
+  kFlood,
+  kGround,
+  kMeasure
 };
-inline constexpr int kTools = 10;
+inline constexpr int kTools = 14;
+
+// Brush radii, logical pixels. A brush larger than kMostKeptBrushPx was meant for the scene it was used in.
+inline constexpr float kLeastBrushPx = 1, kMostBrushPx = 120, kMostKeptBrushPx = 40;
 
 enum class DisplayMode { kWhole, kIsolate, kHide, kSideBySide };
 
@@ -31,9 +38,13 @@ struct ViewState {
   bool tint = true;
   bool outline = true;
   bool heat = false;
-  float near_share = 0.01f;   // near plane, of the scene's size; see natural_near_plane()
-  float far_share = 0;        // far plane, of the scene's size; 0: none
-  bool web_low_pass = false;  // splats as thin as web viewers draw them, see kWebLowPassPx2
+  float near_share = 0.01f;       // near plane, of the scene's size; see natural_near_plane()
+  float far_share = 0;            // far plane, of the scene's size; 0: none
+  float fly_speed = 1;            // of the usual speed
+  float colour_tolerance = 0.1f;  // of the eyedropper and the flood, as select_colour() has it
+  bool checker = false;           // behind the scene, in place of the document's background
+  bool centres = false;           // of the Gaussians, as dots
+  bool web_low_pass = false;      // splats as thin as web viewers draw them, see kWebLowPassPx2
 
   bool operator==(const ViewState&) const = default;
 };
@@ -43,7 +54,7 @@ constexpr bool is_stroke_tool(Tool tool) {
   return tool == Tool::kClick || tool == Tool::kScribble || tool == Tool::kBox;
 }
 constexpr bool is_region_tool(Tool tool) {
-  return tool >= Tool::kBrush && tool <= Tool::kSphere;
+  return tool >= Tool::kBrush && tool <= Tool::kFlood;
 }
 
 }  // namespace splatcut

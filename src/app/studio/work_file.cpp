@@ -31,6 +31,12 @@ glm::vec3 vec3_from(const json& j) {
   return {j.at(0).get<float>(), j.at(1).get<float>(), j.at(2).get<float>()};
 }
 
+glm::vec3 direction_from(const json& j) {
+  const glm::vec3 up = vec3_from(j);
+  if (!(glm::length(up) > 0) || !std::isfinite(glm::length(up))) throw Error("up", "is no direction");
+  return up;
+}
+
 json camera_json(const Camera& c) {
   json rotation = json::array();
   for (int row = 0; row < 3; ++row)
@@ -177,6 +183,7 @@ json object_json(const Document& document, const ObjectItem& o, const Scene& sce
               {"cut_is_current", o.cut != nullptr && !is_stale(document, o)},
               {"hand", runs_json(o.hand, scene)}};
   if (o.smoothness) out["smoothness"] = *o.smoothness;
+  if (o.up_world) out["up"] = list(*o.up_world);
   return out;
 }
 
@@ -196,6 +203,7 @@ ObjectItem object_from(const json& j, const Scene& scene) {
   o.part_step = j.value("part_step", 0);
   for (const json& camera : j.value("left_out", json::array()))
     if (camera.is_object()) o.left_out.push_back(camera_from(camera));
+  if (j.contains("up")) o.up_world = direction_from(j.at("up"));
   if (j.contains("smoothness")) o.smoothness = j.at("smoothness").get<float>();
   o.cut = flags_from(j.value("cut", json()), scene, 1);
   o.hand = flags_from(j.value("hand", json()), scene, kHandRest);
@@ -261,9 +269,7 @@ RestoredWork restored(const WorkFile& file, const Scene& scene, std::uint64_t sc
     Document& d = out.document;
     d.active = work.value("active", 0u);
     d.next_id = work.at("next_id");
-    d.up_world = vec3_from(work.at("up"));
-    if (!(glm::length(d.up_world) > 0) || !std::isfinite(glm::length(d.up_world)))
-      throw Error("up", "is no direction");
+    d.up_world = direction_from(work.at("up"));
     d.preset = work.at("preset");
     preset(d.preset);  // throws for an unknown one
     d.background = vec3_from(work.at("background"));

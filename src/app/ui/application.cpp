@@ -85,16 +85,24 @@ void Application::handle_one(const PointerButtonChanged& event) {
         std::ranges::any_of(button_down_, [](bool down) { return down; }) && dragging_picture_;
     return;
   }
+  const bool twice = is_second_click(event);
+  interface_.state().double_clicked = twice;
   if (!interface_.picture_at(pointer_, studio_)) return;
   dragging_picture_ = true;
-  const bool twice = event.button == PointerButton::kLeft && clock_s_ - last_click_s_ < kDoubleClickSeconds &&
-                     glm::length(pointer_ - last_click_) < kDoubleClickPoints;
-  last_click_s_ = twice || event.button != PointerButton::kLeft ? -1 : clock_s_;
-  last_click_ = pointer_;
   if (twice)
     studio_.pointer_double_clicked(in_viewport_px(pointer_));
   else
     studio_.pointer_pressed(in_viewport_px(pointer_), event.button, event.modifiers);
+}
+
+bool Application::is_second_click(const PointerButtonChanged& press) {
+  const double now_s = press.time_s.value_or(clock_s_);
+  const bool left = press.button == PointerButton::kLeft;
+  const bool twice = left && last_click_s_ && now_s - *last_click_s_ < kDoubleClickSeconds &&
+                     glm::length(pointer_ - last_click_) < kDoubleClickPoints;
+  last_click_s_ = twice || !left ? std::nullopt : std::optional(now_s);
+  last_click_ = pointer_;
+  return twice;
 }
 
 void Application::handle_one(const WheelTurned& event) {
@@ -111,7 +119,7 @@ void Application::handle_one(const KeyChanged& event) {
   if (!event.down) return studio_.key_released(event.key);
   if (io.WantTextInput || interface_.dialog_open()) return;
   if (event.repeated && !repeats(action_for(event.key, event.modifiers))) return;
-  studio_.key_pressed(event.key, event.modifiers);
+  studio_.key_pressed(event.key, event.modifiers, event.repeated);
 }
 
 void Application::handle_one(const TextTyped& event) {
@@ -158,7 +166,7 @@ bool Application::frame(double seconds) {
   interface_.make_current();
   const glm::vec2 view_px = interface_.viewport().size() * pixels_per_point_;
   studio_.set_viewport(static_cast<int>(std::lround(view_px.x)), static_cast<int>(std::lround(view_px.y)),
-                       pixels_per_point_);
+                       pixels_per_point_, interface_.covered_bottom(studio_) * pixels_per_point_);
   const bool busy = studio_.update(seconds);
   remember_recent();
   if (!studio_.document().objects.empty()) interface_.state().hint_wanted = false;

@@ -56,6 +56,7 @@ class Application {
   void handle_one(const FileDropped& event);
   void handle_one(const FocusChanged& event);
   glm::vec2 in_viewport_px(const glm::vec2& point) const;
+  bool is_second_click(const PointerButtonChanged& press);
   void set_modifiers(const Modifiers& modifiers);
   void choose_renderer(RendererChoice choice);
   void open(const OpenScene& command);  // asks first where work would be lost
@@ -73,7 +74,8 @@ class Application {
   bool dragging_picture_ = false;
   bool pressed_since_frame_[3] = {};
   bool button_down_[3] = {};
-  double clock_s_ = 0, last_click_s_ = -1;
+  double clock_s_ = 0;
+  std::optional<double> last_click_s_;
   glm::vec2 last_click_{0};
   std::uint64_t recent_scene_ = 0;
   FrameTimes longest_;

@@ -10,18 +10,58 @@ namespace splatcut {
 
 namespace {
 
+constexpr std::size_t kUsualPresets = 3;  // of presets(): the others are the paper's
+
 void quality_choice(UiContext& ui) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Quality");
   ImGui::SameLine(62);
   const std::string& now = ui.studio.document().preset;
-  for (const Preset& preset : presets()) {
-    if (&preset != presets().data()) ImGui::SameLine(0, 2);
-    ImGui::PushID(preset.name);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6, 5});
+  const auto usual = presets().first(kUsualPresets), others = presets().subspan(kUsualPresets);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6, 5});
+  for (const Preset& preset : usual) {
+    if (&preset != usual.data()) ImGui::SameLine(0, 2);
     if (button(ui, preset.title, preset.sentence, {}, now == preset.name)) ui.ask(SetPreset{preset.name});
-    ImGui::PopStyleVar();
+  }
+  const auto other = std::ranges::find(others, now, &Preset::name);
+  ImGui::SameLine(0, 2);
+  const std::string label =
+      fmt::format("{} {}", other == others.end() ? "Advanced" : other->title, icon::kDown);
+  if (button(ui, label.c_str(), "For comparison with the paper", {}, other != others.end()))
+    ImGui::OpenPopup("advanced");
+  ImGui::PopStyleVar();
+  if (!ImGui::BeginPopup("advanced")) return;
+  for (const Preset& preset : others) {
+    if (ImGui::MenuItem(preset.title, nullptr, now == preset.name)) ui.ask(SetPreset{preset.name});
+    tooltip(preset.sentence);
+  }
+  ImGui::EndPopup();
+}
+
+// Nested rings, the smallest size at the left: the one that is taken is filled, a click takes another.
+void size_row(UiContext& ui, const ObjectItem& object, const CutResult& result) {
+  const auto sizes = static_cast<int>(result.sizes), taken = static_cast<int>(result.size);
+  const float width = ImGui::GetContentRegionAvail().x,
+              cell = std::min(26.0f, width / static_cast<float>(sizes));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float height = 28;
+  for (int i = 0; i < sizes; ++i) {
+    if (i > 0) ImGui::SameLine(0, 0);
+    ImGui::PushID(i);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const bool pressed = ImGui::InvisibleButton("size", {cell, height});
+    const bool hovered = ImGui::IsItemHovered();
+    tooltip(i == taken ? "The size that is taken"
+                       : fmt::format("Take this {} part  (wheel after the click, Page Up, Page Down)",
+                                     i < taken ? "smaller" : "larger"));
     ImGui::PopID();
+    const ImVec2 middle = {at.x + 0.5f * cell, at.y + 0.5f * height};
+    const float share = sizes > 1 ? static_cast<float>(i) / static_cast<float>(sizes - 1) : 1;
+    const float radius = 2.5f + share * (std::min(0.5f * cell, 11.0f) - 3.5f);
+    const ImU32 ink = packed(i == taken || hovered ? ui.theme.colour.accent : ui.theme.colour.muted);
+    if (i == taken) list.AddCircleFilled(middle, radius, ink);
+    list.AddCircle(middle, radius, ink, 0, 1.5f);
+    if (pressed && i != taken && !object.locked) ui.ask(StepScale{i - taken});
   }
 }
 
@@ -66,17 +106,47 @@ void stage_list(UiContext& ui, const CutRun& run) {
   }
 }
 
+// How long each stage took: for those who wonder.
+void times(UiContext& ui, const CutRun& run) {
+  if (run.stages.empty() || !ImGui::TreeNodeEx("Times", ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
+  stage_list(ui, run);
+  if (!run.running && run.total_ms > 0 && !ui.state.steady)
+    muted_text(ui,
+               fmt::format("first mask {}, cutout {}", ms_text(run.first_mask_ms), ms_text(run.total_ms)));
+}
+
+// What is in doubt; and where the object is too small to see, a way to it.
+void warnings(UiContext& ui, const CutRun& run) {
+  bool too_far = run.result->outcome == Outcome::kNothingFound;
+  if (too_far) wrapped_warning(ui, run.result->reason);
+  for (const std::string& doubt : run.doubts) {
+    wrapped_warning(ui, doubt);
+    too_far |= doubt.ends_with("come nearer");
+  }
+  if (too_far && button(ui, "Come nearer", "Goes to where you clicked: click again from there", {}, true, -1))
+    ui.ask(ComeNearer{});
+}
+
+// What there is to say of an object that was not cut yet.
+std::string why_no_cutout(const Studio& studio, const ObjectItem& object) {
+  if (!object.views.empty())
+    return studio.prepared() ? "" : "Waits until the scene is prepared, then it is cut out by itself.";
+  return studio.gaussians_of(object.id) == 0 ? "Empty: click it in the picture."
+                                             : "Made by hand: no strokes to compute from.";
+}
+
 }  // namespace
 
 void cutout_panel(UiContext& ui) {
   if (!section(ui, "Cutout")) return;
   quality_choice(ui);
   const ObjectItem* object = ui.studio.document().active_object();
-  if (!object) return wrapped_muted(ui, "Stages and their times appear here after the first click.");
+  if (!object) return wrapped_muted(ui, "Click an object in the picture.");
   smoothness_slider(ui, *object);
   const CutRun* run = ui.studio.cut_run(object->id);
   if (!run || (run->stages.empty() && !run->running)) {
-    if (object->views.empty()) wrapped_muted(ui, "Made by hand: no strokes to compute from.");
+    const std::string reason = why_no_cutout(ui.studio, *object);
+    if (!reason.empty()) wrapped_muted(ui, reason);
     return;
   }
   if (run->running) {
@@ -88,20 +158,10 @@ void cutout_panel(UiContext& ui) {
     ImGui::SameLine();
     action_button(ui, Action::kCancel, "Cancel", false, -1);
   }
-  stage_list(ui, *run);
-  if (!run->running && run->total_ms > 0 && !ui.state.steady)
-    muted_text(ui,
-               fmt::format("first mask {}, cutout {}", ms_text(run->first_mask_ms), ms_text(run->total_ms)));
   const CutResult* result = run->running ? nullptr : run->result.get();
-  if (result && result->sizes > 1) {
-    muted_text(ui, fmt::format("size {} of {}", result->size + 1, result->sizes));
-    tooltip(
-        "What the first click can mean, from small to large: the wheel right after the click, Page Up or "
-        "Page Down");
-  }
-  if (!result) return;
-  if (result->outcome == Outcome::kNothingFound) wrapped_warning(ui, result->reason);
-  for (const std::string& doubt : run->doubts) wrapped_warning(ui, doubt);
+  if (result && result->sizes > 1) size_row(ui, *object, *result);
+  if (result) warnings(ui, *run);
+  times(ui, *run);
 }
 
 }  // namespace splatcut

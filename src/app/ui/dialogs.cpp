@@ -5,6 +5,8 @@
 #include <imgui_stdlib.h>  // needs imgui.h first
 
 #include <cstring>
+#include <span>
+#include <utility>
 
 #include "app/console/version.h"
 #include "app/ui/panels.h"
@@ -52,9 +54,10 @@ void propose_path(UiContext& ui) {
                                                               : "object";
   for (char& c : name)
     if (c == ' ' || c == '/') c = '_';
-  choice.path =
-      (folder / (stem + "_" + name + (choice.what == ExportWhat::kAllObjects ? "" : choice.format.extension)))
-          .string();
+  const bool folder_of_all = choice.what == ExportWhat::kAllObjects;
+  const std::filesystem::path proposed =
+      (folder / (stem + "_" + name + (folder_of_all ? "" : choice.format.extension)));
+  choice.path = free_path(proposed, folder_of_all ? "" : choice.format.extension).string();
 }
 
 void fact(const char* symbol, const ImVec4& colour, const std::string& text) {
@@ -103,6 +106,55 @@ void export_choices(UiContext& ui) {
   }
 }
 
+void placement_row(const char* text) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  ImGui::SameLine(90);
+}
+
+// A number that can be typed or dragged.
+void placement_number(const char* id, float* value, float step, const char* format, float width) {
+  ImGui::SetNextItemWidth(width);
+  ImGui::DragFloat(id, value, step, 0, 0, format);
+}
+
+template <class Choice>
+void placement_choice(UiContext& ui, Choice* now, std::span<const std::pair<Choice, const char*>> choices,
+                      const char* tip) {
+  for (const auto& [choice, name] : choices) {
+    if (&choice != &choices.front().first) ImGui::SameLine(0, 2);
+    if (button(ui, name, tip, {}, *now == choice)) *now = choice;
+  }
+}
+
+// Where the Gaussians stand in the file.
+void placement_choices(UiContext& ui) {
+  constexpr std::pair<ExportOrigin, const char*> kOrigins[] = {{ExportOrigin::kScene, "As in the scene"},
+                                                               {ExportOrigin::kCentre, "Its middle"},
+                                                               {ExportOrigin::kFoot, "Its foot"}};
+  constexpr std::pair<ExportUp, const char*> kUps[] = {{ExportUp::kScene, "As in the scene"},
+                                                       {ExportUp::kPlusY, "+Y"},
+                                                       {ExportUp::kMinusY, "-Y"},
+                                                       {ExportUp::kPlusZ, "+Z"}};
+  ExportPlacement& p = ui.state.exporting.placement;
+  placement_row("Origin");
+  placement_choice<ExportOrigin>(ui, &p.origin, kOrigins, "What lies at 0, 0, 0 of the file");
+  placement_row("Up");
+  placement_choice<ExportUp>(ui, &p.up, kUps, "Where the scene's up (see View) points in the file");
+  ImGui::SameLine(0, 14);
+  placement_number("##turn", &p.turn_deg, 1, "turn %.1f deg", 110);
+  tooltip("About that axis. Drag, or double-click and type.");
+  placement_row("Scale, move");
+  placement_number("##scale", &p.scale, 0.01f, "%.4g times", 90);
+  tooltip("Every length of the file times this. Drag, or double-click and type.");
+  constexpr const char *kIds[] = {"##x", "##y", "##z"}, *kFormats[] = {"x %.4g", "y %.4g", "z %.4g"};
+  for (int i = 0; i < 3; ++i) {
+    ImGui::SameLine(0, i == 0 ? 14.0f : 2.0f);
+    placement_number(kIds[i], &p.move[i], 0.01f, kFormats[i], 100);
+    tooltip("Added to every position, after all else. Drag, or double-click and type.");
+  }
+}
+
 // Made once for each choice: it looks at all Gaussians.
 const FormatPlan& export_plan(UiContext& ui, std::size_t gaussians) {
   ExportChoice& choice = ui.state.exporting;
@@ -145,8 +197,9 @@ void pointer_help(UiContext& ui) {
       ui,
       "Middle drag turns with any tool, with Shift it shifts. Double-click sets the point to turn around "
       "(Navigate). The wheel zooms; right after a click, and with Shift at any time, it steps through larger "
-      "and smaller parts of what was clicked first. While other meanings of a click are shown, 1, 2 and 3 "
-      "choose; Esc keeps the one that is taken. Region tools: Shift adds, Ctrl removes, Alt intersects. "
+      "and smaller parts of what was clicked first; while a flight key is held, it changes the speed. While "
+      "other meanings of a click are shown, 1, 2 and 3 "
+      "choose; Esc keeps the one that is taken. Every tool: Shift adds, Ctrl removes, Alt intersects. "
       "Alt+wheel changes the brush.");
   ImGui::PopTextWrapPos();
 }
@@ -160,9 +213,10 @@ void export_dialog(UiContext& ui) {
     if (ui.state.exporting.path.empty()) propose_path(ui);
     ImGui::OpenPopup(id);
   }
-  centre_next_window({620, 356});
+  centre_next_window({620, 452});
   if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
   export_choices(ui);
+  placement_choices(ui);
   ExportChoice& choice = ui.state.exporting;
   const std::size_t gaussians = gaussians_to_export(ui.studio, choice.what);
   const FormatPlan& plan = export_plan(ui, gaussians);
@@ -172,23 +226,28 @@ void export_dialog(UiContext& ui) {
        fmt::format("{} Gaussians, {}{}", grouped(gaussians), plan.about ? "about " : "",
                    human_bytes(plan.bytes)));
   fact(icon::kCheck, p.good, "Kept: " + plan.kept);
+  if (choice.placement != ExportPlacement{})
+    fact(icon::kInfo, p.accent, "Moved: positions, sizes, rotations and spherical harmonics follow.");
   fact(plan.lost.empty() ? icon::kCheck : icon::kWarning, plan.lost.empty() ? p.good : p.warn,
        plan.lost.empty() ? "Nothing is lost." : "Lost: " + plan.lost);
+  if (!choice.trouble.empty()) fact(icon::kWarning, p.bad, choice.trouble);
   const bool exists = std::filesystem::exists(choice.path);
   if (exists) ImGui::Checkbox("Replace the file that is there", &choice.overwrite);
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
   const bool cancelled = ImGui::Button("Cancel", {110, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);
-  const std::string reason = choice.path.empty() ? "Type where it should go"
-                             : gaussians == 0    ? "It would hold no Gaussians"
+  const std::string reason = choice.path.empty()             ? "Type where it should go"
+                             : !(choice.placement.scale > 0) ? "The scale must be larger than 0"
+                             : gaussians == 0                ? "It would hold no Gaussians"
                              : exists && !choice.overwrite
                                  ? "The file exists: allow replacing it, or change the name"
                                  : "";
-  const bool done = button(ui, "Export", "Write it", reason, reason.empty(), 110);
-  if (done) ui.ask(Export{{choice.what, choice.format, choice.path, choice.overwrite}});
+  const bool pressed = button(ui, "Export", "Write the file  (Enter)", reason, reason.empty(), 110);
+  const bool done = pressed || (reason.empty() && enter_pressed());
+  if (done) ui.ask(Export{{choice.what, choice.format, choice.path, choice.overwrite, choice.placement}});
   if (done || cancelled) {
     ui.state.export_open = false;
-    if (done) choice.path.clear(), choice.overwrite = false;
+    choice.trouble.clear();
     ImGui::CloseCurrentPopup();
   }
   ImGui::EndPopup();
@@ -212,7 +271,7 @@ void help_page(UiContext& ui) {
   ImGui::EndChild();
   const bool closed = ImGui::IsKeyPressed(key::kEscape, false) ||
                       (ImGui::IsKeyPressed(key::kF1, false) && !ImGui::IsWindowAppearing());
-  if (ImGui::Button("Close", {110, 0}) || closed) {
+  if (ImGui::Button("Close", {110, 0}) || closed || enter_pressed()) {
     ui.state.help_open = false;
     ImGui::CloseCurrentPopup();
   }
@@ -235,9 +294,10 @@ void open_anyway_dialog(UiContext& ui) {
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
   const bool stays = ImGui::Button("Stay", {100, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
   ImGui::SameLine();
-  const bool saves = ImGui::Button("Save...", {100, 0});
+  const bool opens = ImGui::Button("Open", {100, 0});
   ImGui::SameLine(ImGui::GetWindowWidth() - 112);
-  const bool opens = button(ui, "Open", "Open it", {}, true, 100);
+  const bool saves = button(ui, "Save...", "Save the work first  (Enter)", {}, true, 100) ||
+                     (!opens && !stays && enter_pressed());
   if (opens) ui.state.open_now = ui.state.open_asked;
   if (stays || saves || opens) {
     ui.state.open_asked.reset();
@@ -253,14 +313,15 @@ void quit_dialog(UiContext& ui) {
   centre_next_window({430, 150});
   if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
   wrapped_muted(ui,
-                "The objects and strokes were not saved since they changed. They are also kept by themselves "
-                "and offered at the next start.");
+                "The objects and strokes were not saved since they changed. A copy is kept all the same and "
+                "offered at the next start.");
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
   const bool stays = ImGui::Button("Stay", {100, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
   ImGui::SameLine();
-  const bool saves = ImGui::Button("Save...", {100, 0});
+  if (ImGui::Button("Leave", {100, 0})) ui.state.quit_wanted = true;
   ImGui::SameLine(ImGui::GetWindowWidth() - 112);
-  if (button(ui, "Leave", "End the program", {}, true, 100)) ui.state.quit_wanted = true;
+  const bool saves = button(ui, "Save...", "Save the work first  (Enter)", {}, true, 100) ||
+                     (!stays && !ui.state.quit_wanted && enter_pressed());
   if (stays || saves || ui.state.quit_wanted) {
     ui.state.quit_asked = false;
     ImGui::CloseCurrentPopup();

@@ -1,6 +1,7 @@
 #include "app/ui/file_browser.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace splatcut {
 
@@ -11,6 +12,8 @@ void FileBrowser::enter(const std::filesystem::path& where) {
   if (trouble_code || folder.empty()) folder = where;
   typed_folder = folder.string();
   entries.clear();
+  cursor = -1;
+  typed_start.clear();
   trouble.clear();
   fs::directory_iterator all(folder, fs::directory_options::skip_permission_denied, trouble_code);
   if (trouble_code) {
@@ -30,6 +33,30 @@ void FileBrowser::enter(const std::filesystem::path& where) {
   std::ranges::sort(entries, [](const BrowserEntry& a, const BrowserEntry& b) {
     return a.folder != b.folder ? a.folder : a.name < b.name;
   });
+}
+
+void FileBrowser::go(int entry) {
+  if (entries.empty()) return;
+  cursor = std::clamp(entry, 0, static_cast<int>(entries.size()) - 1);
+  const BrowserEntry& at = entries[static_cast<std::size_t>(cursor)];
+  if (!at.folder)
+    name = at.name;
+  else if (!saving)
+    name.clear();
+}
+
+void FileBrowser::type(const std::string& letter, double now_s) {
+  constexpr double kNewWordSeconds = 1;
+  if (now_s - typed_s > kNewWordSeconds) typed_start.clear();
+  typed_s = now_s;
+  const auto small = [](std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
+  typed_start += small(letter);
+  const auto found = std::ranges::find_if(
+      entries, [&](const BrowserEntry& e) { return small(e.name).starts_with(typed_start); });
+  if (found != entries.end()) go(static_cast<int>(found - entries.begin()));
 }
 
 }  // namespace splatcut

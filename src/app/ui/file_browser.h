@@ -24,7 +24,16 @@ struct FileBrowser {
   std::vector<BrowserEntry> entries;  // of the folder, folders first
   std::string trouble;                // why the folder cannot be read
 
+  // What the keys have reached, of `entries`; -1: nothing.
+  int cursor = -1;
+  std::string typed_start;  // letters typed in quick succession
+  double typed_s = -1e9;    // when the last of them was
+
   void enter(const std::filesystem::path& where);  // reads it
+  void go(int entry);                              // the nearest there is; a file is chosen by it
+  // To the first entry that begins with the letters typed within a second, whatever their case. now_s: any
+  // clock.
+  void type(const std::string& letter, double now_s);
 };
 
 }  // namespace splatcut

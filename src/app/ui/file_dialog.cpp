@@ -5,6 +5,9 @@
 
 #include <imgui_stdlib.h>  // needs imgui.h first
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
@@ -32,7 +35,7 @@ Kind kind_of(FilePurpose purpose) {
     case FilePurpose::kSnapshot:
       return {"Save a picture of the view, with transparency", "Save", ".png", {".png"}};
     case FilePurpose::kTurntable:
-      return {"A folder of this name for the turntable pictures", "Choose", "", {"/"}};
+      return {"Where should the turntable go?", "Choose", "", {"/"}};
     case FilePurpose::kExport:
       return {"Where should it go?", "Choose", "", extensions_of(written_formats())};
   }
@@ -56,7 +59,7 @@ void use_choice(UiContext& ui, std::filesystem::path path) {
     case FilePurpose::kSnapshot:
       return ui.ask(SaveSnapshot{path, true});
     case FilePurpose::kTurntable:
-      ui.state.turntable.folder = path.string();
+      ui.state.turntable.path = path.string();
       ui.state.turntable_open = true;
       return;
     case FilePurpose::kExport:
@@ -71,19 +74,21 @@ void back_to_caller(UiContext& ui) {
   if (ui.state.file_purpose == FilePurpose::kTurntable) ui.state.turntable_open = true;
 }
 
-void entry_list(FileBrowser& files, float height, bool* chosen) {
+void entry_list(FileBrowser& files, float height, bool moved, bool double_clicked, bool* chosen) {
   ImGui::BeginChild("entries", {0, height}, true);
   std::optional<std::filesystem::path> enter;
-  for (const BrowserEntry& entry : files.entries) {
+  for (int i = 0; i < std::ssize(files.entries); ++i) {
+    const BrowserEntry& entry = files.entries[static_cast<std::size_t>(i)];
+    const bool reached = i == files.cursor;
     const std::string label = fmt::format("{}  {}", entry.folder ? icon::kFolder : icon::kFile, entry.name);
-    if (ImGui::Selectable(label.c_str(), entry.name == files.name, ImGuiSelectableFlags_AllowDoubleClick)) {
-      if (entry.folder) {
+    if (ImGui::Selectable(label.c_str(), reached || entry.name == files.name)) {
+      files.go(i);
+      if (entry.folder)
         enter = files.folder / entry.name;
-      } else {
-        files.name = entry.name;
-        *chosen |= ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
-      }
+      else
+        *chosen |= double_clicked;
     }
+    if (reached && moved) ImGui::SetScrollHereY();
     if (entry.folder) continue;
     const std::string size = human_bytes(entry.bytes);
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(size.c_str()).x);
@@ -93,6 +98,56 @@ void entry_list(FileBrowser& files, float height, bool* chosen) {
     ImGui::TextDisabled("%s", files.trouble.empty() ? "Nothing of this kind here" : files.trouble.c_str());
   ImGui::EndChild();
   if (enter) files.enter(*enter);
+}
+
+// Arrows, Page Up and Down, Home, End and the first letters of a name. True where they moved.
+bool keys_in_list(FileBrowser& files) {
+  constexpr int kPage = 12;
+  const int before = files.cursor;
+  const bool typing = ImGui::GetIO().WantTextInput;
+  const std::pair<int, int> steps[] = {
+      {key::kDown, 1}, {key::kUp, -1}, {key::kPageDown, kPage}, {key::kPageUp, -kPage}};
+  for (const auto& [code, step] : steps)
+    if (ImGui::IsKeyPressed(code)) files.go(std::max(0, files.cursor + step));
+  if (typing) return files.cursor != before;
+  if (ImGui::IsKeyPressed(key::kHome)) files.go(0);
+  if (ImGui::IsKeyPressed(key::kEnd)) files.go(static_cast<int>(files.entries.size()) - 1);
+  if (ImGui::IsKeyPressed(key::kBackspace, false)) files.enter(files.folder.parent_path());
+  for (const ImWchar letter : ImGui::GetIO().InputQueueCharacters)
+    if (letter > ' ' && letter < 127) files.type(std::string(1, static_cast<char>(letter)), ImGui::GetTime());
+  return files.cursor != before;
+}
+
+// Where people keep things, and where they were before.
+void places(UiContext& ui, float height) {
+  FileBrowser& files = ui.state.files;
+  ImGui::BeginChild("places", {150, height}, true);
+  std::vector<std::pair<std::string, std::filesystem::path>> all;
+  if (const char* home = std::getenv("HOME")) {
+    all.emplace_back("Home", home);
+    for (const char* name : {"Desktop", "Documents", "Downloads"})
+      all.emplace_back(name, std::filesystem::path(home) / name);
+  }
+  if (ui.studio.scene())
+    all.emplace_back("Scene", std::filesystem::absolute(ui.studio.scene()->scene->path).parent_path());
+  const std::size_t fixed = all.size();
+  for (const std::filesystem::path& recent : ui.state.recent) {
+    const std::filesystem::path folder = recent.parent_path();
+    const bool known = std::ranges::any_of(all, [&](const auto& p) { return p.second == folder; });
+    if (!known) all.emplace_back(folder.filename().string(), folder);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(all[i].second, ignored)) continue;
+    if (i == fixed) ImGui::Separator();
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::Selectable(fmt::format("{}  {}", icon::kFolder, all[i].first).c_str(),
+                          files.folder == all[i].second))
+      files.enter(all[i].second);
+    tooltip(all[i].second.string());
+    ImGui::PopID();
+  }
+  ImGui::EndChild();
 }
 
 }  // namespace
@@ -112,9 +167,9 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
   if (purpose == FilePurpose::kExport)
     files.name = std::filesystem::path(ui.state.exporting.path).filename().string();
   std::filesystem::path start = files.folder;
-  if (purpose == FilePurpose::kTurntable && !ui.state.turntable.folder.empty()) {
-    files.name = std::filesystem::path(ui.state.turntable.folder).filename().string();
-    start = std::filesystem::path(ui.state.turntable.folder).parent_path();
+  if (purpose == FilePurpose::kTurntable && !ui.state.turntable.path.empty()) {
+    files.name = std::filesystem::path(ui.state.turntable.path).filename().string();
+    start = std::filesystem::path(ui.state.turntable.path).parent_path();
   }
   if (start.empty())
     start = ui.studio.scene() ? std::filesystem::absolute(ui.studio.scene()->scene->path).parent_path()
@@ -145,7 +200,8 @@ void file_dialog(UiContext& ui) {
   if (files.open && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
   const ImVec2 middle = {ImGui::GetIO().DisplaySize.x / 2, ImGui::GetIO().DisplaySize.y / 2};
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({640, 480});
+  ImGui::SetNextWindowSize({std::min(760.0f, ImGui::GetIO().DisplaySize.x - 20),
+                            std::min(480.0f, ImGui::GetIO().DisplaySize.y - 20)});
   if (!ImGui::BeginPopupModal((files.title + id).c_str(), nullptr,
                               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
     return;
@@ -153,13 +209,23 @@ void file_dialog(UiContext& ui) {
   if (button(ui, icon::kUp, "The folder above")) files.enter(files.folder.parent_path());
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::InputText("##folder", &files.typed_folder, ImGuiInputTextFlags_EnterReturnsTrue))
-    files.enter(files.typed_folder);
-  entry_list(files, files.saving ? -80.0f : -44.0f, &chosen);
+  const bool goes = ImGui::InputText("##folder", &files.typed_folder, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (goes) files.enter(files.typed_folder);
+  const bool moved = keys_in_list(files);
+  const float height = files.saving ? -80.0f : -44.0f;
+  places(ui, height);
+  ImGui::SameLine();
+  entry_list(files, height, moved, ui.state.double_clicked, &chosen);
   if (files.saving) {
     ImGui::SetNextItemWidth(-1);
-    chosen |= ImGui::InputText("##name", &files.name, ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::InputText("##name", &files.name);
+    if (ImGui::IsItemEdited()) files.cursor = -1;
   }
+  const bool at_folder = files.cursor >= 0 && files.entries[static_cast<std::size_t>(files.cursor)].folder;
+  const bool enters = !goes && enter_pressed();
+  if (enters && at_folder)
+    files.enter(files.folder / files.entries[static_cast<std::size_t>(files.cursor)].name);
+  chosen |= enters && !at_folder;
   const Kind kind = kind_of(ui.state.file_purpose);
   const bool cancelled = ImGui::Button("Cancel", {110, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);

@@ -1,5 +1,7 @@
 #include "app/ui/interface.h"
 
+#include <imgui_internal.h>  // ClosePopupsExceptModals
+
 #include <algorithm>
 #include <cmath>
 
@@ -107,6 +109,10 @@ bool Interface::dialog_open() const {
   return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
+float Interface::covered_bottom(const Studio& studio) const {
+  return view_strip_width(studio) > 0 ? kStrip : 0;
+}
+
 bool Interface::picture_at(const glm::vec2& point, const Studio& studio) const {
   if (!studio.scene() || dialog_open() || !viewport().contains(point)) return false;
   return std::ranges::none_of(covered_, [&](const UiRect& r) { return r.contains(point); });
@@ -120,6 +126,7 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   io.DeltaTime = static_cast<float>(std::max(1e-4, seconds));
   io.ConfigInputTextCursorBlink = !state_.steady;
   ImGui::NewFrame();
+  if (ImGui::IsKeyPressed(key::kEscape, false)) ImGui::ClosePopupsExceptModals();  // menus, lists, pickers
   ImGui::PushFont(theme_.body);
   UiContext ui{studio, state_, *ask, theme_, *renderer};
   const Palette& p = theme_.colour;
@@ -187,6 +194,13 @@ void Interface::show(UiRequest request, const Studio& studio, UiRenderer* render
       return open_file_dialog(ui, FilePurpose::kSnapshot);
     case UiRequest::kExportDialog:
       state_.exporting.path.clear();
+      state_.exporting.trouble.clear();
+      state_.exporting.overwrite = false;
+      state_.exporting.placement = {};
+      state_.export_open = true;
+      return;
+    case UiRequest::kExportFailed:
+      state_.exporting.trouble = studio.messages().empty() ? "" : studio.messages().back().text;
       state_.export_open = true;
       return;
     case UiRequest::kHelp:

@@ -27,6 +27,7 @@ class Interface {
   // True where a press at this point is meant for the picture.
   bool picture_at(const glm::vec2& point, const Studio& studio) const;
   bool dialog_open() const;
+  float covered_bottom(const Studio& studio) const;  // of the picture, by thumbnails; points
 
   // Builds the frame; its draw data is ImGui's until the next call.
   void build(const Studio& studio, double seconds, UiRenderer* renderer, ImTextureID gpu_picture[2],

@@ -7,21 +7,14 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <sstream>
+
+#include "app/studio/capture.h"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX asks for it
 
 namespace splatcut {
 
 namespace {
-
-bool on_path(const std::string& program) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (::access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return true;
-  return false;
-}
 
 std::string patterns(const FileQuestion& question) {
   std::string out;

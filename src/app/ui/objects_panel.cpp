@@ -111,7 +111,7 @@ void object_row(UiContext& ui, const ObjectItem& object) {
     ImGui::AlignTextToFramePadding();
     if (ImGui::Selectable(label.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick, {name_width, 0})) {
       if (!active) ui.ask(ActivateObject{object.id});
-      if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+      if (ui.state.double_clicked) {
         ui.state.renaming = object.id;
         ui.state.new_name = object.name;
       }
@@ -151,7 +151,9 @@ void objects_panel(UiContext& ui) {
   for (const ObjectItem& object : objects) object_row(ui, object);
   action_button(ui, Action::kNewObject, fmt::format("{} New object", icon::kPlus).c_str(), false, -1);
   if (const ObjectItem* active = ui.studio.document().active_object())
-    wrapped_muted(ui, fmt::format("Clicks and strokes go to {}.", active->name));
+    wrapped_muted(ui, ui.studio.gaussians_of(active->id) == 0 && active->views.empty()
+                          ? fmt::format("{} is empty: click it in the picture.", active->name)
+                          : fmt::format("Clicks and strokes go to {}.", active->name));
 }
 
 }  // namespace splatcut

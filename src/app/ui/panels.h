@@ -31,6 +31,12 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
                                   ImTextureID gpu_picture[2]);
 void start_page(UiContext& ui, const UiRect& area);
 
+// Over the picture, whose pixels are pixels_per_point to a point.
+void draw_points(const UiContext& ui, const UiRect& area);       // of the ground, of what is measured
+void draw_centres(const UiContext& ui, const UiRect& area);      // of the Gaussians that are shown
+void draw_cursor_sign(const UiContext& ui, const UiRect& area);  // what a press would do to the selection
+UiRect axes_gizmo(UiContext& ui, const UiRect& area);            // which takes clicks: look along an axis
+
 void help_page(UiContext& ui);
 void export_dialog(UiContext& ui);
 void turntable_dialog(UiContext& ui);

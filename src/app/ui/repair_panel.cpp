@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
@@ -73,17 +74,30 @@ void draw_histogram(UiContext& ui) {
   ImGui::Dummy({width, height});
 }
 
+// As ImGui's formats want it.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '%' ? "%%" : std::string(1, c);
+  return out;
+}
+
 void property_range(UiContext& ui) {
   PropertyChoice& choice = ui.state.property;
   refresh_histogram(ui);
   draw_histogram(ui);
-  const char* format = choice.property == 1 ? "10^%.2f" : "%.3f";
+  // Sizes are kept as powers of ten, and shown as lengths.
+  const auto text = [&](float value) {
+    return choice.property == 0 ? fmt::format("{:.0f} %", 100 * value)
+                                : length_text(choice.property == 1 ? std::pow(10.0f, value) : value);
+  };
+  const std::string low = text(choice.low), high = text(choice.high);
   ImGui::SetNextItemWidth(-1);
   ImGui::DragFloatRange2("##range", &choice.low, &choice.high,
                          std::max(1e-4f, (choice.high - choice.low) / 200), choice.histogram.low,
-                         choice.histogram.high, format, format);
-  tooltip(choice.property == 1 ? "Size: the largest standard deviation, in scene units. Drag to change."
-                               : "Drag to change.");
+                         choice.histogram.high, escaped(low).c_str(), escaped(high).c_str());
+  tooltip(choice.property == 1   ? "Size: the largest standard deviation, in scene units. Drag to change."
+          : choice.property == 2 ? "Distance from the camera, in scene units. Drag to change."
+                                 : "Drag to change.");
 }
 
 void property_selection(UiContext& ui) {
@@ -105,7 +119,8 @@ void property_selection(UiContext& ui) {
     ImGui::SetNextItemWidth(-1);
     ImGui::ColorEdit3("##colour", &choice.colour.x, ImGuiColorEditFlags_DisplayRGB);
     ImGui::SetNextItemWidth(-1);
-    ImGui::SliderFloat("##tolerance", &choice.tolerance, 0.01f, 0.5f, "within %.2f");
+    const std::string within = fmt::format("within {:.0f} %%", 100 * choice.tolerance);
+    ImGui::SliderFloat("##tolerance", &choice.tolerance, 0.01f, 0.5f, within.c_str());
   } else {
     property_range(ui);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
 
+#include "app/studio/document_edits.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
@@ -41,6 +42,20 @@ void axes_row(UiContext& ui) {
     ui.ask(OpenScene{scene->path, other});
 }
 
+void backdrop_buttons(UiContext& ui) {
+  ImGui::Dummy({0, 0});
+  for (std::size_t i = 0; i < backdrops().size(); ++i) {
+    const Backdrop& backdrop = backdrops()[i];
+    ImGui::SameLine(0, i == 0 ? -1.0f : 2.0f);
+    if (i == 0) ImGui::SetCursorPosX(14);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6, 4});
+    if (button(ui, backdrop.name, tip_of(Action::kBackdrop), {},
+               shows(backdrop, ui.studio.document(), ui.studio.view())))
+      ui.ask(SetBackdrop{i});
+    ImGui::PopStyleVar();
+  }
+}
+
 void slider_row(const char* label, const char* tip, const std::function<void()>& slider) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
@@ -58,24 +73,33 @@ void scene_panel(UiContext& ui) {
   ViewState view = s.view();
   slider_row("Background", "Behind the scene; pictures with transparency leave it out", [&] {
     glm::vec3 background = s.document().background;
-    if (ImGui::ColorEdit3("##background", &background.x)) ui.ask(SetBackground{background});
+    if (!ImGui::ColorEdit3("##background", &background.x)) return;
+    view.checker = false;
+    ui.ask(SetView{view});
+    ui.ask(SetBackground{background});
   });
-  slider_row("View angle", "Vertical field of view", [&] {
+  backdrop_buttons(ui);
+  slider_row("View angle", "Vertical field of view: type it, 5 to 140 degrees", [&] {
     float degrees = glm::degrees(s.camera().pose().fov_y_rad);
-    if (ImGui::SliderFloat("##fov", &degrees, 10, 110, "%.0f deg"))
+    if (ImGui::InputFloat("##fov", &degrees, 1, 10, "%.1f deg", ImGuiInputTextFlags_EnterReturnsTrue))
       ui.ask(SetFieldOfView{glm::radians(degrees)});
   });
-  slider_row("Near limit", "What is nearer than this is not drawn, in shares of the scene's size", [&] {
-    if (ImGui::SliderFloat("##near", &view.near_share, 0.0005f, 0.2f, "%.4f", ImGuiSliderFlags_Logarithmic))
+  slider_row("Near limit", "What is nearer than this is not drawn, in scene units", [&] {
+    const std::string units = s.scene() ? length_text(s.draw_limits().near_plane) : "-";
+    if (ImGui::SliderFloat("##near", &view.near_share, 0.0005f, 0.2f, units.c_str(),
+                           ImGuiSliderFlags_Logarithmic))
       ui.ask(SetView{view});
   });
   slider_row("Far limit",
-             "What is farther than this is not drawn, in shares of the scene's size; 0 is no limit", [&] {
-               if (ImGui::SliderFloat("##far", &view.far_share, 0, 3, view.far_share > 0 ? "%.2f" : "none"))
-                 ui.ask(SetView{view});
+             "What is farther than this is not drawn, in scene units; at the left end there is no limit",
+             [&] {
+               const std::string units = view.far_share > 0 ? length_text(s.draw_limits().far_plane) : "none";
+               if (ImGui::SliderFloat("##far", &view.far_share, 0, 3, units.c_str())) ui.ask(SetView{view});
              });
   if (ImGui::Checkbox("As in web viewers", &view.web_low_pass)) ui.ask(SetView{view});
   tooltip("Thin splats are drawn half as wide as in training; the cut does not change");
+  if (ImGui::Checkbox("Centres of the Gaussians", &view.centres)) ui.ask(SetView{view});
+  tooltip(tip_of(Action::kCentres));
   axes_row(ui);
   up_buttons(ui);
   const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
@@ -87,8 +111,8 @@ void scene_panel(UiContext& ui) {
   action_button(ui, Action::kNextCamera, "Next camera", false, half);
   const ObjectItem* active = s.document().active_object();
   const bool selected = active && s.gaussians_of(active->id) > 0;
-  if (button(ui, fmt::format("{} Turntable pictures", icon::kFilm).c_str(),
-             "Frames of the object turning once, as transparent PNGs",
+  if (button(ui, fmt::format("{} Turntable", icon::kFilm).c_str(),
+             "The object turning once: pictures, animated WebP, video",
              selected ? "" : "There is no object to turn", false, -1))
     ui.state.turntable_open = true;
 }

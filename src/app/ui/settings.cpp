@@ -22,7 +22,7 @@ Settings load_settings(const std::filesystem::path& file) {
     s.dark = json.value("dark", s.dark);
     s.hint_wanted = json.value("hint", s.hint_wanted);
     s.ui_scale = std::clamp(json.value("ui_scale", s.ui_scale), 0.5f, 4.0f);
-    s.view.brush_px = std::clamp(json.value("brush_px", s.view.brush_px), 1.0f, 400.0f);
+    s.view.brush_px = std::clamp(json.value("brush_px", s.view.brush_px), kLeastBrushPx, kMostBrushPx);
     s.view.tint = json.value("tint", s.view.tint);
     s.view.outline = json.value("outline", s.view.outline);
     s.view.web_low_pass = json.value("web_low_pass", s.view.web_low_pass);

@@ -21,11 +21,17 @@ std::string right_text(const UiContext& ui) {
   const Studio& studio = ui.studio;
   std::string text = ui.state.renderer_line;
   if (!studio.scene()) return text;
-  if (!ui.state.steady && studio.still_ms() > 0)
-    text += fmt::format(",  still {}", ms_text(studio.still_ms()));
-  if (!ui.state.steady && studio.moving_ms() > 0)
-    text += fmt::format(", moving {} at {:.0f} %", ms_text(studio.moving_ms()), 100 * studio.moving_scale());
   return fmt::format("{} Gaussians    {}", grouped(studio.scene()->cloud->size()), text);
+}
+
+// For those who wonder why it is slow.
+std::string picture_times(const Studio& studio) {
+  std::string text;
+  if (studio.still_ms() > 0) text = fmt::format("A still picture takes {}", ms_text(studio.still_ms()));
+  if (studio.moving_ms() > 0)
+    text += fmt::format("\nA moving one {} at {:.0f} % of the pixels' sides", ms_text(studio.moving_ms()),
+                        100 * studio.moving_scale());
+  return text;
 }
 
 }  // namespace
@@ -55,6 +61,7 @@ void status_bar(UiContext& ui) {
   const std::string right = right_text(ui);
   ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(right.c_str()).x - 12);
   muted_text(ui, right);
+  tooltip(picture_times(ui.studio));
 }
 
 }  // namespace splatcut

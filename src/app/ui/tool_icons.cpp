@@ -91,6 +91,29 @@ void sphere_icon(const Pen& pen) {
   pen.list.PathStroke(pen.colour, 0, pen.line);
 }
 
+void volume_icon(const Pen& pen) {
+  pen.stroke({{0, -0.95f}, {0.85f, -0.5f}, {0.85f, 0.5f}, {0, 0.95f}, {-0.85f, 0.5f}, {-0.85f, -0.5f}}, true);
+  pen.stroke({{-0.85f, -0.5f}, {0, 0}, {0.85f, -0.5f}});
+  pen.stroke({{0, 0}, {0, 0.95f}});
+}
+
+void dropper_icon(const Pen& pen) {
+  pen.stroke({{0.35f, -0.9f}, {0.9f, -0.35f}, {0.55f, 0}, {0, -0.55f}}, true);
+  pen.stroke({{0.15f, -0.35f}, {-0.75f, 0.5f}, {-0.9f, 0.9f}, {-0.5f, 0.75f}, {0.35f, -0.15f}});
+}
+
+void flood_icon(const Pen& pen) {
+  pen.stroke({{-0.15f, -0.8f}, {0.65f, 0}, {-0.15f, 0.8f}, {-0.95f, 0}}, true);
+  pen.stroke({{-0.95f, 0}, {0.65f, 0}});
+  pen.dot(0.82f, 0.6f, 0.2f);
+}
+
+void measure_icon(const Pen& pen) {
+  pen.stroke({{-0.95f, 0.45f}, {0.45f, -0.95f}, {0.95f, -0.45f}, {-0.45f, 0.95f}}, true);
+  for (const float t : {-0.45f, 0.0f, 0.45f})
+    pen.stroke({{-0.25f + t, -0.25f - t}, {-0.02f + t, -0.02f - t}});
+}
+
 void ground_icon(const Pen& pen) {
   pen.stroke({{-1, 0.55f}, {-0.3f, 0.15f}, {1, 0.35f}, {0.3f, 0.85f}}, true);
   pen.stroke({{0, 0.5f}, {0, -0.9f}});
@@ -121,8 +144,16 @@ void draw_tool_icon(ImDrawList& list, Tool tool, const ImVec2& centre, float rad
       return polygon_icon(pen);
     case Tool::kSphere:
       return sphere_icon(pen);
+    case Tool::kVolume:
+      return volume_icon(pen);
+    case Tool::kColour:
+      return dropper_icon(pen);
+    case Tool::kFlood:
+      return flood_icon(pen);
     case Tool::kGround:
       return ground_icon(pen);
+    case Tool::kMeasure:
+      return measure_icon(pen);
   }
 }
 

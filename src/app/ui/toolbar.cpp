@@ -1,6 +1,9 @@
 // The bar along the top and the column of tools.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
@@ -11,7 +14,8 @@ namespace {
 constexpr Action kToolActions[kTools] = {Action::kToolNavigate,  Action::kToolClick,   Action::kToolScribble,
                                          Action::kToolBox,       Action::kToolBrush,   Action::kToolLasso,
                                          Action::kToolRectangle, Action::kToolPolygon, Action::kToolSphere,
-                                         Action::kToolGround};
+                                         Action::kToolVolume,    Action::kToolColour,  Action::kToolFlood,
+                                         Action::kToolGround,    Action::kToolMeasure};
 constexpr const char* kToolHints[kTools] = {
     "Left drag turns, right drag shifts, the wheel zooms. Double-click sets the point to turn around.",
     "Left click: this is the object. Right click (or Ctrl): this is not. Dragging turns the view.",
@@ -21,8 +25,12 @@ constexpr const char* kToolHints[kTools] = {
     "Draw around Gaussians to select them by hand.",
     "Drag a rectangle around Gaussians to select them by hand.",
     "Click corners; Enter, a double-click or a click on the first corner closes the shape.",
-    "Drag from a point on a surface: everything in the sphere is selected.",
-    "Click three points of the ground: that is where down is."};
+    "Drag from a point on a surface: everything in the sphere is selected. Its handles change it afterwards.",
+    "Drag from a point on a surface: everything in the box is selected. Its handles change it afterwards.",
+    "Click a colour in the picture: every Gaussian that has it is selected.",
+    "Click a spot: what hangs together with it and has its colour is selected.",
+    "Click three points of the ground: that is where down is.",
+    "Click two points: how far they are apart."};
 
 constexpr float kDisplayWidth = 400;  // of the buttons at the right end
 
@@ -41,13 +49,29 @@ void brush_size(UiContext& ui, bool half) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(110);
   float shown = half ? view.brush_px * 0.5f : view.brush_px;
-  if (ImGui::SliderFloat("##brush", &shown, half ? 0.5f : 1.0f, half ? 60.0f : 120.0f, "%.0f pt",
-                         ImGuiSliderFlags_Logarithmic)) {
+  if (ImGui::SliderFloat("##brush", &shown, half ? 0.5f : 1.0f, half ? 0.5f * kMostBrushPx : kMostBrushPx,
+                         "%.0f pt", ImGuiSliderFlags_Logarithmic)) {
     view.brush_px = half ? 2 * shown : shown;
     set_view(ui, view);
   }
   tooltip(fmt::format("Brush radius  ({}, {}, Alt+wheel)", keys_of(Action::kBrushSmaller),
                       keys_of(Action::kBrushLarger)));
+}
+
+// Where there is room for it beside the display buttons.
+void hint(UiContext& ui, const char* text) {
+  ImGui::AlignTextToFramePadding();
+  if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x <= ImGui::GetWindowWidth() - kDisplayWidth)
+    muted_text(ui, text);
+}
+
+void tolerance(UiContext& ui) {
+  ViewState view = ui.studio.view();
+  ImGui::SetNextItemWidth(150);
+  const std::string text = fmt::format("within {:.0f} %%", 100 * view.colour_tolerance);
+  if (ImGui::SliderFloat("##tolerance", &view.colour_tolerance, 0.01f, 0.5f, text.c_str()))
+    set_view(ui, view);
+  tooltip("How far a colour may differ, in any of red, green and blue");
 }
 
 void region_options(UiContext& ui) {
@@ -66,26 +90,27 @@ void region_options(UiContext& ui) {
       set_view(ui, view);
     }
   }
-  if (view.tool == Tool::kSphere) return;
+  if (view.tool == Tool::kSphere || view.tool == Tool::kVolume) {
+    gap();
+    return hint(ui, "drag from a surface, then its handles");
+  }
   gap();
-  if (button(ui, view.see_through ? "See-through" : "Visible only",
-             "Visible only takes the surface you see; see-through takes what is hidden behind it, too  (V)",
-             {}, view.see_through))
-    ui.ask(Action::kSeeThrough);
+  if (view.tool == Tool::kColour || view.tool == Tool::kFlood) return tolerance(ui);
+  const bool visible =
+      button(ui, "Visible only", "Takes the surface that you see  (V)", {}, !view.see_through);
+  ImGui::SameLine(0, 2);
+  const bool through =
+      button(ui, "See-through", "Takes what is hidden behind the surface, too  (V)", {}, view.see_through);
+  if ((visible && view.see_through) || (through && !view.see_through)) ui.ask(Action::kSeeThrough);
   if (!view.see_through) return;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(130);
-  if (ImGui::SliderFloat("##depth", &view.depth_limit, 0, 0.5f,
-                         view.depth_limit > 0 ? "depth %.3f" : "no depth limit"))
-    set_view(ui, view);
-  tooltip("How far behind the visible surface it reaches, in scene sizes; 0 is no limit");
-}
-
-// Where there is room for it beside the display buttons.
-void hint(UiContext& ui, const char* text) {
-  ImGui::AlignTextToFramePadding();
-  if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x <= ImGui::GetWindowWidth() - kDisplayWidth)
-    muted_text(ui, text);
+  const std::string depth =
+      view.depth_limit > 0
+          ? fmt::format("{} units deep", length_text(view.depth_limit * ui.studio.camera().scene_size()))
+          : "no depth limit";
+  if (ImGui::SliderFloat("##depth", &view.depth_limit, 0, 0.5f, depth.c_str())) set_view(ui, view);
+  tooltip("How far behind the visible surface it reaches, in scene units; at the left end there is no limit");
 }
 
 void tool_options(UiContext& ui) {
@@ -99,11 +124,15 @@ void tool_options(UiContext& ui) {
     gap();
     hint(ui, "left: object   right: rest");
   } else if (view.tool == Tool::kClick) {
-    hint(ui, "left click: object   right click: rest   drag: turn");
+    hint(ui, "left click: object   right click: rest   Alt: intersect   drag: turn");
   } else if (view.tool == Tool::kBox) {
     hint(ui, "drag a box around the object");
   } else if (view.tool == Tool::kGround) {
-    hint(ui, "click three points of the ground");
+    hint(ui, fmt::format("click three points of the ground: {} of 3   right click: begin again",
+                         ui.studio.tools().points_set())
+                 .c_str());
+  } else if (view.tool == Tool::kMeasure) {
+    hint(ui, "click two points   right click: begin again");
   }
 }
 
@@ -157,7 +186,11 @@ void top_bar(UiContext& ui) {
 }
 
 void tool_column(UiContext& ui) {
-  constexpr float kSide = 38;
+  // Small windows have small buttons, but every tool.
+  constexpr float kLargest = 38, kSmallest = 22, kGap = 3;
+  const float separators = 3 * (3 + 3 * ImGui::GetStyle().ItemSpacing.y);
+  const float room = (ImGui::GetContentRegionAvail().y - separators) / kTools - kGap;
+  const float side = std::floor(std::clamp(room, kSmallest, kLargest));
   for (int i = 0; i < kTools; ++i) {
     const auto tool = static_cast<Tool>(i);
     if (tool == Tool::kBrush || tool == Tool::kGround || tool == Tool::kClick) {
@@ -166,6 +199,7 @@ void tool_column(UiContext& ui) {
       ImGui::Dummy({0, 1});
     }
     const bool on = ui.studio.view().tool == tool;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 0.5f * (kLargest - side));
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::PushID(i);
     if (!on) ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
@@ -175,7 +209,7 @@ void tool_column(UiContext& ui) {
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0);
     ImGui::BeginDisabled(!reason.empty());
     if (on) ImGui::PushStyleColor(ImGuiCol_Button, ui.theme.colour.accent);
-    const bool pressed = ImGui::Button("##tool", {kSide, kSide});
+    const bool pressed = ImGui::Button("##tool", {side, side});
     ImGui::PopStyleColor();
     ImGui::EndDisabled();
     ImGui::PopStyleVar(2);
@@ -183,8 +217,8 @@ void tool_column(UiContext& ui) {
     if (pressed) ui.ask(kToolActions[i]);
     tooltip(reason.empty() ? tip : tip + "\n" + reason);
     const ImVec4 ink = on ? ui.theme.colour.on_accent : ui.theme.colour.text;
-    draw_tool_icon(*ImGui::GetWindowDrawList(), tool, {corner.x + kSide / 2, corner.y + kSide / 2}, 10.5f,
-                   packed(ink, reason.empty() ? 1.0f : 0.4f));
+    draw_tool_icon(*ImGui::GetWindowDrawList(), tool, {corner.x + side / 2, corner.y + side / 2},
+                   std::min(10.5f, 0.3f * side), packed(ink, reason.empty() ? 1.0f : 0.4f));
   }
 }
 

@@ -15,16 +15,20 @@ namespace splatcut {
 namespace {
 
 constexpr float kLabels = 90;
+constexpr std::array<const char*, 3> kEndings = {"", ".webp", ".mp4"};
 
 void propose(UiContext& ui) {
   TurntableChoice& choice = ui.state.turntable;
   const Camera view = ui.studio.viewport_camera();
   if (choice.width_px <= 0) choice.width_px = view.width_px;
   if (choice.height_px <= 0) choice.height_px = view.height_px;
-  if (!choice.folder.empty()) return;
+  if (!choice.path.empty()) return;
   const std::filesystem::path scene = std::filesystem::absolute(ui.studio.scene()->scene->path);
   const std::string name = scene.filename().string();
-  choice.folder = (scene.parent_path() / (name.substr(0, name.find('.')) + "_turntable")).string();
+  const std::string ending = kEndings[static_cast<std::size_t>(choice.as)];
+  choice.path =
+      free_path(scene.parent_path() / (name.substr(0, name.find('.')) + "_turntable" + ending), ending)
+          .string();
 }
 
 void label(const char* text) {
@@ -70,6 +74,44 @@ void size_row(UiContext& ui, TurntableChoice& choice) {
   }
 }
 
+void as_row(UiContext& ui, TurntableChoice& choice) {
+  label("As");
+  const bool ffmpeg = on_path("ffmpeg");
+  struct As {
+    TurntableAs as;
+    const char *name, *tip, *reason;
+  };
+  for (const As& a : std::array{
+           As{TurntableAs::kPictures, "Pictures", "A folder of transparent PNGs", ""},
+           As{TurntableAs::kWebp, "Animated WebP", "One transparent file, for web pages and chats", ""},
+           As{TurntableAs::kVideo, "Video", "A .mp4 over the background, made by ffmpeg",
+              ffmpeg ? "" : "ffmpeg is not installed"}}) {
+    if (a.as != TurntableAs::kPictures) ImGui::SameLine(0, 2);
+    if (!button(ui, a.name, a.tip, a.reason, choice.as == a.as) || choice.as == a.as) continue;
+    const std::string before = kEndings[static_cast<std::size_t>(choice.as)];
+    if (choice.path.ends_with(before)) choice.path.resize(choice.path.size() - before.size());
+    choice.as = a.as;
+    choice.path += kEndings[static_cast<std::size_t>(a.as)];
+  }
+  if (choice.as == TurntableAs::kPictures) return;
+  ImGui::SameLine(0, 14);
+  ImGui::SetNextItemWidth(90);
+  ImGui::InputFloat("##seconds", &choice.turn_s, 0, 0, "%.1f s");
+  choice.turn_s = std::clamp(choice.turn_s, 0.1f, 600.0f);
+  tooltip("How long one turn takes");
+}
+
+std::string what_is_written(const TurntableChoice& choice) {
+  const std::string camera = " The camera goes round once at the height from which you look. ";
+  if (choice.as == TurntableAs::kPictures)
+    return fmt::format("frame_0000.png to frame_{:04}.png, the object alone, transparent around it.",
+                       choice.frames - 1) +
+           camera + "Pictures of the same names there are replaced.";
+  return (choice.as == TurntableAs::kWebp ? "The object alone, transparent around it, again and again."
+                                          : "The object alone over the background.") +
+         camera + "A file of that name is replaced.";
+}
+
 }  // namespace
 
 void turntable_dialog(UiContext& ui) {
@@ -82,26 +124,27 @@ void turntable_dialog(UiContext& ui) {
   }
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({560, 236});
+  ImGui::SetNextWindowSize({560, 268});
   if (!ImGui::BeginPopupModal(id, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return;
+  as_row(ui, choice);
   frames_row(ui, choice);
   size_row(ui, choice);
-  label("Folder");
+  label(choice.as == TurntableAs::kPictures ? "Folder" : "File");
   ImGui::SetNextItemWidth(-44);
-  ImGui::InputText("##folder", &choice.folder);
+  ImGui::InputText("##folder", &choice.path);
   ImGui::SameLine(0, 4);
   const bool browse = button(ui, icon::kFolder, "Choose a folder and name");
-  wrapped_muted(
-      ui, fmt::format(
-              "frame_0000.png to frame_{:04}.png, the object alone on nothing. The camera goes round once "
-              "at the height from which you look. Pictures of the same names there are replaced.",
-              choice.frames - 1));
+  wrapped_muted(ui, what_is_written(choice));
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
   const bool cancelled = ImGui::Button("Cancel", {110, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);
-  const std::string reason = choice.folder.empty() ? "Type where they should go" : "";
-  const bool done = button(ui, "Save", "Draw and write them", reason, reason.empty(), 110);
-  if (done) ui.ask(SaveTurntable{choice.folder, choice.frames, choice.width_px, choice.height_px});
+  const std::string reason = choice.path.empty() ? "Type where they should go" : "";
+  const bool pressed =
+      button(ui, "Save", "Draw and write the pictures  (Enter)", reason, reason.empty(), 110);
+  const bool done = pressed || (reason.empty() && !cancelled && !browse && enter_pressed());
+  if (done)
+    ui.ask(SaveTurntable{choice.path, choice.frames, choice.width_px, choice.height_px, choice.as,
+                         choice.turn_s});
   if (done || cancelled || browse) {
     ui.state.turntable_open = false;
     ImGui::CloseCurrentPopup();

@@ -30,14 +30,18 @@ struct ExportChoice {
   SceneFormat format = SceneFormat::kPly;
   std::string path;
   bool overwrite = false;
+  ExportPlacement placement;
   FormatPlan plan;
   std::string plan_key;  // what it was made for
+  std::string trouble;   // why the last try failed
 };
 
 // Choices in the turntable dialog.
 struct TurntableChoice {
   int frames = 72, width_px = 0, height_px = 0;  // 0: as large as the view
-  std::string folder;
+  std::string path;
+  TurntableAs as = TurntableAs::kPictures;
+  float turn_s = 3;
 };
 
 // By-property selection of the repair panel.
@@ -60,7 +64,8 @@ struct UiState {
   std::optional<OpenScene> open_asked, open_now;  // asked: would end work that was not saved
   std::optional<bool> history_wanted;             // opens or closes the history section
   bool hint_wanted = true;                        // the first-run hint, until the first click
-  bool steady = false;  // for pictures that must repeat: no times, no version, no blinking
+  bool double_clicked = false;  // the last press was the second of two, by the events' own times
+  bool steady = false;          // for pictures that must repeat: no times, no version, no blinking
   std::vector<std::filesystem::path> recent;
   std::filesystem::path sample;  // offered on the start page where it exists
   FileBrowser files;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <variant>
 
 #include "app/studio/actions.h"
@@ -19,6 +20,7 @@ struct PointerButtonChanged {
   PointerButton button = PointerButton::kLeft;
   bool down = false;
   Modifiers modifiers;
+  std::optional<double> time_s = {};  // when the hand did it, any clock; none: at this frame
 };
 struct WheelTurned {
   float steps = 0;

@@ -87,6 +87,15 @@ bool strokes_wanted(const ViewState& view) {
   return is_stroke_tool(view.tool) || (view.display == DisplayMode::kWhole && !view.heat);
 }
 
+constexpr float kThinPx = 2;
+
+// As box_strokes() makes them: rest, closed, four corners.
+bool is_frame(const Stroke& stroke) {
+  const std::vector<glm::vec2>& p = stroke.points_px;
+  return stroke.label == SeedLabel::kRest && p.size() == 5 && p[0] == p[4] && p[0].y == p[1].y &&
+         p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x;
+}
+
 // Strokes are kept per view: they show where the camera stands as it did when they were drawn.
 void draw_strokes(const UiContext& ui, ImDrawList& list, const Placement& place) {
   const ObjectItem* object = ui.studio.document().active_object();
@@ -102,6 +111,11 @@ void draw_strokes(const UiContext& ui, ImDrawList& list, const Placement& place)
         continue;
       }
       const ImU32 ink = is_object ? kObjectInk : kRestInk;
+      if (is_frame(stroke)) {  // of a box: its border says it all
+        if (stroke.radius_px <= kThinPx)
+          list.AddRect(there(stroke.points_px[0]), there(stroke.points_px[2]), ink, 0, 0, 2);
+        continue;
+      }
       smooth_path(list, placed(stroke.points_px, there), (ink & 0x00ffffffu) | 0x90000000u,
                   std::max(2.0f, 2 * stroke.radius_px * there.points_per_pixel));
     }
@@ -186,12 +200,15 @@ void draw_tool_shape(const UiContext& ui, ImDrawList& list, const Placement& pla
         if (ui.studio.view().tool == Tool::kPolygon) list.AddCircleFilled(p, 3.5f, ink);
       break;
     case ToolOverlay::Shape::kCircle:
-      list.AddCircleFilled(points[0], points.size() > 1 ? radius : 3.0f, wash);
-      list.AddCircle(points[0], points.size() > 1 ? radius : 3.0f, ink, 0, 1.8f);
+      if (radius > 0) list.AddCircleFilled(points[0], radius, wash);
+      if (radius > 0) list.AddCircle(points[0], radius, ink, 0, 1.8f);
+      for (const auto& [from, to] : overlay.edges_px) list.AddLine(place(from), place(to), ink, 1.8f);
+      for (const glm::vec2& handle : overlay.handles_px) {
+        list.AddCircleFilled(place(handle), 5, IM_COL32(255, 255, 255, 235));
+        list.AddCircle(place(handle), 5, ink, 0, 2);
+      }
       break;
     case ToolOverlay::Shape::kPoints:
-      for (const ImVec2& p : points) list.AddCircleFilled(p, 4, ink);
-      break;
     case ToolOverlay::Shape::kNone:
       break;
   }
@@ -286,6 +303,23 @@ std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
   return UiRect{{at.x, at.y}, {at.x + size.x, at.y + size.y}};
 }
 
+// Where a click from afar found nothing.
+std::optional<UiRect> nearer_line(UiContext& ui, const ImVec2& at) {
+  if (!ui.studio.found_nothing()) return {};
+  constexpr float kPad = 8, kButton = 26;
+  const char* text = "Nothing stands out where you clicked.";
+  const ImVec2 words = ImGui::CalcTextSize(text), label = ImGui::CalcTextSize("Come nearer");
+  const ImVec2 end = {at.x + words.x + label.x + 5 * kPad + 16, at.y + kButton + 2 * kPad};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, end, packed(ui.theme.colour.panel, 0.94f), 7);
+  list.AddRect(at, end, packed(ui.theme.colour.line), 7);
+  list.AddText({at.x + kPad, at.y + 0.5f * (end.y - at.y - words.y)}, packed(ui.theme.colour.text), text);
+  ImGui::SetCursorScreenPos({at.x + words.x + 2 * kPad, at.y + kPad});
+  if (button(ui, "Come nearer", "Goes to where you clicked: click again from there", {}, true))
+    ui.ask(ComeNearer{});
+  return UiRect{{at.x, at.y}, {end.x, end.y}};
+}
+
 // At the picture's lower edge, where a scene has its floor and no object; a small window has more room at the
 // upper one.
 std::optional<UiRect> hint(UiContext& ui, const UiRect& area, float bottom) {
@@ -352,8 +386,11 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   draw_strokes(ui, list, place);
   ImGui::PopClipRect();
   ImGui::PushClipRect(vec(area.min), vec(area.max), true);
+  if (panes == 1) draw_centres(ui, area);
   draw_tool_shape(ui, list, place);
+  draw_points(ui, area);
   draw_brush_ring(ui, list, place, area);
+  draw_cursor_sign(ui, area);
   ImGui::PopClipRect();
   if (panes == 2) {
     list.AddLine({area.min.x + pane_width, area.min.y}, {area.min.x + pane_width, area.max.y},
@@ -366,6 +403,9 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   const float below_label = panes == 2 || mode_label(studio) ? 40.0f : 0.0f;
   if (const auto rect = offer_line(ui, {area.min.x + 12, area.min.y + 12 + below_label}))
     covered.push_back(*rect);
+  if (const auto rect = nearer_line(ui, {area.min.x + 12, area.min.y + 12 + below_label}))
+    covered.push_back(*rect);
+  covered.push_back(axes_gizmo(ui, area));
   if (const auto rect = hint(ui, area, bottom)) {
     covered.push_back(*rect);
     if (rect->max.y > 0.5f * (area.min.y + area.max.y))

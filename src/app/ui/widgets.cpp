@@ -4,11 +4,6 @@
 
 namespace splatcut {
 
-std::string grouped(std::size_t n) {
-  if (n < 1000) return fmt::format("{}", n);
-  return fmt::format("{},{:03}", grouped(n / 1000), n % 1000);
-}
-
 std::string ms_text(double ms) {
   return ms < 1000 ? fmt::format("{:.0f} ms", ms) : fmt::format("{:.1f} s", ms / 1000);
 }
@@ -20,6 +15,12 @@ std::string tip_of(Action action) {
 
 ImVec4 colour_of(const Rgb8& c) {
   return {static_cast<float>(c[0]) / 255, static_cast<float>(c[1]) / 255, static_cast<float>(c[2]) / 255, 1};
+}
+
+bool enter_pressed() {
+  const bool pressed =
+      ImGui::IsKeyPressed(key::kEnter, false) || ImGui::IsKeyPressed(key::kKeypadEnter, false);
+  return pressed && !ImGui::IsWindowAppearing();
 }
 
 void tooltip(const std::string& text) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "app/studio/words.h"
 #include "app/ui/ui_context.h"
 
 namespace splatcut {
@@ -15,15 +16,16 @@ void action_button(UiContext& ui, Action action, const char* label, bool on = fa
 bool button(UiContext& ui, const char* label, const std::string& tip, const std::string& reason = {},
             bool on = false, float width = 0);
 
+bool enter_pressed();  // a dialog's default answer, where nothing else takes the key
+
 void tooltip(const std::string& text);  // of the last item
 void muted_text(UiContext& ui, const std::string& text);
 void wrapped_muted(UiContext& ui, const std::string& text);
 void wrapped_warning(UiContext& ui, const std::string& text);
 bool section(UiContext& ui, const char* title, bool open = true);
 
-std::string grouped(std::size_t n);  // "1,234,567"
-std::string ms_text(double ms);      // "740 ms", "2.4 s"
-std::string tip_of(Action action);   // "Undo (Ctrl+Z)"
+std::string ms_text(double ms);     // "740 ms", "2.4 s"
+std::string tip_of(Action action);  // "Undo (Ctrl+Z)"
 ImVec4 colour_of(const Rgb8& c);
 
 // A symbol of a tool, drawn with lines; radius in points.

@@ -50,10 +50,43 @@ bool on_a_screen(const glm::ivec2& position, int width) {
   });
 }
 
+// No more than the screen has room for beside its bars and the window's frame. scaled: the system multiplies
+// the size by the screen's scale.
+glm::ivec2 fitting(const glm::ivec2& size, bool scaled) {
+  GLFWmonitor* screen = glfwGetPrimaryMonitor();
+  if (!screen) return size;
+  constexpr int kFrame = 40;
+  glm::ivec2 at(0), room(0);
+  glm::vec2 scale(1);
+  glfwGetMonitorWorkarea(screen, &at.x, &at.y, &room.x, &room.y);
+  glfwGetMonitorContentScale(screen, &scale.x, &scale.y);
+  const glm::vec2 most = glm::vec2(room - kFrame) / (scaled ? glm::max(scale, 1.0f) : glm::vec2(1));
+  return glm::max(glm::min(size, glm::ivec2(most)), glm::ivec2(480, 360));
+}
+
+struct WindowPlace {
+  glm::ivec2 size;
+  std::optional<glm::ivec2> position;
+  bool maximized = false;
+  bool scaled = false;  // the size is in points of an ordinary screen, not in this one's
+};
+
+// As asked for, else as remembered, else as large on every screen.
+WindowPlace place_of(const WindowOptions& options, const Settings& settings) {
+  const glm::ivec2 size(options.width > 0 ? options.width : settings.width,
+                        options.height > 0 ? options.height : settings.height);
+  if (options.width > 0 || options.height > 0) return {size, {}};
+  const Settings usual;
+  const bool first_start =
+      settings.width == usual.width && settings.height == usual.height && !settings.position;
+  return {fitting(size, first_start), settings.position, settings.maximized, first_start};
+}
+
 // Null where there is no OpenGL 3.3 by that interface.
-GLFWwindow* hidden_window(int width, int height, bool maximized, int interface_to_gl) {
+GLFWwindow* hidden_window(const WindowPlace& place, int interface_to_gl) {
   glfwDefaultWindowHints();
-  glfwWindowHint(GLFW_MAXIMIZED, maximized);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, place.scaled);
+  glfwWindowHint(GLFW_MAXIMIZED, place.maximized);
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   glfwWindowHint(GLFW_CONTEXT_CREATION_API, interface_to_gl);
   glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
@@ -62,12 +95,12 @@ GLFWwindow* hidden_window(int width, int height, bool maximized, int interface_t
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "splatcut");
-  return glfwCreateWindow(width, height, "splatcut", nullptr, nullptr);
+  return glfwCreateWindow(place.size.x, place.size.y, "splatcut", nullptr, nullptr);
 }
 
 // By the driver, by EGL where the display has no GLX, then by Mesa's software, which has 3.3 where an old
 // card has not.
-GLFWwindow* hidden_window(int width, int height, bool maximized) {
+GLFWwindow* hidden_window(const WindowPlace& place) {
   std::string first_reason;
   for (const bool software : {false, true}) {
     if (software) {
@@ -78,7 +111,7 @@ GLFWwindow* hidden_window(int width, int height, bool maximized) {
       Glfw::start();
     }
     for (const int interface_to_gl : {GLFW_NATIVE_CONTEXT_API, GLFW_EGL_CONTEXT_API}) {
-      if (GLFWwindow* window = hidden_window(width, height, maximized, interface_to_gl)) {
+      if (GLFWwindow* window = hidden_window(place, interface_to_gl)) {
         if (software) warn("OpenGL is Mesa's software: " + first_reason, false);
         return window;
       }
@@ -89,9 +122,9 @@ GLFWwindow* hidden_window(int width, int height, bool maximized) {
 }
 
 struct GlfwWindow {
-  GlfwWindow(int width, int height, const std::optional<glm::ivec2>& position, bool maximized)
-      : handle(hidden_window(width, height, maximized)) {
-    if (position && on_a_screen(*position, width)) glfwSetWindowPos(handle, position->x, position->y);
+  explicit GlfwWindow(const WindowPlace& place) : handle(hidden_window(place)) {
+    if (place.position && on_a_screen(*place.position, place.size.x))
+      glfwSetWindowPos(handle, place.position->x, place.position->y);
     glfwShowWindow(handle);
     glfwMakeContextCurrent(handle);
     load_gl_functions(glfwGetProcAddress);
@@ -165,8 +198,8 @@ void install_callbacks(GLFWwindow* window) {
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
     if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
-    loop_of(w).send(
-        PointerButtonChanged{static_cast<PointerButton>(button), action == GLFW_PRESS, modifiers_of(mods)});
+    loop_of(w).send(PointerButtonChanged{static_cast<PointerButton>(button), action == GLFW_PRESS,
+                                         modifiers_of(mods), glfwGetTime()});
   });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) {
     loop_of(w).send(WheelTurned{static_cast<float>(y), held_modifiers(w)});
@@ -289,11 +322,7 @@ void run_window(const WindowOptions& options) {
   SettingsKeeper keeper(config_folder() / "settings.json");
   const Settings settings = keeper.kept();
   const Glfw glfw;
-  const bool as_remembered = options.width <= 0 && options.height <= 0;
-  const GlfwWindow window(options.width > 0 ? options.width : settings.width,
-                          options.height > 0 ? options.height : settings.height,
-                          as_remembered ? settings.position : std::nullopt,
-                          as_remembered && settings.maximized);
+  const GlfwWindow window(place_of(options, settings));
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   const float ui_scale = options.ui_scale > 0 ? options.ui_scale : settings.ui_scale;
   {

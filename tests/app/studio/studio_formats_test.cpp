@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "core/png_file.h"
 #include "headless_app.h"
 #include "scene_file_helpers.h"
 
@@ -47,19 +48,20 @@ TEST_CASE(
   app.open(work);
   REQUIRE(app.settle());
   CHECK(scene().taken_axes == SpzAxes::kPly);
-  app.click({831, 286});  // opens the section View
+  app.click({831, 271});  // opens the section View
   app.frames(3);
-  app.click({941, 514});  // "Take the other axes"
+  app.click({941, 561});  // "Take the other axes"
   REQUIRE(app.settle());
   CHECK(scene().taken_axes == SpzAxes::kRub);
   // With work that is not saved it asks first, and then still takes the other axes.
   app.studio().apply(EditSelection{SelectionEdit::kAll});
   REQUIRE(app.settle());
-  app.click({941, 579});  // the button, below the object now
+  write_png("/tmp/fmt2.png", app.picture());
+  app.click({941, 641});  // the button, below the object now
   app.frames(3);
   REQUIRE(app->interface().dialog_open());
   CHECK(scene().taken_axes == SpzAxes::kRub);
-  app.click({550 + 215 - 62, 380 + 75 - 28});  // Open
+  app.click({550 - 45, 380 + 75 - 28});  // Open
   REQUIRE(app.settle());
   CHECK(scene().taken_axes == SpzAxes::kPly);
 }

@@ -26,7 +26,7 @@ class Fuzz {
                                              : d.objects[whole(d.objects.size())].id;
     };
     const auto set = [&] { return static_cast<SetOperation>(whole(4)); };
-    switch (whole(30)) {
+    switch (whole(36)) {
       case 0:
       case 1:
       case 2:
@@ -36,7 +36,8 @@ class Fuzz {
       case 4:
         return studio_.apply(SelectRegion{camera(), rectangle_region(pixel(), pixel(), 64, 48), set()});
       case 5:
-        return studio_.apply(SelectSphere{{real() - 0.5f, real() - 0.5f, real() - 0.5f}, real(), set()});
+        return studio_.apply(SelectVolume{
+            {chance(50), {real() - 0.5f, real() - 0.5f, real() - 0.5f}, glm::vec3(real())}, set()});
       case 6:
         return studio_.apply(SelectColour{{real(), real(), real()}, 0.4f * real(), set()});
       case 7:
@@ -85,6 +86,18 @@ class Fuzz {
       case 28:
         return chance(97) ? studio_.apply(Undo{})
                           : studio_.apply(JumpHistory{whole(studio_.history().entries().size() + 2)});
+      case 30:
+        return studio_.apply(PickColour{static_cast<std::int32_t>(whole(3000)) - 5, set()});
+      case 31:
+        return studio_.apply(SelectFlood{static_cast<std::int32_t>(whole(3000)) - 5, set()});
+      case 32:
+        return studio_.apply(LookAlong{{real() - 0.5f, real() - 0.5f, chance(10) ? 0 : real()}});
+      case 33:
+        return chance(50) ? studio_.apply(NextBackdrop{}) : studio_.apply(SetBackdrop{whole(6)});
+      case 34:
+        return studio_.apply(ComeNearer{});
+      case 35:
+        return studio_.apply(IntersectStroke{camera(), stroke()});
       default:
         return studio_.apply(SetBackground{{real(), real(), real()}});
     }

@@ -2,6 +2,8 @@
 // turntable.
 #include <doctest/doctest.h>
 
+#include <webp/demux.h>
+
 #include <cstdlib>
 #include <thread>
 
@@ -119,7 +121,7 @@ TEST_CASE("dialogs: the turntable writes as many pictures of the size asked for"
   CHECK(state.turntable.width_px == app.studio().viewport_camera().width_px);
   state.turntable = {5, 96, 64, (folder / "turn").string()};
   app.frames(1);
-  app.click({380 + 213, 210 + 90});  // Save
+  app.click({380 + 213, 210 + 106});  // Save
   REQUIRE(app.settle());
   CHECK_FALSE(app->interface().dialog_open());
   std::size_t files = 0;
@@ -135,4 +137,66 @@ TEST_CASE("dialogs: the turntable writes as many pictures of the size asked for"
   app.studio().apply(SaveTurntable{folder / "none", 5, 100000, 5});
   CHECK(app.studio().messages().back().kind == Message::Kind::kRefused);
   CHECK_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+TEST_CASE("dialogs: the turntable as an animated WebP is one that readers of WebP know") {
+  const ScratchFolder folder("turntable_webp");
+  HeadlessApp app(760, 420);
+  REQUIRE(cut_out_apple(app));
+  const auto file = folder / "turn.webp";
+  app.studio().apply(SaveTurntable{file, 6, 97, 64, TurntableAs::kWebp, 1.5f});
+  REQUIRE(app.settle());
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  REQUIRE(bytes.size() > 1000);
+  const WebPData data{reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
+  WebPDemuxer* demuxer = WebPDemux(&data);
+  REQUIRE(demuxer);
+  CHECK(WebPDemuxGetI(demuxer, WEBP_FF_CANVAS_WIDTH) == 97);
+  CHECK(WebPDemuxGetI(demuxer, WEBP_FF_CANVAS_HEIGHT) == 64);
+  CHECK(WebPDemuxGetI(demuxer, WEBP_FF_FRAME_COUNT) == 6);
+  CHECK(WebPDemuxGetI(demuxer, WEBP_FF_LOOP_COUNT) == 0);
+  WebPDemuxDelete(demuxer);
+  WebPAnimDecoder* decoder = WebPAnimDecoderNew(&data, nullptr);
+  REQUIRE(decoder);
+  int frames = 0, time_ms = 0;
+  while (WebPAnimDecoderHasMoreFrames(decoder)) {
+    std::uint8_t* rgba = nullptr;
+    REQUIRE(WebPAnimDecoderGetNext(decoder, &rgba, &time_ms));
+    CHECK(rgba[3] == 0);                                             // nothing in the corner
+    CHECK(rgba[4 * (32 * 97 + 48) + 3] > 200);                       // the apple in the middle
+    CHECK(rgba[4 * (32 * 97 + 48)] > rgba[4 * (32 * 97 + 48) + 2]);  // which is red
+    ++frames;
+  }
+  WebPAnimDecoderDelete(decoder);
+  CHECK(frames == 6);
+  CHECK(time_ms == 1500);
+}
+
+TEST_CASE("dialogs: the turntable as a video is made by ffmpeg, and its failure is told") {
+  const ScratchFolder folder("turntable_video");
+  HeadlessApp app(760, 420);
+  REQUIRE(cut_out_apple(app));
+  const auto file = folder / "turn.mp4";
+  const auto save = [&] {
+    app.studio().apply(SaveTurntable{file, 4, 96, 64, TurntableAs::kVideo, 2});
+    REQUIRE(app.settle());
+    return app.studio().messages().back().text;
+  };
+  {
+    const OnlyPath path(folder.path());
+    CHECK(save().find("ffmpeg: is not installed") != std::string::npos);
+    path.put("ffmpeg", "exit 3");
+    CHECK(save().find("could not make the video") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(file));
+    // The last argument is the file to make.
+    path.put("ffmpeg", "for last; do :; done; echo made >\"$last\"");
+    CHECK(save().find("4 frames saved") != std::string::npos);
+    CHECK(path.asked().find("-framerate\n2.0000\n") != std::string::npos);
+    CHECK(path.asked().find("frame_%04d.png") != std::string::npos);
+  }
+  std::ifstream in(file);
+  std::string text;
+  std::getline(in, text);
+  CHECK(text == "made");
 }

@@ -370,7 +370,7 @@ TEST_CASE("opening asks before unsaved work goes, dropped files and recent ones 
   CHECK(app.studio().scene()->serial == scene);
   app.open(kSample);
   app.frames(3);
-  app.click({kWidth / 2 + 215 - 62, kHeight / 2 + 75 - 28});  // Open
+  app.click({kWidth / 2 - 45, kHeight / 2 + 75 - 28});  // Open
   REQUIRE(app.settle());
   CHECK(app.studio().scene()->serial != scene);
   CHECK(app.studio().document().objects.empty());

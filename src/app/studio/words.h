@@ -1,0 +1,14 @@
+// How numbers are written for people: one way everywhere.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace splatcut {
+
+std::string grouped(std::size_t n);  // "92,440"
+
+// A length of the scene with three figures: "0.0235", "12.4", "1,250". Scene units.
+std::string length_text(float length);
+
+}  // namespace splatcut

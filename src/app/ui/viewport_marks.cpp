@@ -1,0 +1,169 @@
+// What is drawn over the picture: points that were set, centres of Gaussians, a sign at the pointer, the
+// axes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+const ImU32 kShade = IM_COL32(0, 0, 0, 150), kWhite = IM_COL32(255, 255, 255, 235);
+
+struct OnScreen {
+  glm::vec2 origin;
+  float points_per_pixel;
+  ImVec2 operator()(const glm::vec2& pixel) const {
+    const glm::vec2 at = origin + pixel * points_per_pixel;
+    return {at.x, at.y};
+  }
+};
+
+OnScreen on_screen(const UiContext& ui, const UiRect& area) {
+  return {area.min, 1 / ui.theme.pixels_per_point};
+}
+
+void boxed_text(ImDrawList& list, const ImVec2& middle, const std::string& text, const UiContext& ui) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 from = {middle.x - 0.5f * size.x, middle.y - 0.5f * size.y};
+  list.AddRectFilled({from.x - 6, from.y - 3}, {from.x + size.x + 6, from.y + size.y + 3},
+                     packed(ui.theme.colour.panel, 0.92f), 5);
+  list.AddText(from, packed(ui.theme.colour.text), text.c_str());
+}
+
+struct Axis {
+  const char* name;
+  glm::vec3 direction_world;
+  ImU32 ink;
+  glm::vec3 seen;  // camera axes
+};
+
+// The six ends of the axes, the farthest first.
+std::array<Axis, 6> axes_seen_by(const Camera& camera) {
+  const ImU32 red = IM_COL32(235, 85, 80, 255), green = IM_COL32(110, 195, 80, 255),
+              blue = IM_COL32(80, 140, 245, 255);
+  std::array<Axis, 6> axes = {Axis{"X", {1, 0, 0}, red, {}},     Axis{"Y", {0, 1, 0}, green, {}},
+                              Axis{"Z", {0, 0, 1}, blue, {}},    Axis{"-X", {-1, 0, 0}, red, {}},
+                              Axis{"-Y", {0, -1, 0}, green, {}}, Axis{"-Z", {0, 0, -1}, blue, {}}};
+  for (Axis& axis : axes) axis.seen = camera.camera_from_world_rotation * axis.direction_world;
+  std::ranges::stable_sort(axes, [](const Axis& a, const Axis& b) { return a.seen.z > b.seen.z; });
+  return axes;
+}
+
+const char* sign_of(const UiContext& ui) {
+  const ViewState& view = ui.studio.view();
+  const Modifiers& held = ui.studio.held();
+  const ToolOverlay overlay = ui.studio.overlay();
+  if (is_stroke_tool(view.tool)) {
+    if (view.tool == Tool::kBox) return nullptr;
+    return held.alt ? "x" : held.ctrl ? "-" : held.shift ? "+" : nullptr;
+  }
+  if (!is_region_tool(view.tool)) return nullptr;
+  return overlay.operation == SetOperation::kRemove      ? "-"
+         : overlay.operation == SetOperation::kIntersect ? "x"
+                                                         : "+";
+}
+
+}  // namespace
+
+void draw_points(const UiContext& ui, const UiRect& area) {
+  const ToolOverlay overlay = ui.studio.overlay();
+  if (overlay.shape != ToolOverlay::Shape::kPoints) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const OnScreen place = on_screen(ui, area);
+  std::vector<ImVec2> at;
+  for (const glm::vec2& p : overlay.points_px) at.push_back(place(p));
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    list.AddLine(at[i], at[i + 1], kShade, 4);
+    list.AddLine(at[i], at[i + 1], packed(ui.theme.colour.accent), 2);
+  }
+  const bool counted = ui.studio.view().tool == Tool::kGround;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    list.AddCircleFilled(at[i], 6.5f, kShade);
+    list.AddCircleFilled(at[i], 5, packed(ui.theme.colour.accent));
+    list.AddCircle(at[i], 5, kWhite, 0, 1.3f);
+    if (counted) boxed_text(list, {at[i].x + 18, at[i].y - 14}, fmt::format("{}", i + 1), ui);
+  }
+  if (overlay.length && at.size() == 2)
+    boxed_text(list, {0.5f * (at[0].x + at[1].x), 0.5f * (at[0].y + at[1].y) - 18},
+               length_text(*overlay.length) + " units", ui);
+}
+
+// Every n-th, so that a frame stays a frame; those of the object in white.
+void draw_centres(const UiContext& ui, const UiRect& area) {
+  const Studio& studio = ui.studio;
+  if (!studio.view().centres) return;
+  constexpr std::size_t kMost = 12000;
+  const GaussianCloud& cloud = *studio.scene()->cloud;
+  const Camera camera = studio.viewport_camera();
+  const Flags shown = studio.shown(0), mine = studio.active_labels();
+  const bool of_object = studio.gaussians_of(studio.document().active) > 0;
+  const std::size_t all = of_object ? studio.gaussians_of(studio.document().active) : cloud.size();
+  const std::size_t step = 1 + all / kMost;
+  const OnScreen place = on_screen(ui, area);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (std::size_t g = 0, counted = 0; g < cloud.size(); ++g) {
+    if ((shown && !(*shown)[g]) || (of_object && mine && !(*mine)[g]) || counted++ % step != 0) continue;
+    const glm::vec3 seen = camera.camera_from_world(cloud.position[g]);
+    if (!(seen.z > studio.draw_limits().near_plane)) continue;
+    const ImVec2 at = place(camera.pixel_from_camera(seen));
+    if (!area.contains({at.x, at.y})) continue;
+    list.AddRectFilled({at.x - 1, at.y - 1}, {at.x + 1, at.y + 1}, IM_COL32(255, 255, 255, 200));
+  }
+}
+
+void draw_cursor_sign(const UiContext& ui, const UiRect& area) {
+  const char* sign = sign_of(ui);
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (!sign || !area.contains({mouse.x, mouse.y}) || ImGui::IsAnyItemHovered() ||
+      ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
+    return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  constexpr float kArm = 4.5f;
+  const ImVec2 at = {mouse.x + 17, mouse.y + 15};
+  const ImU32 ink = *sign == '+'   ? IM_COL32(90, 220, 120, 255)
+                    : *sign == '-' ? IM_COL32(245, 95, 90, 255)
+                                   : packed(ui.theme.colour.accent);
+  list.AddCircleFilled(at, 9, kShade);
+  if (*sign == 'x') {  // two rings that meet: what is in both
+    list.AddCircle({at.x - 2.2f, at.y}, 3.8f, ink, 0, 1.6f);
+    list.AddCircle({at.x + 2.2f, at.y}, 3.8f, ink, 0, 1.6f);
+    return;
+  }
+  list.AddLine({at.x - kArm, at.y}, {at.x + kArm, at.y}, ink, 2);
+  if (*sign == '+') list.AddLine({at.x, at.y - kArm}, {at.x, at.y + kArm}, ink, 2);
+}
+
+UiRect axes_gizmo(UiContext& ui, const UiRect& area) {
+  constexpr float kRadius = 34, kMargin = 12, kBall = 9;
+  const ImVec2 middle = {area.max.x - kMargin - kRadius - kBall, area.min.y + kMargin + kRadius + kBall};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const Camera camera = ui.studio.viewport_camera();
+  for (const Axis& axis : axes_seen_by(camera)) {
+    const ImVec2 at = {middle.x + kRadius * axis.seen.x, middle.y + kRadius * axis.seen.y};
+    const bool positive = axis.name[0] != '-';
+    ImGui::SetCursorScreenPos({at.x - kBall, at.y - kBall});
+    ImGui::PushID(axis.name);
+    ImGui::SetItemAllowOverlap();
+    // Looks from that end at the middle.
+    if (ImGui::InvisibleButton("axis", {2 * kBall, 2 * kBall})) ui.ask(LookAlong{-axis.direction_world});
+    const bool hovered = ImGui::IsItemHovered();
+    tooltip(fmt::format("Look from {}", axis.name));
+    ImGui::PopID();
+    if (positive) list.AddLine(middle, at, axis.ink, 2);
+    const float size = positive ? kBall : 0.6f * kBall;
+    list.AddCircleFilled(at, size, positive || hovered ? axis.ink : packed(ui.theme.colour.panel, 0.8f));
+    list.AddCircle(at, size, hovered ? kWhite : axis.ink, 0, 1.5f);
+    if (!positive) continue;
+    const ImVec2 text = ImGui::CalcTextSize(axis.name);
+    list.AddText({at.x - 0.5f * text.x, at.y - 0.5f * text.y}, IM_COL32(15, 15, 18, 255), axis.name);
+  }
+  const float reach = kRadius + kBall;
+  return {{middle.x - reach, middle.y - reach}, {middle.x + reach, middle.y + reach}};
+}
+
+}  // namespace splatcut

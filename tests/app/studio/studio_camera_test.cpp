@@ -1,0 +1,145 @@
+// The camera as hands expect it.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_access.hpp>
+
+#include "hands.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("hands: +Z up comes back with the view, and pressed again sets a leaning view upright") {
+  const ScratchFolder folder("up");
+  Hands hands;
+  const auto upright = [&] {
+    const glm::vec3 right = glm::row(glm::mat3_cast(hands.studio().camera().pose().camera_from_world), 0);
+    return std::abs(glm::dot(right, hands.studio().document().up_world)) < 1e-3f;
+  };
+  hands.studio().apply(SetUp{{0, 0, 1}});
+  REQUIRE(hands.app.settle());
+  CHECK(upright());
+  const CameraPose pose = hands.studio().camera().pose();
+  hands.studio().apply(SaveWork{folder / "up.splatcut.json"});
+  REQUIRE(hands.app.settle());
+  hands.studio().apply(OpenScene{folder / "up.splatcut.json"});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().document().up_world == glm::vec3(0, 0, 1));
+  CHECK(hands.studio().camera().up_world() == glm::vec3(0, 0, 1));
+  CHECK(hands.studio().camera().pose() == pose);
+  CameraPose leaning = pose;
+  leaning.camera_from_world = glm::angleAxis(0.4f, glm::vec3(0, 0, 1)) * pose.camera_from_world;
+  hands.studio().camera().set_pose(leaning);
+  REQUIRE_FALSE(upright());
+  hands.studio().apply(SetUp{{0, 0, 1}});
+  REQUIRE(hands.app.settle());
+  CHECK(upright());
+}
+
+TEST_CASE("hands: where a click found nothing, one comes nearer") {
+  Hands hands;
+  const glm::vec3 apple = hands.under(hands.app.screen_of(kOnApple));
+  hands.studio().camera().zoom(-8);
+  REQUIRE(hands.app.settle());
+  const float far = glm::distance(hands.studio().camera().pose().position_world, apple);
+  hands.studio().apply(ComeNearer{});
+  REQUIRE(hands.app.settle());
+  const float near = glm::distance(hands.studio().camera().pose().position_world, apple);
+  CHECK(near < 0.4f * far);
+  CHECK(glm::distance(hands.seen_at(apple), hands.app->interface().viewport().min +
+                                                0.5f * hands.app->interface().viewport().size()) < 30);
+}
+
+TEST_CASE("hands: what is under the pointer stays there while the wheel goes nearer and a drag shifts") {
+  Hands hands(false);
+  hands.app.key('1');
+  for (const glm::vec2& pixel : {kOnApple, kOnMug}) {
+    const glm::vec2 at = hands.app.screen_of(pixel);
+    hands.studio().apply(GoToCamera{hands.studio().scene()->cameras.front()});
+    REQUIRE(hands.app.settle());
+    const glm::vec3 point = hands.under(at);
+    const float before = glm::distance(hands.studio().camera().pose().position_world, point);
+    hands.app.move(at);
+    hands.app->handle(WheelTurned{3, {}});
+    CHECK(glm::distance(hands.seen_at(point), at) < 1.5f);
+    CHECK(glm::distance(hands.studio().camera().pose().position_world, point) < 0.75f * before);
+    REQUIRE(hands.app.settle());
+    const glm::vec2 to = at + glm::vec2(60, -35);
+    hands.app.drag({at, at + glm::vec2(30, -10), to}, PointerButton::kRight);
+    CHECK(glm::distance(hands.seen_at(point), to) < 4);
+  }
+}
+
+TEST_CASE("hands: the view turns around what was clicked") {
+  Hands hands;
+  hands.app.key('1');
+  const glm::vec3 apple = hands.under(hands.app.screen_of(kOnApple));
+  const glm::vec2 before = hands.seen_at(apple);
+  REQUIRE(glm::distance(before, hands.app->interface().viewport().min +
+                                    0.5f * hands.app->interface().viewport().size()) > 40);
+  hands.app.drag({{300, 120}, {360, 120}, {420, 120}}, PointerButton::kMiddle);
+  CHECK(glm::distance(hands.seen_at(apple), before) < 3);
+}
+
+TEST_CASE("hands: F frames the object in what thumbnails leave free") {
+  Hands hands;
+  REQUIRE(hands.app->interface().covered_bottom(hands.studio()) > 0);
+  hands.app.key('F');
+  REQUIRE(hands.app.settle());
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  const GaussianCloud& cloud = *hands.studio().scene()->cloud;
+  const UiRect view = hands.app->interface().viewport();
+  const float lowest = view.max.y - hands.app->interface().covered_bottom(hands.studio());
+  std::size_t inside = 0, all = 0;
+  float top = 1e9f, bottom = -1e9f;
+  for (std::size_t g = 0; g < labels.size(); ++g) {
+    if (!labels[g]) continue;
+    const glm::vec2 at = hands.seen_at(cloud.position[g]);
+    ++all;
+    const bool free = view.contains(at) && at.y < lowest;
+    inside += free;
+    if (free) top = std::min(top, at.y), bottom = std::max(bottom, at.y);
+  }
+  CHECK(static_cast<double>(inside) > 0.97 * static_cast<double>(all));
+  CHECK(bottom - top > 0.4f * (lowest - view.min.y));
+}
+
+TEST_CASE("hands: while a flight key is held the wheel changes the speed, else it goes nearer") {
+  Hands hands(false);
+  hands.app.move(hands.app.screen_of(kOnMug));
+  const auto flown = [&] {
+    const glm::vec3 before = hands.studio().camera().pose().position_world;
+    hands.app.frames(10);
+    return glm::distance(before, hands.studio().camera().pose().position_world);
+  };
+  hands.app->handle(KeyChanged{'W', true, false, {}});
+  const float usual = flown();
+  CHECK(usual > 0);
+  hands.app->handle(WheelTurned{-4, {}});
+  CHECK(hands.studio().view().fly_speed < 0.5f);
+  CHECK(flown() < 0.6f * usual);
+  hands.app->handle(KeyChanged{'W', false, false, {}});
+  const float speed = hands.studio().view().fly_speed;
+  hands.app->handle(WheelTurned{-1, {}});
+  CHECK(hands.studio().view().fly_speed == speed);
+}
+
+TEST_CASE("hands: the axes in the corner turn the view, and take the click") {
+  Hands hands(false);
+  hands.app.key(key::kKeypad7);
+  REQUIRE(hands.app.settle());
+  const glm::vec3 forward = hands.studio().viewport_camera().forward_world();
+  CHECK(glm::dot(forward, hands.studio().document().up_world) < -0.99f);
+  const UiRect view = hands.app->interface().viewport();
+  const glm::vec2 middle(view.max.x - 55, view.min.y + 55);
+  CHECK_FALSE(hands.app->interface().picture_at(middle, hands.studio()));
+  hands.app.key(key::kKeypad1);
+  REQUIRE(hands.app.settle());
+  const glm::vec3 right(glm::row(hands.studio().viewport_camera().camera_from_world_rotation, 0));
+  const float x_side = right.x > 0 ? 1.0f : -1.0f;
+  REQUIRE(std::abs(right.x) > 0.99f);
+  hands.app.click(middle + glm::vec2(x_side * 34, 0));  // the ball of +X
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().viewport_camera().forward_world().x < -0.99f);
+}

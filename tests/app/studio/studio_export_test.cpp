@@ -1,0 +1,110 @@
+// Exports that stand where they are asked to.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hands.h"
+#include "scene/raster/rasterizer.h"
+#include "scene/raster/splat_math.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("hands: an export that fails leaves its dialog open and says why") {
+  const ScratchFolder folder("export_fails");
+  Hands hands;
+  hands.app.key('E', {.ctrl = true});
+  hands.app.frames(2);
+  std::ofstream(folder / "file") << "x";
+  hands.app.interface_state().exporting.path = (folder / "file" / "object.ply").string();
+  hands.app.frames(1);
+  hands.app.key(key::kEnter);
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  CHECK(hands.app->interface().dialog_open());
+  CHECK_FALSE(hands.app.interface_state().exporting.trouble.empty());
+  hands.app.interface_state().exporting.path = (folder / "object.ply").string();
+  hands.app.frames(1);
+  hands.app.key(key::kEnter);
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  CHECK_FALSE(hands.app->interface().dialog_open());
+  CHECK(std::filesystem::exists(folder / "object.ply"));
+}
+
+TEST_CASE("hands: an export stands where it is asked to, and looks the same from there") {
+  const ScratchFolder folder("placed");
+  Hands hands;
+  const GaussianCloud& cloud = *hands.studio().scene()->cloud;
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  const glm::vec3 up = hands.studio().document().up_world;
+  const ExportPlacement placement{ExportOrigin::kFoot, ExportUp::kPlusZ, 30, 2.5f, {1, 2, 3}};
+  const Similarity to = similarity_of(placement, cloud, labels, up);
+  CHECK(glm::distance(to.rotation * up, glm::vec3(0, 0, 1)) < 1e-5f);
+  hands.studio().apply(
+      Export{{ExportWhat::kObject, SceneFormat::kPly, folder / "apple.ply", false, placement}});
+  REQUIRE(hands.app.settle());
+  const Scene written = load_scene(folder / "apple.ply");
+  REQUIRE(written.cloud.size() == count_flags(labels));
+  const Box box = robust_bounds(written.cloud.position);
+  CHECK(std::abs(box.centre().x - 1) < 0.05f);
+  CHECK(std::abs(box.centre().y - 2) < 0.05f);
+  CHECK(std::abs(box.min.z - 3) < 0.05f);
+  CHECK(box.extent().z > 0);
+  // The camera moved along sees the same colours: harmonics turned with the rest.
+  const Camera camera = hands.studio().viewport_camera();
+  Camera there = camera;
+  there.camera_from_world_rotation =
+      camera.camera_from_world_rotation * glm::transpose(glm::mat3_cast(to.rotation));
+  const glm::vec3 eye =
+      to.scale * (glm::mat3_cast(to.rotation) * (camera.centre_world() - to.origin)) + to.move;
+  there.camera_from_world_translation = -(there.camera_from_world_rotation * eye);
+  RasterOptions before, after;
+  before.shown = labels;
+  before.near_plane = 0.01f;
+  after.near_plane = to.scale * 0.01f;
+  const RasterOutput a = rasterize(cloud, camera, before), b = rasterize(written.cloud, there, after);
+  float largest = 0;
+  for (std::size_t i = 0; i < a.colour.size(); ++i) {
+    const glm::vec3 d = glm::abs(a.colour.pixels()[i] - b.colour.pixels()[i]);
+    largest = std::max({largest, d.r, d.g, d.b});
+  }
+  MESSAGE("SH degree ", written.cloud.sh_degree, ", largest difference ", largest);
+  CHECK(written.cloud.sh_degree > 0);
+  CHECK(largest < 2e-3f);
+}
+
+TEST_CASE("hands: harmonics of every degree turn with the object") {
+  GaussianCloud cloud;
+  cloud.resize(1, 3);
+  cloud.position[0] = {0.3f, -0.2f, 0.5f};
+  cloud.scale[0] = glm::vec3(0.1f);
+  cloud.rotation[0] = {1, 0, 0, 0};
+  cloud.opacity[0] = 0.9f;
+  for (std::size_t i = 0; i < cloud.sh_rest.size(); ++i)
+    cloud.sh_rest[i] = std::sin(static_cast<float>(7 * i + 1)) * 0.2f;
+  const glm::quat turn = glm::normalize(glm::quat(0.3f, 0.8f, -0.2f, 0.45f));
+  const GaussianCloud turned = placed(cloud, {}, {turn, 1, {}, {}});
+  for (const glm::vec3& d :
+       {glm::vec3(1, 0, 0), glm::vec3(0.2f, -0.7f, 0.4f), glm::vec3(-0.5f, 0.1f, -0.9f)}) {
+    float basis[15], basis_turned[15];
+    sh_rest_basis(3, glm::normalize(d), basis);
+    sh_rest_basis(3, turn * glm::normalize(d), basis_turned);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      float value = 0, value_turned = 0;
+      for (std::size_t k = 0; k < 15; ++k) {
+        value += basis[k] * cloud.sh_rest[channel * 15 + k];
+        value_turned += basis_turned[k] * turned.sh_rest[channel * 15 + k];
+      }
+      CHECK(value_turned == doctest::Approx(value).epsilon(1e-4));
+    }
+  }
+}
+
+TEST_CASE("hands: a proposed name is one that no file has yet") {
+  const ScratchFolder folder("names");
+  CHECK(free_path(folder / "a.compressed.ply", ".compressed.ply") == folder / "a.compressed.ply");
+  for (const char* name : {"a.compressed.ply", "a_2.compressed.ply"}) std::ofstream(folder / name) << "x";
+  CHECK(free_path(folder / "a.compressed.ply", ".compressed.ply") == folder / "a_3.compressed.ply");
+}

@@ -1,0 +1,193 @@
+// What artists' hands know from other tools: keys, dialogs, the history, words.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "app/studio/words.h"
+#include "hands.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("hands: numbers are written one way, lengths with three figures") {
+  CHECK(grouped(999) == "999");
+  CHECK(grouped(92440) == "92,440");
+  CHECK(grouped(1234567) == "1,234,567");
+  CHECK(length_text(0) == "0");
+  CHECK(length_text(0.0235f) == "0.0235");
+  CHECK(length_text(12.4f) == "12.4");
+  CHECK(length_text(1250.4f) == "1,250");
+  Hands hands(false);
+  CHECK(std::ranges::any_of(hands.studio().messages(), [](const Message& m) {
+    return m.text.find("180,") != std::string::npos && m.text.find("Gaussians") != std::string::npos;
+  }));
+  hands.app.key('A', {.ctrl = true});
+  CHECK(hands.said().find("180,") != std::string::npos);
+}
+
+TEST_CASE("hands: a held bracket key changes the brush no more than threefold in a second") {
+  Hands hands(false);
+  hands.app.key('5');
+  const float before = hands.studio().view().brush_px;
+  hands.app->handle(KeyChanged{']', true, false, {}});
+  for (int i = 0; i < 60; ++i) {
+    hands.app.frames(1);
+    hands.app->handle(KeyChanged{']', true, true, {}});
+  }
+  hands.app->handle(KeyChanged{']', false, false, {}});
+  CHECK(hands.studio().view().brush_px > 1.5f * before);
+  CHECK(hands.studio().view().brush_px < 3 * before);
+}
+
+TEST_CASE("hands: a new scene begins with the click tool, an ordinary brush and the whole scene") {
+  Hands hands;
+  ViewState view = hands.studio().view();
+  view.tool = Tool::kBrush;
+  view.operation = SetOperation::kRemove;
+  view.brush_px = kMostBrushPx;
+  hands.studio().apply(SetView{view});
+  hands.studio().apply(OpenScene{kSample});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().view().tool == Tool::kClick);
+  CHECK(hands.studio().view().operation == SetOperation::kAdd);
+  CHECK(hands.studio().view().brush_px <= kMostKeptBrushPx);
+}
+
+TEST_CASE("hands: a click while the scene is prepared says what it waits for, and is cut afterwards") {
+  HeadlessApp app(kHandsWidth, kHandsHeight);
+  app.open(kSample);
+  for (int i = 0; i < 5000 && !app.studio().picture(); ++i) app.frames(1);
+  REQUIRE(app.studio().picture());
+  if (app.studio().prepared()) return;  // a fast machine
+  app.studio().apply(SetPreset{"fast"});
+  app.click(app.screen_of(kOnApple));
+  REQUIRE_FALSE(app.studio().messages().empty());
+  CHECK(app.studio().messages().back().text.find("as soon as the scene is prepared") != std::string::npos);
+  REQUIRE(app.settle());
+  CHECK(app.studio().gaussians_of(app.studio().document().active) > 1000);
+}
+
+TEST_CASE("hands: thumbnails follow the history") {
+  Hands hands;
+  const auto serials = [&] {
+    std::vector<std::uint64_t> out;
+    const CutRun* run = hands.studio().cut_run(hands.studio().document().active);
+    if (run)
+      for (const ViewCard& card : run->views) out.push_back(card.serial);
+    return out;
+  };
+  const auto first = serials();
+  REQUIRE(first.size() > 1);
+  hands.app.click(hands.app.screen_of(kOnOrange));
+  REQUIRE(hands.app.settle());
+  const auto second = serials();
+  REQUIRE(second.size() > 1);
+  CHECK(second != first);
+  hands.app.key('Z', {.ctrl = true});
+  REQUIRE(hands.app.settle());
+  CHECK(serials() == first);
+  hands.app.key('Z', {.shift = true, .ctrl = true});
+  REQUIRE(hands.app.settle());
+  CHECK(serials() == second);
+  hands.studio().apply(JumpHistory{0});
+  REQUIRE(hands.app.settle());
+  CHECK(serials().empty());
+}
+
+TEST_CASE("hands: with everything undone the whole scene is shown, not an empty object alone") {
+  Hands hands;
+  hands.app.key('I');
+  REQUIRE(hands.studio().view().display == DisplayMode::kIsolate);
+  hands.studio().apply(JumpHistory{0});
+  hands.app.frames(2);
+  CHECK(hands.studio().view().display == DisplayMode::kWhole);
+}
+
+TEST_CASE("hands: Esc closes a menu before it changes the tool") {
+  Hands hands(false);
+  hands.app.key('5');
+  hands.app.click({kHandsWidth - 316 + 289, 0});  // nothing there
+  hands.app.interface_state().recent = {kSample};
+  hands.app.frames(2);
+  hands.app.click({89, 23});  // the arrow beside Open
+  hands.app.frames(2);
+  REQUIRE(hands.app->interface().dialog_open());
+  hands.app.key(key::kEscape);
+  hands.app.frames(2);
+  CHECK_FALSE(hands.app->interface().dialog_open());
+  CHECK(hands.studio().view().tool == Tool::kBrush);
+  hands.app.key(key::kEscape);
+  CHECK(hands.studio().view().tool == Tool::kNavigate);
+}
+
+TEST_CASE("hands: Enter saves work where a scene would be opened over it, and discards nothing") {
+  Hands hands;
+  const std::uint64_t serial = hands.studio().scene()->serial;
+  hands.app.open(kSample);
+  hands.app.frames(3);
+  REQUIRE(hands.app->interface().dialog_open());
+  hands.app.key(key::kEnter);
+  hands.app.frames(3);
+  CHECK(hands.app->interface().dialog_open());  // where to save
+  CHECK(hands.app.interface_state().files.saving);
+  hands.app.key(key::kEscape);
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().scene()->serial == serial);
+}
+
+TEST_CASE("hands: a file is found by its first letters, by arrows, and opened by Enter") {
+  const ScratchFolder folder("browse");
+  std::filesystem::create_directories(folder / "garden");
+  for (const char* name : {"alpha.ply", "beta.ply", "bicycle.ply"}) std::ofstream(folder / name) << "x";
+  std::filesystem::copy_file(kSample, folder / "garden" / "mug.compressed.ply");
+  HeadlessApp app(kHandsWidth, kHandsHeight);
+  FileBrowser& files = app.interface_state().files;
+  files.folder = folder.path();
+  app.key('O', {.ctrl = true});
+  app.frames(2);
+  REQUIRE(files.open);
+  REQUIRE(files.entries.size() == 4);
+  const auto type = [&](char letter) {
+    app->handle(TextTyped{static_cast<unsigned>(letter)});
+    app.frames(1);
+  };
+  type('b');
+  CHECK(files.name == "beta.ply");
+  type('i');
+  CHECK(files.name == "bicycle.ply");
+  app.key(key::kUp);
+  CHECK(files.name == "beta.ply");
+  app.key(key::kHome);
+  CHECK(files.cursor == 0);
+  app.key(key::kEnter);  // the folder
+  app.frames(2);
+  REQUIRE(files.entries.size() == 1);
+  app.key(key::kDown);
+  CHECK(files.name == "mug.compressed.ply");
+  app.key(key::kEnter);
+  CHECK_FALSE(files.open);
+  REQUIRE(app.settle());
+  CHECK(app.studio().scene() != nullptr);
+}
+
+TEST_CASE("hands: two presses are a double-click by their own times, however slow the frames") {
+  Hands hands(false);
+  hands.app.key('1');
+  const glm::vec2 at = hands.app.screen_of(kOnApple);
+  const auto distance = [&] { return hands.studio().camera().pose().distance; };
+  const auto two = [&](double apart_s) {
+    hands.app.move(at);
+    for (const double t : {100.0, 100.0 + apart_s}) {
+      hands.app->handle(PointerButtonChanged{PointerButton::kLeft, true, {}, t});
+      hands.app->frame(0.6);  // slower than any hand
+      hands.app->handle(PointerButtonChanged{PointerButton::kLeft, false, {}, t + 0.05});
+      hands.app->frame(0.6);
+    }
+    REQUIRE(hands.app.settle());
+  };
+  const float before = distance();
+  two(0.8);
+  CHECK(distance() == before);
+  two(0.2);
+  CHECK(distance() != before);
+}

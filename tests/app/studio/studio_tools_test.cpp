@@ -1,0 +1,203 @@
+// Selections, marks and looks as hands expect them.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "app/studio/document_edits.h"
+#include "hands.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("hands: up by three points draws marks, and computes no object again") {
+  Hands hands;
+  const std::vector<std::uint8_t> before = hands.studio().labels(hands.studio().document().active);
+  hands.app.key('0');
+  const glm::vec2 low = hands.app->interface().viewport().min;
+  const glm::vec2 ground[] = {low + glm::vec2(200, 330), low + glm::vec2(400, 330),
+                              low + glm::vec2(300, 260)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    hands.app.click(ground[i]);
+    CHECK(hands.studio().overlay().points_px.size() == i + 1);
+  }
+  CHECK(hands.studio().overlay().shape == ToolOverlay::Shape::kPoints);
+  CHECK(glm::distance(hands.studio().overlay().points_px.front(), hands.in_viewport(ground[0])) < 1.5f);
+  const glm::vec3 up = hands.studio().document().up_world;
+  hands.app.click(ground[2]);
+  CHECK(hands.studio().document().up_world != up);
+  CHECK_FALSE(hands.studio().cutting());
+  hands.app.frames(2);
+  CHECK_FALSE(hands.studio().cutting());
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().labels(hands.studio().document().active) == before);
+}
+
+TEST_CASE("hands: the eyedropper takes one colour everywhere, the flood where it hangs together") {
+  Hands hands(false);
+  REQUIRE(hands.app.settle());
+  const Scene& scene = *hands.studio().scene()->scene;
+  hands.app.key('C');
+  REQUIRE(hands.studio().view().tool == Tool::kColour);
+  hands.app.click(hands.app.screen_of(kOnOrange));
+  REQUIRE(hands.app.settle());
+  const auto by_colour = hands.studio().labels(hands.studio().document().active);
+  hands.app.key('G');
+  hands.studio().apply(EditSelection{SelectionEdit::kNone});
+  hands.app.click(hands.app.screen_of(kOnOrange));
+  REQUIRE(hands.app.settle());
+  const auto flooded = hands.studio().labels(hands.studio().document().active);
+  const auto orange = sample_truth(scene, kOrange);
+  std::size_t beyond = 0, of_orange = 0;
+  for (std::size_t g = 0; g < flooded.size(); ++g) {
+    beyond += flooded[g] && !by_colour[g];
+    of_orange += flooded[g] && orange[g];
+  }
+  MESSAGE(count_flags(by_colour), " by colour, ", count_flags(flooded), " by flood, ", of_orange,
+          " of the orange");
+  CHECK(count_flags(flooded) > 100);
+  CHECK(beyond == 0);
+  CHECK(static_cast<double>(of_orange) > 0.8 * static_cast<double>(count_flags(flooded)));
+  hands.app.click(hands.app.screen_of(kOnOrange), PointerButton::kLeft, {.ctrl = true});
+  CHECK(hands.selected() == 0);
+}
+
+TEST_CASE("hands: Shift adds, Ctrl removes, Alt intersects, with clicks as with regions") {
+  Hands hands;
+  const std::vector<std::uint8_t> apple = hands.studio().labels(hands.studio().document().active);
+  hands.app.click(hands.app.screen_of(kOnOrange), PointerButton::kLeft, {.shift = true});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.selected() > count_flags(apple));
+  hands.app.click(hands.app.screen_of(kOnApple), PointerButton::kLeft, {.alt = true});
+  REQUIRE(hands.app.settle());
+  CHECK(iou_of(hands.studio().labels(hands.studio().document().active), apple) > 0.85);
+  hands.app.click(hands.app.screen_of(kOnApple), PointerButton::kLeft, {.ctrl = true});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.selected() < count_flags(apple) / 2);
+  // Held keys show before anything is pressed.
+  hands.app.key('6');
+  hands.app->handle(KeyChanged{key::kLeftControl, true, false, {}});
+  CHECK(hands.studio().overlay().operation == SetOperation::kRemove);
+  hands.app->handle(KeyChanged{key::kLeftControl, false, false, {.ctrl = true}});
+  CHECK(hands.studio().overlay().operation == SetOperation::kAdd);
+}
+
+TEST_CASE("hands: backgrounds go round, and the checker is behind the object alone") {
+  Hands hands;
+  hands.app.key('I');
+  REQUIRE(hands.app.settle());
+  const auto corner = [&](int x, int y) { return hands.studio().picture()->pictures.front().at(x, y); };
+  std::vector<Rgba8> seen;
+  for (std::size_t i = 0; i < backdrops().size(); ++i) {
+    hands.app.key('J');
+    REQUIRE(hands.app.settle());
+    seen.push_back(corner(3, 3));
+    if (hands.studio().view().checker)
+      CHECK(corner(3, 3) != corner(3 + 12, 3));
+    else
+      CHECK(corner(3, 3) == corner(3 + 12, 3));
+  }
+  CHECK(seen[1] == Rgba8{255, 255, 255, 255});
+  CHECK(seen[3] == Rgba8{255, 0, 255, 255});
+  CHECK(shows(backdrops()[0], hands.studio().document(), hands.studio().view()));
+}
+
+TEST_CASE("hands: two points are measured in scene units") {
+  Hands hands(false);
+  hands.app.key('K');
+  const glm::vec2 a = hands.app.screen_of(kOnApple), b = hands.app.screen_of(kOnMug);
+  const float truth = glm::distance(hands.under(a), hands.under(b));
+  hands.app.click(a);
+  CHECK_FALSE(hands.studio().overlay().length);
+  hands.app.click(b);
+  REQUIRE(hands.studio().overlay().length);
+  CHECK(*hands.studio().overlay().length == doctest::Approx(truth).epsilon(1e-4));
+  CHECK(hands.studio().document().objects.empty());
+}
+
+TEST_CASE("hands: a sphere and a box in space select by a drag, and again by their handles") {
+  Hands hands(false);
+  const Scene& scene = *hands.studio().scene()->scene;
+  const auto apple = sample_truth(scene, kApple);
+  const auto share = [&] {
+    const auto labels = hands.studio().labels(hands.studio().document().active);
+    std::size_t both = 0;
+    for (std::size_t g = 0; g < labels.size(); ++g) both += labels[g] && apple[g];
+    return static_cast<double>(both) / static_cast<double>(count_flags(apple));
+  };
+  for (const char tool : {'9', 'Y'}) {
+    CAPTURE(tool);
+    hands.app.key(tool);
+    const std::size_t steps = hands.studio().history().cursor();
+    const glm::vec2 at = hands.app.screen_of(kOnApple);
+    hands.app.drag({at, at + glm::vec2(20, 0), at + glm::vec2(30, 0)});
+    const std::size_t first = hands.selected();
+    const double part = share();
+    CHECK(first > 100);
+    CHECK(hands.studio().history().cursor() == steps + 1);
+    const auto handles = hands.studio().overlay().handles_px;
+    REQUIRE(handles.size() == (tool == '9' ? 2 : 7));
+    const glm::vec2 low = hands.app->interface().viewport().min;
+    const glm::vec2 middle = low + handles[0], rim = low + handles[1];
+    const glm::vec2 outwards = glm::normalize(rim - middle) * 30.0f;
+    hands.app.drag({rim, rim + 0.5f * outwards, rim + outwards});
+    CHECK(hands.selected() > first);
+    CHECK(share() >= part);
+    CHECK(hands.studio().history().cursor() == steps + 1);  // one step, as it was changed
+    const std::size_t larger = hands.selected();
+    const glm::vec2 now = low + hands.studio().overlay().handles_px[0];  // a box keeps its other face
+    hands.app.drag({now, now + glm::vec2(200, -150), now + glm::vec2(400, -300)});
+    CHECK(hands.selected() != larger);
+    CHECK(hands.studio().history().cursor() == steps + 1);
+    hands.app.key(key::kEscape);
+    CHECK(hands.studio().overlay().handles_px.empty());
+    hands.app.key('Z', {.ctrl = true});
+    CHECK(hands.selected() == 0);
+  }
+}
+
+TEST_CASE("hands: a box around a thing takes nothing that stands outside of it") {
+  Hands hands(false);
+  const Scene& scene = *hands.studio().scene()->scene;
+  for (const auto& [thing, name] : {std::pair{kApple, "apple"}, {kOrange, "orange"}, {kMug, "mug"}}) {
+    CAPTURE(name);
+    const auto truth = sample_truth(scene, thing);
+    glm::vec2 low(1e9f), high(-1e9f);
+    for (std::size_t g = 0; g < truth.size(); ++g) {
+      if (!truth[g]) continue;
+      const glm::vec2 at = hands.seen_at(scene.cloud.position[g]);
+      low = glm::min(low, at), high = glm::max(high, at);
+    }
+    hands.studio().apply(NewObject{});
+    hands.app.key('4');
+    const glm::vec2 a = low - 4.0f, b = high + 4.0f;
+    hands.app.drag({a, 0.5f * (a + b), b});
+    REQUIRE(hands.app.settle());
+    const auto labels = hands.studio().labels(hands.studio().document().active);
+    std::size_t outside = 0;
+    for (std::size_t g = 0; g < labels.size(); ++g) {
+      const glm::vec2 at = hands.seen_at(scene.cloud.position[g]);
+      outside += labels[g] && (at.x < a.x || at.y < a.y || at.x > b.x || at.y > b.y);
+    }
+    MESSAGE(std::string(name), ": IoU ", iou_of(labels, truth), ", outside ", outside, " of ",
+            count_flags(labels));
+    CHECK(static_cast<double>(outside) < 0.01 * static_cast<double>(count_flags(labels)));
+    CHECK(iou_of(labels, truth) > 0.8);
+  }
+}
+
+TEST_CASE("hands: a box around a pot leaves the plant that grows out of it, but for what hangs over") {
+  Hands hands(false);
+  const GaussianCloud& cloud = *hands.studio().scene()->cloud;
+  hands.app.key('4');
+  const glm::vec2 a = hands.app.screen_of({560, 268}), b = hands.app.screen_of({728, 404});
+  hands.app.drag({a, 0.5f * (a + b), b});
+  REQUIRE(hands.app.settle());
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  std::size_t outside = 0;
+  for (std::size_t g = 0; g < labels.size(); ++g) {
+    const glm::vec2 at = hands.seen_at(cloud.position[g]);
+    outside += labels[g] && (at.x < a.x || at.y < a.y || at.x > b.x || at.y > b.y);
+  }
+  MESSAGE("outside ", outside, " of ", count_flags(labels));
+  CHECK(static_cast<double>(outside) < 0.25 * static_cast<double>(count_flags(labels)));
+}

@@ -1,0 +1,40 @@
+// A pair of hands in the window, as an artist has them.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include "headless_app.h"
+
+namespace splatcut::testing {
+
+inline constexpr int kHandsWidth = 900, kHandsHeight = 520;
+
+class Hands {
+ public:
+  explicit Hands(bool cut = true, ApplicationOptions options = {})
+      : app(kHandsWidth, kHandsHeight, 1, std::move(options)) {
+    app.interface_state().hint_wanted = false;
+    app.open(kSample);
+    REQUIRE(app.settle());
+    if (!cut) return;
+    studio().apply(SetPreset{"fast"});
+    app.click(app.screen_of(kOnApple));
+    REQUIRE(app.settle());
+  }
+  Studio& studio() { return app.studio(); }
+  std::string said() { return studio().messages().empty() ? "" : studio().messages().back().text; }
+  std::size_t selected() { return studio().gaussians_of(studio().document().active); }
+  glm::vec2 in_viewport(const glm::vec2& screen) { return screen - app->interface().viewport().min; }
+  glm::vec3 under(const glm::vec2& screen) {
+    const auto hit = studio().pick(in_viewport(screen));
+    REQUIRE(hit);
+    return hit->position_world;
+  }
+  glm::vec2 seen_at(const glm::vec3& world) {
+    const Camera camera = studio().viewport_camera();
+    return app->interface().viewport().min + camera.pixel_from_camera(camera.camera_from_world(world));
+  }
+  HeadlessApp app;
+};
+
+}  // namespace splatcut::testing
