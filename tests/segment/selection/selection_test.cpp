@@ -199,9 +199,31 @@ TEST_CASE("selection: a click on what is shown so already holds it and flips not
   CHECK(selection.labels() == Labels{1, 1, 0, 0});
 }
 
-TEST_CASE("selection: a rest click after the whole was taken asks for another part of the first click") {
-  CHECK(selected({object(5)}, 1) == Labels{1, 1, 1, 1});
-  CHECK(selected({object(5), rest(35)}, 1) == Labels{1, 1, 0, 0});
+// All four stripes are taken by one click on the first, then a click on the second says rest. No part of the
+// tree holds all but the first: only the first click's smallest meaning leaves the second out.
+TEST_CASE(
+    "selection: a rest click may give the first click another meaning, where it is as large as it says") {
+  SelectionModel model = borders_alone();
+  weight(&model.first, Term::kCut) = 0.5f;       // the least likely meaning is still one
+  weight(&model.later, Term::kOffCentre) = 100;  // not of it: it has no place in the view
+  weight(&model.later, Term::kHidden) = 100;     // nor this, though half of what it gives up is out of sight
+  weight(&model.later, Term::kRepick) = -50;
+  const PartHierarchy parts = four_leaves();
+  const auto after = [&](const std::vector<int>& columns, const Strokes& strokes) {
+    const LeafView view = stripes(parts, columns);
+    ClickSelection selection(parts, model, 1);
+    for (const Stroke& stroke : strokes) selection.apply(view, stroke);
+    return selection.labels();
+  };
+  // The border is 5 pixels away: up to e pi 5^2 = 213 pixels may go. Two stripes are 200, three are 300.
+  const std::vector<int> two_more = {0, 1, 2, -1}, three_more = {0, 1, 2, 3};
+  CHECK(after(two_more, {object(5)}) == Labels{1, 1, 1, 1});
+  CHECK(after(two_more, {object(5), rest(15)}) == Labels{1, 0, 0, 0});
+  CHECK(after(three_more, {object(5), rest(15)}) == Labels{1, 0, 1, 1});
+  // After two object clicks there is no other meaning of the one.
+  CHECK(after(two_more, {object(5), object(7), rest(15)}) == Labels{1, 0, 1, 1});
+  weight(&model.later, Term::kRepick) = 50;
+  CHECK(after(two_more, {object(5), rest(15)}) == Labels{1, 0, 1, 1});
 }
 
 TEST_CASE("selection: a click is obeyed though no part is likely, by its disc alone") {
