@@ -32,6 +32,11 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
 void start_page(UiContext& ui, const UiRect& area);
 
 // Over the picture, whose pixels are pixels_per_point to a point.
+void draw_strokes(const UiContext& ui, const UiRect& area);
+void draw_offer(const UiContext& ui, const UiRect& area,
+                float bottom);  // other meanings of a click, with their keys
+void draw_tool_shape(const UiContext& ui, const UiRect& area);
+void draw_brush_ring(const UiContext& ui, const UiRect& area);
 void draw_points(const UiContext& ui, const UiRect& area);       // of the ground, of what is measured
 void draw_centres(const UiContext& ui, const UiRect& area);      // of the Gaussians that are shown
 void draw_cursor_sign(const UiContext& ui, const UiRect& area);  // what a press would do to the selection

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "app/ui/panels.h"
+#include "app/ui/on_screen.h"
 #include "app/ui/widgets.h"
 
 namespace splatcut {
@@ -13,19 +13,6 @@ namespace splatcut {
 namespace {
 
 const ImU32 kShade = IM_COL32(0, 0, 0, 150), kWhite = IM_COL32(255, 255, 255, 235);
-
-struct OnScreen {
-  glm::vec2 origin;
-  float points_per_pixel;
-  ImVec2 operator()(const glm::vec2& pixel) const {
-    const glm::vec2 at = origin + pixel * points_per_pixel;
-    return {at.x, at.y};
-  }
-};
-
-OnScreen on_screen(const UiContext& ui, const UiRect& area) {
-  return {area.min, 1 / ui.theme.pixels_per_point};
-}
 
 void boxed_text(ImDrawList& list, const ImVec2& middle, const std::string& text, const UiContext& ui) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());

@@ -1,0 +1,227 @@
+// What the hand has drawn and draws: strokes, other meanings of a click, the shape of the tool at work.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/ui/on_screen.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+const ImU32 kObjectInk = IM_COL32(90, 220, 120, 255), kRestInk = IM_COL32(245, 95, 90, 255);
+
+// Corners cut twice (Chaikin 1974): the hand's path has no corners. The ends stay.
+std::vector<ImVec2> rounded(std::vector<ImVec2> path) {
+  for (int pass = 0; pass < 2 && path.size() > 2; ++pass) {
+    std::vector<ImVec2> cut{path.front()};
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const ImVec2 &a = path[i], &b = path[i + 1];
+      if (i > 0) cut.push_back({0.75f * a.x + 0.25f * b.x, 0.75f * a.y + 0.25f * b.y});
+      if (i + 2 < path.size()) cut.push_back({0.25f * a.x + 0.75f * b.x, 0.25f * a.y + 0.75f * b.y});
+    }
+    cut.push_back(path.back());
+    path = std::move(cut);
+  }
+  return path;
+}
+
+// Half a disc beyond the end of a path that comes from `before`: a whole one would show twice where the path
+// is see-through.
+void end_cap(ImDrawList& list, const ImVec2& before, const ImVec2& end, float radius, ImU32 colour) {
+  constexpr float kQuarter = 1.5707963f;
+  const float angle = std::atan2(end.y - before.y, end.x - before.x);
+  list.PathArcTo(end, radius, angle - kQuarter, angle + kQuarter);
+  list.PathFillConvex(colour);
+}
+
+void smooth_path(ImDrawList& list, const std::vector<ImVec2>& points, ImU32 colour, float width) {
+  std::vector<ImVec2> path = rounded(points);
+  const auto same = [](const ImVec2& a, const ImVec2& b) { return a.x == b.x && a.y == b.y; };
+  path.erase(std::unique(path.begin(), path.end(), same), path.end());
+  if (path.size() == 1) return list.AddCircleFilled(path[0], 0.5f * width, colour);
+  for (const ImVec2& p : path) list.PathLineTo(p);
+  list.PathStroke(colour, 0, width);
+  end_cap(list, path[1], path.front(), 0.5f * width, colour);
+  end_cap(list, path[path.size() - 2], path.back(), 0.5f * width, colour);
+}
+
+std::vector<ImVec2> placed(const std::vector<glm::vec2>& points_px, const OnScreen& place) {
+  std::vector<ImVec2> out;
+  for (const glm::vec2& p : points_px) out.push_back(place(p));
+  return out;
+}
+
+// Of another camera's pixels, where it stands as the one on the screen does.
+OnScreen placement_of(const Camera& camera, const Camera& now, const OnScreen& place) {
+  const float factor = now.fy_px / camera.fy_px;
+  const glm::vec2 shift = glm::vec2(now.cx_px, now.cy_px) - factor * glm::vec2(camera.cx_px, camera.cy_px);
+  return {place.origin + shift * place.points_per_pixel, factor * place.points_per_pixel};
+}
+
+void draw_click(ImDrawList& list, const ImVec2& at, bool object) {
+  list.AddCircleFilled(at, 6.5f, IM_COL32(0, 0, 0, 150));
+  list.AddCircleFilled(at, 5, object ? kObjectInk : kRestInk);
+  list.AddLine({at.x - 2.5f, at.y}, {at.x + 2.5f, at.y}, IM_COL32(10, 20, 10, 255), 1.5f);
+  if (object) list.AddLine({at.x, at.y - 2.5f}, {at.x, at.y + 2.5f}, IM_COL32(10, 20, 10, 255), 1.5f);
+}
+
+// What is looked at alone should not be painted over, unless it is being repaired.
+bool strokes_wanted(const ViewState& view) {
+  return is_stroke_tool(view.tool) || (view.display == DisplayMode::kWhole && !view.heat);
+}
+
+constexpr float kThinPx = 2;
+
+// As box_strokes() makes them: rest, closed, four corners.
+bool is_frame(const Stroke& stroke) {
+  const std::vector<glm::vec2>& p = stroke.points_px;
+  return stroke.label == SeedLabel::kRest && p.size() == 5 && p[0] == p[4] && p[0].y == p[1].y &&
+         p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x;
+}
+
+// A point of the border that is far from everything in `apart`; nothing of it may be in `area`.
+std::optional<ImVec2> label_place(const std::vector<ImVec2>& border, const std::vector<ImVec2>& apart,
+                                  const UiRect& area) {
+  constexpr float kMargin = 16, kFarEnough = 60;
+  std::optional<ImVec2> best;
+  float farthest = -1;
+  for (const ImVec2& p : border) {
+    if (!area.contains({p.x - kMargin, p.y - kMargin}) || !area.contains({p.x + kMargin, p.y + kMargin}))
+      continue;
+    float distance = kFarEnough;
+    for (const ImVec2& q : apart) distance = std::min(distance, std::hypot(p.x - q.x, p.y - q.y));
+    if (distance <= farthest) continue;
+    farthest = distance;
+    best = p;
+  }
+  return best;
+}
+
+void draw_badge(const UiContext& ui, ImDrawList& list, const ImVec2& at, int number) {
+  const std::string text = fmt::format("{}", number);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  list.AddCircleFilled(at, 11, packed(ui.theme.colour.panel, 0.92f));
+  list.AddCircle(at, 11, IM_COL32(255, 255, 255, 230), 0, 1.5f);
+  list.AddText({at.x - 0.5f * size.x, at.y - 0.5f * size.y}, packed(ui.theme.colour.text), text.c_str());
+}
+
+}  // namespace
+
+// Strokes are kept per view: they show where the camera stands as it did when they were drawn.
+void draw_strokes(const UiContext& ui, const UiRect& area) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const OnScreen place = on_screen(ui, area);
+  const ObjectItem* object = ui.studio.document().active_object();
+  if (!object || !strokes_wanted(ui.studio.view())) return;
+  const Camera now = ui.studio.viewport_camera();
+  for (const StrokedView& view : object->views) {
+    if (!same_pose(view.camera, now)) continue;
+    const OnScreen there = placement_of(view.camera, now, place);
+    for (const Stroke& stroke : view.strokes) {
+      const bool is_object = stroke.label == SeedLabel::kObject;
+      if (stroke.points_px.size() == 1) {
+        draw_click(list, there(stroke.points_px.front()), is_object);
+        continue;
+      }
+      const ImU32 ink = is_object ? kObjectInk : kRestInk;
+      if (is_frame(stroke)) {  // of a box: its border says it all
+        if (stroke.radius_px <= kThinPx)
+          list.AddRect(there(stroke.points_px[0]), there(stroke.points_px[2]), ink, 0, 0, 2);
+        continue;
+      }
+      smooth_path(list, placed(stroke.points_px, there), (ink & 0x00ffffffu) | 0x90000000u,
+                  std::max(2.0f, 2 * stroke.radius_px * there.points_per_pixel));
+    }
+  }
+}
+
+// What else the click can mean, as thin outlines with their keys, where the camera stands as it was clicked.
+void draw_offer(const UiContext& ui, const UiRect& area, float bottom) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const OnScreen place = on_screen(ui, area);
+  const UiRect free_area{area.min, {area.max.x, area.max.y - bottom}};
+  const ClickMeanings* offer = ui.studio.offer();
+  const Camera now = ui.studio.viewport_camera();
+  if (!offer || !same_pose(offer->camera, now)) return;
+  const OnScreen there = placement_of(offer->camera, now, place);
+  const int taken = ui.studio.document().active_object()->choice;
+  std::vector<ImVec2> apart;
+  const std::vector<StrokedView>& views = ui.studio.document().active_object()->views;
+  for (const StrokedView& view : views)
+    for (const Stroke& stroke : view.strokes) apart.push_back(there(stroke.points_px.front()));
+  for (int i = 0; i < std::ssize(offer->outlines); ++i) {
+    if (i == taken) continue;
+    std::optional<ImVec2> label;
+    for (const std::vector<glm::vec2>& border : offer->outlines[static_cast<std::size_t>(i)]) {
+      const std::vector<ImVec2> path = rounded(placed(border, there));
+      list.AddPolyline(path.data(), static_cast<int>(path.size()), IM_COL32(0, 0, 0, 110), ImDrawFlags_Closed,
+                       3);
+      list.AddPolyline(path.data(), static_cast<int>(path.size()), IM_COL32(255, 255, 255, 200),
+                       ImDrawFlags_Closed, 1.3f);
+      if (!label) label = label_place(path, apart, free_area);
+    }
+    if (!label) continue;
+    apart.push_back(*label);
+    draw_badge(ui, list, *label, i + 1);
+  }
+}
+
+void draw_tool_shape(const UiContext& ui, const UiRect& area) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const OnScreen place = on_screen(ui, area);
+  const ToolOverlay overlay = ui.studio.overlay();
+  const ImU32 ink = overlay.cuts                                 ? (overlay.rest ? kRestInk : kObjectInk)
+                    : overlay.operation == SetOperation::kRemove ? kRestInk
+                                                                 : packed(ui.theme.colour.accent);
+  const ImU32 wash = (ink & 0x00ffffffu) | 0x30000000u;
+  const std::vector<ImVec2> points = placed(overlay.points_px, place);
+  const float radius = overlay.radius_px * place.points_per_pixel;
+  switch (overlay.shape) {
+    case ToolOverlay::Shape::kPath:
+      smooth_path(list, points, (ink & 0x00ffffffu) | 0x90000000u, 2 * radius);
+      break;
+    case ToolOverlay::Shape::kRectangle:
+      if (points.size() < 2) break;
+      list.AddRectFilled(points[0], points[1], wash);
+      list.AddRect(points[0], points[1], ink, 0, 0, 1.5f);
+      break;
+    case ToolOverlay::Shape::kPolygon:
+      for (const ImVec2& p : points) list.PathLineTo(p);
+      list.PathStroke(ink, ImDrawFlags_Closed, 1.8f);
+      for (const ImVec2& p : points)
+        if (ui.studio.view().tool == Tool::kPolygon) list.AddCircleFilled(p, 3.5f, ink);
+      break;
+    case ToolOverlay::Shape::kCircle:
+      if (radius > 0) list.AddCircleFilled(points[0], radius, wash);
+      if (radius > 0) list.AddCircle(points[0], radius, ink, 0, 1.8f);
+      for (const auto& [from, to] : overlay.edges_px) list.AddLine(place(from), place(to), ink, 1.8f);
+      for (const glm::vec2& handle : overlay.handles_px) {
+        list.AddCircleFilled(place(handle), 5, IM_COL32(255, 255, 255, 235));
+        list.AddCircle(place(handle), 5, ink, 0, 2);
+      }
+      break;
+    case ToolOverlay::Shape::kPoints:
+    case ToolOverlay::Shape::kNone:
+      break;
+  }
+}
+
+// The brush as a ring under the pointer.
+void draw_brush_ring(const UiContext& ui, const UiRect& area) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const Tool tool = ui.studio.view().tool;
+  if (tool != Tool::kScribble && tool != Tool::kBrush) return;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (!area.contains({mouse.x, mouse.y}) || ImGui::IsAnyItemHovered() ||
+      ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
+    return;
+  const float radius = std::max(2.0f, ui.studio.overlay().radius_px / ui.theme.pixels_per_point);
+  list.AddCircle(mouse, radius + 1, IM_COL32(0, 0, 0, 120), 0, 1);
+  list.AddCircle(mouse, radius, IM_COL32(255, 255, 255, 220), 0, 1.3f);
+}
+
+}  // namespace splatcut
