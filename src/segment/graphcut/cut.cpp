@@ -25,10 +25,10 @@ void CutSolver::make_ready() {
 }
 
 void CutSolver::set_options(const CutOptions& options) {
-  const EnergyOptions before = options_.energy;
+  const NeighbourOptions before = options_.energy, &now = options.energy;
   options_ = options;
-  if (!max_flow_ || same_neighbour_term(before, options.energy)) return;
-  std::vector<std::int32_t> capacity = arc_capacities(cloud_, graph_, options.energy);
+  if (!max_flow_ || before == now) return;
+  std::vector<std::int32_t> capacity = arc_capacities(cloud_, graph_, now);
   max_flow_->set_capacity(capacity);
   capacity_ = std::move(capacity);
 }

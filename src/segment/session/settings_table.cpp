@@ -59,6 +59,13 @@ Setting flag(std::string name, SettingFor whom, Field field, std::string sentenc
 template <class Value>
 using Names = std::vector<std::pair<std::string_view, Value>>;
 
+template <class Row>
+Names<Row> choices_of(const std::vector<Row>& rows) {
+  Names<Row> names;
+  for (const Row& row : rows) names.emplace_back(row.name, row);
+  return names;
+}
+
 template <class Value, class Field>
 Setting choice(std::string name, SettingFor whom, Names<Value> names, Field field, std::string sentence) {
   std::string words;
@@ -109,8 +116,6 @@ Setting smoothness() {
 
 std::vector<Setting> make_table() {
   constexpr float kGamma = 1000;
-  const Names<Pairwise> kinds = {
-      {"overlap", Pairwise::kOverlap}, {"paper", Pairwise::kPaper}, {"paper-code", Pairwise::kPaperCode}};
   const Names<Propagator> propagators = {
       {"lift", Propagator::kLift}, {"warp", Propagator::kWarp}, {"dis", Propagator::kFlow}};
   const Names<MaskSolver> solvers = {
@@ -139,7 +144,7 @@ std::vector<Setting> make_table() {
       flag("energy.coarse", kPeople, FIELD(cut.coarse), "threshold the likelihood instead of the cut"),
       flag("trim", kPeople, FIELD(trim), "take out what shows beside the object once the scene is gone"),
 
-      choice("energy.pairwise", kExperiments, kinds, FIELD(cut.energy.pairwise),
+      choice("energy.pairwise", kExperiments, choices_of(pairwise_energies()), FIELD(cut.energy.pairwise),
              "neighbour term, see energy.h"),
       number("energy.gamma_position", kExperiments, 0.0f, kGamma, FIELD(cut.energy.gamma_position),
              "how fast it falls with distance"),

@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
@@ -122,6 +123,42 @@ TEST_CASE("weights of Gaussians of infinite size are zero, of identical ones lam
 
 TEST_CASE("view by view, the kept solver's labels are a fresh solver's, and its sub-graph proves them") {
   check_view_by_view(labelled_mug(30000), 8);
+}
+
+TEST_CASE("after any change of the energy, the kept solver's labels are a fresh solver's") {
+  const Labelled scene = labelled_mug(8000);
+  const FlowGraph graph = knn_graph(scene.cloud);
+  MaskedSums sums(scene.cloud.size());
+  add_view(scene.cloud, scene.cameras[0], scene.object, 2, sums);
+  const Likelihood seen = likelihood(sums);
+  const auto pixels = static_cast<double>(scene.cameras[0].width_px) * scene.cameras[0].height_px;
+  std::vector<CutOptions> all;
+  for (const Pairwise& pairwise : pairwise_energies()) {
+    CutOptions options;
+    options.energy.pairwise = pairwise;
+    all.push_back(options);
+    constexpr std::array<float EnergyOptions::*, 6> kWeights = {
+        &EnergyOptions::gamma_position, &EnergyOptions::gamma_colour, &EnergyOptions::lambda,
+        &EnergyOptions::lambda_n,       &EnergyOptions::lambda_u,     &EnergyOptions::unseen_rest};
+    for (float EnergyOptions::*weight : kWeights) {
+      all.push_back(options);
+      all.back().energy.*weight += 0.7f;
+    }
+  }
+  CutSolver kept(scene.cloud, graph, {});
+  std::vector<double> energies;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    CAPTURE(i);
+    kept.set_options(all[i]);
+    const CutReport warm = kept.solve(seen, 1, pixels);
+    const CutReport fresh = CutSolver(scene.cloud, graph, all[i]).solve(seen, 1, pixels);
+    CHECK(warm.labels == fresh.labels);
+    CHECK(warm.energy == fresh.energy);
+    energies.push_back(fresh.energy);
+  }
+  std::ranges::sort(energies);
+  const auto distinct = std::ranges::unique(energies).begin() - energies.begin();
+  CHECK(distinct > 3 * std::ssize(pairwise_energies()));  // what was changed, changes something
 }
 
 TEST_CASE("the same on captured scenes") {
