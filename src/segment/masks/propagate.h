@@ -1,28 +1,66 @@
-// A mask carried from one view into another, in two dimensions: the ways the labels of the 3D cut, rendered
-// into the next view (kLift, see pipeline.h), are measured against.
+// The table of propagators: how the mask of a view is found from what is known so far. Settings, their help
+// and the pipeline follow from it. A propagator is one file in src/segment/masks/propagators that defines its
+// row, and one line here.
 //
-// Source: Kroeger et al., Fast optical flow using dense inverse search, 2016 (OpenCV's DISOpticalFlow); the
-// depth warp with its z-test is ours. Same result on any number of threads.
+// Same result on any number of threads.
 #pragma once
+
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
 
 #include "core/image.h"
 #include "scene/camera/camera.h"
 
+// In the order of lists.
+// clang-format off
+#define SPLATCUT_PROPAGATORS(row) \
+  row(kLift)                      \
+  row(kWarp)                      \
+  row(kFlow)                      \
+// clang-format on
+
 namespace splatcut {
 
-enum class Propagator {
-  kLift,  // labels of the 3D cut so far, rendered into the view
-  kWarp,  // the nearest view's mask through the depth of both
-  kFlow,  // the nearest view's mask along the optical flow of the two pictures
-};
-
-// A view whose mask is known. All images of one size.
+// A view whose mask is known.
 struct SeenView {
   Camera camera;
   Image<Rgb8> picture;
   Image<float> depth;  // camera z, 0 where nothing is
   Mask mask;
 };
+
+// A view whose mask is wanted.
+struct OpenView {
+  const Camera& camera;
+  const Image<Rgb8>& picture;       // of a propagator that is of pictures; this and the rest are of one size
+  const Image<float>& depth;        // the same
+  std::span<const SeenView> seen;   // the same, never empty then
+  std::function<Mask()> rendered_labels;  // the 3D cut so far, rendered into the view
+};
+
+// One row. A value that is copied freely; rows are equal where their names are.
+struct Propagator {
+  const char* name = "";           // in settings and reports: "dis"
+  const char* sentence = "";       // "masks through depth"
+  const char* stage = "masks";     // that its time is booked on
+  bool of_pictures = false;        // works in two dimensions
+  Mask (*mask)(const OpenView& view) = nullptr;
+
+  friend bool operator==(const Propagator& a, const Propagator& b) {
+    return std::string_view(a.name) == b.name;
+  }
+
+#define SPLATCUT_DECLARE_ROW(row) static const Propagator row;
+  SPLATCUT_PROPAGATORS(SPLATCUT_DECLARE_ROW)
+#undef SPLATCUT_DECLARE_ROW
+};
+
+std::vector<Propagator> propagators();
+
+// The seen view whose camera stands nearest.
+const SeenView& nearest(const OpenView& view);
 
 // Each pixel of `to` is looked up in `from` where it shows the same point: depths must agree within
 // `tolerance` (relative). What `from` does not show is not object. to_depth: size of `to`.

@@ -96,8 +96,9 @@ class Run {
            !request_.mask_source;
   }
   bool needs_pictures() const {
-    return settings_.propagate != Propagator::kLift || settings_.refine.solver != MaskSolver::kNone;
+    return settings_.propagate.of_pictures || settings_.refine.solver != MaskSolver::kNone;
   }
+  Mask drawn_labels(const Camera& camera) const;
   Mask labels_in(const Camera& camera);
   Mask propagated(const Camera& camera, const Picture& picture);
   bool hidden(const Camera& camera, const Mask& seen, double share);
@@ -121,7 +122,7 @@ class Run {
   CutResult result_;
   StageClock clock_;
   MaskedSums sums_;
-  std::vector<SeenView> seen_;    // in two dimensions; empty for kLift
+  std::vector<SeenView> seen_;    // empty unless the propagator is of pictures
   Image<float> reference_depth_;  // median, of the whole scene in the view that find_object() looked at last
   std::vector<Image<float>> scene_depths_;  // the same of result_.views; empty where a view was not drawn
   int work_width_px_;
@@ -139,14 +140,17 @@ void Run::solve(CutPhase phase) {
   snapshot(phase);
 }
 
+Mask Run::drawn_labels(const Camera& camera) const {
+  return thresholded(render_labels(drawer_, camera, result_.labels, job_), 0.5f);
+}
+
 Mask Run::labels_in(const Camera& camera) {
-  return clock_.time("labels in views",
-                     [&] { return thresholded(render_labels(drawer_, camera, result_.labels, job_), 0.5f); });
+  return clock_.time("labels in views", [&] { return drawn_labels(camera); });
 }
 
 void Run::use(ViewReport view, Picture picture) {
   view.used = true;
-  if (settings_.propagate != Propagator::kLift) {
+  if (settings_.propagate.of_pictures) {
     if (picture.rgb.empty())
       picture = clock_.time("view", [&] { return render(drawer_, view.camera, job_); });
     seen_.push_back({view.camera, std::move(picture.rgb), std::move(picture.depth), view.mask});
@@ -286,14 +290,8 @@ bool Run::hidden(const Camera& camera, const Mask& seen, double share) {
 
 // What is object in this view, before the picture has its say.
 Mask Run::propagated(const Camera& camera, const Picture& picture) {
-  if (settings_.propagate == Propagator::kLift) return labels_in(camera);
-  const SeenView& nearest = *std::ranges::min_element(seen_, {}, [&](const SeenView& v) {
-    return glm::distance(v.camera.centre_world(), camera.centre_world());
-  });
-  return clock_.time("masks", [&] {
-    return settings_.propagate == Propagator::kWarp ? warped_by_depth(nearest, camera, picture.depth)
-                                                    : warped_by_flow(nearest, picture.rgb);
-  });
+  const OpenView view{camera, picture.rgb, picture.depth, seen_, [&] { return drawn_labels(camera); }};
+  return clock_.time(settings_.propagate.stage, [&] { return settings_.propagate.mask(view); });
 }
 
 void Run::add_given(const GivenView& given) {
@@ -356,8 +354,7 @@ void Run::other_views() {
             : cameras_around(reference_.camera, scene_.up_world, extent, scene_.photographs, orbit);
   // On a circle the object is large, however small it is in the first view. Flow compares pictures of one
   // size.
-  const int width_px =
-      given || settings_.propagate != Propagator::kLift ? work_width_px_ : settings_.work_width_px;
+  const int width_px = given || settings_.propagate.of_pictures ? work_width_px_ : settings_.work_width_px;
   add_stroked_views(extent.centre_world);
   int steady = 0;
   for (std::size_t i = 0; i < cameras.size() && !job_.cancelled(); ++i) {

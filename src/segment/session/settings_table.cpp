@@ -66,6 +66,14 @@ Names<Row> choices_of(const std::vector<Row>& rows) {
   return names;
 }
 
+// "lift: labels of the cut rendered into the next view; warp: masks through depth; ..."
+std::string sentence_of(const std::vector<Propagator>& rows) {
+  std::string sentence;
+  for (const Propagator& row : rows)
+    sentence += fmt::format("{}{}: {}", sentence.empty() ? "" : "; ", row.name, row.sentence);
+  return sentence;
+}
+
 template <class Value, class Field>
 Setting choice(std::string name, SettingFor whom, Names<Value> names, Field field, std::string sentence) {
   std::string words;
@@ -116,8 +124,6 @@ Setting smoothness() {
 
 std::vector<Setting> make_table() {
   constexpr float kGamma = 1000;
-  const Names<Propagator> propagators = {
-      {"lift", Propagator::kLift}, {"warp", Propagator::kWarp}, {"dis", Propagator::kFlow}};
   const Names<MaskSolver> solvers = {
       {"none", MaskSolver::kNone}, {"grabcut", MaskSolver::kGrabCut}, {"pixelcut", MaskSolver::kPixelCut}};
   const Names<FirstMaskFrom> ways = {{"parts", FirstMaskFrom::kParts}, {"pixels", FirstMaskFrom::kPixels}};
@@ -128,9 +134,8 @@ std::vector<Setting> make_table() {
           "most views around the object; -1: none after clicks, 12 where a mask or pixels say what is meant"),
       number("views.settled_change", kPeople, 0.0, 1.0, FIELD(settled_change),
              "no more views once less of the object changes; 0: all views"),
-      choice("views.propagate", kPeople, propagators, FIELD(propagate),
-             "lift: labels of the cut rendered into the next view; warp: masks through depth; dis: along "
-             "optical flow"),
+      choice("views.propagate", kPeople, choices_of(propagators()), FIELD(propagate),
+             sentence_of(propagators())),
       choice("views.refine", kPeople, solvers, FIELD(refine.solver), "what settles masks in the other views"),
       choice("first.from", kPeople, ways, FIELD(first_mask_from), "where the first mask comes from"),
       choice("first.solver", kPeople, solvers, FIELD(first_mask.refine.solver),
