@@ -10,28 +10,26 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::size_t kUsualPresets = 3;  // of presets(): the others are the paper's
-
 void quality_choice(UiContext& ui) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Quality");
   ImGui::SameLine(62);
   const std::string& now = ui.studio.document().preset;
-  const auto usual = presets().first(kUsualPresets), others = presets().subspan(kUsualPresets);
+  const char* of_paper = nullptr;
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6, 5});
-  for (const Preset& preset : usual) {
-    if (&preset != usual.data()) ImGui::SameLine(0, 2);
+  for (const Preset& preset : presets()) {
+    if (preset.of_paper && now == preset.name) of_paper = preset.title;
+    if (preset.of_paper) continue;
     if (button(ui, preset.title, preset.sentence, {}, now == preset.name)) ui.ask(SetPreset{preset.name});
+    ImGui::SameLine(0, 2);
   }
-  const auto other = std::ranges::find(others, now, &Preset::name);
-  ImGui::SameLine(0, 2);
-  const std::string label =
-      fmt::format("{} {}", other == others.end() ? "Advanced" : other->title, icon::kDown);
-  if (button(ui, label.c_str(), "For comparison with the paper", {}, other != others.end()))
+  const std::string label = fmt::format("{} {}", of_paper ? of_paper : "Advanced", icon::kDown);
+  if (button(ui, label.c_str(), "For comparison with the paper", {}, of_paper != nullptr))
     ImGui::OpenPopup("advanced");
   ImGui::PopStyleVar();
   if (!ImGui::BeginPopup("advanced")) return;
-  for (const Preset& preset : others) {
+  for (const Preset& preset : presets()) {
+    if (!preset.of_paper) continue;
     if (ImGui::MenuItem(preset.title, nullptr, now == preset.name)) ui.ask(SetPreset{preset.name});
     tooltip(preset.sentence);
   }

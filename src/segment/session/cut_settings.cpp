@@ -8,50 +8,44 @@ namespace splatcut {
 
 namespace {
 
-CutSettings by_default() {
-  return {};
-}
-
-CutSettings fast() {
-  CutSettings settings;
-  settings.orbit.views = 0;
-  settings.work_width_px = 256;
-  settings.refine = {.solver = MaskSolver::kNone};
-  return settings;
-}
-
-CutSettings best() {
-  CutSettings settings;
-  settings.orbit.views = kViewsAround;
-  settings.settled_change = 0;  // all of them
-  return settings;
-}
-
-CutSettings paper() {
+CutSettings as_the_paper(const EnergyOptions& energy) {
   CutSettings settings;
   settings.orbit.views = 40;
   settings.settled_change = 0;
   settings.first_mask_from = FirstMaskFrom::kPixels;
   settings.refine = {.solver = MaskSolver::kNone};
-  settings.cut.energy = paper_energy();
+  settings.cut.energy = energy;
   settings.trim = false;
   return settings;
 }
 
-CutSettings paper_code() {
-  CutSettings settings = paper();
-  settings.cut.energy = paper_code_energy();
-  settings.neighbours = 9;
-  return settings;
-}
-
+// A preset is one row here. In the order of lists.
 constexpr Preset kPresets[] = {
-    {"fast", "Fast", "Your views in few pixels: quickest, for a first look", fast},
-    {"default", "Default", "Your views; with a mask, some around the object, too", by_default},
-    {"best", "Best", "Your views and twelve around the object: slower", best},
-    {"paper", "Paper", "GaussianCut's literal energy and number of views", paper},
-    {"paper-code", "Code", "The energy of GaussianCut's published code, which differs from the paper",
-     paper_code},
+    {"fast", "Fast", "Your views in few pixels: quickest, for a first look", false,
+     [] {
+       CutSettings settings;
+       settings.orbit.views = 0;
+       settings.work_width_px = 256;
+       settings.refine = {.solver = MaskSolver::kNone};
+       return settings;
+     }},
+    {"default", "Default", "Your views; with a mask, some around the object, too", false,
+     [] { return CutSettings(); }},
+    {"best", "Best", "Your views and twelve around the object: slower", false,
+     [] {
+       CutSettings settings;
+       settings.orbit.views = kViewsAround;
+       settings.settled_change = 0;  // all of them
+       return settings;
+     }},
+    {"paper", "Paper", "GaussianCut's literal energy and number of views", true,
+     [] { return as_the_paper(paper_energy()); }},
+    {"paper-code", "Code", "The energy of GaussianCut's published code, which differs from the paper", true,
+     [] {
+       CutSettings settings = as_the_paper(paper_code_energy());
+       settings.neighbours = 9;
+       return settings;
+     }},
 };
 
 }  // namespace

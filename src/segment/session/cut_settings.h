@@ -62,6 +62,7 @@ struct CutSettings {
 // Settings under a name, for people.
 struct Preset {
   const char *name, *title, *sentence;
+  bool of_paper;  // for comparison with it, not for daily work
   CutSettings (*settings)();
 };
 std::span<const Preset> presets();
