@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
+#include <vector>
 
 namespace splatcut {
 
@@ -10,7 +12,20 @@ namespace {
 constexpr Modifiers kPlain{}, kShift{true, false, false}, kCtrl{false, true, false},
     kCtrlShift{true, true, false};
 
-constexpr std::array kBindings = {
+struct ToolAction {
+  const Tool* tool;
+  Action action;
+};
+constexpr ToolAction kToolActions[] = {
+#define SPLATCUT_TOOL_ACTION(tool) {&Tool::k##tool, Action::kTool##tool},
+    SPLATCUT_TOOLS(SPLATCUT_TOOL_ACTION)
+#undef SPLATCUT_TOOL_ACTION
+};
+
+constexpr const char* kTools = "Tools";
+
+// Those of the tools stand in their rows.
+constexpr std::array kOwnBindings = {
     Binding{Action::kOpen, 'O', kCtrl, "File", "Open a scene or a work file"},
     Binding{Action::kSave, 'S', kCtrl, "File", "Save the work"},
     Binding{Action::kExport, 'E', kCtrl, "File", "Export"},
@@ -24,25 +39,11 @@ constexpr std::array kBindings = {
     Binding{Action::kConfirm, key::kEnter, kPlain, "Edit", "Close the polygon"},
     Binding{Action::kConfirm, key::kKeypadEnter, kPlain, "Edit", "Close the polygon"},
     Binding{Action::kRecompute, 'R', kPlain, "Edit", "Compute the cutout again"},
-    Binding{Action::kToolNavigate, '1', kPlain, "Tools", "Navigate"},
-    Binding{Action::kToolClick, '2', kPlain, "Tools", "Click an object"},
-    Binding{Action::kToolScribble, '3', kPlain, "Tools", "Scribble"},
-    Binding{Action::kToolBox, '4', kPlain, "Tools", "Box around the object"},
-    Binding{Action::kToolBrush, '5', kPlain, "Tools", "Brush"},
-    Binding{Action::kToolLasso, '6', kPlain, "Tools", "Lasso"},
-    Binding{Action::kToolRectangle, '7', kPlain, "Tools", "Rectangle"},
-    Binding{Action::kToolPolygon, '8', kPlain, "Tools", "Polygon"},
-    Binding{Action::kToolSphere, '9', kPlain, "Tools", "Sphere"},
-    Binding{Action::kToolVolume, 'Y', kPlain, "Tools", "Box in space"},
-    Binding{Action::kToolColour, 'C', kPlain, "Tools", "Eyedropper: select by colour"},
-    Binding{Action::kToolFlood, 'G', kPlain, "Tools", "Flood: neighbours of one colour"},
-    Binding{Action::kToolGround, '0', kPlain, "Tools", "Set up: three points of the ground"},
-    Binding{Action::kToolMeasure, 'K', kPlain, "Tools", "Measure between two points"},
-    Binding{Action::kBrushSmaller, '[', kPlain, "Tools", "Smaller brush"},
-    Binding{Action::kBrushLarger, ']', kPlain, "Tools", "Larger brush"},
-    Binding{Action::kSeeThrough, 'V', kPlain, "Tools", "Visible only, or see-through"},
-    Binding{Action::kPartLarger, key::kPageUp, kPlain, "Tools", "Larger part of what was clicked"},
-    Binding{Action::kPartSmaller, key::kPageDown, kPlain, "Tools", "Smaller part of what was clicked"},
+    Binding{Action::kBrushSmaller, '[', kPlain, kTools, "Smaller brush"},
+    Binding{Action::kBrushLarger, ']', kPlain, kTools, "Larger brush"},
+    Binding{Action::kSeeThrough, 'V', kPlain, kTools, "Visible only, or see-through"},
+    Binding{Action::kPartLarger, key::kPageUp, kPlain, kTools, "Larger part of what was clicked"},
+    Binding{Action::kPartSmaller, key::kPageDown, kPlain, kTools, "Smaller part of what was clicked"},
     Binding{Action::kSelectAll, 'A', kCtrl, "Selection", "Select all"},
     Binding{Action::kSelectNone, 'D', kCtrl, "Selection", "Select none"},
     Binding{Action::kSelectNone, 'A', kCtrlShift, "Selection", "Select none"},
@@ -83,6 +84,15 @@ constexpr std::array kBindings = {
     Binding{Action::kFlyUp, 'E', kPlain, "Camera", "Fly up"},
     Binding{Action::kFlyDown, 'Q', kPlain, "Camera", "Fly down"},
 };
+
+// Tools first under their heading.
+std::vector<Binding> all_bindings() {
+  std::vector<Binding> all(kOwnBindings.begin(), kOwnBindings.end());
+  auto at = std::ranges::find(all, std::string_view(kTools), &Binding::group);
+  for (const ToolAction& a : kToolActions)
+    at = all.insert(at, {a.action, a.tool->key, kPlain, kTools, a.tool->name}) + 1;
+  return all;
+}
 
 std::string plain_name(int code) {
   switch (code) {
@@ -126,17 +136,29 @@ std::string plain_name(int code) {
 }  // namespace
 
 std::span<const Binding> key_bindings() {
-  return kBindings;
+  static const std::vector<Binding> bindings = all_bindings();
+  return bindings;
+}
+
+Action action_of(const Tool& tool) {
+  const auto found = std::ranges::find_if(kToolActions, [&](const ToolAction& a) { return *a.tool == tool; });
+  return found == std::end(kToolActions) ? Action::kNone : found->action;
+}
+
+const Tool* tool_of(Action action) {
+  const auto found = std::ranges::find(kToolActions, action, &ToolAction::action);
+  return found == std::end(kToolActions) ? nullptr : found->tool;
 }
 
 Action action_for(int code, const Modifiers& modifiers) {
+  const std::span<const Binding> bindings = key_bindings();
   const auto exact = std::ranges::find_if(
-      kBindings, [&](const Binding& b) { return b.key == code && b.modifiers == modifiers; });
-  if (exact != kBindings.end()) return exact->action;
+      bindings, [&](const Binding& b) { return b.key == code && b.modifiers == modifiers; });
+  if (exact != bindings.end()) return exact->action;
   if (modifiers.ctrl) return Action::kNone;
   const auto flight =
-      std::ranges::find_if(kBindings, [&](const Binding& b) { return b.key == code && is_flight(b.action); });
-  if (flight != kBindings.end()) return flight->action;
+      std::ranges::find_if(bindings, [&](const Binding& b) { return b.key == code && is_flight(b.action); });
+  if (flight != bindings.end()) return flight->action;
   // "+" is Shift+= on many keyboards.
   return code == '=' && modifiers.shift ? Action::kGrow : Action::kNone;
 }
@@ -152,14 +174,14 @@ std::string key_name(int code, const Modifiers& modifiers) {
 
 std::string keys_of(Action action) {
   std::string keys;
-  for (const Binding& b : kBindings)
+  for (const Binding& b : key_bindings())
     if (b.action == action) keys += (keys.empty() ? "" : ", ") + key_name(b.key, b.modifiers);
   return keys;
 }
 
 const char* name_of(Action action) {
-  const auto found = std::ranges::find(kBindings, action, &Binding::action);
-  return found == kBindings.end() ? "" : found->what;
+  const auto found = std::ranges::find(key_bindings(), action, &Binding::action);
+  return found == key_bindings().end() ? "" : found->what;
 }
 
 }  // namespace splatcut

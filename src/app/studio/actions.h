@@ -4,6 +4,8 @@
 #include <span>
 #include <string>
 
+#include "app/studio/tools/tool.h"
+
 namespace splatcut {
 
 // Key codes as GLFW numbers them; letters and digits are their ASCII capitals.
@@ -49,21 +51,10 @@ enum class Action {
   kSeeThrough,
   kDelete,
   kNewObject,
-  kToolNavigate,
-  kToolClick,
-  kToolScribble,
-  kToolBox,
-  kToolBrush,
-  kToolLasso,
-  kToolRectangle,
-  kToolPolygon,
-  kToolSphere,
-  kToolVolume,
-  kToolColour,
-  kToolFlood,
-  kToolGround,
-  kToolMeasure,
-  kBrushSmaller,
+#define SPLATCUT_TOOL_ACTION(tool) kTool##tool,
+  SPLATCUT_TOOLS(SPLATCUT_TOOL_ACTION)
+#undef SPLATCUT_TOOL_ACTION
+      kBrushSmaller,
   kBrushLarger,
   kPartLarger,
   kPartSmaller,
@@ -100,6 +91,10 @@ struct Binding {
 };
 
 std::span<const Binding> key_bindings();
+
+// That take a tool up.
+Action action_of(const Tool& tool);
+const Tool* tool_of(Action action);  // null for other actions
 
 // kNone where nothing is bound. Flight keys answer with any of Shift and Alt held.
 Action action_for(int key, const Modifiers& modifiers);

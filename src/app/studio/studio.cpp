@@ -16,19 +16,11 @@ namespace {
 
 constexpr std::size_t kMessagesKept = 100;
 
-Tool tool_of(Action action) {
-  return static_cast<Tool>(static_cast<int>(action) - static_cast<int>(Action::kToolNavigate));
-}
-
 // Of the axes across `up`, one that a view can follow: z (or y) for the front, x (or y) for the right.
 glm::vec3 level_direction(const glm::vec3& up, bool right) {
   const glm::vec3 ahead = std::abs(up.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
   const glm::vec3 front = glm::normalize(ahead - glm::dot(ahead, up) * up);
   return right ? -glm::cross(front, up) : front;
-}
-
-bool is_tool(Action action) {
-  return action >= Action::kToolNavigate && action <= Action::kToolMeasure;
 }
 
 }  // namespace
@@ -106,7 +98,7 @@ std::string Studio::why_not(Action action) const {
     case Action::kPreviousCamera:
       return scene_->cameras.empty() ? "No camera file was found beside the scene" : "";
     case Action::kConfirm:
-      return view_.tool == Tool::kPolygon && tools_.at_work() ? "" : "There is no polygon to close";
+      return view_.tool.confirm && tools_.at_work() ? "" : "There is no polygon to close";
     case Action::kPartLarger:
       return why_not_step(1);
     case Action::kPartSmaller:
@@ -122,9 +114,9 @@ void Studio::run(Action action) {
     say(Message::Kind::kRefused, fmt::format("{}: {}", name_of(action), reason));
     return;
   }
-  if (is_tool(action)) {
+  if (const Tool* tool = tool_of(action)) {
     ViewState view = view_;
-    view.tool = tool_of(action);
+    view.tool = *tool;
     return apply(SetView{view});
   }
   const auto edit_selection = [&](SelectionEdit edit) { apply(EditSelection{edit}); };

@@ -2,26 +2,9 @@
 #pragma once
 
 #include "app/studio/selection.h"
+#include "app/studio/tools/tool.h"
 
 namespace splatcut {
-
-enum class Tool {
-  kNavigate,
-  kClick,
-  kScribble,
-  kBox,
-  kBrush,
-  kLasso,
-  kRectangle,
-  kPolygon,
-  kSphere,
-  kVolume,  // a box in space
-  kColour,  // eyedropper
-  kFlood,
-  kGround,
-  kMeasure
-};
-inline constexpr int kTools = 14;
 
 // Brush radii, logical pixels. A brush larger than kMostKeptBrushPx was meant for the scene it was used in.
 inline constexpr float kLeastBrushPx = 1, kMostBrushPx = 120, kMostKeptBrushPx = 40;
@@ -48,13 +31,5 @@ struct ViewState {
 
   bool operator==(const ViewState&) const = default;
 };
-
-// Tools whose strokes go to the cut, and those that select Gaussians by hand.
-constexpr bool is_stroke_tool(Tool tool) {
-  return tool == Tool::kClick || tool == Tool::kScribble || tool == Tool::kBox;
-}
-constexpr bool is_region_tool(Tool tool) {
-  return tool >= Tool::kBrush && tool <= Tool::kFlood;
-}
 
 }  // namespace splatcut

@@ -11,27 +11,6 @@ namespace splatcut {
 
 namespace {
 
-constexpr Action kToolActions[kTools] = {Action::kToolNavigate,  Action::kToolClick,   Action::kToolScribble,
-                                         Action::kToolBox,       Action::kToolBrush,   Action::kToolLasso,
-                                         Action::kToolRectangle, Action::kToolPolygon, Action::kToolSphere,
-                                         Action::kToolVolume,    Action::kToolColour,  Action::kToolFlood,
-                                         Action::kToolGround,    Action::kToolMeasure};
-constexpr const char* kToolHints[kTools] = {
-    "Left drag turns, right drag shifts, the wheel zooms. Double-click sets the point to turn around.",
-    "Left click: this is the object. Right click (or Ctrl): this is not. Dragging turns the view.",
-    "Drag over what belongs to the object; with the right button (or Ctrl) over what does not.",
-    "Drag a box around the object.",
-    "Paint over Gaussians to select them by hand.",
-    "Draw around Gaussians to select them by hand.",
-    "Drag a rectangle around Gaussians to select them by hand.",
-    "Click corners; Enter, a double-click or a click on the first corner closes the shape.",
-    "Drag from a point on a surface: everything in the sphere is selected. Its handles change it afterwards.",
-    "Drag from a point on a surface: everything in the box is selected. Its handles change it afterwards.",
-    "Click a colour in the picture: every Gaussian that has it is selected.",
-    "Click a spot: what hangs together with it and has its colour is selected.",
-    "Click three points of the ground: that is where down is.",
-    "Click two points: how far they are apart."};
-
 constexpr float kDisplayWidth = 400;  // of the buttons at the right end
 
 void gap() {
@@ -42,16 +21,17 @@ void set_view(UiContext& ui, const ViewState& view) {
   ui.ask(SetView{view});
 }
 
-void brush_size(UiContext& ui, bool half) {
+void brush_size(UiContext& ui) {
   ViewState view = ui.studio.view();
+  const float share = view.tool.brush;
   ImGui::AlignTextToFramePadding();
   muted_text(ui, "Size");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(110);
-  float shown = half ? view.brush_px * 0.5f : view.brush_px;
-  if (ImGui::SliderFloat("##brush", &shown, half ? 0.5f : 1.0f, half ? 0.5f * kMostBrushPx : kMostBrushPx,
-                         "%.0f pt", ImGuiSliderFlags_Logarithmic)) {
-    view.brush_px = half ? 2 * shown : shown;
+  float shown = share * view.brush_px;
+  if (ImGui::SliderFloat("##brush", &shown, share * kLeastBrushPx, share * kMostBrushPx, "%.0f pt",
+                         ImGuiSliderFlags_Logarithmic)) {
+    view.brush_px = shown / share;
     set_view(ui, view);
   }
   tooltip(fmt::format("Brush radius  ({}, {}, Alt+wheel)", keys_of(Action::kBrushSmaller),
@@ -59,7 +39,10 @@ void brush_size(UiContext& ui, bool half) {
 }
 
 // Where there is room for it beside the display buttons.
-void hint(UiContext& ui, const char* text) {
+void hint(UiContext& ui) {
+  const std::string words =
+      fmt::format(fmt::runtime(ui.studio.view().tool.hint), ui.studio.tools().points_set());
+  const char* text = words.c_str();
   ImGui::AlignTextToFramePadding();
   if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x <= ImGui::GetWindowWidth() - kDisplayWidth)
     muted_text(ui, text);
@@ -90,12 +73,9 @@ void region_options(UiContext& ui) {
       set_view(ui, view);
     }
   }
-  if (view.tool == Tool::kSphere || view.tool == Tool::kVolume) {
-    gap();
-    return hint(ui, "drag from a surface, then its handles");
-  }
   gap();
-  if (view.tool == Tool::kColour || view.tool == Tool::kFlood) return tolerance(ui);
+  if (view.tool.selects == Tool::Selects::kSpace) return hint(ui);
+  if (view.tool.selects == Tool::Selects::kColours) return tolerance(ui);
   const bool visible =
       button(ui, "Visible only", "Takes the surface that you see  (V)", {}, !view.see_through);
   ImGui::SameLine(0, 2);
@@ -114,25 +94,35 @@ void region_options(UiContext& ui) {
 }
 
 void tool_options(UiContext& ui) {
-  const ViewState& view = ui.studio.view();
-  if (view.tool == Tool::kScribble || view.tool == Tool::kBrush) {
-    brush_size(ui, view.tool == Tool::kScribble);
-    if (view.tool == Tool::kBrush) gap();
-  }
-  if (is_region_tool(view.tool)) return region_options(ui);
-  if (view.tool == Tool::kScribble) {
+  const Tool& tool = ui.studio.view().tool;
+  if (tool.brush > 0) {
+    brush_size(ui);
     gap();
-    hint(ui, "left: object   right: rest");
-  } else if (view.tool == Tool::kClick) {
-    hint(ui, "left click: object   right click: rest   Alt: intersect   drag: turn");
-  } else if (view.tool == Tool::kBox) {
-    hint(ui, "drag a box around the object");
-  } else if (view.tool == Tool::kGround) {
-    hint(ui, fmt::format("click three points of the ground: {} of 3   right click: begin again",
-                         ui.studio.tools().points_set())
-                 .c_str());
-  } else if (view.tool == Tool::kMeasure) {
-    hint(ui, "click two points   right click: begin again");
+  }
+  if (tool.selects != Tool::Selects::kNothing) return region_options(ui);
+  if (*tool.hint) hint(ui);
+}
+
+// radius in points.
+void draw_icon(ImDrawList& list, const Icon& icon, const ImVec2& centre, float radius, ImU32 ink) {
+  constexpr float kLine = 1.6f;
+  const auto at = [&](const glm::vec2& p) {
+    return ImVec2(centre.x + p.x * radius, centre.y + p.y * radius);
+  };
+  for (const IconMark& mark : icon) {
+    switch (mark.kind) {
+      case IconMark::Kind::kDot:
+        list.AddCircleFilled(at(mark.points.front()), mark.radius * radius, ink);
+        break;
+      case IconMark::Kind::kRing:
+        list.AddCircle(at(mark.points.front()), mark.radius * radius, ink, 0, kLine);
+        break;
+      case IconMark::Kind::kLine:
+      case IconMark::Kind::kLoop:
+        for (const glm::vec2& p : mark.points) list.PathLineTo(at(p));
+        list.PathStroke(ink, mark.kind == IconMark::Kind::kLoop ? ImDrawFlags_Closed : 0, kLine + mark.wider);
+        break;
+    }
   }
 }
 
@@ -188,23 +178,25 @@ void top_bar(UiContext& ui) {
 void tool_column(UiContext& ui) {
   // Small windows have small buttons, but every tool.
   constexpr float kLargest = 38, kSmallest = 22, kGap = 3;
-  const float separators = 3 * (3 + 3 * ImGui::GetStyle().ItemSpacing.y);
-  const float room = (ImGui::GetContentRegionAvail().y - separators) / kTools - kGap;
+  const auto groups = static_cast<float>(std::ranges::count_if(tools(), &Tool::first_of_group));
+  const float separators = groups * (3 + 3 * ImGui::GetStyle().ItemSpacing.y);
+  const float room =
+      (ImGui::GetContentRegionAvail().y - separators) / static_cast<float>(tools().size()) - kGap;
   const float side = std::floor(std::clamp(room, kSmallest, kLargest));
-  for (int i = 0; i < kTools; ++i) {
-    const auto tool = static_cast<Tool>(i);
-    if (tool == Tool::kBrush || tool == Tool::kGround || tool == Tool::kClick) {
+  for (const Tool* tool : tools()) {
+    if (tool->first_of_group) {
       ImGui::Dummy({0, 1});
       ImGui::Separator();
       ImGui::Dummy({0, 1});
     }
-    const bool on = ui.studio.view().tool == tool;
+    const Action action = action_of(*tool);
+    const bool on = ui.studio.view().tool == *tool;
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 0.5f * (kLargest - side));
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    ImGui::PushID(i);
+    ImGui::PushID(tool->name);
     if (!on) ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
-    const std::string reason = ui.studio.why_not(kToolActions[i]);
-    const std::string tip = tip_of(kToolActions[i]) + "\n" + kToolHints[i];
+    const std::string reason = ui.studio.why_not(action);
+    const std::string tip = tip_of(action) + "\n" + tool->sentence;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 3});
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0);
     ImGui::BeginDisabled(!reason.empty());
@@ -214,11 +206,11 @@ void tool_column(UiContext& ui) {
     ImGui::EndDisabled();
     ImGui::PopStyleVar(2);
     ImGui::PopID();
-    if (pressed) ui.ask(kToolActions[i]);
+    if (pressed) ui.ask(action);
     tooltip(reason.empty() ? tip : tip + "\n" + reason);
     const ImVec4 ink = on ? ui.theme.colour.on_accent : ui.theme.colour.text;
-    draw_tool_icon(*ImGui::GetWindowDrawList(), tool, {corner.x + side / 2, corner.y + side / 2},
-                   std::min(10.5f, 0.3f * side), packed(ink, reason.empty() ? 1.0f : 0.4f));
+    draw_icon(*ImGui::GetWindowDrawList(), tool->icon(), {corner.x + side / 2, corner.y + side / 2},
+              std::min(10.5f, 0.3f * side), packed(ink, reason.empty() ? 1.0f : 0.4f));
   }
 }
 

@@ -42,14 +42,11 @@ std::array<Axis, 6> axes_seen_by(const Camera& camera) {
 }
 
 const char* sign_of(const UiContext& ui) {
-  const ViewState& view = ui.studio.view();
+  const Tool& tool = ui.studio.view().tool;
   const Modifiers& held = ui.studio.held();
   const ToolOverlay overlay = ui.studio.overlay();
-  if (is_stroke_tool(view.tool)) {
-    if (view.tool == Tool::kBox) return nullptr;
-    return held.alt ? "x" : held.ctrl ? "-" : held.shift ? "+" : nullptr;
-  }
-  if (!is_region_tool(view.tool)) return nullptr;
+  if (tool.shows_keys) return held.alt ? "x" : held.ctrl ? "-" : held.shift ? "+" : nullptr;
+  if (tool.selects == Tool::Selects::kNothing) return nullptr;
   return overlay.operation == SetOperation::kRemove      ? "-"
          : overlay.operation == SetOperation::kIntersect ? "x"
                                                          : "+";
@@ -68,12 +65,11 @@ void draw_points(const UiContext& ui, const UiRect& area) {
     list.AddLine(at[i], at[i + 1], kShade, 4);
     list.AddLine(at[i], at[i + 1], packed(ui.theme.colour.accent), 2);
   }
-  const bool counted = ui.studio.view().tool == Tool::kGround;
   for (std::size_t i = 0; i < at.size(); ++i) {
     list.AddCircleFilled(at[i], 6.5f, kShade);
     list.AddCircleFilled(at[i], 5, packed(ui.theme.colour.accent));
     list.AddCircle(at[i], 5, kWhite, 0, 1.3f);
-    if (counted) boxed_text(list, {at[i].x + 18, at[i].y - 14}, fmt::format("{}", i + 1), ui);
+    if (overlay.counted) boxed_text(list, {at[i].x + 18, at[i].y - 14}, fmt::format("{}", i + 1), ui);
   }
   if (overlay.length && at.size() == 2)
     boxed_text(list, {0.5f * (at[0].x + at[1].x), 0.5f * (at[0].y + at[1].y) - 18},

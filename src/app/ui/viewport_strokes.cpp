@@ -71,7 +71,7 @@ void draw_click(ImDrawList& list, const ImVec2& at, bool object) {
 
 // What is looked at alone should not be painted over, unless it is being repaired.
 bool strokes_wanted(const ViewState& view) {
-  return is_stroke_tool(view.tool) || (view.display == DisplayMode::kWhole && !view.heat);
+  return view.tool.strokes || (view.display == DisplayMode::kWhole && !view.heat);
 }
 
 constexpr float kThinPx = 2;
@@ -193,7 +193,7 @@ void draw_tool_shape(const UiContext& ui, const UiRect& area) {
       for (const ImVec2& p : points) list.PathLineTo(p);
       list.PathStroke(ink, ImDrawFlags_Closed, 1.8f);
       for (const ImVec2& p : points)
-        if (ui.studio.view().tool == Tool::kPolygon) list.AddCircleFilled(p, 3.5f, ink);
+        if (overlay.dots) list.AddCircleFilled(p, 3.5f, ink);
       break;
     case ToolOverlay::Shape::kCircle:
       if (radius > 0) list.AddCircleFilled(points[0], radius, wash);
@@ -213,8 +213,7 @@ void draw_tool_shape(const UiContext& ui, const UiRect& area) {
 // The brush as a ring under the pointer.
 void draw_brush_ring(const UiContext& ui, const UiRect& area) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const Tool tool = ui.studio.view().tool;
-  if (tool != Tool::kScribble && tool != Tool::kBrush) return;
+  if (ui.studio.view().tool.brush == 0) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (!area.contains({mouse.x, mouse.y}) || ImGui::IsAnyItemHovered() ||
       ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))

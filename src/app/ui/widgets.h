@@ -28,7 +28,4 @@ std::string ms_text(double ms);     // "740 ms", "2.4 s"
 std::string tip_of(Action action);  // "Undo (Ctrl+Z)"
 ImVec4 colour_of(const Rgb8& c);
 
-// A symbol of a tool, drawn with lines; radius in points.
-void draw_tool_icon(ImDrawList& list, Tool tool, const ImVec2& centre, float radius, ImU32 colour);
-
 }  // namespace splatcut

@@ -2,12 +2,39 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
 
 #include "app/studio/document_edits.h"
 #include "hands.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
+
+TEST_CASE("tools: each has a name, a key, an action, words, and a symbol within its square") {
+  std::set<std::string> names;
+  std::set<std::pair<int, bool>> keys;
+  for (const Binding& b : key_bindings())
+    if (!b.modifiers.ctrl) CHECK_MESSAGE(keys.insert({b.key, b.modifiers.shift}).second, b.what);
+  for (const Tool* tool : tools()) {
+    const std::string name = tool->name;
+    CAPTURE(name);
+    CHECK(names.insert(name).second);
+    CHECK(std::string(tool->sentence).ends_with('.'));
+    REQUIRE(tool_of(action_of(*tool)));
+    CHECK(*tool_of(action_of(*tool)) == *tool);
+    CHECK(action_for(tool->key, {}) == action_of(*tool));
+    REQUIRE((tool->icon != nullptr));
+    for (const IconMark& mark : tool->icon())
+      for (const glm::vec2& p : mark.points)
+        CHECK(std::max(std::abs(p.x), std::abs(p.y)) + mark.radius <= 1.05f);
+    // A tool that takes the drag does something with it, and shows it.
+    if (tool->drag != Tool::Drag::kNavigates)
+      CHECK((tool->release != nullptr && tool->shape != ToolShape::kNone));
+  }
+  CHECK_FALSE(tool_of(Action::kUndo));
+}
 
 TEST_CASE("hands: up by three points draws marks, and computes no object again") {
   Hands hands;
