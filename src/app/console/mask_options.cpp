@@ -1,5 +1,7 @@
 #include "app/console/mask_options.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "segment/session/settings_table.h"
 
@@ -10,9 +12,8 @@ void MaskOptions::add_to(CLI::App& command, bool with_truth) {
   command.add_option("--first-mask", first_mask,
                      std::string("parts: the hierarchy of parts; grabcut, pixelcut: from the one picture") +
                          (truth_too ? "; truth: the true mask" : ""));
-  command.add_option("--propagate", propagate,
-                     "lift: labels of the cut rendered into the next view; warp: masks through depth; dis: "
-                     "along optical flow");
+  const Setting& as_set = *std::ranges::find(settings_table(), "views.propagate", &Setting::name);
+  command.add_option("--propagate", propagate, as_set.sentence);
   command.add_option("--refine", refine, "What settles masks in the other views: none, grabcut or pixelcut");
   command.add_option("--views", views,
                      "Most views around the object, 0 to 400; else by the preset: default none after clicks, "
@@ -36,7 +37,7 @@ void MaskOptions::apply(CutSettings* settings) const {
     set_setting("views.most", std::to_string(*views), settings);
   else if (settings->orbit.views == kViewsAsNeeded && (!propagate.empty() || !refine.empty()))
     settings->orbit.views = kViewsAround;  // they speak of other views
-  settings->parts_only = parts_only;
+  if (parts_only) settings->parts_only = true;
 }
 
 }  // namespace splatcut
