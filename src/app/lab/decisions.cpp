@@ -109,9 +109,8 @@ std::vector<Decision> decisions_of(const PartsScene& scene, const SelectionModel
     const LeafView& view = view_of(scene, click.camera);
     const glm::vec2 pixel = click.stroke.points_px.front();
     const bool object = click.stroke.label == SeedLabel::kObject, first = decisions.empty();
-    const LeafView* wide = first ? &wide_view_of(scene, click.camera, click.stroke) : nullptr;
     if (const auto answers =
-            selection.considered(view, pixel, object, {.all_terms = true, .least_growth = 1.05f}, wide)) {
+            selection.considered(view, pixel, object, {.all_terms = true, .least_growth = 1.05f})) {
       ClickSelection after_disc = selection;
       if (!first) {
         after_disc.set_model(disc_alone(model));
@@ -119,7 +118,7 @@ std::vector<Decision> decisions_of(const PartsScene& scene, const SelectionModel
       }
       decisions.push_back({0, first, worth(scene, after_disc, *answers, object)});
     }
-    selection.apply(view, click.stroke, wide);
+    selection.apply(view, click.stroke);
   }
   return decisions;
 }

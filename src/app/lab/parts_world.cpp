@@ -15,10 +15,6 @@ const LeafView& view_of(const PartsScene& scene, const Camera& camera) {
   return *std::ranges::find_if(scene.views, [&](const LeafView& v) { return same_camera(v.camera, camera); });
 }
 
-const LeafView& wide_view_of(const PartsScene& scene, const Camera& camera, const Stroke& first) {
-  return view_of(scene, widened(camera, first.points_px.front()));
-}
-
 namespace {
 
 std::vector<TruthView> evenly(std::vector<TruthView> all, std::size_t most) {
@@ -42,8 +38,7 @@ class Selections {
     }
     for (; applied_ < clicks.size(); ++applied_) {
       const auto& [camera, stroke] = clicks[applied_];
-      selection_->apply(view_of(scene_, camera), stroke,
-                        applied_ == 0 ? &wide_view_of(scene_, camera, stroke) : nullptr);
+      selection_->apply(view_of(scene_, camera), stroke);
     }
     return *selection_;
   }
@@ -73,11 +68,9 @@ PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const P
                : limited_to_width(
                      full, static_cast<int>(std::ceil(camera.width_px * options.least_object_px / side)));
   };
-  const auto draw = [&](const Camera& camera, bool keep_gaussians = true) {
-    if (std::ranges::any_of(made.views, [&](const LeafView& v) { return same_camera(v.camera, camera); }))
-      return;
-    made.views.push_back(leaf_view(drawer, made.parts, camera, job));
-    if (!keep_gaussians) made.views.back().gaussians = {};
+  const auto draw = [&](const Camera& camera) {
+    if (std::ranges::none_of(made.views, [&](const LeafView& v) { return same_camera(v.camera, camera); }))
+      made.views.push_back(leaf_view(drawer, made.parts, camera, job));
   };
   const std::vector<TruthView> truths = evenly(truth_views(scene), options.most_views);
   for (const TruthView& full : truths) {
@@ -97,7 +90,6 @@ PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const P
       const float scale = static_cast<float>(camera.width_px) / static_cast<float>(start.camera.width_px);
       const Stroke first = scaled({from->stroke}, scale).front();
       draw(camera);
-      draw(widened(camera, first.points_px.front()), false);
       made.starts.push_back(
           {zoom == 1 ? start.name : fmt::format("{} x{}", start.name, zoom), camera, first});
       made.zoom.push_back(zoom);

@@ -17,7 +17,7 @@ namespace splatcut {
 struct PartsScene {
   std::string name;
   PartHierarchy parts;
-  std::vector<LeafView> views;       // with truth, then those of starts without and of starts widened
+  std::vector<LeafView> views;       // with truth, then those of starts without
   std::vector<TruthView> truths;     // of the first of them, in their pixels
   std::vector<AnyViewStart> starts;  // in their pixels
   std::vector<float> zoom;           // per start: at so many times its own distance
@@ -33,9 +33,6 @@ struct PartsSceneOptions {
 
 // One of its views. The camera must be one of theirs.
 const LeafView& view_of(const PartsScene& scene, const Camera& camera);
-
-// Of a start with that first click, seen wider.
-const LeafView& wide_view_of(const PartsScene& scene, const Camera& camera, const Stroke& first);
 
 // Cancelled: must not be used.
 PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const PartsSceneOptions& options,

@@ -16,7 +16,7 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kCentral = 0.7f, kSmallShare = 0.01f, kLargeShare = 0.35f;
 constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f, kHiddenFolds = 2;
 constexpr float kBorderPx = 2;
-constexpr float kDepthJump = 0.05f;  // of the logarithm of depth
+constexpr float kUnseenNoEdge = 0.5f;  // of a part no border of which is seen
 
 float& term(Candidate* candidate, Term which) {
   return weight(&candidate->terms, which);
@@ -52,7 +52,7 @@ std::vector<std::uint32_t> levels(const PartTree& tree, std::size_t leaves,
 }
 
 float log_cut(const PartTree& tree, std::uint32_t node) {
-  constexpr float kLeast = -16;  // of a part that touches nothing
+  constexpr float kLeast = -12;  // of a part that touches nothing
   const float size = std::sqrt(std::max(tree.area[node], 1e-30f));
   return std::max(std::log(std::max(tree.cut[node], 1e-30f) / size), kLeast);
 }
@@ -118,9 +118,10 @@ class Asking {
   bool wrong_side(std::uint32_t leaf) const { return (selected_.object[leaf] != 0) != click_.object; }
   void make_chains();
   void find_free();
+  std::vector<float> compared_areas() const;
   void measure_stability();
   void add_candidates(std::size_t chain, const AnswerOptions& options);
-  std::vector<float> shares_without_edge(std::size_t chain);
+  void add_look_terms(const Chain& chain, Candidate* candidate) const;
   void add_size_terms(const Chain& chain, Candidate* candidate) const;
   float folds(float px) const {
     return std::log(std::max(px, 1.0f) / (kPi * click_.radius_px * click_.radius_px));
@@ -159,6 +160,8 @@ void Asking::make_chains() {
   std::vector<float> opposed(parts_.leaves, 0);
   for (const std::uint32_t leaf : selected_.clicked[!click_.object])
     if (leaf != click_.leaf) opposed[leaf] += 1;
+  std::vector<std::vector<PartLooks>> here;
+  if (click_.first) here = looks_in(parts_, picture_of(click_.view));
   for (std::size_t t = 0; t < parts_.trees.size(); ++t) {
     const PartTree& tree = parts_.trees[t];
     Chain chain;
@@ -169,6 +172,10 @@ void Asking::make_chains() {
     chain.frame_px = at_nodes(summed(tree, click_.view.leaf_frame_px), chain.nodes);
     chain.opposed = at_nodes(summed(tree, opposed), chain.nodes);
     chain.level = levels(tree, parts_.leaves, chain.nodes);
+    for (const std::uint32_t node : chain.nodes) {
+      PartLooks& looks = chain.looks.emplace_back(click_.first ? here[t][node] : PartLooks());
+      if (!tree.looks.empty()) looks += tree.looks[node];
+    }
     out_.chains.push_back(std::move(chain));
   }
 }
@@ -191,35 +198,52 @@ void Asking::find_free() {
   }
 }
 
-// IoU in pixels that would change, of every two candidates of every two trees of a kind by one histogram of
-// levels.
+// Per leaf, what of it counts where two parts are compared: what would change of the picture; of a first
+// click what all views show of it.
+std::vector<float> Asking::compared_areas() const {
+  std::vector<float> areas = wrong_px_;
+  const float picture_px = static_cast<float>(camera_.width_px) * static_cast<float>(camera_.height_px);
+  for (float& area : areas) area /= picture_px;
+  const std::vector<PartLooks>& looks = parts_.trees.front().looks;
+  if (click_.first && !looks.empty())
+    for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf) areas[leaf] += looks[leaf].area;
+  return areas;
+}
+
+// IoU of every two candidates of every two trees of a kind by one histogram of levels.
 void Asking::measure_stability() {
   std::vector<float> wrong_area(parts_.leaves, 0);
   for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf)
     if (out_.free[leaf] && wrong_side(leaf)) wrong_area[leaf] = parts_.leaf_area[leaf];
+  const std::vector<float> compared = compared_areas();
+  const float least = 1 / (static_cast<float>(camera_.width_px) * static_cast<float>(camera_.height_px));
+  std::vector<std::vector<float>> all;  // per chain and node
   for (std::size_t t = 0; t < out_.chains.size(); ++t) {
     Chain& chain = out_.chains[t];
     chain.changed_px = at_nodes(summed(parts_.trees[t], wrong_px_), chain.nodes);
     if (!click_.first) chain.changed_area = at_nodes(summed(parts_.trees[t], wrong_area), chain.nodes);
+    all.push_back(at_nodes(summed(parts_.trees[t], compared), chain.nodes));
     chain.stability.assign(chain.nodes.size(), 0);
   }
-  for (Chain& a : out_.chains) {
+  for (std::size_t t = 0; t < out_.chains.size(); ++t) {
+    Chain& a = out_.chains[t];
     std::size_t others = 0;
-    for (const Chain& b : out_.chains) {
-      if (&a == &b || a.shade_blind != b.shade_blind) continue;
+    for (std::size_t u = 0; u < out_.chains.size(); ++u) {
+      const Chain& b = out_.chains[u];
+      if (t == u || a.shade_blind != b.shade_blind) continue;
       ++others;
       const std::size_t rows = a.nodes.size(), columns = b.nodes.size();
       std::vector<float> both(rows * columns, 0);
       for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf)
-        if (wrong_px_[leaf] > 0 && a.level[leaf] != kNoLevel && b.level[leaf] != kNoLevel)
-          both[a.level[leaf] * columns + b.level[leaf]] += wrong_px_[leaf];
+        if (compared[leaf] > 0 && a.level[leaf] != kNoLevel && b.level[leaf] != kNoLevel)
+          both[a.level[leaf] * columns + b.level[leaf]] += compared[leaf];
       for (std::size_t i = 0; i < rows; ++i) {
         float row = 0, best = 0;
         for (std::size_t j = 0; j < columns; ++j) {
           row += both[i * columns + j];
           both[i * columns + j] = row + (i ? both[(i - 1) * columns + j] : 0);
-          const float either = a.changed_px[i] + b.changed_px[j] - both[i * columns + j];
-          best = std::max(best, both[i * columns + j] / std::max(either, 1.0f));
+          const float either = all[t][i] + all[u][j] - both[i * columns + j];
+          best = std::max(best, both[i * columns + j] / std::max(either, least));
         }
         a.stability[i] += best;
       }
@@ -240,53 +264,20 @@ const Image<std::uint32_t>& Asking::level_image(std::size_t c) {
   return image;
 }
 
-// Per node of the chain: of its border in the picture, the share where the depth does not jump. A pair of
-// neighbours is border from the first one's level on to before the second one's; what shows the said side
-// already is no border.
-std::vector<float> Asking::shares_without_edge(std::size_t c) {
-  const Image<std::uint32_t>& level = level_image(c);
-  const Image<float>& depth = click_.view.depth;
-  const auto nodes = static_cast<std::uint32_t>(out_.chains[c].nodes.size());
-  std::vector<int> border(nodes + 1, 0), plain(nodes + 1, 0);
-  const auto pair = [&](int x, int y, int dx, int dy) {
-    const int x1 = x + dx, y1 = y + dy;
-    if (!level.contains(x1, y1)) return;
-    const std::uint32_t a = std::min(level.at(x, y), nodes), b = std::min(level.at(x1, y1), nodes);
-    if (a == b) return;
-    const bool first_inside = a < b;
-    const int ox = first_inside ? x1 : x, oy = first_inside ? y1 : y;
-    if (std::max(a, b) == nodes && (click_.displayed.at(ox, oy) != 0) == click_.object) return;
-    // One pixel further on both sides: the border itself blends.
-    const bool jumps = depth_jump(depth, {x - dx, y - dy}, {x1 + dx, y1 + dy}) > kDepthJump;
-    ++border[std::min(a, b)];
-    --border[std::max(a, b)];
-    plain[std::min(a, b)] += !jumps;
-    plain[std::max(a, b)] -= !jumps;
-  };
-  for (int y = 0; y < level.height(); ++y)
-    for (int x = 0; x < level.width(); ++x) {
-      pair(x, y, 1, 0);
-      pair(x, y, 0, 1);
-    }
-  std::vector<float> share;
-  int borders = 0, plains = 0;
-  for (std::uint32_t i = 0; i < nodes; ++i) {
-    borders += border[i];
-    plains += plain[i];
-    share.push_back(borders > 0 ? static_cast<float>(plains) / static_cast<float>(borders) : 0);
-  }
-  return share;
+void Asking::add_look_terms(const Chain& chain, Candidate* candidate) const {
+  constexpr float kTiny = 1e-9f;
+  const PartLooks& looks = chain.looks[candidate->index];
+  term(candidate, Term::kNoEdge) = looks.border > 0 ? looks.plain_border / looks.border : kUnseenNoEdge;
+  term(candidate, Term::kCropped) = looks.cropped_side / std::max(looks.side, kTiny);
+  if (!click_.first) return;
+  const float share = looks.area_squared / std::max(looks.area, kTiny);
+  term(candidate, Term::kSmall) = at_least_0(std::log(kSmallShare / std::max(share, kTiny)));
+  term(candidate, Term::kLarge) = at_least_0(std::log(share / kLargeShare));
+  term(candidate, Term::kFrame) = looks.frame / std::max(looks.side, kTiny);
 }
 
 void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
   const float changed_px = chain.changed_px[candidate->index];
-  const auto width = static_cast<float>(camera_.width_px), height = static_cast<float>(camera_.height_px);
-  if (click_.first) {
-    const float share = std::max(chain.view_px[candidate->index], 1.0f) / (width * height);
-    term(candidate, Term::kSmall) = at_least_0(std::log(kSmallShare / share));
-    term(candidate, Term::kLarge) = at_least_0(std::log(share / kLargeShare));
-    return;
-  }
   const float f = folds(changed_px);
   term(candidate, Term::kScrap) = at_least_0(kScrapFolds - f);
   term(candidate, Term::kFold) = at_least_0(f - kFoldSlack);
@@ -303,8 +294,6 @@ void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
 void Asking::add_candidates(std::size_t c, const AnswerOptions& options) {
   const Chain& chain = out_.chains[c];
   const PartTree& tree = parts_.trees[c];
-  std::vector<float> no_edge(chain.nodes.size(), 0);
-  if (options.all_terms || weight(weights_, Term::kNoEdge) != 0) no_edge = shares_without_edge(c);
   float last_px = 0;
   for (std::size_t i = 0; i < chain.nodes.size(); ++i) {
     if (chain.changed_px[i] < std::max(kLeastChangePx, options.least_growth * last_px)) continue;
@@ -313,11 +302,13 @@ void Asking::add_candidates(std::size_t c, const AnswerOptions& options) {
     term(&candidate, Term::kCut) = log_cut(tree, chain.nodes[i]);
     term(&candidate, Term::kJump) = jump(tree, chain.nodes[i]);
     term(&candidate, Term::kRare) = -std::log(std::max(chain.stability[i], 0.01f));
-    term(&candidate, Term::kFrame) = chain.frame_px[i] / std::sqrt(std::max(chain.view_px[i], 1.0f));
     term(&candidate, Term::kShadeBlind) = chain.shade_blind;
-    term(&candidate, Term::kNoEdge) = no_edge[i];
     term(&candidate, Term::kOpposed) = chain.opposed[i];
-    add_size_terms(chain, &candidate);
+    add_look_terms(chain, &candidate);
+    if (!click_.first) {
+      term(&candidate, Term::kFrame) = chain.frame_px[i] / std::sqrt(std::max(chain.view_px[i], 1.0f));
+      add_size_terms(chain, &candidate);
+    }
     out_.candidates.push_back(candidate);
   }
 }
@@ -419,8 +410,8 @@ void Asking::measure_off_centre(bool all) {
 
 }  // namespace
 
-Answers answers_in_view(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
-                        const SelectionModel& model, const AnswerOptions& options) {
+Answers answers(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
+                const SelectionModel& model, const AnswerOptions& options) {
   return Asking(parts, selected, click, model).take(options);
 }
 

@@ -3,21 +3,24 @@
 // In: hierarchy, what was selected so far, a click in a soft view. Out: the clicked leaf's ancestors in every
 // tree, each with its terms (part_model.h names them) and their weighted sum, likeliest first; the disc alone
 // and, after one click on the object, another meaning of that click are candidates, too. All pixels are the
-// view's. Terms:
+// view's; "all views" are the observing ones (part_looks.h), of a first click with its own: a part
+// looks the same from wherever the user stands. Terms:
 //
-// - kCut: ln(border's length, likeness-weighted / sqrt(area)) of the node, in the scene; at least -16, of a
+// - kCut: ln(border's length, likeness-weighted / sqrt(area)) of the node, in the scene; at least -12, of a
 // part
 //   that touches nothing.
 // - kJump: ln of how much dearer the merge that ends the node is than the one that made it, at most 2.
-// - kRare: -ln of the mean IoU (at least 0.01) with the likest ancestors in the other trees of its kind.
-// - kFrame: pixels at the picture's frame / sqrt(all).
+// - kRare: -ln of the mean IoU (at least 0.01) with the likest ancestors in the other trees of its kind; of a
+//   first click in pixels of all views.
+// - kFrame: pixels at the picture's frame / sqrt(all); of a first click summed over all views, each.
 // - kShadeBlind: 1 where the tree counts lightness less.
 // - kOffCentre: ln(0.7 / share), at least 0; share: the click's distance to the border of what would change
 //   over the largest such distance. People click in the middle of what they mean.
-// - kNoEdge: share of that border where the depth does not jump.
-// - kSmall, kLarge: of a first click, ln of folds of the picture below 1 % and above 35 %.
-// - kWider: of a first click seen with a wider field of view, too, in which a candidate may be cheaper: ln of
-//   how much wider times how far the picture's grain lies below that of one from too near; see grain().
+// - kNoEdge: share of its border in all views where the depth does not jump.
+// - kCropped: share of all views, by the side of what they show of it, in which it touches
+//   the picture's frame.
+// - kSmall, kLarge: of a first click, ln of folds of the picture below 1 % and above 35 %; of the picture in
+//   which its average pixel lies.
 // - kScrap, kFold, kGiant: of later clicks, with f = ln(changed pixels / disc to where the region may end):
 //   max(0, -0.3 - f), max(0, f - 1), max(0, f - 3.25).
 // - kBorder: max(0, f - 1) where the click is within 2 pixels of the border.
@@ -51,6 +54,7 @@ struct Chain {
   std::vector<std::uint32_t>
       level;  // per leaf of the hierarchy: the first of the nodes that holds it, or kNoLevel
   std::vector<float> view_px, frame_px, opposed, changed_px, changed_area, stability;  // per node
+  std::vector<PartLooks> looks;  // per node: in the observing views; of a first click in its own, too
   bool shade_blind = false;
   bool of_tree = true;  // false: no tree's, one set of leaves
 };
@@ -95,10 +99,9 @@ struct Click {
   glm::ivec2 at;
   bool object;
   bool first;
-  std::uint32_t leaf;              // not on that side yet
-  float radius_px;                 // to where the wrong region may end; 0 for the first
-  const Mask& displayed;           // before the click
-  const LeafView* wide = nullptr;  // of a first click: the same eye, see widened()
+  std::uint32_t leaf;     // not on that side yet
+  float radius_px;        // to where the wrong region may end; 0 for the first
+  const Mask& displayed;  // before the click
 };
 
 struct AnswerOptions {
@@ -106,12 +109,7 @@ struct AnswerOptions {
   float least_growth = 1;  // in changed pixels from one node of a chain to the next that is a candidate
 };
 
-// At hand of the click's view alone.
-Answers answers_in_view(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
-                        const SelectionModel& model, const AnswerOptions& options = {});
-
-// Of a first click with a wider view, too: each candidate counts where it costs less, or with all_terms in
-// both.
+// model: its weights say how much each term costs.
 Answers answers(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
                 const SelectionModel& model, const AnswerOptions& options = {});
 

@@ -207,22 +207,20 @@ ClickSelection::Asked ClickSelection::asked(const LeafView& view, const glm::vec
 }
 
 std::optional<Answers> ClickSelection::considered(const LeafView& view, const glm::vec2& pixel, bool object,
-                                                  const AnswerOptions& options, const LeafView* wide) const {
+                                                  const AnswerOptions& options) const {
   const Asked a = asked(view, pixel, object);
   if (a.leaf == kNoPart) return std::nullopt;
-  return answers(parts_, selected_,
-                 {view, a.at, object, !any_, a.leaf, a.radius_px, a.displayed, any_ ? nullptr : wide}, model_,
+  return answers(parts_, selected_, {view, a.at, object, !any_, a.leaf, a.radius_px, a.displayed}, model_,
                  options);
 }
 
-bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px,
-                          const LeafView* wide) {
+bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px) {
   const auto [at, leaf, displayed, radius_px] = asked(view, pixel, object);
   if (leaf == kNoPart) {
     confirm(view, pixel, object, least_radius_px);
     return true;
   }
-  const Click click{view, at, object, !any_, leaf, radius_px, displayed, any_ ? nullptr : wide};
+  const Click click{view, at, object, !any_, leaf, radius_px, displayed};
   const std::vector<std::uint32_t> certain_px = disc(view.camera, at, radius_px, least_radius_px);
   Answers found = answers(parts_, selected_, click, model_);
   if (found.candidates.empty()) return false;
@@ -358,7 +356,7 @@ void ClickSelection::label() {
   }
 }
 
-bool ClickSelection::apply(const LeafView& view, const Stroke& stroke, const LeafView* wide) {
+bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
   const bool object = stroke.label == SeedLabel::kObject;
   if (!any_ && !object) return false;
   const auto anything = [](std::uint32_t) { return true; };
@@ -370,7 +368,7 @@ bool ClickSelection::apply(const LeafView& view, const Stroke& stroke, const Lea
     for (const GroupWeight& w : view.gaussians.at(row_by_row(view.camera, nearest_pixel(view.camera, point))))
       share += labels_[w.group] ? w.weight : 0;
     if (!any_ || (share >= 0.5f) != object)
-      hit = take(view, point, object, stroke.radius_px, wide) || hit;
+      hit = take(view, point, object, stroke.radius_px) || hit;
     else {
       if (stroke.points_px.size() == 1) confirm(view, point, object, stroke.radius_px);
       hit = true;

@@ -34,14 +34,13 @@ class ClickSelection {
   // that meaning; +1 the next larger. Both end at the last there is.
   ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step = 0, int choice = 0);
 
-  // A stroke in the pixels of the view. wide: of the first, the view as widened() has it; without it a part
-  // that reaches out of the picture is hardly meant. False: nothing of the scene is under it, or it speaks of
-  // the rest before there is an object.
-  bool apply(const LeafView& view, const Stroke& stroke, const LeafView* wide = nullptr);
+  // A stroke in the pixels of the view. False: nothing of the scene is under it, or it speaks of the rest
+  // before there is an object.
+  bool apply(const LeafView& view, const Stroke& stroke);
 
   // What a click here could mean. Nothing: the scene is not hit, or shows what is said already.
   std::optional<Answers> considered(const LeafView& view, const glm::vec2& pixel, bool object,
-                                    const AnswerOptions& options = {}, const LeafView* wide = nullptr) const;
+                                    const AnswerOptions& options = {}) const;
   void set_model(const SelectionModel& model) { model_ = model; }  // for the clicks to come
   const SelectedParts& selected() const { return selected_; }
 
@@ -67,8 +66,7 @@ class ClickSelection {
  private:
   struct Asked;
   Asked asked(const LeafView& view, const glm::vec2& pixel, bool object) const;
-  bool take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px,
-            const LeafView* wide);
+  bool take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
   void confirm(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
   std::vector<std::uint8_t> certain_leaves(const LeafView& view, std::span<const std::uint32_t> disc) const;
   float displayed_radius(const LeafView& view, const Mask& displayed, const glm::ivec2& at, bool object,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -114,23 +113,11 @@ LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camer
   return view;
 }
 
-Camera widened(const Camera& camera, const glm::vec2& pixel) {
-  constexpr float kFolds = 2.5f;
-  Camera wide = camera;
-  wide.fx_px /= kFolds;
-  wide.fy_px /= kFolds;
-  wide.cx_px = pixel.x - (pixel.x - camera.cx_px) / kFolds;
-  wide.cy_px = pixel.y - (pixel.y - camera.cy_px) / kFolds;
-  return wide;
-}
-
-float depth_jump(const Image<float>& depth, const glm::ivec2& a, const glm::ivec2& b) {
-  const auto at = [&](const glm::ivec2& p) {
-    return depth.at(std::clamp(p.x, 0, depth.width() - 1), std::clamp(p.y, 0, depth.height() - 1));
-  };
-  const float one = at(a), other = at(b);
-  if (one > 0 && other > 0) return std::abs(std::log(one / other));
-  return (one > 0) == (other > 0) ? 0 : std::numeric_limits<float>::infinity();
+LeafPicture picture_of(const LeafView& view) {
+  LeafPicture picture{Image<std::uint32_t>(view.camera.width_px, view.camera.height_px, kNoPart), view.depth};
+  for (std::size_t i = 0; i < picture.leaf.size(); ++i)
+    picture.leaf.pixels()[i] = leaf_of_pixel(view.leaves.at(i));
+  return picture;
 }
 
 Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint32_t> level) {

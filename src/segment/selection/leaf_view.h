@@ -44,13 +44,8 @@ LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camer
 LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera,
                       Image<std::vector<GroupWeight>> gaussians, Image<float> depth);
 
-// The same eye with a wider field of view, the pixel looking where it did. Nothing moves, so no wall comes
-// between.
-Camera widened(const Camera& camera, const glm::vec2& pixel);
-
-// |ln| of the ratio of two pixels' depths; outside of the picture its frame counts. Infinite where one of
-// them alone shows anything.
-float depth_jump(const Image<float>& depth, const glm::ivec2& a, const glm::ivec2& b);
+// Which leaf each pixel shows.
+LeafPicture picture_of(const LeafView& view);
 
 inline constexpr std::uint32_t kNoLevel = 0xffffffffu;
 

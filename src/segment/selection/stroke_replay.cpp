@@ -46,23 +46,16 @@ const LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& sai
 
 std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, const ClickSelection& before,
                                                           const CameraStroke& said, const Job& job) {
-  const auto attempt = [&](const LeafView& seen) -> std::shared_ptr<const ClickSelection> {
+  const auto attempt = [&](const LeafView& seen) {
     auto next = std::make_shared<ClickSelection>(before);
     const float factor = static_cast<float>(seen.camera.width_px) / static_cast<float>(said.camera.width_px);
     const Stroke stroke = scaled({said.stroke}, factor).front();
-    const LeafView* wide = nullptr;
-    if (!before.any()) {
-      const Camera camera = widened(seen.camera, stroke.points_px.front());
-      wide = view(drawer, {camera, stroke, said.seen}, camera.width_px, job);
-      if (!wide) return nullptr;
-    }
-    next->apply(seen, stroke, wide);
-    return next;
+    next->apply(seen, stroke);
+    return std::shared_ptr<const ClickSelection>(std::move(next));
   };
   const LeafView* seen = view(drawer, said, options_.work_width_px, job);
   if (!seen) return nullptr;
   auto next = attempt(*seen);
-  if (!next) return nullptr;
   const double side =
       std::sqrt(static_cast<double>(count(shown(seen->gaussians, seen->camera, next->labels()))));
   if (side == 0 || side >= options_.least_object_px || seen->camera.width_px >= said.camera.width_px)

@@ -298,7 +298,9 @@ PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, std::span<const C
   job.progress("parts", 0);
   const SurfaceFeatures features = surface_features(cloud, observing, options.surface, job);
   job.progress("parts", 0.4);
-  return build_part_hierarchy(cloud, features, options, job);
+  PartHierarchy parts = build_part_hierarchy(cloud, features, options, job);
+  look_at_parts(cloud, observing, &parts, job);
+  return parts;
 }
 
 }  // namespace splatcut

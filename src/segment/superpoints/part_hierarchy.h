@@ -20,6 +20,7 @@
 #include <span>
 #include <vector>
 
+#include "segment/superpoints/part_looks.h"
 #include "segment/superpoints/part_model.h"
 #include "segment/superpoints/surface_features.h"
 
@@ -34,6 +35,7 @@ struct PartTree {
   std::vector<float> area;                             // scene units squared
   std::vector<float> cut;                              // length of the border, likeness-weighted, scene units
   std::vector<float> merge_cost;                       // of the children; 0 at a leaf
+  std::vector<PartLooks> looks;                        // in the observing views; empty: nobody looked
   std::size_t nodes() const { return parent.size(); }
 };
 

@@ -100,14 +100,15 @@ std::vector<PartWeight> make_table() {
 }  // namespace
 
 SelectionModel::SelectionModel()
-    : first(weights({{Term::kRare, 6.2f},
-                     {Term::kFrame, 3.5f},
-                     {Term::kShadeBlind, -2.9f},
-                     {Term::kOffCentre, 3.9f},
-                     {Term::kNoEdge, 9.1f},
-                     {Term::kSmall, 2.7f},
-                     {Term::kLarge, 4},
-                     {Term::kWider, 6}})),
+    : first(weights({{Term::kCut, 0.35f},
+                     {Term::kRare, 1.9f},
+                     {Term::kFrame, 1.4f},
+                     {Term::kShadeBlind, -3.2f},
+                     {Term::kOffCentre, 1.8f},
+                     {Term::kNoEdge, 10.1f},
+                     {Term::kCropped, 4.2f},
+                     {Term::kSmall, 1.1f},
+                     {Term::kLarge, 3.3f}})),
       later(weights({{Term::kCut, 0.1f},
                      {Term::kJump, -0.1f},
                      {Term::kRare, 3},
@@ -126,8 +127,8 @@ SelectionModel::SelectionModel()
 
 std::span<const std::string> term_names() {
   static const std::array<std::string, kTerms> names = {
-      "cut",   "jump", "rare",  "frame",  "shade_blind", "off_centre", "no_edge", "small", "large", "wider",
-      "scrap", "fold", "giant", "border", "hidden",      "opposed",    "back",    "disc",  "repick"};
+      "cut",   "jump", "rare",  "frame",  "shade_blind", "off_centre", "no_edge", "cropped", "small", "large",
+      "scrap", "fold", "giant", "border", "hidden",      "opposed",    "back",    "disc",    "repick"};
   return names;
 }
 

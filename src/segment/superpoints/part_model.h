@@ -1,7 +1,7 @@
 // The fitted model of parts: every weight of surface, superpoints, merging and picking that a search has set.
 //
 // Where the values come from: those of surface, superpoints and merging from searches on the captures and
-// compositions of docs/masks.md and on still lifes, for the mean IoU of a robot's first clicks. Version 6:
+// compositions of docs/masks.md and on still lifes, for the mean IoU of a robot's first clicks. Version 7:
 // what a first click means is fitted by `splatcut-lab fit`, which docs/clicks.md shows with its
 // leave-one-capture-out column; what corrections mean is set by hand on the same scenes. Nobody knows a value
 // by reason, so none is a setting: a person sees none of them, experiments give a whole model (see
@@ -75,9 +75,9 @@ enum class Term {
   kShadeBlind,
   kOffCentre,
   kNoEdge,
-  kSmall,  // this and the next two: of first clicks alone
+  kCropped,
+  kSmall,  // this and the next: of first clicks alone
   kLarge,
-  kWider,
   kScrap,  // this and the next: of corrections alone
   kFold,
   kGiant,
@@ -121,7 +121,7 @@ struct MaskToPartsOptions {
 };
 
 struct PartModel {
-  static constexpr int kVersion = 6;
+  static constexpr int kVersion = 7;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;

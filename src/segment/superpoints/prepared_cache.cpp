@@ -20,7 +20,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::uint32_t kFormatVersion = 2;
+constexpr std::uint32_t kFormatVersion = 3;
 constexpr std::uint64_t kMagic =
     0x50455250544c5053;  // "SPLTPREP", read backwards on a machine of the other byte order
 constexpr const char* kEnding = ".prepared";
@@ -47,6 +47,7 @@ void visit_arrays(Scene& scene, const Visit& visit) {
     visit(tree.area);
     visit(tree.cut);
     visit(tree.merge_cost);
+    visit(tree.looks);
   }
 }
 
@@ -121,7 +122,7 @@ bool sound(const FlowGraph& g, std::size_t gaussians) {
 bool sound(const PartTree& t, std::uint32_t leaves) {
   const std::size_t n = t.nodes();
   if (n < leaves || t.children.size() != n || t.area.size() != n || t.cut.size() != n ||
-      t.merge_cost.size() != n)
+      t.merge_cost.size() != n || (!t.looks.empty() && t.looks.size() != n))
     return false;
   return all_of_range(n, [&](std::size_t i) {
     const auto below = [&](std::uint32_t child) { return child == kNoPart || child < i; };
@@ -200,15 +201,16 @@ std::optional<PreparedScene> read_prepared(const std::filesystem::path& path, st
   const Header& h = header.front();
   if (h.magic != kMagic || h.version != kFormatVersion || h.key != key || h.payload_bytes != file.left())
     return {};
-  constexpr std::uint64_t kCounts = 4, kMostTrees = 1000, kArraysBefore = 6, kArraysOfTree = 5;
-  if (!file.read(kCounts, &counts) || counts[2] > kMostTrees ||
-      !file.read(kArraysBefore + kArraysOfTree * counts[2], &sizes))
-    return {};
+  constexpr std::uint64_t kCounts = 4, kMostTrees = 1000;
+  if (!file.read(kCounts, &counts) || counts[2] > kMostTrees) return {};
   PreparedScene scene;
   scene.graph.listed = static_cast<std::uint32_t>(counts[0]);
   scene.parts.leaves = static_cast<std::uint32_t>(counts[1]);
   scene.parts.trees.resize(counts[2]);
   scene.parts.plain_trees = counts[3];
+  std::size_t arrays = 0;
+  visit_arrays(scene, [&](const auto&) { ++arrays; });
+  if (!file.read(arrays, &sizes)) return {};
   bool whole = true;
   std::size_t next = 0;
   visit_arrays(scene, [&](auto& array) { whole = whole && file.read(sizes[next++], &array); });

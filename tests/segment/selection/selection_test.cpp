@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "app/lab/robot_user.h"
@@ -296,15 +297,50 @@ TEST_CASE("selection: a clicked pixel is obeyed by what is small, not by the wal
   }
 }
 
-TEST_CASE("selection: a widened camera stands still and holds the pixel's ray") {
-  const Camera camera = look_at({1, 2, -10}, {0, 0, 0}, {0, -1, 0}, 1, 40, 30);
-  const glm::vec2 pixel(31, 7);
-  const Camera wide = widened(camera, pixel);
-  CHECK(same_pose(wide, camera));
-  CHECK(glm::distance(wide.world_from_pixel(pixel, 3), camera.world_from_pixel(pixel, 3)) < 1e-5f);
-  const glm::vec3 outside = camera.world_from_pixel({60, 7}, 3);
-  const glm::vec2 seen = wide.pixel_from_camera(wide.camera_from_world(outside));
-  CHECK(seen.x == doctest::Approx(31 + (60 - 31) / 2.5));
+TEST_CASE("selection: a first click's terms of all views, worked out by hand") {
+  // The click's view is four stripes of 100 pixels at one depth, each touching the frame. Elsewhere the left
+  // pair covers .04 of a picture, free of the frame, with a border of 1.2 sides before something farther.
+  PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts);
+  const auto terms_of_pair = [&] {
+    const auto found =
+        ClickSelection(parts, borders_alone()).considered(view, {5.5f, 5.5f}, true, {.all_terms = true});
+    REQUIRE(found);
+    const auto pair = std::ranges::find(found->candidates, 1u, &Candidate::index);
+    REQUIRE(pair != found->candidates.end());
+    return pair->terms;
+  };
+  const TermValues here = terms_of_pair();
+  CHECK(weight(here, Term::kNoEdge) == doctest::Approx(1));  // ten pairs of pixels, all plain
+  CHECK(weight(here, Term::kCropped) == doctest::Approx(1));
+  CHECK(weight(here, Term::kFrame) == doctest::Approx(48 / std::sqrt(200.0)));
+  CHECK(weight(here, Term::kLarge) == doctest::Approx(std::log(0.5 / 0.35)));
+  parts.trees[0].looks.assign(7, {});
+  parts.trees[0].looks[4] = {.area = 0.04f, .area_squared = 0.0016f, .side = 0.2f, .border = 1.2f};
+  const TermValues all = terms_of_pair();
+  const double border_here = 10 / 20.0, side_here = std::sqrt(0.5), frame_here = 48 / 20.0;
+  CHECK(weight(all, Term::kNoEdge) == doctest::Approx(border_here / (border_here + 1.2)));
+  CHECK(weight(all, Term::kCropped) == doctest::Approx(side_here / (side_here + 0.2)));
+  CHECK(weight(all, Term::kFrame) == doctest::Approx(frame_here / (side_here + 0.2)));
+  CHECK(weight(all, Term::kLarge) == doctest::Approx(std::log((0.25 + 0.0016) / (0.5 + 0.04) / 0.35)));
+  CHECK(weight(all, Term::kSmall) == 0);
+}
+
+TEST_CASE("selection: how views elsewhere show a part decides what a first click means") {
+  SelectionModel model;
+  model.first = {};
+  weight(&model.first, Term::kNoEdge) = 1;
+  PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts);
+  const auto labels = [&] {
+    ClickSelection selection(parts, model);
+    selection.apply(view, object(5));
+    return selection.labels();
+  };
+  CHECK(labels() == Labels{1, 1, 1, 1});  // no border of it is seen, others have plain ones
+  parts.trees[0].looks.assign(7, {});
+  parts.trees[0].looks[4] = {.area = 0.04f, .side = 0.2f, .border = 1.2f};
+  CHECK(labels() == Labels{1, 1, 0, 0});
 }
 
 TEST_CASE("selection: the same first click from nearer means the same part") {

@@ -34,7 +34,7 @@ bool same(const PreparedScene& a, const PreparedScene& b) {
   for (std::size_t t = 0; t < a.parts.trees.size(); ++t) {
     const PartTree &x = a.parts.trees[t], &y = b.parts.trees[t];
     if (x.parent != y.parent || x.children != y.children || x.area != y.area || x.cut != y.cut ||
-        x.merge_cost != y.merge_cost)
+        x.merge_cost != y.merge_cost || x.looks != y.looks || x.looks.size() != x.nodes())
       return false;
   }
   return true;
@@ -122,6 +122,7 @@ TEST_CASE("indices that lead outside are refused even with a right checksum") {
     s.parts.trees[1].children.back()[0] = static_cast<std::uint32_t>(s.parts.trees[1].nodes());
   }));
   CHECK(refused([](PreparedScene& s) { s.parts.trees[4].area.pop_back(); }));
+  CHECK(refused([](PreparedScene& s) { s.parts.trees[2].looks.pop_back(); }));
 }
 
 TEST_CASE("the key changes with all that the preparation depends on") {

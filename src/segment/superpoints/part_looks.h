@@ -1,0 +1,60 @@
+// What views show of each part of a tree, summed: how a part looks from wherever the scene was looked at, not
+// only from where the user happens to stand.
+//
+// In: per view which leaf each pixel shows, and how far it lies. Out: per node of a tree the sums over views.
+// Cost: a few ms a view of 160 pixels and tree. Sums are in the order of the views: same input, same bits.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/image.h"
+#include "core/job.h"
+#include "scene/camera/camera.h"
+#include "scene/cloud/gaussian_cloud.h"
+#include "scene/raster/rasterizer.h"
+
+namespace splatcut {
+
+struct PartHierarchy;
+
+// Of each picture: areas as shares of it, lengths in sides of a square picture of that area. A view counts
+// the same whatever its size in pixels.
+struct PartLooks {
+  float area = 0;          // that shows it
+  float area_squared = 0;  // sum over views of the area's square
+  float side = 0;          // sum of the area's square root,
+  float cropped_side = 0;  // and that of views alone in which it touches the picture's frame
+  float frame = 0;         // along the picture's frame
+  float border = 0;        // to what is not the part
+  float plain_border = 0;  // of that, where the depth does not jump
+
+  PartLooks& operator+=(const PartLooks& other);
+  bool operator==(const PartLooks&) const = default;
+};
+
+// A view as leaves. Both of one size.
+struct LeafPicture {
+  Image<std::uint32_t> leaf;  // the one that makes most of the pixel; kNoPart where hardly anything is
+  Image<float> depth;         // camera z, 0 where nothing is
+};
+
+// |ln| of the ratio of two pixels' depths; outside of the picture its frame counts. Infinite where one of
+// them alone shows anything.
+float depth_jump(const Image<float>& depth, const glm::ivec2& a, const glm::ivec2& b);
+
+// By more than this depth jumps: another surface begins.
+inline constexpr float kDepthJump = 0.05f;
+
+// Per tree and node.
+std::vector<std::vector<PartLooks>> looks_in(const PartHierarchy& parts, const LeafPicture& picture);
+
+// The pixel's leaf of most weight, where what is there covers half of the pixel. leaves: heaviest first.
+std::uint32_t leaf_of_pixel(std::span<const GroupWeight> leaves);
+
+// Draws the views and fills the looks of every tree. Cancelled: incomplete.
+void look_at_parts(const GaussianCloud& cloud, std::span<const Camera> views, PartHierarchy* parts,
+                   const Job& job = {});
+
+}  // namespace splatcut
