@@ -16,6 +16,7 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kCentral = 0.7f, kSmallShare = 0.01f, kLargeShare = 0.35f;
 constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f, kHiddenFolds = 2;
 constexpr float kBorderPx = 2;
+constexpr float kLeastFirstCut = -12, kLeastCut = -16;  // of a part that touches nothing
 constexpr float kUnseenNoEdge = 0.5f;  // of a part no border of which is seen
 
 float& term(Candidate* candidate, Term which) {
@@ -51,10 +52,9 @@ std::vector<std::uint32_t> levels(const PartTree& tree, std::size_t leaves,
   return level;
 }
 
-float log_cut(const PartTree& tree, std::uint32_t node) {
-  constexpr float kLeast = -12;  // of a part that touches nothing
+float log_cut(const PartTree& tree, std::uint32_t node, float least) {
   const float size = std::sqrt(std::max(tree.area[node], 1e-30f));
-  return std::max(std::log(std::max(tree.cut[node], 1e-30f) / size), kLeast);
+  return std::max(std::log(std::max(tree.cut[node], 1e-30f) / size), least);
 }
 
 float jump(const PartTree& tree, std::uint32_t node) {
@@ -299,7 +299,7 @@ void Asking::add_candidates(std::size_t c, const AnswerOptions& options) {
     if (chain.changed_px[i] < std::max(kLeastChangePx, options.least_growth * last_px)) continue;
     last_px = chain.changed_px[i];
     Candidate candidate{.chain = c, .index = i};
-    term(&candidate, Term::kCut) = log_cut(tree, chain.nodes[i]);
+    term(&candidate, Term::kCut) = log_cut(tree, chain.nodes[i], click_.first ? kLeastFirstCut : kLeastCut);
     term(&candidate, Term::kJump) = jump(tree, chain.nodes[i]);
     term(&candidate, Term::kRare) = -std::log(std::max(chain.stability[i], 0.01f));
     term(&candidate, Term::kShadeBlind) = chain.shade_blind;

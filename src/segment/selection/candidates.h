@@ -6,9 +6,8 @@
 // view's; "all views" are the observing ones (part_looks.h), of a first click with its own: a part
 // looks the same from wherever the user stands. Terms:
 //
-// - kCut: ln(border's length, likeness-weighted / sqrt(area)) of the node, in the scene; at least -12, of a
-// part
-//   that touches nothing.
+// - kCut: ln(length of the node's border, likeness-weighted / sqrt(area)), in the scene; where it touches
+//   nothing -16, of a first click -12.
 // - kJump: ln of how much dearer the merge that ends the node is than the one that made it, at most 2.
 // - kRare: -ln of the mean IoU (at least 0.01) with the likest ancestors in the other trees of its kind; of a
 //   first click in pixels of all views.
