@@ -143,6 +143,7 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, const std::option
   hover_.reset();
   declined_offer_.clear();
   tools_.abandon();
+  volume_seen_.reset();
   view_.display = DisplayMode::kWhole;
   view_.heat = false;
   view_.tool = Tool::kClick;
@@ -215,6 +216,7 @@ void Studio::schedule_cut() {
     runs_[cutting_object_].preview = nullptr;
     cutting_object_ = 0;
     ++view_serial_;
+    show_runs_of_now();
   }
   for (const ObjectItem& object : document().objects) {
     const std::string& key = wanted_key(object);
