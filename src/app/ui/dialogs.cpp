@@ -158,9 +158,11 @@ void placement_choices(UiContext& ui) {
 // Made once for each choice: it looks at all Gaussians.
 const FormatPlan& export_plan(UiContext& ui, std::size_t gaussians) {
   ExportChoice& choice = ui.state.exporting;
-  std::string key = fmt::format("{} {} {}", ui.studio.scene()->serial, gaussians, choice.format.name);
+  const bool moved = choice.placement != ExportPlacement{};
+  std::string key =
+      fmt::format("{} {} {} {}", ui.studio.scene()->serial, gaussians, choice.format.name, moved);
   if (choice.plan_key != key) {
-    choice.plan = choice.format.plan(*ui.studio.scene()->scene, gaussians);
+    choice.plan = choice.format.plan(*ui.studio.scene()->scene, gaussians, moved);
     choice.plan_key = std::move(key);
   }
   return choice.plan;
