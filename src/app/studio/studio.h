@@ -250,6 +250,7 @@ class Studio {
   void show_runs_of_now();
   void keep_run(ObjectId object, CutRun run);
   CutRun* run_of(ObjectId object, const std::string& key);
+  void end_running_cut();
   void give_up_cut(ObjectId id, const std::string& key);
   void request_likelihood();
   const std::string& wanted_key(const ObjectItem& object);

@@ -284,10 +284,7 @@ void Studio::perform(const Cancel&) {
     tasks_.cancel(kind);
     if (kind == TaskKind::kCut) {
       given_up_.insert(cutting_key_);
-      runs_[cutting_object_].running = false;
-      runs_[cutting_object_].preview = nullptr;
-      cutting_object_ = 0;
-      ++view_serial_;
+      end_running_cut();
       say(Message::Kind::kInfo, "Cancelled. The strokes stay; R computes the cutout again.");
     } else {
       say(Message::Kind::kInfo, "Cancelled");

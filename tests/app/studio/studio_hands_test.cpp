@@ -97,21 +97,24 @@ TEST_CASE("hands: thumbnails follow the history") {
   CHECK(serials().empty());
 }
 
-TEST_CASE("hands: undone while it is cut, the cut before is on show again") {
-  Hands hands;
-  const ObjectId apple = hands.studio().document().active;
-  const auto result = hands.studio().cut_run(apple)->result;
-  REQUIRE(result);
-  hands.studio().apply(
-      AddStroke{hands.studio().viewport_camera(),
-                click(hands.in_viewport(hands.app.screen_of(kOnOrange)), SeedLabel::kObject)});
-  hands.studio().update(1.0 / 60);
-  REQUIRE(hands.studio().cutting());
-  hands.studio().apply(Undo{});
-  REQUIRE(hands.app.settle());
-  REQUIRE(hands.studio().cut_run(apple));
-  CHECK(hands.studio().cut_run(apple)->result == result);
-  CHECK_FALSE(hands.studio().cut_run(apple)->views.empty());
+TEST_CASE("hands: undone or cancelled while it is cut, the cut before is on show again") {
+  for (const bool cancelled : {false, true}) {
+    CAPTURE(cancelled);
+    Hands hands;
+    const ObjectId apple = hands.studio().document().active;
+    const auto result = hands.studio().cut_run(apple)->result;
+    REQUIRE(result);
+    hands.studio().apply(
+        AddStroke{hands.studio().viewport_camera(),
+                  click(hands.in_viewport(hands.app.screen_of(kOnOrange)), SeedLabel::kObject)});
+    hands.studio().update(1.0 / 60);
+    REQUIRE(hands.studio().cutting());
+    hands.studio().apply(cancelled ? Command(Cancel{}) : Undo{});
+    REQUIRE(hands.app.settle());
+    REQUIRE(hands.studio().cut_run(apple));
+    CHECK(hands.studio().cut_run(apple)->result == result);
+    CHECK_FALSE(hands.studio().cut_run(apple)->views.empty());
+  }
 }
 
 TEST_CASE("hands: Alt+click where the preset has no parts says why it does nothing") {
