@@ -9,6 +9,9 @@
 #include <iterator>
 #include <memory>
 #include <string>
+#include <string_view>
+
+#include <imgui_internal.h>  // items by their names
 
 #include "app/ui/application.h"
 #include "render/context.h"
@@ -96,7 +99,39 @@ class HeadlessApp {
     app_.handle(KeyChanged{code, true, false, modifiers});
     app_.frame(1.0 / 60);
     app_.handle(KeyChanged{code, false, false, modifiers});
+    if (modifiers.shift) app_.handle(KeyChanged{key::kLeftShift, false, false, modifiers});
+    if (modifiers.ctrl) app_.handle(KeyChanged{key::kLeftControl, false, false, modifiers});
+    if (modifiers.alt) app_.handle(KeyChanged{key::kLeftAlt, false, false, modifiers});
     app_.frame(1.0 / 60);
+  }
+
+  // A button, checkbox or section by what is written on it, or by its id behind ##; outer ids first. window:
+  // any part of its window's name.
+  void press_item(std::string_view window, std::initializer_list<const char*> names) {
+    app_.interface().make_current();
+    GImGui->NavNextActivateId = item(window, names);
+    GImGui->NavNextActivateFlags = ImGuiActivateFlags_None;
+    frames(3);
+  }
+  // A number or text is opened for typing, as Ctrl+click does, and replaced; no key ends it yet.
+  void type_into(std::string_view window, std::initializer_list<const char*> names, std::string_view text) {
+    app_.interface().make_current();
+    GImGui->NavNextActivateId = item(window, names);
+    GImGui->NavNextActivateFlags = ImGuiActivateFlags_PreferInput;
+    frames(3);
+    for (const char c : text) {
+      app_.handle(TextTyped{static_cast<unsigned>(c)});
+      frames(1);
+    }
+  }
+
+  // Where a window of the interface lies, by any part of its name.
+  UiRect window(std::string_view name) {
+    app_.interface().make_current();
+    const ImGuiWindow* found = find_window(name);
+    if (!found) return {};
+    const ImRect rect = found->Rect();
+    return {{rect.Min.x, rect.Min.y}, {rect.Max.x, rect.Max.y}};
   }
 
   // Where a pixel of the sample's camera 0 is on the screen while the view stands there.
@@ -115,6 +150,18 @@ class HeadlessApp {
   }
 
  private:
+  static const ImGuiWindow* find_window(std::string_view name) {
+    const ImGuiWindow* found = nullptr;
+    for (const ImGuiWindow* w : GImGui->Windows)
+      if (w->WasActive && std::string_view(w->Name).find(name) != std::string_view::npos) found = w;
+    return found;
+  }
+  static ImGuiID item(std::string_view window, std::initializer_list<const char*> names) {
+    const ImGuiWindow* found = find_window(window);
+    ImGuiID id = found ? found->ID : 0;
+    for (const char* name : names) id = ImHashStr(name, 0, id);
+    return id;
+  }
   ApplicationOptions with_target(int width, int height, ApplicationOptions options) {
     const GLenum formats[] = {GL_RGBA8};
     target_.resize(width, height, formats);

@@ -155,6 +155,7 @@ Action action_for(int code, const Modifiers& modifiers) {
   const auto exact = std::ranges::find_if(
       bindings, [&](const Binding& b) { return b.key == code && b.modifiers == modifiers; });
   if (exact != bindings.end()) return exact->action;
+  if (code == key::kEnter || code == key::kKeypadEnter) return Action::kConfirm;  // whatever drew the shape
   if (modifiers.ctrl) return Action::kNone;
   const auto flight =
       std::ranges::find_if(bindings, [&](const Binding& b) { return b.key == code && is_flight(b.action); });

@@ -81,6 +81,10 @@ void AnimatedWebp::add(const Image<Rgba8>& picture) {
   append_number(&frame, kReplaces, 1);
   const Bytes chunks = picture_chunks(still(picture));
   frame.insert(frame.end(), chunks.begin(), chunks.end());
+  constexpr std::size_t kHeaders = 64;  // of the file, its chunks and this frame's
+  if (frames_.size() + frame.size() + kHeaders > most_bytes_)
+    throw Error("webp", "the animation is larger than a file of this kind can be",
+                "Take fewer or smaller pictures");
   append_chunk(&frames_, "ANMF", frame);
 }
 

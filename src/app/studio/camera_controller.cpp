@@ -19,11 +19,22 @@ glm::mat3 world_from_camera(const CameraPose& pose) {
   return glm::transpose(glm::mat3_cast(pose.camera_from_world));
 }
 
-// Upright rotation that looks along `forward`.
-glm::quat looking(const glm::vec3& forward, const glm::vec3& up, const glm::vec3& right_if_parallel) {
-  const glm::vec3 z = glm::normalize(forward);
-  glm::vec3 x = glm::cross(z, up);
-  x = glm::length(x) > 1e-4f ? glm::normalize(x) : glm::normalize(right_if_parallel);
+// Across `up`, as near to `direction` as that allows.
+glm::vec3 level(const glm::vec3& direction, const glm::vec3& up) {
+  glm::vec3 across = direction - glm::dot(direction, up) * up;
+  if (glm::length(across) < 1e-3f)
+    across = glm::cross(up, std::abs(up.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0));
+  return glm::normalize(across);
+}
+
+// Upright rotation that looks along `forward`, or short of the pole as orbit() does.
+glm::quat looking(const glm::vec3& forward, const glm::vec3& up, const glm::vec3& right_at_pole) {
+  glm::vec3 z = glm::normalize(forward), x = glm::cross(z, up);
+  if (const float from_pole = glm::length(x); from_pole < std::sin(kPoleRad)) {
+    x = level(from_pole > 1e-4f ? x : right_at_pole, up);
+    z = std::sin(kPoleRad) * glm::cross(up, x) + std::copysign(std::cos(kPoleRad), glm::dot(z, up)) * up;
+  }
+  x = glm::normalize(x);
   const glm::vec3 y = glm::cross(z, x);
   return glm::normalize(glm::quat_cast(glm::transpose(glm::mat3(x, y, z))));
 }
@@ -71,7 +82,8 @@ void CameraController::orbit(const glm::vec2& delta_px) {
   const glm::quat around = glm::angleAxis(-delta_px.x * kOrbitRadPerPx, up_world_);
   // Tilt stops short of the poles, where left and right would swap.
   const float elevation = std::asin(std::clamp(glm::dot(axes[2], up_world_), -1.0f, 1.0f));
-  const bool upright = glm::dot(-axes[1], up_world_) >= 0;
+  constexpr float kRounding = 1e-4f;  // at the pole itself neither is so
+  const bool upright = glm::dot(-axes[1], up_world_) > -kRounding;
   float tilt = delta_px.y * kOrbitRadPerPx * (upright ? 1.0f : -1.0f);
   const float limit = glm::half_pi<float>() - kPoleRad;
   tilt = std::clamp(elevation - tilt, -limit, limit) - elevation;

@@ -109,9 +109,12 @@ std::string edit(Document* document, const AddStroke& command, const EditContext
   return fmt::format("{} {} {}", dot ? "Click:" : "Scribble:", rest ? "not part of" : "part of", object.name);
 }
 
-Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px, const glm::vec2& picture_px) {
-  const glm::vec2 low = glm::min(a_px, b_px), high = glm::max(a_px, b_px), middle = 0.5f * (low + high),
-                  size = high - low;
+Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px, const glm::vec2& picture_px,
+                    bool all_around) {
+  const glm::vec2 low = glm::min(a_px, b_px), high = glm::max(a_px, b_px),
+                  low_inside = glm::clamp(low, glm::vec2(0), picture_px),
+                  high_inside = glm::clamp(high, glm::vec2(0), picture_px),
+                  middle = 0.5f * (low_inside + high_inside), size = high_inside - low_inside;
   constexpr float kBorderPx = 2, kMiddleShare = 0.12f;
   const float radius = std::max(2.0f, kMiddleShare * std::min(size.x, size.y));
   const auto frame = [&](float outwards, float radius_px) {
@@ -119,25 +122,28 @@ Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px, const glm::vec
     return Stroke{SeedLabel::kRest, radius_px, {from, {to.x, from.y}, to, {from.x, to.y}, from}};
   };
   Strokes strokes{frame(0, kBorderPx)};
-  // Broad frames around it, as far as the picture goes: nothing beyond the border is meant.
+  // Broad frames around it, as far as the picture goes: nothing beyond the border is meant, unless more was
+  // marked before.
   constexpr float kFrameShare = 0.04f;
   const float broad = std::max(4.0f, kFrameShare * std::max(picture_px.x, picture_px.y));
   const float farthest = std::max({low.x, low.y, picture_px.x - high.x, picture_px.y - high.y}) + broad;
-  for (float outwards = kBorderPx + broad; outwards < farthest; outwards += 2 * broad)
+  for (float outwards = kBorderPx + broad; all_around && outwards < farthest; outwards += 2 * broad)
     strokes.push_back(frame(outwards, broad));
   strokes.push_back({SeedLabel::kObject, radius, {middle}});
   return strokes;
 }
 
 std::string edit(Document* document, const AddBox& command, const EditContext&) {
-  const glm::vec2 size = glm::abs(command.a_px - command.b_px);
-  constexpr float kSmallestPx = 6;
-  if (std::min(size.x, size.y) < kSmallestPx)
+  const glm::vec2 picture(command.camera.width_px, command.camera.height_px);
+  const glm::vec2 size = glm::abs(glm::clamp(command.a_px, glm::vec2(0), picture) -
+                                  glm::clamp(command.b_px, glm::vec2(0), picture));
+  constexpr float kSmallestPx = 6;  // of what the picture shows of it
+  if (!(std::min(size.x, size.y) >= kSmallestPx))
     throw Error("box", "it is too small", "Drag from one corner to the other");
   ObjectItem& object = stroked(document);
+  const bool first = std::ranges::none_of(object.views, marks_object);
   StrokedView& view = view_for(&object, command.camera, command.seen);
-  for (Stroke& stroke :
-       box_strokes(command.a_px, command.b_px, {command.camera.width_px, command.camera.height_px}))
+  for (Stroke& stroke : box_strokes(command.a_px, command.b_px, picture, first))
     view.strokes.push_back(std::move(stroke));
   return "Box around " + object.name;
 }

@@ -68,6 +68,10 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
   const std::size_t n = scene.cloud.size();
   if (!(request.placement.scale > 0) || !std::isfinite(request.placement.scale))
     throw Error("export", "the scale must be larger than 0");
+  const glm::vec3& move = request.placement.move;
+  if (!std::isfinite(request.placement.turn_deg) || !std::isfinite(move.x) || !std::isfinite(move.y) ||
+      !std::isfinite(move.z))
+    throw Error("export", "the turn and the move must be ordinary numbers");
   const auto place = [&](const std::vector<std::uint8_t>& kept) -> std::optional<Similarity> {
     if (request.placement == ExportPlacement{}) return {};
     return similarity_of(request.placement, scene.cloud, kept, document.up_world);

@@ -37,10 +37,13 @@ void History::reset(Document document, std::string title) {
   merging_ = false;
 }
 
+bool History::merges(std::string_view merge_key) const {
+  return merging_ && !merge_key.empty() && entries_[cursor_].merge_key == merge_key && cursor_ > 0;
+}
+
 void History::push(std::string title, Document after, std::string merge_key) {
   entries_.resize(cursor_ + 1);
-  const bool merge = merging_ && !merge_key.empty() && entries_.back().merge_key == merge_key && cursor_ > 0;
-  if (merge) {
+  if (merges(merge_key)) {
     entries_.back() = {std::move(title), std::move(merge_key), std::move(after)};
   } else {
     entries_.push_back({std::move(title), std::move(merge_key), std::move(after)});

@@ -29,6 +29,7 @@ class History {
   bool can_redo() const { return cursor_ + 1 < entries_.size(); }
 
   void push(std::string title, Document after, std::string merge_key = {});
+  bool merges(std::string_view merge_key) const;  // a push with it would replace the step at the cursor
   void undo();
   void redo();
   void jump(std::size_t entry);

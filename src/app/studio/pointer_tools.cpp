@@ -88,6 +88,7 @@ bool PointerTools::abandon() {
   const bool any = at_work() || !state_.points_world.empty() || state_.volume;
   state_.volume.reset();
   state_.volume_before.reset();
+  state_.volume_pressed.reset();
   state_.handle.reset();
   state_.path_px.clear();
   state_.corners_px.clear();

@@ -337,7 +337,9 @@ Flight Studio::flight() const {
 }
 
 void Studio::pointer_pressed(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
-  if (scene_) run_all(tools_.press(in_pane(pixel), button, modifiers, tool_context(pixel)));
+  if (!scene_) return;
+  pressed_pane_ = pane_at(pixel);
+  run_all(tools_.press(in_pane(pixel), button, modifiers, tool_context(pixel)));
 }
 
 void Studio::pointer_left() {

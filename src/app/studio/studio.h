@@ -146,6 +146,8 @@ class Studio {
   const ClickMeanings* offer() const;
   // The active object's clicks found nothing: too far away, mostly.
   bool found_nothing() const;
+  // Where a drag goes on; 1: the right one.
+  int drag_pane() const { return panes() == 2 && tools_.dragging() ? pressed_pane_ : 0; }
   int panes() const { return view_.display == DisplayMode::kSideBySide && scene_ ? 2 : 1; }
   std::vector<std::uint8_t> labels(ObjectId object) const;
   std::size_t gaussians_of(ObjectId object) const;  // cached: free to ask every frame
@@ -248,6 +250,7 @@ class Studio {
   void show_runs_of_now();
   void keep_run(ObjectId object, CutRun run);
   CutRun* run_of(ObjectId object, const std::string& key);
+  void end_running_cut();
   void give_up_cut(ObjectId id, const std::string& key);
   void request_likelihood();
   const std::string& wanted_key(const ObjectItem& object);
@@ -263,6 +266,7 @@ class Studio {
   // One pixel drawn for the question. visible: null for all.
   std::optional<PickedPoint> hit_in(const Camera& camera, const glm::vec2& pixel, const Flags& visible) const;
   Flags seen(int pane) const;  // what is drawn there now; null: all
+  int pane_at(const glm::vec2& pixel) const;
   glm::vec2 in_pane(const glm::vec2& pixel) const;
   Camera pane_camera() const;
 
@@ -299,7 +303,10 @@ class Studio {
   std::uint64_t style_version_ = 0, requested_style_ = 0;
   mutable std::map<ObjectId, std::size_t> counts_;
   bool highlight_floaters_ = false;
-  std::uint64_t volume_serial_ = 0;  // of the document right after a volume selected
+  std::string volume_key_;   // merge key of the last volume's step
+  Flags volume_seen_;        // what was shown when it first selected
+  std::size_t volumes_ = 0;  // so far
+  int pressed_pane_ = 0;     // of the drag
   // Asked of the worker, or shown already.
   struct HoverAsk {
     std::uint64_t document = 0, view = 0;  // serials

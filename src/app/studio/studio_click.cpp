@@ -104,15 +104,22 @@ void Studio::perform(const IntersectStroke& c) {
   if (!object || gaussians_of(object->id) == 0)
     throw Error("intersect", "there is no object yet", "Click one first");
   if (!session_) throw Error("intersect", "the scene is still being prepared", "Try again in a moment");
+  if (c.stroke.points_px.empty()) throw Error("stroke", "it has no points");
   if (!hits_anything({c.camera, c.stroke, c.seen}))
     throw Error("click", "there is nothing in that place", "Click on something that can be seen");
   tasks_.submit(TaskKind::kSelect, [this, c, id = object->id, session = session_, scene = scene_,
                                     settings = cut_settings(document(), *object)](const Job& job) {
     const Session::Preview preview =
         session->preview({}, {c.camera, c.stroke, c.seen}, settings, {job.stop, {}});
-    if (job.cancelled() || preview.after.empty()) return;
+    if (job.cancelled()) return;
     tasks_.post([this, id, scene, meant = preview.after] {
-      if (scene == scene_ && document().active == id)
+      if (scene != scene_ || document().active != id) return;
+      if (meant.empty())
+        say(Message::Kind::kRefused,
+            "intersect: with this quality there are no parts that a click could take. Intersect with a "
+            "region, "
+            "or choose another quality.");
+      else
         select_or_refuse(meant, SetOperation::kIntersect, "Intersect (click)");
     });
   });
@@ -133,7 +140,9 @@ void Studio::perform(const ComeNearer&) {
     throw Error("come nearer", "nothing is clicked yet", "Click an object first");
   const auto clicked = std::ranges::find_if(object->views, marks_object);
   const auto stroke = std::ranges::find(clicked->strokes, SeedLabel::kObject, &Stroke::label);
-  const auto hit = hit_in(clicked->camera, stroke->points_px.front(), nullptr);
+  std::optional<PickedPoint> hit;
+  for (const glm::vec2& p : stroke->points_px)
+    if ((hit = hit_in(clicked->camera, p, nullptr))) break;
   if (!hit) throw Error("come nearer", "there is nothing in that place");
   camera_.approach(hit->position_world, kDistanceLeft);
 }

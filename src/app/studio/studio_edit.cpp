@@ -196,16 +196,18 @@ void Studio::perform(const SelectRegion& c) {
 
 void Studio::perform(const SelectVolume& c) {
   require_scene();
-  if (c.adjusts && document_serial_ == volume_serial_ && history_.can_undo()) {
-    history_.undo();
-    document_changed();
+  // From the state before its first selection, seen as it was then; a cut in between has reached that, too.
+  const bool again = c.adjusts && history_.merges(volume_key_);
+  if (!again) {
+    volume_key_ = fmt::format("volume {}", ++volumes_);
+    volume_seen_ = shown(0);
   }
-  const Flags visible = shown(0);
-  apply_selection(select_volume(*scene_->cloud, c.volume,
-                                visible ? std::span(*visible) : std::span<const std::uint8_t>()),
-                  c.operation,
-                  std::string(title_of(c.operation)) + (c.volume.round ? " (sphere)" : " (box)"));
-  volume_serial_ = document_serial_;
+  Document after = again ? history_.entries()[history_.cursor() - 1].document : history_.now();
+  const Selection region = select_volume(
+      *scene_->cloud, c.volume, volume_seen_ ? std::span(*volume_seen_) : std::span<const std::uint8_t>());
+  const std::string message = splatcut::edit_selection(&after, region, c.operation, context());
+  push(std::string(title_of(c.operation)) + (c.volume.round ? " (sphere)" : " (box)"), std::move(after),
+       volume_key_, message);
 }
 
 void Studio::perform(const SelectColour& c) {
@@ -282,10 +284,7 @@ void Studio::perform(const Cancel&) {
     tasks_.cancel(kind);
     if (kind == TaskKind::kCut) {
       given_up_.insert(cutting_key_);
-      runs_[cutting_object_].running = false;
-      runs_[cutting_object_].preview = nullptr;
-      cutting_object_ = 0;
-      ++view_serial_;
+      end_running_cut();
       say(Message::Kind::kInfo, "Cancelled. The strokes stay; R computes the cutout again.");
     } else {
       say(Message::Kind::kInfo, "Cancelled");

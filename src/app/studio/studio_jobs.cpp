@@ -143,6 +143,7 @@ void Studio::opened(const std::shared_ptr<OpenedScene>& scene, const std::option
   hover_.reset();
   declined_offer_.clear();
   tools_.abandon();
+  volume_seen_.reset();
   view_.display = DisplayMode::kWhole;
   view_.heat = false;
   view_.tool = Tool::kClick;
@@ -211,10 +212,7 @@ void Studio::schedule_cut() {
     const ObjectItem* object = document().find(cutting_object_);
     if (object && wanted_key(*object) == cutting_key_) return;
     tasks_.cancel(TaskKind::kCut);
-    runs_[cutting_object_].running = false;
-    runs_[cutting_object_].preview = nullptr;
-    cutting_object_ = 0;
-    ++view_serial_;
+    end_running_cut();
   }
   for (const ObjectItem& object : document().objects) {
     const std::string& key = wanted_key(object);
@@ -345,10 +343,7 @@ void Studio::start_cut(const ObjectItem& object) {
 void Studio::give_up_cut(ObjectId id, const std::string& key) {
   if (cutting_object_ != id || cutting_key_ != key) return;
   given_up_.insert(key);
-  runs_[id].running = false;
-  runs_[id].preview = nullptr;
-  cutting_object_ = 0;
-  ++view_serial_;
+  end_running_cut();
 }
 
 void Studio::request_likelihood() {

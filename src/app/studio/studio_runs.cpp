@@ -37,6 +37,15 @@ CutRun* Studio::run_of(ObjectId object, const std::string& key) {
   return before == runs_before_.end() ? nullptr : &before->second;
 }
 
+// Without labels of its own: what was shown before is on show again.
+void Studio::end_running_cut() {
+  runs_[cutting_object_].running = false;
+  runs_[cutting_object_].preview = nullptr;
+  cutting_object_ = 0;
+  ++view_serial_;
+  show_runs_of_now();
+}
+
 // Thumbnails, doubts and times follow the history: those of the labels that are shown.
 void Studio::show_runs_of_now() {
   for (const ObjectItem& object : document().objects) {

@@ -48,14 +48,19 @@ Camera Studio::pane_camera() const {
   return viewport_camera();
 }
 
+// A drag stays where it was pressed, wherever it goes.
+int Studio::pane_at(const glm::vec2& pixel) const {
+  if (panes() == 1) return 0;
+  if (tools_.dragging()) return pressed_pane_;
+  return pixel.x >= 0.5f * static_cast<float>(width_px_) ? 1 : 0;
+}
+
 glm::vec2 Studio::in_pane(const glm::vec2& pixel) const {
-  if (panes() == 1 || tools_.dragging()) return pixel;
-  const float half = 0.5f * static_cast<float>(width_px_);
-  return pixel.x >= half ? pixel - glm::vec2(half, 0) : pixel;
+  return pixel - glm::vec2(0.5f * static_cast<float>(width_px_ * pane_at(pixel)), 0);
 }
 
 ToolContext Studio::tool_context(const glm::vec2& pixel) {
-  const int pane = panes() == 2 && pixel.x >= 0.5f * static_cast<float>(width_px_) ? 1 : 0;
+  const int pane = pane_at(pixel);
   return {camera_,
           view_,
           pane_camera(),
@@ -69,16 +74,20 @@ ToolOverlay Studio::overlay() const {
   return tools_.overlay(view_, viewport_camera(), pixels_per_point_);
 }
 
-// Of the last picture, whatever its size: while the view moves it is a little behind, which no hand feels.
+// Of the last picture, whatever its size and wherever it was drawn from: while the view moves it is behind.
 std::optional<float> Studio::depth_on_screen(const glm::vec2& pixel) const {
   if (!picture_ || picture_->frames.empty() || picture_->scene != scene_->serial) return {};
-  const Image<float>& depth = picture_->frames.front()->depth;
+  const Frame& frame = *picture_->frames.front();
+  const Image<float>& depth = frame.depth;
   const Camera camera = pane_camera();
   const glm::vec2 at = pixel / glm::vec2(camera.width_px, camera.height_px);
   const auto x = static_cast<int>(at.x * static_cast<float>(depth.width())),
              y = static_cast<int>(at.y * static_cast<float>(depth.height()));
   if (at.x < 0 || at.y < 0 || !depth.contains(x, y) || !(depth.at(x, y) > 0)) return {};
-  return depth.at(x, y);
+  const glm::vec3 point_world =
+      frame.camera.world_from_pixel(at * glm::vec2(depth.width(), depth.height()), depth.at(x, y));
+  const float z = camera.camera_from_world(point_world).z;
+  return z > 0 ? std::optional(z) : std::nullopt;
 }
 
 Flags Studio::seen(int pane) const {
@@ -103,6 +112,8 @@ std::optional<PickedPoint> Studio::pick(const glm::vec2& pixel) const {
 
 std::optional<PickedPoint> Studio::hit_in(const Camera& camera, const glm::vec2& pixel,
                                           const Flags& visible_set) const {
+  const glm::vec2 size(camera.width_px, camera.height_px);
+  if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.x < size.x && pixel.y < size.y)) return {};
   const auto x = static_cast<int>(std::floor(pixel.x)), y = static_cast<int>(std::floor(pixel.y));
   RasterOptions options;
   options.colour = false;

@@ -114,7 +114,12 @@ void Application::handle_one(const WheelTurned& event) {
 
 void Application::handle_one(const KeyChanged& event) {
   ImGuiIO& io = ImGui::GetIO();
-  set_modifiers(event.modifiers);
+  // X11 says what was held before the event: a field would take letters typed after Ctrl for shortcuts.
+  Modifiers now = event.modifiers;
+  if (event.key == key::kLeftShift || event.key == key::kRightShift) now.shift = event.down;
+  if (event.key == key::kLeftControl || event.key == key::kRightControl) now.ctrl = event.down;
+  if (event.key == key::kLeftAlt || event.key == key::kRightAlt) now.alt = event.down;
+  set_modifiers(now);
   if (event.key >= 0 && event.key < key::kCount) io.KeysDown[event.key] = event.down;
   if (!event.down) return studio_.key_released(event.key);
   if (io.WantTextInput || interface_.dialog_open()) return;

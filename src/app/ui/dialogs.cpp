@@ -158,9 +158,11 @@ void placement_choices(UiContext& ui) {
 // Made once for each choice: it looks at all Gaussians.
 const FormatPlan& export_plan(UiContext& ui, std::size_t gaussians) {
   ExportChoice& choice = ui.state.exporting;
-  std::string key = fmt::format("{} {} {}", ui.studio.scene()->serial, gaussians, choice.format.name);
+  const bool moved = choice.placement != ExportPlacement{};
+  std::string key =
+      fmt::format("{} {} {} {}", ui.studio.scene()->serial, gaussians, choice.format.name, moved);
   if (choice.plan_key != key) {
-    choice.plan = choice.format.plan(*ui.studio.scene()->scene, gaussians);
+    choice.plan = choice.format.plan(*ui.studio.scene()->scene, gaussians, moved);
     choice.plan_key = std::move(key);
   }
   return choice.plan;
@@ -215,6 +217,7 @@ void export_dialog(UiContext& ui) {
   }
   centre_next_window({620, 452});
   if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
+  const bool typing = typing_beside("##path");
   export_choices(ui);
   placement_choices(ui);
   ExportChoice& choice = ui.state.exporting;
@@ -234,7 +237,7 @@ void export_dialog(UiContext& ui) {
   const bool exists = std::filesystem::exists(choice.path);
   if (exists) ImGui::Checkbox("Replace the file that is there", &choice.overwrite);
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
+  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || (!typing && escape_pressed());
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);
   const std::string reason = choice.path.empty()             ? "Type where it should go"
                              : !(choice.placement.scale > 0) ? "The scale must be larger than 0"
@@ -243,7 +246,7 @@ void export_dialog(UiContext& ui) {
                                  ? "The file exists: allow replacing it, or change the name"
                                  : "";
   const bool pressed = button(ui, "Export", "Write the file  (Enter)", reason, reason.empty(), 110);
-  const bool done = pressed || (reason.empty() && enter_pressed());
+  const bool done = pressed || (reason.empty() && !typing && enter_pressed());
   if (done) ui.ask(Export{{choice.what, choice.format, choice.path, choice.overwrite, choice.placement}});
   if (done || cancelled) {
     ui.state.export_open = false;
@@ -269,8 +272,8 @@ void help_page(UiContext& ui) {
   for (const char* group : {"Display", "Camera"}) key_group(ui, group);
   ImGui::Columns(1);
   ImGui::EndChild();
-  const bool closed = ImGui::IsKeyPressed(key::kEscape, false) ||
-                      (ImGui::IsKeyPressed(key::kF1, false) && !ImGui::IsWindowAppearing());
+  const bool closed =
+      escape_pressed() || (ImGui::IsKeyPressed(key::kF1, false) && !ImGui::IsWindowAppearing());
   if (ImGui::Button("Close", {110, 0}) || closed || enter_pressed()) {
     ui.state.help_open = false;
     ImGui::CloseCurrentPopup();
@@ -292,7 +295,7 @@ void open_anyway_dialog(UiContext& ui) {
       ui, fmt::format("The objects and strokes were not saved since they changed; opening {} ends that work.",
                       name));
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool stays = ImGui::Button("Stay", {100, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
+  const bool stays = ImGui::Button("Stay", {100, 0}) || escape_pressed();
   ImGui::SameLine();
   const bool opens = ImGui::Button("Open", {100, 0});
   ImGui::SameLine(ImGui::GetWindowWidth() - 112);
@@ -316,7 +319,7 @@ void quit_dialog(UiContext& ui) {
                 "The objects and strokes were not saved since they changed. A copy is kept all the same and "
                 "offered at the next start.");
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool stays = ImGui::Button("Stay", {100, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
+  const bool stays = ImGui::Button("Stay", {100, 0}) || escape_pressed();
   ImGui::SameLine();
   if (ImGui::Button("Leave", {100, 0})) ui.state.quit_wanted = true;
   ImGui::SameLine(ImGui::GetWindowWidth() - 112);

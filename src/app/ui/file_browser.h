@@ -17,6 +17,7 @@ struct BrowserEntry {
 struct FileBrowser {
   bool open = false;
   bool saving = false;                  // a name can be typed
+  bool name_first = false;              // the keys go to the name
   std::string title, name;              // name: what is chosen or typed
   std::vector<std::string> extensions;  // shown files; empty: all
   std::filesystem::path folder;

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <imgui_stdlib.h>  // needs imgui.h first
+#include <imgui_internal.h>  // ClearActiveID
+#include <imgui_stdlib.h>    // needs imgui.h first
 
 #include <algorithm>
 #include <cstdlib>
@@ -47,10 +48,7 @@ std::string stem_of_scene(const Studio& studio) {
   return name.substr(0, name.find('.'));
 }
 
-void use_choice(UiContext& ui, std::filesystem::path path) {
-  const Kind kind = kind_of(ui.state.file_purpose);
-  if (!std::string(kind.extension).empty() && !path.filename().string().ends_with(kind.extension))
-    path += kind.extension;
+void use(UiContext& ui, const std::filesystem::path& path) {
   switch (ui.state.file_purpose) {
     case FilePurpose::kOpen:
       return ui.ask(OpenScene{path});
@@ -66,6 +64,22 @@ void use_choice(UiContext& ui, std::filesystem::path path) {
       ui.state.exporting.path = path.string();
       ui.state.export_open = true;
   }
+}
+
+// asked: replacing that very file is wanted.
+void use_choice(UiContext& ui, std::filesystem::path path, bool asked) {
+  const FilePurpose purpose = ui.state.file_purpose;
+  const Kind kind = kind_of(purpose);
+  if (!std::string(kind.extension).empty() && !path.filename().string().ends_with(kind.extension)) {
+    path += kind.extension;
+    asked = false;
+  }
+  const bool writes = purpose == FilePurpose::kSaveWork || purpose == FilePurpose::kSnapshot;
+  std::error_code ignored;
+  if (writes && !asked && path != ui.studio.work_path() && std::filesystem::exists(path, ignored))
+    ui.state.replace_asked = path;
+  else
+    use(ui, path);
 }
 
 // The dialog that asked for a path comes back without one.
@@ -85,8 +99,8 @@ void entry_list(FileBrowser& files, float height, bool moved, bool double_clicke
       files.go(i);
       if (entry.folder)
         enter = files.folder / entry.name;
-      else
-        *chosen |= double_clicked;
+      else  // both clicks on it: the first may have been on a folder that it is in
+        *chosen |= double_clicked && reached;
     }
     if (reached && moved) ImGui::SetScrollHereY();
     if (entry.folder) continue;
@@ -113,6 +127,7 @@ bool keys_in_list(FileBrowser& files) {
   if (ImGui::IsKeyPressed(key::kHome)) files.go(0);
   if (ImGui::IsKeyPressed(key::kEnd)) files.go(static_cast<int>(files.entries.size()) - 1);
   if (ImGui::IsKeyPressed(key::kBackspace, false)) files.enter(files.folder.parent_path());
+  if (files.saving) return files.cursor != before;  // letters are for the name
   for (const ImWchar letter : ImGui::GetIO().InputQueueCharacters)
     if (letter > ' ' && letter < 127) files.type(std::string(1, static_cast<char>(letter)), ImGui::GetTime());
   return files.cursor != before;
@@ -158,7 +173,7 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
   ui.state.file_purpose = purpose;
   files.title = kind.title;
   files.extensions = kind.shown;
-  files.saving = purpose != FilePurpose::kOpen;
+  files.saving = files.name_first = purpose != FilePurpose::kOpen;
   files.name.clear();
   const std::string stem = stem_of_scene(ui.studio);
   if (purpose == FilePurpose::kSaveWork) files.name = stem + ".splatcut.json";
@@ -185,7 +200,7 @@ void file_dialog(UiContext& ui) {
   switch (ui.state.native_files.poll()) {
     case NativeDialog::State::kChosen:
       files.folder = ui.state.native_files.path().parent_path();  // where the next one starts
-      use_choice(ui, ui.state.native_files.path());
+      use_choice(ui, ui.state.native_files.path(), true);
       break;
     case NativeDialog::State::kCancelled:
       back_to_caller(ui);
@@ -217,8 +232,10 @@ void file_dialog(UiContext& ui) {
   ImGui::SameLine();
   entry_list(files, height, moved, ui.state.double_clicked, &chosen);
   if (files.saving) {
+    if (moved) ImGui::ClearActiveID();  // the field would put its own text back
     ImGui::SetNextItemWidth(-1);
-    ImGui::InputText("##name", &files.name);
+    if (!ImGui::IsWindowAppearing() && std::exchange(files.name_first, false)) ImGui::SetKeyboardFocusHere();
+    ImGui::InputText("##name", &files.name, ImGuiInputTextFlags_AutoSelectAll);
     if (ImGui::IsItemEdited()) files.cursor = -1;
   }
   const bool at_folder = files.cursor >= 0 && files.entries[static_cast<std::size_t>(files.cursor)].folder;
@@ -227,7 +244,7 @@ void file_dialog(UiContext& ui) {
     files.enter(files.folder / files.entries[static_cast<std::size_t>(files.cursor)].name);
   chosen |= enters && !at_folder;
   const Kind kind = kind_of(ui.state.file_purpose);
-  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
+  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || escape_pressed();
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);
   const std::string reason = files.name.empty() ? (files.saving ? "Type a name" : "Choose a file") : "";
   chosen |= button(ui, kind.button, kind.title, reason, reason.empty(), 110);
@@ -236,9 +253,33 @@ void file_dialog(UiContext& ui) {
     files.open = false;
     ImGui::CloseCurrentPopup();
   }
-  if (chosen) use_choice(ui, files.folder / files.name);
+  if (chosen) use_choice(ui, files.folder / files.name, false);
   if (cancelled) back_to_caller(ui);
   ImGui::EndPopup();
+}
+
+void replace_dialog(UiContext& ui) {
+  const char* id = "Replace the file?###replace";
+  if (ui.state.replace_asked && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({430, 150});
+  if (!ImGui::BeginPopupModal(id, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return;
+  const std::filesystem::path path = ui.state.replace_asked.value_or("");
+  wrapped_muted(ui, path.filename().string() + " is there already. What it holds would be gone.");
+  ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
+  const bool replaces = ImGui::Button("Replace", {110, 0});
+  ImGui::SameLine(ImGui::GetWindowWidth() - 142);
+  const bool keeps = button(ui, "Another name", "The file stays  (Enter)", {}, true, 130) ||
+                     (!replaces && (enter_pressed() || escape_pressed()));
+  if (replaces || keeps) {
+    ui.state.replace_asked.reset();
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+  if (replaces) use(ui, path);
+  if (keeps && ui.state.native_wanted) open_file_dialog(ui, ui.state.file_purpose);
+  if (keeps && !ui.state.native_wanted) ui.state.files.open = ui.state.files.name_first = true;
 }
 
 }  // namespace splatcut

@@ -172,6 +172,7 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
     line({0, size.y - kStatus}, {size.x, size.y - kStatus}, p);
   }
   file_dialog(ui);
+  replace_dialog(ui);
   export_dialog(ui);
   turntable_dialog(ui);
   help_page(ui);

@@ -50,6 +50,7 @@ void open_anyway_dialog(UiContext& ui);
 void restore_buttons(UiContext& ui);  // for work of last time
 void recent_list(UiContext& ui);
 void file_dialog(UiContext& ui);  // and what follows from the choice
+void replace_dialog(UiContext& ui);
 void open_file_dialog(UiContext& ui, FilePurpose purpose);
 
 }  // namespace splatcut

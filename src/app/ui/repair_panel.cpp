@@ -74,27 +74,30 @@ void draw_histogram(UiContext& ui) {
   ImGui::Dummy({width, height});
 }
 
-// As ImGui's formats want it.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '%' ? "%%" : std::string(1, c);
-  return out;
-}
-
 void property_range(UiContext& ui) {
   PropertyChoice& choice = ui.state.property;
   refresh_histogram(ui);
   draw_histogram(ui);
-  // Sizes are kept as powers of ten, and shown as lengths.
-  const auto text = [&](float value) {
-    return choice.property == 0 ? fmt::format("{:.0f} %", 100 * value)
-                                : length_text(choice.property == 1 ? std::pow(10.0f, value) : value);
+  // Shares are shown in percent, sizes as lengths, of which powers of ten are kept.
+  const bool is_share = choice.property == 0, is_size = choice.property == 1;
+  constexpr float kLeastLength = 1e-20f;
+  const auto shown = [&](float value) {
+    return is_share ? 100 * value : is_size ? std::pow(10.0f, value) : value;
   };
-  const std::string low = text(choice.low), high = text(choice.high);
+  const auto kept = [&](float value) {
+    return is_share ? value / 100 : is_size ? std::log10(std::max(kLeastLength, value)) : value;
+  };
+  float low = shown(choice.low), high = shown(choice.high);
+  const float low_before = low, high_before = high, least = shown(choice.histogram.low),
+              most = shown(choice.histogram.high);
+  const float range = is_size ? most - least : high - low;  // a drag of sizes goes by its whole length
   ImGui::SetNextItemWidth(-1);
-  ImGui::DragFloatRange2("##range", &choice.low, &choice.high,
-                         std::max(1e-4f, (choice.high - choice.low) / 200), choice.histogram.low,
-                         choice.histogram.high, escaped(low).c_str(), escaped(high).c_str());
+  ImGui::DragFloatRange2("##range", &low, &high, std::max(is_size ? 0.0f : shown(1e-4f), range / 200), least,
+                         most, is_share ? "%.0f %%" : length_format(low).c_str(),
+                         is_share ? "%.0f %%" : length_format(high).c_str(),
+                         ImGuiSliderFlags_NoRoundToFormat | (is_size ? ImGuiSliderFlags_Logarithmic : 0));
+  if (low != low_before) choice.low = kept(low);
+  if (high != high_before) choice.high = kept(high);
   tooltip(choice.property == 1   ? "Size: the largest standard deviation, in scene units. Drag to change."
           : choice.property == 2 ? "Distance from the camera, in scene units. Drag to change."
                                  : "Drag to change.");
@@ -119,8 +122,7 @@ void property_selection(UiContext& ui) {
     ImGui::SetNextItemWidth(-1);
     ImGui::ColorEdit3("##colour", &choice.colour.x, ImGuiColorEditFlags_DisplayRGB);
     ImGui::SetNextItemWidth(-1);
-    const std::string within = fmt::format("within {:.0f} %%", 100 * choice.tolerance);
-    ImGui::SliderFloat("##tolerance", &choice.tolerance, 0.01f, 0.5f, within.c_str());
+    tolerance_slider(&choice.tolerance);
   } else {
     property_range(ui);
   }

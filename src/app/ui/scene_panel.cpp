@@ -85,16 +85,24 @@ void scene_panel(UiContext& ui) {
       ui.ask(SetFieldOfView{glm::radians(degrees)});
   });
   slider_row("Near limit", "What is nearer than this is not drawn, in scene units", [&] {
-    const std::string units = s.scene() ? length_text(s.draw_limits().near_plane) : "-";
-    if (ImGui::SliderFloat("##near", &view.near_share, 0.0005f, 0.2f, units.c_str(),
-                           ImGuiSliderFlags_Logarithmic))
-      ui.ask(SetView{view});
+    const float unit = s.draw_limits().near_plane / view.near_share;
+    float units = s.draw_limits().near_plane;
+    const std::string format = s.scene() ? length_format(units) : "-";
+    if (!ImGui::SliderFloat("##near", &units, 0.0005f * unit, 0.2f * unit, format.c_str(),
+                            ImGuiSliderFlags_Logarithmic | kTypedLength))
+      return;
+    view.near_share = units / unit;
+    ui.ask(SetView{view});
   });
   slider_row("Far limit",
              "What is farther than this is not drawn, in scene units; at the left end there is no limit",
              [&] {
-               const std::string units = view.far_share > 0 ? length_text(s.draw_limits().far_plane) : "none";
-               if (ImGui::SliderFloat("##far", &view.far_share, 0, 3, units.c_str())) ui.ask(SetView{view});
+               const float size = s.camera().scene_size();
+               float units = view.far_share * size;
+               const std::string format = units > 0 ? length_format(units) : "none";
+               if (!ImGui::SliderFloat("##far", &units, 0, 3 * size, format.c_str(), kTypedLength)) return;
+               view.far_share = units / size;
+               ui.ask(SetView{view});
              });
   if (ImGui::Checkbox("As in web viewers", &view.web_low_pass)) ui.ask(SetView{view});
   tooltip("Thin splats are drawn half as wide as in training; the cut does not change");

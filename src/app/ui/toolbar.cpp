@@ -51,9 +51,7 @@ void hint(UiContext& ui) {
 void tolerance(UiContext& ui) {
   ViewState view = ui.studio.view();
   ImGui::SetNextItemWidth(150);
-  const std::string text = fmt::format("within {:.0f} %%", 100 * view.colour_tolerance);
-  if (ImGui::SliderFloat("##tolerance", &view.colour_tolerance, 0.01f, 0.5f, text.c_str()))
-    set_view(ui, view);
+  if (tolerance_slider(&view.colour_tolerance)) set_view(ui, view);
   tooltip("How far a colour may differ, in any of red, green and blue");
 }
 
@@ -85,11 +83,13 @@ void region_options(UiContext& ui) {
   if (!view.see_through) return;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(130);
-  const std::string depth =
-      view.depth_limit > 0
-          ? fmt::format("{} units deep", length_text(view.depth_limit * ui.studio.camera().scene_size()))
-          : "no depth limit";
-  if (ImGui::SliderFloat("##depth", &view.depth_limit, 0, 0.5f, depth.c_str())) set_view(ui, view);
+  const float size = ui.studio.camera().scene_size();
+  float depth = view.depth_limit * size;
+  const std::string text = depth > 0 ? length_format(depth) + " units deep" : "no depth limit";
+  if (ImGui::SliderFloat("##depth", &depth, 0, 0.5f * size, text.c_str(), kTypedLength)) {
+    view.depth_limit = depth / size;
+    set_view(ui, view);
+  }
   tooltip("How far behind the visible surface it reaches, in scene units; at the left end there is no limit");
 }
 

@@ -126,6 +126,7 @@ void turntable_dialog(UiContext& ui) {
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({560, 268});
   if (!ImGui::BeginPopupModal(id, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return;
+  const bool typing = typing_beside("##folder");
   as_row(ui, choice);
   frames_row(ui, choice);
   size_row(ui, choice);
@@ -136,12 +137,12 @@ void turntable_dialog(UiContext& ui) {
   const bool browse = button(ui, icon::kFolder, "Choose a folder and name");
   wrapped_muted(ui, what_is_written(choice));
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || ImGui::IsKeyPressed(key::kEscape, false);
+  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || (!typing && escape_pressed());
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);
   const std::string reason = choice.path.empty() ? "Type where they should go" : "";
   const bool pressed =
       button(ui, "Save", "Draw and write the pictures  (Enter)", reason, reason.empty(), 110);
-  const bool done = pressed || (reason.empty() && !cancelled && !browse && enter_pressed());
+  const bool done = pressed || (reason.empty() && !cancelled && !browse && !typing && enter_pressed());
   if (done)
     ui.ask(SaveTurntable{choice.path, choice.frames, choice.width_px, choice.height_px, choice.as,
                          choice.turn_s});

@@ -72,6 +72,7 @@ struct UiState {
   NativeDialog native_files;
   bool native_wanted = false;  // the desktop's own file dialog, where there is one
   FilePurpose file_purpose = FilePurpose::kOpen;
+  std::optional<std::filesystem::path> replace_asked;  // a file of that name is there
   ExportChoice exporting;
   bool turntable_open = false;
   TurntableChoice turntable;

@@ -182,7 +182,8 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   ImGui::PopClipRect();
   ImGui::PushClipRect(vec(area.min), vec(area.max), true);
   if (panes == 1) draw_centres(ui, area);
-  draw_tool_shape(ui, area);
+  draw_tool_shape(ui,
+                  {area.min + glm::vec2(pane_width * static_cast<float>(studio.drag_pane()), 0), area.max});
   draw_points(ui, area);
   draw_brush_ring(ui, area);
   draw_cursor_sign(ui, area);

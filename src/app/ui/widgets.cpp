@@ -1,6 +1,10 @@
 #include "app/ui/widgets.h"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>  // GetActiveID
+
+#include <algorithm>
+#include <cmath>
 
 namespace splatcut {
 
@@ -21,6 +25,29 @@ bool enter_pressed() {
   const bool pressed =
       ImGui::IsKeyPressed(key::kEnter, false) || ImGui::IsKeyPressed(key::kKeypadEnter, false);
   return pressed && !ImGui::IsWindowAppearing();
+}
+
+bool escape_pressed() {
+  return ImGui::IsKeyPressed(key::kEscape, false) && !ImGui::IsWindowAppearing();
+}
+
+bool typing_beside(const char* label) {
+  const ImGuiID typed = ImGui::GetIO().WantTextInput ? ImGui::GetActiveID() : 0;
+  return typed != 0 && typed != ImGui::GetID(label);
+}
+
+std::string length_format(float length) {
+  const float size = std::abs(length);
+  if (!(size > 0)) return "%.0f";
+  if (size < 1e-4f || size >= 1e9f) return "%.2e";
+  return fmt::format("%.{}f", std::max(0, 2 - static_cast<int>(std::floor(std::log10(size)))));
+}
+
+bool tolerance_slider(float* share) {
+  float percent = 100 * *share;
+  const bool changed = ImGui::SliderFloat("##tolerance", &percent, 1, 50, "within %.0f %%", kTypedLength);
+  if (changed) *share = percent / 100;
+  return changed;
 }
 
 void tooltip(const std::string& text) {

@@ -16,7 +16,19 @@ void action_button(UiContext& ui, Action action, const char* label, bool on = fa
 bool button(UiContext& ui, const char* label, const std::string& tip, const std::string& reason = {},
             bool on = false, float width = 0);
 
-bool enter_pressed();  // a dialog's default answer, where nothing else takes the key
+bool enter_pressed();   // a dialog's default answer, where nothing else takes the key
+bool escape_pressed();  // leaves a dialog; a key that closed the one before says nothing to this one
+
+// Enter and Esc are for a field of the dialog that is being typed in; those of the field with this label go
+// on to the dialog. Asked before the fields are made.
+bool typing_beside(const char* label);
+
+// As ImGui shows a length that can be typed: with three figures, like length_text().
+std::string length_format(float length);
+inline constexpr ImGuiSliderFlags kTypedLength =
+    ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
+
+bool tolerance_slider(float* share);  // of colours, in percent; true where it changed
 
 void tooltip(const std::string& text);  // of the last item
 void muted_text(UiContext& ui, const std::string& text);

@@ -8,10 +8,12 @@
 #include <chrono>
 #include <cstdlib>
 #include <optional>
+#include <vector>
 
 #include "app/console/console.h"
 #include "app/console/user_folders.h"
 #include "app/ui/settings.h"
+#include "app/ui/window_place.h"
 #include "core/error.h"
 
 namespace splatcut {
@@ -36,40 +38,16 @@ struct Glfw {
   Glfw& operator=(const Glfw&) = delete;
 };
 
-// Whether the middle of the title bar can be reached: screens come and go between runs.
-bool on_a_screen(const glm::ivec2& position, int width) {
-  constexpr int kTitleBar = 16;
-  const glm::ivec2 grip = position + glm::ivec2(width / 2, -kTitleBar / 2);
+std::vector<Screen> screens() {
   int count = 0;
-  GLFWmonitor** screens = glfwGetMonitors(&count);
-  return std::any_of(screens, screens + count, [&](GLFWmonitor* screen) {
-    glm::ivec2 at(0), size(0);
-    glfwGetMonitorWorkarea(screen, &at.x, &at.y, &size.x, &size.y);
-    const glm::ivec2 in = grip - at;
-    return in.x >= 0 && in.y >= -kTitleBar && in.x < size.x && in.y < size.y;
-  });
+  GLFWmonitor** monitors = glfwGetMonitors(&count);  // the primary one first
+  std::vector<Screen> out(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    glfwGetMonitorWorkarea(monitors[i], &out[i].at.x, &out[i].at.y, &out[i].size.x, &out[i].size.y);
+    glfwGetMonitorContentScale(monitors[i], &out[i].scale.x, &out[i].scale.y);
+  }
+  return out;
 }
-
-// No more than the screen has room for beside its bars and the window's frame. scaled: the system multiplies
-// the size by the screen's scale.
-glm::ivec2 fitting(const glm::ivec2& size, bool scaled) {
-  GLFWmonitor* screen = glfwGetPrimaryMonitor();
-  if (!screen) return size;
-  constexpr int kFrame = 40;
-  glm::ivec2 at(0), room(0);
-  glm::vec2 scale(1);
-  glfwGetMonitorWorkarea(screen, &at.x, &at.y, &room.x, &room.y);
-  glfwGetMonitorContentScale(screen, &scale.x, &scale.y);
-  const glm::vec2 most = glm::vec2(room - kFrame) / (scaled ? glm::max(scale, 1.0f) : glm::vec2(1));
-  return glm::max(glm::min(size, glm::ivec2(most)), glm::ivec2(480, 360));
-}
-
-struct WindowPlace {
-  glm::ivec2 size;
-  std::optional<glm::ivec2> position;
-  bool maximized = false;
-  bool scaled = false;  // the size is in points of an ordinary screen, not in this one's
-};
 
 // As asked for, else as remembered, else as large on every screen.
 WindowPlace place_of(const WindowOptions& options, const Settings& settings) {
@@ -79,7 +57,7 @@ WindowPlace place_of(const WindowOptions& options, const Settings& settings) {
   const Settings usual;
   const bool first_start =
       settings.width == usual.width && settings.height == usual.height && !settings.position;
-  return {fitting(size, first_start), settings.position, settings.maximized, first_start};
+  return fitting({size, settings.position, settings.maximized, first_start}, screens());
 }
 
 // Null where there is no OpenGL 3.3 by that interface.
@@ -123,8 +101,7 @@ GLFWwindow* hidden_window(const WindowPlace& place) {
 
 struct GlfwWindow {
   explicit GlfwWindow(const WindowPlace& place) : handle(hidden_window(place)) {
-    if (place.position && on_a_screen(*place.position, place.size.x))
-      glfwSetWindowPos(handle, place.position->x, place.position->y);
+    if (place.position) glfwSetWindowPos(handle, place.position->x, place.position->y);
     glfwShowWindow(handle);
     glfwMakeContextCurrent(handle);
     load_gl_functions(glfwGetProcAddress);

@@ -258,7 +258,7 @@ std::string write_compressed_ply(AtomicFile& out, const Scene& scene,
   return compressed_ply_losses(scene, gaussians).sentence();
 }
 
-FormatPlan plan_compressed_ply(const Scene& scene, std::size_t gaussians) {
+FormatPlan plan_compressed_ply(const Scene& scene, std::size_t gaussians, bool) {
   FormatPlan plan;
   plan.bytes = gaussians * (16 + scene.cloud.sh_stride()) + (gaussians / 256 + 1) * 72 + 900;
   plan.kept = "Position, rotation, scale, colour and opacity in 16 bytes a Gaussian.";

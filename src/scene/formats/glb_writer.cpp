@@ -140,7 +140,7 @@ std::string write_glb(AtomicFile& out, const Scene& scene, std::span<const std::
   return glb_losses(scene).sentence();
 }
 
-FormatPlan plan_glb(const Scene& scene, std::size_t gaussians) {
+FormatPlan plan_glb(const Scene& scene, std::size_t gaussians, bool) {
   FormatPlan plan;
   plan.bytes = glb_bytes(scene.cloud, gaussians);
   plan.kept =

@@ -251,9 +251,9 @@ void read_ply(const MappedFile& file, const LoadOptions&, Scene& scene, const Jo
     read_binary(file, vertex, scene, job);
 }
 
-Losses ply_losses(const Scene& scene) {
+Losses ply_losses(const Scene& scene, bool rows_copied) {
   Losses losses;
-  if (!scene.rows_can_be_copied) losses.add(properties_left_out(scene));
+  if (!rows_copied) losses.add(properties_left_out(scene));
   losses.add(antialiasing_left_out(scene));
   return losses;
 }
@@ -264,23 +264,23 @@ std::string write_ply(AtomicFile& out, const Scene& scene, std::span<const std::
     write_ply_subset(out, scene, gaussians);
   else
     write_ply_rows(out, scene.cloud, gaussians);
-  return ply_losses(scene).sentence();
+  return ply_losses(scene, scene.rows_can_be_copied).sentence();
 }
 
-std::uint64_t ply_row_bytes(const Scene& scene) {
-  if (scene.rows_can_be_copied && scene.file_rows > 0) return scene.file_bytes / scene.file_rows;
+std::uint64_t ply_row_bytes(const Scene& scene, bool rows_copied) {
+  if (rows_copied && scene.file_rows > 0) return scene.file_bytes / scene.file_rows;
   const auto floats = 3 + 3 + 3 + scene.cloud.sh_stride() + 1 + 3 +
                       4;  // position, normal, f_dc, rest, opacity, scale, rotation
   return floats * sizeof(float);
 }
 
-FormatPlan plan_ply(const Scene& scene, std::size_t gaussians) {
+FormatPlan plan_ply(const Scene& scene, std::size_t gaussians, bool moved) {
+  const bool rows_copied = scene.rows_can_be_copied && !moved;
   FormatPlan plan;
-  plan.bytes = gaussians * ply_row_bytes(scene) + 1500;
-  plan.kept = scene.rows_can_be_copied
-                  ? "Every property of every row, byte for byte as in the source file."
-                  : "What the source file says of Gaussians, as ordinary 32-bit 3DGS properties.";
-  plan.lost = ply_losses(scene).in_full();
+  plan.bytes = gaussians * ply_row_bytes(scene, rows_copied) + 1500;
+  plan.kept = rows_copied ? "Every property of every row, byte for byte as in the source file."
+                          : "What the source file says of Gaussians, as ordinary 32-bit 3DGS properties.";
+  plan.lost = ply_losses(scene, rows_copied).in_full();
   return plan;
 }
 

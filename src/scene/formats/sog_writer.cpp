@@ -205,7 +205,7 @@ std::string write_sog(AtomicFile& out, const Scene& scene, std::span<const std::
   return sog_losses(scene, gaussians.size()).sentence();
 }
 
-FormatPlan plan_sog(const Scene& scene, std::size_t gaussians) {
+FormatPlan plan_sog(const Scene& scene, std::size_t gaussians, bool) {
   constexpr std::size_t kBytesPerGaussian = 14, kCodebooks = 16000;  // as real scenes come out
   const std::size_t sets = std::min(gaussians, kMostPalette);
   FormatPlan plan;

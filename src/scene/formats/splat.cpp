@@ -93,7 +93,7 @@ std::string write_splat(AtomicFile& out, const Scene& scene, std::span<const std
   return splat_losses(scene, gaussians).sentence();
 }
 
-FormatPlan plan_splat(const Scene& scene, std::size_t gaussians) {
+FormatPlan plan_splat(const Scene& scene, std::size_t gaussians, bool) {
   FormatPlan plan;
   plan.bytes = gaussians * kRowBytes;
   plan.kept = "Position and scale in full; colour, opacity and rotation in 8 bits.";

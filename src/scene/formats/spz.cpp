@@ -288,7 +288,7 @@ bool is_spz(const MappedFile& file) {
   return begins_with(file, "NGSP") || begins_with(file, "\x1f\x8b");
 }
 
-FormatPlan plan_spz(const Scene& scene, std::size_t gaussians) {
+FormatPlan plan_spz(const Scene& scene, std::size_t gaussians, bool) {
   FormatPlan plan;
   plan.bytes = gaussians * (20 + scene.cloud.sh_stride()) * 3 / 4 + 64;
   plan.about = true;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_access.hpp>
+#include <nlohmann/json.hpp>
 
 #include "hands.h"
 
@@ -37,18 +39,104 @@ TEST_CASE("hands: +Z up comes back with the view, and pressed again sets a leani
   CHECK(upright());
 }
 
-TEST_CASE("hands: where a click found nothing, one comes nearer") {
-  Hands hands;
+TEST_CASE("hands: where a click was from too far away, one comes nearer to what was clicked") {
+  Hands hands(false);
+  hands.studio().apply(SetPreset{"fast"});
   const glm::vec3 apple = hands.under(hands.app.screen_of(kOnApple));
-  hands.studio().camera().zoom(-8);
+  hands.studio().camera().zoom(-45, apple);
   REQUIRE(hands.app.settle());
+  hands.app.click(hands.seen_at(apple));
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.said().ends_with("come nearer"));
   const float far = glm::distance(hands.studio().camera().pose().position_world, apple);
-  hands.studio().apply(ComeNearer{});
+  hands.app.press_item("side/scroll", {"Come nearer"});
   REQUIRE(hands.app.settle());
   const float near = glm::distance(hands.studio().camera().pose().position_world, apple);
   CHECK(near < 0.4f * far);
   CHECK(glm::distance(hands.seen_at(apple), hands.app->interface().viewport().min +
                                                 0.5f * hands.app->interface().viewport().size()) < 30);
+}
+
+TEST_CASE("hands: one comes nearer to a stroke that begins outside of the picture, or is told why not") {
+  Hands hands(false);
+  const glm::vec2 apple = hands.in_viewport(hands.app.screen_of(kOnApple));
+  const glm::vec3 eye = hands.studio().camera().pose().position_world;
+  hands.studio().apply(
+      AddStroke{hands.studio().viewport_camera(), {SeedLabel::kObject, 2, {{-40, 100}, apple}}});
+  REQUIRE(hands.studio().document().active_object());
+  hands.studio().apply(ComeNearer{});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().camera().pose().position_world != eye);
+  const ScratchFolder folder("outside");
+  hands.studio().apply(SaveWork{folder / "in.splatcut.json"});
+  REQUIRE(hands.app.settle());
+  std::ifstream in(folder / "in.splatcut.json");
+  auto work = nlohmann::json::parse(in);
+  work["objects"][0]["views"][0]["strokes"][0]["points"] = {{-40, 100}};
+  std::ofstream(folder / "out.splatcut.json") << work;
+  hands.studio().apply(OpenScene{folder / "out.splatcut.json"});
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.studio().document().active_object());
+  hands.studio().apply(ComeNearer{});
+  CHECK(hands.said().starts_with("come nearer: "));
+}
+
+TEST_CASE("hands: from straight above the view turns on without tipping over, however it leaned before") {
+  for (const float lean : {0.0f, 0.4f, glm::half_pi<float>()}) {
+    CAPTURE(lean);
+    const glm::vec3 up = glm::normalize(glm::vec3(0.2f, -1, 0.1f));
+    CameraController camera;
+    camera.reset({glm::vec3(-1), glm::vec3(1)}, up);
+    for (int step = 0; step < 60; ++step) {
+      CameraPose pose = camera.pose();
+      pose.camera_from_world = glm::angleAxis(lean, glm::vec3(0, 0, 1)) * pose.camera_from_world;
+      camera.set_pose(pose);
+      camera.look_along(-up);
+      camera.finish_transition();
+      const auto axis = [&](int i) { return glm::row(glm::mat3_cast(camera.pose().camera_from_world), i); };
+      CHECK(glm::dot(axis(2), up) < -0.999f);
+      CHECK(std::abs(glm::dot(axis(0), up)) < 1e-4f);
+      for (const float dy : {3.0f, -2.0f, 5.0f, -20.0f}) {
+        camera.orbit({7, dy});
+        CHECK(-glm::dot(axis(1), up) > 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("hands: a camera of the capture that looks straight down turns without tipping over") {
+  CameraController camera;
+  const glm::vec3 up(0, -1, 0);
+  camera.reset({glm::vec3(-1), glm::vec3(1)}, up);
+  CameraPose pose = camera.pose();
+  for (int step = 0; step < 24; ++step) {  // each turned by another angle, exactly at the pole
+    pose.camera_from_world =
+        glm::normalize(glm::angleAxis(0.26f * static_cast<float>(step), glm::vec3(0, 0, 1)) *
+                       glm::angleAxis(-glm::half_pi<float>(), glm::vec3(1, 0, 0)));
+    camera.set_pose(pose);
+    const auto axis = [&](int i) { return glm::row(glm::mat3_cast(camera.pose().camera_from_world), i); };
+    REQUIRE(std::abs(glm::dot(axis(2), up)) > 0.9999f);
+    camera.orbit({0, 4});
+    CHECK(-glm::dot(axis(1), up) > 0);
+  }
+}
+
+TEST_CASE(
+    "hands: many turns of the wheel at once, before a picture is drawn, stay in front of what is meant") {
+  Hands hands(false);
+  hands.studio().set_gpu_view(true);  // which draws no picture while the view moves
+  const glm::vec2 at = hands.app.screen_of(kOnApple);
+  const glm::vec3 point = hands.under(at);
+  hands.app.move(at);
+  const auto depth = [&] { return hands.studio().viewport_camera().camera_from_world(point).z; };
+  const float before = depth();
+  for (int i = 0; i < 12; ++i) {
+    hands.app->handle(WheelTurned{1, {}});
+    hands.app.frames(1);
+  }
+  CHECK(depth() > 0);
+  CHECK(depth() == doctest::Approx(before * std::pow(0.88f, 12.0f)).epsilon(0.02));
+  CHECK(glm::distance(hands.seen_at(point), at) < 2);
 }
 
 TEST_CASE("hands: what is under the pointer stays there while the wheel goes nearer and a drag shifts") {

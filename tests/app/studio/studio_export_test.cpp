@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hands.h"
 #include "scene/raster/rasterizer.h"
@@ -107,4 +108,20 @@ TEST_CASE("hands: a proposed name is one that no file has yet") {
   CHECK(free_path(folder / "a.compressed.ply", ".compressed.ply") == folder / "a.compressed.ply");
   for (const char* name : {"a.compressed.ply", "a_2.compressed.ply"}) std::ofstream(folder / name) << "x";
   CHECK(free_path(folder / "a.compressed.ply", ".compressed.ply") == folder / "a_3.compressed.ply");
+}
+
+TEST_CASE("hands: an export that would move everything to nowhere is refused") {
+  const ScratchFolder folder("nowhere");
+  Hands hands;
+  const float nowhere = std::numeric_limits<float>::quiet_NaN(), far = std::numeric_limits<float>::infinity();
+  for (const ExportPlacement& placement : {ExportPlacement{.turn_deg = nowhere},
+                                           {.turn_deg = far},
+                                           {.scale = nowhere},
+                                           {.move = {0, nowhere, 0}},
+                                           {.move = {0, 0, -far}}}) {
+    hands.studio().apply(
+        Export{{ExportWhat::kObject, SceneFormat::kPly, folder / "apple.ply", false, placement}});
+    REQUIRE(hands.app.settle());
+    CHECK_FALSE(std::filesystem::exists(folder / "apple.ply"));
+  }
 }

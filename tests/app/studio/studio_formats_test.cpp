@@ -3,7 +3,6 @@
 
 #include <set>
 
-#include "core/png_file.h"
 #include "headless_app.h"
 #include "scene_file_helpers.h"
 
@@ -56,7 +55,6 @@ TEST_CASE(
   // With work that is not saved it asks first, and then still takes the other axes.
   app.studio().apply(EditSelection{SelectionEdit::kAll});
   REQUIRE(app.settle());
-  write_png("/tmp/fmt2.png", app.picture());
   app.click({941, 641});  // the button, below the object now
   app.frames(3);
   REQUIRE(app->interface().dialog_open());

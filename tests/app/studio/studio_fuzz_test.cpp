@@ -36,8 +36,10 @@ class Fuzz {
       case 4:
         return studio_.apply(SelectRegion{camera(), rectangle_region(pixel(), pixel(), 64, 48), set()});
       case 5:
-        return studio_.apply(SelectVolume{
-            {chance(50), {real() - 0.5f, real() - 0.5f, real() - 0.5f}, glm::vec3(real())}, set()});
+        return studio_.apply(
+            SelectVolume{{chance(50), {real() - 0.5f, real() - 0.5f, real() - 0.5f}, glm::vec3(real())},
+                         set(),
+                         chance(50)});
       case 6:
         return studio_.apply(SelectColour{{real(), real(), real()}, 0.4f * real(), set()});
       case 7:

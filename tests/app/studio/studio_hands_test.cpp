@@ -55,12 +55,15 @@ TEST_CASE("hands: a new scene begins with the click tool, an ordinary brush and 
 
 TEST_CASE("hands: a click while the scene is prepared says what it waits for, and is cut afterwards") {
   HeadlessApp app(kHandsWidth, kHandsHeight);
+  app.frames(1);
   app.open(kSample);
-  for (int i = 0; i < 5000 && !app.studio().picture(); ++i) app.frames(1);
-  REQUIRE(app.studio().picture());
-  if (app.studio().prepared()) return;  // a fast machine
+  // No frame between its opening and the click: what is prepared arrives with one.
+  while (!app.studio().scene()) app.studio().update(1.0 / 60);
+  REQUIRE_FALSE(app.studio().prepared());
   app.studio().apply(SetPreset{"fast"});
-  app.click(app.screen_of(kOnApple));
+  app.studio().apply(
+      AddStroke{app.studio().viewport_camera(),
+                click(app.screen_of(kOnApple) - app->interface().viewport().min, SeedLabel::kObject)});
   REQUIRE_FALSE(app.studio().messages().empty());
   CHECK(app.studio().messages().back().text.find("as soon as the scene is prepared") != std::string::npos);
   REQUIRE(app.settle());
@@ -92,6 +95,41 @@ TEST_CASE("hands: thumbnails follow the history") {
   hands.studio().apply(JumpHistory{0});
   REQUIRE(hands.app.settle());
   CHECK(serials().empty());
+}
+
+TEST_CASE("hands: undone or cancelled while it is cut, the cut before is on show again") {
+  for (const bool cancelled : {false, true}) {
+    CAPTURE(cancelled);
+    Hands hands;
+    const ObjectId apple = hands.studio().document().active;
+    const auto result = hands.studio().cut_run(apple)->result;
+    REQUIRE(result);
+    hands.studio().apply(
+        AddStroke{hands.studio().viewport_camera(),
+                  click(hands.in_viewport(hands.app.screen_of(kOnOrange)), SeedLabel::kObject)});
+    hands.studio().update(1.0 / 60);
+    REQUIRE(hands.studio().cutting());
+    hands.studio().apply(cancelled ? Command(Cancel{}) : Undo{});
+    REQUIRE(hands.app.settle());
+    REQUIRE(hands.studio().cut_run(apple));
+    CHECK(hands.studio().cut_run(apple)->result == result);
+    CHECK_FALSE(hands.studio().cut_run(apple)->views.empty());
+  }
+}
+
+TEST_CASE("hands: Alt+click where the preset has no parts says why it does nothing") {
+  Hands hands;
+  hands.studio().apply(SetPreset{"paper"});
+  const std::size_t before = hands.studio().messages().size();
+  hands.studio().apply(
+      IntersectStroke{hands.studio().viewport_camera(),
+                      click(hands.in_viewport(hands.app.screen_of(kOnOrange)), SeedLabel::kObject)});
+  REQUIRE(hands.app.settle());
+  CHECK(std::any_of(hands.studio().messages().begin() + static_cast<std::ptrdiff_t>(before),
+                    hands.studio().messages().end(),
+                    [](const Message& m) { return m.kind == Message::Kind::kRefused; }));
+  hands.studio().apply(IntersectStroke{hands.studio().viewport_camera(), {}});
+  CHECK(hands.studio().messages().back().kind == Message::Kind::kRefused);
 }
 
 TEST_CASE("hands: with everything undone the whole scene is shown, not an empty object alone") {

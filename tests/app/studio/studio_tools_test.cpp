@@ -182,6 +182,150 @@ TEST_CASE("hands: a sphere and a box in space select by a drag, and again by the
   }
 }
 
+TEST_CASE("hands: a volume that took nothing yet is changed without a step before it being lost") {
+  Hands hands(false);
+  hands.studio().apply(NewObject{});
+  const std::size_t steps = hands.studio().history().cursor();
+  const Volume nowhere{true, glm::vec3(1e4f), glm::vec3(1)};
+  hands.studio().apply(SelectVolume{nowhere, SetOperation::kAdd});
+  hands.studio().apply(SelectVolume{nowhere, SetOperation::kAdd, true});
+  CHECK(hands.studio().history().cursor() == steps);
+  CHECK(hands.studio().document().objects.size() == 1);
+  // Nor one after it.
+  hands.studio().apply(NewObject{});
+  hands.studio().apply(Undo{});
+  hands.studio().apply(SelectVolume{nowhere, SetOperation::kAdd});
+  hands.studio().apply(SelectVolume{nowhere, SetOperation::kAdd, true});
+  CHECK(hands.studio().history().can_redo());
+}
+
+TEST_CASE("hands: a volume replaces what it took, though a cut is done in between") {
+  Hands hands;
+  const Volume on_mug{true, hands.under(hands.app.screen_of(kOnMug)), glm::vec3(0.1f)};
+  const Volume nowhere{true, glm::vec3(1e4f), glm::vec3(1)};
+  hands.studio().apply(
+      AddStroke{hands.studio().viewport_camera(),
+                click(hands.in_viewport(hands.app.screen_of(kOnOrange)), SeedLabel::kObject)});
+  hands.studio().update(1.0 / 60);
+  REQUIRE(hands.studio().cutting());
+  hands.studio().apply(SelectVolume{on_mug, SetOperation::kAdd});
+  REQUIRE(hands.app.settle());
+  const std::size_t steps = hands.studio().history().cursor();
+  const ObjectItem& object = *hands.studio().document().active_object();
+  REQUIRE(object.cut);
+  REQUIRE(hands.selected() > count_flags(*object.cut));
+  hands.studio().apply(SelectVolume{nowhere, SetOperation::kAdd, true});
+  CHECK(hands.studio().history().cursor() == steps);
+  const ObjectItem& now = *hands.studio().document().active_object();
+  CHECK(hands.studio().labels(now.id) == *now.cut);
+}
+
+TEST_CASE(
+    "hands: a volume changed while its object is shown alone takes what was to be seen, and ends nothing") {
+  Hands hands(false);
+  const Volume small{true, hands.under(hands.app.screen_of(kOnApple)), glm::vec3(0.02f)};
+  Volume large = small;
+  large.half = glm::vec3(0.1f);
+  hands.studio().apply(SelectVolume{small, SetOperation::kAdd});
+  REQUIRE(hands.app.settle());
+  const std::size_t first = hands.selected();
+  REQUIRE(first > 0);
+  hands.studio().run(Action::kIsolate);
+  REQUIRE(hands.app.settle());
+  hands.studio().apply(SelectVolume{large, SetOperation::kAdd, true});
+  CHECK(hands.studio().view().display == DisplayMode::kIsolate);
+  CHECK(hands.selected() > first);
+}
+
+TEST_CASE("hands: a press without a drag leaves the sphere that is there") {
+  Hands hands(false);
+  hands.app.key('9');
+  const glm::vec2 at = hands.app.screen_of(kOnApple), beside = hands.app.screen_of(kOnOrange);
+  hands.app.drag({at, at + glm::vec2(20, 0), at + glm::vec2(30, 0)});
+  const auto handles = hands.studio().overlay().handles_px;
+  REQUIRE(handles.size() == 2);
+  const std::size_t steps = hands.studio().history().cursor();
+  hands.app.click(beside);
+  CHECK(hands.studio().overlay().handles_px == handles);
+  CHECK(hands.studio().history().cursor() == steps);
+}
+
+TEST_CASE("hands: Enter closes a polygon whatever key is held, and does what its corners were clicked with") {
+  for (const Modifiers held :
+       {Modifiers{}, Modifiers{.shift = true}, Modifiers{.ctrl = true}, Modifiers{.alt = true}}) {
+    Hands hands(false);
+    hands.studio().apply(EditSelection{SelectionEdit::kAll});
+    const std::size_t all = hands.selected();
+    hands.app.key('8');
+    const glm::vec2 at = hands.app.screen_of(kOnApple);
+    for (const glm::vec2& corner : {at - 60.0f, at + glm::vec2(60, -60), at + 60.0f})
+      hands.app.click(corner, PointerButton::kLeft, {.ctrl = true});
+    REQUIRE(hands.studio().overlay().dots);
+    hands.app.key(key::kEnter, held);
+    REQUIRE(hands.app.settle());
+    CHECK(hands.studio().overlay().points_px.empty());
+    CHECK(hands.selected() < all);
+    CHECK(hands.selected() > all / 2);
+  }
+}
+
+TEST_CASE("hands: a drag goes on in the pane where it was pressed") {
+  Hands hands;
+  hands.app.key('B');
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.studio().panes() == 2);
+  const UiRect view = hands.app->interface().viewport();
+  const glm::vec2 left = view.min + glm::vec2(120, 150), half(0.5f * view.size().x, 0);
+  const CameraPose before = hands.studio().camera().pose();
+  const auto turned = [&](const glm::vec2& from) {
+    hands.studio().camera().set_pose(before);
+    hands.app.drag({from, from + glm::vec2(10, 4), from + glm::vec2(20, 8)}, PointerButton::kMiddle);
+    return hands.studio().camera().pose();
+  };
+  CHECK(turned(left) == turned(left + half));
+  hands.app.key('6');
+  hands.app.move(left + half);
+  hands.app.press(PointerButton::kLeft);
+  hands.app.move(left + half + glm::vec2(12, 0));
+  for (const glm::vec2& p : hands.studio().overlay().points_px)
+    CHECK(glm::distance(p, glm::vec2(120, 150)) < 15);
+  hands.app.release(PointerButton::kLeft);
+}
+
+TEST_CASE("hands: a box around a second thing leaves what was clicked first") {
+  Hands hands;
+  const Scene& scene = *hands.studio().scene()->scene;
+  const auto share_of = [&](std::uint8_t thing) {
+    const auto labels = hands.studio().labels(hands.studio().document().active),
+               truth = sample_truth(scene, thing);
+    std::size_t both = 0;
+    for (std::size_t g = 0; g < labels.size(); ++g) both += labels[g] && truth[g];
+    return static_cast<double>(both) / static_cast<double>(count_flags(truth));
+  };
+  REQUIRE(share_of(kApple) > 0.8);
+  hands.app.key('4');
+  const glm::vec2 at = hands.app.screen_of(kOnOrange);
+  hands.app.drag({at - 34.0f, at, at + 34.0f});
+  REQUIRE(hands.app.settle());
+  CHECK(share_of(kApple) > 0.8);
+  CHECK(share_of(kOrange) > 0.5);
+}
+
+TEST_CASE("hands: a box that reaches out of the picture is around what of it is inside") {
+  Hands hands(false);
+  const Camera camera = hands.studio().viewport_camera();
+  const auto width = static_cast<float>(camera.width_px);
+  hands.studio().apply(AddBox{camera, {width - 3, 60}, {width + 300, 200}});
+  CHECK(hands.said().starts_with("box: "));
+  CHECK(hands.studio().document().objects.empty());
+  hands.studio().apply(AddBox{camera, {width - 40, 60}, {width + 300, 200}});
+  const ObjectItem* object = hands.studio().document().active_object();
+  REQUIRE(object);
+  const Stroke& middle = object->views.front().strokes.back();
+  CHECK(middle.label == SeedLabel::kObject);
+  CHECK(middle.points_px.front() == glm::vec2(width - 20, 130));
+}
+
 TEST_CASE("hands: a box around a thing takes nothing that stands outside of it") {
   Hands hands(false);
   const Scene& scene = *hands.studio().scene()->scene;

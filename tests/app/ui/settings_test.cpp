@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "app/ui/settings.h"
+#include "app/ui/window_place.h"
 #include "core/error.h"
 #include "headless_app.h"
 
@@ -70,4 +71,19 @@ TEST_CASE("settings: as in web viewers is the low-pass of what is drawn") {
   view.web_low_pass = true;
   app.studio().apply(SetView{view});
   CHECK(app.studio().draw_limits().low_pass_px2 == kWebLowPassPx2);
+}
+
+TEST_CASE(
+    "settings: a window comes back as large as it was on the screen it was on, where that is still there") {
+  const Screen laptop{{0, 25}, {1440, 875}, {2, 2}}, large{{1440, 0}, {2560, 1440}};
+  const Screen both[] = {laptop, large};
+  const WindowPlace left{{2400, 1300}, glm::ivec2(1500, 60), false, false};
+  CHECK(fitting(left, both).size == left.size);
+  CHECK(fitting(left, both).position == left.position);
+  const WindowPlace alone = fitting(left, std::span(both).first(1));
+  CHECK_FALSE(alone.position);
+  CHECK(alone.size == glm::ivec2(1400, 835));
+  CHECK(fitting({{2400, 1300}, {}}, both).size == glm::ivec2(1400, 835));
+  CHECK(fitting({{1440, 900}, {}, false, true}, both).size == glm::ivec2(700, 417));
+  CHECK(fitting(left, {}).size == left.size);
 }

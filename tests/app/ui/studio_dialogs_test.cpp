@@ -4,9 +4,14 @@
 
 #include <webp/demux.h>
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <cstdlib>
 #include <thread>
 
+#include "app/studio/animated_webp.h"
+#include "core/error.h"
 #include "core/png_file.h"
 #include "headless_app.h"
 
@@ -110,6 +115,221 @@ TEST_CASE(
   CHECK(app->interface().dialog_open());
 }
 
+TEST_CASE(
+    "dialogs: typing a name to save under chooses no file, and a file is replaced only where asked to") {
+  const ScratchFolder folder("save_over");
+  const auto there = folder / "beta.splatcut.json";
+  std::ofstream(there) << "x";
+  HeadlessApp app(760, 420);
+  app.open(kSample);
+  REQUIRE(app.settle());
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  FileBrowser& files = app.interface_state().files;
+  const auto type = [&](std::string_view text) {
+    for (const char c : text) {
+      app->handle(TextTyped{static_cast<unsigned>(c)});
+      app.frames(1);
+    }
+  };
+  const auto save_as = [&](std::string_view text) {
+    files.folder = folder.path();
+    app.key('S', {.ctrl = true});
+    app.frames(3);
+    REQUIRE(files.open);
+    type(text);
+  };
+  save_as("b");
+  CHECK(files.name == "b");
+  type("eta");
+  CHECK(files.name == "beta");
+  app.key(key::kEnter);
+  app.frames(3);
+  CHECK(std::filesystem::file_size(there) == 1);
+  REQUIRE(app->interface().dialog_open());
+  app.key(key::kEnter);  // keeps it, and asks for another name
+  app.frames(3);
+  CHECK(std::filesystem::file_size(there) == 1);
+  CHECK(files.open);
+  app.key(key::kEscape);
+  REQUIRE(app.settle());
+  CHECK_FALSE(app->interface().dialog_open());
+  save_as("beta");
+  app.key(key::kEnter);
+  app.frames(3);
+  app.press_item("###replace", {"Replace"});
+  REQUIRE(app.settle());
+  CHECK_FALSE(app->interface().dialog_open());
+  CHECK(std::filesystem::file_size(there) > 1);
+  // The work's own file.
+  save_as("beta");
+  app.key(key::kEnter);
+  app.frames(3);
+  CHECK_FALSE(app->interface().dialog_open());
+  save_as("gamma");
+  app.key(key::kEnter);
+  REQUIRE(app.settle());
+  CHECK(std::filesystem::exists(folder / "gamma.splatcut.json"));
+}
+
+TEST_CASE("dialogs: a double-click on a folder goes into it, and chooses nothing there") {
+  const ScratchFolder folder("double");
+  std::filesystem::create_directories(folder / "garden");
+  std::filesystem::copy_file(kSample, folder / "garden" / "mug.compressed.ply");
+  HeadlessApp app(760, 420);
+  FileBrowser& files = app.interface_state().files;
+  files.folder = folder.path();
+  app.key('O', {.ctrl = true});
+  app.frames(3);
+  REQUIRE(files.entries.size() == 1);
+  const UiRect rows = app.window("###files/entries");
+  app.move(rows.min + glm::vec2(40, 16));
+  const auto press = [&](double time_s) {
+    app->handle(PointerButtonChanged{PointerButton::kLeft, true, {}, time_s});
+    app.frames(1);
+    app->handle(PointerButtonChanged{PointerButton::kLeft, false, {}, time_s + 0.05});
+    app.frames(2);
+  };
+  press(100);
+  CHECK(files.folder.filename() == "garden");
+  press(100.2);
+  CHECK(files.open);
+  CHECK(app.studio().scene() == nullptr);
+  press(102);
+  press(102.2);
+  CHECK_FALSE(files.open);
+  REQUIRE(app.settle());
+  CHECK(app.studio().scene());
+}
+
+TEST_CASE("dialogs: Enter and Esc in a number end the number, not the dialog") {
+  const ScratchFolder folder("numbers");
+  HeadlessApp app(760, 520);
+  REQUIRE(cut_out_apple(app));
+  UiState& state = app.interface_state();
+  app.key('E', {.ctrl = true});
+  app.frames(3);
+  state.exporting.path = (folder / "object.ply").string();
+  app.type_into("###export", {"##turn"}, "30");
+  app.key(key::kEnter);
+  app.frames(3);
+  CHECK(state.exporting.placement.turn_deg == 30);
+  CHECK(app->interface().dialog_open());
+  app.type_into("###export", {"##scale"}, "3");
+  app.key(key::kEscape);
+  app.frames(3);
+  CHECK(state.exporting.placement.scale == 1);
+  CHECK(app->interface().dialog_open());
+  app.type_into("###export", {"##path"}, (folder / "turned.ply").string());
+  app.key(key::kEnter);
+  REQUIRE(app.settle());
+  CHECK_FALSE(app->interface().dialog_open());
+  CHECK_FALSE(std::filesystem::exists(folder / "object.ply"));
+  CHECK(std::filesystem::exists(folder / "turned.ply"));
+  state.turntable_open = true;
+  app.frames(3);
+  app.type_into("###turntable", {"##frames"}, "5");
+  app.key(key::kEnter);
+  app.frames(3);
+  CHECK(state.turntable.frames == 5);
+  CHECK(app->interface().dialog_open());
+  app.type_into("###turntable", {"##width"}, "77");
+  app.key(key::kEscape);
+  app.frames(3);
+  CHECK(state.turntable.width_px != 77);
+  CHECK(app->interface().dialog_open());
+  app.key(key::kEscape);
+  app.frames(3);
+  CHECK_FALSE(app->interface().dialog_open());
+}
+
+TEST_CASE("dialogs: Esc where a folder is chosen goes back to the export, which stays") {
+  HeadlessApp app(760, 520);
+  REQUIRE(cut_out_apple(app));
+  for (const bool turntable : {false, true}) {
+    CAPTURE(turntable);
+    UiState& state = app.interface_state();
+    (turntable ? state.turntable_open : state.export_open) = true;
+    app.frames(3);
+    app.press_item(turntable ? "###turntable" : "###export", {icon::kFolder});
+    REQUIRE(state.files.open);
+    app.key(key::kEscape);
+    app.frames(3);
+    CHECK_FALSE(state.files.open);
+    CHECK((turntable ? state.turntable_open : state.export_open));
+    app.key(key::kEscape);
+    app.frames(3);
+    CHECK_FALSE(app->interface().dialog_open());
+  }
+}
+
+TEST_CASE("dialogs: what an export keeps and loses is told as it is written, moved or not") {
+  const ScratchFolder folder("kept");
+  {
+    Scene plain = load_scene(kSample);
+    save_scene(folder / "plain.ply", plain, {}, SceneFormat::kPly);
+    std::filesystem::copy_file(kSampleFolder / "cameras.json", folder / "cameras.json");
+  }
+  HeadlessApp app(760, 520);
+  app.open(folder / "plain.ply");
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().scene()->scene->rows_can_be_copied);
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  UiState& state = app.interface_state();
+  app.key('E', {.ctrl = true});
+  app.frames(3);
+  CHECK(state.exporting.plan.kept.find("byte for byte") != std::string::npos);
+  state.exporting.placement.turn_deg = 30;
+  app.frames(2);
+  CHECK(state.exporting.plan.kept.find("byte for byte") == std::string::npos);
+  state.exporting.placement.turn_deg = 0;
+  app.frames(2);
+  CHECK(state.exporting.plan.kept.find("byte for byte") != std::string::npos);
+}
+
+TEST_CASE("panels: a number is typed in the unit it is shown in") {
+  HeadlessApp app(900, 1300);
+  app.open(kSample);
+  REQUIRE(app.settle());
+  const ViewState& view = app.studio().view();
+  const float size = app.studio().camera().scene_size();
+  const auto typed = [&](const char* window, std::initializer_list<const char*> names, float value) {
+    app.type_into(window, names, fmt::format("{:.5f}", value));
+    app.key(key::kEnter);
+    app.frames(3);
+  };
+  const char* side = "side/scroll";
+  app.press_item(side, {"View"});
+  app.press_item(side, {"Repair by hand"});
+  const float near_plane = 3 * app.studio().draw_limits().near_plane;
+  typed(side, {"##near"}, near_plane);
+  CHECK(app.studio().draw_limits().near_plane == doctest::Approx(near_plane).epsilon(1e-3));
+  typed(side, {"##far"}, 1.5f * size);
+  CHECK(app.studio().draw_limits().far_plane == doctest::Approx(1.5f * size).epsilon(1e-3));
+  PropertyChoice& property = app.interface_state().property;
+  property.property = 0;
+  app.frames(2);
+  typed(side, {"##range", "##min"}, 30);
+  CHECK(property.low == doctest::Approx(0.3f).epsilon(1e-3));
+  property.property = 1;
+  app.frames(2);
+  typed(side, {"##range", "##max"}, 0.02f);
+  CHECK(property.high == doctest::Approx(std::log10(0.02f)).epsilon(1e-3));
+  property.property = 3;
+  app.frames(2);
+  typed(side, {"##tolerance"}, 25);
+  CHECK(property.tolerance == doctest::Approx(0.25f));
+  app.key('C');
+  app.frames(2);
+  typed("bar", {"##tolerance"}, 35);
+  CHECK(view.colour_tolerance == doctest::Approx(0.35f));
+  app.key('7');
+  app.key('V');
+  app.frames(2);
+  REQUIRE(view.see_through);
+  typed("bar", {"##depth"}, 0.125f * size);
+  CHECK(view.depth_limit == doctest::Approx(0.125f).epsilon(1e-3));
+}
+
 TEST_CASE("dialogs: the turntable writes as many pictures of the size asked for") {
   const ScratchFolder folder("turntable");
   HeadlessApp app(760, 420);
@@ -171,6 +391,18 @@ TEST_CASE("dialogs: the turntable as an animated WebP is one that readers of Web
   WebPAnimDecoderDelete(decoder);
   CHECK(frames == 6);
   CHECK(time_ms == 1500);
+}
+
+TEST_CASE("dialogs: an animation larger than its format can hold is refused before it is written") {
+  const Image<Rgba8> picture(32, 32, Rgba8{200, 30, 30, 255});
+  AnimatedWebp one(40);
+  one.add(picture);
+  const std::size_t bytes = one.bytes().size();
+  AnimatedWebp small(40, bytes + 64);
+  small.add(picture);
+  CHECK(small.bytes().size() == bytes);
+  CHECK_THROWS_AS(small.add(picture), Error);
+  CHECK(AnimatedWebp::kMostBytes <= 0xffffffff);
 }
 
 TEST_CASE("dialogs: the turntable as a video is made by ffmpeg, and its failure is told") {

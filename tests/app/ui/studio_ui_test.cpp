@@ -131,7 +131,7 @@ TEST_CASE("cancel: in every stage the strokes stay, nothing half done is left, a
     REQUIRE(app.settle());
     const ObjectItem& object = *app.studio().document().active_object();
     CHECK(object.views.front().strokes.size() == 1);
-    CHECK_FALSE(app.studio().cut_run(object.id)->running);
+    CHECK_FALSE((run() && run()->running));
     if (!object.cut) CHECK(count_flags(active_labels(app)) == 0);
     app.studio().apply(Undo{});
     app.studio().apply(SetView{});

@@ -51,7 +51,7 @@ TEST_CASE("losses: the share of Gaussians beyond the range of bytes is said, rou
   const auto lost = [&](const char* name) {
     const SceneFormat format = format_from_name(name);
     const std::string sentence = save_scene(folder / name, scene, {}, format).loss;
-    std::string planned = format.plan(scene, 1000).lost;  // the same words, as a sentence of its own
+    std::string planned = format.plan(scene, 1000, false).lost;  // the same words, as a sentence of its own
     if (!planned.empty()) {
       planned.pop_back();
       planned[0] = static_cast<char>(std::tolower(planned[0]));
@@ -83,7 +83,7 @@ TEST_CASE("plans: nothing is said to be kept in full beside what is lost") {
   scene.other_properties = {"mask"};
   scene.antialiased = true;
   for (const SceneFormat& format : written_formats()) {
-    const FormatPlan plan = format.plan(scene, 10);
+    const FormatPlan plan = format.plan(scene, 10, false);
     CAPTURE(format.name);
     CHECK_FALSE(plan.lost.empty());
     CHECK(plan.kept.find("Everything") == std::string::npos);

@@ -56,6 +56,14 @@ void click_corner(ToolHand& hand) {
   if (hand.state.right() || (corners.size() >= 3 && glm::length(hand.at_px - corners.front()) < reach))
     return close_polygon(hand);
   corners.push_back(hand.at_px);
+  hand.state.corner_modifiers = hand.state.modifiers;
+}
+
+// Keys that are held for Enter alone say nothing.
+void confirm_polygon(ToolHand& hand) {
+  const Modifiers held = std::exchange(hand.state.modifiers, hand.state.corner_modifiers);
+  close_polygon(hand);
+  hand.state.modifiers = held;
 }
 
 }  // namespace
@@ -119,7 +127,7 @@ constinit const Tool Tool::kPolygon = {
     .selects = Selects::kPixels,
     .click = click_corner,
     .double_click = close_polygon,
-    .confirm = close_polygon,
+    .confirm = confirm_polygon,
     .shape = ToolShape::kPolygon,
     .show =
         [](const ToolState& state, const Camera&, ToolOverlay* out) {

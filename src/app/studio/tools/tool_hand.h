@@ -54,8 +54,10 @@ struct ToolState {
   glm::vec2 pressed_px{0}, pointer_px{0};
   std::vector<glm::vec2> path_px;                // of the drag; two corners where Tool::drag says so
   std::vector<glm::vec2> corners_px;             // that were clicked
+  Modifiers corner_modifiers;                    // of the last of them
   std::vector<glm::vec3> points_world;           // that were clicked
   std::optional<Volume> volume, volume_before;   // that can be changed by its handles; before a drag did
+  std::optional<Volume> volume_pressed;          // that was there, should the press be no drag
   SetOperation volume_set = SetOperation::kAdd;  // that it was made with
   std::optional<std::size_t> handle;             // that is dragged
   bool scale_armed = false;                      // the wheel steps through parts ...

@@ -30,6 +30,7 @@ bool wants_round(const ToolHand& hand) {
 void grab_handle(ToolHand& hand) {
   constexpr float kReachPoints = 10;
   ToolState& state = hand.state;
+  state.volume_pressed = state.volume;
   if (!state.volume || state.volume->round != wants_round(hand)) return;
   const std::vector<glm::vec2> handles = handles_px(*state.volume, hand.context.pane_camera);
   std::size_t nearest = 0;
@@ -70,10 +71,17 @@ void shape_volume(ToolHand& hand) {
 void finish_volume(ToolHand& hand) {
   ToolState& state = hand.state;
   const bool adjusts = state.handle.has_value();
-  const bool made = state.volume && state.volume_before && state.volume->half.x > 0;
+  constexpr float kLeastPoints = 2;  // less is no drag
+  const std::vector<glm::vec2>& path = state.path_px;
+  const bool far_enough =
+      path.size() == 2 && glm::distance(path[0], path[1]) >= kLeastPoints * hand.context.pixels_per_point;
+  const bool made = state.volume && state.volume_before && far_enough && state.volume->half.x > 0;
   state.handle.reset();
   state.volume_before.reset();
-  if (!made) return;
+  if (!made) {
+    state.volume = state.volume_pressed;
+    return;
+  }
   if (!adjusts) state.volume_set = hand.operation();
   hand.ask(SelectVolume{*state.volume, state.volume_set, adjusts});
 }
