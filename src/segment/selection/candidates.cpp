@@ -17,7 +17,7 @@ constexpr float kCentral = 0.7f, kSmallShare = 0.01f, kLargeShare = 0.35f;
 constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f, kHiddenFolds = 2;
 constexpr float kBorderPx = 2;
 constexpr float kLeastFirstCut = -12, kLeastCut = -16;  // of a part that touches nothing
-constexpr float kUnseenNoEdge = 0.5f;  // of a part no border of which is seen
+constexpr float kUnseenNoEdge = 0.5f;                   // of a part no border of which is seen
 
 float& term(Candidate* candidate, Term which) {
   return weight(&candidate->terms, which);
