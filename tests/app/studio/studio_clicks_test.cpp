@@ -20,7 +20,7 @@ namespace {
 using Labels = std::vector<std::uint8_t>;
 
 constexpr int kWidth = 900, kHeight = 520;
-constexpr glm::vec2 kOnBook{410, 290};  // means a book, or the pile
+constexpr glm::vec2 kOnBook{337, 296};  // means a book, or the pile
 const std::filesystem::path kScenes = SPLATCUT_SOURCE_DIR "/../shared/scenes";
 
 // One scene, with a click on a thing in it and the view that it is made in.
