@@ -3,29 +3,28 @@
 // In: hierarchy, what was selected so far, a click in a soft view. Out: the clicked leaf's ancestors in every
 // tree, each with its terms (part_model.h names them) and their weighted sum, likeliest first; the disc alone
 // and, after one click on the object, another meaning of that click are candidates, too. All pixels are the
-// view's; "all views" are the observing ones (part_looks.h), of a first click with its own: a part
-// looks the same from wherever the user stands. Terms:
+// view's; "all views" are the observing ones (part_looks.h), of a first click with its own: a part looks the
+// same from wherever the user stands. Terms:
 //
 // - kCut: ln(length of the node's border, likeness-weighted / sqrt(area)), in the scene; where it touches
 //   nothing -16, of a first click -12.
 // - kJump: ln of how much dearer the merge that ends the node is than the one that made it, at most 2.
 // - kRare: -ln of the mean IoU (at least 0.01) with the likest ancestors in the other trees of its kind; of a
 //   first click in pixels of all views.
-// - kFrame: pixels at the picture's frame / sqrt(all); of a first click summed over all views, each.
+// - kFrame: pixels at the picture's frame / sqrt(all); of a first click both are summed over all views.
 // - kShadeBlind: 1 where the tree counts lightness less.
 // - kOffCentre: ln(0.7 / share), at least 0; share: the click's distance to the border of what would change
 //   over the largest such distance. People click in the middle of what they mean.
 // - kNoEdge: share of its border in all views where the depth does not jump.
-// - kCropped: share of all views, by the side of what they show of it, in which it touches
-//   the picture's frame.
+// - kCropped: share of all views, by the side of what they show of it, in which it touches the picture's
+//   frame.
 // - kSmall, kLarge: of a first click, ln of folds of the picture below 1 % and above 35 %; of the picture in
 //   which its average pixel lies.
 // - kScrap, kFold, kGiant: of later clicks, with f = ln(changed pixels / disc to where the region may end):
 //   max(0, -0.3 - f), max(0, f - 1), max(0, f - 3.25).
 // - kBorder: max(0, f - 1) where the click is within 2 pixels of the border.
-// - kHidden: max(0, ln(area that would change, at the clicked leaf's depth / changed pixels or that disc) -
-// 2):
-//   what would mostly change where the user cannot see it.
+// - kHidden: max(0, ln(H) - 2), H: area that would change, at the clicked leaf's depth, over changed pixels
+//   or that disc: what would mostly change where the user cannot see it.
 // - kOpposed: clicks of the other sign that it holds.
 // - kBack: IoU with what a click of the other sign has changed, the largest. People undo in that case.
 // - kDisc: 1 where nothing but the disc would change.

@@ -260,7 +260,7 @@ PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeat
   if (job.cancelled()) return out;
   const std::vector<SurfaceEdge> edges = surface_edges(cloud, features);
   const Superpoints leaves = superpoints(features, edges, options.superpoints);
-  job.progress("parts", 0.6);
+  job.progress("parts", 0.5);
   out.leaves = leaves.count;
   out.trees.resize(static_cast<std::size_t>(std::max(1, options.trees)));
   describe_leaves(features, leaves, &out);
@@ -287,9 +287,8 @@ PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeat
         t ? jittered(options.merging, options.jitter, CounterRng(kTreeSeed, t)) : options.merging;
     out.trees[t] = Merging(features, edges, leaves, merging, t ? options.noise : 0, t).run(job);
   });
-  job.progress("parts", 0.9);
+  job.progress("parts", 0.7);
   attach_others(cloud, features, leaves, options.votes, job, &out);
-  job.progress("parts", 1);
   return out;
 }
 
@@ -297,9 +296,11 @@ PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, std::span<const C
                                    const PartOptions& options, const Job& job) {
   job.progress("parts", 0);
   const SurfaceFeatures features = surface_features(cloud, observing, options.surface, job);
-  job.progress("parts", 0.4);
+  job.progress("parts", 0.3);
   PartHierarchy parts = build_part_hierarchy(cloud, features, options, job);
+  job.progress("parts", 0.8);
   look_at_parts(cloud, observing, &parts, job);
+  job.progress("parts", 1);
   return parts;
 }
 

@@ -4,26 +4,20 @@ namespace splatcut {
 
 PartView view_parts(const PartHierarchy& parts, const Image<std::int32_t>& first_hit) {
   PartView view{Image<std::uint32_t>(first_hit.width(), first_hit.height(), kNoPart), {}};
-  PartView::Tree leaves{std::vector<float>(parts.leaves, 0), std::vector<float>(parts.leaves, 0)};
+  PartView::Tree leaves{std::vector<float>(parts.leaves, 0)};
   for (int y = 0; y < first_hit.height(); ++y)
     for (int x = 0; x < first_hit.width(); ++x) {
       if (first_hit.at(x, y) < 0) continue;
       const std::uint32_t leaf = parts.leaf_of[static_cast<std::size_t>(first_hit.at(x, y))];
       view.leaf.at(x, y) = leaf;
-      if (leaf == kNoPart) continue;
-      leaves.pixels[leaf] += 1;
-      if (x == 0 || y == 0 || x == first_hit.width() - 1 || y == first_hit.height() - 1)
-        leaves.frame_pixels[leaf] += 1;
+      if (leaf != kNoPart) leaves.pixels[leaf] += 1;
     }
   for (const PartTree& tree : parts.trees) {
     PartView::Tree& of = view.trees.emplace_back(leaves);
     of.pixels.resize(tree.nodes(), 0);
-    of.frame_pixels.resize(tree.nodes(), 0);
     for (std::size_t node = 0; node < tree.nodes(); ++node)
-      if (const std::uint32_t up = tree.parent[node]; up != kNoPart) {  // children come before their parents
+      if (const std::uint32_t up = tree.parent[node]; up != kNoPart)  // children come before their parents
         of.pixels[up] += of.pixels[node];
-        of.frame_pixels[up] += of.frame_pixels[node];
-      }
   }
   return view;
 }

@@ -14,8 +14,7 @@ namespace splatcut {
 // What one view shows of the parts.
 struct PartView {
   struct Tree {
-    std::vector<float> pixels;        // per node
-    std::vector<float> frame_pixels;  // per node: pixels at the picture's frame
+    std::vector<float> pixels;  // per node
   };
   Image<std::uint32_t> leaf;  // kNoPart where nothing is
   std::vector<Tree> trees;

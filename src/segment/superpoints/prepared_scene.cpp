@@ -16,7 +16,7 @@ PreparedScene made(const GaussianCloud& cloud, const Camera& reference, const gl
   job.progress("graph", 0);
   clock.time("graph", [&] { prepared.graph = knn_graph(cloud, options.graph, job); });
   if (!options.with_parts) return prepared;
-  job.progress("parts", 0.4);
+  job.progress("parts", 0);
   clock.time("parts", [&] {
     const auto views = observing_views(cloud, reference, up_world, given, options.observing, job);
     prepared.parts = build_part_hierarchy(cloud, views, options.model.parts, job);
