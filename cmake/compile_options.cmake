@@ -4,7 +4,7 @@
 #   -fno-math-errno, -fno-trapping-math   let sqrt and comparisons vectorise; no result changes
 add_library(splatcut_options INTERFACE)
 target_compile_options(splatcut_options INTERFACE
-  -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
+  -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wno-missing-field-initializers -Wno-psabi
   -ffp-contract=off -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/= -fno-math-errno -fno-trapping-math)
 if(SPLATCUT_SANITIZE)
   target_compile_options(splatcut_options INTERFACE

@@ -231,9 +231,9 @@ void Studio::start_cut(const ObjectItem& object) {
   cutting_key_ = wanted_key(object);
   CutRun& run = runs_[object.id];
   std::vector<ViewCard> before = std::move(run.views);
-  const auto meanings = run.meanings;
+  auto kept = run.meanings;
   run = CutRun{};
-  run.meanings = meanings;
+  run.meanings = std::move(kept);
   run.running = true;
   run.key = cutting_key_;
   run.views = std::move(before);
@@ -292,7 +292,7 @@ void Studio::start_cut(const ObjectItem& object) {
       now.doubts = doubts;
       if (now.first_mask_ms == 0) now.first_mask_ms = total_ms;
       if (cutting_object_ == id && cutting_key_ == key) cutting_object_ = 0;
-      const std::vector<std::uint8_t> before = this->labels(id);
+      const std::vector<std::uint8_t> labels_before = this->labels(id);
       history_.set_cut(id, key, labels);
       document_changed();
       const ObjectItem* item = document().find(id);
@@ -301,7 +301,8 @@ void Studio::start_cut(const ObjectItem& object) {
         say(Message::Kind::kRefused, item->name + ": " + result->reason);
       else
         say(doubts.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
-            fmt::format("{}: {}{}", item->name, what_changed(before, this->labels(id), total_ms / 1000),
+            fmt::format("{}: {}{}", item->name,
+                        what_changed(labels_before, this->labels(id), total_ms / 1000),
                         !doubts.empty() ? ". But " + doubts.front()
                         : result->ambiguous && tools_.scale_armed()
                             ? ". Not all of it? Turn the wheel for another size"

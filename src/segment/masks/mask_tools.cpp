@@ -110,7 +110,8 @@ std::vector<std::vector<glm::vec2>> outlines(const Mask& mask, int least_px) {
   std::vector<std::vector<glm::vec2>> out;
   for (const auto& border : borders) {
     out.emplace_back();
-    for (const cv::Point& p : border) out.back().emplace_back(p.x + 0.5f, p.y + 0.5f);
+    for (const cv::Point& p : border)
+      out.back().push_back(glm::vec2(static_cast<float>(p.x), static_cast<float>(p.y)) + 0.5f);
   }
   return out;
 }

@@ -114,7 +114,8 @@ class Artist {
     const Mask object = shown(labels), near = dilated(object, away), far = dilated(object, away + 3);
     for (int y = hits().height() / 4; y < hits().height(); ++y)
       for (int x = 40; x < hits().width() - 40; ++x)
-        if (far.at(x, y) && !near.at(x, y) && hits().at(x, y) >= 0) return on_screen({x + 0.5f, y + 0.5f});
+        if (far.at(x, y) && !near.at(x, y) && hits().at(x, y) >= 0)
+          return on_screen(glm::vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f);
     FAIL("there is nothing beside the object");
     return {};
   }

@@ -104,11 +104,11 @@ TEST_CASE("part looks: random pictures and trees as counted pixel by pixel") {
   std::mt19937 random(3);
   for (int round = 0; round < 20; ++round) {
     PartHierarchy parts;
-    parts.leaves = 2 + random() % 9;
+    parts.leaves = static_cast<std::uint32_t>(2 + random() % 9);
     parts.trees = {random_tree(parts.leaves, random), random_tree(parts.leaves, random)};
     LeafPicture picture{Image<std::uint32_t>(11, 7), Image<float>(11, 7)};
     for (std::size_t i = 0; i < picture.leaf.size(); ++i) {
-      const std::uint32_t leaf = random() % (parts.leaves + 1);
+      const auto leaf = static_cast<std::uint32_t>(random() % (parts.leaves + 1));
       picture.leaf.pixels()[i] = leaf == parts.leaves ? kNoPart : leaf;
       picture.depth.pixels()[i] = leaf == parts.leaves ? 0 : 5 + 0.1f * static_cast<float>(random() % 9);
     }
