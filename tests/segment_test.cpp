@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -129,23 +130,38 @@ TEST_CASE("the robot clicks the middle of the truth, then the middle of the larg
   CHECK_FALSE(robot_click(truth, truth));
 }
 
-TEST_CASE("pipeline: one click cuts a ball off its floor, the same on 1 and 2 threads") {
-  // A red ball of radius 0.5 standing on a grey floor (y down).
+namespace {
+
+struct Balls {
   GaussianCloud cloud;
+  std::vector<std::uint8_t> ball;  // per Gaussian: from 1; 0 is the floor
+  std::vector<std::uint8_t> only(std::uint8_t number) const {
+    std::vector<std::uint8_t> labels(ball.size());
+    std::ranges::transform(ball, labels.begin(), [&](std::uint8_t b) { return b == number; });
+    return labels;
+  }
+};
+
+// Red balls of radius 0.5 on a grey floor (y down).
+Balls balls_on_floor(const std::vector<glm::vec3>& centres_world) {
   constexpr std::size_t kBall = 3000, kFloor = 6000;
-  cloud.resize(kBall + kFloor, 0);
-  std::vector<std::uint8_t> truth(cloud.size(), 0);
+  Balls made;
+  GaussianCloud& cloud = made.cloud;
+  const std::size_t on_balls = kBall * centres_world.size();
+  cloud.resize(on_balls + kFloor, 0);
+  made.ball.assign(cloud.size(), 0);
   for (std::size_t g = 0; g < cloud.size(); ++g) {
     const double t = (static_cast<double>(g % kBall) + 0.5) / kBall,
                  turn = std::fmod(static_cast<double>(g) * 0.6180339887, 1.0);
-    if (g < kBall) {
+    if (g < on_balls) {
       const double z = 1 - 2 * t, r = std::sqrt(1 - z * z), angle = 2 * std::numbers::pi * turn;
-      cloud.position[g] = glm::vec3(0.5 * r * std::cos(angle), -0.52 + 0.5 * z, 0.5 * r * std::sin(angle));
+      cloud.position[g] =
+          centres_world[g / kBall] + glm::vec3(0.5 * r * std::cos(angle), 0.5 * z, 0.5 * r * std::sin(angle));
       cloud.scale[g] = glm::vec3(0.025f);
       cloud.f_dc[g] = {1.4f, -1.2f, -1.2f};
-      truth[g] = 1;
+      made.ball[g] = static_cast<std::uint8_t>(g / kBall + 1);
     } else {
-      const double f = (static_cast<double>(g - kBall) + 0.5) / kFloor;
+      const double f = (static_cast<double>(g - on_balls) + 0.5) / kFloor;
       cloud.position[g] = glm::vec3(4 * f - 2, 0, 4 * turn - 2);
       cloud.scale[g] = {0.05f, 0.005f, 0.05f};
       cloud.f_dc[g] = {0.3f, 0.35f, 0.4f};
@@ -153,6 +169,35 @@ TEST_CASE("pipeline: one click cuts a ball off its floor, the same on 1 and 2 th
     cloud.opacity[g] = 0.95f;
     cloud.file_row[g] = static_cast<std::uint32_t>(g);
   }
+  return made;
+}
+
+}  // namespace
+
+TEST_CASE("pipeline: two balls of one colour that touch are told apart by clicks") {
+  const std::vector<glm::vec3> centres = {{-0.5f, -0.52f, 0}, {0.5f, -0.52f, 0}};
+  const Balls made = balls_on_floor(centres);
+  const Camera camera = look_at({0, -1.2f, -4}, {0, -0.4f, 0}, {0, -1, 0}, 0.8f, 320, 240);
+  const auto on = [&](const glm::vec3& point_world, SeedLabel label) {
+    return click(camera.pixel_from_camera(camera.camera_from_world(point_world)), label);
+  };
+  const auto cut_by = [&](const Strokes& strokes) {
+    return cut_in_view(made.cloud, camera, {0, -1, 0}, strokes, preset("default")).labels;
+  };
+  for (const std::uint8_t wanted : std::array<std::uint8_t, 2>{1, 2}) {
+    const glm::vec3 &mine = centres[wanted - 1u], &other = centres[2u - wanted];
+    const Stroke rest = on(other, SeedLabel::kRest);
+    CHECK(label_iou(made.only(wanted), cut_by({on(mine, SeedLabel::kObject), rest})) > 0.95);
+    // Clicked where they touch, a little on its side.
+    const glm::vec3 between = glm::mix(mine, other, 0.45f) - glm::vec3(0, 0, 0.15f);
+    CHECK(label_iou(made.only(wanted), cut_by({on(between, SeedLabel::kObject), rest})) > 0.9);
+  }
+}
+
+TEST_CASE("pipeline: one click cuts a ball off its floor, the same on 1 and 2 threads") {
+  const Balls made = balls_on_floor({{0, -0.52f, 0}});
+  const GaussianCloud& cloud = made.cloud;
+  const std::vector<std::uint8_t> truth = made.only(1);
   const Camera camera = look_at({0, -1.2f, -3}, {0, -0.4f, 0}, {0, -1, 0}, 0.8f, 320, 240);
   const glm::vec3 ball_camera = camera.camera_from_world({0, -0.52f, 0});
   const Strokes strokes = {click(camera.pixel_from_camera(ball_camera), SeedLabel::kObject)};
