@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "segment/masks/mask_tools.h"
+#include "segment/selection/click_reach.h"
 
 namespace splatcut {
 
@@ -106,6 +107,7 @@ class Asking {
     for (std::size_t c = 0; c < out_.chains.size(); ++c) add_candidates(c, options);
     if (!click_.first) {
       add_back_terms();
+      add_apart_terms();
       add_repick();
       add_disc();
     }
@@ -129,6 +131,7 @@ class Asking {
   void add_back_terms();
   void add_repick();
   void add_disc();
+  void add_apart_terms();
   void measure_off_centre(bool all);
   const Image<std::uint32_t>& level_image(std::size_t chain);
   float cost(const Candidate& candidate) const;
@@ -371,6 +374,19 @@ void Asking::add_repick() {
   add_size_terms(chain, &candidate);
   out_.chains.push_back(std::move(chain));
   out_.candidates.push_back(candidate);
+}
+
+// Of what its view shows of each candidate.
+void Asking::add_apart_terms() {
+  std::vector<std::vector<float>> shares(out_.chains.size());
+  for (Candidate& candidate : out_.candidates) {
+    const Chain& chain = out_.chains[candidate.chain];
+    std::vector<float>& of_chain = shares[candidate.chain];
+    if (of_chain.empty())
+      of_chain =
+          shares_out_of_reach(level_image(candidate.chain), chain.nodes.size(), click_.view.depth, click_.at);
+    term(&candidate, Term::kApart) = of_chain[candidate.index];
+  }
 }
 
 void Asking::add_disc() {

@@ -22,6 +22,8 @@
 //   which its average pixel lies.
 // - kScrap, kFold, kGiant: of later clicks, with f = ln(changed pixels / disc to where the region may end):
 //   max(0, -0.3 - f), max(0, f - 1), max(0, f - 3.25).
+// - kApart: share of the view's pixels that would change which the click does not reach without a jump in
+//   depth (click_reach.h): another thing behind or before. People click each thing that is wrong.
 // - kBorder: max(0, f - 1) where the click is within 2 pixels of the border.
 // - kHidden: max(0, ln(H) - 2), H: area that would change, at the clicked leaf's depth, over changed pixels
 //   or that disc: what would mostly change where the user cannot see it.

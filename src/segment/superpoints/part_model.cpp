@@ -116,19 +116,21 @@ SelectionModel::SelectionModel()
                      {Term::kShadeBlind, 0.5f},
                      {Term::kOffCentre, 2},
                      {Term::kScrap, 0.5f},
+                     {Term::kApart, 1},
                      {Term::kFold, 1},
                      {Term::kGiant, 3.25f},
                      {Term::kBorder, 3.25f},
                      {Term::kHidden, 2},
                      {Term::kOpposed, 5},
                      {Term::kBack, 1},
-                     {Term::kDisc, 2},
+                     {Term::kDisc, 1},
                      {Term::kRepick, -0.5f}})) {}
 
 std::span<const std::string> term_names() {
   static const std::array<std::string, kTerms> names = {
-      "cut",   "jump", "rare",  "frame",  "shade_blind", "off_centre", "no_edge", "cropped", "small", "large",
-      "scrap", "fold", "giant", "border", "hidden",      "opposed",    "back",    "disc",    "repick"};
+      "cut",     "jump",   "rare",    "frame", "shade_blind", "off_centre", "no_edge",
+      "cropped", "small",  "large",   "scrap", "apart",       "fold",       "giant",
+      "border",  "hidden", "opposed", "back",  "disc",        "repick"};
   return names;
 }
 

@@ -1,7 +1,7 @@
 // The fitted model of parts: every weight of surface, superpoints, merging and picking that a search has set.
 //
 // Where the values come from: those of surface, superpoints and merging from searches on the captures and
-// compositions of docs/masks.md and on still lifes, for the mean IoU of a robot's first clicks. Version 7:
+// compositions of docs/masks.md and on still lifes, for the mean IoU of a robot's first clicks. Version 8:
 // what a first click means is fitted by `splatcut-lab fit`, which docs/clicks.md shows with its
 // leave-one-capture-out column; what corrections mean is set by hand on the same scenes. Nobody knows a value
 // by reason, so none is a setting: a person sees none of them, experiments give a whole model (see
@@ -79,6 +79,7 @@ enum class Term {
   kSmall,  // this and the next: of first clicks alone
   kLarge,
   kScrap,  // this and the next: of corrections alone
+  kApart,
   kFold,
   kGiant,
   kBorder,
@@ -88,7 +89,7 @@ enum class Term {
   kDisc,
   kRepick
 };
-inline constexpr std::size_t kTerms = 19;
+inline constexpr std::size_t kTerms = 20;
 using TermValues = std::array<float, kTerms>;  // by Term
 inline float& weight(TermValues* of, Term term) {
   return (*of)[static_cast<std::size_t>(term)];
@@ -121,7 +122,7 @@ struct MaskToPartsOptions {
 };
 
 struct PartModel {
-  static constexpr int kVersion = 7;
+  static constexpr int kVersion = 8;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;

@@ -343,6 +343,24 @@ TEST_CASE("selection: how views elsewhere show a part decides what a first click
   CHECK(labels() == Labels{1, 1, 0, 0});
 }
 
+TEST_CASE("selection: a correction leaves what another thing hides it from to its own click") {
+  // Of the pair on the left the second leaf lies behind leaf 2, which stands between them in the picture.
+  const PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts, {0, 2, 1, 3});
+  SelectionModel model = borders_alone();
+  const auto labels = [&] {
+    ClickSelection selection(parts, model);
+    selection.apply(view, object(35));  // 2 and 3
+    selection.apply(view, object(5));
+    return selection.labels();
+  };
+  CHECK(labels() == Labels{1, 1, 1, 1});
+  weight(&model.later, Term::kApart) = 13;  // half of the pair, against ln 1000
+  CHECK(labels() == Labels{1, 1, 1, 1});
+  weight(&model.later, Term::kApart) = 15;
+  CHECK(labels() == Labels{1, 0, 1, 1});
+}
+
 TEST_CASE("selection: the same first click from nearer means the same part") {
   const Table& t = table();
   for (const std::string object : {"mug", "apple", "orange", "pot", "books"}) {

@@ -1,0 +1,100 @@
+// Which pixels a click reaches: by hand, and against a search that starts anew at every index.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "segment/selection/click_reach.h"
+#include "segment/selection/leaf_view.h"
+#include "segment/superpoints/part_looks.h"
+
+using namespace splatcut;
+
+namespace {
+
+// Rows of digits: from which index on the pixel changes; a blank never does.
+Image<std::uint32_t> levels(const std::vector<std::string>& rows) {
+  Image<std::uint32_t> level(static_cast<int>(rows[0].size()), static_cast<int>(rows.size()), kNoLevel);
+  for (int y = 0; y < level.height(); ++y)
+    for (int x = 0; x < level.width(); ++x) {
+      const char c = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
+      if (c != ' ') level.at(x, y) = static_cast<std::uint32_t>(c - '0');
+    }
+  return level;
+}
+
+Image<float> flat(const Image<std::uint32_t>& level) {
+  return {level.width(), level.height(), 5.0f};
+}
+
+using Shares = std::vector<float>;
+
+// Pixels reached when everything up to the index changes at once.
+std::size_t reached_at(const Image<std::uint32_t>& level, const Image<float>& depth, const glm::ivec2& at,
+                       std::uint32_t index) {
+  Image<std::uint8_t> in(level.width(), level.height());
+  const auto changes = [&](int x, int y) { return level.contains(x, y) && level.at(x, y) <= index; };
+  for (int y = at.y - 1; y <= at.y + 1; ++y)
+    for (int x = at.x - 1; x <= at.x + 1; ++x)
+      if (changes(x, y)) in.at(x, y) = 1;
+  for (bool more = true; more;) {
+    more = false;
+    for (int y = 0; y < in.height(); ++y)
+      for (int x = 0; x < in.width(); ++x)
+        for (const glm::ivec2 step :
+             {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+          const glm::ivec2 p(x, y), q = p + step;
+          if (!in.at(x, y) || !changes(q.x, q.y) || in.at(q.x, q.y) || depth_jump(depth, p, q) > 0.2f)
+            continue;
+          in.at(q.x, q.y) = 1;
+          more = true;
+        }
+  }
+  return static_cast<std::size_t>(std::ranges::count(in.pixels(), 1));
+}
+
+}  // namespace
+
+TEST_CASE("click reach: a gap and a bridge that comes later") {
+  const Image<std::uint32_t> level = levels({"0  0", "0  0", "0110"});
+  CHECK(shares_out_of_reach(level, 2, flat(level), {0, 0}) == Shares{0.5f, 0});
+  const Image<std::uint32_t> apart = levels({"0 10", "0 10", "0  0"});
+  CHECK(shares_out_of_reach(apart, 3, flat(apart), {0, 1}) == Shares{0.5f, 5.0f / 8, 5.0f / 8});
+}
+
+TEST_CASE("click reach: a jump in depth is a gap, a slope is none") {
+  const Image<std::uint32_t> level = levels({"000000"});
+  Image<float> depth = flat(level);
+  for (int x = 3; x < 6; ++x) depth.at(x, 0) = 7;
+  CHECK(shares_out_of_reach(level, 1, depth, {0, 0}) == Shares{0.5f});
+  CHECK(shares_out_of_reach(level, 1, depth, {3, 0}) == Shares{0});  // beside the edge both sides are near
+  for (int x = 0; x < 6; ++x) depth.at(x, 0) = 5 * std::exp(0.15f * static_cast<float>(x));
+  CHECK(shares_out_of_reach(level, 1, depth, {0, 0}) == Shares{0});
+}
+
+TEST_CASE("click reach: a click where nothing changes reaches nothing, and nothing has no share") {
+  const Image<std::uint32_t> level = levels({"    1"});
+  CHECK(shares_out_of_reach(level, 2, flat(level), {0, 0}) == Shares{0, 1});
+  CHECK(shares_out_of_reach(level, 2, flat(level), {4, 0}) == Shares{0, 0});
+}
+
+TEST_CASE("click reach: random pictures as searched anew at every index") {
+  std::mt19937 random(5);
+  for (int round = 0; round < 50; ++round) {
+    Image<std::uint32_t> level(9, 8, kNoLevel);
+    Image<float> depth(9, 8);
+    for (std::size_t i = 0; i < level.size(); ++i) {
+      if (random() % 4) level.pixels()[i] = static_cast<std::uint32_t>(random() % 5);
+      depth.pixels()[i] = random() % 5 ? 1.0f : 1.5f;
+    }
+    const glm::ivec2 at(random() % 9, random() % 8);
+    const Shares shares = shares_out_of_reach(level, 5, depth, at);
+    for (std::uint32_t i = 0; i < 5; ++i) {
+      const auto all = std::ranges::count_if(level.pixels(), [&](std::uint32_t l) { return l <= i; });
+      const double reached = static_cast<double>(reached_at(level, depth, at, i));
+      CHECK(shares[i] == doctest::Approx(all ? 1 - reached / static_cast<double>(all) : 0));
+    }
+  }
+}
