@@ -41,9 +41,8 @@ std::vector<float> shares_out_of_reach(const Image<std::uint32_t>& level, std::s
   for (std::size_t i = 0; i < indices; ++i) {
     reached_so_far += reached[i];
     all_so_far += all[i];
-    shares.push_back(all_so_far
-                         ? static_cast<float>(all_so_far - reached_so_far) / static_cast<float>(all_so_far)
-                         : 0.0f);
+    shares.push_back(
+        all_so_far ? static_cast<float>(all_so_far - reached_so_far) / static_cast<float>(all_so_far) : 0.0f);
   }
   return shares;
 }

@@ -108,7 +108,7 @@ struct SelectionModel {
   float disc_share = 0.5f;       // of the distance to where the clicked region may end that is certain
   float disc_majority = 0.5f;    // of a leaf's or Gaussian's pixels that must lie in the disc
   float least_visible = 0.3f;    // share of a leaf that the view must show for the disc to decide it
-  float nearer_majority = 0.7f;  // of trees, for a leaf to follow a correction
+  float nearer_majority = 0.5f;  // of trees, for a leaf to follow a correction
   float doubt = 0.7f;            // ln 2: what is at least half as likely as the likeliest is offered
 
   SelectionModel();
