@@ -102,6 +102,7 @@ class Asking {
 
   Answers take(const AnswerOptions& options) {
     make_chains();
+    if (click_.first) sum_looks();
     find_free();
     measure_stability();
     for (std::size_t c = 0; c < out_.chains.size(); ++c) add_candidates(c, options);
@@ -119,6 +120,7 @@ class Asking {
  private:
   bool wrong_side(std::uint32_t leaf) const { return (selected_.object[leaf] != 0) != click_.object; }
   void make_chains();
+  void sum_looks();
   void find_free();
   std::vector<float> compared_areas() const;
   void measure_stability();
@@ -163,8 +165,6 @@ void Asking::make_chains() {
   std::vector<float> opposed(parts_.leaves, 0);
   for (const std::uint32_t leaf : selected_.clicked[!click_.object])
     if (leaf != click_.leaf) opposed[leaf] += 1;
-  std::vector<std::vector<PartLooks>> here;
-  if (click_.first) here = looks_in(parts_, picture_of(click_.view));
   for (std::size_t t = 0; t < parts_.trees.size(); ++t) {
     const PartTree& tree = parts_.trees[t];
     Chain chain;
@@ -175,16 +175,24 @@ void Asking::make_chains() {
     chain.frame_px = at_nodes(summed(tree, click_.view.leaf_frame_px), chain.nodes);
     chain.opposed = at_nodes(summed(tree, opposed), chain.nodes);
     chain.level = levels(tree, parts_.leaves, chain.nodes);
-    for (const std::uint32_t node : chain.nodes) {
-      PartLooks& looks = chain.looks.emplace_back(click_.first ? here[t][node] : PartLooks());
-      if (!tree.looks.empty()) looks += tree.looks[node];
-    }
     out_.chains.push_back(std::move(chain));
   }
 }
 
-// A leaf follows where, in most trees, it meets no click of the other sign below its common ancestor with
-// this click.
+// The observing views', and the click's own view as one more of them.
+void Asking::sum_looks() {
+  const std::vector<std::vector<PartLooks>> here = looks_in(parts_, picture_of(click_.view));
+  for (std::size_t t = 0; t < parts_.trees.size(); ++t) {
+    const std::vector<PartLooks>& elsewhere = parts_.trees[t].looks;
+    for (const std::uint32_t node : out_.chains[t].nodes) {
+      PartLooks& looks = out_.chains[t].looks.emplace_back(here[t][node]);
+      if (!elsewhere.empty()) looks += elsewhere[node];
+    }
+  }
+}
+
+// A leaf follows where, in nearer_majority of the trees, it meets no click of the other sign below its common
+// ancestor with this click.
 void Asking::find_free() {
   std::vector<float> votes(parts_.leaves, 0);
   for (const Chain& chain : out_.chains) {
@@ -272,7 +280,6 @@ void Asking::add_look_terms(const Chain& chain, Candidate* candidate) const {
   const PartLooks& looks = chain.looks[candidate->index];
   term(candidate, Term::kNoEdge) = looks.border > 0 ? looks.plain_border / looks.border : kUnseenNoEdge;
   term(candidate, Term::kCropped) = looks.cropped_side / std::max(looks.side, kTiny);
-  if (!click_.first) return;
   const float share = looks.area_squared / std::max(looks.area, kTiny);
   term(candidate, Term::kSmall) = at_least_0(std::log(kSmallShare / std::max(share, kTiny)));
   term(candidate, Term::kLarge) = at_least_0(std::log(share / kLargeShare));
@@ -307,8 +314,9 @@ void Asking::add_candidates(std::size_t c, const AnswerOptions& options) {
     term(&candidate, Term::kRare) = -std::log(std::max(chain.stability[i], 0.01f));
     term(&candidate, Term::kShadeBlind) = chain.shade_blind;
     term(&candidate, Term::kOpposed) = chain.opposed[i];
-    add_look_terms(chain, &candidate);
-    if (!click_.first) {
+    if (click_.first) {
+      add_look_terms(chain, &candidate);
+    } else {
       term(&candidate, Term::kFrame) = chain.frame_px[i] / std::sqrt(std::max(chain.view_px[i], 1.0f));
       add_size_terms(chain, &candidate);
     }

@@ -15,8 +15,9 @@
 // - kShadeBlind: 1 where the tree counts lightness less.
 // - kOffCentre: ln(0.7 / share), at least 0; share: the click's distance to the border of what would change
 //   over the largest such distance. People click in the middle of what they mean.
-// - kNoEdge: share of its border in all views where the depth does not jump.
-// - kCropped: share of all views, by the side of what they show of it, in which it touches the picture's
+// - kNoEdge: of a first click, share of its border in all views where the depth does not jump.
+// - kCropped: of a first click, share of all views, by the side of what they show of it, in which it touches
+// the picture's
 //   frame.
 // - kSmall, kLarge: of a first click, ln of folds of the picture below 1 % and above 35 %; of the picture in
 //   which its average pixel lies.
@@ -54,7 +55,7 @@ struct Chain {
   std::vector<std::uint32_t>
       level;  // per leaf of the hierarchy: the first of the nodes that holds it, or kNoLevel
   std::vector<float> view_px, frame_px, opposed, changed_px, changed_area, stability;  // per node
-  std::vector<PartLooks> looks;  // per node: in the observing views; of a first click in its own, too
+  std::vector<PartLooks> looks;  // of a first click, per node: in the observing views and its own
   bool shade_blind = false;
   bool of_tree = true;  // false: no tree's, one set of leaves
 };

@@ -74,11 +74,11 @@ enum class Term {
   kFrame,
   kShadeBlind,
   kOffCentre,
-  kNoEdge,
+  kNoEdge,  // this and the next three: of first clicks alone
   kCropped,
-  kSmall,  // this and the next: of first clicks alone
+  kSmall,
   kLarge,
-  kScrap,  // this and the next: of corrections alone
+  kScrap,  // this and those after it: of corrections alone
   kApart,
   kFold,
   kGiant,
