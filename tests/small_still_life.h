@@ -48,6 +48,15 @@ struct StillLife {
   }
 };
 
+inline bool has_keys(const nlohmann::json& object, std::initializer_list<const char*> keys) {
+  for (const char* key : keys)
+    if (!object.contains(key)) {
+      MESSAGE("lacks ", std::string(key));
+      return false;
+    }
+  return true;
+}
+
 inline StillLife& still_life() {
   static StillLife made;
   return made;

@@ -154,7 +154,8 @@ void print_draws(const nlohmann::json& result, int draws) {
 
 // --first-mask truth needs the truth of the reference view, --masks truth that of any view.
 bool lacks_truth(const EvaluationCase& test, const EvaluationOptions& options) {
-  return (options.truth_first_mask && !test.reference_truth) ||
+  return (options.masks_of_others && std::ranges::count_if(test.truth_masks, counts) < 2) ||
+         (options.truth_first_mask && !test.reference_truth) ||
          (options.truth_masks && test.truth_labels.empty());
 }
 
@@ -189,6 +190,7 @@ EvaluationOptions evaluation_options(const EvalArguments& args) {
   options.clicks = args.clicks;
   options.truth_first_mask = first_mask_is_truth(args);
   options.truth_masks = args.masks == "truth";
+  options.masks_of_others = args.masks == "others";
   options.click_curve = args.curve && args.nvos.empty();
   if (!args.nvos.empty()) options.clicks = std::numeric_limits<int>::max();  // all scribbles at once
   args.mask.apply(&options.settings);
@@ -252,7 +254,7 @@ std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationO
 // How many strokes of each scene the final cut was told.
 nlohmann::json clicks_json(const EvalArguments& args) {
   if (!args.nvos.empty()) return "all";
-  return first_mask_is_truth(args) ? 0 : args.clicks;
+  return first_mask_is_truth(args) || args.masks == "others" ? 0 : args.clicks;
 }
 
 // One way in, and what it needs.
@@ -266,6 +268,9 @@ void check_ways_in(const EvalArguments& args) {
   if (args.clicks_given && (!args.nvos.empty() || first_mask_is_truth(args)))
     throw CLI::ValidationError(
         "--clicks: all scribbles of NVOS count, and a given mask leaves no click to make");
+  if (args.masks == "others" && (args.clicks_given || args.draws > 0 || args.suite.empty() ||
+                                 !args.mask.first_mask.empty() || args.mask.parts_only))
+    throw CLI::ValidationError("--masks others: takes a suite, and nothing but its masks says what is meant");
 }
 
 // The robot's cut is the window's, which knows presets and nothing else.
@@ -372,8 +377,12 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
       "A picture a session, sheet_SCENE_START.png: the clicked view before and after each click");
   command.add_option("--only", args->only, "Scenes of the suite, by name");
   args->mask.add_to(command, true);
-  command.add_option("--masks", args->masks, "truth: the true masks in all orbit views")
-      ->check(CLI::IsMember({"truth"}));
+  command
+      .add_option(
+          "--masks", args->masks,
+          "truth: the true masks in all orbit views; others: no clicks, each test view left out in turn "
+          "and the true masks of the others given")
+      ->check(CLI::IsMember({"truth", "others"}));
   command.add_option("--model", args->model, "Weights of the parts in place of those that are shipped")
       ->group("");  // for experiments: not listed
   add_setting_options(command, &args->preset, &args->set);

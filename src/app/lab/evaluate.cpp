@@ -38,6 +38,54 @@ CutRequest request_with(const EvaluationCase& scene, const EvaluationOptions& op
   return request;
 }
 
+// The case with one test view, and with the masks of all others that count for a request.
+CutRequest leave_out(std::size_t left_out, EvaluationCase* scene) {
+  CutRequest request;
+  for (std::size_t v = 0; v < scene->test_views.size(); ++v) {
+    if (v == left_out || !counts(scene->truth_masks[v])) continue;
+    GivenView given{scene->test_views[v], scene->truth_masks[v]};
+    if (request.first_mask)
+      request.masks.push_back(std::move(given));
+    else
+      request.first_mask = std::move(given);
+  }
+  if (!request.first_mask) throw Error(scene->name, "--masks others needs two views whose truth is known");
+  scene->test_views = {scene->test_views[left_out]};
+  scene->truth_masks = {scene->truth_masks[left_out]};
+  return request;
+}
+
+// Means over the views left out; what it looked at is the last one's. No stages, no doubts.
+SceneScore evaluate_left_out(const EvaluationCase& scene, const CutSettings& settings, const Job& job) {
+  SceneScore mean;
+  mean.name = scene.name;
+  const auto views = std::ranges::count_if(scene.truth_masks, counts);
+  const auto share = 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, views));
+  Session session = session_of(scene);
+  session.make_ready(settings, job);
+  for (std::size_t v = 0; v < scene.test_views.size(); ++v) {
+    if (!counts(scene.truth_masks[v])) continue;
+    EvaluationCase left_out = scene;
+    const CutRequest request = leave_out(v, &left_out);
+    const auto start = std::chrono::steady_clock::now();
+    const CutResult result = session.cut(request, settings, job);
+    if (job.cancelled()) return mean;
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    mean.total_ms += share * took.count();
+    const ImageScore images = score_images(left_out, result.labels);
+    mean.image_iou += share * images.iou;
+    mean.accuracy += share * images.accuracy;
+    mean.boundary_iou += share * images.boundary;
+    const PictureScore pictures = score_pictures(left_out, result.labels);
+    mean.psnr_db += share * pictures.psnr_db;
+    mean.ssim += share * pictures.ssim;
+    mean.enough = looked_at(result.views);
+    mean.nodes_touched = result.cut.touched;
+    mean.why_enough = result.why_enough;
+  }
+  return mean;
+}
+
 }  // namespace
 
 Session session_of(const EvaluationCase& scene) {
@@ -122,6 +170,7 @@ void render_truth(EvaluationCase* scene) {
 }
 
 SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& options, const Job& job) {
+  if (options.masks_of_others) return evaluate_left_out(scene, options.settings, job);
   SceneScore score;
   score.name = scene.name;
   const bool scribbles_alone = scene.scribbles_alone && !options.truth_first_mask;

@@ -53,7 +53,10 @@ struct EvaluationOptions {
   int clicks = 3;  // for the final cut
   bool truth_first_mask = false;
   bool truth_masks = false;  // in orbit views; needs truth_labels
-  bool click_curve = true;   // mask IoU after 1..8 clicks, image IoU after 1, 3, 5
+  // No click at all: each test view that counts is left out in turn, the true masks of the others are given,
+  // and the cutout is scored in the one left out. Needs two that count.
+  bool masks_of_others = false;
+  bool click_curve = true;  // mask IoU after 1..8 clicks, image IoU after 1, 3, 5
 };
 
 struct SceneScore {
@@ -102,6 +105,7 @@ double label_iou(const std::vector<std::uint8_t>& truth, const std::vector<std::
 // Fills truth_masks and reference_truth from truth_labels.
 void render_truth(EvaluationCase* scene);
 
+// Throws Error where the case lacks the truth that the options ask for.
 SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& options, const Job& job = {});
 
 }  // namespace splatcut

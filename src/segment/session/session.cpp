@@ -55,12 +55,28 @@ CutSettings without_smoothness(CutSettings settings) {
   return settings;
 }
 
+// Given masks of several views are made by people, and each is one more observation of its own: nothing is
+// guessed from parts or taken away beside them, and the more there are the more they say against the
+// neighbours. On photographs, each predicted from the masks of all others: docs/masks.md. The paper's presets
+// stay as they are published.
+CutSettings with_given_masks(CutSettings settings, std::size_t others) {
+  if (others == 0 || settings.first_mask_from != FirstMaskFrom::kParts) return settings;
+  constexpr float kFewMasks = 3;  // the energy's weights are those of so many
+  const float share = std::min(1.0f, kFewMasks / static_cast<float>(others + 1));
+  settings.prior_px_per_view = 0;
+  settings.trim = false;
+  settings.cut.energy.v0_px_per_view_at_400 *= share;
+  settings.cut.energy.lambda *= share;
+  if (settings.smoothness) *settings.smoothness *= share;
+  return settings;
+}
+
 }  // namespace
 
 // A request, looked through.
 struct Session::Asked {
   const CutRequest& request;
-  const CutSettings& settings;
+  CutSettings settings;
   std::vector<StrokedView> by_view;
   std::optional<ReferenceView> reference;
   CutSettings first_settings;  // of the cut from the reference
@@ -125,8 +141,9 @@ CutScene Session::scene_for(const CutRequest& request, const CutSettings& settin
 
 Session::Asked Session::asked(const CutRequest& request, const CutSettings& settings) const {
   check(settings);
-  Asked asked{request, settings, strokes_by_view(request.strokes), {}, without_smoothness(settings),
-              {},      false};
+  Asked asked{request, with_given_masks(settings, request.masks.size())};
+  asked.by_view = strokes_by_view(request.strokes);
+  asked.first_settings = without_smoothness(asked.settings);
   asked.reference = reference_of(request, asked.by_view);
   asked.by_parts = settings.first_mask_from == FirstMaskFrom::kParts && !request.first_mask;
   if (asked.reference)

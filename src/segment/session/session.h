@@ -8,7 +8,9 @@
 // so that a stroke in one view outweighs the views that did not see the fault; what the parts say and the
 // trimming count as in step 1. With parts, strokes of all views are replayed in step 1 already, as one
 // selection (selection/stroke_replay.h): step 2 then holds views left out and smoothness alone.
-// Step 1 is kept: what changes only step 2 costs only step 2. The result is a function of scene, request and
+// Where a request gives masks of several views, n in all, neither parts nor trimming have a say, and v0 and
+// the weights of neighbours are those of the settings times min(1, 3/n), but for the paper's presets. Step 1
+// is kept: what changes only step 2 costs only step 2. The result is a function of scene, request and
 // settings alone, kept steps or not, whatever was cut before, on any number of threads. One call at a time.
 #pragma once
 

@@ -147,7 +147,8 @@ std::vector<Setting> make_table() {
              "pixels a view that a Gaussian must show to count in full, of a picture of 400 x 300"),
       number("neighbours", kPeople, 1, 254, FIELD(neighbours), "of each Gaussian in the graph"),
       flag("energy.coarse", kPeople, FIELD(cut.coarse), "threshold the likelihood instead of the cut"),
-      flag("trim", kPeople, FIELD(trim), "take out what shows beside the object once the scene is gone"),
+      flag("trim", kPeople, FIELD(trim),
+           "take out what shows beside the object once the scene is gone; not where --masks show it"),
 
       choice("energy.pairwise", kExperiments, choices_of(pairwise_energies()), FIELD(cut.energy.pairwise),
              "neighbour term, see energy.h"),
@@ -195,8 +196,9 @@ std::vector<Setting> make_table() {
              "square root of its pixels: smaller objects are looked at with more"),
       flag("pick.join_enclosed", kExperiments, FIELD(join_enclosed),
            "hidden pieces that touch the object alone belong to it"),
-      number("prior_px_per_view", kExperiments, 0.0f, 1000.0f, FIELD(prior_px_per_view),
-             "what the parts say counts as that many pixels of each Gaussian"),
+      number(
+          "prior_px_per_view", kExperiments, 0.0f, 1000.0f, FIELD(prior_px_per_view),
+          "what the parts say counts as that many pixels of each Gaussian; nothing where --masks are given"),
   };
 }
 

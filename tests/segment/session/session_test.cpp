@@ -194,6 +194,36 @@ TEST_CASE("session: a view is left out by its camera, one that is not looked at 
   for (const std::size_t v : {1u, 3u}) CHECK(without.views[v].used == all.views[v].used);
 }
 
+// Half of the mug is no part of the scene, nothing stands out at its border: masks alone say it.
+TEST_CASE("session: given masks of several views mean what they show, whatever parts there are") {
+  const Table& t = table();
+  const auto mug = std::ranges::find(t.scene.label_name, "mug") - t.scene.label_name.begin();
+  glm::vec3 middle(0);
+  float count_of_mug = 0;
+  for (std::size_t g = 0; g < t.scene.label.size(); ++g)
+    if (t.scene.label[g] == mug) middle += t.cloud->position[g], ++count_of_mug;
+  middle /= count_of_mug;
+  std::vector<std::uint8_t> half(t.cloud->size());
+  for (std::size_t g = 0; g < half.size(); ++g)
+    half[g] = t.scene.label[g] == mug && t.cloud->position[g].y < middle.y;
+  CutRequest request;
+  for (const std::size_t v : {0u, 2u, 4u, 6u}) {
+    GivenView given{t.scene.cameras[v], {}};
+    given.mask = thresholded(render_labels({*t.cloud, nullptr}, given.camera, half), 0.5f);
+    if (request.first_mask)
+      request.masks.push_back(std::move(given));
+    else
+      request.first_mask = std::move(given);
+  }
+  const CutResult cut = fresh_session().cut(request, preset("default"));
+  REQUIRE(cut.outcome == Outcome::kDone);
+  const Camera& left_out = t.scene.cameras[1];
+  const Mask truth = thresholded(render_labels({*t.cloud, nullptr}, left_out, half), 0.5f);
+  const Mask seen = thresholded(render_labels({*t.cloud, nullptr}, left_out, cut.labels), 0.5f);
+  MESSAGE("image IoU in a view that was not given: " << iou(truth, seen));
+  CHECK(iou(truth, seen) > 0.95);
+}
+
 TEST_CASE("session: what marks nothing is an outcome, from parts and from pixels alike") {
   for (const bool parts : {true, false}) {
     CAPTURE(parts);
