@@ -9,7 +9,8 @@
 
 #include "core/error.h"
 #include "scene/camera/camera_file.h"
-#include "scene/raster/guessed_view.h"
+#include "scene/raster/first_view.h"
+#include "scene/raster/guessed_up.h"
 
 namespace splatcut {
 

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "cut_in_view.h"
-#include "scene/raster/guessed_view.h"
+#include "scene/raster/first_view.h"
+#include "scene/raster/guessed_up.h"
 #include "scene/raster/rasterizer.h"
 #include "scene/still_life/still_life.h"
 #include "segment/session/settings_table.h"

@@ -1,9 +1,10 @@
-#include "scene/raster/guessed_view.h"
+#include "scene/raster/first_view.h"
 
 #include <doctest/doctest.h>
 
 #include <glm/gtc/constants.hpp>
 
+#include "scene/raster/guessed_up.h"
 #include "scene/still_life/still_life.h"
 #include "synthetic_cloud.h"
 
@@ -92,8 +93,35 @@ TEST_CASE(
 
   GaussianCloud object;
   add_box(&object, 1, 120);
+  for (const float half : {0.8f, 0.6f, 0.4f, 0.2f}) add_box(&object, half, 8);  // filled by what nobody saw
   const Box around{glm::vec3(-1), glm::vec3(1)};
-  CHECK_FALSE(better_first_view(object, around, {0, -1, 0}, outside_of(around)));
+  const Camera outside = outside_of(around);
+  const Camera view = better_first_view(object, around, {0, -1, 0}, outside).value_or(outside);
+  std::size_t outside_px = 0;
+  for (const glm::vec3& p : object.position) {
+    const glm::vec3 seen = view.camera_from_world(p);
+    REQUIRE(seen.z > 0.5f);
+    const glm::vec2 at = view.pixel_from_camera(seen);
+    outside_px += at.x < 0 || at.y < 0 || at.x > 320 || at.y > 240;
+  }
+  CHECK(100 * outside_px < object.size());
+}
+
+TEST_CASE("first view: what was captured finely is in the middle, not too small, whatever lies around it") {
+  GaussianCloud scene;
+  add_box(&scene, 0.5f, 60);
+  for (glm::vec3& p : scene.position) p += glm::vec3(2, 0, 1);
+  add_box(&scene, 6, 12);  // walls far away, of which one is before the usual view
+  const Box bounds{glm::vec3(-6), glm::vec3(6)};
+  const auto view = better_first_view(scene, bounds, {0, -1, 0}, outside_of(bounds));
+  REQUIRE(view);
+  const glm::vec3 middle = view->camera_from_world({2, 0, 1});
+  REQUIRE(middle.z > 0);
+  const glm::vec2 at = view->pixel_from_camera(middle);
+  CHECK(glm::distance(at, glm::vec2(160, 120)) < 30);
+  const float side_px = view->fx_px / middle.z;  // of the fine box
+  CHECK(side_px > 40);
+  CHECK(side_px < 200);
 }
 
 TEST_CASE(

@@ -1,0 +1,119 @@
+#include "scene/raster/guessed_up.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace splatcut {
+
+namespace {
+
+// A Gaussian as a disc.
+struct Disc {
+  glm::vec3 centre, normal;
+  float area;  // sigma^2
+};
+
+std::vector<Disc> sampled_discs(const GaussianCloud& cloud) {
+  constexpr std::size_t kSample = 1 << 16;
+  constexpr float kLeastOpacity = 0.1f;
+  constexpr double kAreaQuantile = 0.985;  // sky and haze are huge, and no ground
+  const Box box = robust_bounds(cloud.position, 0.96);
+  std::vector<Disc> discs;
+  const std::size_t step = std::max<std::size_t>(1, cloud.size() / kSample);
+  for (std::size_t g = 0; g < cloud.size(); g += step) {
+    const glm::vec3 p = cloud.position[g], s = cloud.scale[g];
+    if (cloud.opacity[g] < kLeastOpacity || glm::any(glm::lessThan(p, box.min)) ||
+        glm::any(glm::greaterThan(p, box.max)))
+      continue;
+    const int thin = s.x <= s.y && s.x <= s.z ? 0 : s.y <= s.z ? 1 : 2;
+    discs.push_back({p, glm::mat3_cast(cloud.rotation[g])[thin], s[(thin + 1) % 3] * s[(thin + 2) % 3]});
+  }
+  if (discs.empty()) return discs;
+  std::vector<float> areas;
+  for (const Disc& d : discs) areas.push_back(d.area);
+  const auto high =
+      areas.begin() + static_cast<std::ptrdiff_t>(kAreaQuantile * static_cast<double>(areas.size() - 1));
+  std::ranges::nth_element(areas, high);
+  std::erase_if(discs, [&](const Disc& d) { return d.area > *high; });
+  return discs;
+}
+
+// On the scale of grounds: a captured room or yard has .06 to .7, what is none up to .034.
+double prior_of(const glm::vec3& up) {
+  if (up.y < -0.5f) return 0.045;
+  if (up.z > 0.5f) return 0.01;
+  return up.y > 0.5f ? 0.005 : 0;
+}
+
+// Areas in slabs across `axis`, from its low end to its high one.
+struct Slabs {
+  static constexpr int kCount = 32;
+  std::array<double, kCount> level{}, standing{};
+  double flat = 0;  // the lesser extent across the axis over that along it
+};
+
+Slabs slabs_along(const std::vector<Disc>& discs, int axis) {
+  constexpr float kLevel = 0.906f;  // cosine of 25 degrees
+  glm::vec3 low = discs.front().centre, high = low;
+  for (const Disc& d : discs) low = glm::min(low, d.centre), high = glm::max(high, d.centre);
+  const float from = low[axis], extent = std::max(1e-30f, high[axis] - from);
+  const glm::vec3 size = high - low;
+  Slabs slabs;
+  slabs.flat = std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]) / extent;
+  double all = 0;
+  for (const Disc& d : discs) {
+    const int slab =
+        std::min(Slabs::kCount - 1, static_cast<int>((d.centre[axis] - from) / extent * Slabs::kCount));
+    (std::abs(d.normal[axis]) > kLevel ? slabs.level : slabs.standing)[static_cast<std::size_t>(slab)] +=
+        d.area;
+    all += d.area;
+  }
+  for (auto* areas : {&slabs.level, &slabs.standing})
+    for (double& a : *areas) a /= std::max(1e-30, all);
+  return slabs;
+}
+
+double ground_score(Slabs slabs, bool upwards) {
+  if (!upwards) {
+    std::ranges::reverse(slabs.level);
+    std::ranges::reverse(slabs.standing);
+  }
+  double best = 0;
+  for (int s = 0; s < Slabs::kCount; ++s) {
+    const auto sum = [](const std::array<double, Slabs::kCount>& areas, int begin, int end) {
+      double area = 0;
+      for (int i = std::max(0, begin); i < std::min(Slabs::kCount, end); ++i)
+        area += areas[static_cast<std::size_t>(i)];
+      return area;
+    };
+    const double ground =
+        sum(slabs.level, s - 1, s + 2);  // a slab's neighbours: it need not lie on their border
+    const double above = sum(slabs.standing, s + 1, s + 1 + Slabs::kCount / 2);
+    const double below = sum(slabs.standing, 0, s - 1) + sum(slabs.level, 0, s - 1);
+    best = std::max(best, ground * (above - below));
+  }
+  return best;
+}
+
+}  // namespace
+
+glm::vec3 guessed_up(const GaussianCloud& cloud) {
+  glm::vec3 best(0, -1, 0);
+  const std::vector<Disc> discs = sampled_discs(cloud);
+  if (discs.empty()) return best;
+  double best_score = prior_of(best);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Slabs slabs = slabs_along(discs, axis);
+    for (const float sign : {-1.0f, 1.0f}) {
+      glm::vec3 up(0);
+      up[axis] = sign;
+      const double score = prior_of(up) + slabs.flat * ground_score(slabs, sign > 0);
+      if (score > best_score) best_score = score, best = up;
+    }
+  }
+  return best;
+}
+
+}  // namespace splatcut
