@@ -6,8 +6,8 @@
 // Level area: discs whose normal is within 25 degrees of u; standing area: discs that are not. Areas are
 // shares of the whole, in sigma^2 of a Gaussian's two long axes. A slab is 1/32 of the scene's height, "just
 // above" half of it: floors and ceilings differ in what stands on them. flat(u): the lesser extent across u
-// over the extent along it: grounds are wide. prior(u): captures by COLMAP have -y up, CAD and games +z or +y;
-// a thing that stands on nothing gets no more than that.
+// over the extent along it: grounds are wide. prior(u): captures by COLMAP have -y up, CAD and games +z or
+// +y; a thing that stands on nothing gets no more than that.
 //
 // A function of the cloud alone, on at most 2^16 of its Gaussians: 5 to 15 ms. Not handled: scenes that stand
 // oblique.

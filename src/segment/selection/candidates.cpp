@@ -15,7 +15,8 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 // Where costs begin; logarithms of folds unless they are shares.
 constexpr float kCentral = 0.7f, kSmallShare = 0.01f, kLargeShare = 0.35f;
-constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f, kHiddenFolds = 2;
+constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f, kHiddenFolds = 2,
+                kTakesFolds = 0.4f;
 constexpr float kBorderPx = 2;
 constexpr float kLeastFirstCut = -12, kLeastCut = -16;  // of a part that touches nothing
 constexpr float kUnseenNoEdge = 0.5f;                   // of a part no border of which is seen
@@ -145,6 +146,7 @@ class Asking {
   const SelectionModel& model_;
   const TermValues& weights_;
   const Camera& camera_;
+  float object_px_ = 0;                               // selected so far
   std::vector<float> wrong_px_;                       // per leaf: its pixels, where a part may take it along
   std::vector<Image<std::uint32_t>> level_of_pixel_;  // per chain: from which index on it changes
   Answers out_;
@@ -206,6 +208,7 @@ void Asking::find_free() {
   for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf) {
     out_.free[leaf] = votes[leaf] >= enough;
     if (out_.free[leaf] && wrong_side(leaf)) wrong_px_[leaf] = click_.view.leaf_px[leaf];
+    if (selected_.object[leaf]) object_px_ += click_.view.leaf_px[leaf];
   }
 }
 
@@ -294,6 +297,11 @@ void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
   term(candidate, Term::kGiant) = at_least_0(f - kGiantFolds);
   term(candidate, Term::kBorder) = click_.radius_px < kBorderPx ? at_least_0(f - kFoldSlack) : 0;
   if (!chain.of_tree) return;  // another meaning of the first click: most of it is out of sight by nature
+  if (!click_.object) {
+    constexpr float kLeastLeft = 0.02f;
+    const float left = std::max(1 - changed_px / std::max(object_px_, 1.0f), kLeastLeft);
+    term(candidate, Term::kTakes) = at_least_0(-std::log(left) - kTakesFolds);
+  }
   const float px_per_unit =
       camera_.fx_px / std::max(camera_.camera_from_world(parts_.leaf_centre_world[click_.leaf]).z, 1e-15f);
   const float area_px = chain.changed_area[candidate->index] * px_per_unit * px_per_unit;

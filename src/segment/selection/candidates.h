@@ -28,6 +28,8 @@
 // - kBorder: max(0, f - 1) where the click is within 2 pixels of the border.
 // - kHidden: max(0, ln(H) - 2), H: area that would change, at the clicked leaf's depth, over changed pixels
 //   or that disc: what would mostly change where the user cannot see it.
+// - kTakes: of a click on the rest, max(0, -ln(share of the object's pixels in the view that would be left) -
+//   0.4): people take parts away from an object, and undo where they want nearly all of it gone.
 // - kOpposed: clicks of the other sign that it holds.
 // - kBack: IoU with what a click of the other sign has changed, the largest. People undo in that case.
 // - kDisc: 1 where nothing but the disc would change.

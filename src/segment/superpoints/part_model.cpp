@@ -121,6 +121,7 @@ SelectionModel::SelectionModel()
                      {Term::kGiant, 3.25f},
                      {Term::kBorder, 3.25f},
                      {Term::kHidden, 2},
+                     {Term::kTakes, 1.5f},
                      {Term::kOpposed, 5},
                      {Term::kBack, 1},
                      {Term::kDisc, 1},
@@ -128,9 +129,9 @@ SelectionModel::SelectionModel()
 
 std::span<const std::string> term_names() {
   static const std::array<std::string, kTerms> names = {
-      "cut",     "jump",   "rare",    "frame", "shade_blind", "off_centre", "no_edge",
-      "cropped", "small",  "large",   "scrap", "apart",       "fold",       "giant",
-      "border",  "hidden", "opposed", "back",  "disc",        "repick"};
+      "cut",     "jump",   "rare",  "frame",   "shade_blind", "off_centre", "no_edge",
+      "cropped", "small",  "large", "scrap",   "apart",       "fold",       "giant",
+      "border",  "hidden", "takes", "opposed", "back",        "disc",       "repick"};
   return names;
 }
 

@@ -84,12 +84,13 @@ enum class Term {
   kGiant,
   kBorder,
   kHidden,
+  kTakes,
   kOpposed,
   kBack,
   kDisc,
   kRepick
 };
-inline constexpr std::size_t kTerms = 20;
+inline constexpr std::size_t kTerms = 21;
 using TermValues = std::array<float, kTerms>;  // by Term
 inline float& weight(TermValues* of, Term term) {
   return (*of)[static_cast<std::size_t>(term)];
@@ -122,7 +123,7 @@ struct MaskToPartsOptions {
 };
 
 struct PartModel {
-  static constexpr int kVersion = 8;
+  static constexpr int kVersion = 9;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;
