@@ -92,12 +92,9 @@ TEST_CASE("eval --masks others scores each view by a cut from the true masks of 
                 {"size", {240, 180}}};
   };
   const auto measured = [&](const json& views, const std::string& options) {
-    const json entry = {{"name", "apple"},
-                        {"scene", "small.ply"},
-                        {"truth", {{"labels", "apple.labels.u8"}}},
-                        {"reference", view(0.3)},
-                        {"clicks", "robot"},
-                        {"test_views", views}};
+    const json entry = {
+        {"name", "apple"},        {"scene", "small.ply"}, {"truth", {{"labels", "apple.labels.u8"}}},
+        {"reference", view(0.3)}, {"clicks", "robot"},    {"test_views", views}};
     place.write("made/others.json", json{{"scenes", {entry}}}.dump());
     return place.run("eval made/others.json --masks others --overwrite -o others " + options);
   };
