@@ -11,6 +11,7 @@
 #include "segment/masks/mask_tools.h"
 #include "segment/session/correction.h"
 #include "segment/session/pipeline.h"
+#include "segment/session/reference_mask.h"
 #include "segment/superpoints/orbit.h"
 
 namespace splatcut {
@@ -172,7 +173,7 @@ Session::Kept& Session::from_reference(const Asked& asked, const Job& job, const
   const CutScene scene = scene_for(asked.request, asked.first_settings, job);
   if (!job.cancelled())
     made.result =
-        cut_from_reference(scene, *asked.reference, asked.request, asked.first_settings, job, on_snapshot);
+        cut_from_reference({scene, *asked.reference, asked.request, asked.first_settings, job}, on_snapshot);
   if (made.result.outcome == Outcome::kCancelled) return cancelled_ = std::move(made);
   kept_.push_front(std::move(made));
   if (kept_.size() > kMostKept) kept_.pop_back();
@@ -268,7 +269,7 @@ Mask Session::first_mask(const CutRequest& request, const CutSettings& settings,
   const Asked asked = this->asked(request, settings);
   if (!asked.reference) return {};
   const CutScene scene = scene_for(request, asked.first_settings, job);
-  return first_mask_of(scene, *asked.reference, request, asked.first_settings, job);
+  return first_mask_of({scene, *asked.reference, request, asked.first_settings, job});
 }
 
 Session::Preview Session::preview(const CutRequest& request, const CameraStroke& stroke,
