@@ -282,8 +282,6 @@ Selection combined(std::span<const std::uint8_t> before, std::span<const std::ui
         return before[g] && !region[g];
       case SetOperation::kIntersect:
         return before[g] && region[g];
-      case SetOperation::kReplace:
-        return region[g] != 0;
     }
     return false;
   });

@@ -268,7 +268,6 @@ class Studio {
   Flags seen(int pane) const;  // what is drawn there now; null: all
   int pane_at(const glm::vec2& pixel) const;
   glm::vec2 in_pane(const glm::vec2& pixel) const;
-  Camera pane_camera() const;
 
   StudioOptions options_;
   History history_;

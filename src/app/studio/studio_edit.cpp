@@ -40,8 +40,6 @@ const char* title_of(SetOperation operation) {
       return "Remove";
     case SetOperation::kIntersect:
       return "Intersect";
-    case SetOperation::kReplace:
-      return "Select";
   }
   return "";
 }

@@ -243,10 +243,6 @@ void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
   });
 }
 
-const char* target_name() {
-  return hwy::TargetName(HWY_TARGET);
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace splatcut
 HWY_AFTER_NAMESPACE();
@@ -255,14 +251,9 @@ HWY_AFTER_NAMESPACE();
 namespace splatcut {
 
 HWY_EXPORT(blend_tiles);
-HWY_EXPORT(target_name);
 
 void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
   HWY_DYNAMIC_DISPATCH(blend_tiles)(what, job, out);
-}
-
-const char* blend_simd_target() {
-  return HWY_DYNAMIC_DISPATCH(target_name)();
 }
 
 }  // namespace splatcut

@@ -38,7 +38,4 @@ struct TileBlend {
 // pixels are independent lanes, FMA is explicit, sums are integers.
 void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out);
 
-// Name of the SIMD target in use.
-const char* blend_simd_target();
-
 }  // namespace splatcut

@@ -41,8 +41,7 @@ struct SplatTile {
 struct TileGrid {
   int tiles_x = 0, tiles_y = 0;
   int first_tile_x = 0, first_tile_y = 0;  // of the region drawn, in tiles of the whole picture
-  std::size_t visible = 0;                 // splats that touch the region
-  bool too_large = false;                  // nothing else holds then: more tiles or pairs than fit in memory
+  bool too_large = false;                  // more tiles or pairs than fit in memory: all else is then unset
   LargeArray<BlendSplat> splats;           // by Gaussian; only those in entries have a value
   LargeArray<TileEntry> entries;           // tile by tile; within a tile in cloud order
   std::vector<std::uint32_t> first_entry;  // tiles_x * tiles_y + 1

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/pixel_steps.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/click_reach.h"
 
@@ -77,7 +78,7 @@ float centrality(const Mask& region, const glm::ivec2& at) {
     const glm::ivec2 p = open.back();
     open.pop_back();
     most = std::max(most, distance.at(p.x, p.y));
-    for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+    for (const glm::ivec2& step : kFourSteps) {
       const glm::ivec2 q = p + step;
       if (!region.contains(q.x, q.y) || !region.at(q.x, q.y)) continue;
       std::uint8_t& been = visited[static_cast<std::size_t>(q.y) * region.width() + q.x];

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "scene/raster/depth_jump.h"
 #include "segment/masks/mask_tools.h"
 
 namespace splatcut {
@@ -75,12 +76,11 @@ float distance_to_border(const Mask& mask, const glm::ivec2& at, bool side) {
 
 // Pixels around which depth jumps: another surface begins there.
 Mask depth_edges(const Image<float>& depth) {
-  constexpr float kJump = 0.15f;  // of the logarithm of depth, from one pixel before to one behind
   Mask edges(depth.width(), depth.height());
   for (int y = 0; y < depth.height(); ++y)
     for (int x = 0; x < depth.width(); ++x)
       if (std::max(depth_jump(depth, {x - 1, y}, {x + 1, y}), depth_jump(depth, {x, y - 1}, {x, y + 1})) >
-          kJump)
+          kJumpAroundClick)
         edges.at(x, y) = kMaskObject;
   return edges;
 }
