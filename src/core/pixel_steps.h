@@ -7,7 +7,7 @@
 namespace splatcut {
 
 // To the four neighbours of a pixel.
-inline constexpr std::array<glm::ivec2, 4> kFourSteps = {
-    glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)};
+inline constexpr std::array<glm::ivec2, 4> kFourSteps = {glm::ivec2(1, 0), glm::ivec2(-1, 0),
+                                                         glm::ivec2(0, 1), glm::ivec2(0, -1)};
 
 }  // namespace splatcut

@@ -92,7 +92,7 @@ struct Binding {
 
 std::span<const Binding> key_bindings();
 
-// That take a tool up.
+// The action that selects a tool.
 Action action_of(const Tool& tool);
 const Tool* tool_of(Action action);  // null for other actions
 

@@ -48,7 +48,7 @@ class CameraController {
   // orbit() turns around it as long as it is in front of the camera, and around the pivot otherwise.
   void set_orbit_centre(const glm::vec3& point_world) { orbit_centre_ = point_world; }
   void frame(const Box& box);  // the box fills the picture, same direction
-  // The same in what is free of a camera's picture above its lowest covered_bottom_px pixels.
+  // The same, within the part of the picture above its lowest covered_bottom_px pixels.
   void frame(const Box& box, const Camera& camera, float covered_bottom_px);
   void frame_scene() { frame(scene_); }
   void go_to(const Camera& camera);                   // the exact pose; the pivot stays at its distance

@@ -70,7 +70,7 @@ ToolOverlay Studio::overlay() const {
   return tools_.overlay(view_, viewport_camera(), pixels_per_point_);
 }
 
-// Of the last picture, whatever its size and wherever it was drawn from: while the view moves it is behind.
+// From the last picture, of any size and camera: while the view moves it lags behind.
 std::optional<float> Studio::depth_on_screen(const glm::vec2& pixel) const {
   if (!picture_ || picture_->frames.empty() || picture_->scene != scene_->serial) return {};
   const Frame& frame = *picture_->frames.front();

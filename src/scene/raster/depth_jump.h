@@ -15,7 +15,8 @@ float depth_jump(const Image<float>& depth, const glm::ivec2& a, const glm::ivec
 
 // More than one of these is a jump. They differ by how far apart the two pixels are and by what a false jump
 // costs. The first and the last feed terms of the fitted model: other values want another fit.
-// Across three pixel steps in small pictures, for a share of the border summed over views: errors average out.
+// Across three pixel steps in small pictures, for a share of the border summed over views: errors average
+// out.
 inline constexpr float kJumpAtBorderOfPart = 0.05f;
 // Across two pixel steps in the clicked view: one false edge shrinks the click's disc.
 inline constexpr float kJumpAroundClick = 0.15f;

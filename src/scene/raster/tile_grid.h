@@ -13,8 +13,8 @@ namespace splatcut {
 
 inline constexpr int kTilePx = 16;
 inline constexpr float kLog2AlphaMin = -7.994353436858858f;  // log2(1/255)
-// Added to log2(alpha) where splats are left out for being too faint: rounding must not decide, the pixel
-// does.
+// Slack on log2(alpha) where faint splats are left out early: only the test per pixel may decide at the
+// threshold.
 inline constexpr float kLog2AlphaSlack = 1e-2f;
 
 // What blending needs of one splat. alpha = min(0.99, 2^(log2_opacity + qa dx^2 + qb dx dy + qc dy^2)).
@@ -56,7 +56,7 @@ struct TileGrid {
 TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
                     const Job& job);
 
-// Room for one tile, used again from tile to tile.
+// Scratch memory for sorting one tile.
 struct SortSpace {
   std::vector<KeyValue<std::uint32_t>> items, scratch;
   std::vector<std::uint32_t> order, shown;

@@ -89,7 +89,7 @@ inline void store_groups(const TileGroups& groups, int i, float least, std::vect
 
 template <Paint kPaint, bool kDepth>
 inline void store_pixels(const TileBlend& what, int tile_x, int tile_y, const TilePixels& pixels,
-                  const TileGroups& groups, RasterOutput* to) {
+                         const TileGroups& groups, RasterOutput* to) {
   RasterOutput& out = *to;
   for (int i = 0; i < kTilePixels; ++i) {
     const int block = i / kBlockPixels, p = i % kBlockPixels;

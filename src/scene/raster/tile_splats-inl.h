@@ -95,7 +95,7 @@ inline void derive_ellipses(Chunk* chunk) {
 
 // ellipses: what list_row() needs.
 inline void gather(const TileBlend& what, const TileEntry* entries, std::span<const std::uint32_t> order,
-            bool ellipses, Chunk* chunk) {
+                   bool ellipses, Chunk* chunk) {
   constexpr int kAhead = 16;  // splats lie apart in memory: asked for early
   const int count = static_cast<int>(order.size());
   const auto gaussian_of = [&](int i) { return entries[order[static_cast<std::size_t>(i)]].gaussian; };

@@ -111,7 +111,7 @@ cv::Mat side_of_prior(const Mask& prior, const PixelRect& rect, int band_px) {
   return side;
 }
 
-// The pixels that may change side; the sure ones pull at their neighbours as terminals do.
+// The pixels that may change side. Edges to fixed pixels become terminal weights of their neighbours.
 struct Grid {
   std::vector<cv::Point> pixel;    // per node, row by row
   std::vector<std::int64_t> pull;  // per node: of sure neighbours, > 0 towards the object

@@ -14,7 +14,7 @@ namespace splatcut {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-// Where costs begin; logarithms of folds unless they are shares.
+// Where each term begins to cost: logarithms of ratios, or shares.
 constexpr float kCentral = 0.7f, kSmallShare = 0.01f, kLargeShare = 0.35f;
 constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f, kHiddenFolds = 2;
 constexpr float kBorderPx = 2;
@@ -89,7 +89,7 @@ float centrality(const Mask& region, const glm::ivec2& at) {
   return own / most;
 }
 
-// What one click asks, and what is found on the way.
+// One click: its inputs and what is computed of it.
 class Asking {
  public:
   Asking(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
@@ -146,7 +146,7 @@ class Asking {
   const SelectionModel& model_;
   const TermValues& weights_;
   const Camera& camera_;
-  std::vector<float> wrong_px_;                       // per leaf: its pixels, where a part may take it along
+  std::vector<float> wrong_px_;                       // per leaf: its pixels if a candidate may change it
   std::vector<Image<std::uint32_t>> level_of_pixel_;  // per chain: from which index on it changes
   Answers out_;
 };
@@ -354,8 +354,8 @@ void Asking::add_back_terms() {
   }
 }
 
-// A click on the rest as: of what the first click could mean, a part without it was meant. What that gives up
-// is one more set of leaves to change.
+// A click on the background may also mean that the first click meant another candidate, without this leaf.
+// The leaves which that gives up are one more candidate.
 void Asking::add_repick() {
   if (click_.object || selected_.clicked[1].size() != 1 || !selected_.first) return;
   const Answers& first = *selected_.first;
@@ -385,7 +385,7 @@ void Asking::add_repick() {
   out_.candidates.push_back(candidate);
 }
 
-// Of what its view shows of each candidate.
+// kApart: how much of what changes the click does not reach.
 void Asking::add_apart_terms() {
   std::vector<std::vector<float>> shares(out_.chains.size());
   for (Candidate& candidate : out_.candidates) {
@@ -404,8 +404,8 @@ void Asking::add_disc() {
   out_.candidates.push_back(disc);
 }
 
-// Likeliest candidates first, until none that is left can win; those are dropped unless all are wanted. Of a
-// first click more are kept: a click on the rest may ask for another one.
+// kOffCentre, of the likeliest candidates first, until none that is left can win; drops those unless all are
+// wanted. A first click keeps more of them: a later click on the background may choose another.
 void Asking::measure_off_centre(bool all) {
   constexpr float kUnlikely = 5;  // 150 times less likely than the likeliest
   const std::size_t most = click_.first ? 96 : 24;

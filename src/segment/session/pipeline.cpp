@@ -122,7 +122,7 @@ void Run::use(ViewReport view, ViewPicture picture) {
   result_.views.push_back(std::move(view));
 }
 
-// Then the view is looked at again with more pixels, at most once.
+// If so, sets the width to look at the view again with more pixels; done at most once.
 bool Run::too_small(const Mask& mask, const Camera& camera) {
   const int full_px = task_.reference.camera.width_px;
   const double side = std::sqrt(static_cast<double>(count(mask)));
@@ -165,7 +165,7 @@ void Run::add_view(const Camera& camera, const glm::vec3& object_centre_world) {
   solve();
 }
 
-// Where the user clicked is worth a look: those views come before all others.
+// Views that the user clicked in come before all others.
 void Run::add_stroked_views(const glm::vec3& object_centre_world) {
   if (settings_.first_mask_from != FirstMaskFrom::kParts || request_.mask_source) return;
   for (const StrokedView& view : strokes_by_view(request_.strokes))

@@ -34,9 +34,9 @@ void join_enclosed_by(const CutTask& task, const PartView& view, std::vector<std
 // The parts that all strokes mean become the labels.
 void select_by_strokes(const CutTask& task, const Camera& camera, Image<float>* median_depth,
                        CutResult* result) {
-  const ClickSelection& picked = task.scene.strokes.replay(
-      task.scene.drawer, strokes_in_order(task.request),
-      replay_options(task.request, task.settings, task.scene.model), task.job);
+  const ClickSelection& picked =
+      task.scene.strokes.replay(task.scene.drawer, strokes_in_order(task.request),
+                                replay_options(task.request, task.settings, task.scene.model), task.job);
   if (task.job.cancelled()) return;
   result->labels = picked.labels();
   result->sizes = picked.sizes();

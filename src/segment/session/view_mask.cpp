@@ -29,8 +29,7 @@ bool hidden(const CutTask& task, const Camera& camera, const std::vector<std::ui
   options.colour = false;
   options.shown = labels;
   options.roi = rect;
-  const std::size_t alone =
-      count(thresholded(task.scene.drawer.draw(camera, options, task.job).alpha, 0.5f));
+  const std::size_t alone = count(thresholded(task.scene.drawer.draw(camera, options, task.job).alpha, 0.5f));
   return alone == 0 || shown / static_cast<double>(alone) < kHidden;
 }
 

@@ -23,7 +23,8 @@ ViewPicture view_picture(const Drawer& drawer, const Camera& camera, const Job& 
 Mask labels_in_view(const Drawer& drawer, const Camera& camera, const std::vector<std::uint8_t>& labels,
                     const Job& job);
 
-// report: used, or not with the reason, as everything hides the object. picture: empty where it was not drawn.
+// report: used, or not with the reason, as everything hides the object. picture: empty where it was not
+// drawn.
 struct FoundView {
   ViewReport report;
   ViewPicture picture;
