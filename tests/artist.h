@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/work_cut.h"
 #include "app/console/camera_options.h"
+#include "app/studio/work_file.h"
 #include "headless_app.h"
 #include "segment/masks/mask_tools.h"
 
@@ -115,6 +117,20 @@ class Artist {
           return on_screen(glm::vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f);
     FAIL("there is nothing beside the object");
     return {};
+  }
+
+  // Saved, the work reads back the same, and computed again without the window its labels are the same.
+  void check_saved_work() {
+    const ScratchFolder folder("artist");
+    const auto file = folder / "artist.splatcut.json";
+    studio().apply(SaveWork{file});
+    REQUIRE(app.settle());
+    const auto scene = open_scene(read_work_file(file).scene);
+    Document read = restored(read_work_file(file), *scene->scene, scene->hash).document;
+    CHECK(bytes_of(read) == bytes_of(studio().document()));
+    read.objects.front().cut = nullptr;
+    const Document again = computed_again(*scene, read);
+    CHECK(labels_of(again, *again.active_object(), labels().size()) == labels());
   }
 
   HeadlessApp app;

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "app/cli/work_cut.h"
-#include "app/studio/work_file.h"
 #include "artist.h"
 
 using namespace splatcut;
@@ -141,16 +139,7 @@ TEST_CASE("clicks: with the object hidden, hover and click hit what is seen") {
     CHECK(static_cast<double>(lost(before, artist.labels())) <=
           (exact ? 0 : 0.005) * static_cast<double>(count_flags(before)));
     // It is kept what was seen: saved and computed again, the labels are the same.
-    const ScratchFolder folder("seen");
-    const auto file = folder / "seen.splatcut.json";
-    artist.studio().apply(SaveWork{file});
-    REQUIRE(artist.app.settle());
-    const auto scene = open_scene(read_work_file(file).scene);
-    Document read = restored(read_work_file(file), *scene->scene, scene->hash).document;
-    CHECK(bytes_of(read) == bytes_of(artist.studio().document()));
-    read.objects.front().cut = nullptr;
-    const Document again = computed_again(*scene, read);
-    CHECK(labels_of(again, *again.active_object(), before.size()) == artist.labels());
+    artist.check_saved_work();
   }
 }
 
