@@ -20,7 +20,7 @@ struct Disc {
 std::vector<Disc> sampled_discs(const GaussianCloud& cloud) {
   constexpr std::size_t kSample = 1 << 16;
   constexpr float kLeastOpacity = 0.1f;
-  constexpr double kAreaQuantile = 0.985;  // sky and floaters are huge, and no ground
+  constexpr double kAreaQuantile = 0.985;  // sky and haze are huge, and no ground
   const Box box = robust_bounds(cloud.position, 0.96);
   std::vector<Disc> discs;
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / kSample);

@@ -25,7 +25,7 @@
 
 namespace splatcut {
 
-// A unit vector; (0, -1, 0) if no direction scores better.
+// Unit vector. (0, -1, 0) where nothing speaks for another.
 glm::vec3 guessed_up(const GaussianCloud& cloud);
 
 // From a little above, all of `bounds` in the picture with some air: how a scene is first framed.
