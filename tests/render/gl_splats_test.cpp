@@ -3,8 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <semaphore>
 #include <string>
 #include <string_view>
 
@@ -156,17 +159,18 @@ TEST_CASE("depth order: back to front, equal depths in reverse, what is behind t
 
 TEST_CASE("sorter: the last request is answered") {
   const auto cloud = std::make_shared<const GaussianCloud>(random_cloud(20000, 1));
-  DepthSorter sorter;
+  std::counting_semaphore<> done(0);
+  DepthSorter sorter([&] { done.release(); });
   Camera camera = front_camera();
   for (int i = 0; i < 50; ++i) {
     camera.camera_from_world_translation.z += 0.01f;
     sorter.request(cloud, camera);
   }
   const auto expected = depth_order(cloud, camera).back_to_front;
-  bool answered = false;
-  while (!answered) {
-    if (const auto order = sorter.take()) answered = order->back_to_front == expected;
-    std::this_thread::yield();
+  std::optional<DepthOrder> order;
+  while (!order || order->back_to_front != expected) {
+    REQUIRE(done.try_acquire_for(std::chrono::seconds(60)));
+    if (auto newer = sorter.take()) order = std::move(newer);
   }
-  CHECK(answered);
+  CHECK(order->cloud == cloud);
 }

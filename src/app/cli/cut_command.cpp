@@ -9,7 +9,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/cutout_files.h"
 #include "app/cli/many_objects.h"
-#include "app/cli/ways_in.h"
+#include "app/cli/object_options.h"
 #include "app/cli/work_cut.h"
 #include "app/console/camera_options.h"
 #include "app/console/console.h"
@@ -29,7 +29,7 @@ namespace {
 
 struct CutArguments {
   std::filesystem::path scene, work, output;
-  WaysIn ways_in;
+  ObjectOptions object;
   std::vector<std::string> set;
   std::string preset = "default";
   SceneOptions how;
@@ -68,7 +68,7 @@ void print_summary(const CutArguments& args, const Scene& scene, const nlohmann:
              args.output.string());
 }
 
-nlohmann::json settings_json(const CutArguments& args, const Meant& meant, const ChosenCamera& chosen,
+nlohmann::json settings_json(const CutArguments& args, const ObjectInput& input, const ChosenCamera& chosen,
                              const CutSettings& settings) {
   nlohmann::json json = {
       {"preset", args.preset},
@@ -83,9 +83,9 @@ nlohmann::json settings_json(const CutArguments& args, const Meant& meant, const
       {"scale", args.scale},
       {"parts_only", settings.parts_only},
       {"values", values_json(settings)}};
-  if (!meant.mask.empty()) json["mask"] = meant.mask.string();
-  if (!meant.masks_folder.empty()) json["masks"] = meant.masks_folder.string();
-  if (meant.segmenter) json.update({{"text", meant.segmenter->text}, {"segmenter", meant.segmenter->words}});
+  if (!input.mask.empty()) json["mask"] = input.mask.string();
+  if (!input.masks_folder.empty()) json["masks"] = input.masks_folder.string();
+  if (input.segmenter) json.update({{"text", input.segmenter->text}, {"segmenter", input.segmenter->words}});
   return json;
 }
 
@@ -110,7 +110,7 @@ CutResult cut_one_object(Session* session, const CutRequest& request, const CutS
   return result;
 }
 
-// The work file says the scene, what is meant and how it is cut.
+// The work file gives scene, strokes and settings.
 void refuse_beside_work(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->count() > 0; })) {
     const std::string name = option->get_name();
@@ -126,7 +126,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
     return run_work_cut(
         {args.work, args.output, args.overwrite, args.json, common.quiet, prepared_cache(common)});
   if (args.scene.empty()) throw CLI::RequiredError("scene, or --work FILE.splatcut.json,");
-  const Meant meant = args.ways_in.read(args.camera);
+  const ObjectInput input = args.object.read(args.camera);
   const Job job =
       console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
   OutputFolder folder(args.output, args.overwrite);
@@ -141,19 +141,19 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   ChosenCamera chosen = choose_camera(args.camera, scene->cloud);
   warn(chosen.warning, common.quiet);
   const CutSettings settings = settings_of(args);
-  if (meant.segmenter) end_progress();  // the program prints to the same place
+  if (input.segmenter) end_progress();  // the program prints to the same place
   std::string warning;
-  CutRequest request = request_of(meant, args.camera, scene->cloud, job, &chosen, &warning);
+  CutRequest request = request_of(input, args.camera, scene->cloud, job, &chosen, &warning);
   request.part_step = args.scale;
   warn(warning, common.quiet);
   stop_if_cancelled(job, "splatcut cut");
   for (const StrokedView& view : request.strokes) check_inside(view.strokes, view.camera);
-  const ManyObjects many{*scene, chosen, args.camera, settings, args.scale, meant.objects};
+  const ManyObjects many{*scene, chosen, args.camera, settings, args.scale, input.objects};
   check_objects(many);
-  const nlohmann::json said = settings_json(args, meant, chosen, settings);
+  const nlohmann::json said = settings_json(args, input, chosen, settings);
   Session session = session_of(scene, chosen, settings, prepared_cache(common), job);
   nlohmann::json json;
-  if (meant.objects.empty()) {
+  if (input.objects.empty()) {
     CutResult result = cut_one_object(&session, request, settings, job);
     for (const std::string& sentence : doubts(result)) warn(sentence, common.quiet);
     if (result.ambiguous && !common.quiet) to_stderr("--scale takes a smaller or a larger one\n");
@@ -195,7 +195,7 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("scene", args->scene, "Scene file");
   args->how.add_to(command);
   args->camera.add_to(command);
-  args->ways_in.add_to(command);
+  args->object.add_to(command);
   command
       .add_option("--work", args->work,
                   "Work saved by the window (.splatcut.json): computes all its objects again")

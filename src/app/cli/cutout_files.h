@@ -1,4 +1,4 @@
-// What `splatcut cut` leaves behind: scenes, labels, pictures, report.
+// The files that `splatcut cut` writes: scenes, labels, pictures, report.
 #pragma once
 
 #include <filesystem>
@@ -36,9 +36,9 @@ void write_labels(const std::filesystem::path& path, const Scene& scene,
 void write_cutout_scenes(const OutputFolder& folder, const Scene& scene,
                          const std::vector<std::uint8_t>& labels);
 
-// What a report says of the run as a whole: version, settings, scene, time, memory.
+// The report's entries for the whole run: version, settings, scene, time, memory.
 nlohmann::json run_json(const Scene& scene, const nlohmann::json& settings, double total_ms);
-// What it says of one object: views, cut, stages.
+// Its entries for one object: views, cut, stages.
 nlohmann::json object_json(const CutResult& report);
 // Both.
 nlohmann::json report_json(const Scene& scene, const CutResult& report, const nlohmann::json& settings,

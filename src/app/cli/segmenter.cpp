@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr const char* kHowToName =
     "Give --segmenter 'PROGRAM {image} {text} {mask}', or set SPLATCUT_SEGMENTER to that";
 
-// Held while it is used, so that what a killed process left is known and removed by the next.
+// Locked while it is used: what a killed process leaves has no lock, and the next one removes it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -110,7 +110,7 @@ struct Placeholder {
   std::string name, value;
 };
 
-// In one pass: what is put in is not looked at again.
+// In one pass: inserted text is not substituted again.
 std::string filled(const std::string& word, const std::vector<Placeholder>& placeholders) {
   std::string out;
   for (std::size_t i = 0; i < word.size();) {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 
 #include "core/error.h"
+#include "core/lower_case.h"
 #include "core/png_file.h"
 #include "segment/masks/mask_tools.h"
 
@@ -16,12 +16,6 @@ namespace splatcut {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 std::string file_part(const std::string& name) {
   return fs::path(name).filename().string();
@@ -32,7 +26,8 @@ std::string file_part(const std::string& name) {
 std::string without_picture_ending(const std::filesystem::path& name) {
   constexpr std::array kEndings = {".png",  ".jpg", ".jpeg", ".tif", ".tiff",
                                    ".webp", ".bmp", ".exr",  ".heic"};
-  if (std::ranges::find(kEndings, lower(name.extension().string())) == kEndings.end()) return name.string();
+  if (std::ranges::find(kEndings, lower_case(name.extension().string())) == kEndings.end())
+    return name.string();
   return (name.parent_path() / name.stem()).string();
 }
 
@@ -54,7 +49,7 @@ std::vector<fs::path> masks_in(const fs::path& folder) {
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator at(folder, failure), end; !failure && at != end;
        at.increment(failure))
-    if (lower(at->path().extension().string()) == ".png" && at->is_regular_file(failure))
+    if (lower_case(at->path().extension().string()) == ".png" && at->is_regular_file(failure))
       files.push_back(at->path());
   if (failure) throw Error(folder.string(), "cannot be read as a folder (" + failure.message() + ")");
   if (files.empty())

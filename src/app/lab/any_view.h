@@ -87,7 +87,6 @@ class WindowCut {
  public:
   WindowCut(const EvaluationCase& scene, const std::string& preset, const Job& job = {});
   CutAnswer operator()(std::span<const ViewClick> in_order, int choice, const Job& job);
-  void set_smoothness(float smoothness) { settings_.smoothness = smoothness; }  // else the preset's own
 
  private:
   Session session_;

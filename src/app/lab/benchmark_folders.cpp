@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 
 #include "app/console/mask_folder.h"
 #include "core/error.h"
+#include "core/lower_case.h"
 #include "scene/formats/scene_formats.h"
 
 namespace splatcut {
@@ -15,12 +15,6 @@ namespace splatcut {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 std::vector<fs::path> sorted_entries(const fs::path& folder) {
   std::error_code failure;
@@ -41,7 +35,7 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
 std::vector<fs::path> pngs_in(const fs::path& folder) {
   std::vector<fs::path> paths = sorted_entries(folder);
   std::erase_if(paths, [](const fs::path& p) {
-    return !fs::is_regular_file(p) || lower(p.extension().string()) != ".png";
+    return !fs::is_regular_file(p) || lower_case(p.extension().string()) != ".png";
   });
   return paths;
 }
@@ -100,7 +94,7 @@ void find_scene(const fs::path& scenes, bool only_task, BenchmarkTask* task) {
   const std::vector<fs::path> there = folders_in(scenes);
   for (const std::string& name : scene_names(task->name)) {
     const auto found = std::ranges::find_if(
-        there, [&](const fs::path& p) { return lower(p.filename().string()) == lower(name); });
+        there, [&](const fs::path& p) { return lower_case(p.filename().string()) == lower_case(name); });
     if (found == there.end()) continue;
     folder = *found;
     break;
@@ -134,7 +128,7 @@ std::vector<fs::path> base_masks_in(const fs::path& folder) {
 // Where the masks of a SPIn-NeRF scene are: beside nothing else, or in a folder that says so.
 std::vector<fs::path> masks_of_scene(const fs::path& folder) {
   const auto says_so = [](const fs::path& p) {
-    const std::string name = lower(p.filename().string());
+    const std::string name = lower_case(p.filename().string());
     return name == "label" || name == "mask" || name == "masks" || name.ends_with("_mask") ||
            name.ends_with("_masks");
   };
@@ -142,7 +136,7 @@ std::vector<fs::path> masks_of_scene(const fs::path& folder) {
   for (const fs::path& child : folders_in(folder)) {
     if (says_so(child))
       places.push_back(child);
-    else if (lower(child.filename().string()).starts_with("images") && fs::is_directory(child / "label"))
+    else if (lower_case(child.filename().string()).starts_with("images") && fs::is_directory(child / "label"))
       places.push_back(child / "label");
   }
   if (places.size() > 1)

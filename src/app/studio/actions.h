@@ -13,7 +13,7 @@ namespace key {
 inline constexpr int kEscape = 256, kEnter = 257, kTab = 258, kBackspace = 259, kInsert = 260, kDelete = 261;
 inline constexpr int kRight = 262, kLeft = 263, kDown = 264, kUp = 265, kPageUp = 266, kPageDown = 267,
                      kHome = 268, kEnd = 269;
-inline constexpr int kF1 = 290, kF11 = 300, kF12 = 301;
+inline constexpr int kF1 = 290, kF12 = 301;
 inline constexpr int kKeypad1 = 321, kKeypad3 = 323, kKeypad7 = 327;
 inline constexpr int kKeypadSubtract = 333, kKeypadAdd = 334, kKeypadEnter = 335;
 inline constexpr int kLeftShift = 340, kLeftControl = 341, kLeftAlt = 342, kRightShift = 344,
@@ -92,7 +92,7 @@ struct Binding {
 
 std::span<const Binding> key_bindings();
 
-// That take a tool up.
+// The action that selects a tool.
 Action action_of(const Tool& tool);
 const Tool* tool_of(Action action);  // null for other actions
 

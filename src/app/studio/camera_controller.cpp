@@ -12,7 +12,7 @@ constexpr float kTransitionSeconds = 0.25f;
 constexpr float kOrbitRadPerPx = 0.006f;
 constexpr float kZoomPerStep = 0.88f;
 constexpr float kFramesPerRadius = 1.15f;       // a little air around what is framed
-constexpr float kFlyDistancesPerSecond = 0.6f;  // to the pivot: slow in small rooms, fast in wide ones
+constexpr float kFlyDistancesPerSecond = 0.6f;  // to the pivot: fits scenes of any size
 constexpr float kPoleRad = 0.02f;               // the view axis never meets the up axis
 
 glm::mat3 world_from_camera(const CameraPose& pose) {

@@ -47,9 +47,8 @@ class CameraController {
   void approach(const glm::vec3& point_world, float share);  // the same, at that share of the distance
   // orbit() turns around it as long as it is in front of the camera, and around the pivot otherwise.
   void set_orbit_centre(const glm::vec3& point_world) { orbit_centre_ = point_world; }
-  const std::optional<glm::vec3>& orbit_centre() const { return orbit_centre_; }
   void frame(const Box& box);  // the box fills the picture, same direction
-  // The same in what is free of a camera's picture above its lowest covered_bottom_px pixels.
+  // The same, within the part of the picture above its lowest covered_bottom_px pixels.
   void frame(const Box& box, const Camera& camera, float covered_bottom_px);
   void frame_scene() { frame(scene_); }
   void go_to(const Camera& camera);                   // the exact pose; the pivot stays at its distance

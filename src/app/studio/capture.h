@@ -7,7 +7,7 @@
 
 namespace splatcut {
 
-// Straight alpha over nothing, or opaque over the background. visible: null for all.
+// With straight alpha and no background, or opaque over the background. visible: null for all.
 Image<Rgba8> capture(const GaussianCloud& cloud, const Camera& camera, const Flags& visible,
                      const DrawLimits& limits, const glm::vec3& background, bool transparent, const Job& job);
 

@@ -36,7 +36,7 @@ struct SelectRegion {
 struct SelectVolume {
   Volume volume;
   SetOperation operation = SetOperation::kAdd;
-  bool adjusts = false;  // takes the place of the last such selection, where nothing was done since
+  bool adjusts = false;  // replaces the last such selection, if nothing else was done since
 };
 struct SelectColour {
   glm::vec3 colour;
@@ -47,7 +47,7 @@ struct PickColour {  // selects by a Gaussian's colour, within the view's tolera
   std::int32_t gaussian;
   SetOperation operation = SetOperation::kAdd;
 };
-struct SelectFlood {  // what hangs together with a Gaussian and has its colour, within that tolerance
+struct SelectFlood {  // what is connected to a Gaussian and has its colour, within that tolerance
   std::int32_t gaussian;
   SetOperation operation = SetOperation::kAdd;
 };

@@ -22,7 +22,7 @@ Flags make_flags(std::vector<std::uint8_t> values);
 
 using ObjectId = std::uint32_t;  // never used twice in a document; 0 is none
 
-// What the hand says of a Gaussian, over what the cut says.
+// Manual mark of a Gaussian; overrides the cut.
 enum HandMark : std::uint8_t { kFollowCut = 0, kHandObject = 1, kHandRest = 2 };
 
 struct ObjectItem {
@@ -59,17 +59,17 @@ struct Document {
   const ObjectItem* active_object() const { return find(active); }
 };
 
-// What the document says of an object, and how it is to be cut.
+// The request for an object, and the settings to cut it with.
 CutRequest cut_request(const Document& document, const ObjectItem& object);
 CutSettings cut_settings(const Document& document, const ObjectItem& object);
 
-// The camera as the object's strokes know it already, where one of them was made in the same view.
+// The camera of an earlier stroke of the object in the same view, else the camera itself.
 Camera known_camera(const ObjectItem& object, const Camera& camera);
 
-// Both as bytes: equal exactly where the labels must be. For keys, not for files.
+// Request and settings as bytes, for keys, not for files: equal if and only if the labels must be.
 std::string cut_key(const Document& document, const ObjectItem& object);
 
-// True where the strokes say something else than `cut` was computed from.
+// True if `cut` was computed from another request or other settings.
 bool is_stale(const Document& document, const ObjectItem& object);
 bool is_stale(const ObjectItem& object, const std::string& key);  // where its cut_key() is known
 

@@ -72,7 +72,7 @@ std::string free_name(const Document& document, const std::string& base) {
   return name;
 }
 
-// An object that holds exactly `labels`, by hand: strokes do not describe it.
+// Adds an object that holds exactly `labels`, by manual marks and without strokes.
 ObjectItem& add_by_hand(Document* document, const std::string& name,
                         const std::vector<std::uint8_t>& labels) {
   ObjectItem& object = add_object(document, free_name(*document, name));
@@ -122,8 +122,8 @@ Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px, const glm::vec
     return Stroke{SeedLabel::kRest, radius_px, {from, {to.x, from.y}, to, {from.x, to.y}, from}};
   };
   Strokes strokes{frame(0, kBorderPx)};
-  // Broad frames around it, as far as the picture goes: nothing beyond the border is meant, unless more was
-  // marked before.
+  // Broad background strokes around the box, up to the edge of the picture: nothing outside is meant, unless
+  // it was marked before.
   constexpr float kFrameShare = 0.04f;
   const float broad = std::max(4.0f, kFrameShare * std::max(picture_px.x, picture_px.y));
   const float farthest = std::max({low.x, low.y, picture_px.x - high.x, picture_px.y - high.y}) + broad;
@@ -270,7 +270,7 @@ std::string edit(Document* document, const SplitObject& command, const EditConte
   const ObjectItem object = unlocked(document, command.object);
   const Selection whole = labels(*document, object, context);
   const Parts parts = connected_parts(context.cloud, required_graph(context), whole);
-  // Crumbs are no objects: they stay with the largest part.
+  // Tiny pieces are no objects: they stay with the largest part.
   constexpr double kSmallestShare = 0.01;
   const auto least =
       static_cast<std::size_t>(std::ceil(kSmallestShare * static_cast<double>(count_flags(whole))));

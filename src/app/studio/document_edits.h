@@ -11,7 +11,7 @@
 
 namespace splatcut {
 
-// What edits may look at.
+// What edits may read.
 struct EditContext {
   const GaussianCloud& cloud;
   const FlowGraph* graph = nullptr;  // null while it is being built

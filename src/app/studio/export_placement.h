@@ -31,8 +31,7 @@ struct Similarity {
   float scale = 1;
   glm::vec3 origin{0}, move{0};
 };
-// keep: 0 or 1 per Gaussian; its outliers say nothing of where its middle and its foot are. up_world: the
-// document's.
+// keep: 0 or 1 per Gaussian; outliers do not count for its middle and its foot. up_world: the document's.
 Similarity similarity_of(const ExportPlacement& placement, const GaussianCloud& cloud,
                          std::span<const std::uint8_t> keep, const glm::vec3& up_world);
 

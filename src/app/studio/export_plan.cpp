@@ -12,7 +12,7 @@ namespace splatcut {
 
 namespace {
 
-// Written from what was read, as rows of the source would stand where they stood.
+// Encoded anew: rows copied from the source would keep their old places.
 SaveReport save_placed(const std::filesystem::path& path, const Scene& scene,
                        const std::vector<std::uint8_t>& keep, const SceneFormat& format,
                        const Similarity& to) {

@@ -32,7 +32,7 @@ Image<std::uint8_t> owners_of(const Frame& frame, const Flags& owner) {
   return out;
 }
 
-// What the 5 x 5 pixels around one say of it.
+// What the 5 x 5 pixels around one hold.
 struct Around {
   std::uint8_t owner = 0;  // the object most of the marked neighbours belong to
   float inside = 0;        // share of neighbours that belong to any object, [0, 1]

@@ -2,8 +2,8 @@
 //
 // The latest request wins. A request that asks for another view while a full picture is being drawn stops it;
 // one for a reduced picture lets the reduced picture before it finish, so that something moves. Requests that
-// differ in style only are shaded again, not rasterised. Pictures come before the work of other threads;
-// reduced ones are drawn of a coarse stand-in where there is one.
+// differ in style only are shaded again, not rasterised. Pictures have priority over the work of other
+// threads; reduced ones use the coarse cloud if there is one.
 #pragma once
 
 #include <tbb/task_arena.h>

@@ -34,9 +34,6 @@ class History {
   void redo();
   void jump(std::size_t entry);
 
-  // The next push starts a step of its own, whatever its merge key.
-  void end_merge() { merging_ = false; }
-
   // The result of a cut reaches every state that has exactly its inputs: undo and redo find it, too.
   void set_cut(ObjectId object, const std::string& cut_key, const Flags& labels);
 

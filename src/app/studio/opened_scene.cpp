@@ -17,7 +17,7 @@ Camera view_of_all(const OpenedScene& scene) {
   return view_of_all(scene.bounds, scene.up_world, CameraPose{}.fov_y_rad, kWidth, kHeight);
 }
 
-// Without cameras the splats themselves have to say how the scene stands and from where it is seen.
+// Without cameras, up and first view are guessed from the splats.
 void look_around(OpenedScene* scene, const Job& job) {
   scene->up_world = guessed_up(*scene->cloud);
   scene->first_view =
@@ -34,7 +34,7 @@ std::vector<Camera> cameras_near(const std::filesystem::path& scene) {
       try {
         return load_cameras(folder / name);
       } catch (const Error&) {
-        // A file of that name that holds something else is no reason not to open the scene.
+        // A file of that name with other content must not keep the scene from opening.
       }
     }
     if (!folder.has_parent_path() || folder == folder.parent_path()) break;

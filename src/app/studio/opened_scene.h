@@ -21,7 +21,7 @@ struct OpenedScene {
   Box bounds;                                  // robust: outliers do not count
   glm::vec3 up_world{0, -1, 0};                // of the capture, or guessed
   std::optional<Camera>
-      first_view;  // where neither a capture camera nor the view of all from outside will do
+      first_view;  // set if neither a capture camera nor a view of all from outside is a good start
 };
 
 // Throws Error for a file that is no scene. Cancelled: the result is empty. spz_axes: as in LoadOptions.

@@ -89,7 +89,7 @@ Selection select_visible(const GaussianCloud& cloud, const Camera& camera, const
   options.sum_mask = &region;
   options.sums = &sums;
   rasterize(cloud, camera, options, job);
-  constexpr double kLeastPixels = 0.02;  // less of a Gaussian than this is not seen by anybody
+  constexpr double kLeastPixels = 0.02;  // a Gaussian with less counts as invisible
   const auto least = static_cast<std::int64_t>(kLeastPixels * MaskedSums::kUnitsPerPixel);
   return where(cloud.size(),
                [&](std::size_t g) { return sums.inside[g] >= least && 2 * sums.inside[g] > sums.total[g]; });
@@ -282,8 +282,6 @@ Selection combined(std::span<const std::uint8_t> before, std::span<const std::ui
         return before[g] && !region[g];
       case SetOperation::kIntersect:
         return before[g] && region[g];
-      case SetOperation::kReplace:
-        return region[g] != 0;
     }
     return false;
   });

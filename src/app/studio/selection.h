@@ -84,7 +84,7 @@ struct FloaterOptions {
 Selection floaters(const GaussianCloud& cloud, const FlowGraph& graph, const Selection& selection,
                    const FloaterOptions& options = {});
 
-enum class SetOperation { kAdd, kRemove, kIntersect, kReplace };
+enum class SetOperation { kAdd, kRemove, kIntersect };
 Selection combined(std::span<const std::uint8_t> before, std::span<const std::uint8_t> region,
                    SetOperation operation);
 

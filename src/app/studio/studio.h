@@ -29,7 +29,7 @@ namespace splatcut {
 struct EditContext;
 struct RestoredWork;
 
-// In the state folder: the work as it is now, and what was left by a program that ended badly before.
+// Files in the state folder: the autosave of now, and the one that a crashed program left.
 inline constexpr const char* kAutosave = "autosave.splatcut.json";
 inline constexpr const char* kAutosaveBefore = "autosave.before.splatcut.json";
 
@@ -54,11 +54,11 @@ struct ViewCard {
   double confidence = 0;
   std::string reason;  // why it does not count
   std::shared_ptr<const Image<Rgba8>> picture;
-  bool only_to_look = false;  // the cut did not ask it
+  bool only_to_look = false;  // it had no influence on the cut
   std::uint64_t serial = 0;   // changes with the picture
 };
 
-// What an object's first click can mean, once a cut has found out.
+// The meanings of an object's first click, once a cut has found them.
 struct ClickMeanings {
   std::string key;                            // of that click, see key_of_first_stroke()
   int choice = 0;                             // whose sizes these are:
@@ -83,7 +83,7 @@ struct CutRun {
   bool likelihood_failed = false;                        // for `key`: not asked for again
 };
 
-// What only the interface can do.
+// Requests that only the interface can fulfil.
 enum class UiRequest {
   kOpenDialog,
   kSaveDialog,
@@ -141,10 +141,9 @@ class Studio {
   CameraController& camera() { return camera_; }
   const CameraController& camera() const { return camera_; }
   Camera viewport_camera() const;  // of the first pane
-  // Other meanings of the active object's first click, as long as nothing else was said; null: nothing is
-  // offered.
+  // Other meanings of the active object's first click, offered until it gets another stroke; null: none.
   const ClickMeanings* offer() const;
-  // The active object's clicks found nothing: too far away, mostly.
+  // True if the active object's clicks found nothing, mostly for being made from too far away.
   bool found_nothing() const;
   // Where a drag goes on; 1: the right one.
   int drag_pane() const { return panes() == 2 && tools_.dragging() ? pressed_pane_ : 0; }
@@ -156,7 +155,7 @@ class Studio {
   float moving_scale() const { return moving_scale_; }
   double moving_ms() const { return moving_ms_; }
   double still_ms() const { return still_ms_; }
-  // Work that the program did not get to save last time: offered until it is restored or dropped.
+  // Unsaved work of the last run: offered until it is restored or dropped.
   bool autosave_found() const { return !restorable_.empty(); }
   // "garden.ply, 2026-03-01 18:40": of which scene, and when it was written.
   const std::string& autosave_says() const { return restorable_says_; }
@@ -263,12 +262,11 @@ class Studio {
   Flight flight() const;
   ToolContext tool_context(const glm::vec2& pixel);
   std::optional<float> depth_on_screen(const glm::vec2& pixel) const;
-  // One pixel drawn for the question. visible: null for all.
+  // Draws that one pixel. visible: null for all.
   std::optional<PickedPoint> hit_in(const Camera& camera, const glm::vec2& pixel, const Flags& visible) const;
   Flags seen(int pane) const;  // what is drawn there now; null: all
   int pane_at(const glm::vec2& pixel) const;
   glm::vec2 in_pane(const glm::vec2& pixel) const;
-  Camera pane_camera() const;
 
   StudioOptions options_;
   History history_;

@@ -33,7 +33,7 @@ std::string title_of(const Stroke& stroke) {
 // Whether anything can be seen within reach of one of the stroke's points: as far as the selection reaches.
 bool Studio::hits_anything(const AddStroke& c) const {
   constexpr float kReachShare = 4.0f / 320;  // of the picture's width
-  constexpr float kLeastAlpha = 0.25f;       // less is not seen by anybody
+  constexpr float kLeastAlpha = 0.25f;       // less counts as invisible
   const float reach = std::max(1.0f, kReachShare * static_cast<float>(c.camera.width_px));
   glm::vec2 low = c.stroke.points_px.front(), high = low;
   for (const glm::vec2& p : c.stroke.points_px) {
@@ -69,7 +69,7 @@ bool Studio::hits_anything(const AddStroke& c) const {
   return false;
 }
 
-// Said where the click tells what is on the screen already; else empty.
+// A message if the click changes nothing, as the screen shows it so already; else empty.
 std::string Studio::already_so(const AddStroke& c) const {
   const ObjectItem* object = document().active_object();
   if (!object || !any_mark(*object) || c.stroke.points_px.size() != 1 || panes() == 2 || !active_labels_ ||
@@ -97,7 +97,7 @@ void Studio::perform(const AddStroke& c) {
   push(title_of(c.stroke), std::move(after), {}, held.empty() ? message : held);
 }
 
-// What the click alone would take, and the object has already.
+// Keeps those Gaussians of the object that the stroke alone would select.
 void Studio::perform(const IntersectStroke& c) {
   require_scene();
   const ObjectItem* object = document().active_object();
@@ -131,7 +131,7 @@ bool Studio::found_nothing() const {
   return run && !run->running && run->result && run->result->outcome == Outcome::kNothingFound;
 }
 
-// A third of the way is left to what was clicked; it comes to the middle.
+// Moves to a third of the distance from what was clicked, which comes to the middle.
 void Studio::perform(const ComeNearer&) {
   require_scene();
   constexpr float kDistanceLeft = 1.0f / 3;
@@ -163,7 +163,7 @@ const ClickMeanings* Studio::offer() const {
   return known && known->outlines.size() > 1 && known->key != declined_offer_ ? known : nullptr;
 }
 
-// Empty where the first click can mean a part that many sizes larger, as far as is known.
+// A refusal if the first click has no part that many sizes larger, as far as is known; else empty.
 std::string Studio::why_not_step(int steps) const {
   const ObjectItem* object = document().active_object();
   if (!object || !any_mark(*object)) return "Click an object first";
@@ -185,7 +185,7 @@ void Studio::perform(const StepScale& c) {
   const ObjectItem* active = document().active_object();
   const ClickMeanings* known = active ? meanings(*active) : nullptr;
   if (known && known->choice != active->choice) known = nullptr;
-  const auto limit = [&] {  // steps that were asked for before anybody knew the sizes
+  const auto limit = [&] {  // steps made before the sizes were known
     const auto likeliest = static_cast<int>(known->likeliest_size), sizes = static_cast<int>(known->sizes);
     int& step = after.find(after.active)->part_step;
     step = std::clamp(step, -likeliest, sizes - 1 - likeliest);
@@ -196,7 +196,7 @@ void Studio::perform(const StepScale& c) {
   push(c.steps > 0 ? "Larger part" : "Smaller part", std::move(after), {}, message);
 }
 
-// Nothing: no click tool, no still picture, nothing under the pointer, or a cut is on its way.
+// Nothing without a click tool, a still picture or a hit under the pointer, and while a cut runs.
 std::optional<Studio::HoverAsk> Studio::hover_wanted() const {
   const ObjectItem* active = document().active_object();
   if (!pointer_inside_ || !session_ || view_.tool != Tool::kClick || panes() != 1 || view_.heat ||
@@ -212,7 +212,7 @@ std::optional<Studio::HoverAsk> Studio::hover_wanted() const {
                   corrects && (on_object || held_modifiers_.ctrl)};
 }
 
-// Outlines what a click would change: the object click outside of the object, the rest click on it. The
+// Outlines what a click would change: outside of the object a click that adds, on it one that removes. The
 // worker does what the click would; the newest place is asked for once it is free.
 void Studio::refresh_hover() {
   const std::optional<HoverAsk> ask = hover_wanted();

@@ -40,8 +40,6 @@ const char* title_of(SetOperation operation) {
       return "Remove";
     case SetOperation::kIntersect:
       return "Intersect";
-    case SetOperation::kReplace:
-      return "Select";
   }
   return "";
 }
@@ -120,7 +118,7 @@ void Studio::perform(const DocumentCommand& command) {
   push(Titles{}(command), std::move(after), merge_key_of(command), message);
 }
 
-// The one place where document commands without a method of their own are made.
+// Performs every document command that has no method of its own.
 template void Studio::perform(const EditSelection&);
 template void Studio::perform(const ClearStrokes&);
 template void Studio::perform(const NewObject&);
@@ -308,11 +306,11 @@ void Studio::perform(const Recompute&) {
     throw Error("cutout", "the object has no strokes", "Click on it first");
   if (!session_) throw Error("cutout", "the scene is still being prepared", "Try again in a moment");
   given_up_.erase(cut_key(document(), *object));
-  session_ = std::make_shared<Session>(session_->scene());  // that keeps nothing yet
+  session_ = std::make_shared<Session>(session_->scene());  // with empty caches
   start_cut(*object);
 }
 
-// Asked for again it sets the view upright: a capture's camera may lean.
+// Asked for a second time, it levels the view: a capture's camera may be tilted.
 void Studio::perform(const SetUp& c) {
   require_scene();
   Document after = history_.now();

@@ -65,7 +65,7 @@ void Studio::leave() {
 void Studio::perform(const RestoreAutosave&) {
   if (restorable_.empty()) throw Error("restore", "there is no autosaved work");
   say(Message::Kind::kInfo, "Restoring the work of last time: " + restorable_says_);
-  perform(OpenScene{restorable_});  // once it is open, it is offered no longer
+  perform(OpenScene{restorable_});  // after that it is no longer offered
 }
 
 void Studio::perform(const DropAutosave&) {

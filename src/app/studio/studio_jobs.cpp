@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kViewsToLookFrom = 6;
 constexpr int kThumbnailWidth = 160;
-// The view alone is no reason to write all so soon: it changes all the time.
+// Changes of the view alone are saved later: the view changes all the time.
 constexpr double kAutosaveAfterSeconds = 2, kAutosaveViewAfterSeconds = 10;
 constexpr std::size_t kCoarseFrom = 300000;  // Gaussians; fewer are drawn fast enough as they are
 
@@ -62,13 +62,13 @@ ViewCard card_of(const ViewReport& view, Image<Rgba8> picture) {
           0};
 }
 
-// After clicks neither fast nor default asks a view around the object; a person wants to see it from there
-// all the same.
+// After clicks, fast and default use no views around the object; these views are made for the person to
+// check.
 bool looked_around_by_none(const CutResult& result, const CutRequest& request, const CutSettings& settings) {
   return result.outcome == Outcome::kDone && settings.orbit.views <= 0 && !request.first_mask;
 }
 
-// For the person who waited: how large the object is now, and what the last step did to it.
+// The message after a cut: the size of the object, and what the last step changed.
 std::string what_changed(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after,
                          double seconds) {
   std::size_t was = 0, is = 0, added = 0;
@@ -205,7 +205,7 @@ const std::string& Studio::wanted_key(const ObjectItem& object) {
   return key;
 }
 
-// What should be computed follows from the document: a stale object is cut, a cut nobody needs is stopped.
+// The document decides what to compute: a stale object is cut, a cut that is no longer needed is stopped.
 void Studio::schedule_cut() {
   if (!scene_ || !prepared_) return;
   if (cutting_object_ != 0) {
@@ -340,7 +340,7 @@ void Studio::start_cut(const ObjectItem& object) {
   if (options_.inline_tasks) tasks_.deliver();
 }
 
-// Where the labels have arrived already, only the pictures or the heat map failed: nothing is given up.
+// If the labels have arrived already, only pictures or the heat map failed: the cut stands.
 void Studio::give_up_cut(ObjectId id, const std::string& key) {
   if (cutting_object_ != id || cutting_key_ != key) return;
   given_up_.insert(key);
@@ -389,7 +389,7 @@ void Studio::autosave(double seconds) {
   autosaved_serial_ = document_serial_;
   autosaved_pose_ = camera_.pose();
   const std::filesystem::path path = options_.state_folder / kAutosave;
-  if (restorable_ == path) {  // what is offered must not be written over
+  if (restorable_ == path) {  // the offered autosave must not be overwritten
     std::error_code trouble;
     std::filesystem::rename(path, options_.state_folder / kAutosaveBefore, trouble);
     if (!trouble) restorable_ = options_.state_folder / kAutosaveBefore;

@@ -37,7 +37,7 @@ CutRun* Studio::run_of(ObjectId object, const std::string& key) {
   return before == runs_before_.end() ? nullptr : &before->second;
 }
 
-// Without labels of its own: what was shown before is on show again.
+// If it has no labels yet, shows those before again.
 void Studio::end_running_cut() {
   runs_[cutting_object_].running = false;
   runs_[cutting_object_].preview = nullptr;
@@ -46,7 +46,7 @@ void Studio::end_running_cut() {
   show_runs_of_now();
 }
 
-// Thumbnails, doubts and times follow the history: those of the labels that are shown.
+// Shows thumbnails, doubts and times of the labels at the history's cursor.
 void Studio::show_runs_of_now() {
   for (const ObjectItem& object : document().objects) {
     const auto now = runs_.find(object.id);

@@ -44,11 +44,7 @@ Camera Studio::viewport_camera() const {
   return camera;
 }
 
-Camera Studio::pane_camera() const {
-  return viewport_camera();
-}
-
-// A drag stays where it was pressed, wherever it goes.
+// A drag belongs to the pane in which it began.
 int Studio::pane_at(const glm::vec2& pixel) const {
   if (panes() == 1) return 0;
   if (tools_.dragging()) return pressed_pane_;
@@ -63,7 +59,7 @@ ToolContext Studio::tool_context(const glm::vec2& pixel) {
   const int pane = pane_at(pixel);
   return {camera_,
           view_,
-          pane_camera(),
+          viewport_camera(),
           pixels_per_point_,
           [this](const glm::vec2& at) { return pick(at); },
           [this](const glm::vec2& at) { return depth_on_screen(at); },
@@ -74,12 +70,12 @@ ToolOverlay Studio::overlay() const {
   return tools_.overlay(view_, viewport_camera(), pixels_per_point_);
 }
 
-// Of the last picture, whatever its size and wherever it was drawn from: while the view moves it is behind.
+// From the last picture, of any size and camera: while the view moves it lags behind.
 std::optional<float> Studio::depth_on_screen(const glm::vec2& pixel) const {
   if (!picture_ || picture_->frames.empty() || picture_->scene != scene_->serial) return {};
   const Frame& frame = *picture_->frames.front();
   const Image<float>& depth = frame.depth;
-  const Camera camera = pane_camera();
+  const Camera camera = viewport_camera();
   const glm::vec2 at = pixel / glm::vec2(camera.width_px, camera.height_px);
   const auto x = static_cast<int>(at.x * static_cast<float>(depth.width())),
              y = static_cast<int>(at.y * static_cast<float>(depth.height()));
@@ -96,7 +92,7 @@ Flags Studio::seen(int pane) const {
 
 std::optional<PickedPoint> Studio::pick(const glm::vec2& pixel) const {
   if (!scene_) return {};
-  const Camera camera = pane_camera();
+  const Camera camera = viewport_camera();
   const auto x = static_cast<int>(std::floor(pixel.x)), y = static_cast<int>(std::floor(pixel.y));
   if (x < 0 || y < 0 || x >= camera.width_px || y >= camera.height_px) return {};
   // The picture on the screen knows, where it is this view; else one pixel is drawn.

@@ -12,8 +12,8 @@ namespace splatcut {
 
 namespace {
 
-// On a thread of its own, as a thread that has stood back may not be allowed to come forward again; TBB's
-// workers were made by the loading before, at the usual priority. Throws what work() throws.
+// Runs work() on a thread of its own at low priority: a thread may lack the privilege to raise its priority
+// again. TBB's workers exist already, at the usual priority. Throws what work() throws.
 void run_in_background(const std::function<void()>& work) {
   std::exception_ptr trouble;
   std::jthread([&] {

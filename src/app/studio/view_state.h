@@ -1,4 +1,4 @@
-// How the user looks and works, as far as it is no part of the work: never undone, remembered between runs.
+// View and tool settings that are not part of the document: never undone, remembered between runs.
 #pragma once
 
 #include "app/studio/selection.h"

@@ -41,7 +41,7 @@ glm::vec2 pixel_of(const Camera& camera, const glm::vec3& point_world) {
   return camera.pixel_from_camera(camera.camera_from_world(point_world));
 }
 
-// How far along a direction of the world a way in the picture leads from a point, scene units.
+// How far a drag in the picture moves a point along a direction of the world, scene units.
 float along(const Camera& camera, const glm::vec3& from_world, const glm::vec3& direction,
             const glm::vec2& way_px) {
   const float small = 1e-3f * camera.camera_from_world(from_world).z;
@@ -49,7 +49,7 @@ float along(const Camera& camera, const glm::vec3& from_world, const glm::vec3& 
       (pixel_of(camera, from_world + small * direction) - pixel_of(camera, from_world)) / small;
   const float steep = glm::dot(per_unit, per_unit);
   const float flat = 0.1f * camera.fy_px / camera.camera_from_world(from_world).z;
-  if (steep < flat * flat) return 0;  // it points at the camera: no way in the picture says how far
+  if (steep < flat * flat) return 0;  // it points at the camera: the drag gives no distance
   return glm::dot(way_px, per_unit) / steep;
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-// 1 knew views that are left out by their number, 2 no choice and not what was seen.
+// 1 stored left-out views by number; 2 lacked the choice and the Gaussians displayed at a stroke.
 constexpr int kVersion = 3;
 
 json list(const glm::vec3& v) {

@@ -44,7 +44,7 @@ class Application {
 
   Studio& studio() { return studio_; }
   Interface& interface() { return interface_; }
-  // The longest frame since the last call: what a user feels as a block.
+  // The longest frame since the last call: what a user feels as a stall.
   FrameTimes take_longest() { return std::exchange(longest_, FrameTimes()); }
 
  private:

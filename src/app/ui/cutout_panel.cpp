@@ -113,7 +113,7 @@ void times(UiContext& ui, const CutRun& run) {
                fmt::format("first mask {}, cutout {}", ms_text(run.first_mask_ms), ms_text(run.total_ms)));
 }
 
-// What is in doubt; and where the object is too small to see, a way to it.
+// The doubts, and a button to come nearer if the object is too small to see.
 void warnings(UiContext& ui, const CutRun& run) {
   bool too_far = run.result->outcome == Outcome::kNothingFound;
   if (too_far) wrapped_warning(ui, run.result->reason);
@@ -125,7 +125,7 @@ void warnings(UiContext& ui, const CutRun& run) {
     ui.ask(ComeNearer{});
 }
 
-// What there is to say of an object that was not cut yet.
+// The text for an object that was not cut yet.
 std::string why_no_cutout(const Studio& studio, const ObjectItem& object) {
   if (!object.views.empty())
     return studio.prepared() ? "" : "Waits until the scene is prepared, then it is cut out by itself.";

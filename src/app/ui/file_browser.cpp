@@ -1,7 +1,8 @@
 #include "app/ui/file_browser.h"
 
 #include <algorithm>
-#include <cctype>
+
+#include "core/lower_case.h"
 
 namespace splatcut {
 
@@ -49,13 +50,9 @@ void FileBrowser::type(const std::string& letter, double now_s) {
   constexpr double kNewWordSeconds = 1;
   if (now_s - typed_s > kNewWordSeconds) typed_start.clear();
   typed_s = now_s;
-  const auto small = [](std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-  };
-  typed_start += small(letter);
+  typed_start += lower_case(letter);
   const auto found = std::ranges::find_if(
-      entries, [&](const BrowserEntry& e) { return small(e.name).starts_with(typed_start); });
+      entries, [&](const BrowserEntry& e) { return lower_case(e.name).starts_with(typed_start); });
   if (found != entries.end()) go(static_cast<int>(found - entries.begin()));
 }
 

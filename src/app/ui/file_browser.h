@@ -17,7 +17,7 @@ struct BrowserEntry {
 struct FileBrowser {
   bool open = false;
   bool saving = false;                  // a name can be typed
-  bool name_first = false;              // the keys go to the name
+  bool name_first = false;              // the name field has the focus
   std::string title, name;              // name: what is chosen or typed
   std::vector<std::string> extensions;  // shown files; empty: all
   std::filesystem::path folder;
@@ -25,7 +25,7 @@ struct FileBrowser {
   std::vector<BrowserEntry> entries;  // of the folder, folders first
   std::string trouble;                // why the folder cannot be read
 
-  // What the keys have reached, of `entries`; -1: nothing.
+  // The entry under the keyboard cursor; -1: none.
   int cursor = -1;
   std::string typed_start;  // letters typed in quick succession
   double typed_s = -1e9;    // when the last of them was

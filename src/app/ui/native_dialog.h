@@ -28,7 +28,7 @@ class NativeDialog {
 
   // False where neither program is on the PATH or it cannot be started. One that is open closes first.
   bool ask(const FileQuestion& question);
-  // What has become of it; each end is told once. Never waits.
+  // Its state now; each end is reported once. Never waits.
   State poll();
   const std::filesystem::path& path() const { return path_; }  // after kChosen
 

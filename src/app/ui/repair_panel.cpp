@@ -90,7 +90,8 @@ void property_range(UiContext& ui) {
   float low = shown(choice.low), high = shown(choice.high);
   const float low_before = low, high_before = high, least = shown(choice.histogram.low),
               most = shown(choice.histogram.high);
-  const float range = is_size ? most - least : high - low;  // a drag of sizes goes by its whole length
+  const float range =
+      is_size ? most - least : high - low;  // sizes are dragged in proportion to the whole range
   ImGui::SetNextItemWidth(-1);
   ImGui::DragFloatRange2("##range", &low, &high, std::max(is_size ? 0.0f : shown(1e-4f), range / 200), least,
                          most, is_share ? "%.0f %%" : length_format(low).c_str(),

@@ -1,5 +1,5 @@
 // What is remembered between runs: window, theme, tool settings, recent files. A file that cannot be read is
-// as good as none.
+// ignored.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +25,7 @@ struct Settings {
 Settings load_settings(const std::filesystem::path& file);
 void save_settings(const std::filesystem::path& file, const Settings& settings);  // throws Error
 
-// Writes them as they change, so that a program that is killed forgets none.
+// Writes them as they change, so that a killed program loses none.
 class SettingsKeeper {
  public:
   explicit SettingsKeeper(std::filesystem::path file) : file_(std::move(file)), kept_(load_settings(file_)) {}

@@ -15,7 +15,7 @@
 
 namespace splatcut {
 
-// Panels ask; the application does it after the frame was drawn.
+// Panels collect requests; the application performs them after the frame.
 struct Requests {
   std::vector<Action> actions;
   std::vector<Command> commands;
@@ -61,7 +61,7 @@ struct UiState {
   bool dark = true;
   float ui_scale = 1;  // on top of the screen's own
   bool help_open = false, history_open = false, quit_asked = false, quit_wanted = false, export_open = false;
-  std::optional<OpenScene> open_asked, open_now;  // asked: would end work that was not saved
+  std::optional<OpenScene> open_asked, open_now;  // open_asked: would discard unsaved work
   std::optional<bool> history_wanted;             // opens or closes the history section
   bool hint_wanted = true;                        // the first-run hint, until the first click
   bool double_clicked = false;  // the last press was the second of two, by the events' own times

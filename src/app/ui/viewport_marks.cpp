@@ -76,7 +76,7 @@ void draw_points(const UiContext& ui, const UiRect& area) {
                length_text(*overlay.length) + " units", ui);
 }
 
-// Every n-th, so that a frame stays a frame; those of the object in white.
+// Every n-th alone, so that a frame stays fast; those of the object in white.
 void draw_centres(const UiContext& ui, const UiRect& area) {
   const Studio& studio = ui.studio;
   if (!studio.view().centres) return;

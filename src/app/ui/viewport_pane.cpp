@@ -1,4 +1,4 @@
-// The picture of the scene with all that is drawn and said over it: messages, offers, the first-run hint.
+// The picture of the scene with everything over it: messages, offers, the first-run hint.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ ImVec2 vec(const glm::vec2& v) {
   return {v.x, v.y};
 }
 
-// The ground of what floats over the picture.
+// The background of what floats over the picture.
 void floating_box(const UiContext& ui, const ImVec2& from, const ImVec2& to) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(from, to, packed(ui.theme.colour.panel, 0.94f), 7);
@@ -75,7 +75,7 @@ const char* mode_label(const Studio& studio) {
   }
 }
 
-// Which keys choose, as buttons, so that the mouse can.
+// The meanings as buttons with their keys.
 std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
   const ClickMeanings* offer = ui.studio.offer();
   if (!offer) return {};

@@ -1,4 +1,4 @@
-// What the hand has drawn and draws: strokes, other meanings of a click, the shape of the tool at work.
+// Drawn over the picture: strokes, other meanings of a click, the shape that a tool is drawing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ std::vector<ImVec2> placed(const std::vector<glm::vec2>& points_px, const OnScre
   return out;
 }
 
-// Of another camera's pixels, where it stands as the one on the screen does.
+// Places pixels of a stroke's camera on the screen; both cameras stand alike.
 OnScreen placement_of(const Camera& camera, const Camera& now, const OnScreen& place) {
   const float factor = now.fy_px / camera.fy_px;
   const glm::vec2 shift = glm::vec2(now.cx_px, now.cy_px) - factor * glm::vec2(camera.cx_px, camera.cy_px);
@@ -69,7 +69,7 @@ void draw_click(ImDrawList& list, const ImVec2& at, bool object) {
   if (object) list.AddLine({at.x, at.y - 2.5f}, {at.x, at.y + 2.5f}, IM_COL32(10, 20, 10, 255), 1.5f);
 }
 
-// What is looked at alone should not be painted over, unless it is being repaired.
+// An isolated object is not painted over, unless it is being repaired.
 bool strokes_wanted(const ViewState& view) {
   return view.tool.strokes || (view.display == DisplayMode::kWhole && !view.heat);
 }
@@ -128,7 +128,7 @@ void draw_strokes(const UiContext& ui, const UiRect& area) {
         continue;
       }
       const ImU32 ink = is_object ? kObjectInk : kRestInk;
-      if (is_frame(stroke)) {  // of a box: its border says it all
+      if (is_frame(stroke)) {  // of a box: its border is enough
         if (stroke.radius_px <= kThinPx)
           list.AddRect(there(stroke.points_px[0]), there(stroke.points_px[2]), ink, 0, 0, 2);
         continue;

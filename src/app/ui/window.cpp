@@ -245,7 +245,7 @@ void keep_settings(const Loop& loop, SettingsKeeper* keeper) {
   try {
     keeper->keep(settings_now(loop, keeper->kept()));
   } catch (const std::exception&) {
-    // Nothing that the work has to wait for; the end of the program says it.
+    // Not worth stopping for now; leaving the program reports it.
   }
 }
 

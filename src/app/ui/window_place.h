@@ -1,4 +1,4 @@
-// Where the window opens and how large: as it was left, as far as today's screens have room for it.
+// Where the window opens and how large: as it was left, as far as the screens of now have room for it.
 #pragma once
 
 #include <glm/glm.hpp>

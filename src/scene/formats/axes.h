@@ -2,9 +2,9 @@
 // alone. Internal to src/scene/formats.
 //
 // A point p of the file is (x p.x, y p.y, z p.z) here. A quaternion's axis is a cross product of two
-// vectors, so each of its components takes the signs of the other two axes; of a mirror the Gaussian, which
-// is symmetric in its own axes, shows nothing. A spherical harmonic takes the signs of the coordinates it is
-// a product of.
+// vectors, so each of its components takes the signs of the other two axes; a mirrored Gaussian looks the
+// same, as it is symmetric in its own axes. A spherical harmonic takes the signs of the coordinates it is a
+// product of.
 #pragma once
 
 #include <array>

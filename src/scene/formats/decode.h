@@ -39,9 +39,9 @@ inline bool is_within_reach(const glm::vec3& position) {
 // costs more than decoding into them.
 void resize_for_decode(GaussianCloud& cloud, std::size_t n, int degree);
 
-// Throws Error where data packed into so many bytes would unpack to more than 256 times as many, beyond 16
-// MiB: no scene packs so well, and a small file must not take all memory. The cloud takes at most six times
-// the memory of the rows it is made of.
+// Throws Error if data would unpack to more than 256 times their bytes and 16 MiB: no scene packs so well,
+// and a small file must not take all memory. The cloud takes at most six times the memory of the rows it is
+// made of.
 void check_expansion(const std::filesystem::path& path, std::uint64_t packed_bytes,
                      std::uint64_t unpacked_bytes);
 

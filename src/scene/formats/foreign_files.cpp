@@ -1,11 +1,10 @@
 #include "scene/formats/foreign_files.h"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 #include <string_view>
 
 #include "core/error.h"
+#include "core/lower_case.h"
 
 namespace splatcut {
 
@@ -52,9 +51,7 @@ constexpr Foreign kForeign[] = {
 }  // namespace
 
 void refuse_foreign(const MappedFile& file) {
-  std::string name = file.path().filename().string();
-  std::ranges::transform(name, name.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string name = lower_case(file.path().filename().string());
   const std::string_view content(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
   for (const Foreign& foreign : kForeign)
     if (name.ends_with(foreign.ending) || (!foreign.mark.empty() && content.starts_with(foreign.mark)))

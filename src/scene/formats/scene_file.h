@@ -36,7 +36,7 @@ struct Scene {
   bool rows_can_be_copied = false;            // to a .ply, byte for byte from path
   std::vector<std::string> other_properties;  // columns of a .ply that say nothing of Gaussians
   std::string left_out;                       // a sentence on what was not read of it, or empty
-  std::string oddity;                         // a sentence on what no training makes, or empty
+  std::string oddity;                         // a sentence on values that no training produces, or empty
   bool antialiased = false;                   // it says: trained with the filter of Mip-Splatting
 
   // Of a .spz that does not say its axes, or was overruled: those taken, and a sentence on why.

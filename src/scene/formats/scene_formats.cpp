@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "core/error.h"
+#include "core/lower_case.h"
 
 namespace splatcut {
 
@@ -17,13 +17,6 @@ constexpr std::array kRows = {
     SPLATCUT_SCENE_FORMATS(SPLATCUT_LIST_ROW)
 #undef SPLATCUT_LIST_ROW
 };
-
-std::string lower_name(const std::filesystem::path& path) {
-  std::string name = path.filename().string();
-  std::ranges::transform(name, name.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
-}
 
 std::vector<std::string_view> endings_of(const SceneFormat& format) {
   std::vector<std::string_view> endings = {format.extension, format.also};
@@ -48,7 +41,7 @@ struct Ending {
 
 // The longest of a format that the name ends with.
 Ending ending_of(const std::filesystem::path& path) {
-  const std::string name = lower_name(path);
+  const std::string name = lower_case(path.filename().string());
   Ending found;
   for (const SceneFormat* row : kRows)
     for (const std::string_view ending : endings_of(*row))

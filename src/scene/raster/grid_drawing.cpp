@@ -33,8 +33,6 @@ void check_sizes([[maybe_unused]] const GaussianCloud& cloud, [[maybe_unused]] c
 // partly: not all entries of the grid are drawn.
 void draw(TileBlend what, bool partly, const Job& job, RasterOutput* out) {
   const RasterOptions& options = what.options;
-  out->visible += what.grid.visible;
-  out->pairs += what.grid.entries.size();
   LargeArray<PairSums> pair_sums;
   if (options.sums) {
     pair_sums = LargeArray<PairSums>(what.grid.entries.size());

@@ -15,14 +15,14 @@ struct KeptGrid {
   std::vector<TileLists> lists;  // per tile; the first drawing that leaves no splat of it out completes them
 };
 
-// What is asked for, with nothing drawn.
+// Output pictures for what the options ask for, all background.
 RasterOutput empty_output(const RasterOptions& options, const PixelRect& roi);
 
 // The pixels that are drawn. Asserts that arrays and masks have the sizes that cloud and camera ask for.
 PixelRect drawn_region(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options);
 
-// Into `out`, of roi: what the grid holds and nothing else. The grid may hold a part of roi, whose other
-// parts stay.
+// Draws the grid into `out`, whose pictures are of roi. Pixels of roi that the grid does not hold stay as
+// they are.
 void draw_grid(const TileGrid& grid, const PixelRect& roi, const RasterOptions& options, const Job& job,
                RasterOutput* out);
 

@@ -26,8 +26,7 @@ class ProjectedView {
                 std::size_t most_pairs = RasterOptions{}.most_pairs);
   ~ProjectedView();
 
-  // options without near_plane, low_pass_px2 and colour_override. `visible` and `pairs` are those of the
-  // whole picture.
+  // options without near_plane, low_pass_px2 and colour_override.
   RasterOutput draw(const RasterOptions& options, const Job& job = {}) const;
 
   const Camera& camera() const { return camera_; }
@@ -43,7 +42,7 @@ class ProjectedView {
   std::unique_ptr<KeptGrid> grid_;
 };
 
-// The views drawn last, as many as fit.
+// A cache of the views drawn last, as many as fit.
 class KeptViews {
  public:
   static constexpr std::size_t kMostBytes = std::size_t{256}
@@ -61,7 +60,8 @@ class KeptViews {
   std::vector<std::unique_ptr<ProjectedView>> views_;  // the newest last
 };
 
-// Draws a cloud, by kept views where there are any. Passed by value; a cloud is one that keeps nothing.
+// Rasterises a cloud, through a cache of projected views if it has one. Cheap to copy. A cloud converts to a
+// drawer without a cache.
 class Drawer {
  public:
   Drawer(const GaussianCloud& cloud, KeptViews* kept = nullptr)

@@ -44,8 +44,4 @@ RasterOutput rasterize(const GaussianCloud& cloud, const Camera& camera, const R
   return out;
 }
 
-const char* rasterizer_simd_target() {
-  return blend_simd_target();
-}
-
 }  // namespace splatcut

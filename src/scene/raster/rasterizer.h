@@ -70,8 +70,6 @@ struct RasterOutput {
   Image<float> expected_depth;    // sum(weight z) / sum(weight), camera z in scene units; 0 where nothing is
   Image<float> median_depth;      // camera z of the Gaussian at which T falls below 0.5; 0 where none does
   Image<std::int32_t> first_hit;  // that Gaussian's index in the cloud, or -1
-  std::size_t visible = 0;  // Gaussians that touch the picture, once a region where it is drawn in several
-  std::size_t pairs = 0;    // (Gaussian, tile) pairs
 };
 
 RasterOutput rasterize(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options = {},
@@ -81,8 +79,5 @@ RasterOutput rasterize(const GaussianCloud& cloud, const Camera& camera, const R
 // rasterize() by rounding only.
 RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camera,
                                  const RasterOptions& options = {});
-
-// The SIMD target rasterize() uses on this machine ("AVX2", ...), for reports.
-const char* rasterizer_simd_target();
 
 }  // namespace splatcut

@@ -87,7 +87,6 @@ RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camer
       if (options.depth && transmittance < 1)
         out.expected_depth.at(ox, oy) = weighted_depth / (1 - transmittance);
     }
-  out.visible = splats.size();
   return out;
 }
 

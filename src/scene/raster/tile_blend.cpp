@@ -3,14 +3,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "scene/raster/splat_math.h"
 
@@ -19,128 +14,13 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "scene/raster/tile_lanes-inl.h"
+#include "scene/raster/tile_pixels-inl.h"
+#include "scene/raster/tile_splats-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace splatcut {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr int kBlockPx = 4;  // blocks of 4x4 pixels keep their state in registers
-constexpr int kBlockPixels = kBlockPx * kBlockPx;
-constexpr int kBlocksAcross = kTilePx / kBlockPx;
-constexpr int kBlocks = kBlocksAcross * kBlocksAcross;
-constexpr int kTilePixels = kTilePx * kTilePx;
-
-// Splats blended at a time: they and the tile's pixels fit the first-level cache, and what lies behind a tile
-// that has become opaque is never looked at.
-constexpr int kChunk = 256;
-
-// What is summed up per pixel beside the transmittance.
-enum class Paint { kNone, kLabel, kColour, kGroups };
-
-using Lanes = hn::CappedTag<float, kBlockPixels>;
-using IntLanes = hn::RebindToSigned<Lanes>;
-using V = hn::Vec<Lanes>;
-constexpr Lanes kF;
-constexpr IntLanes kI;
-constexpr int kWidth = static_cast<int>(hn::MaxLanes(kF));
-constexpr int kVectors = kBlockPixels / kWidth;
-constexpr bool kSameColumns = kWidth % kBlockPx == 0;  // in all vectors of a block
-
-// Pixel centres of a block, from its corner.
-alignas(64) constexpr float kCentreX[kBlockPixels] = {0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f,
-                                                      0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f};
-alignas(64) constexpr float kCentreY[kBlockPixels] = {0.5f, 0.5f, 0.5f, 0.5f, 1.5f, 1.5f, 1.5f, 1.5f,
-                                                      2.5f, 2.5f, 2.5f, 2.5f, 3.5f, 3.5f, 3.5f, 3.5f};
-
-// a b + c, rounded once, on every target: what makes all of them give the same bits.
-HWY_INLINE V fma(V a, V b, V c) {
-#if HWY_NATIVE_FMA
-  return hn::MulAdd(a, b, c);
-#else
-  alignas(64) float x[kWidth], y[kWidth], z[kWidth];
-  hn::Store(a, kF, x);
-  hn::Store(b, kF, y);
-  hn::Store(c, kF, z);
-  for (int i = 0; i < kWidth; ++i) z[i] = std::fma(x[i], y[i], z[i]);
-  return hn::Load(kF, z);
-#endif
-}
-
-// Added to a float below 2^22 in size, leaves it rounded to a whole number in the low bits.
-constexpr float kRoundShift = 12582912.0f;  // 1.5 * 2^23
-constexpr std::int32_t kRoundShiftBits = 0x4b400000;
-
-// 2^p for p <= 0, relative error below 3e-7: integer part into the exponent, Taylor series of degree 6.
-HWY_INLINE V exp2_of(V p) {
-  p = hn::Max(p, hn::Set(kF, -126.0f));
-  const V shifted = hn::Add(p, hn::Set(kF, kRoundShift));
-  const V f = hn::Sub(p, hn::Sub(shifted, hn::Set(kF, kRoundShift)));
-  V r = hn::Set(kF, 1.5403530e-4f);
-  r = fma(r, f, hn::Set(kF, 1.3333558e-3f));
-  r = fma(r, f, hn::Set(kF, 9.6181291e-3f));
-  r = fma(r, f, hn::Set(kF, 5.5504109e-2f));
-  r = fma(r, f, hn::Set(kF, 2.4022651e-1f));
-  r = fma(r, f, hn::Set(kF, 6.9314718e-1f));
-  r = fma(r, f, hn::Set(kF, 1.0f));
-  const auto exponent = hn::ShiftLeft<23>(hn::BitCast(kI, shifted));
-  return hn::BitCast(kF, hn::Add(hn::BitCast(kI, r), exponent));
-}
-
-// The splats of a tile that are being blended. The arrays hold whole vectors; what pads them touches no
-// block.
-struct Chunk {
-  static constexpr int kCapacity = kChunk + kBlockPixels;
-  int size = 0;
-  const BlendSplat* splats = nullptr;  // of the grid, by Gaussian
-  std::array<std::uint32_t, kCapacity> gaussian;
-  // The ellipse alpha >= 1/255: at height dy it reaches from tilt dy - w to tilt dy + w,
-  // w = sqrt(width2 - slope dy^2), and farthest at dy = +-tip.
-  alignas(64) std::array<float, kCapacity> x, y, tilt, width2, slope, tip;
-  std::array<float, kCapacity> label;  // 0 or 1
-  std::array<std::uint32_t, kCapacity> group;
-  // Sums of the tile so far, lane by lane, 2^-16 pixel.
-  alignas(64) std::array<std::int32_t, kCapacity * kWidth> total, inside;
-};
-
-// The pixels of a tile, block by block, row by row within a block.
-struct TilePixels {
-  alignas(64) std::array<float, kTilePixels> transmittance, red, green, blue, depth, median;
-  alignas(64) std::array<std::int32_t, kTilePixels> hit;
-  alignas(64) std::array<std::int32_t, kTilePixels> object;  // -1 inside the mask, else 0
-  std::array<int, kBlocks> object_pixels;
-  bool whole_pixels = false;  // sums count pixels, not weights
-  std::uint32_t alive = 0;    // bit b: some pixel of block b can still change
-};
-
-// Indices into a chunk, front to back, for each block of a row of blocks.
-struct BlockLists {
-  alignas(64) std::array<std::array<std::int32_t, Chunk::kCapacity>, kBlocksAcross> splat;
-  std::array<int, kBlocksAcross> count;
-};
-
-// What each pixel of a tile has got from each group so far, groups in the order in which they were met.
-struct TileGroups {
-  static constexpr int kMost = 48;  // of a pixel; further ones take the place of the least
-  std::array<std::array<GroupWeight, kMost>, kTilePixels> of;
-  std::array<int, kTilePixels> count;
-
-  void add(int pixel, std::uint32_t group, float weight) {
-    auto& list = of[static_cast<std::size_t>(pixel)];
-    int& n = count[static_cast<std::size_t>(pixel)];
-    for (int i = n; i-- > 0;)
-      if (list[static_cast<std::size_t>(i)].group == group) {
-        list[static_cast<std::size_t>(i)].weight += weight;
-        return;
-      }
-    if (n < kMost) {
-      list[static_cast<std::size_t>(n++)] = {group, weight};
-      return;
-    }
-    auto least = std::ranges::min_element(list, {}, &GroupWeight::weight);
-    if (least->weight < weight) *least = {group, weight};
-  }
-};
 
 struct Workspace {
   SortSpace sort_space;
@@ -150,141 +30,6 @@ struct Workspace {
   BlockLists lists;
   TileLists found;  // on their way into TileBlend::lists
 };
-
-// Reads what TileLists keeps, row of blocks by row of blocks, in the order in which it was written.
-struct ListReader {
-  const TileLists& lists;
-  std::size_t splat = 0, count = 0;  // read so far
-
-  void read_row(std::uint32_t alive, BlockLists* row) {
-    for (int b = 0; b < kBlocksAcross; ++b) {
-      const int n = lists.count[count++];
-      row->count[b] = n;
-      if (alive >> b & 1) std::copy_n(lists.splat.data() + splat, n, row->splat[b].data());
-      splat += static_cast<std::size_t>(n);
-    }
-  }
-};
-
-void write_row(const BlockLists& row, TileLists* lists) {
-  static_assert(kChunk <= 256, "places within a chunk fit 8 bits");
-  std::size_t at = lists->splat.size();
-  lists->splat.resize(at + static_cast<std::size_t>(std::accumulate(row.count.begin(), row.count.end(), 0)));
-  for (int b = 0; b < kBlocksAcross; ++b) {
-    lists->count.push_back(static_cast<std::uint16_t>(row.count[b]));
-    std::uint8_t* to = lists->splat.data() + at;
-    for (int k = 0; k < row.count[b]; ++k) to[k] = static_cast<std::uint8_t>(row.splat[b][k]);
-    at += static_cast<std::size_t>(row.count[b]);
-  }
-}
-
-void derive_ellipses(Chunk* chunk) {
-  // On entry width2, slope and tip hold log2_opacity, qc and qb, and tilt holds qa.
-  const V faintest = hn::Set(kF, kLog2AlphaMin - kLog2AlphaSlack),
-          tiny = hn::Set(kF, std::numeric_limits<float>::min());
-  for (int i = 0; i < chunk->size; i += kWidth) {
-    const V qa = hn::Load(kF, &chunk->tilt[i]), qb = hn::Load(kF, &chunk->tip[i]),
-            qc = hn::Load(kF, &chunk->slope[i]);
-    const V tilt = hn::Div(hn::Mul(hn::Set(kF, -0.5f), qb), qa);
-    const V width2 = hn::Div(hn::Sub(faintest, hn::Load(kF, &chunk->width2[i])), qa);
-    const V ratio = hn::Div(qc, qa);
-    const V slope = hn::Sub(ratio, hn::Mul(tilt, tilt));
-    const V tip = hn::Mul(tilt, hn::Sqrt(hn::Div(width2, hn::Max(hn::Mul(slope, ratio), tiny))));
-    hn::Store(tilt, kF, &chunk->tilt[i]);
-    hn::Store(width2, kF, &chunk->width2[i]);
-    hn::Store(slope, kF, &chunk->slope[i]);
-    hn::Store(tip, kF, &chunk->tip[i]);
-  }
-}
-
-// ellipses: what list_row() needs.
-void gather(const TileBlend& what, const TileEntry* entries, std::span<const std::uint32_t> order,
-            bool ellipses, Chunk* chunk) {
-  constexpr int kAhead = 16;  // splats lie apart in memory: asked for early
-  const int count = static_cast<int>(order.size());
-  const auto gaussian_of = [&](int i) { return entries[order[static_cast<std::size_t>(i)]].gaussian; };
-  chunk->size = count;
-  chunk->splats = what.grid.splats.data();
-  for (int i = 0; i < count; ++i) {
-    if (i + kAhead < count) __builtin_prefetch(chunk->splats + gaussian_of(i + kAhead));
-    chunk->gaussian[i] = gaussian_of(i);
-    if (!ellipses) continue;
-    const BlendSplat& s = chunk->splats[chunk->gaussian[i]];
-    chunk->x[i] = s.x_px;
-    chunk->y[i] = s.y_px;
-    chunk->tilt[i] = s.qa;
-    chunk->tip[i] = s.qb;
-    chunk->slope[i] = s.qc;
-    chunk->width2[i] = s.log2_opacity;
-  }
-  for (int i = count; ellipses && i % kWidth != 0; ++i) {
-    chunk->x[i] = chunk->y[i] = chunk->tip[i] = 0;
-    chunk->tilt[i] = chunk->slope[i] = -1;
-    chunk->width2[i] = -1e9f;
-  }
-  if (ellipses) derive_ellipses(chunk);
-  if (!what.options.labels.empty())
-    for (int i = 0; i < count; ++i) chunk->label[i] = what.options.labels[chunk->gaussian[i]] ? 1.0f : 0.0f;
-  if (!what.options.groups.empty())
-    for (int i = 0; i < count; ++i) chunk->group[i] = what.options.groups[chunk->gaussian[i]];
-  if (what.pair_sums) {
-    std::fill_n(chunk->total.begin(), count * kWidth, 0);
-    std::fill_n(chunk->inside.begin(), count * kWidth, 0);
-  }
-}
-
-// Lists, for each block of the row of blocks whose corner is (x0, y0), the splats of the chunk that may reach
-// alpha 1/255 at one of its pixel centres.
-void list_row(const Chunk& chunk, float x0, float y0, std::uint32_t alive, BlockLists* lists) {
-  constexpr float kFirst = 0.5f, kLast = kBlockPx - 0.5f;  // pixel centres
-  constexpr float kSlackPx = 0.05f;                        // rounding of long, thin splats
-  lists->count.fill(0);
-  const V zero = hn::Zero(kF);
-  for (int i = 0; i < chunk.size; i += kWidth) {
-    const V x = hn::Load(kF, &chunk.x[i]), y = hn::Load(kF, &chunk.y[i]);
-    const V tilt = hn::Load(kF, &chunk.tilt[i]), tip = hn::Load(kF, &chunk.tip[i]);
-    const V width2 = hn::Load(kF, &chunk.width2[i]), slope = hn::Load(kF, &chunk.slope[i]);
-    const V top = hn::Sub(hn::Set(kF, y0 + kFirst), y), bottom = hn::Sub(hn::Set(kF, y0 + kLast), y);
-    const auto clamped = [&](V dy) { return hn::Min(hn::Max(dy, top), bottom); };
-    const auto width2_at = [&](V dy) { return hn::Sub(width2, hn::Mul(slope, hn::Mul(dy, dy))); };
-    const auto reached = hn::Ge(width2_at(clamped(zero)), zero);
-    if (hn::AllFalse(kF, reached)) continue;
-    const V high = clamped(tip), low = clamped(hn::Neg(tip));
-    const V right = hn::Add(hn::Add(x, hn::Mul(tilt, high)), hn::Sqrt(hn::Max(width2_at(high), zero)));
-    const V left = hn::Sub(hn::Add(x, hn::Mul(tilt, low)), hn::Sqrt(hn::Max(width2_at(low), zero)));
-    const auto index = hn::Iota(kI, i);
-    for (int b = 0; b < kBlocksAcross; ++b) {
-      if (!(alive >> b & 1)) continue;
-      const float corner = x0 + static_cast<float>(b * kBlockPx);
-      const auto touches = hn::And(reached, hn::And(hn::Ge(right, hn::Set(kF, corner + kFirst - kSlackPx)),
-                                                    hn::Le(left, hn::Set(kF, corner + kLast + kSlackPx))));
-      lists->count[b] += static_cast<int>(hn::CompressStore(index, hn::RebindMask(kI, touches), kI,
-                                                            lists->splat[b].data() + lists->count[b]));
-    }
-  }
-}
-
-void start_pixels(const TileBlend& what, int tile_x, int tile_y, TilePixels* pixels) {
-  pixels->alive = 0;
-  for (auto* values : {&pixels->red, &pixels->green, &pixels->blue, &pixels->depth, &pixels->median})
-    values->fill(0);
-  pixels->hit.fill(-1);
-  pixels->object_pixels.fill(0);
-  pixels->whole_pixels = what.options.sum_whole_pixels;
-  for (int i = 0; i < kTilePixels; ++i) {
-    const int block = i / kBlockPixels, p = i % kBlockPixels;
-    const int x = tile_x + block % kBlocksAcross * kBlockPx + p % kBlockPx;
-    const int y = tile_y + block / kBlocksAcross * kBlockPx + p / kBlockPx;
-    const bool drawn = x >= what.roi.x0 && x < what.roi.x1 && y >= what.roi.y0 && y < what.roi.y1;
-    pixels->transmittance[i] =
-        drawn ? 1.0f : 0.0f;  // pixels outside are opaque from the start: they do not count
-    if (drawn) pixels->alive |= 1u << block;
-    if (!what.pair_sums) continue;
-    const bool object = drawn && what.options.sum_mask->at(x, y);
-    pixels->object[i] = object ? -1 : 0;
-    pixels->object_pixels[block] += object;
-  }
-}
 
 // Blends the listed splats of a chunk into the block with the corner (x0, y0). True when no pixel of it can
 // change any more.
@@ -430,42 +175,6 @@ void store_sums(const Chunk& chunk, const std::uint32_t* order, PairSums* sums) 
     sums[order[i]] = {sum(&chunk.total[i * kWidth]), sum(&chunk.inside[i * kWidth])};
 }
 
-// What is worth keeping of a pixel's groups, heaviest first, ties by number.
-void store_groups(const TileGroups& groups, int i, float least, std::vector<GroupWeight>* to) {
-  to->clear();
-  const auto& list = groups.of[static_cast<std::size_t>(i)];
-  for (int k = 0; k < groups.count[static_cast<std::size_t>(i)]; ++k)
-    if (list[static_cast<std::size_t>(k)].weight >= least) to->push_back(list[static_cast<std::size_t>(k)]);
-  std::ranges::sort(*to, [](const GroupWeight& a, const GroupWeight& b) {
-    return a.weight != b.weight ? a.weight > b.weight : a.group < b.group;
-  });
-}
-
-template <Paint kPaint, bool kDepth>
-void store_pixels(const TileBlend& what, int tile_x, int tile_y, const TilePixels& pixels,
-                  const TileGroups& groups, RasterOutput* to) {
-  RasterOutput& out = *to;
-  for (int i = 0; i < kTilePixels; ++i) {
-    const int block = i / kBlockPixels, p = i % kBlockPixels;
-    const int x = tile_x + block % kBlocksAcross * kBlockPx + p % kBlockPx - what.roi.x0;
-    const int y = tile_y + block / kBlocksAcross * kBlockPx + p / kBlockPx - what.roi.y0;
-    if (!out.alpha.contains(x, y)) continue;
-    const float transmittance = pixels.transmittance[i];
-    out.alpha.at(x, y) = 1 - transmittance;
-    if constexpr (kPaint == Paint::kGroups)
-      store_groups(groups, i, what.options.least_group_weight, &out.groups.at(x, y));
-    if constexpr (kPaint == Paint::kLabel) out.label_share.at(x, y) = pixels.red[i];
-    if constexpr (kPaint == Paint::kColour)
-      out.colour.at(x, y) =
-          glm::vec3(pixels.red[i], pixels.green[i], pixels.blue[i]) + transmittance * what.options.background;
-    if constexpr (kDepth) {
-      out.expected_depth.at(x, y) = transmittance < 1 ? pixels.depth[i] / (1 - transmittance) : 0;
-      out.median_depth.at(x, y) = pixels.median[i];
-      out.first_hit.at(x, y) = pixels.hit[i];
-    }
-  }
-}
-
 // One per thread, on the heap: thread-local storage is taken from every thread's stack.
 Workspace& workspace() {
   thread_local const auto work = std::make_unique<Workspace>();
@@ -534,10 +243,6 @@ void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
   });
 }
 
-const char* target_name() {
-  return hwy::TargetName(HWY_TARGET);
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace splatcut
 HWY_AFTER_NAMESPACE();
@@ -546,14 +251,9 @@ HWY_AFTER_NAMESPACE();
 namespace splatcut {
 
 HWY_EXPORT(blend_tiles);
-HWY_EXPORT(target_name);
 
 void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
   HWY_DYNAMIC_DISPATCH(blend_tiles)(what, job, out);
-}
-
-const char* blend_simd_target() {
-  return HWY_DYNAMIC_DISPATCH(target_name)();
 }
 
 }  // namespace splatcut

@@ -14,8 +14,8 @@ struct PairSums {
   std::uint32_t total, inside;
 };
 
-// Which splats of a tile may show in which of its blocks of pixels, down to where they are opaque: as found
-// by a drawing of all splats, of use to any other that leaves none out, whatever it sums up.
+// Per block of pixels, the splats of the tile that touch it, front to back, up to where it is opaque. Found
+// while all splats are drawn; any later drawing of all splats can use them.
 struct TileLists {
   std::vector<std::uint8_t> splat;   // by chunk of the tile's order, then by block: places within the chunk
   std::vector<std::uint16_t> count;  // per chunk and block
@@ -30,15 +30,12 @@ struct TileBlend {
       shown;  // empty, or per Gaussian whether it is drawn, where the grid holds more
   std::vector<TileLists>* lists = nullptr;  // per tile, where shown is empty: used once complete
   PixelRect picture{};  // all that the grid holds: lists of tiles that roi shows whole are completed
-  PairSums* pair_sums = nullptr;  // null, or an element for each entry of the grid, set for those drawn
+  PairSums* pair_sums = nullptr;  // null, or one per entry of the grid; those drawn are set
 };
 
 // Draws those tiles of the grid that touch roi, which may reach beyond the grid, into `out`, whose images
 // have the size of roi. Same bits on every SIMD target and any number of threads, with lists or without:
 // pixels are independent lanes, FMA is explicit, sums are integers.
 void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out);
-
-// Name of the SIMD target in use.
-const char* blend_simd_target();
 
 }  // namespace splatcut

@@ -96,7 +96,6 @@ std::size_t run_size(std::size_t gaussians) {
 
 // One run of Gaussians on its way into the grid.
 struct Run {
-  std::size_t visible = 0;
   std::vector<std::uint32_t> place;  // per tile: pairs of this run, then the entry where the next one goes
 };
 
@@ -112,7 +111,6 @@ void project_run(const GaussianCloud& cloud, const Camera& camera, const RasterO
     const std::size_t last = std::min(end, g + SplatBatch::kGaussians);
     project_batch(cloud, static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(last), camera, options,
                   region, &batch);
-    run->visible += static_cast<std::size_t>(batch.size);
     const std::size_t before = pairs->size();
     for (int i = 0; i < batch.size; ++i) {
       const std::uint32_t gaussian = batch.gaussian[i];
@@ -194,7 +192,6 @@ TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const Rast
   if (grid.too_large) return grid;
   grid.first_entry.assign(static_cast<std::size_t>(grid.tiles()) + 1, 0);
   if (job.cancelled()) return grid;
-  for (const Run& run : runs) grid.visible += run.visible;
   assign_places(&runs, &grid);
   grid.entries = LargeArray<TileEntry>(grid.first_entry.back());
   tbb::parallel_for(std::size_t{0}, count,

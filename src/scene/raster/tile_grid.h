@@ -13,8 +13,8 @@ namespace splatcut {
 
 inline constexpr int kTilePx = 16;
 inline constexpr float kLog2AlphaMin = -7.994353436858858f;  // log2(1/255)
-// Added to log2(alpha) where splats are left out for being too faint: rounding must not decide, the pixel
-// does.
+// Slack on log2(alpha) where faint splats are left out early: only the test per pixel may decide at the
+// threshold.
 inline constexpr float kLog2AlphaSlack = 1e-2f;
 
 // What blending needs of one splat. alpha = min(0.99, 2^(log2_opacity + qa dx^2 + qb dx dy + qc dy^2)).
@@ -41,8 +41,7 @@ struct SplatTile {
 struct TileGrid {
   int tiles_x = 0, tiles_y = 0;
   int first_tile_x = 0, first_tile_y = 0;  // of the region drawn, in tiles of the whole picture
-  std::size_t visible = 0;                 // splats that touch the region
-  bool too_large = false;                  // nothing else holds then: more tiles or pairs than fit in memory
+  bool too_large = false;                  // more tiles or pairs than fit in memory: all else is then unset
   LargeArray<BlendSplat> splats;           // by Gaussian; only those in entries have a value
   LargeArray<TileEntry> entries;           // tile by tile; within a tile in cloud order
   std::vector<std::uint32_t> first_entry;  // tiles_x * tiles_y + 1
@@ -57,7 +56,7 @@ struct TileGrid {
 TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
                     const Job& job);
 
-// Room for one tile, used again from tile to tile.
+// Scratch memory for sorting one tile.
 struct SortSpace {
   std::vector<KeyValue<std::uint32_t>> items, scratch;
   std::vector<std::uint32_t> order, shown;

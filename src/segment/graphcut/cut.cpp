@@ -1,10 +1,7 @@
 #include "segment/graphcut/cut.h"
 
 #include <algorithm>
-#include <cassert>
 #include <stdexcept>
-
-#include "core/parallel.h"
 
 namespace splatcut {
 
@@ -57,18 +54,6 @@ CutReport CutSolver::solve(const Likelihood& likelihood, int views, double pixel
   report.flow = static_cast<double>(flow) / kCapacityScale;
   if (solved && energy != flow) throw std::logic_error("cut: flow and energy differ");
   return report;
-}
-
-Confidence CutSolver::confidence() const {
-  assert(max_flow_);
-  const std::size_t n = cloud_.size();
-  Confidence out{std::vector<float>(n), std::vector<float>(n)};
-  for_each_index(n, [&](std::size_t g) {
-    const FlipCost cost = max_flow_->flip_cost(static_cast<std::uint32_t>(g));
-    out.at_least[g] = static_cast<float>(static_cast<double>(cost.at_least) / kCapacityScale);
-    out.at_most[g] = static_cast<float>(static_cast<double>(cost.at_most) / kCapacityScale);
-  });
-  return out;
 }
 
 }  // namespace splatcut

@@ -28,13 +28,6 @@ struct CutReport : CutFigures {
   std::vector<std::uint8_t> labels;  // 1 = object
 };
 
-// How sure the labels are: by how much the energy rises, at least and at most, if this Gaussian changes side
-// and all others may follow (its min-marginal lies between). In units of the energy; 0 = could as well be
-// otherwise.
-struct Confidence {
-  std::vector<float> at_least, at_most;
-};
-
 // The cut of one scene, solved again and again while the likelihood grows: flow and forests stay from one
 // solve to the next. Labels are those of a fresh solver, bit for bit. cloud and graph must outlive this and
 // stay as they are.
@@ -52,10 +45,6 @@ class CutSolver {
   // fixed: empty, or per Gaussian +1 object, -1 not, 0 open: those are on their side whatever the views say.
   CutReport solve(const Likelihood& likelihood, int views, double pixels_per_view, const Job& job = {},
                   std::span<const std::int8_t> fixed = {});
-
-  // Of the last solve (not coarse). Cost: one pass over all arcs on all cores, some 15 ms of CPU time for a
-  // million.
-  Confidence confidence() const;
 
  private:
   const GaussianCloud& cloud_;

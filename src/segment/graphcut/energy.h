@@ -1,7 +1,8 @@
 // The energy that the cut minimises: E(y) = sum_g phi_g(y_g) + lambda sum_{g,h} psi(g,h) [y_g != y_h].
 //
-// psi is a row of SPLATCUT_PAIRWISE, phi the sum of SPLATCUT_DATA_TERMS: source capacity for y_g = object,
-// sink capacity for the rest. Formulas are in terms/, beta = f_dc there.
+// psi is a row of SPLATCUT_PAIRWISE (the n-links of the graph), phi the sum of SPLATCUT_DATA_TERMS (the
+// t-links): source capacity for the object, sink capacity for the background, called rest. Formulas are in
+// terms/, beta = f_dc there.
 // Source: Jain et al., GaussianCut, NeurIPS 2024, eq. 3-5, and their published code; Bhattacharyya 1943.
 // Capacities are integers of 2^-20.
 #pragma once

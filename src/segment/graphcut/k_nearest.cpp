@@ -40,7 +40,7 @@ std::vector<Run> runs_longer_than(std::size_t most, const std::vector<glm::vec3>
   return runs;
 }
 
-// The points without what runs have beyond `most`: those left are as near as those taken.
+// The points, at most `most` of each run of equal ones: any of a run is as near as the others.
 struct Thinned {
   std::vector<glm::vec3> points;
   std::vector<std::uint32_t> original;

@@ -1,8 +1,7 @@
 // The k-nearest-neighbour graph of the Gaussians' centres, symmetrised, as a flow graph.
-// Edge {g, h} exists where h is among the k nearest of g or the other way round; each edge once.
-// Depends on the cloud alone: built once per scene. k-d tree by nanoflann, queries on all cores, same graph
-// on any number of threads. Cost: about n log n; fast in Morton order, as neighbouring queries share nodes of
-// the tree.
+// Edge {g, h} exists if g or h is among the k nearest of the other; each edge once. Depends on the cloud
+// alone: built once per scene. k-d tree by nanoflann, queries on all cores, same graph on any number of
+// threads. Cost: about n log n; fast in Morton order, as neighbouring queries share nodes of the tree.
 #pragma once
 
 #include "core/job.h"

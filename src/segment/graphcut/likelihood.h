@@ -21,7 +21,7 @@ void add_masked_sums(const Drawer& drawer, const Camera& camera, const Mask& mas
 
 Likelihood likelihood(const MaskedSums& sums);
 
-// What was known before (1 = object, per Gaussian; empty: nothing) counts like prior_px more pixels of each.
+// Adds a prior label per Gaussian (1 = object; empty: none) as if prior_px more pixels of it had been seen.
 Likelihood with_prior(Likelihood seen, std::span<const std::uint8_t> prior, float prior_px);
 
 }  // namespace splatcut

@@ -17,7 +17,7 @@ constexpr std::int32_t kDeepestSink = 8;
 
 constexpr std::size_t kScansBetweenLooks = 4096;  // at the stop token
 
-// A warm solve that works more than this many times what the cold one did has lost its bet.
+// A warm solve starts again cold once it has done this many times the work of the last cold one.
 constexpr std::size_t kWarmBudget = 2, kWarmBudgetLeast = 20000;
 
 constexpr std::int32_t kNoLabel = std::numeric_limits<std::int32_t>::max();

@@ -8,6 +8,8 @@
 #include <queue>
 
 #include "core/error.h"
+#include "core/pixel_steps.h"
+#include "scene/raster/depth_jump.h"
 #include "segment/masks/cv_image.h"
 #include "segment/masks/mask_tools.h"
 
@@ -34,7 +36,7 @@ struct GeodesicCost {
     const auto& b = lab.at<cv::Vec3f>(y1, x1);
     const float colour = static_cast<float>(cv::norm(a - b));
     const float z0 = depth.at(x0, y0), z1 = depth.at(x1, y1);
-    const float jump = std::min(1.0f, std::abs(z0 - z1) / std::max(1e-30f, std::min(z0, z1)));
+    const float jump = relative_depth_jump(z0, z1);
     const float length = x0 != x1 && y0 != y1 ? 1.4142136f : 1.0f;
     return colour + options.depth_weight * jump + options.length_weight * length;
   }
@@ -80,10 +82,11 @@ double border_contrast(const Image<float>& distance, float reach, const Geodesic
   for (int y = 0; y < distance.height(); ++y)
     for (int x = 0; x < distance.width(); ++x) {
       if (distance.at(x, y) > reach) continue;
-      for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-        const bool inside = distance.contains(x + dx, y + dy);
-        if (inside && distance.at(x + dx, y + dy) <= reach) continue;
-        if (inside) contrast += std::min(kContrastCap, cost(x, y, x + dx, y + dy));
+      for (const glm::ivec2& step : kFourSteps) {
+        const glm::ivec2 q = glm::ivec2(x, y) + step;
+        const bool inside = distance.contains(q.x, q.y);
+        if (inside && distance.at(q.x, q.y) <= reach) continue;
+        if (inside) contrast += std::min(kContrastCap, cost(x, y, q.x, q.y));
         ++pairs;
       }
     }

@@ -36,11 +36,11 @@ std::vector<std::vector<glm::vec2>> outlines(const Mask& mask, int least_px = 12
 // The largest 8-connected region.
 Mask largest_region(const Mask& mask);
 
-// Pixels outside of it show nothing of the labelled Gaussians; empty where none is in view.
+// A rectangle around all pixels that show labelled Gaussians; empty if none is in view.
 PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera,
                              std::span<const std::uint8_t> labels);
 
-// Object white, everything else black and occluding; the share of white, before a threshold.
+// Per pixel the blended weight of the labelled Gaussians, occluded by all others; not thresholded.
 Image<float> render_labels(const Drawer& drawer, const Camera& camera, std::span<const std::uint8_t> labels,
                            const Job& job = {});
 Mask thresholded(const Image<float>& image, float threshold);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "scene/raster/depth_jump.h"
 #include "segment/graphcut/max_flow.h"
 #include "segment/masks/cv_image.h"
 #include "segment/masks/mask_tools.h"
@@ -110,7 +111,7 @@ cv::Mat side_of_prior(const Mask& prior, const PixelRect& rect, int band_px) {
   return side;
 }
 
-// The pixels that may change side; the sure ones pull at their neighbours as terminals do.
+// The pixels that may change side. Edges to fixed pixels become terminal weights of their neighbours.
 struct Grid {
   std::vector<cv::Point> pixel;    // per node, row by row
   std::vector<std::int64_t> pull;  // per node: of sure neighbours, > 0 towards the object
@@ -156,7 +157,7 @@ Grid grid_of(const cv::Mat& lab, const Image<float>& depth, const cv::Mat& trima
     const std::int32_t a = node.at(p.x, p.y), b = node.at(q.x, q.y);
     if (a < 0 && b < 0) return;
     const float z0 = depth.at(rect.x0 + p.x, rect.y0 + p.y), z1 = depth.at(rect.x0 + q.x, rect.y0 + q.y);
-    const float jump = std::min(1.0f, std::abs(z0 - z1) / std::max(1e-30f, std::min(z0, z1)));
+    const float jump = relative_depth_jump(z0, z1);
     const float most = options.lambda * std::exp(-options.depth_weight * jump) /
                        (p.x != q.x && p.y != q.y ? 1.4142136f : 1.0f);
     const auto c =

@@ -4,9 +4,8 @@
 // In: picture, depth (for kPixelCut; may be empty otherwise), prior mask, seeds (draw_seeds; may be empty;
 // hard), all of one size. Out: mask of that size. Pixels further than band_px from the prior's border keep
 // their side. The pixel cut: an 8-grid over the rectangle with
-//   unary     ln of the ratio of Lab histograms of the two sides, counted again in each iteration, + the
-//   prior's side
-//             with the weight prior_weight, rising with the distance to its border,
+//   unary     ln of the ratio of Lab histograms of the two sides, counted again in each iteration, plus
+//             prior_weight on the prior's side, rising with the distance to its border,
 //   pairwise  lambda / distance * exp(-|dLab|^2 / (2 mean |dLab|^2) - depth_weight * relative depth jump),
 // minimised exactly by MaxFlow. Source: Boykov, Jolly, Interactive graph cuts, 2001; Rother et al., GrabCut,
 // 2004. Cost: some 60-130 ms (GrabCut), 10-40 ms (pixel cut) at 400 px wide. The same on any number of

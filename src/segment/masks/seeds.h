@@ -21,8 +21,8 @@ struct Stroke {
 
 using Strokes = std::vector<Stroke>;
 
-// What was on the screen as a stroke was made: a byte per Gaussian of the cloud, 0 where it was left out;
-// null: all of them.
+// The Gaussians displayed when a stroke was made: a byte per Gaussian of the cloud, 0 if it was not; null:
+// all were.
 using SeenGaussians = std::shared_ptr<const std::vector<std::uint8_t>>;
 bool same_set(const SeenGaussians& a, const SeenGaussians& b);
 
@@ -31,7 +31,7 @@ Stroke click(const glm::vec2& pixel, SeedLabel label);
 // The strokes in another size of the same picture.
 Strokes scaled(const Strokes& strokes, float factor);
 
-// Per pixel: 0 nothing, 1 rest, 2 object; later strokes over earlier ones.
+// Per pixel: 0 nothing, 1 rest (background), 2 object; later strokes over earlier ones.
 enum SeedPixel : std::uint8_t { kNoSeed = 0, kRestSeed = 1, kObjectSeed = 2 };
 Image<std::uint8_t> draw_seeds(const Strokes& strokes, int width, int height);
 

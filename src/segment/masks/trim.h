@@ -1,9 +1,9 @@
-// Takes out of a cutout what would show beside the object once the scene around it is gone: faint splats of
-// lawn, shadow or haze that hide in the scene's own pictures.
+// Removes from a cutout what would show beside the object once the scene around it is gone: floaters, and
+// faint splats of lawn or shadow that the scene's own pictures hide.
 //
-// The object is rendered alone into the views; a Gaussian most of whose A_g then lies where the view's mask
-// says rest, and where no other part of the scene hides the object, leaves the object. What no view shows
-// stays. Cost: two small renderings per view, and a third where the scene's depth is not at hand, in at most
+// The object is rendered alone into the views; a Gaussian leaves the object if most of its A_g then lies
+// outside of the view's mask, at pixels where nothing occludes the object. What no view shows stays. Cost:
+// two small renderings per view, and a third where the scene's depth is not at hand, in at most
 // options.most_views.
 #pragma once
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/pixel_steps.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/click_reach.h"
 
@@ -13,7 +14,7 @@ namespace splatcut {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-// Where costs begin; logarithms of folds unless they are shares.
+// Where each term begins to cost: logarithms of ratios, or shares.
 constexpr float kCentral = 0.7f, kSmallShare = 0.01f, kLargeShare = 0.35f;
 constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f, kHiddenFolds = 2,
                 kTakesFolds = 0.4f;
@@ -78,7 +79,7 @@ float centrality(const Mask& region, const glm::ivec2& at) {
     const glm::ivec2 p = open.back();
     open.pop_back();
     most = std::max(most, distance.at(p.x, p.y));
-    for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+    for (const glm::ivec2& step : kFourSteps) {
       const glm::ivec2 q = p + step;
       if (!region.contains(q.x, q.y) || !region.at(q.x, q.y)) continue;
       std::uint8_t& been = visited[static_cast<std::size_t>(q.y) * region.width() + q.x];
@@ -89,7 +90,7 @@ float centrality(const Mask& region, const glm::ivec2& at) {
   return own / most;
 }
 
-// What one click asks, and what is found on the way.
+// One click: its inputs and what is computed of it.
 class Asking {
  public:
   Asking(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
@@ -147,7 +148,7 @@ class Asking {
   const TermValues& weights_;
   const Camera& camera_;
   float object_px_ = 0;                               // selected so far
-  std::vector<float> wrong_px_;                       // per leaf: its pixels, where a part may take it along
+  std::vector<float> wrong_px_;                       // per leaf: its pixels if a candidate may change it
   std::vector<Image<std::uint32_t>> level_of_pixel_;  // per chain: from which index on it changes
   Answers out_;
 };
@@ -361,8 +362,8 @@ void Asking::add_back_terms() {
   }
 }
 
-// A click on the rest as: of what the first click could mean, a part without it was meant. What that gives up
-// is one more set of leaves to change.
+// A click on the background may also mean that the first click meant another candidate, without this leaf.
+// The leaves which that gives up are one more candidate.
 void Asking::add_repick() {
   if (click_.object || selected_.clicked[1].size() != 1 || !selected_.first) return;
   const Answers& first = *selected_.first;
@@ -392,7 +393,7 @@ void Asking::add_repick() {
   out_.candidates.push_back(candidate);
 }
 
-// Of what its view shows of each candidate.
+// kApart: how much of what changes the click does not reach.
 void Asking::add_apart_terms() {
   std::vector<std::vector<float>> shares(out_.chains.size());
   for (Candidate& candidate : out_.candidates) {
@@ -411,8 +412,8 @@ void Asking::add_disc() {
   out_.candidates.push_back(disc);
 }
 
-// Likeliest candidates first, until none that is left can win; those are dropped unless all are wanted. Of a
-// first click more are kept: a click on the rest may ask for another one.
+// kOffCentre, of the likeliest candidates first, until none that is left can win; drops those unless all are
+// wanted. A first click keeps more of them: a later click on the background may choose another.
 void Asking::measure_off_centre(bool all) {
   constexpr float kUnlikely = 5;  // 150 times less likely than the likeliest
   const std::size_t most = click_.first ? 96 : 24;

@@ -16,9 +16,8 @@
 // - kOffCentre: ln(0.7 / share), at least 0; share: the click's distance to the border of what would change
 //   over the largest such distance. People click in the middle of what they mean.
 // - kNoEdge: of a first click, share of its border in all views where the depth does not jump.
-// - kCropped: of a first click, share of all views, by the side of what they show of it, in which it touches
-// the picture's
-//   frame.
+// - kCropped: of a first click, the share of the views in which it touches the picture's frame; views count
+//   by the side of what they show of it.
 // - kSmall, kLarge: of a first click, ln of folds of the picture below 1 % and above 35 %; of the picture in
 //   which its average pixel lies.
 // - kScrap, kFold, kGiant: of later clicks, with f = ln(changed pixels / disc to where the region may end):
@@ -51,7 +50,7 @@ namespace splatcut {
 
 inline constexpr float kLeastChangePx = 0.3f;  // candidates that change less change nothing
 
-// One tree's answers to a click.
+// The candidates of one tree: the clicked leaf and its ancestors.
 struct Chain {
   std::vector<std::uint32_t> nodes;  // the leaf and its ancestors
   std::vector<std::uint32_t>
@@ -59,7 +58,7 @@ struct Chain {
   std::vector<float> view_px, frame_px, opposed, changed_px, changed_area, stability;  // per node
   std::vector<PartLooks> looks;  // of a first click, per node: in the observing views and its own
   bool shade_blind = false;
-  bool of_tree = true;  // false: no tree's, one set of leaves
+  bool of_tree = true;  // false: a set of leaves that no tree holds
 };
 
 struct Candidate {
@@ -69,11 +68,11 @@ struct Candidate {
   float cost = 0;
 };
 
-// What a click could mean.
+// All candidates of a click, and what their terms are computed from.
 struct Answers {
   std::vector<Chain> chains;
   std::vector<Candidate> candidates;  // likeliest first
-  std::vector<std::uint8_t> free;     // per leaf: a part may take it along
+  std::vector<std::uint8_t> free;     // per leaf: whether a candidate may change it
 
   bool changes(const Candidate& candidate, std::uint32_t leaf) const {
     return candidate.index != Candidate::kDiscAlone &&
@@ -88,7 +87,7 @@ struct Change {
   bool object = false;
 };
 
-// What the clicks so far have made of the parts.
+// The state after the clicks so far.
 struct SelectedParts {
   std::vector<std::uint8_t> object;       // per leaf
   std::vector<std::int8_t> said;          // per leaf: +1, -1: decided by a disc

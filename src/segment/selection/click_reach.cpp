@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "core/pixel_steps.h"
+#include "scene/raster/depth_jump.h"
 #include "segment/selection/leaf_view.h"
-#include "segment/superpoints/part_looks.h"
 
 namespace splatcut {
 
 std::vector<float> shares_out_of_reach(const Image<std::uint32_t>& level, std::size_t indices,
                                        const Image<float>& depth, const glm::ivec2& at) {
-  constexpr float kOtherSurface = 0.2f;  // of ln z in one step; captures' depth is rough
   // Per index, pixels that are reached by then and whose neighbours nobody has looked at. A pixel is reached
   // by the largest index on the way to it, so in the order of indices each is looked at once.
   std::vector<std::vector<glm::ivec2>> open(indices);
@@ -32,8 +32,8 @@ std::vector<float> shares_out_of_reach(const Image<std::uint32_t>& level, std::s
       const glm::ivec2 p = open[i].back();
       open[i].pop_back();
       ++reached[i];
-      for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)})
-        if (level.contains(p.x + step.x, p.y + step.y) && depth_jump(depth, p, p + step) <= kOtherSurface)
+      for (const glm::ivec2& step : kFourSteps)
+        if (level.contains(p.x + step.x, p.y + step.y) && depth_jump(depth, p, p + step) <= kJumpInOneStep)
           reach(p + step, i);
     }
   std::vector<float> shares;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "scene/raster/depth_jump.h"
 #include "segment/masks/mask_tools.h"
 
 namespace splatcut {
@@ -44,8 +45,7 @@ std::vector<std::uint32_t> disc_pixels(const Camera& camera, const glm::ivec2& c
   return pixels;
 }
 
-// The heaviest leaf near the pixel, the nearest pixel that has one; of those that are not on that side yet,
-// if `off` says which are.
+// At the nearest pixel that shows a leaf for which `off` holds: the one of them that shows most.
 std::uint32_t leaf_near(const LeafView& view, const glm::vec2& pixel, const auto& off) {
   const int cx = static_cast<int>(pixel.x), cy = static_cast<int>(pixel.y);
   std::uint32_t best = kNoPart;
@@ -64,7 +64,7 @@ std::uint32_t leaf_near(const LeafView& view, const glm::vec2& pixel, const auto
   return best;
 }
 
-// Distance of the pixel to the border of the region of that side that it lies in.
+// Distance from the pixel to the border of its region, the pixels of the mask on that side.
 float distance_to_border(const Mask& mask, const glm::ivec2& at, bool side) {
   Mask same(mask.width(), mask.height());
   for (std::size_t i = 0; i < mask.size(); ++i)
@@ -75,12 +75,11 @@ float distance_to_border(const Mask& mask, const glm::ivec2& at, bool side) {
 
 // Pixels around which depth jumps: another surface begins there.
 Mask depth_edges(const Image<float>& depth) {
-  constexpr float kJump = 0.15f;  // of the logarithm of depth, from one pixel before to one behind
   Mask edges(depth.width(), depth.height());
   for (int y = 0; y < depth.height(); ++y)
     for (int x = 0; x < depth.width(); ++x)
       if (std::max(depth_jump(depth, {x - 1, y}, {x + 1, y}), depth_jump(depth, {x, y - 1}, {x, y + 1})) >
-          kJump)
+          kJumpAroundClick)
         edges.at(x, y) = kMaskObject;
   return edges;
 }
@@ -135,7 +134,7 @@ std::span<const Mask> ClickSelection::meanings() const {
   return offers_ ? std::span<const Mask>(offers_->masks) : std::span<const Mask>();
 }
 
-// The likeliest, then what is nearly as likely and shows something clearly different.
+// Offers the likeliest meaning, then those that are nearly as likely and look clearly different.
 void ClickSelection::note_offers(const LeafView& view, const Answers& found) {
   constexpr float kClearly = 0.8f;  // IoU below which a person sees two things
   Offers offers;
@@ -162,7 +161,7 @@ void ClickSelection::note_offers(const LeafView& view, const Answers& found) {
   offers_ = std::make_shared<const Offers>(std::move(offers));
 }
 
-// Takes the meaning and the size that are wanted, and keeps the sizes that there are.
+// Applies the chosen meaning and size, and notes which sizes there are.
 void ClickSelection::note_first(const LeafView& view, const Answers& found, Candidate* best) {
   note_offers(view, found);
   choice_taken_ = std::min(static_cast<std::size_t>(std::max(choice_, 0)), offers_->meant.size() - 1);

@@ -26,41 +26,41 @@
 
 namespace splatcut {
 
-inline constexpr int kMostMeanings = 3;  // that are told apart of what a first click can mean
+inline constexpr int kMostMeanings = 3;  // of a first click that are offered
 
 class ClickSelection {
  public:
-  // choice: of what the first click can mean, 0 the likeliest; see meanings(). part_step: along the sizes of
-  // that meaning; +1 the next larger. Both end at the last there is.
+  // choice: which meaning of the first click is taken, 0 the likeliest; see meanings(). part_step: how many
+  // sizes above or below that meaning's own. Both are clamped to what there is.
   ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step = 0, int choice = 0);
 
-  // A stroke in the pixels of the view. False: nothing of the scene is under it, or it speaks of the rest
+  // Applies a stroke, given in the view's pixels. False if it hits nothing of the scene, or marks background
   // before there is an object.
   bool apply(const LeafView& view, const Stroke& stroke);
 
-  // What a click here could mean. Nothing: the scene is not hit, or shows what is said already.
+  // The candidates of a click on this pixel. Nothing if it misses the scene, or the pixel shows that label
+  // already.
   std::optional<Answers> considered(const LeafView& view, const glm::vec2& pixel, bool object,
                                     const AnswerOptions& options = {}) const;
   void set_model(const SelectionModel& model) { model_ = model; }  // for the clicks to come
   const SelectedParts& selected() const { return selected_; }
 
-  bool any() const { return any_; }                                    // a stroke has found something
+  bool any() const { return any_; }                                    // some stroke has hit the scene
   const std::vector<std::uint8_t>& labels() const { return labels_; }  // per Gaussian
-  const std::vector<std::int8_t>& said() const { return said_; }       // per Gaussian: +1, -1, 0 = by no disc
+  const std::vector<std::int8_t>& said() const { return said_; }  // per Gaussian: +1, -1: by a disc; or 0
 
-  // What the first click can mean: how many sizes, the one taken, and whether another one was nearly as
-  // likely.
+  // Sizes that the first click can mean: how many, the one taken, whether another was nearly as likely.
   std::size_t sizes() const { return sizes_; }
   std::size_t size() const { return size_; }
   std::size_t likeliest_size() const { return likeliest_size_; }  // at part_step 0
   bool ambiguous() const { return ambiguous_; }
 
-  // The masks, in its view's size, of what it can mean nearly as likely and clearly differently there, the
-  // likeliest first; at most kMostMeanings. Empty before the first click.
+  // A mask for each meaning of the first click that is nearly as likely as the best and looks clearly
+  // different in its view, the likeliest first; at most kMostMeanings. Empty before the first click.
   std::span<const Mask> meanings() const;
   std::size_t choice() const { return choice_taken_; }
 
-  // The last stroke changed no more than the spot around it: no part of the scene fits it.
+  // The last stroke changed its disc alone: no part fitted it.
   bool spot_alone() const { return spot_alone_; }
 
  private:

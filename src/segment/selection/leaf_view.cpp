@@ -11,7 +11,7 @@ namespace splatcut {
 
 namespace {
 
-// Less weight is no share of a pixel worth a list's entry: even twenty of them do not turn its label.
+// Smaller weights are not listed: even twenty of them do not turn the label of a pixel.
 constexpr float kLeastGaussianWeight = 0.004f, kLeastLeafWeight = 0.02f;
 
 PixelWeights flat(const Image<std::vector<GroupWeight>>& lists) {

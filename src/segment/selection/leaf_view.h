@@ -29,9 +29,9 @@ struct PixelWeights {
 struct LeafView {
   Camera camera;
   PixelWeights gaussians, leaves;
-  Image<float> depth;                // of what is seen, in its mean; 0 where nothing is
+  Image<float> depth;                // expected, camera z; 0 where nothing is
   bool whole = true;                 // false: Gaussians were left out
-  std::vector<float> alone_px;       // per Gaussian: as leaf_px, were nothing before it; empty: not known
+  std::vector<float> alone_px;       // per Gaussian: its pixels if nothing occluded it; empty: not known
   std::vector<float> leaf_px;        // per leaf: sum of its weights, pixels
   std::vector<float> leaf_frame_px;  // the same at the picture's frame
 };
@@ -49,11 +49,11 @@ LeafPicture picture_of(const LeafView& view);
 
 inline constexpr std::uint32_t kNoLevel = 0xffffffffu;
 
-// Parts that grow by levels, as along the chain of a tree: per pixel the first level at which what has joined
-// by then is shown there; kNoLevel where nothing ever is. level: per leaf, when it joins, or kNoLevel.
+// Of a set of leaves that grows level by level, as along a chain of ancestors: per pixel, the first level at
+// which the pixel shows the set; kNoLevel if it never does. level: per leaf, when it joins, or kNoLevel.
 Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint32_t> level);
 
-// Where the labels, one per group, are shown.
+// The mask of a labelling, one label per group.
 Mask shown(const PixelWeights& weights, const Camera& camera, std::span<const std::uint8_t> labels);
 
 }  // namespace splatcut

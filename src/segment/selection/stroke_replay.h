@@ -1,9 +1,9 @@
 // All strokes on one object, in their order and in any views, as one selection of parts.
 //
 // In: strokes with their cameras. Out: labels, and the Gaussians that the strokes themselves decide, see
-// click_selection.h. Every view is one kind of evidence: which came first only says what the first click can
-// mean. Views are looked at no wider than asked for, or wider where the object is small in them. The strokes
-// of the last replay are kept: one more stroke costs one stroke. The result depends on the strokes alone.
+// click_selection.h. All views count alike; the first one only decides what the first click can mean. Views
+// are looked at no wider than asked for, or wider where the object is small in them. The strokes of the last
+// replay are kept: one more stroke costs one stroke. The result depends on the strokes alone.
 #pragma once
 
 #include <list>
@@ -18,14 +18,14 @@ namespace splatcut {
 struct CameraStroke {
   Camera camera;
   Stroke stroke;         // in the camera's pixels
-  SeenGaussians seen{};  // it speaks of these alone
+  SeenGaussians seen{};  // it affects these alone; null: all
 };
 
 struct ReplayOptions {
   SelectionModel model;
   int part_step = 0;         // see ClickSelection
   int choice = 0;            // see ClickSelection
-  int work_width_px = 320;   // views are looked at no wider than this
+  int work_width_px = 320;   // views are rasterised no wider than this
   int least_object_px = 48;  // square root of its pixels: wider where the object shows fewer
   bool operator==(const ReplayOptions&) const = default;
 };
@@ -35,8 +35,8 @@ class StrokeReplay {
   // parts must outlive this.
   explicit StrokeReplay(const PartHierarchy& parts) : parts_(parts) {}
 
-  // The first stroke on the object counts first: one on the rest corrects an object. Cancelled: the selection
-  // must not be used. The result is valid until the next call.
+  // The first stroke on the object is applied first: strokes on the background correct an object. Cancelled:
+  // the selection must not be used. The result is valid until the next call.
   const ClickSelection& replay(const Drawer& drawer, std::span<const CameraStroke> strokes,
                                const ReplayOptions& options, const Job& job = {});
 
@@ -45,7 +45,7 @@ class StrokeReplay {
     LeafView view;
     SeenGaussians seen;
   };
-  // Of what the stroke speaks of. Null: cancelled.
+  // The view of the Gaussians that the stroke affects. Null if cancelled.
   const LeafView* view(const Drawer& drawer, const CameraStroke& said, int width_px, const Job& job);
   std::shared_ptr<const ClickSelection> after(const Drawer& drawer, const ClickSelection& before,
                                               const CameraStroke& said, const Job& job);

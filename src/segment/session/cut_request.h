@@ -1,4 +1,4 @@
-// What is said about one object: strokes, masks, views. No settings.
+// The request for one object: strokes, masks, views; no settings.
 //
 // The same request, settings and session give the same labels, bit for bit.
 #pragma once
@@ -19,7 +19,7 @@ namespace splatcut {
 struct StrokedView {
   Camera camera;
   Strokes strokes;
-  SeenGaussians seen{};  // they speak of these alone
+  SeenGaussians seen{};  // they affect these alone; null: all
 };
 
 // A view whose mask is known. Mask: any size of the camera's aspect ratio.
@@ -58,8 +58,8 @@ struct ReferenceView {
 };
 std::optional<ReferenceView> reference_of(const CutRequest& request, const std::vector<StrokedView>& by_view);
 
-// The request as bytes: equal exactly where the result must be, but for a mask source, whose masks nobody
-// knows before they are asked for. Masks count by their 64-bit hash. For keys, not for files.
+// The request as bytes, for keys, not for files. Equal bytes mean equal results, unless there is a mask
+// source, whose masks are unknown until it is asked. Masks enter by their 64-bit hash.
 std::string key_of(const CutRequest& request);
 
 // Its strokes alone, in their order.

@@ -1,4 +1,4 @@
-// What a cut is: labels, the views that led to them, and what was found out on the way.
+// The result of a cut: labels, the views that led to them, and figures for reports.
 #pragma once
 
 #include <cstdint>
@@ -43,11 +43,11 @@ struct CutResult {
   std::vector<StageTime> stages;  // in order, same names added up; what was kept costs and lists nothing
 };
 
-// What strokes say of a Gaussian holds, whatever the views made of it.
+// Sets the label of each Gaussian that strokes decided, whatever the views say.
 void obey_strokes(CutResult* result);
 
-// A cut that keeps less than half of what the parts say is no refinement of what was clicked (of an object of
-// a few Gaussians the neighbours around it leave nothing): then the parts' labels stand.
+// Takes the parts' labels instead if the cut keeps less than half of them: it should refine what was clicked,
+// but smoothing may take all of an object of a few Gaussians.
 void keep_object(CutResult* result);
 
 // How far a cut has come.
@@ -60,7 +60,7 @@ enum class CutPhase {
 // Called on the running thread; the result is as far as it has come.
 using OnSnapshot = std::function<void(CutPhase, const CutResult&)>;
 
-// What was enough: views that count, and their pixels.
+// The views that count, and their pixels in all.
 struct LookedAt {
   int views = 0;
   std::size_t pixels = 0;

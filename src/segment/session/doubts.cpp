@@ -26,7 +26,7 @@ double share_of_frame(const Mask& mask) {
 void add_doubts_of_first(const ViewReport& view, std::vector<std::string>* sentences) {
   constexpr double kSmall = 0.08,
                    kMuchOfFrame =
-                       0.15;  // docs/study.md: what fails is beyond these, what does not, mostly is not
+                       0.15;  // docs/study.md: failed cuts lie beyond these, successful ones rarely
   const double across = std::sqrt(static_cast<double>(count(view.mask))) / std::max(1, view.mask.width());
   if (across > 0 && across < kSmall)
     sentences->push_back(fmt::format(

@@ -11,6 +11,7 @@
 #include "segment/masks/mask_tools.h"
 #include "segment/session/correction.h"
 #include "segment/session/pipeline.h"
+#include "segment/session/reference_mask.h"
 #include "segment/superpoints/orbit.h"
 
 namespace splatcut {
@@ -73,7 +74,7 @@ CutSettings with_given_masks(CutSettings settings, std::size_t others) {
 
 }  // namespace
 
-// A request, looked through.
+// A request, checked and analysed.
 struct Session::Asked {
   const CutRequest& request;
   CutSettings settings;
@@ -153,7 +154,7 @@ Session::Asked Session::asked(const CutRequest& request, const CutSettings& sett
 }
 
 Session::Kept* Session::kept(const Asked& asked) {
-  if (asked.request.mask_source) return nullptr;  // nobody knows what it would say now
+  if (asked.request.mask_source) return nullptr;  // it may answer differently now
   const auto found = std::ranges::find_if(
       kept_, [&](const Kept& k) { return k.key == asked.first_key && k.settings == asked.first_settings; });
   if (found == kept_.end()) return nullptr;
@@ -172,7 +173,7 @@ Session::Kept& Session::from_reference(const Asked& asked, const Job& job, const
   const CutScene scene = scene_for(asked.request, asked.first_settings, job);
   if (!job.cancelled())
     made.result =
-        cut_from_reference(scene, *asked.reference, asked.request, asked.first_settings, job, on_snapshot);
+        cut_from_reference({scene, *asked.reference, asked.request, asked.first_settings, job}, on_snapshot);
   if (made.result.outcome == Outcome::kCancelled) return cancelled_ = std::move(made);
   kept_.push_front(std::move(made));
   if (kept_.size() > kMostKept) kept_.pop_back();
@@ -195,8 +196,8 @@ bool Session::add_up_views(const CutResult& result, const CutSettings& settings,
   return true;
 }
 
-// What the last cut weighs: the views that count, corrected by strokes in other views, and what the parts
-// say. The result's views are those of the first cut; views of corrections are appended.
+// The likelihood of the last cut: the views that count, corrected by strokes in other views, with the prior
+// of the parts. The result's views are those of the first cut; views of corrections are appended.
 Likelihood Session::evidence(const Asked& asked, const Job& job, Kept* first, CutResult* result) {
   const CutSettings& settings = asked.settings;
   StageClock clock(&result->stages);
@@ -268,7 +269,7 @@ Mask Session::first_mask(const CutRequest& request, const CutSettings& settings,
   const Asked asked = this->asked(request, settings);
   if (!asked.reference) return {};
   const CutScene scene = scene_for(request, asked.first_settings, job);
-  return first_mask_of(scene, *asked.reference, request, asked.first_settings, job);
+  return first_mask_of({scene, *asked.reference, request, asked.first_settings, job});
 }
 
 Session::Preview Session::preview(const CutRequest& request, const CameraStroke& stroke,
@@ -300,7 +301,7 @@ std::vector<GivenView> Session::look_around(const CutRequest& request, const Cut
     if (job.cancelled()) break;
     if (std::ranges::any_of(result.views, [&](const ViewReport& v) { return same_view(v.camera, camera); }))
       continue;
-    // Not of the kept views: these cameras come once, and would put those out that the user stands in.
+    // Not through the cache of views: these cameras come once and would evict those that the user stands in.
     Mask seen = thresholded(render_labels(*scene_.cloud, camera, result.labels, job), 0.5f);
     if (count(seen) > 0) around.push_back({camera, std::move(seen)});
   }

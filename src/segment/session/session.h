@@ -54,9 +54,8 @@ class Session {
   // limited_to_width(reference, work_width_px) or larger; empty where nothing marks the object.
   Mask first_mask(const CutRequest& request, const CutSettings& settings, const Job& job = {});
 
-  // What one more stroke would do to the parts that are meant, by the code of cut()'s first mask: labels
-  // before and after it. Costs some 10 ms where the view is known. Empty: cancelled, or the settings know no
-  // parts.
+  // Labels before and after one more stroke, by parts alone, with the code of cut()'s first mask. Costs some
+  // 10 ms where the view is known. Empty: cancelled, or the settings know no parts.
   struct Preview {
     std::vector<std::uint8_t> before, after;
   };
@@ -68,17 +67,17 @@ class Session {
   std::vector<float> likelihood_of(const CutRequest& request, const CutSettings& settings,
                                    const Job& job = {});
 
-  // Makes now what the first cut would make: with these settings it then costs less.
+  // Builds ahead what the first cut with these settings needs.
   void make_ready(const CutSettings& settings, const Job& job = {});
 
-  // Views around a cut object to look from, at most so many, each with what its labels show there: cameras as
-  // cut() would try them first. None of them has a say. The result's own views, and those in which nothing of
-  // it shows, are not among them. Cancelled: must not be used.
+  // At most `views` views around a cut object to look from, each with the mask of its labels; cameras as
+  // cut() would try them first. They influence no cut. Excludes the result's own views and those that show
+  // nothing of the object. Cancelled: must not be used.
   std::vector<GivenView> look_around(const CutRequest& request, const CutResult& result,
                                      const CutSettings& settings, int views, const Job& job = {});
 
-  // Of as many neighbours as the settings want; another number than was prepared is made and kept. Cancelled:
-  // must not be used.
+  // The graph with the settings' number of neighbours; built and kept if it is not the prepared one.
+  // Cancelled: must not be used.
   const FlowGraph& graph(const CutSettings& settings, const Job& job = {});
 
  private:

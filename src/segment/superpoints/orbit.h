@@ -2,8 +2,8 @@
 //
 // A scene without cameras, or one that was photographed from all around, is looked at from a circle about the
 // object; one photographed from one side only from a spiral on that side (Jain et al., GaussianCut, 2024:
-// circle for 360-degree scenes, spiral for front-facing ones). Distance follows from the object's size: the
-// paper's from the photographs' shows small objects with few pixels.
+// circle for 360-degree scenes, spiral for front-facing ones). Distance follows from the object's size; the
+// paper's follows from the photographs and shows small objects with few pixels.
 #pragma once
 
 #include <span>
@@ -36,8 +36,7 @@ struct OrbitOptions {
 std::vector<Camera> orbit_cameras(const Camera& reference, const glm::vec3& up_world,
                                   const ObjectExtent& object, const OrbitOptions& options);
 
-// True where all cameras look about the same way, within some 45 degrees of their mean: one side is all there
-// is.
+// True for a front-facing capture: all cameras look within about 45 degrees of their mean direction.
 bool front_facing(std::span<const Camera> given);
 
 // orbit_cameras, or for a front-facing capture a spiral of two turns within the given positions' spread about

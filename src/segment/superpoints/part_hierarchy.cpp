@@ -220,7 +220,8 @@ void describe_leaves(const SurfaceFeatures& f, const Superpoints& leaves, PartHi
   }
 }
 
-// Gaussians outside of the core go with most of their nearest core Gaussians; ties to the nearest.
+// A Gaussian outside of the core joins the leaf of most of its nearest core Gaussians; ties go to the
+// nearest.
 void attach_others(const GaussianCloud& cloud, const SurfaceFeatures& f, const Superpoints& leaves, int votes,
                    const Job& job, PartHierarchy* out) {
   out->leaf_of.assign(cloud.size(), kNoPart);

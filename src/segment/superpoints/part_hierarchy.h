@@ -2,15 +2,13 @@
 //
 // In: cloud. Out: a binary forest whose leaves are superpoints (some 40 Gaussians of one surface) and whose
 // inner nodes are unions of two neighbouring parts, least different first. Every Gaussian belongs to one
-// leaf. Which unions appear hangs on weights that nobody knows exactly; so there are several trees over the
-// same leaves, merged with slightly different weights: a part that most of them hold is an object more
-// likely.
-//   superpoints: Felzenszwalb and Huttenlocher, Efficient Graph-Based Image Segmentation, IJCV 2004, over
-//   k-NN
-//     edges, their weights by colour, normal, concavity, gap and distance: SuperpointOptions
+// leaf. The right weights of merging are unknown, so there are several trees over the same leaves, merged
+// with slightly different weights: a part that most trees hold is more likely an object.
+//   superpoints: Felzenszwalb and Huttenlocher, Efficient Graph-Based Image Segmentation, IJCV 2004, on
+//     k-NN edges weighted by colour, normal, concavity, gap and distance: SuperpointOptions
 //   merging: cost = difference (least area / median leaf area)^p / (shared border / lesser perimeter)^q
-//   concavity = (n - n').(mu' - mu) / |mu' - mu|; gap: Mahalanobis distance of two Gaussians in their mean
-//   covariance
+//   concavity = (n - n').(mu' - mu) / |mu' - mu|
+//   gap: Mahalanobis distance of two Gaussians in their mean covariance
 // Built once per scene; depends on the scene and on the observing views alone. Same input, same bits.
 // Cost: about 2 s per 300,000 Gaussians on two cores.
 #pragma once

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "core/parallel.h"
+#include "scene/raster/depth_jump.h"
 #include "segment/superpoints/part_hierarchy.h"
 
 namespace splatcut {
@@ -38,7 +38,7 @@ std::vector<Meeting> meetings(const LeafPicture& picture) {
     if (!leaf.contains(q.x, q.y) || leaf.at(p.x, p.y) == leaf.at(q.x, q.y)) return;
     const auto [a, b] = std::minmax(leaf.at(p.x, p.y), leaf.at(q.x, q.y));
     // One pixel further on both sides: the border itself blends.
-    pairs.push_back({a, b, 1, depth_jump(picture.depth, p - step, q + step) <= kDepthJump});
+    pairs.push_back({a, b, 1, depth_jump(picture.depth, p - step, q + step) <= kJumpAtBorderOfPart});
   };
   for (int y = 0; y < leaf.height(); ++y)
     for (int x = 0; x < leaf.width(); ++x) {
@@ -94,15 +94,6 @@ PartLooks& PartLooks::operator+=(const PartLooks& other) {
   border += other.border;
   plain_border += other.plain_border;
   return *this;
-}
-
-float depth_jump(const Image<float>& depth, const glm::ivec2& a, const glm::ivec2& b) {
-  const auto at = [&](const glm::ivec2& p) {
-    return depth.at(std::clamp(p.x, 0, depth.width() - 1), std::clamp(p.y, 0, depth.height() - 1));
-  };
-  const float one = at(a), other = at(b);
-  if (one > 0 && other > 0) return std::abs(std::log(one / other));
-  return (one > 0) == (other > 0) ? 0 : std::numeric_limits<float>::infinity();
 }
 
 std::vector<std::vector<PartLooks>> looks_in(const PartHierarchy& parts, const LeafPicture& picture) {

@@ -41,13 +41,6 @@ struct LeafPicture {
   Image<float> depth;         // camera z, 0 where nothing is
 };
 
-// |ln| of the ratio of two pixels' depths; outside of the picture its frame counts. Infinite where one of
-// them alone shows anything.
-float depth_jump(const Image<float>& depth, const glm::ivec2& a, const glm::ivec2& b);
-
-// By more than this depth jumps: another surface begins.
-inline constexpr float kDepthJump = 0.05f;
-
 // Per tree and node.
 std::vector<std::vector<PartLooks>> looks_in(const PartHierarchy& parts, const LeafPicture& picture);
 

@@ -3,10 +3,9 @@
 // Where the values come from: those of surface, superpoints and merging from searches on the captures and
 // compositions of docs/masks.md and on still lifes, for the mean IoU of a robot's first clicks. Version 8:
 // what a first click means is fitted by `splatcut-lab fit`, which docs/clicks.md shows with its
-// leave-one-capture-out column; what corrections mean is set by hand on the same scenes. Nobody knows a value
-// by reason, so none is a setting: a person sees none of them, experiments give a whole model (see
-// app/lab/part_model_file.h). Whoever changes a value raises kVersion and says here what was searched on
-// what.
+// leave-one-capture-out column; what corrections mean is set by hand on the same scenes. No value follows
+// from theory, so none is a setting: experiments replace the whole model (see app/lab/part_model_file.h).
+// Whoever changes a value raises kVersion and says here what was searched on what.
 #pragma once
 
 #include <array>

@@ -74,7 +74,7 @@ std::uint64_t payload_bytes(const PreparedScene& scene, std::span<const std::uin
 
 class Reader {
  public:
-  // A pipe is not opened: it would be waited for.
+  // A pipe is not opened: that would block.
   explicit Reader(const std::filesystem::path& path) : file_(nullptr, &std::fclose) {
     std::error_code failure;
     if (std::filesystem::is_regular_file(path, failure)) file_.reset(std::fopen(path.c_str(), "rb"));

@@ -2,10 +2,10 @@
 //
 // Key: a hash of the cloud's arrays, of the cameras and options that the preparation depends on, of the
 // format's version and of the program's own bytes (another build may prepare differently). File: a header
-// (magic, version, key, size, checksum) and the arrays as they lie in memory. A file that is cut short,
-// damaged, of another machine or not one of ours is as good as none; so is a folder that cannot be read or
-// written. Files appear whole or not at all. Where a folder grows beyond its limit the files that were not
-// used for longest are removed. Cost: reading is bound by copying the arrays (some 110 bytes a Gaussian).
+// (magic, version, key, size, checksum) and the arrays as they lie in memory. A file that is truncated,
+// damaged or of another machine is ignored, and so is a folder that cannot be read or written. Files appear
+// whole or not at all. Where a folder grows beyond its limit the files that were not used for longest are
+// removed. Cost: reading is bound by copying the arrays (some 110 bytes a Gaussian).
 #pragma once
 
 #include <cstdint>

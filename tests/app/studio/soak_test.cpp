@@ -86,8 +86,7 @@ void step(Studio* studio, const ScratchFolder& folder, std::mt19937* random) {
       studio->apply(AddStroke{camera(), click(pixel(), label())});
       break;
     case 3:
-      studio->apply(
-          SelectRegion{camera(), rectangle_region(pixel(), pixel(), 160, 120), SetOperation::kReplace});
+      studio->apply(SelectRegion{camera(), rectangle_region(pixel(), pixel(), 160, 120), SetOperation::kAdd});
       break;
     case 4:
       studio->apply(NewObject{});

@@ -1,136 +1,15 @@
 // What an artist meets when he clicks in the window: what was right stays, what is seen is hit, the same view
-// is the same view, the wheel and the keys choose among what the first click can mean.
+// is the same view.
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
-#include "app/cli/work_cut.h"
-#include "app/console/camera_options.h"
-#include "app/studio/work_file.h"
-#include "headless_app.h"
-#include "segment/masks/mask_tools.h"
+#include "artist.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
 
 namespace {
-
-using Labels = std::vector<std::uint8_t>;
-
-constexpr int kWidth = 900, kHeight = 520;
-constexpr glm::vec2 kOnBook{337, 296};  // means a book, or the pile
-const std::filesystem::path kScenes = SPLATCUT_SOURCE_DIR "/../shared/scenes";
-
-// One scene, with a click on a thing in it and the view that it is made in.
-struct Place {
-  std::string name;
-  std::filesystem::path scene;
-  Camera camera;
-  glm::vec2 pixel;
-};
-
-Place on_sample(const std::string& name, const glm::vec2& pixel) {
-  return {name, kSample, load_cameras(kSampleFolder / "cameras.json").front(), pixel};
-}
-
-// Real captures, where they are beside the project.
-std::vector<Place> captures(const std::vector<std::string>& names) {
-  std::vector<Place> places;
-  const auto add = [&](const char* name, const char* scene, const char* cameras, const char* camera, float x,
-                       float y) {
-    if (!std::filesystem::exists(kScenes / scene) || std::ranges::find(names, name) == names.end()) return;
-    const std::vector<Camera> all = load_cameras(kScenes / cameras);
-    places.push_back({name, kScenes / scene, find_camera(all, camera, cameras), {x, y}});
-  };
-  add("fox", "fox/point_cloud.ply", "fox/cameras.json", "0009", 165, 150);
-  add("cup", "cup/point_cloud.ply", "cup/cameras.json", "57", 255, 140);
-  add("sign", "real/flowers.compressed.ply", "real/sign/cameras.json", "v0", 400, 112);
-  if (places.empty()) MESSAGE("skipped: no scenes beside the project, the sample alone");
-  return places;
-}
-
-std::vector<Place> with_captures(std::vector<Place> places,
-                                 const std::vector<std::string>& names = {"fox", "cup", "sign"}) {
-  for (Place& place : captures(names)) places.push_back(std::move(place));
-  return places;
-}
-
-// The program, standing where the place is clicked.
-class Artist {
- public:
-  explicit Artist(const Place& place, const char* preset = "fast") : app(kWidth, kHeight), place_(place) {
-    app.interface_state().hint_wanted = false;
-    app.open(place.scene);
-    REQUIRE(app.settle());
-    studio().apply(SetPreset{preset});
-    go_to(place.camera);
-    app.wait_for_message_to_go();
-  }
-
-  Studio& studio() { return app.studio(); }
-  glm::vec2 on_screen(const glm::vec2& viewport_px) { return app->interface().viewport().min + viewport_px; }
-  // Of a pixel of the place's camera.
-  glm::vec2 screen_of(const glm::vec2& pixel) {
-    const Camera shown = studio().viewport_camera();
-    const glm::vec2 principal(place_.camera.cx_px, place_.camera.cy_px);
-    return on_screen((pixel - principal) * (shown.fy_px / place_.camera.fy_px) +
-                     glm::vec2(shown.cx_px, shown.cy_px));
-  }
-  void click_on_it() {
-    click(screen_of(place_.pixel));
-    REQUIRE(studio().document().active != 0);
-  }
-  void click(const glm::vec2& screen, PointerButton button = PointerButton::kLeft) {
-    app.click(screen, button);
-    REQUIRE(app.settle());
-  }
-  void go_to(const Camera& camera) {
-    studio().apply(GoToCamera{camera});
-    REQUIRE(app.settle());
-  }
-  void turn(float points) {
-    const glm::vec2 from = on_screen({80, 250});
-    app.drag({from, from + glm::vec2(0.5f * points, 0), from + glm::vec2(points, 0)}, PointerButton::kMiddle);
-    REQUIRE(app.settle());
-  }
-  Labels labels() { return studio().labels(studio().document().active); }
-  const ObjectItem& object() { return *studio().document().active_object(); }
-  const CutRun& run() { return *studio().cut_run(studio().document().active); }
-  const Image<std::int32_t>& hits() { return studio().picture()->frames.front()->first_hit; }
-  std::string said() { return studio().messages().back().text; }
-
-  // Where the labels show on the screen.
-  Mask shown(const Labels& labels) {
-    Mask mask(hits().width(), hits().height());
-    std::ranges::transform(hits().pixels(), mask.pixels().begin(), [&](std::int32_t g) {
-      return g >= 0 && labels[static_cast<std::size_t>(g)] ? kMaskObject : std::uint8_t{0};
-    });
-    return mask;
-  }
-  // The point on the screen that is `away` or more viewport pixels from the object, the nearest to it.
-  glm::vec2 beside(const Labels& labels, int away) {
-    const Mask object = shown(labels), near = dilated(object, away), far = dilated(object, away + 3);
-    for (int y = hits().height() / 4; y < hits().height(); ++y)
-      for (int x = 40; x < hits().width() - 40; ++x)
-        if (far.at(x, y) && !near.at(x, y) && hits().at(x, y) >= 0)
-          return on_screen(glm::vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f);
-    FAIL("there is nothing beside the object");
-    return {};
-  }
-
-  HeadlessApp app;
-
- private:
-  Place place_;
-};
-
-std::size_t lost(const Labels& before, const Labels& after) {
-  std::size_t count = 0;
-  for (std::size_t g = 0; g < before.size(); ++g) count += before[g] && !after[g];
-  return count;
-}
 
 Labels either(const Labels& a, const Labels& b) {
   Labels out(a.size());
@@ -260,16 +139,7 @@ TEST_CASE("clicks: with the object hidden, hover and click hit what is seen") {
     CHECK(static_cast<double>(lost(before, artist.labels())) <=
           (exact ? 0 : 0.005) * static_cast<double>(count_flags(before)));
     // It is kept what was seen: saved and computed again, the labels are the same.
-    const ScratchFolder folder("seen");
-    const auto file = folder / "seen.splatcut.json";
-    artist.studio().apply(SaveWork{file});
-    REQUIRE(artist.app.settle());
-    const auto scene = open_scene(read_work_file(file).scene);
-    Document read = restored(read_work_file(file), *scene->scene, scene->hash).document;
-    CHECK(bytes_of(read) == bytes_of(artist.studio().document()));
-    read.objects.front().cut = nullptr;
-    const Document again = computed_again(*scene, read);
-    CHECK(labels_of(again, *again.active_object(), before.size()) == artist.labels());
+    artist.check_saved_work();
   }
 }
 
@@ -287,68 +157,6 @@ TEST_CASE("clicks: where nothing is, a click is refused with a word and is no st
   }
   CHECK(artist.studio().document().objects.empty());
   CHECK(artist.studio().history().entries().size() == steps);
-}
-
-TEST_CASE("clicks: the wheel takes sizes that differ, and says where there is none left without computing") {
-  for (const Place& place : with_captures({on_sample("mug", kOnMug)}, {"fox"})) {
-    CAPTURE(place.name);
-    Artist artist(place);
-    artist.click_on_it();
-    for (const float notch : {1.0f, -1.0f}) {
-      std::size_t steps = 0;
-      Mask before = artist.shown(artist.labels());
-      for (; steps < 60; ++steps) {
-        const std::size_t entries = artist.studio().history().entries().size();
-        artist.app->handle(WheelTurned{notch, {}});
-        artist.app.frames(1);
-        if (artist.studio().history().entries().size() == entries) {
-          CHECK_FALSE(artist.studio().cutting());
-          break;
-        }
-        REQUIRE(artist.app.settle());
-        CHECK(iou(before, artist.shown(artist.labels())) < 0.96);
-        before = artist.shown(artist.labels());
-      }
-      MESSAGE(place.name, ": ", steps, " steps, then: ", artist.said());
-      CHECK(steps < 60);
-      const bool told = artist.said().find(notch > 0 ? "This is the largest of"
-                                                     : "This is the smallest of") != std::string::npos ||
-                        artist.said().find("one size alone") != std::string::npos;
-      CHECK(told);
-    }
-  }
-}
-
-TEST_CASE("clicks: sizes are of the first click, also from another view and after a correction") {
-  Artist artist(on_sample("mug", kOnMug));
-  artist.click_on_it();
-  artist.app.key(key::kPageDown);
-  REQUIRE(artist.app.settle());
-  const Labels smaller = artist.labels();
-  artist.app.key('Z', {.ctrl = true});
-  REQUIRE(artist.app.settle());
-  const Labels first = artist.labels();
-  REQUIRE(smaller != first);
-  artist.turn(150);
-  artist.app.key(key::kPageDown);
-  REQUIRE(artist.app.settle());
-  CHECK(artist.labels() == smaller);
-  artist.app.key(key::kPageUp);
-  REQUIRE(artist.app.settle());
-  CHECK(artist.labels() == first);
-  artist.app->handle(WheelTurned{-1, {.shift = true}});  // with Shift wherever the pointer is
-  REQUIRE(artist.app.settle());
-  CHECK(artist.labels() == smaller);
-  artist.app.key(key::kPageUp);
-  REQUIRE(artist.app.settle());
-  artist.click(artist.beside(first, 30), PointerButton::kRight);
-  artist.app.key(key::kPageDown);
-  REQUIRE(artist.app.settle());
-  CHECK(artist.object().part_step == -1);
-  CHECK(iou_of(artist.labels(), smaller) > 0.95);
-  const CameraPose pose = artist.studio().camera().pose();
-  artist.app->handle(WheelTurned{1, {}});  // without it the wheel goes nearer
-  CHECK(artist.studio().camera().pose().distance < pose.distance);
 }
 
 TEST_CASE("clicks: hovering outlines what the click then changes, corrections included") {
@@ -386,7 +194,7 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
 }
 
 TEST_CASE("clicks: hovering is red while Ctrl is held, and no longer") {
-  HeadlessApp app(kWidth, kHeight);
+  HeadlessApp app(kArtistWidth, kArtistHeight);
   REQUIRE(cut_out_apple(app));
   const auto colour_with = [&](bool ctrl) {
     app->handle(KeyChanged{key::kLeftControl, ctrl, false, {.ctrl = ctrl}});
@@ -416,57 +224,4 @@ TEST_CASE("clicks: what is shown as said already gets a word") {
   CHECK(iou_of(before, artist.labels()) > 0.99);
   artist.click(artist.beside(before, 25), PointerButton::kRight);
   CHECK(words("That is no part of Object 1 already"));
-}
-
-TEST_CASE("clicks: other meanings of the first click are offered, chosen by keys, undone and saved") {
-  Artist artist(on_sample("books", kOnBook));
-  artist.click_on_it();
-  const ClickMeanings* offer = artist.studio().offer();
-  REQUIRE(offer);
-  MESSAGE(offer->outlines.size(), " meanings");
-  REQUIRE(offer->outlines.size() >= 2);
-  const Labels first = artist.labels();
-  artist.app.key('2');
-  REQUIRE(artist.app.settle());
-  const Labels second = artist.labels();
-  CHECK(artist.object().choice == 1);
-  CHECK(artist.studio().view().tool == Tool::kClick);
-  CHECK(iou_of(first, second) < 0.9);
-  REQUIRE(artist.studio().offer());  // it can still be changed
-  artist.app.key('Z', {.ctrl = true});
-  REQUIRE(artist.app.settle());
-  CHECK(artist.labels() == first);
-  artist.app.key('2');
-  REQUIRE(artist.app.settle());
-  CHECK(artist.labels() == second);
-
-  const ScratchFolder folder("choice");
-  const auto file = folder / "choice.splatcut.json";
-  artist.studio().apply(SaveWork{file});
-  REQUIRE(artist.app.settle());
-  const auto scene = open_scene(read_work_file(file).scene);
-  Document read = restored(read_work_file(file), *scene->scene, scene->hash).document;
-  CHECK(read.objects.front().choice == 1);
-  read.objects.front().cut = nullptr;
-  const Document again = computed_again(*scene, read);
-  CHECK(labels_of(again, *again.active_object(), second.size()) == second);
-
-  artist.app.key('1');
-  REQUIRE(artist.app.settle());
-  CHECK(artist.labels() == first);
-  artist.app.key(key::kEscape);
-  CHECK_FALSE(artist.studio().offer());
-  CHECK(artist.studio().view().tool == Tool::kClick);
-  artist.app.key('3');  // a tool again
-  CHECK(artist.studio().view().tool == Tool::kScribble);
-}
-
-TEST_CASE("clicks: nothing is offered once more was said") {
-  Artist artist(on_sample("books", kOnBook));
-  artist.click_on_it();
-  REQUIRE(artist.studio().offer());
-  artist.click(artist.beside(artist.labels(), 25), PointerButton::kRight);
-  CHECK_FALSE(artist.studio().offer());
-  artist.app.key('2');
-  CHECK(artist.object().choice == 0);
 }

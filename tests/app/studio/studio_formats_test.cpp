@@ -47,19 +47,17 @@ TEST_CASE(
   app.open(work);
   REQUIRE(app.settle());
   CHECK(scene().taken_axes == SpzAxes::kPly);
-  app.click({831, 271});  // opens the section View
-  app.frames(3);
-  app.click({941, 561});  // "Take the other axes"
+  app.press_item("side/scroll", {"View"});
+  app.press_item("side/scroll", {"Take the other axes"});
   REQUIRE(app.settle());
   CHECK(scene().taken_axes == SpzAxes::kRub);
   // With work that is not saved it asks first, and then still takes the other axes.
   app.studio().apply(EditSelection{SelectionEdit::kAll});
   REQUIRE(app.settle());
-  app.click({941, 641});  // the button, below the object now
-  app.frames(3);
+  app.press_item("side/scroll", {"Take the other axes"});
   REQUIRE(app->interface().dialog_open());
   CHECK(scene().taken_axes == SpzAxes::kRub);
-  app.click({550 - 45, 380 + 75 - 28});  // Open
+  app.press_item("###open_anyway", {"Open"});
   REQUIRE(app.settle());
   CHECK(scene().taken_axes == SpzAxes::kPly);
 }

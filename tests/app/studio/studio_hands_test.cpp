@@ -147,8 +147,7 @@ TEST_CASE("hands: Esc closes a menu before it changes the tool") {
   hands.app.click({kHandsWidth - 316 + 289, 0});  // nothing there
   hands.app.interface_state().recent = {kSample};
   hands.app.frames(2);
-  hands.app.click({89, 23});  // the arrow beside Open
-  hands.app.frames(2);
+  hands.app.press_item("bar", {icon::kDown});
   REQUIRE(hands.app->interface().dialog_open());
   hands.app.key(key::kEscape);
   hands.app.frames(2);

@@ -110,7 +110,7 @@ TEST_CASE("threads: exports wait for each other, of any other kind the latest re
   TaskThread tasks;
   const auto submit = [&](TaskKind kind, const std::string& name) {
     tasks.submit(kind, [&, name](const Job& job) {
-      while (!go) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      go.wait(false);
       tasks.post([&, text = name + (job.cancelled() ? " stopped" : " done")] { done.push_back(text); });
     });
   };
@@ -121,6 +121,7 @@ TEST_CASE("threads: exports wait for each other, of any other kind the latest re
   submit(TaskKind::kAutosave, "second autosave");
   submit(TaskKind::kCut, "second cut");
   go = true;
+  go.notify_all();
   while (!tasks.idle()) {
     tasks.deliver();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -136,7 +137,7 @@ TEST_CASE("threads: trouble is told to the task it befell, and to nobody where t
   tasks.on_error = [&](const std::string& message) { shown.push_back(message); };
   const auto fail = [&](TaskKind kind, const std::string& name) {
     tasks.submit({kind, [&, name] { told.push_back(name); }}, [&, name](const Job&) {
-      while (!go) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      go.wait(false);
       throw Error(name, "failed");
     });
   };
@@ -145,6 +146,7 @@ TEST_CASE("threads: trouble is told to the task it befell, and to nobody where t
   fail(TaskKind::kCut, "cut");
   fail(TaskKind::kPrepare, "preparing");
   go = true;
+  go.notify_all();
   while (!tasks.idle()) {
     tasks.deliver();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -160,12 +162,13 @@ TEST_CASE("threads: the end of the program waits for work that is being saved, a
     TaskThread tasks;
     tasks.submit(TaskKind::kCut, [&](const Job& job) {
       running = true;
+      running.notify_all();
       while (!job.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     });
     tasks.submit(TaskKind::kSave, [&](const Job&) { done.push_back("first save"); });
     tasks.submit(TaskKind::kExport, [&](const Job&) { done.push_back("export"); });
     tasks.submit(TaskKind::kSave, [&](const Job&) { done.push_back("second save"); });
-    while (!running) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    running.wait(false);
   }
   CHECK(done == std::vector<std::string>{"first save", "second save"});
 }

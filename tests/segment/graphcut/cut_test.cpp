@@ -69,11 +69,6 @@ void check_view_by_view(const Labelled& scene, std::size_t views) {
     REQUIRE(max_flow.flow() == cut_energy(graph, capacity, data.net, max_flow.source_set()));
     REQUIRE(max_flow.source_set() == warm.labels);
   }
-  const Confidence sure = kept.confidence();
-  std::size_t out_of_order = 0;
-  for (std::size_t g = 0; g < scene.cloud.size(); ++g)
-    out_of_order += !(0 <= sure.at_least[g] && sure.at_least[g] <= sure.at_most[g]);
-  CHECK(out_of_order == 0);
 }
 
 double overlap_in_double(const GaussianCloud& cloud, std::size_t g, std::size_t h) {

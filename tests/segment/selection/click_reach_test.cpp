@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 
+#include "scene/raster/depth_jump.h"
 #include "segment/selection/click_reach.h"
 #include "segment/selection/leaf_view.h"
 #include "segment/superpoints/part_looks.h"
@@ -46,7 +47,8 @@ std::size_t reached_at(const Image<std::uint32_t>& level, const Image<float>& de
         for (const glm::ivec2 step :
              {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
           const glm::ivec2 p(x, y), q = p + step;
-          if (!in.at(x, y) || !changes(q.x, q.y) || in.at(q.x, q.y) || depth_jump(depth, p, q) > 0.2f)
+          if (!in.at(x, y) || !changes(q.x, q.y) || in.at(q.x, q.y) ||
+              depth_jump(depth, p, q) > kJumpInOneStep)
             continue;
           in.at(q.x, q.y) = 1;
           more = true;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "four_leaves.h"
+#include "scene/raster/depth_jump.h"
 #include "scene/raster/rasterizer.h"
 #include "segment/superpoints/part_hierarchy.h"
 
@@ -54,7 +55,7 @@ PartLooks counted(const std::set<std::uint32_t>& held, const LeafPicture& pictur
         const glm::ivec2 p(x, y), q = p + step;
         if (q.x == width || q.y == height || holds(p.x, p.y) == holds(q.x, q.y)) continue;
         ++border;
-        plain += depth_jump(picture.depth, p - step, q + step) <= kDepthJump;
+        plain += depth_jump(picture.depth, p - step, q + step) <= kJumpAtBorderOfPart;
       }
     }
   const double all = width * height, share = area / all, side = std::sqrt(all);

@@ -183,6 +183,7 @@ TEST_CASE("parts: the true mask of one view selects the whole object of the stil
 TEST_CASE("parts: cancelled before, or at any step that reports progress, without harm") {
   const GaussianCloud cloud = random_cloud(3000, 8);
   const Camera camera = look_at({0, 0, -4}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120);
+  int stopped_on_the_way = 0;
   for (int step = 0; step < 12; ++step) {
     std::stop_source stop;
     int seen = 0;
@@ -192,7 +193,9 @@ TEST_CASE("parts: cancelled before, or at any step that reports progress, withou
       if (seen++ == step) stop.request_stop();
     };
     prepare_scene(cloud, camera, {0, -1, 0}, {}, {}, job);
+    stopped_on_the_way += stop.stop_requested();
   }
+  CHECK(stopped_on_the_way > 0);
   std::stop_source stopped;
   stopped.request_stop();
   Job job;

@@ -59,7 +59,7 @@ void click_corner(ToolHand& hand) {
   hand.state.corner_modifiers = hand.state.modifiers;
 }
 
-// Keys that are held for Enter alone say nothing.
+// Modifier keys held only for Enter do not count.
 void confirm_polygon(ToolHand& hand) {
   const Modifiers held = std::exchange(hand.state.modifiers, hand.state.corner_modifiers);
   close_polygon(hand);

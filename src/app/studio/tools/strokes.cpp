@@ -1,4 +1,4 @@
-// Tools that say to the cut what is meant.
+// Tools that make strokes for the cut.
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 

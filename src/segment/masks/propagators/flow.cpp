@@ -11,8 +11,7 @@ namespace splatcut {
 
 namespace {
 
-// DISOpticalFlow hands its search from row to row inside a stripe, one stripe a thread: one thread, one
-// result.
+// DISOpticalFlow searches in one stripe per thread, and its result depends on the stripes: hence one thread.
 class OneOpenCvThread {
  public:
   OneOpenCvThread() : before_(cv::getNumThreads()) { cv::setNumThreads(1); }

@@ -1,4 +1,4 @@
-// The default: what the 3D cut says, seen from there.
+// The default, label propagation: the labels of the 3D cut, rendered into the view.
 #include "segment/masks/propagate.h"
 
 namespace splatcut {

@@ -1,4 +1,4 @@
-#include "app/cli/ways_in.h"
+#include "app/cli/object_options.h"
 
 #include "app/console/mask_folder.h"
 #include "app/console/seeds_file.h"
@@ -10,19 +10,19 @@ namespace splatcut {
 namespace {
 
 // The file is read once: it may be a pipe.
-void read_seeds(const std::filesystem::path& file, Meant* meant) {
+void read_seeds(const std::filesystem::path& file, ObjectInput* input) {
   const nlohmann::json seeds = json_of_file(file);
   const std::string where = file.string();
-  meant->objects = named_seeds_from_json(seeds, where);
-  if (!meant->objects.empty()) return;
-  meant->strokes = strokes_from_json(seeds, where);
-  if (meant->strokes.empty()) throw Error(where, "holds neither clicks nor scribbles");
-  meant->choice = choice_from_json(seeds, where);
+  input->objects = named_seeds_from_json(seeds, where);
+  if (!input->objects.empty()) return;
+  input->strokes = strokes_from_json(seeds, where);
+  if (input->strokes.empty()) throw Error(where, "holds neither clicks nor scribbles");
+  input->choice = choice_from_json(seeds, where);
 }
 
 }  // namespace
 
-void WaysIn::add_to(CLI::App& command) {
+void ObjectOptions::add_to(CLI::App& command) {
   CLI::Option* by_clicks = command.add_option(
       "--click", clicks, "Pixel x,y[:object|:rest] of the reference view; may be repeated");
   CLI::Option* by_seeds = command.add_option("--seeds", seeds,
@@ -48,14 +48,14 @@ void WaysIn::add_to(CLI::App& command) {
       if (alone != other) alone->excludes(other);
 }
 
-Meant WaysIn::read(const CameraOptions& camera) const {
-  Meant meant;
-  meant.mask = mask;
-  meant.masks_folder = masks_folder;
-  if (by_text) meant.segmenter = make_segmenter({text, segmenter});
-  if (!seeds.empty()) read_seeds(seeds, &meant);
-  for (const std::string& pixel : clicks) meant.strokes.push_back(parse_click(pixel));
-  if (!meant.objects.empty() && !meant.strokes.empty())
+ObjectInput ObjectOptions::read(const CameraOptions& camera) const {
+  ObjectInput input;
+  input.mask = mask;
+  input.masks_folder = masks_folder;
+  if (by_text) input.segmenter = make_segmenter({text, segmenter});
+  if (!seeds.empty()) read_seeds(seeds, &input);
+  for (const std::string& pixel : clicks) input.strokes.push_back(parse_click(pixel));
+  if (!input.objects.empty() && !input.strokes.empty())
     throw Error("--click", "belongs to no object, as --seeds holds several",
                 "Add it to one of them in the file");
   if (!masks_folder.empty() && camera.cameras.empty())
@@ -64,22 +64,22 @@ Meant WaysIn::read(const CameraOptions& camera) const {
     throw Error("--masks", "belongs to the cameras of --cameras, not to --camera-pos",
                 "Choose the reference with --camera");
   const bool masked = !mask.empty() || !masks_folder.empty() || by_text;
-  if (meant.strokes.empty() && meant.objects.empty() && !masked)
+  if (input.strokes.empty() && input.objects.empty() && !masked)
     throw Error("splatcut cut", "nothing says which object is meant",
                 "Give --click x,y, --seeds FILE, --mask FILE, --masks FOLDER or --text WORDS");
-  return meant;
+  return input;
 }
 
-CutRequest request_of(const Meant& meant, const CameraOptions& camera, const GaussianCloud& cloud,
+CutRequest request_of(const ObjectInput& input, const CameraOptions& camera, const GaussianCloud& cloud,
                       const Job& job, ChosenCamera* chosen, std::string* warning) {
   CutRequest request;
-  request.choice = meant.choice;
-  if (!meant.strokes.empty()) request.strokes = {{chosen->camera, meant.strokes}};
-  if (!meant.mask.empty()) request.first_mask = {chosen->camera, read_given_mask(meant.mask, chosen->camera)};
-  if (meant.segmenter)
-    request.first_mask = {chosen->camera, mask_from_text(*meant.segmenter, cloud, chosen->camera, job)};
-  if (meant.masks_folder.empty()) return request;
-  MaskFolderOptions wanted{meant.masks_folder, {}, {}};
+  request.choice = input.choice;
+  if (!input.strokes.empty()) request.strokes = {{chosen->camera, input.strokes}};
+  if (!input.mask.empty()) request.first_mask = {chosen->camera, read_given_mask(input.mask, chosen->camera)};
+  if (input.segmenter)
+    request.first_mask = {chosen->camera, mask_from_text(*input.segmenter, cloud, chosen->camera, job)};
+  if (input.masks_folder.empty()) return request;
+  MaskFolderOptions wanted{input.masks_folder, {}, {}};
   if (!camera.camera.empty()) wanted.reference = chosen->camera.name;
   if (!camera.size.empty()) wanted.size_px = {chosen->camera.width_px, chosen->camera.height_px};
   MaskFolder found = load_mask_folder(chosen->given, wanted);

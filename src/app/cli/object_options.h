@@ -16,8 +16,8 @@
 
 namespace splatcut {
 
-// What was said, read and checked as far as that needs no scene.
-struct Meant {
+// The request of the command line, parsed and checked as far as possible without the scene.
+struct ObjectInput {
   Strokes strokes;
   int choice = 0;                   // of the first click's meanings
   std::vector<NamedSeeds> objects;  // several, each with strokes of its own
@@ -25,7 +25,7 @@ struct Meant {
   std::optional<Segmenter> segmenter;
 };
 
-struct WaysIn {
+struct ObjectOptions {
   std::filesystem::path seeds, mask, masks_folder;
   std::vector<std::string> clicks;
   std::string text, segmenter;
@@ -33,13 +33,13 @@ struct WaysIn {
 
   // Clicks and a file of them add up, the others stand alone. The command must not outlive this.
   void add_to(CLI::App& command);
-  // Throws Error where nothing is meant, or what is meant lacks something.
-  Meant read(const CameraOptions& camera) const;
+  // Throws Error if the request names no object or is incomplete.
+  ObjectInput read(const CameraOptions& camera) const;
 };
 
-// What is meant, of one object. With a folder of masks the reference may become another camera; `warning` is
+// The request for one object. With a folder of masks the reference may become another camera; `warning` is
 // then a sentence about that. Throws Error for masks that cannot be used. Cancelled: incomplete.
-CutRequest request_of(const Meant& meant, const CameraOptions& camera, const GaussianCloud& cloud,
+CutRequest request_of(const ObjectInput& input, const CameraOptions& camera, const GaussianCloud& cloud,
                       const Job& job, ChosenCamera* chosen, std::string* warning);
 
 }  // namespace splatcut

@@ -1,0 +1,119 @@
+// The pixels of a tile: how they begin, what is summed up in each, how they become pictures.
+// Compiled once per SIMD target, within tile_blend.cpp, hence the guard that each target turns round.
+#if defined(SPLATCUT_TILE_PIXELS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPLATCUT_TILE_PIXELS_INL_H
+#undef SPLATCUT_TILE_PIXELS_INL_H
+#else
+#define SPLATCUT_TILE_PIXELS_INL_H
+#endif
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "scene/raster/tile_blend.h"
+#include "scene/raster/tile_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace splatcut {
+namespace HWY_NAMESPACE {
+
+// What is summed up per pixel beside the transmittance.
+enum class Paint { kNone, kLabel, kColour, kGroups };
+
+// The pixels of a tile, block by block, row by row within a block.
+struct TilePixels {
+  alignas(64) std::array<float, kTilePixels> transmittance, red, green, blue, depth, median;
+  alignas(64) std::array<std::int32_t, kTilePixels> hit;
+  alignas(64) std::array<std::int32_t, kTilePixels> object;  // -1 inside the mask, else 0
+  std::array<int, kBlocks> object_pixels;
+  bool whole_pixels = false;  // sums count pixels, not weights
+  std::uint32_t alive = 0;    // bit b: some pixel of block b can still change
+};
+
+// What each pixel of a tile has got from each group so far, groups in the order in which they were met.
+struct TileGroups {
+  static constexpr int kMost = 48;  // of a pixel; further ones take the place of the least
+  std::array<std::array<GroupWeight, kMost>, kTilePixels> of;
+  std::array<int, kTilePixels> count;
+
+  void add(int pixel, std::uint32_t group, float weight) {
+    auto& list = of[static_cast<std::size_t>(pixel)];
+    int& n = count[static_cast<std::size_t>(pixel)];
+    for (int i = n; i-- > 0;)
+      if (list[static_cast<std::size_t>(i)].group == group) {
+        list[static_cast<std::size_t>(i)].weight += weight;
+        return;
+      }
+    if (n < kMost) {
+      list[static_cast<std::size_t>(n++)] = {group, weight};
+      return;
+    }
+    auto least = std::ranges::min_element(list, {}, &GroupWeight::weight);
+    if (least->weight < weight) *least = {group, weight};
+  }
+};
+
+inline void start_pixels(const TileBlend& what, int tile_x, int tile_y, TilePixels* pixels) {
+  pixels->alive = 0;
+  for (auto* values : {&pixels->red, &pixels->green, &pixels->blue, &pixels->depth, &pixels->median})
+    values->fill(0);
+  pixels->hit.fill(-1);
+  pixels->object_pixels.fill(0);
+  pixels->whole_pixels = what.options.sum_whole_pixels;
+  for (int i = 0; i < kTilePixels; ++i) {
+    const int block = i / kBlockPixels, p = i % kBlockPixels;
+    const int x = tile_x + block % kBlocksAcross * kBlockPx + p % kBlockPx;
+    const int y = tile_y + block / kBlocksAcross * kBlockPx + p / kBlockPx;
+    const bool drawn = x >= what.roi.x0 && x < what.roi.x1 && y >= what.roi.y0 && y < what.roi.y1;
+    pixels->transmittance[i] =
+        drawn ? 1.0f : 0.0f;  // pixels outside are opaque from the start: they do not count
+    if (drawn) pixels->alive |= 1u << block;
+    if (!what.pair_sums) continue;
+    const bool object = drawn && what.options.sum_mask->at(x, y);
+    pixels->object[i] = object ? -1 : 0;
+    pixels->object_pixels[block] += object;
+  }
+}
+
+// What is worth keeping of a pixel's groups, heaviest first, ties by number.
+inline void store_groups(const TileGroups& groups, int i, float least, std::vector<GroupWeight>* to) {
+  to->clear();
+  const auto& list = groups.of[static_cast<std::size_t>(i)];
+  for (int k = 0; k < groups.count[static_cast<std::size_t>(i)]; ++k)
+    if (list[static_cast<std::size_t>(k)].weight >= least) to->push_back(list[static_cast<std::size_t>(k)]);
+  std::ranges::sort(*to, [](const GroupWeight& a, const GroupWeight& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.group < b.group;
+  });
+}
+
+template <Paint kPaint, bool kDepth>
+inline void store_pixels(const TileBlend& what, int tile_x, int tile_y, const TilePixels& pixels,
+                         const TileGroups& groups, RasterOutput* to) {
+  RasterOutput& out = *to;
+  for (int i = 0; i < kTilePixels; ++i) {
+    const int block = i / kBlockPixels, p = i % kBlockPixels;
+    const int x = tile_x + block % kBlocksAcross * kBlockPx + p % kBlockPx - what.roi.x0;
+    const int y = tile_y + block / kBlocksAcross * kBlockPx + p / kBlockPx - what.roi.y0;
+    if (!out.alpha.contains(x, y)) continue;
+    const float transmittance = pixels.transmittance[i];
+    out.alpha.at(x, y) = 1 - transmittance;
+    if constexpr (kPaint == Paint::kGroups)
+      store_groups(groups, i, what.options.least_group_weight, &out.groups.at(x, y));
+    if constexpr (kPaint == Paint::kLabel) out.label_share.at(x, y) = pixels.red[i];
+    if constexpr (kPaint == Paint::kColour)
+      out.colour.at(x, y) =
+          glm::vec3(pixels.red[i], pixels.green[i], pixels.blue[i]) + transmittance * what.options.background;
+    if constexpr (kDepth) {
+      out.expected_depth.at(x, y) = transmittance < 1 ? pixels.depth[i] / (1 - transmittance) : 0;
+      out.median_depth.at(x, y) = pixels.median[i];
+      out.first_hit.at(x, y) = pixels.hit[i];
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace splatcut
+HWY_AFTER_NAMESPACE();
+
+#endif  // SPLATCUT_TILE_PIXELS_INL_H
