@@ -124,6 +124,20 @@ TEST_CASE("selection: a click on something thin before another surface decides n
   }
 }
 
+TEST_CASE("selection: a click on the rest pays for what it would leave of the object in the view") {
+  // All four stripes are the object. The pair under the click costs ln(0.001 / sqrt 2) = -7.25 and would
+  // leave half, ln 2 - 0.4 = 0.293; its leaf costs 0 and would leave three quarters, ln 4/3 < 0.4.
+  SelectionModel model = borders_alone();
+  CHECK(selected({object(5)}, 1, model) == Labels{1, 1, 1, 1});
+  weight(&model.later, Term::kTakes) = 24;
+  CHECK(selected({object(5), rest(35)}, 1, model) == Labels{1, 1, 0, 0});
+  weight(&model.later, Term::kTakes) = 26;
+  CHECK(selected({object(5), rest(35)}, 1, model) == Labels{1, 1, 1, 0});
+  // A click on the object gives, and pays nothing.
+  weight(&model.later, Term::kTakes) = 1000;
+  CHECK(selected({object(5), object(25)}, 0, model) == Labels{1, 1, 1, 1});
+}
+
 TEST_CASE("selection: what would mostly change where the view does not show it is dear") {
   PartHierarchy parts = four_leaves();
   parts.leaf_area[3] = 1000;
