@@ -227,7 +227,7 @@ class Search {
       sides[static_cast<std::size_t>(i)] = {-look_at_subject(i, 4.5f, 0.35f), i};
     std::ranges::sort(sides);
     for (std::size_t s = 0; s < kBestSides; ++s)
-      for (const float radii : {3.0f, 3.7f, 4.5f, 7.0f})
+      for (const float radii : {3.5f, 4.5f, 7.0f})
         for (const float elevation_rad : {0.15f, 0.5f})
           look_at_subject(sides[s].second, radii, elevation_rad);
   }

@@ -9,7 +9,7 @@
 // c: of the subject, how much of it lies well inside the picture and is not hidden (a roof hides a room);
 // constants for the others, from within less where all that is seen is near.
 //
-// A function of the cloud alone. Cost: 40 to 110 small pictures of at most 2^18 Gaussians, .1 to 1.3 s on two
+// A function of the cloud alone. Cost: 30 to 100 small pictures of at most 2^18 Gaussians, .1 to 1.3 s on two
 // cores. Not handled: a subject that was captured from one side only is known by its sharpness alone.
 #pragma once
 
