@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# tests/random_ends.sh [ROUNDS]: ends cut, convert and render over an older output ROUNDS times each (200), at random
+# tests/random_ends.sh [ROUNDS]: ends cut, convert, render and eval over an older output ROUNDS times each (200), at random
 # moments, by INT, TERM, HUP and KILL in turn, and looks at what is there: the old or the new as a whole, files of
 # others untouched, nothing left over; after KILL, the next run cleans. Half of the moments lie near the end, where
-# outputs are written. Prints counts; ends with 1 where one was wrong. SEED chooses other moments, BUILD other programs.
+# outputs are written. Prints counts; ends with 1 where one was wrong. SEED chooses other moments, BUILD other
+# programs, COMMANDS some of them.
 set -uo pipefail
 rounds=${1:-200}
 RANDOM=${SEED:-1}
@@ -21,6 +22,7 @@ run() { # COMMAND old|new: its words, without the program
     cut) echo "cut a/a.ply --cameras a/cameras.json --camera 0 --preset fast --click $click -o out" ;;
     convert) echo "convert $scene -o out" ;;
     render) echo "render a/a.ply --cameras a/cameras.json --camera $view -o out" ;;
+    eval) echo "eval a/suite.json --only $([ "$2" = old ] && echo orange || echo apple) --preset fast --no-curve -o out" ;;
   esac
 }
 target() { [ "$1" = convert ] && echo out.spz || echo out; }
@@ -29,7 +31,10 @@ target() { [ "$1" = convert ] && echo out.spz || echo out; }
 contents() {
   if [ -d "$1" ]; then
     (cd "$1" && find . -type f ! -name '*.txt' ! -name '*.jpg' | sort | while read -r file; do
-      echo "$file $(grep -aEv '"(ms|total_ms|peak_rss_mb)"' "$file" | sha256sum)"
+      case $file in
+        */eval.json) echo "$file $(grep -aE '"name"|iou|psnr|ssim' "$file" | sha256sum) $(tail -c 2 "$file")" ;;
+        *) echo "$file $(grep -aEv '"(ms|total_ms|peak_rss_mb)"' "$file" | sha256sum)" ;;
+      esac
     done)
   else
     sha256sum <"$1"
@@ -40,12 +45,12 @@ leftovers() { find . -name '*.splatcut.*' | grep -c .; }
 now_ms() { date +%s%3N; }
 
 wrong=0
-for command in cut convert render; do
+for command in ${COMMANDS:-cut convert render eval}; do
   out=$(target $command)
   program() { # old|new, in the background; $! is the program itself
     local words
     words=$(run $command "$1")
-    exec "$build/splatcut" ${words/%out/$out} --overwrite --quiet >/dev/null 2>&1
+    exec "$build/splatcut$([ $command != eval ] || echo -lab)" ${words/%out/$out} --overwrite --quiet >/dev/null 2>&1
   }
   (program old)
   if [ -d "$out" ]; then mkdir "$out/photos"; echo mine >"$out/notes.txt"; echo mine >"$out/photos/a.jpg"; fi
