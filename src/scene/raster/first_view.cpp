@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <numeric>
 #include <vector>
 
 #include "scene/raster/rasterizer.h"
@@ -21,6 +22,7 @@ struct Detail {
   std::vector<glm::vec3> position_world;
   std::vector<double> weight;
   std::size_t size() const { return weight.size(); }
+  double total() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
   void add(const glm::vec3& at, double w) {
     position_world.push_back(at);
     weight.push_back(w);
@@ -59,9 +61,11 @@ struct Subject {
   glm::vec3 centre{0};  // of its box, to aim at
   float radius = 0;
   Detail detail;  // of two and a half times that radius
+  bool stands_alone =
+      false;  // a tall thing and hardly anything else: wants to be in the picture from head to foot
 };
 
-Subject subject_of(const GaussianCloud& cloud) {
+Subject subject_of(const GaussianCloud& cloud, const glm::vec3& up) {
   const Detail all = detail_of(cloud);
   Subject subject;
   for (int axis = 0; axis < 3; ++axis)
@@ -71,7 +75,14 @@ Subject subject_of(const GaussianCloud& cloud) {
   for (std::size_t i = 0; i < all.size(); ++i)
     if (distance(all.position_world[i]) < 2.5f * subject.radius)
       subject.detail.add(all.position_world[i], all.weight[i]);
-  if (subject.detail.size() > 0) subject.centre = robust_bounds(subject.detail.position_world, 0.96).centre();
+  if (subject.detail.size() == 0) return subject;
+  const Box box = robust_bounds(subject.detail.position_world, 0.96);
+  subject.centre = box.centre();
+  constexpr double kHardlyElse = 0.93;
+  const glm::vec3 height = box.extent() * glm::abs(up), width = box.extent() * (1.0f - glm::abs(up));
+  subject.stands_alone = subject.detail.total() > kHardlyElse * all.total() &&
+                         glm::length(height) > std::max({width.x, width.y, width.z});
+  if (subject.stands_alone) std::ranges::fill(subject.detail.weight, 1.0);
   return subject;
 }
 
@@ -169,7 +180,7 @@ class Search {
  public:
   Search(const GaussianCloud& cloud, const Box& bounds, const glm::vec3& up_world, const Camera& outside,
          const Job& job)
-      : subject_(subject_of(cloud)),
+      : subject_(subject_of(cloud, glm::normalize(up_world))),
         shapes_(shapes_of(cloud)),
         bounds_(bounds),
         size_(glm::length(bounds.extent())),
@@ -216,7 +227,8 @@ class Search {
     Camera view;
     const Shown s =
         shown_from(subject_.centre + distance * from, subject_.centre, kNearShare * distance, &view);
-    const double framing = std::clamp((s.framed - 0.6) / 0.4, 0.05, 1.0);
+    const double least = subject_.stands_alone ? 0.8 : 0.6;
+    const double framing = std::clamp((s.framed - least) / (1 - least), 0.05, 1.0);
     return offer(view, framing * framing * std::min(1.0, s.seen / kSeen) * s.sharpness);
   }
 

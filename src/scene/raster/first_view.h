@@ -7,7 +7,8 @@
 //   c  sharp share of the picture  (sharp share of what is covered)^2  (1 - share before the lens)^2
 // Sharp: 1 / (1 + (s / 1.5 px)^2), s the footprint of a pixel's first Gaussian in a picture 160 px wide.
 // c: of the subject, how much of it lies well inside the picture and is not hidden (a roof hides a room);
-// constants for the others, from within less where all that is seen is near.
+// constants for the others, from within less where all that is seen is near. A thing that stands alone,
+// higher than wide, is to be seen from head to foot.
 //
 // A function of the cloud alone. Cost: 30 to 100 small pictures of at most 2^18 Gaussians, .1 to 1.3 s on two
 // cores. Not handled: a subject that was captured from one side only is known by its sharpness alone.

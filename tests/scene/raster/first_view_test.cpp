@@ -124,6 +124,25 @@ TEST_CASE("first view: what was captured finely is in the middle, not too small,
   CHECK(side_px < 200);
 }
 
+TEST_CASE("first view: a tall thing that stands alone is seen from head to foot") {
+  GaussianCloud tower;
+  add_box(&tower, 0.5f, 60);
+  for (glm::vec3& p : tower.position) p.y *= 5;
+  for (glm::vec3& s : tower.scale) s *= 2;  // closed all the same
+  const Box bounds{{-0.5f, -2.5f, -0.5f}, {0.5f, 2.5f, 0.5f}};
+  const Camera outside = outside_of(bounds);
+  const Camera view = better_first_view(tower, bounds, {0, -1, 0}, outside).value_or(outside);
+  float highest = 240, lowest = 0;
+  for (const glm::vec3& p : tower.position) {
+    const glm::vec2 at = view.pixel_from_camera(view.camera_from_world(p));
+    highest = std::min(highest, at.y);
+    lowest = std::max(lowest, at.y);
+  }
+  CHECK(highest > 0);
+  CHECK(lowest < 240);
+  CHECK(lowest - highest > 100);
+}
+
 TEST_CASE(
     "view of all: the box lies in the picture with air around it, upright, seen from above, whatever is up") {
   const Box bounds{{-2, -1, -3}, {4, 1, 2}};
