@@ -60,10 +60,16 @@ float weighted_median(const Detail& detail, const Value& value) {
 struct Subject {
   glm::vec3 centre{0};  // of its box, to aim at
   float radius = 0;
-  Detail detail;  // of two and a half times that radius
+  Detail detail;  // around it
   bool stands_alone =
       false;  // a tall thing and hardly anything else: wants to be in the picture from head to foot
 };
+
+bool higher_than_wide(const Detail& detail, const glm::vec3& up) {
+  const glm::vec3 size = robust_bounds(detail.position_world, 0.96).extent();
+  const glm::vec3 width = size * (1.0f - glm::abs(up));
+  return glm::length(size * glm::abs(up)) > std::max({width.x, width.y, width.z});
+}
 
 Subject subject_of(const GaussianCloud& cloud, const glm::vec3& up) {
   const Detail all = detail_of(cloud);
@@ -72,17 +78,19 @@ Subject subject_of(const GaussianCloud& cloud, const glm::vec3& up) {
     subject.centre[axis] = weighted_median(all, [&](const glm::vec3& p) { return p[axis]; });
   const auto distance = [&](const glm::vec3& p) { return glm::distance(p, subject.centre); };
   subject.radius = weighted_median(all, distance);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (distance(all.position_world[i]) < 2.5f * subject.radius)
-      subject.detail.add(all.position_world[i], all.weight[i]);
-  if (subject.detail.size() == 0) return subject;
-  const Box box = robust_bounds(subject.detail.position_world, 0.96);
-  subject.centre = box.centre();
-  constexpr double kHardlyElse = 0.93;
-  const glm::vec3 height = box.extent() * glm::abs(up), width = box.extent() * (1.0f - glm::abs(up));
-  subject.stands_alone = subject.detail.total() > kHardlyElse * all.total() &&
-                         glm::length(height) > std::max({width.x, width.y, width.z});
+  const auto within = [&](float most) {
+    Detail detail;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (distance(all.position_world[i]) < most) detail.add(all.position_world[i], all.weight[i]);
+    return detail;
+  };
+  const Detail around = within(3 * subject.radius);
+  if (around.size() == 0) return subject;
+  constexpr double kHardlyElse = 0.97;
+  subject.stands_alone = around.total() > kHardlyElse * all.total() && higher_than_wide(around, up);
+  subject.detail = subject.stands_alone ? around : within(2.5f * subject.radius);
   if (subject.stands_alone) std::ranges::fill(subject.detail.weight, 1.0);
+  subject.centre = robust_bounds(subject.detail.position_world, 0.96).centre();
   return subject;
 }
 

@@ -125,10 +125,14 @@ TEST_CASE("first view: what was captured finely is in the middle, not too small,
 }
 
 TEST_CASE("first view: a tall thing that stands alone is seen from head to foot") {
-  GaussianCloud tower;
-  add_box(&tower, 0.5f, 60);
-  for (glm::vec3& p : tower.position) p.y *= 5;
-  for (glm::vec3& s : tower.scale) s *= 2;  // closed all the same
+  GaussianCloud tower;  // captured best in its middle
+  float y = -2;
+  for (const int steps : {24, 30, 34, 30, 24}) {
+    const std::size_t from = tower.size();
+    add_box(&tower, 0.5f, steps);
+    for (std::size_t g = from; g < tower.size(); ++g) tower.position[g].y += y;
+    ++y;
+  }
   const Box bounds{{-0.5f, -2.5f, -0.5f}, {0.5f, 2.5f, 0.5f}};
   const Camera outside = outside_of(bounds);
   const Camera view = better_first_view(tower, bounds, {0, -1, 0}, outside).value_or(outside);
