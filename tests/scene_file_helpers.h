@@ -34,6 +34,18 @@ struct Folder {
   fs::path operator/(const std::string& name) const { return path / name; }
 };
 
+// Every value, bit for bit.
+inline void check_equal(const GaussianCloud& a, const GaussianCloud& b) {
+  CHECK(a.position == b.position);
+  CHECK(a.scale == b.scale);
+  CHECK(a.rotation == b.rotation);
+  CHECK(a.opacity == b.opacity);
+  CHECK(a.f_dc == b.f_dc);
+  CHECK(a.sh_degree == b.sh_degree);
+  CHECK(a.sh_rest == b.sh_rest);
+  CHECK(a.file_row == b.file_row);
+}
+
 inline std::string text_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream out;

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "core/median.h"
 #include "scene/raster/rasterizer.h"
 
 namespace splatcut {
@@ -45,14 +46,13 @@ Detail detail_of(const GaussianCloud& cloud) {
 template <typename Value>
 float weighted_median(const Detail& detail, const Value& value) {
   std::vector<std::pair<float, double>> items;
-  double all = 0, below = 0;
-  for (std::size_t i = 0; i < detail.size(); ++i) {
+  for (std::size_t i = 0; i < detail.size(); ++i)
     items.emplace_back(value(detail.position_world[i]), detail.weight[i]);
-    all += detail.weight[i];
-  }
   std::ranges::sort(items);
+  const double half = 0.5 * detail.total();
+  double below = 0;
   for (const auto& [v, weight] : items)
-    if ((below += weight) >= 0.5 * all) return v;
+    if ((below += weight) >= half) return v;
   return 0;
 }
 
@@ -60,9 +60,8 @@ float weighted_median(const Detail& detail, const Value& value) {
 struct Subject {
   glm::vec3 centre{0};  // of its box, to aim at
   float radius = 0;
-  Detail detail;  // around it
-  bool stands_alone =
-      false;  // a tall thing and hardly anything else: wants to be in the picture from head to foot
+  Detail detail;              // around it
+  bool stands_alone = false;  // a tall thing, hardly anything else: is to be seen from head to foot
 };
 
 bool higher_than_wide(const Detail& detail, const glm::vec3& up) {
@@ -147,10 +146,7 @@ float median_depth(const RasterOutput& picture) {
   std::vector<float> depths;
   for (const float depth : picture.median_depth.pixels())
     if (depth > 0) depths.push_back(depth);
-  if (depths.empty()) return 0;
-  const auto middle = depths.begin() + std::ssize(depths) / 2;
-  std::ranges::nth_element(depths, middle);
-  return *middle;
+  return median(std::move(depths));
 }
 
 Shown shown(const Shapes& shapes, const Subject& subject, const Camera& view, float near_depth,
@@ -164,9 +160,9 @@ Shown shown(const Shapes& shapes, const Subject& subject, const Camera& view, fl
   const RasterOutput picture = rasterize(shapes.cloud, camera, options, job);
   Shown result;
   if (job.cancelled()) return result;
-  double all = 0, framed = 0, seen = 0;
+  const double all = subject.detail.total();
+  double framed = 0, seen = 0;
   for (std::size_t i = 0; i < subject.detail.size(); ++i) {
-    all += subject.detail.weight[i];
     const glm::vec3 p = camera.camera_from_world(subject.detail.position_world[i]);
     if (p.z <= 0) continue;
     const glm::vec2 at = camera.pixel_from_camera(p);

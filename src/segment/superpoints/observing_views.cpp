@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/median.h"
 #include "scene/raster/rasterizer.h"
 #include "segment/superpoints/orbit.h"
 
@@ -19,10 +20,7 @@ float depth_looked_at(const GaussianCloud& cloud, const Camera& camera, const Jo
   for (int y = camera.height_px / 4; y < camera.height_px * 3 / 4; ++y)
     for (int x = camera.width_px / 4; x < camera.width_px * 3 / 4; ++x)
       if (out.first_hit.at(x, y) >= 0) depths.push_back(out.expected_depth.at(x, y));
-  if (depths.empty()) return 0;
-  const auto middle = depths.begin() + std::ssize(depths) / 2;
-  std::ranges::nth_element(depths, middle);
-  return *middle;
+  return median(std::move(depths));
 }
 
 }  // namespace

@@ -124,13 +124,7 @@ TEST_CASE("spz: version 4, zstd streams, holds what version 3 of the same cloud 
     write(folder / "4.spz", v4);
     const Scene a = load_scene(folder / "3.spz"), b = load_scene(folder / "4.spz");
     CHECK(b.cloud.sh_degree == degree);
-    CHECK(a.cloud.file_row == b.cloud.file_row);
-    CHECK(a.cloud.position == b.cloud.position);
-    CHECK(a.cloud.rotation == b.cloud.rotation);
-    CHECK(a.cloud.scale == b.cloud.scale);
-    CHECK(a.cloud.opacity == b.cloud.opacity);
-    CHECK(a.cloud.f_dc == b.cloud.f_dc);
-    CHECK(a.cloud.sh_rest == b.cloud.sh_rest);
+    check_equal(a.cloud, b.cloud);
     write(folder / "cut.spz", v4.substr(0, v4.size() - 9));
     CHECK(mentions(refusal(folder / "cut.spz"), {"truncated", "stream"}));
     std::string damaged = v4;

@@ -68,13 +68,7 @@ TEST_CASE("ply: text has the values of its binary twin, and colours stand for f_
   }
   write(folder / "text.ply", text);
   const Scene a = load_scene(folder / "binary.ply"), b = load_scene(folder / "text.ply");
-  CHECK(a.cloud.position == b.cloud.position);
-  CHECK(a.cloud.scale == b.cloud.scale);
-  CHECK(a.cloud.rotation == b.cloud.rotation);
-  CHECK(a.cloud.opacity == b.cloud.opacity);
-  CHECK(a.cloud.f_dc == b.cloud.f_dc);
-  CHECK(a.cloud.sh_rest == b.cloud.sh_rest);
-  CHECK(a.cloud.file_row == b.cloud.file_row);
+  check_equal(a.cloud, b.cloud);
   const SaveReport report = save_scene(folder / "out.ply", b, {}, SceneFormat::kPly);
   CHECK(report.loss == "the property \"label\" is left out");
   check_same(as_written(b, false), load_scene(folder / "out.ply"), limits().at("ply").limit);
