@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 
 #include "../tests/headless_app.h"
 
@@ -57,7 +58,7 @@ void moving_pictures(HeadlessApp& app) {
   constexpr double kSeconds = 6;
   const auto start = Clock::now();
   auto before = start;
-  std::uint64_t serial = s.picture_serial();
+  std::uint64_t serial = s.viewport().picture_serial();
   int pictures = 0, frames = 0;
   while (ms_since(start) < 1000 * kSeconds) {
     const auto now = Clock::now();
@@ -66,13 +67,88 @@ void moving_pictures(HeadlessApp& app) {
     glFinish();  // as showing it would
     before = now;
     ++frames;
-    if (s.picture_serial() != serial && ms_since(start) > 1500) ++pictures;
-    serial = s.picture_serial();
+    if (s.viewport().picture_serial() != serial && ms_since(start) > 1500) ++pictures;
+    serial = s.viewport().picture_serial();
   }
   app.release(PointerButton::kMiddle);
   fmt::print("{:<44} {:8.1f} pictures/s at {:.0f} % size, {:.1f} frames/s of the interface\n", "moving",
-             pictures / (kSeconds - 1.5), 100 * s.moving_scale(), frames / kSeconds);
-  print("moving, one picture", s.moving_ms());
+             pictures / (kSeconds - 1.5), 100 * s.viewport().moving_scale(), frames / kSeconds);
+  print("moving, one picture", s.viewport().moving_ms());
+}
+
+// How long the window's thread stands still at the worst, from the command until everything is at rest.
+double longest_stop(HeadlessApp& app, const std::function<void()>& command) {
+  Studio& s = app.studio();
+  double longest = 0;
+  const auto timed = [&longest](const auto& work) {
+    const auto start = Clock::now();
+    work();
+    longest = std::max(longest, ms_since(start));
+  };
+  timed(command);
+  for (int quiet = 0; quiet < 3; quiet = s.idle() ? quiet + 1 : 0) {
+    timed([&s] { s.update(1.0 / 60); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return longest;
+}
+
+void stops_of_commands(HeadlessApp& app, const glm::vec2& at) {
+  Studio& s = app.studio();
+  const glm::vec2 size(s.viewport().pane_camera().width_px, s.viewport().pane_camera().height_px);
+  const glm::vec2 pixel = at * size;
+  const auto hit = s.viewport().pick(pixel);
+  if (!hit) return;
+  const float reach = 0.2f * s.camera().scene_size();
+  const auto report = [&](const char* what, const std::function<void()>& command) {
+    print(what, longest_stop(app, command));
+  };
+  const auto change_view = [&s](const auto& change) {
+    ViewState view = s.view();
+    change(view);
+    s.apply(SetView{view});
+  };
+  fmt::print("longest stop of the window's thread, from the command to rest:\n");
+  report("  new object", [&] { s.apply(NewObject{}); });
+  report("  select a sphere in space", [&] {
+    s.apply(SelectVolume{Volume{true, hit->position_world, glm::vec3(reach)}, SetOperation::kAdd, false});
+  });
+  report("  grow", [&] { s.apply(EditSelection{SelectionEdit::kGrow}); });
+  report("  shrink", [&] { s.apply(EditSelection{SelectionEdit::kShrink}); });
+  report("  show floaters", [&] { s.apply(ShowFloaters{true}); });
+  report("  remove floaters", [&] { s.apply(EditSelection{SelectionEdit::kRemoveFloaters}); });
+  report("  hide floaters", [&] { s.apply(ShowFloaters{false}); });
+  report("  largest part", [&] { s.apply(EditSelection{SelectionEdit::kLargestPart}); });
+  report("  invert", [&] { s.apply(EditSelection{SelectionEdit::kInvert}); });
+  report("  undo", [&] { s.apply(Undo{}); });
+  report("  isolate", [&] { change_view([](ViewState& v) { v.display = DisplayMode::kIsolate; }); });
+  report("  whole", [&] { change_view([](ViewState& v) { v.display = DisplayMode::kWhole; }); });
+  report("  tint off", [&] { change_view([](ViewState& v) { v.tint = !v.tint; }); });
+  report("  select by colour", [&] { s.apply(PickColour{hit->gaussian, SetOperation::kAdd}); });
+  report("  select flood", [&] { s.apply(SelectFlood{hit->gaussian, SetOperation::kAdd}); });
+  report("  select by size", [&] { s.apply(SelectRange{Property::kSize, -2, -1, SetOperation::kRemove}); });
+  const Mask region =
+      rectangle_region(0.3f * size, 0.6f * size, static_cast<int>(size.x), static_cast<int>(size.y));
+  report("  select in the picture", [&] {
+    s.apply(SelectRegion{s.viewport().pane_camera(), region, SetOperation::kAdd});
+  });
+  change_view([](ViewState& v) { v.see_through = true; });
+  report("  select through the scene", [&] {
+    s.apply(SelectRegion{s.viewport().pane_camera(), region, SetOperation::kAdd});
+  });
+  change_view([](ViewState& v) { v.see_through = false; });
+  report("  delete", [&] { s.apply(DeleteSelected{}); });
+  report("  undo", [&] { s.apply(Undo{}); });
+  report("  rename", [&] { s.apply(RenameObject{s.document().active, "another"}); });
+  report("  point under the pointer, view just moved", [&] {
+    s.camera().orbit({3, 0});
+    s.viewport().pick(pixel);
+  });
+  report("  double click, view just moved", [&] {
+    s.camera().orbit({3, 0});
+    s.pointer_double_clicked(pixel);
+  });
+  report("  frame the object", [&] { s.run(Action::kFrameObject); });
 }
 
 void gl_pictures(const std::shared_ptr<const GaussianCloud>& cloud, const Camera& camera) {
@@ -105,18 +181,18 @@ int main(int argc, char** argv) {
   FrameTimes longest;
   const auto start = Clock::now();
   app.open(argv[1]);
-  while (!s.picture() && ms_since(start) < 100000) app.frames(1);
+  while (!s.viewport().picture() && ms_since(start) < 100000) app.frames(1);
   print("open to first picture", ms_since(start));
   until(
       app, [&] { return s.prepared() != nullptr; }, &longest);
   print("open to prepared", ms_since(start));
-  const Camera camera = s.viewport_camera();
+  const Camera camera = s.viewport().pane_camera();
   fmt::print("{} Gaussians, picture {}x{}\n", s.scene()->cloud->size(), camera.width_px, camera.height_px);
-  print("still picture, while preparing", s.still_ms());
+  print("still picture, while preparing", s.viewport().still_ms());
   s.camera().orbit({1, 0});
   until(
       app, [] { return true; }, &longest);
-  print("still picture, prepared", s.still_ms());
+  print("still picture, prepared", s.viewport().still_ms());
   s.camera().orbit({-1, 0});
   until(
       app, [] { return true; }, &longest);
@@ -133,7 +209,7 @@ int main(int argc, char** argv) {
       app, [] { return true; }, &longest);
   print("hover: longest frame", longest);
   longest = {};
-  const auto run = [&]() -> const CutRun* { return s.cut_run(s.document().active); };
+  const auto run = [&]() -> const CutRun* { return s.cuts().run(s.document().active); };
   const auto done = [&] { return run() && !run()->running && run()->total_ms > 0; };
   app.move(at);
   app.press(PointerButton::kLeft);
@@ -164,5 +240,6 @@ int main(int argc, char** argv) {
   until(app, done, &longest);
   s.apply(SetSmoothness{s.document().active, 2.7f});
   print("slider to cutout", until(app, done, &longest));
+  stops_of_commands(app, share);
   gl_pictures(s.scene()->cloud, camera);
 }

@@ -72,7 +72,7 @@ class Artist {
   glm::vec2 on_screen(const glm::vec2& viewport_px) { return app->interface().viewport().min + viewport_px; }
   // Of a pixel of the place's camera.
   glm::vec2 screen_of(const glm::vec2& pixel) {
-    const Camera shown = studio().viewport_camera();
+    const Camera shown = studio().viewport().pane_camera();
     const glm::vec2 principal(place_.camera.cx_px, place_.camera.cy_px);
     return on_screen((pixel - principal) * (shown.fy_px / place_.camera.fy_px) +
                      glm::vec2(shown.cx_px, shown.cy_px));
@@ -96,8 +96,8 @@ class Artist {
   }
   Labels labels() { return studio().labels(studio().document().active); }
   const ObjectItem& object() { return *studio().document().active_object(); }
-  const CutRun& run() { return *studio().cut_run(studio().document().active); }
-  const Image<std::int32_t>& hits() { return studio().picture()->frames.front()->first_hit; }
+  const CutRun& run() { return *studio().cuts().run(studio().document().active); }
+  const Image<std::int32_t>& hits() { return studio().viewport().picture()->frames.front()->first_hit; }
   std::string said() { return studio().messages().back().text; }
 
   // Where the labels show on the screen.
@@ -127,7 +127,7 @@ class Artist {
     REQUIRE(app.settle());
     const auto scene = open_scene(read_work_file(file).scene);
     Document read = restored(read_work_file(file), *scene->scene, scene->hash).document;
-    CHECK(bytes_of(read) == bytes_of(studio().document()));
+    CHECK(same(read, studio().document()));
     read.objects.front().cut = nullptr;
     const Document again = computed_again(*scene, read);
     CHECK(labels_of(again, *again.active_object(), labels().size()) == labels());

@@ -23,15 +23,22 @@ class Hands {
   }
   Studio& studio() { return app.studio(); }
   std::string said() { return studio().messages().empty() ? "" : studio().messages().back().text; }
-  std::size_t selected() { return studio().gaussians_of(studio().document().active); }
+  std::size_t steps() {
+    REQUIRE(app.settle());
+    return studio().history().cursor();
+  }
+  std::size_t selected() {
+    REQUIRE(app.settle());
+    return studio().gaussians_of(studio().document().active);
+  }
   glm::vec2 in_viewport(const glm::vec2& screen) { return screen - app->interface().viewport().min; }
   glm::vec3 under(const glm::vec2& screen) {
-    const auto hit = studio().pick(in_viewport(screen));
+    const auto hit = studio().viewport().pick(in_viewport(screen));
     REQUIRE(hit);
     return hit->position_world;
   }
   glm::vec2 seen_at(const glm::vec3& world) {
-    const Camera camera = studio().viewport_camera();
+    const Camera camera = studio().viewport().pane_camera();
     return app->interface().viewport().min + camera.pixel_from_camera(camera.camera_from_world(world));
   }
   HeadlessApp app;

@@ -137,7 +137,7 @@ class HeadlessApp {
   // Where a pixel of the sample's camera 0 is on the screen while the view stands there.
   glm::vec2 screen_of(const glm::vec2& pixel) {
     const Camera given = load_cameras(kSampleFolder / "cameras.json").front();
-    const Camera shown = studio().viewport_camera();
+    const Camera shown = studio().viewport().pane_camera();
     const float factor = shown.fy_px / given.fy_px;
     const glm::vec2 at =
         (pixel - glm::vec2(given.cx_px, given.cy_px)) * factor + glm::vec2(shown.cx_px, shown.cy_px);

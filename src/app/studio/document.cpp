@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <tuple>
 
 #include "core/error.h"
 
@@ -17,10 +18,20 @@ constexpr std::array<Rgb8, 8> kObjectColours = {Rgb8{255, 145, 40},  Rgb8{70, 18
                                                 Rgb8{240, 110, 190}, Rgb8{250, 225, 70}, Rgb8{150, 130, 255},
                                                 Rgb8{255, 95, 80},   Rgb8{120, 220, 235}};
 
-void append_flags(std::string* bytes, const Flags& flags) {
-  if (flags && std::ranges::any_of(*flags, [](std::uint8_t f) { return f != 0; }))
-    bytes->append(flags->begin(), flags->end());
-  bytes->push_back('|');
+bool none_set(const Flags& flags) {
+  return !flags || std::ranges::all_of(*flags, [](std::uint8_t f) { return f == 0; });
+}
+
+bool same_flags(const Flags& a, const Flags& b) {
+  if (a == b) return true;
+  return a && b ? *a == *b : none_set(a) && none_set(b);
+}
+
+bool same_but_strokes(const ObjectItem& a, const ObjectItem& b) {
+  const auto plain = [](const ObjectItem& o) {
+    return std::tie(o.id, o.name, o.colour, o.visible, o.locked, o.within, o.cut_key);
+  };
+  return plain(a) == plain(b) && same_flags(a.cut, b.cut) && same_flags(a.hand, b.hand);
 }
 
 }  // namespace
@@ -118,20 +129,20 @@ std::size_t count_flags(std::span<const std::uint8_t> flags) {
   return static_cast<std::size_t>(std::ranges::count_if(flags, [](std::uint8_t f) { return f != 0; }));
 }
 
-std::string bytes_of(const Document& document) {
-  std::string bytes =
-      fmt::format("{},{},{},{},{},{},{},{},{};", document.active, document.next_id, document.preset,
-                  document.up_world.x, document.up_world.y, document.up_world.z, document.background.r,
-                  document.background.g, document.background.b);
-  append_flags(&bytes, document.deleted);
-  for (const ObjectItem& o : document.objects) {
-    bytes += fmt::format("{},{},{},{},{},{},{},{};", o.id, o.name, o.colour[0], o.colour[1], o.colour[2],
-                         o.visible, o.locked, o.within);
-    bytes += cut_key(document, o) + o.cut_key;
-    append_flags(&bytes, o.cut);
-    append_flags(&bytes, o.hand);
-  }
-  return bytes;
+bool same_but_strokes(const Document& a, const Document& b) {
+  const auto settings = [](const Document& d) {
+    return std::tie(d.active, d.next_id, d.preset, d.up_world, d.background);
+  };
+  const auto same_object = [](const ObjectItem& x, const ObjectItem& y) { return same_but_strokes(x, y); };
+  return settings(a) == settings(b) && same_flags(a.deleted, b.deleted) &&
+         std::ranges::equal(a.objects, b.objects, same_object);
+}
+
+bool same(const Document& a, const Document& b) {
+  const auto same_cut = [&](const ObjectItem& x, const ObjectItem& y) {
+    return cut_key(a, x) == cut_key(b, y);
+  };
+  return same_but_strokes(a, b) && std::ranges::equal(a.objects, b.objects, same_cut);
 }
 
 }  // namespace splatcut

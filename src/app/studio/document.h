@@ -71,7 +71,7 @@ std::string cut_key(const Document& document, const ObjectItem& object);
 
 // True if `cut` was computed from another request or other settings.
 bool is_stale(const Document& document, const ObjectItem& object);
-bool is_stale(const ObjectItem& object, const std::string& key);  // where its cut_key() is known
+bool is_stale(const ObjectItem& object, const std::string& key);  // key: its cut_key()
 
 // Final labels (1 = object): cut, hand marks, `within` and deleted together. Size: `gaussians`.
 std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& object,
@@ -85,8 +85,8 @@ ObjectItem& add_object(Document* document, std::string name = {});
 
 std::size_t count_flags(std::span<const std::uint8_t> flags);
 
-// Everything in the document as bytes: equal documents, equal bytes. An edit that leaves them as they are
-// makes no undo step.
-std::string bytes_of(const Document& document);
+// Everything in them is equal; all but what cut_key() covers is.
+bool same(const Document& a, const Document& b);
+bool same_but_strokes(const Document& a, const Document& b);
 
 }  // namespace splatcut

@@ -28,30 +28,59 @@ std::size_t distinct_bytes(const std::vector<History::Entry>& entries) {
   return bytes;
 }
 
+// Shares those of the entry before that are the same, place by place.
+std::vector<std::shared_ptr<const ObjectKeys>> keys_of(const Document& document,
+                                                       const History::Entry& before) {
+  std::vector<std::shared_ptr<const ObjectKeys>> keys;
+  for (const ObjectItem& object : document.objects) {
+    ObjectKeys made{cut_key(document, object), key_of_first_stroke(cut_request(document, object))};
+    const std::size_t place = keys.size();
+    const bool known = place < before.keys.size() && *before.keys[place] == made;
+    keys.push_back(known ? before.keys[place] : std::make_shared<const ObjectKeys>(std::move(made)));
+  }
+  return keys;
+}
+
 }  // namespace
 
 void History::reset(Document document, std::string title) {
   entries_.clear();
-  entries_.push_back({std::move(title), {}, std::move(document)});
+  auto keys = keys_of(document, {});
+  entries_.push_back({std::move(title), {}, std::move(document), std::move(keys)});
   cursor_ = 0;
+  ++serial_;
   merging_ = false;
+}
+
+const ObjectKeys& History::keys(const ObjectItem& object) const {
+  const std::vector<ObjectItem>& objects = now().objects;
+  const auto found = std::ranges::find(objects, object.id, &ObjectItem::id);
+  assert(found != objects.end());
+  return *entries_[cursor_].keys[static_cast<std::size_t>(found - objects.begin())];
 }
 
 bool History::merges(std::string_view merge_key) const {
   return merging_ && !merge_key.empty() && entries_[cursor_].merge_key == merge_key && cursor_ > 0;
 }
 
-void History::push(std::string title, Document after, std::string merge_key) {
+bool History::push(std::string title, Document after, std::string merge_key) {
+  const Entry& before = entries_[cursor_];
+  Entry entry{std::move(title), std::move(merge_key), std::move(after), {}};
+  entry.keys = keys_of(entry.document, before);
+  // The same keys are the same objects, see keys_of().
+  if (entry.keys == before.keys && same_but_strokes(entry.document, before.document)) return false;
   entries_.resize(cursor_ + 1);
-  if (merges(merge_key)) {
-    entries_.back() = {std::move(title), std::move(merge_key), std::move(after)};
+  if (merges(entry.merge_key)) {
+    entries_.back() = std::move(entry);
   } else {
-    entries_.push_back({std::move(title), std::move(merge_key), std::move(after)});
+    entries_.push_back(std::move(entry));
     ++cursor_;
   }
   merging_ = true;
+  ++serial_;
   constexpr std::size_t kCheckEvery = 64;  // counting walks the whole history
   if (entries_.size() % kCheckEvery == 0) forget_oldest();
+  return true;
 }
 
 void History::forget_oldest() {
@@ -65,27 +94,32 @@ void History::undo() {
   assert(can_undo());
   --cursor_;
   merging_ = false;
+  ++serial_;
 }
 
 void History::redo() {
   assert(can_redo());
   ++cursor_;
   merging_ = false;
+  ++serial_;
 }
 
 void History::jump(std::size_t entry) {
   assert(entry < entries_.size());
   cursor_ = entry;
   merging_ = false;
+  ++serial_;
 }
 
-void History::set_cut(ObjectId object, const std::string& cut_key, const Flags& labels) {
-  for (Entry& entry : entries_) {
-    ObjectItem* item = entry.document.find(object);
-    if (!item || splatcut::cut_key(entry.document, *item) != cut_key) continue;
-    item->cut = labels;
-    item->cut_key = cut_key;
-  }
+void History::set_cut(ObjectId object, const std::string& cut_key, const Flags& cut) {
+  for (Entry& entry : entries_)
+    for (std::size_t i = 0; i < entry.keys.size(); ++i) {
+      ObjectItem& item = entry.document.objects[i];
+      if (item.id != object || entry.keys[i]->cut != cut_key) continue;
+      item.cut = cut;
+      item.cut_key = cut_key;
+    }
+  ++serial_;
 }
 
 }  // namespace splatcut

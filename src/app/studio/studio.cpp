@@ -1,11 +1,7 @@
-// Events, actions and messages.
 #include "app/studio/studio.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <thread>
 
 #include "core/error.h"
@@ -14,37 +10,60 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::size_t kMessagesKept = 100;
-
-// Of the axes across `up`, one that a view can follow: z (or y) for the front, x (or y) for the right.
-glm::vec3 level_direction(const glm::vec3& up, bool right) {
-  const glm::vec3 ahead = std::abs(up.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
-  const glm::vec3 front = glm::normalize(ahead - glm::dot(ahead, up) * up);
-  return right ? -glm::cross(front, up) : front;
-}
+// Commands that neither change the document nor read it: they need not wait for edits before them.
+template <class C>
+constexpr bool kAtOnce =
+    std::is_same_v<C, SetView> || std::is_same_v<C, GoToCamera> || std::is_same_v<C, LookAlong> ||
+    std::is_same_v<C, SetFieldOfView> || std::is_same_v<C, NextBackdrop> || std::is_same_v<C, SetBackdrop> ||
+    std::is_same_v<C, ShowFloaters> || std::is_same_v<C, Cancel> || std::is_same_v<C, OpenScene> ||
+    std::is_same_v<C, RestoreAutosave> || std::is_same_v<C, DropAutosave>;
 
 }  // namespace
 
-Studio::Studio(StudioOptions options)
-    : options_(std::move(options)), frames_(options_.wake), tasks_(options_.wake, options_.inline_tasks) {
-  tasks_.on_error = [this](const std::string& text) { say(Message::Kind::kError, text); };
-  find_autosave();
+Studio::Studio(const StudioOptions& options)
+    : ws_{.options = options, .tasks = tasks_, .quick = quick_},
+      cuts_(ws_),
+      viewport_(ws_, cuts_),
+      edits_(ws_, viewport_, cuts_),
+      clicks_(ws_, viewport_, cuts_, edits_),
+      files_(ws_, viewport_, [this] { scene_opened(); }),
+      tasks_(options.wake, options.inline_tasks),
+      quick_(options.wake, options.inline_tasks) {
+  tasks_.on_error =
+      quick_.on_error = [this](const std::string& text) { ws_.say(Message::Kind::kError, text); };
 }
 
 Studio::~Studio() = default;
 
-void Studio::say(Message::Kind kind, std::string text) {
-  messages_.push_back({kind, std::move(text), clock_s_});
-  if (messages_.size() > kMessagesKept) messages_.pop_front();
+void Studio::apply(const Command& command) {
+  const bool at_once = std::visit([](const auto& c) { return kAtOnce<std::decay_t<decltype(c)>>; }, command);
+  if (at_once || !edits_.waiting())
+    dispatch(command);
+  else
+    edits_.in_turn([this, command] { dispatch(command); });
 }
 
-void Studio::apply(const Command& command) {
+void Studio::dispatch(const Command& command) {
   try {
-    std::visit([this](const auto& c) { perform(c); }, command);
+    std::visit(
+        [&](const auto& c) {
+          if constexpr (requires { clicks_.perform(c); })
+            clicks_.perform(c);
+          else if constexpr (requires { files_.perform(c); })
+            files_.perform(c);
+          else if constexpr (requires { edits_.perform(c); })
+            edits_.perform(c);
+          else if constexpr (requires { perform(c); })
+            perform(c);
+          else
+            edits_.perform_plain(command);
+        },
+        command);
+    follow_document();
   } catch (const Error& error) {
-    say(Message::Kind::kRefused, error.what());
+    ws_.say(Message::Kind::kRefused, error.what());
   } catch (const std::exception& error) {
-    say(Message::Kind::kError, sentence_of(error));
+    ws_.say(Message::Kind::kError, sentence_of(error));
   }
 }
 
@@ -52,322 +71,151 @@ void Studio::run_all(const std::vector<Command>& commands) {
   for (const Command& command : commands) apply(command);
 }
 
-std::string Studio::why_not(Action action) const {
-  const ObjectItem* active = document().active_object();
-  const bool selected = active && gaussians_of(active->id) > 0;
-  switch (action) {
-    case Action::kOpen:
-    case Action::kQuit:
-    case Action::kHelp:
-    case Action::kTheme:
-    case Action::kNone:
-      return {};
-    default:
-      break;
-  }
-  if (!scene_) return "Open a scene first";
-  switch (action) {
-    case Action::kUndo:
-      return history_.can_undo() ? "" : "There is nothing to undo";
-    case Action::kRedo:
-      return history_.can_redo() ? "" : "There is nothing to redo";
-    case Action::kExport:
-    case Action::kInvert:
-    case Action::kIsolate:
-    case Action::kHide:
-    case Action::kSideBySide:
-    case Action::kFrameObject:
-      if (!active) return "Click an object first";
-      return selected || action == Action::kInvert ? "" : "The object is empty so far: click on it";
-    case Action::kSelectNone:
-    case Action::kDelete:
-    case Action::kGrow:
-    case Action::kShrink:
-    case Action::kLargestPart:
-    case Action::kFloaters:
-      if (!selected) return "Nothing is selected";
-      if (active->locked) return active->name + " is locked";
-      if (!prepared_ && action != Action::kDelete && action != Action::kSelectNone)
-        return "Neighbours are still being prepared";
-      return {};
-    case Action::kHeat:
-      return active && !active->cut_key.empty() ? "" : "There is no cutout yet: click an object";
-    case Action::kRecompute:
-      return active && !active->views.empty() ? "" : "The object has no strokes";
-    case Action::kNextCamera:
-    case Action::kPreviousCamera:
-      return scene_->cameras.empty() ? "No camera file was found beside the scene" : "";
-    case Action::kConfirm:
-      return view_.tool.confirm && tools_.at_work() ? "" : "There is no polygon to close";
-    case Action::kPartLarger:
-      return why_not_step(1);
-    case Action::kPartSmaller:
-      return why_not_step(-1);
-    default:
-      return {};
+void Studio::scene_opened() {
+  cuts_.reset();
+  edits_.reset();
+  clicks_.reset();
+  ws_.tools.abandon();
+  ViewState& view = ws_.view;
+  view.display = DisplayMode::kWhole;
+  view.heat = false;
+  view.tool = Tool::kClick;
+  view.fly_speed = 1;
+  view.operation = SetOperation::kAdd;
+  view.brush_px = std::min(view.brush_px, kMostKeptBrushPx);
+  ++ws_.view_serial;
+  viewport_.reset();
+}
+
+// The view keeps to the document, however that changed.
+void Studio::follow_document() {
+  if (std::exchange(followed_serial_, ws_.history.serial()) == ws_.history.serial()) return;
+  constexpr float kSameDirection = 0.99999f;  // the controller keeps it normalised
+  if (glm::dot(glm::normalize(document().up_world), camera().up_world()) < kSameDirection)
+    camera().set_up(document().up_world);
+  // Alone, an empty object would be a black picture.
+  if (ws_.scene && ws_.view.display != DisplayMode::kWhole && gaussians_of(document().active) == 0 &&
+      cuts_.cutting() == 0) {
+    ws_.view.display = DisplayMode::kWhole;
+    ++ws_.view_serial;
   }
 }
 
-void Studio::run(Action action) {
-  if (action == Action::kNone) return;
-  if (const std::string reason = why_not(action); !reason.empty()) {
-    say(Message::Kind::kRefused, fmt::format("{}: {}", name_of(action), reason));
-    return;
+bool Studio::update(double seconds) {
+  ws_.clock_s += seconds;
+  tasks_.deliver();
+  quick_.deliver();
+  follow_document();
+  cuts_.update();
+  const bool moves = viewport_.update(seconds, flight());
+  clicks_.update();
+  files_.update(seconds);
+  return moves || !idle();
+}
+
+TaskThread::Progress Studio::progress() const {
+  const TaskThread::Progress quick = quick_.progress();
+  return quick.busy ? quick : tasks_.progress();
+}
+
+bool Studio::idle() const {
+  return tasks_.idle() && quick_.idle() && viewport_.idle();
+}
+
+ToolOverlay Studio::overlay() const {
+  return ws_.tools.overlay(ws_.view, viewport_.pane_camera(), viewport_.pixels_per_point());
+}
+
+std::vector<std::uint8_t> Studio::labels(ObjectId object) const {
+  const ObjectItem* item = document().find(object);
+  if (!item || !ws_.scene) return {};
+  return *ws_.labels.labels(document(), *item, ws_.gaussians());
+}
+
+void Studio::set_viewport(int width_px, int height_px, float pixels_per_point, float covered_bottom_px) {
+  viewport_.set_size(width_px, height_px, pixels_per_point, covered_bottom_px);
+}
+
+void Studio::perform(const ShowFloaters& c) {
+  ws_.require_scene();
+  viewport_.show_floaters(c.shown);
+}
+
+// What runs for the person, the nearest to its end first.
+bool Studio::cancel_task() {
+  if (tasks_.busy(TaskKind::kCut)) {
+    cuts_.cancel();
+    ws_.say(Message::Kind::kInfo, "Cancelled. The strokes stay; R computes the cutout again.");
+    return true;
   }
-  if (const Tool* tool = tool_of(action)) {
-    ViewState view = view_;
-    view.tool = *tool;
-    return apply(SetView{view});
+  bool cancelled = edits_.cancel();
+  for (const TaskKind kind : {TaskKind::kSelect, TaskKind::kExport, TaskKind::kLoad}) {
+    if (cancelled || !tasks_.busy(kind)) continue;
+    tasks_.cancel(kind);
+    cancelled = true;
   }
-  const auto edit_selection = [&](SelectionEdit edit) { apply(EditSelection{edit}); };
-  const auto change_view = [&](const auto& change) {
-    ViewState view = view_;
-    change(view);
-    apply(SetView{view});
-  };
-  const auto display = [&](DisplayMode mode) {
-    change_view([&](ViewState& v) { v.display = v.display == mode ? DisplayMode::kWhole : mode; });
-  };
-  constexpr float kBrushStep = 1.12f;
-  switch (action) {
-    case Action::kOpen:
-      ui_requests_.push_back(UiRequest::kOpenDialog);
-      break;
-    case Action::kSave:
-      ui_requests_.push_back(UiRequest::kSaveDialog);
-      break;
-    case Action::kExport:
-      ui_requests_.push_back(UiRequest::kExportDialog);
-      break;
-    case Action::kSnapshot:
-      ui_requests_.push_back(UiRequest::kSnapshotDialog);
-      break;
-    case Action::kQuit:
-      ui_requests_.push_back(UiRequest::kQuit);
-      break;
-    case Action::kHelp:
-      ui_requests_.push_back(UiRequest::kHelp);
-      break;
-    case Action::kTheme:
-      ui_requests_.push_back(UiRequest::kTheme);
-      break;
-    case Action::kHistory:
-      ui_requests_.push_back(UiRequest::kHistory);
-      break;
-    case Action::kUndo:
-      apply(Undo{});
-      break;
-    case Action::kRedo:
-      apply(Redo{});
-      break;
-    case Action::kCancel:
-      apply(Cancel{});
-      break;
-    case Action::kConfirm:
-      run_all(tools_.confirm(tool_context(tools_.pointer_px())));
-      break;
-    case Action::kRecompute:
-      apply(Recompute{});
-      break;
-    case Action::kSelectAll:
-      edit_selection(SelectionEdit::kAll);
-      break;
-    case Action::kSelectNone:
-      edit_selection(SelectionEdit::kNone);
-      break;
-    case Action::kInvert:
-      edit_selection(SelectionEdit::kInvert);
-      break;
-    case Action::kGrow:
-      edit_selection(SelectionEdit::kGrow);
-      break;
-    case Action::kShrink:
-      edit_selection(SelectionEdit::kShrink);
-      break;
-    case Action::kLargestPart:
-      edit_selection(SelectionEdit::kLargestPart);
-      break;
-    case Action::kFloaters:
-      apply(ShowFloaters{!highlight_floaters_});
-      break;
-    case Action::kSeeThrough:
-      change_view([](ViewState& v) { v.see_through = !v.see_through; });
-      break;
-    case Action::kDelete:
-      apply(DeleteSelected{});
-      break;
-    case Action::kNewObject:
-      apply(NewObject{});
-      break;
-    case Action::kBrushSmaller:
-      scale_brush(1 / kBrushStep);
-      break;
-    case Action::kBrushLarger:
-      scale_brush(kBrushStep);
-      break;
-    case Action::kPartLarger:
-      apply(StepScale{1});
-      break;
-    case Action::kPartSmaller:
-      apply(StepScale{-1});
-      break;
-    case Action::kIsolate:
-      display(DisplayMode::kIsolate);
-      break;
-    case Action::kHide:
-      display(DisplayMode::kHide);
-      break;
-    case Action::kSideBySide:
-      display(DisplayMode::kSideBySide);
-      break;
-    case Action::kShowAll:
-      change_view([](ViewState& v) { v.display = DisplayMode::kWhole; });
-      break;
-    case Action::kTint:
-      change_view([](ViewState& v) { v.tint = !v.tint; });
-      break;
-    case Action::kOutline:
-      change_view([](ViewState& v) { v.outline = !v.outline; });
-      break;
-    case Action::kHeat:
-      change_view([](ViewState& v) { v.heat = !v.heat; });
-      break;
-    case Action::kFrameObject: {
-      const std::vector<std::uint8_t> own = labels(document().active);
-      std::vector<glm::vec3> positions;
-      for (std::size_t g = 0; g < own.size(); ++g)
-        if (own[g]) positions.push_back(scene_->cloud->position[g]);
-      camera_.frame(robust_bounds(positions, 0.96), viewport_camera(), covered_bottom_px_);
-      break;
-    }
-    case Action::kFrameScene:
-      camera_.frame_scene();
-      break;
-    case Action::kViewFront:
-      apply(LookAlong{level_direction(document().up_world, false)});
-      break;
-    case Action::kViewRight:
-      apply(LookAlong{level_direction(document().up_world, true)});
-      break;
-    case Action::kViewTop:
-      apply(LookAlong{-document().up_world});
-      break;
-    case Action::kBackdrop:
-      apply(NextBackdrop{});
-      break;
-    case Action::kCentres:
-      change_view([](ViewState& v) { v.centres = !v.centres; });
-      break;
-    case Action::kNextCamera:
-    case Action::kPreviousCamera: {
-      // The nearest given camera says where in the row we are.
-      const glm::vec3 eye = camera_.pose().position_world;
-      const auto& cameras = scene_->cameras;
-      const auto distance = [&](const Camera& c) { return glm::length(c.centre_world() - eye); };
-      const auto nearest = std::ranges::min_element(cameras, {}, distance);
-      const auto count = static_cast<std::ptrdiff_t>(cameras.size());
-      constexpr float kThereShare = 1e-4f;
-      const bool there = distance(*nearest) < kThereShare * camera_.scene_size();
-      const std::ptrdiff_t step = !there ? 0 : action == Action::kNextCamera ? 1 : count - 1;
-      apply(GoToCamera{cameras[static_cast<std::size_t>((nearest - cameras.begin() + step) % count)]});
-      break;
-    }
-    default:
-      break;  // flight keys act while they are held
-  }
+  if (cancelled) ws_.say(Message::Kind::kInfo, "Cancelled");
+  return cancelled;
 }
 
-void Studio::scale_brush(float factor) {
-  ViewState view = view_;
-  view.brush_px = std::clamp(view.brush_px * factor, kLeastBrushPx, kMostBrushPx);
-  apply(SetView{view});
+void Studio::perform(const Cancel&) {
+  if (cancel_task() || ws_.tools.abandon() || clicks_.decline_offer()) return;
+  if (viewport_.floaters_shown()) return viewport_.show_floaters(false);
+  if (ws_.view.display != DisplayMode::kWhole) return run(Action::kShowAll);
+  if (ws_.view.tool != Tool::kNavigate) run(Action::kToolNavigate);
 }
 
-void Studio::hold(const Modifiers& modifiers) {
-  held_modifiers_ = modifiers;
-  tools_.hold(modifiers);
+void Studio::perform(const Recompute&) {
+  ws_.require_scene();
+  cuts_.recompute();
 }
 
-void Studio::key_pressed(int code, const Modifiers& modifiers, bool repeated) {
-  Modifiers now = modifiers;  // X11 does not count the key itself yet
-  now.shift |= code == key::kLeftShift || code == key::kRightShift;
-  now.ctrl |= code == key::kLeftControl || code == key::kRightControl;
-  now.alt |= code == key::kLeftAlt || code == key::kRightAlt;
-  hold(now);
-  const ClickMeanings* offered = modifiers == Modifiers{} ? offer() : nullptr;
-  if (offered && code >= '1' && code - '1' < std::ssize(offered->outlines))
-    return apply(ChooseMeaning{code - '1'});
-  const Action action = action_for(code, modifiers);
-  if (action == Action::kBrushSmaller || action == Action::kBrushLarger) {
-    // A keyboard repeats 30 times a second: the size doubles in one all the same.
-    constexpr double kStepSeconds = 0.16;
-    if (repeated && clock_s_ - brush_repeated_s_ < kStepSeconds) return;
-    brush_repeated_s_ = clock_s_;
-  }
-  if (is_flight(action))
-    held_keys_.insert(code);
-  else
-    run(action);
+// Asked for a second time, it levels the view: a capture's camera may be tilted.
+void Studio::perform(const SetUp& c) {
+  edits_.perform_plain(c);
+  camera().set_up(document().up_world);
 }
 
-void Studio::key_released(int code) {
-  held_keys_.erase(code);
-  Modifiers now = held_modifiers_;
-  if (code == key::kLeftShift || code == key::kRightShift) now.shift = false;
-  if (code == key::kLeftControl || code == key::kRightControl) now.ctrl = false;
-  if (code == key::kLeftAlt || code == key::kRightAlt) now.alt = false;
-  hold(now);
+void Studio::perform(const SetView& c) {
+  if (c.view.tool != ws_.view.tool) ws_.tools.abandon();
+  ws_.view = c.view;
+  ++ws_.view_serial;
 }
 
-void Studio::release_keys() {
-  held_keys_.clear();
-  hold({});
+void Studio::perform(const GoToCamera& c) {
+  ws_.require_scene();
+  camera().go_to(c.camera);
+  if (!c.camera.name.empty()) ws_.say(Message::Kind::kInfo, "Camera " + c.camera.name);
 }
 
-Flight Studio::flight() const {
-  Flight flight;
-  for (const int code : held_keys_) {
-    const Action action = action_for(code, {});
-    flight.forward += (action == Action::kFlyForward) - (action == Action::kFlyBack);
-    flight.right += (action == Action::kFlyRight) - (action == Action::kFlyLeft);
-    flight.down += (action == Action::kFlyDown) - (action == Action::kFlyUp);
-  }
-  flight.speed = view_.fly_speed * (held_modifiers_.shift ? 4.0f : held_modifiers_.alt ? 0.2f : 1.0f);
-  return flight;
+void Studio::perform(const LookAlong& c) {
+  ws_.require_scene();
+  if (!(glm::length(c.direction_world) > 0)) throw Error("view", "that is no direction");
+  camera().look_along(c.direction_world);
 }
 
-void Studio::pointer_pressed(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
-  if (!scene_) return;
-  pressed_pane_ = pane_at(pixel);
-  run_all(tools_.press(in_pane(pixel), button, modifiers, tool_context(pixel)));
+// Dark, grey, white, checker, magenta, and dark again.
+void Studio::perform(const NextBackdrop&) {
+  ws_.require_scene();
+  const auto& all = backdrops();
+  const auto now =
+      std::ranges::find_if(all, [&](const Backdrop& b) { return shows(b, document(), ws_.view); });
+  const auto step = now == all.end() ? 0 : (now - all.begin() + 1) % std::ssize(all);
+  perform(SetBackdrop{static_cast<std::size_t>(step)});
 }
 
-void Studio::pointer_left() {
-  pointer_inside_ = false;
+void Studio::perform(const SetBackdrop& c) {
+  ws_.require_scene();
+  if (c.number >= backdrops().size()) throw Error("background", "there is no such one");
+  const Backdrop& backdrop = backdrops()[c.number];
+  ViewState view = ws_.view;
+  view.checker = backdrop.checker;
+  perform(SetView{view});
+  if (!backdrop.checker) apply(SetBackground{backdrop.colour});
 }
 
-void Studio::pointer_moved(const glm::vec2& pixel, const Modifiers& modifiers) {
-  pointer_inside_ = true;
-  hold(modifiers);
-  if (scene_) run_all(tools_.move(in_pane(pixel), modifiers, tool_context(pixel)));
-}
-
-void Studio::pointer_released(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
-  if (scene_) run_all(tools_.release(in_pane(pixel), button, modifiers, tool_context(pixel)));
-}
-
-void Studio::pointer_double_clicked(const glm::vec2& pixel) {
-  if (scene_) run_all(tools_.double_click(in_pane(pixel), tool_context(pixel)));
-}
-
-void Studio::wheel(float steps, const Modifiers& modifiers) {
-  if (!scene_) return;
-  if (!flight().moving()) return run_all(tools_.wheel(steps, modifiers, tool_context(tools_.pointer_px())));
-  constexpr float kSpeedStep = 1.25f, kSlowest = 0.02f, kFastest = 50;
-  ViewState view = view_;
-  view.fly_speed = std::clamp(view.fly_speed * std::pow(kSpeedStep, steps), kSlowest, kFastest);
-  apply(SetView{view});
-  say(Message::Kind::kInfo, fmt::format("Flying at {:.2g} times the usual speed", view.fly_speed));
+void Studio::perform(const SetFieldOfView& c) {
+  camera().set_fov_y(c.fov_y_rad);
 }
 
 bool Studio::settle(double most_seconds) {

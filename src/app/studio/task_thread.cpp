@@ -51,6 +51,7 @@ void TaskThread::submit(Order order, Work work) {
   Task task{std::move(order), std::move(work), {}};
   if (inline_work_) {
     perform(task);
+    deliver();
     return;
   }
   {
@@ -140,7 +141,8 @@ void TaskThread::run(const std::stop_token& stop) {
     running_ = true;
     running_kind_ = task.order.kind;
     running_stop_ = task.stop;
-    progress_ = {task.order.kind != TaskKind::kHover, task.order.kind, {}, 0};
+    const TaskKind kind = task.order.kind;
+    progress_ = {kind != TaskKind::kHover && kind != TaskKind::kStyle, kind, {}, 0};
     lock.unlock();
     perform(task);
     lock.lock();

@@ -1,5 +1,5 @@
-// One worker for everything that takes long: load, prepare, cut, select, export. Work runs on snapshots; what
-// it finds comes back as closures that the main thread runs in deliver().
+// A worker for what takes long: load, prepare, cut, select, export. Work runs on snapshots; what it finds
+// comes back as closures that the main thread runs in deliver().
 //
 // A task of a kind replaces the waiting and stops the running task of the same kind: the latest request wins.
 // Exports and saved work wait for each other: each is a file that somebody asked for. Preparing runs at a
@@ -19,7 +19,7 @@
 
 namespace splatcut {
 
-enum class TaskKind { kLoad, kPrepare, kCut, kSelect, kHover, kExport, kSave, kAutosave };
+enum class TaskKind { kLoad, kPrepare, kCut, kSelect, kStyle, kHover, kExport, kSave, kAutosave };
 
 class TaskThread {
  public:
@@ -35,14 +35,14 @@ class TaskThread {
   };
 
   struct Progress {
-    bool busy = false;  // with something that a person asked for: kHover apart
+    bool busy = false;  // with something that a person asked for: kHover and kStyle apart
     TaskKind kind = TaskKind::kLoad;
     std::string stage;
     double fraction = 0;  // [0, 1]
   };
 
-  // wake: called from the worker when there is something to deliver. inline_work: every task runs inside
-  // submit(), for tests that want one order of events.
+  // wake: called from the worker when there is something to deliver. inline_work: every task runs and is
+  // delivered inside submit(), for tests that want one order of events.
   explicit TaskThread(std::function<void()> wake = {}, bool inline_work = false);
   ~TaskThread();
 

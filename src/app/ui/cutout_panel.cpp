@@ -141,7 +141,7 @@ void cutout_panel(UiContext& ui) {
   const ObjectItem* object = ui.studio.document().active_object();
   if (!object) return wrapped_muted(ui, "Click an object in the picture.");
   smoothness_slider(ui, *object);
-  const CutRun* run = ui.studio.cut_run(object->id);
+  const CutRun* run = ui.studio.cuts().run(object->id);
   if (!run || (run->stages.empty() && !run->running)) {
     const std::string reason = why_no_cutout(ui.studio, *object);
     if (!reason.empty()) wrapped_muted(ui, reason);

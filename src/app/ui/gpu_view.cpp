@@ -26,10 +26,10 @@ void GpuView::refresh(Pane* pane, const Studio& studio, int index) {
     pane->scene = studio.scene()->serial;
     pane->style = 0;
   }
-  if (pane->style == studio.style_serial()) return;
-  pane->style = studio.style_serial();
-  const FrameStyle style = studio.style(index);
-  const Flags shown = studio.shown(index);
+  if (pane->style == studio.viewport().style_serial()) return;
+  pane->style = studio.viewport().style_serial();
+  const FrameStyle style = studio.viewport().style(index);
+  const Flags shown = studio.viewport().shown(index);
   std::vector<SplatStyle> styles(cloud.size());
   for (std::size_t g = 0; g < styles.size(); ++g) {
     styles[g] = style_of(style, g);
@@ -41,7 +41,7 @@ void GpuView::refresh(Pane* pane, const Studio& studio, int index) {
 std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
   std::array<GLuint, 2> textures{};
   if (!studio.scene()) return textures;
-  const Camera camera = studio.viewport_camera();
+  const Camera camera = studio.viewport().pane_camera();
   const bool other_scene = sorted_scene_ != studio.scene()->serial;
   if (other_scene) order_.reset();
   if (other_scene || !sorted_camera_ || !same_camera(*sorted_camera_, camera)) {
@@ -54,8 +54,8 @@ std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
     ++order_serial_;
   }
   if (!order_) return textures;
-  const DrawLimits limits = studio.draw_limits();
-  for (int i = 0; i < studio.panes(); ++i) {
+  const DrawLimits limits = studio.viewport().draw_limits();
+  for (int i = 0; i < studio.viewport().panes(); ++i) {
     if (!panes_[i]) panes_[i] = std::make_unique<Pane>();
     refresh(panes_[i].get(), studio, i);
     GlSplats& splats = panes_[i]->splats;
@@ -64,7 +64,7 @@ std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
       uploaded_order_[i] = order_serial_;
     }
     splats.draw(camera, {limits.near_plane, limits.far_plane, limits.low_pass_px2});
-    const FrameStyle style = studio.style(i);
+    const FrameStyle style = studio.viewport().style(i);
     splats.resolve({.background = style.background,
                     .checker_px = static_cast<int>(style.checker_px),
                     .tint_strength = style.heat   ? kHeatStrength

@@ -24,14 +24,14 @@ void pair_of(UiContext& ui, Action left, const char* left_label, Action right, c
 void floater_buttons(UiContext& ui) {
   const Studio& s = ui.studio;
   const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
-  action_button(ui, Action::kFloaters, "Show floaters", s.floaters_shown(), half);
+  action_button(ui, Action::kFloaters, "Show floaters", s.viewport().floaters_shown(), half);
   ImGui::SameLine(0, 4);
-  const std::string reason = !s.floaters_shown()      ? "Show them first"
-                             : s.floater_count() == 0 ? "There are none"
-                                                      : "";
+  const std::string reason = !s.viewport().floaters_shown()      ? "Show them first"
+                             : s.viewport().floater_count() == 0 ? "There are none"
+                                                                 : "";
   if (button(ui,
-             s.floaters_shown() && s.floater_count()
-                 ? fmt::format("Remove {}", grouped(s.floater_count())).c_str()
+             s.viewport().floaters_shown() && s.viewport().floater_count()
+                 ? fmt::format("Remove {}", grouped(s.viewport().floater_count())).c_str()
                  : "Remove them",
              "Takes the small far clusters out of the selection", reason, false, half))
     ui.ask(EditSelection{SelectionEdit::kRemoveFloaters});
@@ -39,7 +39,7 @@ void floater_buttons(UiContext& ui) {
 
 void refresh_histogram(UiContext& ui) {
   PropertyChoice& choice = ui.state.property;
-  const Camera camera = ui.studio.viewport_camera();
+  const Camera camera = ui.studio.viewport().pane_camera();
   const auto eye = camera.centre_world();
   std::string key = fmt::format("{} {}", ui.studio.scene()->serial, choice.property);
   if (choice.property == 2) key += fmt::format(" {:.3g} {:.3g} {:.3g}", eye.x, eye.y, eye.z);

@@ -85,8 +85,8 @@ void scene_panel(UiContext& ui) {
       ui.ask(SetFieldOfView{glm::radians(degrees)});
   });
   slider_row("Near limit", "What is nearer than this is not drawn, in scene units", [&] {
-    const float unit = s.draw_limits().near_plane / view.near_share;
-    float units = s.draw_limits().near_plane;
+    const float unit = s.viewport().draw_limits().near_plane / view.near_share;
+    float units = s.viewport().draw_limits().near_plane;
     const std::string format = s.scene() ? length_format(units) : "-";
     if (!ImGui::SliderFloat("##near", &units, 0.0005f * unit, 0.2f * unit, format.c_str(),
                             ImGuiSliderFlags_Logarithmic | kTypedLength))

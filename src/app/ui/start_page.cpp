@@ -9,7 +9,7 @@
 namespace splatcut {
 
 void restore_buttons(UiContext& ui) {
-  wrapped_muted(ui, "Not saved last time: " + ui.studio.autosave_says());
+  wrapped_muted(ui, "Not saved last time: " + ui.studio.files().autosave_says());
   if (button(ui, fmt::format("{} Restore the work of last time", icon::kRefresh).c_str(),
              "It was saved by itself before the program ended"))
     ui.ask(RestoreAutosave{});
@@ -41,7 +41,7 @@ void start_page(UiContext& ui, const UiRect& area) {
     if (button(ui, "Open the sample scene", "A still life on a table, to try things on"))
       ui.ask(OpenScene{ui.state.sample});
   }
-  if (ui.studio.autosave_found()) {
+  if (ui.studio.files().autosave_found()) {
     ImGui::Dummy({0, 4});
     restore_buttons(ui);
   }

@@ -27,10 +27,11 @@ std::string right_text(const UiContext& ui) {
 // For those who wonder why it is slow.
 std::string picture_times(const Studio& studio) {
   std::string text;
-  if (studio.still_ms() > 0) text = fmt::format("A still picture takes {}", ms_text(studio.still_ms()));
-  if (studio.moving_ms() > 0)
-    text += fmt::format("\nA moving one {} at {:.0f} % of the pixels' sides", ms_text(studio.moving_ms()),
-                        100 * studio.moving_scale());
+  if (studio.viewport().still_ms() > 0)
+    text = fmt::format("A still picture takes {}", ms_text(studio.viewport().still_ms()));
+  if (studio.viewport().moving_ms() > 0)
+    text += fmt::format("\nA moving one {} at {:.0f} % of the pixels' sides",
+                        ms_text(studio.viewport().moving_ms()), 100 * studio.viewport().moving_scale());
   return text;
 }
 
@@ -52,7 +53,7 @@ void status_bar(UiContext& ui) {
   }
   const ObjectItem* active = ui.studio.document().active_object();
   if (active) {
-    const CutRun* run = ui.studio.cut_run(active->id);
+    const CutRun* run = ui.studio.cuts().run(active->id);
     const std::string what =
         run && run->running ? "computing" : grouped(ui.studio.gaussians_of(active->id)) + " Gaussians";
     ImGui::SameLine(0, 24);

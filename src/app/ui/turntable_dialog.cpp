@@ -19,7 +19,7 @@ constexpr std::array<const char*, 3> kEndings = {"", ".webp", ".mp4"};
 
 void propose(UiContext& ui) {
   TurntableChoice& choice = ui.state.turntable;
-  const Camera view = ui.studio.viewport_camera();
+  const Camera view = ui.studio.viewport().pane_camera();
   if (choice.width_px <= 0) choice.width_px = view.width_px;
   if (choice.height_px <= 0) choice.height_px = view.height_px;
   if (!choice.path.empty()) return;
@@ -64,7 +64,7 @@ void size_row(UiContext& ui, TurntableChoice& choice) {
     const char *name, *tip;
     int width, height;
   };
-  const Camera view = ui.studio.viewport_camera();
+  const Camera view = ui.studio.viewport().pane_camera();
   for (const Size& s :
        std::array{Size{"View", "As large as the view", view.width_px, view.height_px},
                   Size{"1080p", "1920 x 1080", 1920, 1080}, Size{"Square", "1024 x 1024", 1024, 1024}}) {

@@ -66,7 +66,7 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
 
 float view_strip_width(const Studio& studio) {
   const ObjectItem* object = studio.document().active_object();
-  const CutRun* run = object ? studio.cut_run(object->id) : nullptr;
+  const CutRun* run = object ? studio.cuts().run(object->id) : nullptr;
   float width = 0;
   if (run && studio.scene())
     for (const ViewCard& c : run->views)
@@ -76,7 +76,7 @@ float view_strip_width(const Studio& studio) {
 
 void view_strip(UiContext& ui) {
   const ObjectItem* object = ui.studio.document().active_object();
-  const CutRun* run = object ? ui.studio.cut_run(object->id) : nullptr;
+  const CutRun* run = object ? ui.studio.cuts().run(object->id) : nullptr;
   if (!run) return;
   for (std::size_t i = 0; i < run->views.size(); ++i) {
     if (!run->views[i].picture) continue;

@@ -82,8 +82,8 @@ void draw_centres(const UiContext& ui, const UiRect& area) {
   if (!studio.view().centres) return;
   constexpr std::size_t kMost = 12000;
   const GaussianCloud& cloud = *studio.scene()->cloud;
-  const Camera camera = studio.viewport_camera();
-  const Flags shown = studio.shown(0), mine = studio.active_labels();
+  const Camera camera = studio.viewport().pane_camera();
+  const Flags shown = studio.viewport().shown(0), mine = studio.viewport().active_labels();
   const bool of_object = studio.gaussians_of(studio.document().active) > 0;
   const std::size_t all = of_object ? studio.gaussians_of(studio.document().active) : cloud.size();
   const std::size_t step = 1 + all / kMost;
@@ -92,7 +92,7 @@ void draw_centres(const UiContext& ui, const UiRect& area) {
   for (std::size_t g = 0, counted = 0; g < cloud.size(); ++g) {
     if ((shown && !(*shown)[g]) || (of_object && mine && !(*mine)[g]) || counted++ % step != 0) continue;
     const glm::vec3 seen = camera.camera_from_world(cloud.position[g]);
-    if (!(seen.z > studio.draw_limits().near_plane)) continue;
+    if (!(seen.z > studio.viewport().draw_limits().near_plane)) continue;
     const ImVec2 at = place(camera.pixel_from_camera(seen));
     if (!area.contains({at.x, at.y})) continue;
     list.AddRectFilled({at.x - 1, at.y - 1}, {at.x + 1, at.y + 1}, IM_COL32(255, 255, 255, 200));
@@ -125,7 +125,7 @@ UiRect axes_gizmo(UiContext& ui, const UiRect& area) {
   constexpr float kRadius = 34, kMargin = 12, kBall = 9;
   const ImVec2 middle = {area.max.x - kMargin - kRadius - kBall, area.min.y + kMargin + kRadius + kBall};
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const Camera camera = ui.studio.viewport_camera();
+  const Camera camera = ui.studio.viewport().pane_camera();
   for (const Axis& axis : axes_seen_by(camera)) {
     const ImVec2 at = {middle.x + kRadius * axis.seen.x, middle.y + kRadius * axis.seen.y};
     const bool positive = axis.name[0] != '-';

@@ -77,7 +77,7 @@ const char* mode_label(const Studio& studio) {
 
 // The meanings as buttons with their keys.
 std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
-  const ClickMeanings* offer = ui.studio.offer();
+  const ClickMeanings* offer = ui.studio.clicks().offer();
   if (!offer) return {};
   constexpr float kPad = 8, kButton = 26;
   const std::string text = "other meanings of this click  (Esc: keep this one)";
@@ -102,7 +102,7 @@ std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
 
 // Where a click from afar found nothing.
 std::optional<UiRect> nearer_line(UiContext& ui, const ImVec2& at) {
-  if (!ui.studio.found_nothing()) return {};
+  if (!ui.studio.clicks().found_nothing()) return {};
   constexpr float kPad = 8, kButton = 26;
   const char* text = "Nothing stands out where you clicked.";
   const ImVec2 words = ImGui::CalcTextSize(text), label = ImGui::CalcTextSize("Come nearer");
@@ -163,9 +163,9 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     draw_message(ui, area, bottom);
     return covered;
   }
-  const int panes = studio.panes();
+  const int panes = studio.viewport().panes();
   const float pane_width = area.size().x / static_cast<float>(panes);
-  const FrameResult* picture = studio.picture();
+  const FrameResult* picture = studio.viewport().picture();
   for (int i = 0; i < panes; ++i) {
     const ImVec2 from = {area.min.x + pane_width * static_cast<float>(i), area.min.y};
     const ImVec2 to = {from.x + pane_width, area.max.y};
@@ -173,8 +173,9 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     if (gpu_picture[i])
       list.AddImage(gpu_picture[i], from, to);
     else if (picture && pane < picture->pictures.size())
-      list.AddImage(ui.renderer.texture(kPaneKey + pane, studio.picture_serial(), picture->pictures[pane]),
-                    from, to);
+      list.AddImage(
+          ui.renderer.texture(kPaneKey + pane, studio.viewport().picture_serial(), picture->pictures[pane]),
+          from, to);
   }
   ImGui::PushClipRect(vec(area.min), {area.min.x + pane_width, area.max.y}, true);
   draw_offer(ui, area, bottom);
@@ -182,8 +183,9 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   ImGui::PopClipRect();
   ImGui::PushClipRect(vec(area.min), vec(area.max), true);
   if (panes == 1) draw_centres(ui, area);
-  draw_tool_shape(ui,
-                  {area.min + glm::vec2(pane_width * static_cast<float>(studio.drag_pane()), 0), area.max});
+  draw_tool_shape(
+      ui,
+      {area.min + glm::vec2(pane_width * static_cast<float>(studio.viewport().drag_pane()), 0), area.max});
   draw_points(ui, area);
   draw_brush_ring(ui, area);
   draw_cursor_sign(ui, area);

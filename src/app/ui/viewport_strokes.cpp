@@ -117,7 +117,7 @@ void draw_strokes(const UiContext& ui, const UiRect& area) {
   const OnScreen place = on_screen(ui, area);
   const ObjectItem* object = ui.studio.document().active_object();
   if (!object || !strokes_wanted(ui.studio.view())) return;
-  const Camera now = ui.studio.viewport_camera();
+  const Camera now = ui.studio.viewport().pane_camera();
   for (const StrokedView& view : object->views) {
     if (!same_pose(view.camera, now)) continue;
     const OnScreen there = placement_of(view.camera, now, place);
@@ -144,8 +144,8 @@ void draw_offer(const UiContext& ui, const UiRect& area, float bottom) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const OnScreen place = on_screen(ui, area);
   const UiRect free_area{area.min, {area.max.x, area.max.y - bottom}};
-  const ClickMeanings* offer = ui.studio.offer();
-  const Camera now = ui.studio.viewport_camera();
+  const ClickMeanings* offer = ui.studio.clicks().offer();
+  const Camera now = ui.studio.viewport().pane_camera();
   if (!offer || !same_pose(offer->camera, now)) return;
   const OnScreen there = placement_of(offer->camera, now, place);
   const int taken = ui.studio.document().active_object()->choice;

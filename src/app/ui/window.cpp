@@ -252,7 +252,7 @@ void keep_settings(const Loop& loop, SettingsKeeper* keeper) {
 std::string title_of(const Studio& studio) {
   if (!studio.scene()) return "splatcut";
   const std::filesystem::path& shown =
-      studio.work_path().empty() ? studio.scene()->scene->path : studio.work_path();
+      studio.files().work_path().empty() ? studio.scene()->scene->path : studio.files().work_path();
   return fmt::format("{}{} - splatcut", studio.unsaved() ? "* " : "", shown.filename().string());
 }
 
@@ -280,7 +280,7 @@ void run_loop(Loop& loop, SettingsKeeper* keeper) {
     }
     glfwSwapBuffers(loop.window);
     const bool fresh = glfwGetTime() - loop.last_event_s < kAfterEventSeconds;
-    const bool moving = fresh || loop.app.studio().moving();
+    const bool moving = fresh || loop.app.studio().viewport().moving();
     glfwWaitEventsTimeout(moving ? kMovingSeconds : busy ? kWorkingSeconds : kIdleSeconds);
   }
 }

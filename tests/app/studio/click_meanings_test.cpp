@@ -79,7 +79,7 @@ TEST_CASE("clicks: sizes are of the first click, also from another view and afte
 TEST_CASE("clicks: other meanings of the first click are offered, chosen by keys, undone and saved") {
   Artist artist(on_sample("books", kOnBook));
   artist.click_on_it();
-  const ClickMeanings* offer = artist.studio().offer();
+  const ClickMeanings* offer = artist.studio().clicks().offer();
   REQUIRE(offer);
   MESSAGE(offer->outlines.size(), " meanings");
   REQUIRE(offer->outlines.size() >= 2);
@@ -90,7 +90,7 @@ TEST_CASE("clicks: other meanings of the first click are offered, chosen by keys
   CHECK(artist.object().choice == 1);
   CHECK(artist.studio().view().tool == Tool::kClick);
   CHECK(iou_of(first, second) < 0.9);
-  REQUIRE(artist.studio().offer());  // it can still be changed
+  REQUIRE(artist.studio().clicks().offer());  // it can still be changed
   artist.app.key('Z', {.ctrl = true});
   REQUIRE(artist.app.settle());
   CHECK(artist.labels() == first);
@@ -105,7 +105,7 @@ TEST_CASE("clicks: other meanings of the first click are offered, chosen by keys
   REQUIRE(artist.app.settle());
   CHECK(artist.labels() == first);
   artist.app.key(key::kEscape);
-  CHECK_FALSE(artist.studio().offer());
+  CHECK_FALSE(artist.studio().clicks().offer());
   CHECK(artist.studio().view().tool == Tool::kClick);
   artist.app.key('3');  // a tool again
   CHECK(artist.studio().view().tool == Tool::kScribble);
@@ -114,9 +114,9 @@ TEST_CASE("clicks: other meanings of the first click are offered, chosen by keys
 TEST_CASE("clicks: nothing is offered once more was said") {
   Artist artist(on_sample("books", kOnBook));
   artist.click_on_it();
-  REQUIRE(artist.studio().offer());
+  REQUIRE(artist.studio().clicks().offer());
   artist.click(artist.beside(artist.labels(), 25), PointerButton::kRight);
-  CHECK_FALSE(artist.studio().offer());
+  CHECK_FALSE(artist.studio().clicks().offer());
   artist.app.key('2');
   CHECK(artist.object().choice == 0);
 }

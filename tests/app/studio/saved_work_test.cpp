@@ -27,20 +27,20 @@ TEST_CASE("saved work: read back the same, and computed again bit for bit") {
   REQUIRE(std::filesystem::exists(file));
   CHECK_FALSE(app.studio().unsaved());
   const auto labels = active_labels(app);
-  const std::string bytes = bytes_of(app.studio().document());
+  const Document saved = app.studio().document();
 
   const auto scene = open_scene(read_work_file(file).scene);
   const Document read = restored(read_work_file(file), *scene->scene, scene->hash).document;
-  CHECK(bytes_of(read) == bytes);
+  CHECK(same(read, saved));
   Document empty = read;
   for (ObjectItem& object : empty.objects) object.cut = nullptr;
   const Document again = computed_again(*scene, empty);
   CHECK(labels_of(again, *again.active_object(), labels.size()) == labels);
-  CHECK(bytes_of(again) == bytes);
+  CHECK(same(again, saved));
 
   app.open(file);  // and the window opens it
   REQUIRE(app.settle());
-  CHECK(bytes_of(app.studio().document()) == bytes);
+  CHECK(same(app.studio().document(), saved));
 }
 
 TEST_CASE("saved work: what is wrong with a file is said in one sentence") {
@@ -88,7 +88,7 @@ TEST_CASE("a view left out is that view: after a save, and after another preset 
   app.click(app.screen_of(kOnApple));
   REQUIRE(app.settle());
   const ObjectId id = app.studio().document().active;
-  const auto views = [&] { return app.studio().cut_run(id)->views; };
+  const auto views = [&] { return app.studio().cuts().run(id)->views; };
   REQUIRE(views().size() > 2);
   const Camera camera = views()[2].camera;
   app.studio().apply(LeaveOutView{id, camera, true});
@@ -113,7 +113,7 @@ TEST_CASE("a view left out is that view: after a save, and after another preset 
   const auto scene = open_scene(read_work_file(file).scene);
   const RestoredWork read = restored(read_work_file(file), *scene->scene, scene->hash);
   CHECK(read.warning.empty());
-  CHECK(bytes_of(read.document) == bytes_of(app.studio().document()));
+  CHECK(same(read.document, app.studio().document()));
 
   // An older file knew a number: what it was the number of, nobody knows.
   std::ifstream in(file);
@@ -129,19 +129,19 @@ TEST_CASE("a view left out is that view: after a save, and after another preset 
 
 TEST_CASE("work is saved by itself and offered after a crash") {
   const ScratchFolder folder("state");
-  std::string bytes;
+  Document saved;
   CameraPose pose;
   {
     ApplicationOptions options;
     options.studio.state_folder = folder.path();
     HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
-    CHECK_FALSE(app.studio().autosave_found());
+    CHECK_FALSE(app.studio().files().autosave_found());
     opened(app);
     app.click(app.screen_of(kOnApple));
     REQUIRE(app.settle());
     app.frames(60 * 3);
     REQUIRE(app.settle());
-    bytes = bytes_of(app.studio().document());
+    saved = app.studio().document();
     app.studio().camera().orbit({60, 20});  // the view alone
     pose = app.studio().camera().pose();
     app.frames(60 * 11);
@@ -151,8 +151,8 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   ApplicationOptions options;
   options.studio.state_folder = folder.path();
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
-  CHECK(app.studio().autosave_found());
-  CHECK(app.studio().autosave_says().starts_with("sample.compressed.ply, 20"));
+  CHECK(app.studio().files().autosave_found());
+  CHECK(app.studio().files().autosave_says().starts_with("sample.compressed.ply, 20"));
   // Started with a scene and worked on: what is offered is still there.
   opened(app);
   app.click(app.screen_of(kOnOrange));
@@ -160,15 +160,15 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   app.frames(60 * 3);
   REQUIRE(app.settle());
   CHECK(std::filesystem::exists(folder / kAutosave));
-  REQUIRE(app.studio().autosave_found());
+  REQUIRE(app.studio().files().autosave_found());
   app.studio().apply(RestoreAutosave{});
   REQUIRE(app.settle());
-  CHECK(bytes_of(app.studio().document()) == bytes);
+  CHECK(same(app.studio().document(), saved));
   CHECK(app.studio().camera().pose() == pose);
   CHECK(std::ranges::any_of(app.studio().messages(), [&](const Message& m) {
-    return m.text == "Restoring the work of last time: " + app.studio().autosave_says();
+    return m.text == "Restoring the work of last time: " + app.studio().files().autosave_says();
   }));
-  CHECK_FALSE(app.studio().autosave_found());
+  CHECK_FALSE(app.studio().files().autosave_found());
   CHECK(app.studio().unsaved());  // it is nowhere else yet
   app.frames(60 * 3);
   REQUIRE(app.settle());
@@ -176,7 +176,7 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   REQUIRE(std::filesystem::exists(folder / kAutosave));
   CHECK_FALSE(std::filesystem::exists(folder / kAutosaveBefore));
   const auto again = open_scene(read_work_file(folder / kAutosave).scene);
-  CHECK(bytes_of(restored(read_work_file(folder / kAutosave), *again->scene, again->hash).document) == bytes);
+  CHECK(same(restored(read_work_file(folder / kAutosave), *again->scene, again->hash).document, saved));
 }
 
 TEST_CASE("work that was saved by itself stays offered where its scene cannot be opened") {
@@ -194,12 +194,12 @@ TEST_CASE("work that was saved by itself stays offered where its scene cannot be
   app.studio().apply(RestoreAutosave{});
   REQUIRE(app.settle());
   CHECK(app.studio().messages().back().text.find("moved.compressed.ply") != std::string::npos);
-  CHECK(app.studio().autosave_found());
+  CHECK(app.studio().files().autosave_found());
   std::filesystem::rename(folder / "elsewhere", moved);
   app.studio().apply(RestoreAutosave{});
   REQUIRE(app.settle());
   CHECK(app.studio().document().objects.size() == 1);
-  CHECK_FALSE(app.studio().autosave_found());
+  CHECK_FALSE(app.studio().files().autosave_found());
 }
 
 TEST_CASE("opening asks before unsaved work goes, dropped files and recent ones alike") {
@@ -207,7 +207,9 @@ TEST_CASE("opening asks before unsaved work goes, dropped files and recent ones 
   HeadlessApp app(kSmallWidth, kSmallHeight);
   opened(app);
   app.studio().apply(EditSelection{SelectionEdit::kAll});
-  const std::string bytes = bytes_of(app.studio().document());
+  CHECK(app.studio().unsaved());  // also before the edit is done
+  REQUIRE(app.settle());
+  const Document saved = app.studio().document();
   const std::uint64_t scene = app.studio().scene()->serial;
   REQUIRE(app.studio().unsaved());
   app.open(kSample);
@@ -216,7 +218,7 @@ TEST_CASE("opening asks before unsaved work goes, dropped files and recent ones 
   app.key(key::kEscape);
   REQUIRE(app.settle());
   CHECK_FALSE(app->interface().dialog_open());
-  CHECK(bytes_of(app.studio().document()) == bytes);
+  CHECK(same(app.studio().document(), saved));
   CHECK(app.studio().scene()->serial == scene);
   app.open(kSample);
   app.frames(3);
@@ -227,10 +229,10 @@ TEST_CASE("opening asks before unsaved work goes, dropped files and recent ones 
   app.studio().apply(EditSelection{SelectionEdit::kAll});
   app.studio().apply(SaveWork{folder / "all.splatcut.json"});
   REQUIRE(app.settle());
-  const std::uint64_t saved = app.studio().scene()->serial;
+  const std::uint64_t before = app.studio().scene()->serial;
   app.open(kSample);  // nothing would be lost
   REQUIRE(app.settle());
-  CHECK(app.studio().scene()->serial != saved);
+  CHECK(app.studio().scene()->serial != before);
 }
 
 TEST_CASE("objects: one byte per Gaussian names 255 of them, the 256th is refused with a sentence") {

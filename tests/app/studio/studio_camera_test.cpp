@@ -62,7 +62,7 @@ TEST_CASE("hands: one comes nearer to a stroke that begins outside of the pictur
   const glm::vec2 apple = hands.in_viewport(hands.app.screen_of(kOnApple));
   const glm::vec3 eye = hands.studio().camera().pose().position_world;
   hands.studio().apply(
-      AddStroke{hands.studio().viewport_camera(), {SeedLabel::kObject, 2, {{-40, 100}, apple}}});
+      AddStroke{hands.studio().viewport().pane_camera(), {SeedLabel::kObject, 2, {{-40, 100}, apple}}});
   REQUIRE(hands.studio().document().active_object());
   hands.studio().apply(ComeNearer{});
   REQUIRE(hands.app.settle());
@@ -128,7 +128,7 @@ TEST_CASE(
   const glm::vec2 at = hands.app.screen_of(kOnApple);
   const glm::vec3 point = hands.under(at);
   hands.app.move(at);
-  const auto depth = [&] { return hands.studio().viewport_camera().camera_from_world(point).z; };
+  const auto depth = [&] { return hands.studio().viewport().pane_camera().camera_from_world(point).z; };
   const float before = depth();
   for (int i = 0; i < 12; ++i) {
     hands.app->handle(WheelTurned{1, {}});
@@ -217,17 +217,17 @@ TEST_CASE("hands: the axes in the corner turn the view, and take the click") {
   Hands hands(false);
   hands.app.key(key::kKeypad7);
   REQUIRE(hands.app.settle());
-  const glm::vec3 forward = hands.studio().viewport_camera().forward_world();
+  const glm::vec3 forward = hands.studio().viewport().pane_camera().forward_world();
   CHECK(glm::dot(forward, hands.studio().document().up_world) < -0.99f);
   const UiRect view = hands.app->interface().viewport();
   const glm::vec2 middle(view.max.x - 55, view.min.y + 55);
   CHECK_FALSE(hands.app->interface().picture_at(middle, hands.studio()));
   hands.app.key(key::kKeypad1);
   REQUIRE(hands.app.settle());
-  const glm::vec3 right(glm::row(hands.studio().viewport_camera().camera_from_world_rotation, 0));
+  const glm::vec3 right(glm::row(hands.studio().viewport().pane_camera().camera_from_world_rotation, 0));
   const float x_side = right.x > 0 ? 1.0f : -1.0f;
   REQUIRE(std::abs(right.x) > 0.99f);
   hands.app.click(middle + glm::vec2(x_side * 34, 0));  // the ball of +X
   REQUIRE(hands.app.settle());
-  CHECK(hands.studio().viewport_camera().forward_world().x < -0.99f);
+  CHECK(hands.studio().viewport().pane_camera().forward_world().x < -0.99f);
 }

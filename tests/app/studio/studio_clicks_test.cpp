@@ -43,7 +43,7 @@ TEST_CASE("clicks: the first view reached again by its thumbnail is the first vi
     const Camera first = artist.object().views.front().camera;
     artist.turn(120);
     artist.go_to(artist.run().views.front().camera);
-    CHECK(same_view(artist.studio().viewport_camera(), first));
+    CHECK(same_view(artist.studio().viewport().pane_camera(), first));
     artist.app.wait_for_message_to_go();
     artist.app.move({2, 2});
     REQUIRE(artist.app.settle());
@@ -93,8 +93,8 @@ TEST_CASE("clicks: everything under a scribble obeys it") {
       const StrokedView& view = artist.object().views.back();
       const Image<std::uint8_t> seeds =
           draw_seeds({view.strokes.back()}, view.camera.width_px, view.camera.height_px);
-      const Image<float> share =
-          render_labels(*artist.studio().scene()->cloud, artist.studio().viewport_camera(), artist.labels());
+      const Image<float> share = render_labels(*artist.studio().scene()->cloud,
+                                               artist.studio().viewport().pane_camera(), artist.labels());
       std::size_t under = 0, obeys = 0;
       for (std::size_t i = 0; i < seeds.size(); ++i) {
         if (seeds.pixels()[i] == kNoSeed || artist.hits().pixels()[i] < 0) continue;
@@ -118,7 +118,7 @@ TEST_CASE("clicks: with the object hidden, hover and click hit what is seen") {
     artist.studio().apply(SetView{view});
     REQUIRE(artist.app.settle());
     const glm::vec2 at = artist.screen_of(place.pixel);
-    const auto seen = artist.studio().pick(at - artist.on_screen({0, 0}));
+    const auto seen = artist.studio().viewport().pick(at - artist.on_screen({0, 0}));
     if (!seen) {  // nothing behind: refused, as everywhere
       artist.click(at);
       CHECK(artist.labels() == before);
@@ -129,7 +129,7 @@ TEST_CASE("clicks: with the object hidden, hover and click hit what is seen") {
     REQUIRE_FALSE(before[hit]);
     artist.app.move(at);
     REQUIRE(artist.app.settle());
-    const Flags outlined = artist.studio().style(0).highlight;
+    const Flags outlined = artist.studio().viewport().style(0).highlight;
     REQUIRE(outlined);
     // On captures what lies at the median depth need not be of the part that shows most there.
     const bool exact = place.name == "apple";
@@ -167,7 +167,8 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
     const auto hovered = [&](const glm::vec2& at) {
       artist.app.move(at);
       REQUIRE(artist.app.settle());
-      return artist.studio().style(0).highlight ? *artist.studio().style(0).highlight : Labels{};
+      return artist.studio().viewport().style(0).highlight ? *artist.studio().viewport().style(0).highlight
+                                                           : Labels{};
     };
     const glm::vec2 at = artist.beside(artist.labels(), 20);
     for (const bool rest : {false, true}) {  // adds what is there, and takes it back
@@ -175,7 +176,8 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
       const Labels before = artist.labels();
       const Labels outlined = hovered(at);
       REQUIRE(outlined.size() == before.size());
-      CHECK(artist.studio().style(0).highlight_colour == (rest ? Rgb8{225, 25, 60} : Rgb8{255, 255, 255}));
+      CHECK(artist.studio().viewport().style(0).highlight_colour ==
+            (rest ? Rgb8{225, 25, 60} : Rgb8{255, 255, 255}));
       artist.click(at, rest ? PointerButton::kRight : PointerButton::kLeft);
       Labels changed(before.size());
       for (std::size_t g = 0; g < before.size(); ++g) changed[g] = before[g] != artist.labels()[g];
@@ -189,7 +191,7 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
     }
     artist.app.move({2, 2});
     REQUIRE(artist.app.settle());
-    CHECK_FALSE(artist.studio().style(0).highlight);
+    CHECK_FALSE(artist.studio().viewport().style(0).highlight);
   }
 }
 
@@ -199,11 +201,11 @@ TEST_CASE("clicks: hovering is red while Ctrl is held, and no longer") {
   const auto colour_with = [&](bool ctrl) {
     app->handle(KeyChanged{key::kLeftControl, ctrl, false, {.ctrl = ctrl}});
     REQUIRE(app.settle());
-    return app.studio().style(0).highlight_colour;
+    return app.studio().viewport().style(0).highlight_colour;
   };
   app.move(app.screen_of(kOnOrange));
   REQUIRE(app.settle());
-  const Rgb8 adds = app.studio().style(0).highlight_colour;
+  const Rgb8 adds = app.studio().viewport().style(0).highlight_colour;
   const Rgb8 removes = colour_with(true);
   CHECK(removes != adds);
   CHECK(colour_with(false) == adds);

@@ -54,7 +54,7 @@ TEST_CASE("hands: an export stands where it is asked to, and looks the same from
   CHECK(std::abs(box.min.z - 3) < 0.05f);
   CHECK(box.extent().z > 0);
   // The camera moved along sees the same colours: harmonics turned with the rest.
-  const Camera camera = hands.studio().viewport_camera();
+  const Camera camera = hands.studio().viewport().pane_camera();
   Camera there = camera;
   there.camera_from_world_rotation =
       camera.camera_from_world_rotation * glm::transpose(glm::mat3_cast(to.rotation));

@@ -114,7 +114,7 @@ class Fuzz {
   Camera camera() { return front_camera(64, 48); }
   // Mostly one that the cut looked from.
   Camera view() {
-    const CutRun* run = studio_.cut_run(studio_.document().active);
+    const CutRun* run = studio_.cuts().run(studio_.document().active);
     return run && !run->views.empty() && chance(80) ? run->views[whole(run->views.size())].camera : camera();
   }
   Stroke stroke() {
@@ -172,7 +172,7 @@ TEST_CASE("10,000 random commands, undone to the start and redone to the end") {
   studio.apply(OpenScene{folder / "random.ply"});
   REQUIRE(studio.scene());
   REQUIRE(studio.prepared());
-  const std::string start = bytes_of(studio.document());
+  const Document start = studio.document();
   constexpr unsigned kSeed = 2024;
   CAPTURE(kSeed);
   Fuzz fuzz(&studio, kSeed);
@@ -185,11 +185,11 @@ TEST_CASE("10,000 random commands, undone to the start and redone to the end") {
       studio.apply(RemoveObject{studio.document().objects.front().id});
     }
   }
-  const std::string end = bytes_of(studio.document());
+  const Document end = studio.document();
   MESSAGE("history: " << studio.history().entries().size() << " steps");
   const std::size_t cursor = studio.history().cursor();
   while (studio.history().can_undo()) studio.apply(Undo{});
-  CHECK(bytes_of(studio.document()) == start);
+  CHECK(same(studio.document(), start));
   for (std::size_t i = 0; i < cursor; ++i) studio.apply(Redo{});
-  CHECK(bytes_of(studio.document()) == end);
+  CHECK(same(studio.document(), end));
 }

@@ -62,7 +62,7 @@ TEST_CASE("hands: a click while the scene is prepared says what it waits for, an
   REQUIRE_FALSE(app.studio().prepared());
   app.studio().apply(SetPreset{"fast"});
   app.studio().apply(
-      AddStroke{app.studio().viewport_camera(),
+      AddStroke{app.studio().viewport().pane_camera(),
                 click(app.screen_of(kOnApple) - app->interface().viewport().min, SeedLabel::kObject)});
   REQUIRE_FALSE(app.studio().messages().empty());
   CHECK(app.studio().messages().back().text.find("as soon as the scene is prepared") != std::string::npos);
@@ -74,7 +74,7 @@ TEST_CASE("hands: thumbnails follow the history") {
   Hands hands;
   const auto serials = [&] {
     std::vector<std::uint64_t> out;
-    const CutRun* run = hands.studio().cut_run(hands.studio().document().active);
+    const CutRun* run = hands.studio().cuts().run(hands.studio().document().active);
     if (run)
       for (const ViewCard& card : run->views) out.push_back(card.serial);
     return out;
@@ -102,18 +102,18 @@ TEST_CASE("hands: undone or cancelled while it is cut, the cut before is on show
     CAPTURE(cancelled);
     Hands hands;
     const ObjectId apple = hands.studio().document().active;
-    const auto result = hands.studio().cut_run(apple)->result;
+    const auto result = hands.studio().cuts().run(apple)->result;
     REQUIRE(result);
     hands.studio().apply(
-        AddStroke{hands.studio().viewport_camera(),
+        AddStroke{hands.studio().viewport().pane_camera(),
                   click(hands.in_viewport(hands.app.screen_of(kOnOrange)), SeedLabel::kObject)});
     hands.studio().update(1.0 / 60);
     REQUIRE(hands.studio().cutting());
     hands.studio().apply(cancelled ? Command(Cancel{}) : Undo{});
     REQUIRE(hands.app.settle());
-    REQUIRE(hands.studio().cut_run(apple));
-    CHECK(hands.studio().cut_run(apple)->result == result);
-    CHECK_FALSE(hands.studio().cut_run(apple)->views.empty());
+    REQUIRE(hands.studio().cuts().run(apple));
+    CHECK(hands.studio().cuts().run(apple)->result == result);
+    CHECK_FALSE(hands.studio().cuts().run(apple)->views.empty());
   }
 }
 
@@ -122,13 +122,13 @@ TEST_CASE("hands: Alt+click where the preset has no parts says why it does nothi
   hands.studio().apply(SetPreset{"paper"});
   const std::size_t before = hands.studio().messages().size();
   hands.studio().apply(
-      IntersectStroke{hands.studio().viewport_camera(),
+      IntersectStroke{hands.studio().viewport().pane_camera(),
                       click(hands.in_viewport(hands.app.screen_of(kOnOrange)), SeedLabel::kObject)});
   REQUIRE(hands.app.settle());
   CHECK(std::any_of(hands.studio().messages().begin() + static_cast<std::ptrdiff_t>(before),
                     hands.studio().messages().end(),
                     [](const Message& m) { return m.kind == Message::Kind::kRefused; }));
-  hands.studio().apply(IntersectStroke{hands.studio().viewport_camera(), {}});
+  hands.studio().apply(IntersectStroke{hands.studio().viewport().pane_camera(), {}});
   CHECK(hands.studio().messages().back().kind == Message::Kind::kRefused);
 }
 

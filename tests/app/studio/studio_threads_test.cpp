@@ -99,9 +99,9 @@ TEST_CASE(
     CHECK(app.studio().document().objects.size() == 2);
     for (const ObjectItem& object : app.studio().document().objects)
       CHECK(app.studio().gaussians_of(object.id) > 0);
-    return bytes_of(app.studio().document());
+    return Document(app.studio().document());
   };
-  CHECK(work_after(true) == work_after(false));
+  CHECK(same(work_after(true), work_after(false)));
 }
 
 TEST_CASE("threads: exports wait for each other, of any other kind the latest request wins") {

@@ -112,7 +112,9 @@ TEST_CASE("hands: backgrounds go round, and the checker is behind the object alo
   Hands hands;
   hands.app.key('I');
   REQUIRE(hands.app.settle());
-  const auto corner = [&](int x, int y) { return hands.studio().picture()->pictures.front().at(x, y); };
+  const auto corner = [&](int x, int y) {
+    return hands.studio().viewport().picture()->pictures.front().at(x, y);
+  };
   std::vector<Rgba8> seen;
   for (std::size_t i = 0; i < backdrops().size(); ++i) {
     hands.app.key('J');
@@ -146,6 +148,7 @@ TEST_CASE("hands: a sphere and a box in space select by a drag, and again by the
   const Scene& scene = *hands.studio().scene()->scene;
   const auto apple = sample_truth(scene, kApple);
   const auto share = [&] {
+    REQUIRE(hands.app.settle());
     const auto labels = hands.studio().labels(hands.studio().document().active);
     std::size_t both = 0;
     for (std::size_t g = 0; g < labels.size(); ++g) both += labels[g] && apple[g];
@@ -154,13 +157,13 @@ TEST_CASE("hands: a sphere and a box in space select by a drag, and again by the
   for (const char tool : {'9', 'Y'}) {
     CAPTURE(tool);
     hands.app.key(tool);
-    const std::size_t steps = hands.studio().history().cursor();
+    const std::size_t steps = hands.steps();
     const glm::vec2 at = hands.app.screen_of(kOnApple);
     hands.app.drag({at, at + glm::vec2(20, 0), at + glm::vec2(30, 0)});
     const std::size_t first = hands.selected();
     const double part = share();
     CHECK(first > 100);
-    CHECK(hands.studio().history().cursor() == steps + 1);
+    CHECK(hands.steps() == steps + 1);
     const auto handles = hands.studio().overlay().handles_px;
     REQUIRE(handles.size() == (tool == '9' ? 2 : 7));
     const glm::vec2 low = hands.app->interface().viewport().min;
@@ -169,12 +172,12 @@ TEST_CASE("hands: a sphere and a box in space select by a drag, and again by the
     hands.app.drag({rim, rim + 0.5f * outwards, rim + outwards});
     CHECK(hands.selected() > first);
     CHECK(share() >= part);
-    CHECK(hands.studio().history().cursor() == steps + 1);  // one step, as it was changed
+    CHECK(hands.steps() == steps + 1);  // one step, as it was changed
     const std::size_t larger = hands.selected();
     const glm::vec2 now = low + hands.studio().overlay().handles_px[0];  // a box keeps its other face
     hands.app.drag({now, now + glm::vec2(200, -150), now + glm::vec2(400, -300)});
     CHECK(hands.selected() != larger);
-    CHECK(hands.studio().history().cursor() == steps + 1);
+    CHECK(hands.steps() == steps + 1);
     hands.app.key(key::kEscape);
     CHECK(hands.studio().overlay().handles_px.empty());
     hands.app.key('Z', {.ctrl = true});
@@ -185,17 +188,18 @@ TEST_CASE("hands: a sphere and a box in space select by a drag, and again by the
 TEST_CASE("hands: a volume that took nothing yet is changed without a step before it being lost") {
   Hands hands(false);
   hands.studio().apply(NewObject{});
-  const std::size_t steps = hands.studio().history().cursor();
+  const std::size_t steps = hands.steps();
   const Volume nowhere{true, glm::vec3(1e4f), glm::vec3(1)};
   hands.studio().apply(SelectVolume{nowhere, SetOperation::kAdd});
   hands.studio().apply(SelectVolume{nowhere, SetOperation::kAdd, true});
-  CHECK(hands.studio().history().cursor() == steps);
+  CHECK(hands.steps() == steps);
   CHECK(hands.studio().document().objects.size() == 1);
   // Nor one after it.
   hands.studio().apply(NewObject{});
   hands.studio().apply(Undo{});
   hands.studio().apply(SelectVolume{nowhere, SetOperation::kAdd});
   hands.studio().apply(SelectVolume{nowhere, SetOperation::kAdd, true});
+  REQUIRE(hands.app.settle());
   CHECK(hands.studio().history().can_redo());
 }
 
@@ -204,18 +208,18 @@ TEST_CASE("hands: a volume replaces what it took, though a cut is done in betwee
   const Volume on_mug{true, hands.under(hands.app.screen_of(kOnMug)), glm::vec3(0.1f)};
   const Volume nowhere{true, glm::vec3(1e4f), glm::vec3(1)};
   hands.studio().apply(
-      AddStroke{hands.studio().viewport_camera(),
+      AddStroke{hands.studio().viewport().pane_camera(),
                 click(hands.in_viewport(hands.app.screen_of(kOnOrange)), SeedLabel::kObject)});
   hands.studio().update(1.0 / 60);
   REQUIRE(hands.studio().cutting());
   hands.studio().apply(SelectVolume{on_mug, SetOperation::kAdd});
   REQUIRE(hands.app.settle());
-  const std::size_t steps = hands.studio().history().cursor();
+  const std::size_t steps = hands.steps();
   const ObjectItem& object = *hands.studio().document().active_object();
   REQUIRE(object.cut);
   REQUIRE(hands.selected() > count_flags(*object.cut));
   hands.studio().apply(SelectVolume{nowhere, SetOperation::kAdd, true});
-  CHECK(hands.studio().history().cursor() == steps);
+  CHECK(hands.steps() == steps);
   const ObjectItem& now = *hands.studio().document().active_object();
   CHECK(hands.studio().labels(now.id) == *now.cut);
 }
@@ -233,8 +237,8 @@ TEST_CASE(
   hands.studio().run(Action::kIsolate);
   REQUIRE(hands.app.settle());
   hands.studio().apply(SelectVolume{large, SetOperation::kAdd, true});
-  CHECK(hands.studio().view().display == DisplayMode::kIsolate);
   CHECK(hands.selected() > first);
+  CHECK(hands.studio().view().display == DisplayMode::kIsolate);
 }
 
 TEST_CASE("hands: a press without a drag leaves the sphere that is there") {
@@ -244,10 +248,10 @@ TEST_CASE("hands: a press without a drag leaves the sphere that is there") {
   hands.app.drag({at, at + glm::vec2(20, 0), at + glm::vec2(30, 0)});
   const auto handles = hands.studio().overlay().handles_px;
   REQUIRE(handles.size() == 2);
-  const std::size_t steps = hands.studio().history().cursor();
+  const std::size_t steps = hands.steps();
   hands.app.click(beside);
   CHECK(hands.studio().overlay().handles_px == handles);
-  CHECK(hands.studio().history().cursor() == steps);
+  CHECK(hands.steps() == steps);
 }
 
 TEST_CASE("hands: Enter closes a polygon whatever key is held, and does what its corners were clicked with") {
@@ -273,7 +277,7 @@ TEST_CASE("hands: a drag goes on in the pane where it was pressed") {
   Hands hands;
   hands.app.key('B');
   REQUIRE(hands.app.settle());
-  REQUIRE(hands.studio().panes() == 2);
+  REQUIRE(hands.studio().viewport().panes() == 2);
   const UiRect view = hands.app->interface().viewport();
   const glm::vec2 left = view.min + glm::vec2(120, 150), half(0.5f * view.size().x, 0);
   const CameraPose before = hands.studio().camera().pose();
@@ -313,7 +317,7 @@ TEST_CASE("hands: a box around a second thing leaves what was clicked first") {
 
 TEST_CASE("hands: a box that reaches out of the picture is around what of it is inside") {
   Hands hands(false);
-  const Camera camera = hands.studio().viewport_camera();
+  const Camera camera = hands.studio().viewport().pane_camera();
   const auto width = static_cast<float>(camera.width_px);
   hands.studio().apply(AddBox{camera, {width - 3, 60}, {width + 300, 200}});
   CHECK(hands.said().starts_with("box: "));

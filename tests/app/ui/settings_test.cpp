@@ -66,11 +66,11 @@ TEST_CASE("settings: kept as they change, and tried again where they could not b
 
 TEST_CASE("settings: as in web viewers is the low-pass of what is drawn") {
   HeadlessApp app;
-  CHECK(app.studio().draw_limits().low_pass_px2 == kLowPassPx2);
+  CHECK(app.studio().viewport().draw_limits().low_pass_px2 == kLowPassPx2);
   ViewState view = app.studio().view();
   view.web_low_pass = true;
   app.studio().apply(SetView{view});
-  CHECK(app.studio().draw_limits().low_pass_px2 == kWebLowPassPx2);
+  CHECK(app.studio().viewport().draw_limits().low_pass_px2 == kWebLowPassPx2);
 }
 
 TEST_CASE(

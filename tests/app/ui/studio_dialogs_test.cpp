@@ -300,11 +300,11 @@ TEST_CASE("panels: a number is typed in the unit it is shown in") {
   const char* side = "side/scroll";
   app.press_item(side, {"View"});
   app.press_item(side, {"Repair by hand"});
-  const float near_plane = 3 * app.studio().draw_limits().near_plane;
+  const float near_plane = 3 * app.studio().viewport().draw_limits().near_plane;
   typed(side, {"##near"}, near_plane);
-  CHECK(app.studio().draw_limits().near_plane == doctest::Approx(near_plane).epsilon(1e-3));
+  CHECK(app.studio().viewport().draw_limits().near_plane == doctest::Approx(near_plane).epsilon(1e-3));
   typed(side, {"##far"}, 1.5f * size);
-  CHECK(app.studio().draw_limits().far_plane == doctest::Approx(1.5f * size).epsilon(1e-3));
+  CHECK(app.studio().viewport().draw_limits().far_plane == doctest::Approx(1.5f * size).epsilon(1e-3));
   PropertyChoice& property = app.interface_state().property;
   property.property = 0;
   app.frames(2);
@@ -338,7 +338,7 @@ TEST_CASE("dialogs: the turntable writes as many pictures of the size asked for"
   state.turntable_open = true;
   app.frames(3);
   CHECK(app->interface().dialog_open());
-  CHECK(state.turntable.width_px == app.studio().viewport_camera().width_px);
+  CHECK(state.turntable.width_px == app.studio().viewport().pane_camera().width_px);
   state.turntable = {5, 96, 64, (folder / "turn").string()};
   app.frames(1);
   app.press_item("###turntable", {"Save"});

@@ -16,36 +16,37 @@ using namespace splatcut::testing;
 TEST_CASE("a click on the apple cuts out the apple, strokes, undo and redo give the same bytes") {
   HeadlessApp app(kSmallWidth, kSmallHeight);
   opened(app);
-  std::vector<std::string> states{bytes_of(app.studio().document())};
+  std::vector<Document> states{app.studio().document()};
   app.click(app.screen_of(kOnApple));
   REQUIRE(app.settle());
   const Scene& scene = *app.studio().scene()->scene;
   const double first = iou_of(active_labels(app), sample_truth(scene, kApple));
   MESSAGE("apple, one click: IoU " << first);
   CHECK(first > 0.9);
-  CHECK_FALSE(app.studio().cut_run(app.studio().document().active)->views.empty());
-  states.push_back(bytes_of(app.studio().document()));
+  CHECK_FALSE(app.studio().cuts().run(app.studio().document().active)->views.empty());
+  states.push_back(app.studio().document());
 
   app.key('3');
   const glm::vec2 at = app.screen_of(kOnApple);
   app.drag({at, at + glm::vec2(6, 6), at + glm::vec2(12, 4)});
   REQUIRE(app.settle());
-  states.push_back(bytes_of(app.studio().document()));
+  states.push_back(app.studio().document());
   CHECK(app.studio().document().active_object()->views.front().strokes.size() == 2);
   app.key('=');  // grow, by hand
-  states.push_back(bytes_of(app.studio().document()));
-  REQUIRE(states.back() != states[2]);
+  REQUIRE(app.settle());
+  states.push_back(app.studio().document());
+  REQUIRE_FALSE(same(states.back(), states[2]));
 
   for (std::size_t i = states.size(); i-- > 1;) {
     app.key('Z', {.ctrl = true});
     REQUIRE(app.settle());
-    CHECK(bytes_of(app.studio().document()) == states[i - 1]);
+    CHECK(same(app.studio().document(), states[i - 1]));
   }
   CHECK(app.studio().history().cursor() == 1);  // the choice of preset
   for (std::size_t i = 1; i < states.size(); ++i) {
     app.key('Z', {.shift = true, .ctrl = true});
     REQUIRE(app.settle());
-    CHECK(bytes_of(app.studio().document()) == states[i]);
+    CHECK(same(app.studio().document(), states[i]));
   }
   CHECK_FALSE(app.studio().history().can_redo());
 }
@@ -55,7 +56,7 @@ TEST_CASE("two objects: a right click says what is not, the wheel steps through 
   opened(app);
   app.move(app.screen_of(kOnMug));
   REQUIRE(app.settle());
-  const Flags outlined = app.studio().style(0).highlight;
+  const Flags outlined = app.studio().viewport().style(0).highlight;
   REQUIRE(outlined);
   const Scene& scene = *app.studio().scene()->scene;
   CHECK(iou_of(*outlined, sample_truth(scene, kMug)) > 0.3);
@@ -87,7 +88,7 @@ TEST_CASE("cancel: in every stage the strokes stay, nothing half done is left, a
   HeadlessApp app(kSmallWidth, kSmallHeight);
   opened(app);
   const glm::vec2 apple = app.screen_of(kOnApple);
-  const auto run = [&] { return app.studio().cut_run(app.studio().document().active); };
+  const auto run = [&] { return app.studio().cuts().run(app.studio().document().active); };
   const std::pair<const char*, std::function<bool()>> stages[] = {
       {"as it begins", [&] { return app.studio().cutting(); }},
       {"with the first labels", [&] { return run() && run()->preview; }},
@@ -130,7 +131,7 @@ TEST_CASE("after a click, views around the object are there to look from, and ha
   opened(app);
   app.click(app.screen_of(kOnApple));
   REQUIRE(app.settle());
-  const auto& views = app.studio().cut_run(app.studio().document().active)->views;
+  const auto& views = app.studio().cuts().run(app.studio().document().active)->views;
   REQUIRE(views.size() > 3);
   CHECK_FALSE(views.front().only_to_look);
   CHECK(views.front().used);
@@ -145,22 +146,22 @@ TEST_CASE("far limit: what lies beyond is neither drawn nor picked nor selected"
   HeadlessApp app(kSmallWidth, kSmallHeight);
   opened(app);
   const glm::vec2 wall(60, 60), apple = app.screen_of(kOnApple) - app->interface().viewport().min;
-  REQUIRE(app.studio().pick(wall));
-  REQUIRE(app.studio().pick(apple));
-  const Camera camera = app.studio().viewport_camera();
+  REQUIRE(app.studio().viewport().pick(wall));
+  REQUIRE(app.studio().viewport().pick(apple));
+  const Camera camera = app.studio().viewport().pane_camera();
   const auto depth = [&](const glm::vec2& at) {
-    return camera.camera_from_world(app.studio().pick(at)->position_world).z;
+    return camera.camera_from_world(app.studio().viewport().pick(at)->position_world).z;
   };
   const float near_z = depth(apple), far_z = depth(wall), limit = 0.5f * (near_z + far_z);
   REQUIRE(near_z < far_z);
   ViewState view = app.studio().view();
   view.far_share = limit / app.studio().camera().scene_size();
   app.studio().apply(SetView{view});
-  CHECK_FALSE(app.studio().pick(wall));  // one pixel drawn for the question
+  CHECK_FALSE(app.studio().viewport().pick(wall));  // one pixel drawn for the question
   REQUIRE(app.settle());
-  CHECK_FALSE(app.studio().pick(wall));  // the picture on the screen
-  CHECK(app.studio().pick(apple));
-  const Frame& frame = *app.studio().picture()->frames.front();
+  CHECK_FALSE(app.studio().viewport().pick(wall));  // the picture on the screen
+  CHECK(app.studio().viewport().pick(apple));
+  const Frame& frame = *app.studio().viewport().picture()->frames.front();
   const GaussianCloud& cloud = *app.studio().scene()->cloud;
   float farthest = 0;
   for (const std::int32_t g : frame.first_hit.pixels())
@@ -171,7 +172,7 @@ TEST_CASE("far limit: what lies beyond is neither drawn nor picked nor selected"
   view.far_share = 0;
   app.studio().apply(SetView{view});
   REQUIRE(app.settle());
-  CHECK(app.studio().pick(wall));
+  CHECK(app.studio().viewport().pick(wall));
 }
 
 TEST_CASE(
@@ -188,7 +189,7 @@ TEST_CASE(
   REQUIRE(app.settle());
   REQUIRE(app.studio().scene());
   CHECK(app.studio().scene()->cameras.empty());
-  const Camera window = app.studio().viewport_camera();
+  const Camera window = app.studio().viewport().pane_camera();
   CameraOptions options;
   options.size = fmt::format("{}x{}", window.width_px, window.height_px);
   const ChosenCamera chosen = choose_camera(options, *app.studio().scene()->cloud);

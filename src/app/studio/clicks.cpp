@@ -1,11 +1,11 @@
-// Clicks: what they hit, what the next one would change, what else the first one can mean.
+#include "app/studio/clicks.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/studio/document_edits.h"
-#include "app/studio/studio.h"
+#include "app/studio/edit_titles.h"
 #include "core/error.h"
 #include "scene/raster/rasterizer.h"
 
@@ -23,15 +23,10 @@ std::size_t strokes_of(const ObjectItem& object) {
   return count;
 }
 
-std::string title_of(const Stroke& stroke) {
-  return fmt::format("{}: {}", stroke.points_px.size() == 1 ? "Click" : "Scribble",
-                     stroke.label == SeedLabel::kRest ? "rest" : "object");
-}
-
 }  // namespace
 
 // Whether anything can be seen within reach of one of the stroke's points: as far as the selection reaches.
-bool Studio::hits_anything(const AddStroke& c) const {
+bool Clicks::hits_anything(const AddStroke& c) const {
   constexpr float kReachShare = 4.0f / 320;  // of the picture's width
   constexpr float kLeastAlpha = 0.25f;       // less counts as invisible
   const float reach = std::max(1.0f, kReachShare * static_cast<float>(c.camera.width_px));
@@ -45,20 +40,20 @@ bool Studio::hits_anything(const AddStroke& c) const {
                    to = glm::clamp(glm::ceil(high + reach) + 1.0f, glm::vec2(0), most);
   const PixelRect around{from.x, from.y, to.x, to.y};
   if (around.empty()) return false;
-  const bool on_screen = panes() == 1 && picture_ && picture_->full && picture_->limits == draw_limits() &&
-                         same_camera(picture_->frames.front()->camera, c.camera);
+  const Frame* frame = viewport_.panes() == 1 ? viewport_.full_picture_of(c.camera) : nullptr;
   Image<float> drawn;
-  if (!on_screen) {
+  if (!frame) {
+    const DrawLimits limits = viewport_.draw_limits();
     RasterOptions options;
     options.colour = false;
-    options.near_plane = draw_limits().near_plane;
-    options.low_pass_px2 = draw_limits().low_pass_px2;
+    options.near_plane = limits.near_plane;
+    options.low_pass_px2 = limits.low_pass_px2;
     options.roi = around;
     if (c.seen) options.shown = *c.seen;
-    drawn = rasterize(*scene_->cloud, c.camera, options).alpha;
+    drawn = rasterize(*ws_.scene->cloud, c.camera, options).alpha;
   }
   const auto alpha = [&](int x, int y) {
-    return on_screen ? picture_->frames.front()->alpha.at(x, y) : drawn.at(x - from.x, y - from.y);
+    return frame ? frame->alpha.at(x, y) : drawn.at(x - from.x, y - from.y);
   };
   for (int y = from.y; y < to.y; ++y)
     for (int x = from.x; x < to.x; ++x) {
@@ -70,102 +65,102 @@ bool Studio::hits_anything(const AddStroke& c) const {
 }
 
 // A message if the click changes nothing, as the screen shows it so already; else empty.
-std::string Studio::already_so(const AddStroke& c) const {
-  const ObjectItem* object = document().active_object();
-  if (!object || !any_mark(*object) || c.stroke.points_px.size() != 1 || panes() == 2 || !active_labels_ ||
-      !same_camera(c.camera, viewport_camera()))
+std::string Clicks::already_so(const AddStroke& c) const {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || !any_mark(*object) || c.stroke.points_px.size() != 1 || viewport_.panes() == 2 ||
+      !viewport_.active_labels() || !same_camera(c.camera, viewport_.pane_camera()))
     return {};
-  const auto hit = pick(c.stroke.points_px.front());
+  const auto hit = viewport_.pick(c.stroke.points_px.front());
   if (!hit) return {};
-  const bool is_part = (*active_labels_)[static_cast<std::size_t>(hit->gaussian)] != 0;
+  const bool is_part = (*viewport_.active_labels())[static_cast<std::size_t>(hit->gaussian)] != 0;
   if (is_part != (c.stroke.label == SeedLabel::kObject)) return {};
   return fmt::format("That is {} of {} already, and stays so", is_part ? "part" : "no part", object->name);
 }
 
-void Studio::perform(const AddStroke& c) {
-  require_scene();
+void Clicks::perform(const AddStroke& c) {
+  ws_.require_scene();
   if (!c.stroke.points_px.empty() && !hits_anything(c))
     throw Error("click", "there is nothing in that place", "Click on something that can be seen");
   const std::string held = already_so(c);
-  Document after = history_.now();
-  std::string message = edit(&after, c, context());
-  if (!session_) message += ". It is cut out as soon as the scene is prepared, in the background";
+  Document after = ws_.document();
+  std::string message = edit(&after, c, ws_.context());
+  if (!ws_.session) message += ". It is cut out as soon as the scene is prepared, in the background";
   // The view turns around what was clicked.
-  if (c.stroke.points_px.size() == 1 && c.stroke.label == SeedLabel::kObject && panes() == 1 &&
-      same_camera(c.camera, viewport_camera()))
-    if (const auto hit = pick(c.stroke.points_px.front())) camera_.set_orbit_centre(hit->position_world);
-  push(title_of(c.stroke), std::move(after), {}, held.empty() ? message : held);
+  if (c.stroke.points_px.size() == 1 && c.stroke.label == SeedLabel::kObject && viewport_.panes() == 1 &&
+      same_camera(c.camera, viewport_.pane_camera()))
+    if (const auto hit = viewport_.pick(c.stroke.points_px.front()))
+      viewport_.camera().set_orbit_centre(hit->position_world);
+  edits_.push(title_of(c), std::move(after), {}, held.empty() ? message : held);
 }
 
 // Keeps those Gaussians of the object that the stroke alone would select.
-void Studio::perform(const IntersectStroke& c) {
-  require_scene();
-  const ObjectItem* object = document().active_object();
-  if (!object || gaussians_of(object->id) == 0)
+void Clicks::perform(const IntersectStroke& c) {
+  ws_.require_scene();
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || ws_.gaussians_of(object->id) == 0)
     throw Error("intersect", "there is no object yet", "Click one first");
-  if (!session_) throw Error("intersect", "the scene is still being prepared", "Try again in a moment");
+  if (!ws_.session) throw Error("intersect", "the scene is still being prepared", "Try again in a moment");
   if (c.stroke.points_px.empty()) throw Error("stroke", "it has no points");
   if (!hits_anything({c.camera, c.stroke, c.seen}))
     throw Error("click", "there is nothing in that place", "Click on something that can be seen");
-  tasks_.submit(TaskKind::kSelect, [this, c, id = object->id, session = session_, scene = scene_,
-                                    settings = cut_settings(document(), *object)](const Job& job) {
+  ws_.tasks.submit(TaskKind::kSelect, [this, c, id = object->id, session = ws_.session, scene = ws_.scene,
+                                       settings = cut_settings(ws_.document(), *object)](const Job& job) {
     const Session::Preview preview =
         session->preview({}, {c.camera, c.stroke, c.seen}, settings, {job.stop, {}});
     if (job.cancelled()) return;
-    tasks_.post([this, id, scene, meant = preview.after] {
-      if (scene != scene_ || document().active != id) return;
+    ws_.tasks.post([this, id, scene, meant = preview.after] {
+      if (scene != ws_.scene || ws_.document().active != id) return;
       if (meant.empty())
-        say(Message::Kind::kRefused,
-            "intersect: with this quality there are no parts that a click could take. Intersect with a "
-            "region, "
-            "or choose another quality.");
+        ws_.say(Message::Kind::kRefused,
+                "intersect: with this quality there are no parts that a click could take. Intersect with a "
+                "region, or choose another quality.");
       else
-        select_or_refuse(meant, SetOperation::kIntersect, "Intersect (click)");
+        edits_.in_turn(
+            [this, meant] { edits_.select_later(meant, SetOperation::kIntersect, "Intersect (click)"); });
     });
   });
-  if (options_.inline_tasks) tasks_.deliver();
 }
 
-bool Studio::found_nothing() const {
-  const CutRun* run = cut_run(document().active);
+bool Clicks::found_nothing() const {
+  const CutRun* run = cuts_.run(ws_.document().active);
   return run && !run->running && run->result && run->result->outcome == Outcome::kNothingFound;
 }
 
 // Moves to a third of the distance from what was clicked, which comes to the middle.
-void Studio::perform(const ComeNearer&) {
-  require_scene();
+void Clicks::perform(const ComeNearer&) {
+  ws_.require_scene();
   constexpr float kDistanceLeft = 1.0f / 3;
-  const ObjectItem* object = document().active_object();
+  const ObjectItem* object = ws_.document().active_object();
   if (!object || !any_mark(*object))
     throw Error("come nearer", "nothing is clicked yet", "Click an object first");
   const auto clicked = std::ranges::find_if(object->views, marks_object);
   const auto stroke = std::ranges::find(clicked->strokes, SeedLabel::kObject, &Stroke::label);
   std::optional<PickedPoint> hit;
   for (const glm::vec2& p : stroke->points_px)
-    if ((hit = hit_in(clicked->camera, p, nullptr))) break;
+    if ((hit = viewport_.hit_in(clicked->camera, p, nullptr))) break;
   if (!hit) throw Error("come nearer", "there is nothing in that place");
-  camera_.approach(hit->position_world, kDistanceLeft);
+  viewport_.camera().approach(hit->position_world, kDistanceLeft);
 }
 
-const ClickMeanings* Studio::meanings(const ObjectItem& object) const {
-  const CutRun* run = cut_run(object.id);
+const ClickMeanings* Clicks::meanings(const ObjectItem& object) const {
+  const CutRun* run = cuts_.run(object.id);
   if (!run || !run->meanings) return nullptr;
-  const bool same_click = run->meanings->key == key_of_first_stroke(cut_request(document(), object));
+  const bool same_click = run->meanings->key == ws_.history.keys(object).first_click;
   return same_click ? run->meanings.get() : nullptr;
 }
 
-const ClickMeanings* Studio::offer() const {
-  const ObjectItem* object = document().active_object();
-  if (!object || object->locked || view_.tool != Tool::kClick || view_.display != DisplayMode::kWhole ||
-      view_.heat || strokes_of(*object) != 1)
+const ClickMeanings* Clicks::offer() const {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || object->locked || ws_.view.tool != Tool::kClick || ws_.view.display != DisplayMode::kWhole ||
+      ws_.view.heat || strokes_of(*object) != 1)
     return nullptr;
   const ClickMeanings* known = meanings(*object);
   return known && known->outlines.size() > 1 && known->key != declined_offer_ ? known : nullptr;
 }
 
 // A refusal if the first click has no part that many sizes larger, as far as is known; else empty.
-std::string Studio::why_not_step(int steps) const {
-  const ObjectItem* object = document().active_object();
+std::string Clicks::why_not_step(int steps) const {
+  const ObjectItem* object = ws_.document().active_object();
   if (!object || !any_mark(*object)) return "Click an object first";
   const ClickMeanings* known = meanings(*object);
   if (!known || known->choice != object->choice) return {};
@@ -177,12 +172,12 @@ std::string Studio::why_not_step(int steps) const {
   return {};
 }
 
-void Studio::perform(const StepScale& c) {
-  require_scene();
+void Clicks::perform(const StepScale& c) {
+  ws_.require_scene();
   const std::string reason = why_not_step(c.steps);
   if (!reason.empty()) throw Error(c.steps > 0 ? "larger part" : "smaller part", reason);
-  Document after = history_.now();
-  const ObjectItem* active = document().active_object();
+  Document after = ws_.document();
+  const ObjectItem* active = ws_.document().active_object();
   const ClickMeanings* known = active ? meanings(*active) : nullptr;
   if (known && known->choice != active->choice) known = nullptr;
   const auto limit = [&] {  // steps made before the sizes were known
@@ -191,30 +186,32 @@ void Studio::perform(const StepScale& c) {
     step = std::clamp(step, -likeliest, sizes - 1 - likeliest);
   };
   if (known) limit();
-  const std::string message = edit(&after, c, context());
+  const std::string message = edit(&after, c, ws_.context());
   if (known) limit();
-  push(c.steps > 0 ? "Larger part" : "Smaller part", std::move(after), {}, message);
+  edits_.push(title_of(c), std::move(after), {}, message);
 }
 
 // Nothing without a click tool, a still picture or a hit under the pointer, and while a cut runs.
-std::optional<Studio::HoverAsk> Studio::hover_wanted() const {
-  const ObjectItem* active = document().active_object();
-  if (!pointer_inside_ || !session_ || view_.tool != Tool::kClick || panes() != 1 || view_.heat ||
-      tools_.dragging() || highlight_floaters_ || cutting_object_ != 0 || (active && active->locked))
+std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
+  const ObjectItem* active = ws_.document().active_object();
+  if (!pointer_inside_ || !ws_.session || ws_.view.tool != Tool::kClick || viewport_.panes() != 1 ||
+      ws_.view.heat || ws_.tools.dragging() || viewport_.floaters_shown() || cuts_.cutting() != 0 ||
+      (active && active->locked))
     return {};
-  const Camera camera = viewport_camera();
-  if (!picture_ || !picture_->full || !same_camera(picture_->frames.front()->camera, camera)) return {};
-  const auto hit = pick(tools_.pointer_px());
+  const Camera camera = viewport_.pane_camera();
+  if (!viewport_.style_current() || !viewport_.full_picture_of(camera)) return {};
+  const auto hit = viewport_.pick(ws_.tools.pointer_px());
   if (!hit) return {};
-  const bool on_object = active_labels_ && (*active_labels_)[static_cast<std::size_t>(hit->gaussian)] != 0;
+  const bool on_object =
+      viewport_.active_labels() && (*viewport_.active_labels())[static_cast<std::size_t>(hit->gaussian)] != 0;
   const bool corrects = active && any_mark(*active);
-  return HoverAsk{document_serial_, view_serial_, camera, glm::floor(tools_.pointer_px()),
-                  corrects && (on_object || held_modifiers_.ctrl)};
+  return HoverAsk{ws_.history.serial(), ws_.view_serial, camera, glm::floor(ws_.tools.pointer_px()),
+                  corrects && (on_object || ws_.held_modifiers.ctrl)};
 }
 
 // Outlines what a click would change: outside of the object a click that adds, on it one that removes. The
 // worker does what the click would; the newest place is asked for once it is free.
-void Studio::refresh_hover() {
+void Clicks::update() {
   const std::optional<HoverAsk> ask = hover_wanted();
   if (!ask) {
     if (hover_) show_hover(nullptr, false);
@@ -222,38 +219,44 @@ void Studio::refresh_hover() {
     return;
   }
   if (hover_ && hover_->same_but_pixel(*ask) && hover_->pixel == ask->pixel) return;
-  if (tasks_.busy(TaskKind::kHover)) return;
+  if (ws_.tasks.busy(TaskKind::kHover)) return;
   hover_ = ask;
-  const ObjectItem* object = document().active_object();
+  const ObjectItem* object = ws_.document().active_object();
   const ObjectItem none;
   CameraStroke stroke{ask->camera,
-                      click(tools_.pointer_px(), ask->rest ? SeedLabel::kRest : SeedLabel::kObject), seen(0)};
-  stroke.stroke.radius_px *= pixels_per_point_;
+                      click(ws_.tools.pointer_px(), ask->rest ? SeedLabel::kRest : SeedLabel::kObject),
+                      viewport_.seen(0)};
+  stroke.stroke.radius_px *= viewport_.pixels_per_point();
   if (object) stroke.camera = known_camera(*object, stroke.camera);
-  tasks_.submit(TaskKind::kHover, [this, ask = *ask, stroke, session = session_, scene = scene_,
-                                   request = cut_request(document(), object ? *object : none),
-                                   settings =
-                                       cut_settings(document(), object ? *object : none)](const Job& job) {
+  ws_.tasks.submit(TaskKind::kHover, [this, ask = *ask, stroke, session = ws_.session, scene = ws_.scene,
+                                      request = cut_request(ws_.document(), object ? *object : none),
+                                      settings = cut_settings(ws_.document(), object ? *object : none)](
+                                         const Job& job) {
     const Session::Preview preview = session->preview(request, stroke, settings, {job.stop, {}});
     if (preview.after.empty()) return;
     std::vector<std::uint8_t> change(preview.after.size());
     std::ranges::transform(preview.before, preview.after, change.begin(),
                            [](std::uint8_t before, std::uint8_t after) { return before != after ? 1 : 0; });
-    tasks_.post([this, ask, scene, change = make_flags(std::move(change))] {
-      if (scene == scene_ && hover_ && hover_->same_but_pixel(ask)) show_hover(change, ask.rest);
+    ws_.tasks.post([this, ask, scene, change = make_flags(std::move(change))] {
+      if (scene == ws_.scene && hover_ && hover_->same_but_pixel(ask)) show_hover(change, ask.rest);
     });
   });
-  if (options_.inline_tasks) tasks_.deliver();
 }
 
-void Studio::show_hover(const Flags& change, bool rest) {
+void Clicks::show_hover(const Flags& change, bool rest) {
   constexpr Rgb8 kAdds{255, 255, 255}, kRemoves{225, 25, 60};
-  FrameStyle& style = style_[0];
-  const bool same = style.highlight && change ? *style.highlight == *change : style.highlight == change;
-  if (same && style.highlight_colour == (rest ? kRemoves : kAdds)) return;
-  style.highlight = change;
-  style.highlight_colour = rest ? kRemoves : kAdds;
-  ++style_version_;
+  viewport_.highlight(change, rest ? kRemoves : kAdds);
+}
+
+void Clicks::reset() {
+  hover_.reset();
+  declined_offer_.clear();
+}
+
+bool Clicks::decline_offer() {
+  const ClickMeanings* offered = offer();
+  if (offered) declined_offer_ = offered->key;
+  return offered != nullptr;
 }
 
 }  // namespace splatcut

@@ -1,0 +1,285 @@
+#include "app/studio/cut_jobs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/studio/cut_pictures.h"
+#include "app/studio/words.h"
+#include "core/error.h"
+#include "segment/session/doubts.h"
+
+namespace splatcut {
+
+namespace {
+
+double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// The message after a cut: the size of the object, and what the last step changed.
+std::string what_changed(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after,
+                         double seconds) {
+  std::size_t was = 0, is = 0, added = 0;
+  for (std::size_t g = 0; g < after.size(); ++g) {
+    was += before[g];
+    is += after[g];
+    added += after[g] && !before[g];
+  }
+  const std::size_t removed = was + added - is;
+  if (was == 0) return fmt::format("{} Gaussians cut out in {:.1f} s", grouped(is), seconds);
+  if (added + removed == 0) return fmt::format("{} Gaussians, as before", grouped(is));
+  return fmt::format("{} Gaussians, {} added and {} removed in {:.1f} s", grouped(is), grouped(added),
+                     grouped(removed), seconds);
+}
+
+}  // namespace
+
+// What the worker needs.
+struct CutJobs::Order {
+  std::shared_ptr<const OpenedScene> scene;
+  std::shared_ptr<Session> session;
+  CutRequest request;
+  CutSettings settings;
+  ObjectId object = 0;
+  std::string key;
+  Rgb8 colour{};
+  bool heat = false;  // the likelihood is shown
+};
+
+const CutJobs::Known* CutJobs::known(ObjectId object, const std::string& key) const {
+  const auto found = std::ranges::find_if(
+      known_, [&](const Known& known) { return known.object == object && known.run.key == key; });
+  return found == known_.end() ? nullptr : &*found;
+}
+
+CutRun* CutJobs::known_run(ObjectId object, const std::string& key) {
+  const Known* found = known(object, key);
+  return found ? const_cast<CutRun*>(&found->run) : nullptr;
+}
+
+bool CutJobs::runs(ObjectId object, const std::string& key) const {
+  return running_ && running_->object == object && running_->run.key == key;
+}
+
+const CutRun* CutJobs::run(ObjectId object) const {
+  if (running_ && running_->object == object) return &running_->run;
+  const ObjectItem* item = ws_.document().find(object);
+  const Known* found = item ? known(object, item->cut_key) : nullptr;
+  return found ? &found->run : nullptr;
+}
+
+// Cuts that no object shows now are kept for undo and redo, the last few: one that is forgotten has no
+// pictures of its views then, as in opened work.
+void CutJobs::keep(Known fresh) {
+  constexpr std::ptrdiff_t kMostHidden = 24;
+  std::erase_if(known_,
+                [&](const Known& k) { return k.object == fresh.object && k.run.key == fresh.run.key; });
+  known_.push_back(std::move(fresh));
+  const auto hidden = [this](const Known& k) {
+    const ObjectItem* item = ws_.document().find(k.object);
+    return !item || item->cut_key != k.run.key;
+  };
+  for (auto left = std::ranges::count_if(known_, hidden) - kMostHidden; left > 0; --left)
+    known_.erase(std::ranges::find_if(known_, hidden));
+}
+
+void CutJobs::reset() {
+  ws_.tasks.cancel(TaskKind::kCut);
+  running_.reset();
+  known_.clear();
+  given_up_.clear();
+}
+
+void CutJobs::update() {
+  if (!ws_.session) return;
+  const Document& document = ws_.document();
+  if (running_) {
+    const ObjectItem* object = document.find(running_->object);
+    if (object && ws_.history.keys(*object).cut == running_->run.key) return;
+    ws_.tasks.cancel(TaskKind::kCut);
+    end({});
+  }
+  for (const ObjectItem& object : document.objects) {
+    const std::string& key = ws_.history.keys(object).cut;
+    if (!is_stale(object, key) || given_up_.contains(key)) continue;
+    return start(object);
+  }
+  request_likelihood();
+}
+
+void CutJobs::recompute() {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || object->views.empty())
+    throw Error("cutout", "the object has no strokes", "Click on it first");
+  if (!ws_.session) throw Error("cutout", "the scene is still being prepared", "Try again in a moment");
+  want_again(*object);
+  ws_.session = std::make_shared<Session>(ws_.session->scene());  // with empty caches
+  start(*object);
+}
+
+void CutJobs::cancel() {
+  ws_.tasks.cancel(TaskKind::kCut);
+  end(running_ ? running_->run.key : std::string());
+}
+
+// The cut before it is shown again.
+void CutJobs::end(const std::string& given_up) {
+  if (!given_up.empty()) given_up_.insert(given_up);
+  running_.reset();
+  ++ws_.view_serial;
+}
+
+void CutJobs::start(const ObjectItem& object) {
+  const CutRun* before = run(object.id);
+  CutRun run;
+  run.running = true;
+  run.key = ws_.history.keys(object).cut;
+  if (before) {  // shown until there is something newer
+    run.views = before->views;
+    run.meanings = before->meanings;
+  }
+  running_ = Known{object.id, std::move(run)};
+  const Order order{ws_.scene,
+                    ws_.session,
+                    cut_request(ws_.document(), object),
+                    cut_settings(ws_.document(), object),
+                    object.id,
+                    running_->run.key,
+                    object.colour,
+                    ws_.view.heat};
+  // If the labels have arrived already, only pictures or the heat map failed: the cut stands.
+  const auto failed = [this, id = order.object, key = order.key] {
+    if (runs(id, key)) end(key);
+  };
+  ws_.tasks.cancel(TaskKind::kHover);
+  ws_.tasks.submit({TaskKind::kCut, failed}, [this, order](const Job& job) { work(order, job); });
+}
+
+// On the worker.
+void CutJobs::work(const Order& order, const Job& job) {
+  const auto start = std::chrono::steady_clock::now();
+  std::size_t shown = 0;  // views of this cut
+  const auto snapshot = [&](CutPhase, const CutResult& result) {
+    if (result.labels.empty()) return;
+    const double first_mask_ms = shown == 0 ? ms_since(start) : 0;
+    CutRun so_far;
+    if (shown == 0) so_far.meanings = meanings_of(order.request, result);
+    for (; shown < result.views.size(); ++shown)
+      so_far.views.push_back(mask_card(result.views[shown], order.colour));
+    so_far.stages = result.stages;
+    so_far.preview = make_flags(result.labels);
+    ws_.tasks.post([this, order, so_far, first_mask_ms] { show_snapshot(order, so_far, first_mask_ms); });
+  };
+  Session& session = *order.session;
+  const auto result =
+      std::make_shared<const CutResult>(session.cut(order.request, order.settings, job, snapshot));
+  if (result->outcome == Outcome::kCancelled || job.cancelled()) return;
+  CutRun done;
+  done.key = order.key;
+  done.result = result;
+  done.total_ms = ms_since(start);
+  done.meanings = meanings_of(order.request, *result);
+  done.doubts = doubts_of(*result);
+  ws_.tasks.post([this, order, done, cut = make_flags(result->labels)] { finish(order, done, cut); });
+  // The cutout is on the screen; the rest is for looking at.
+  if (order.heat) {
+    const auto likelihood =
+        std::make_shared<const std::vector<float>>(session.likelihood_of(order.request, order.settings, job));
+    if (job.cancelled()) return;
+    ws_.tasks.post([this, order, likelihood] {
+      CutRun* run = order.scene == ws_.scene ? known_run(order.object, order.key) : nullptr;
+      if (run) run->likelihood = likelihood;
+      ++ws_.view_serial;
+    });
+  }
+  std::vector<ViewCard> cards =
+      picture_cards(session, order.request, order.settings, *result, order.colour, job);
+  if (job.cancelled()) return;
+  ws_.tasks.post([this, order, cards = std::move(cards)] { show_views(order, cards); });
+}
+
+void CutJobs::show_snapshot(const Order& order, CutRun so_far, double first_mask_ms) {
+  if (order.scene != ws_.scene || !runs(order.object, order.key)) return;
+  CutRun& now = running_->run;
+  if (first_mask_ms > 0) {
+    now.first_mask_ms = first_mask_ms;
+    now.meanings = std::move(so_far.meanings);
+    now.views.clear();  // those of the cut before
+  }
+  for (ViewCard& card : so_far.views) {
+    card.serial = next_card_serial_++;
+    now.views.push_back(std::move(card));
+  }
+  now.stages = std::move(so_far.stages);
+  now.preview = std::move(so_far.preview);
+  ++ws_.view_serial;
+}
+
+void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
+  if (order.scene != ws_.scene || !runs(order.object, order.key)) return;
+  const CutRun& now = running_->run;
+  run.views = now.views;
+  run.stages = run.result->stages.empty() ? now.stages : run.result->stages;
+  run.first_mask_ms = now.first_mask_ms == 0 ? run.total_ms : now.first_mask_ms;
+  const std::shared_ptr<const CutResult> result = run.result;
+  const std::string doubt = run.doubts.empty() ? std::string() : run.doubts.front();
+  const double seconds = run.total_ms / 1000;
+  running_.reset();
+  const auto labels_now = [&] {
+    const ObjectItem* item = ws_.document().find(order.object);
+    return item ? ws_.labels.labels(ws_.document(), *item, ws_.gaussians()) : nullptr;
+  };
+  const Flags before = labels_now();
+  ws_.history.set_cut(order.object, order.key, labels);
+  keep({order.object, std::move(run)});
+  if (!before) return;  // the object is gone; undo may bring it back
+  const std::string& name = ws_.document().find(order.object)->name;
+  if (result->outcome == Outcome::kNothingFound)
+    return ws_.say(Message::Kind::kRefused, name + ": " + result->reason);
+  const bool offers_sizes = result->ambiguous && ws_.tools.scale_armed();
+  ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
+          fmt::format("{}: {}{}", name, what_changed(*before, *labels_now(), seconds),
+                      !doubt.empty() ? ". But " + doubt
+                      : offers_sizes ? ". Not all of it? Turn the wheel for another size"
+                                     : ""));
+}
+
+void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
+  CutRun* run = order.scene == ws_.scene ? known_run(order.object, order.key) : nullptr;
+  if (!run) return;
+  run->views = std::move(cards);
+  for (ViewCard& card : run->views) card.serial = next_card_serial_++;
+}
+
+// Of the active object's labels, for the heat map: kept by the session from the last cut, or computed again.
+void CutJobs::request_likelihood() {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!ws_.view.heat || !object || object->cut_key.empty() || ws_.tasks.busy(TaskKind::kCut)) return;
+  if (is_stale(*object, ws_.history.keys(*object).cut)) return;
+  const CutRun* known = known_run(object->id, object->cut_key);
+  if (known && (known->likelihood || known->likelihood_failed)) return;
+  if (!known) {
+    CutRun of_labels;
+    of_labels.key = object->cut_key;
+    keep({object->id, std::move(of_labels)});
+  }
+  const auto change = [this, scene = ws_.scene, id = object->id, key = object->cut_key](const auto& how) {
+    if (CutRun* run = scene == ws_.scene ? known_run(id, key) : nullptr) how(run);
+    ++ws_.view_serial;
+  };
+  const auto failed = [change] { change([](CutRun* run) { run->likelihood_failed = true; }); };
+  ws_.tasks.submit(
+      {TaskKind::kCut, failed},
+      [this, change, session = ws_.session, request = cut_request(ws_.document(), *object),
+       settings = cut_settings(ws_.document(), *object)](const Job& job) {
+        job.progress("likelihood", 0);
+        const auto likelihood =
+            std::make_shared<const std::vector<float>>(session->likelihood_of(request, settings, job));
+        if (job.cancelled()) return;
+        ws_.tasks.post([change, likelihood] { change([&](CutRun* run) { run->likelihood = likelihood; }); });
+      });
+}
+
+}  // namespace splatcut

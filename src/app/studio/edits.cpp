@@ -1,0 +1,244 @@
+#include "app/studio/edits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/studio/edit_titles.h"
+#include "core/error.h"
+
+namespace splatcut {
+
+namespace {
+
+// Edits that pass over the Gaussians.
+template <class C>
+constexpr bool kPasses =
+    std::is_same_v<C, EditSelection> || std::is_same_v<C, MergeObjects> || std::is_same_v<C, SplitObject> ||
+    std::is_same_v<C, SeparateObject> || std::is_same_v<C, DuplicateObject> ||
+    std::is_same_v<C, DeleteSelected> || std::is_same_v<C, RestoreDeleted>;
+
+std::span<const std::uint8_t> all_of(const Flags& flags) {
+  return flags ? std::span(*flags) : std::span<const std::uint8_t>();
+}
+
+}  // namespace
+
+void Edits::in_turn(std::function<void()> command) {
+  if (under_way_)
+    waiting_.push_back(std::move(command));
+  else
+    command();
+}
+
+bool Edits::cancel() {
+  if (!under_way_) return false;
+  reset();
+  return true;
+}
+
+void Edits::reset() {
+  ws_.quick.cancel(TaskKind::kSelect);
+  ++number_;
+  under_way_ = false;
+  waiting_.clear();
+  volume_seen_.reset();
+}
+
+void Edits::push(std::string title, Document after, std::string merge_key, const std::string& message) {
+  if (!ws_.history.push(std::move(title), std::move(after), std::move(merge_key)))
+    return ws_.say(Message::Kind::kInfo, message);
+  // Asking again for what was cancelled means that it is wanted now.
+  if (const ObjectItem* active = ws_.document().active_object()) cuts_.want_again(*active);
+  ws_.say(Message::Kind::kDone, message);
+}
+
+void Edits::push_later(const Step& step) {
+  under_way_ = true;
+  ++number_;
+  start(step);
+}
+
+void Edits::start(const Step& step) {
+  const History& history = ws_.history;
+  Document before = step.replaces && history.merges(step.merge_key)
+                        ? history.entries()[history.cursor() - 1].document
+                        : history.now();
+  const auto failed = [this, number = number_] {
+    if (number == number_) finish();
+  };
+  ws_.quick.submit({TaskKind::kSelect, failed}, [this, step, document = std::move(before), failed,
+                                                 serial = history.serial(), number = number_,
+                                                 scene = ws_.scene, prepared = ws_.prepared](const Job& job) {
+    job.progress("selecting", 0);
+    Document after = document;
+    std::string message, refusal;
+    try {
+      message = step.change(&after, {*scene->cloud, prepared ? &prepared->graph : nullptr}, job);
+    } catch (const Error& error) {
+      refusal = error.what();
+    }
+    if (job.cancelled()) return;
+    ws_.quick.post([this, step, after = std::move(after), message, refusal, serial, number, failed] {
+      if (number != number_) return;
+      if (serial != ws_.history.serial()) return start(step);
+      if (refusal.empty())
+        push(step.title, after, step.merge_key, message);
+      else
+        ws_.say(Message::Kind::kRefused, refusal);
+      finish();
+    });
+  });
+}
+
+void Edits::finish() {
+  under_way_ = false;
+  while (!under_way_ && !waiting_.empty()) {
+    const std::function<void()> next = std::move(waiting_.front());
+    waiting_.pop_front();
+    next();
+  }
+}
+
+void Edits::select_later(Selection region, SetOperation operation, std::string title) {
+  push_later({std::move(title),
+              {},
+              [region = std::move(region), operation](Document* d, const EditContext& context, const Job&) {
+                return edit_selection(d, region, operation, context);
+              }});
+}
+
+bool Edits::perform_plain(const Command& command) {
+  return std::visit(
+      [this](const auto& c) {
+        if constexpr (requires(Document * d) { edit(d, c, ws_.context()); }) {
+          ws_.require_scene();
+          if constexpr (kPasses<std::decay_t<decltype(c)>>) {
+            push_later(
+                {title_of(c), merge_key_of(c),
+                 [c](Document* d, const EditContext& context, const Job&) { return edit(d, c, context); }});
+          } else {
+            Document after = ws_.document();
+            const std::string message = edit(&after, c, ws_.context());
+            push(title_of(c), std::move(after), merge_key_of(c), message);
+          }
+          return true;
+        } else {
+          return false;
+        }
+      },
+      command);
+}
+
+void Edits::perform(const SelectRegion& c) {
+  ws_.require_scene();
+  if (std::ranges::none_of(c.region.pixels(), [](std::uint8_t p) { return p != 0; }))
+    throw Error("selection", "the shape holds no pixel");
+  const DrawLimits limits = viewport_.draw_limits();
+  const bool through = ws_.view.see_through;
+  SeeThroughOptions options;
+  std::shared_ptr<const Frame> surface;
+  if (const FrameResult* picture = viewport_.picture(); through && ws_.view.depth_limit > 0 && picture) {
+    surface = picture->frames.front();
+    options.surface_depth = &surface->depth;
+    options.depth_limit = ws_.view.depth_limit * viewport_.camera().scene_size();
+  }
+  push_later({std::string(title_of(c.operation)) + (through ? " (see-through)" : " (visible)"),
+              {},
+              [c, limits, through, options, surface, shown = viewport_.shown(0)](
+                  Document* document, const EditContext& context, const Job& job) {
+                const Flags visible = within_far_plane(context.cloud, c.camera, shown, limits.far_plane);
+                const Selection found =
+                    through ? select_through(context.cloud, c.camera, c.region, all_of(visible), options)
+                            : select_visible(context.cloud, c.camera, c.region, all_of(visible), job);
+                return job.cancelled() ? std::string()
+                                       : edit_selection(document, found, c.operation, context);
+              }});
+}
+
+// From the state before its first selection, seen as it was then; a cut in between has reached that, too.
+void Edits::perform(const SelectVolume& c) {
+  ws_.require_scene();
+  const bool again = c.adjusts && ws_.history.merges(volume_key_);
+  if (!again) {
+    volume_key_ = fmt::format("volume {}", ++volumes_);
+    volume_seen_ = viewport_.shown(0);
+  }
+  push_later({std::string(title_of(c.operation)) + (c.volume.round ? " (sphere)" : " (box)"), volume_key_,
+              [c, seen = volume_seen_](Document* document, const EditContext& context, const Job&) {
+                return edit_selection(document, select_volume(context.cloud, c.volume, all_of(seen)),
+                                      c.operation, context);
+              },
+              again});
+}
+
+void Edits::perform(const SelectColour& c) {
+  ws_.require_scene();
+  push_later({std::string(title_of(c.operation)) + " (colour)",
+              {},
+              [c](Document* document, const EditContext& context, const Job&) {
+                return edit_selection(document, select_colour(context.cloud, c.colour, c.tolerance),
+                                      c.operation, context);
+              }});
+}
+
+void Edits::require_gaussian(std::int32_t gaussian) const {
+  ws_.require_scene();
+  if (gaussian < 0 || static_cast<std::size_t>(gaussian) >= ws_.gaussians())
+    throw Error("selection", "there is no such Gaussian");
+}
+
+void Edits::perform(const PickColour& c) {
+  require_gaussian(c.gaussian);
+  perform(SelectColour{base_colour(*ws_.scene->cloud, static_cast<std::size_t>(c.gaussian)),
+                       ws_.view.colour_tolerance, c.operation});
+}
+
+void Edits::perform(const SelectFlood& c) {
+  require_gaussian(c.gaussian);
+  if (!ws_.prepared) throw Error("flood", "neighbours are still being prepared", "Try again in a moment");
+  push_later({std::string(title_of(c.operation)) + " (flood)",
+              {},
+              [c, shown = viewport_.shown(0), tolerance = ws_.view.colour_tolerance](
+                  Document* document, const EditContext& context, const Job&) {
+                const auto start = static_cast<std::size_t>(c.gaussian);
+                return edit_selection(
+                    document, select_flood(context.cloud, *context.graph, start, tolerance, all_of(shown)),
+                    c.operation, context);
+              }});
+}
+
+void Edits::perform(const SelectRange& c) {
+  ws_.require_scene();
+  const char* const names[] = {" (opacity)", " (size)", " (depth)"};
+  push_later(
+      {std::string(title_of(c.operation)) + names[static_cast<int>(c.property)],
+       {},
+       [c, camera = viewport_.pane_camera()](Document* document, const EditContext& context, const Job&) {
+         const std::vector<float> values = property_values(context.cloud, c.property, &camera);
+         return edit_selection(document, select_range(values, c.low, c.high), c.operation, context);
+       }});
+}
+
+void Edits::perform(const Undo&) {
+  History& history = ws_.history;
+  if (!history.can_undo()) throw Error("undo", "there is nothing to undo");
+  const std::string title = history.entries()[history.cursor()].title;
+  history.undo();
+  ws_.say(Message::Kind::kInfo, "Undone: " + title);
+}
+
+void Edits::perform(const Redo&) {
+  History& history = ws_.history;
+  if (!history.can_redo()) throw Error("redo", "there is nothing to redo");
+  history.redo();
+  ws_.say(Message::Kind::kInfo, "Redone: " + history.entries()[history.cursor()].title);
+}
+
+void Edits::perform(const JumpHistory& c) {
+  if (c.entry >= ws_.history.entries().size()) throw Error("history", "there is no such step");
+  ws_.history.jump(c.entry);
+  ws_.say(Message::Kind::kInfo, "Back at: " + ws_.history.entries()[c.entry].title);
+}
+
+}  // namespace splatcut

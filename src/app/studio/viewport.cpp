@@ -1,0 +1,276 @@
+#include "app/studio/viewport.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/studio/words.h"
+#include "scene/raster/rasterizer.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr double kStillAfterSeconds = 0.15;  // without a move the picture is drawn in full
+constexpr double kMovingGoalMs = 32;         // a reduced picture should take no longer
+constexpr float kLeastScale = 0.2f;
+
+// Scales in steps of 5 %: the same size again and again costs no new textures.
+float stepped(float scale) {
+  return std::clamp(std::round(scale * 20) / 20, kLeastScale, 1.0f);
+}
+
+int scaled(int pixels, float scale) {
+  return std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(pixels))));
+}
+
+}  // namespace
+
+Viewport::Viewport(Workspace& workspace, const CutJobs& cuts)
+    : ws_(workspace),
+      cuts_(cuts),
+      style_labels_(std::make_shared<LabelCache>()),
+      frames_(workspace.options.wake) {}
+
+void Viewport::set_size(int width_px, int height_px, float pixels_per_point, float covered_bottom_px) {
+  covered_bottom_px_ = covered_bottom_px;
+  width_px_ = std::max(1, width_px);
+  height_px_ = std::max(1, height_px);
+  pixels_per_point_ = pixels_per_point;
+}
+
+void Viewport::reset() {
+  ws_.quick.cancel(TaskKind::kStyle);
+  style_labels_ = std::make_shared<LabelCache>();
+  styles_ = {};
+  styled_document_ = 0;
+  styles_on_the_way_ = floaters_shown_ = false;
+  picture_.reset();
+  camera_.reset(ws_.scene->bounds, ws_.document().up_world);
+  const auto& cameras = ws_.scene->cameras;
+  if (cameras.empty() && !ws_.scene->first_view) return;
+  camera_.go_to(cameras.empty() ? *ws_.scene->first_view : cameras.front());
+  camera_.finish_transition();
+}
+
+bool Viewport::moving() const {
+  return ws_.clock_s - last_move_s_ <= kStillAfterSeconds;
+}
+
+bool Viewport::idle() const {
+  return frames_.idle() && (!ws_.scene || (style_current() && picture_ && picture_->full && requested_full_ &&
+                                           requested_style_ == style_serial_ && !moving()));
+}
+
+bool Viewport::update(double seconds, const Flight& flight) {
+  const CameraPose before = camera_.pose();
+  const bool flies = ws_.scene && flight.moving();
+  constexpr double kLongestStep = 0.1;
+  if (flies) camera_.fly(flight, static_cast<float>(std::min(seconds, kLongestStep)));
+  const bool travels = camera_.advance(static_cast<float>(seconds));
+  const CameraPose& after = camera_.pose();
+  const bool moved = before.position_world != after.position_world ||
+                     before.camera_from_world != after.camera_from_world ||
+                     before.fov_y_rad != after.fov_y_rad;
+  const Camera camera = pane_camera();
+  const bool differs = requested_camera_ &&
+                       !same_camera(resized(*requested_camera_, camera.width_px, camera.height_px), camera);
+  if (flies || travels || moved || (differs && ws_.tools.moves_camera())) last_move_s_ = ws_.clock_s;
+  request_styles();
+  request_picture();
+  take_picture();
+  return flies || travels;
+}
+
+Camera Viewport::pane_camera() const {
+  Camera camera = camera_.camera(std::max(1, width_px_ / panes()), std::max(1, height_px_));
+  // Half a viewport shows as much from left to right as the whole.
+  camera.fx_px /= static_cast<float>(panes());
+  camera.fy_px /= static_cast<float>(panes());
+  return camera;
+}
+
+// A drag belongs to the pane in which it began.
+int Viewport::pane_at(const glm::vec2& pixel) const {
+  if (panes() == 1) return 0;
+  if (ws_.tools.dragging()) return pressed_pane_;
+  return pixel.x >= 0.5f * static_cast<float>(width_px_) ? 1 : 0;
+}
+
+glm::vec2 Viewport::in_pane(const glm::vec2& pixel) const {
+  return pixel - glm::vec2(0.5f * static_cast<float>(width_px_ * pane_at(pixel)), 0);
+}
+
+void Viewport::frame_object() {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object) return;
+  const Flags own = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
+  std::vector<glm::vec3> positions;
+  for (std::size_t g = 0; g < own->size(); ++g)
+    if ((*own)[g]) positions.push_back(ws_.scene->cloud->position[g]);
+  constexpr double kShare = 0.96;  // of its Gaussians in each direction
+  camera_.frame(robust_bounds(positions, kShare), pane_camera(), covered_bottom_px_);
+}
+
+DrawLimits Viewport::draw_limits() const {
+  DrawLimits limits;
+  if (ws_.scene) limits.near_plane = ws_.scene->cloud->near_plane * (ws_.view.near_share / kNaturalNearShare);
+  if (ws_.view.far_share > 0) limits.far_plane = ws_.view.far_share * camera_.scene_size();
+  if (ws_.view.web_low_pass) limits.low_pass_px2 = kWebLowPassPx2;
+  return limits;
+}
+
+Flags Viewport::seen(int pane) const {
+  return within_far_plane(*ws_.scene->cloud, pane_camera(), shown(pane), draw_limits().far_plane);
+}
+
+void Viewport::show_floaters(bool shown) {
+  floaters_shown_ = say_floaters_ = shown;
+  ++ws_.view_serial;
+}
+
+void Viewport::highlight(const Flags& gaussians, const Rgb8& colour) {
+  FrameStyle& style = styles_.style[0];
+  const bool same =
+      style.highlight && gaussians ? *style.highlight == *gaussians : style.highlight == gaussians;
+  if (same && style.highlight_colour == colour) return;
+  style.highlight = gaussians;
+  style.highlight_colour = colour;
+  ++style_serial_;
+}
+
+bool Viewport::style_current() const {
+  return !styles_on_the_way_ && styled_document_ == ws_.history.serial() && styled_view_ == ws_.view_serial;
+}
+
+// The next order waits for the one before: were it to replace it, a document that changes with every frame
+// would never be shown.
+void Viewport::request_styles() {
+  if (!ws_.scene || style_current() || styles_on_the_way_) return;
+  styled_document_ = ws_.history.serial();
+  styled_view_ = ws_.view_serial;
+  styles_on_the_way_ = true;
+  StyleOrder order{ws_.scene->cloud, ws_.prepared, ws_.document(),    {},
+                   nullptr,          ws_.view,     pixels_per_point_, floaters_shown_};
+  for (const ObjectItem& object : order.document.objects)
+    if (const CutRun* run = cuts_.run(object.id)) {
+      if (run->preview) order.previews[object.id] = run->preview;
+      if (object.id == order.document.active) order.likelihood = run->likelihood;
+    }
+  const auto failed = [this] { styles_on_the_way_ = false; };
+  ws_.quick.submit({TaskKind::kStyle, failed}, [this, order = std::move(order), before = styles_,
+                                                labels = style_labels_, scene = ws_.scene](const Job&) {
+    ws_.quick.post([this, scene, styles = styled(order, before, labels.get())] {
+      if (scene != ws_.scene) return;
+      styles_on_the_way_ = false;
+      styles_ = styles;
+      ++style_serial_;
+      if (!floaters_shown_ || !std::exchange(say_floaters_, false)) return;
+      ws_.say(Message::Kind::kInfo,
+              fmt::format("{} Gaussians float apart from the object{}", grouped(styles.floaters),
+                          styles.floaters ? ", shown in white" : ""));
+    });
+  });
+}
+
+void Viewport::request_picture() {
+  if (!ws_.scene || width_px_ == 0 || styles_.panes == 0) return;
+  const Camera full_camera = pane_camera();
+  const bool still = !moving();
+  if (gpu_view_ && !still) return;
+  const float scale = still ? 1.0f : moving_scale_;
+  const Camera camera = scale == 1.0f ? full_camera
+                                      : resized(full_camera, scaled(full_camera.width_px, scale),
+                                                scaled(full_camera.height_px, scale));
+  const bool same = requested_camera_ && same_camera(*requested_camera_, camera) &&
+                    requested_full_ == still && requested_style_ == style_serial_;
+  if (same) return;
+  requested_camera_ = camera;
+  requested_full_ = still;
+  requested_style_ = style_serial_;
+  FrameRequest request{ws_.scene->serial, ws_.scene->cloud, ws_.coarse, {}, draw_limits(), still};
+  for (int pane = 0; pane < panes(); ++pane) request.panes.push_back({camera, shown(pane), style(pane)});
+  frames_.request(std::move(request));
+}
+
+void Viewport::take_picture() {
+  auto result = frames_.take();
+  if (!result || !ws_.scene || result->scene != ws_.scene->serial) return;
+  double raster_ms = 0;
+  for (const auto& frame : result->frames) raster_ms += frame->raster_ms;
+  if (result->full) {
+    still_ms_ = raster_ms;
+  } else {
+    moving_ms_ = result->ms;
+    // Half of a picture's cost goes with its pixels, the rest with the Gaussians.
+    const double factor = std::clamp(kMovingGoalMs / std::max(1.0, result->ms), 0.5, 1.3);
+    if (factor < 0.9 || factor > 1.15) moving_scale_ = stepped(moving_scale_ * static_cast<float>(factor));
+  }
+  picture_ = std::move(result);
+  ++picture_serial_;
+}
+
+const Frame* Viewport::full_picture_of(const Camera& camera) const {
+  if (!picture_ || !picture_->full || picture_->limits != draw_limits()) return nullptr;
+  const Frame& frame = *picture_->frames.front();
+  return same_camera(frame.camera, camera) ? &frame : nullptr;
+}
+
+std::optional<PickedPoint> Viewport::pick(const glm::vec2& pixel) const {
+  if (!ws_.scene) return {};
+  const Camera camera = pane_camera();
+  const auto x = static_cast<int>(std::floor(pixel.x)), y = static_cast<int>(std::floor(pixel.y));
+  if (x < 0 || y < 0 || x >= camera.width_px || y >= camera.height_px) return {};
+  const Frame* frame = full_picture_of(camera);
+  if (!frame) return hit_in(camera, pixel, shown(0));
+  if (frame->first_hit.at(x, y) < 0) return {};
+  return PickedPoint{camera.world_from_pixel(pixel, frame->depth.at(x, y)), frame->first_hit.at(x, y)};
+}
+
+std::optional<PickedPoint> Viewport::hit_in(const Camera& camera, const glm::vec2& pixel,
+                                            const Flags& visible_set) const {
+  const glm::vec2 size(camera.width_px, camera.height_px);
+  if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.x < size.x && pixel.y < size.y)) return {};
+  const auto x = static_cast<int>(std::floor(pixel.x)), y = static_cast<int>(std::floor(pixel.y));
+  const DrawLimits limits = draw_limits();
+  RasterOptions options;
+  options.colour = false;
+  options.depth = true;
+  options.near_plane = limits.near_plane;
+  options.low_pass_px2 = limits.low_pass_px2;
+  options.roi = PixelRect{x, y, x + 1, y + 1};
+  const Flags visible = within_far_plane(*ws_.scene->cloud, camera, visible_set, limits.far_plane);
+  if (visible) options.shown = *visible;
+  const RasterOutput out = rasterize(*ws_.scene->cloud, camera, options);
+  if (out.first_hit.at(0, 0) < 0) return {};
+  return PickedPoint{camera.world_from_pixel(pixel, out.median_depth.at(0, 0)), out.first_hit.at(0, 0)};
+}
+
+std::optional<float> Viewport::depth_on_screen(const glm::vec2& pixel) const {
+  if (!picture_ || picture_->frames.empty() || picture_->scene != ws_.scene->serial) return {};
+  const Frame& frame = *picture_->frames.front();
+  const Image<float>& depth = frame.depth;
+  const Camera camera = pane_camera();
+  const glm::vec2 at = pixel / glm::vec2(camera.width_px, camera.height_px);
+  const auto x = static_cast<int>(at.x * static_cast<float>(depth.width())),
+             y = static_cast<int>(at.y * static_cast<float>(depth.height()));
+  if (at.x < 0 || at.y < 0 || !depth.contains(x, y) || !(depth.at(x, y) > 0)) return {};
+  const glm::vec3 point_world =
+      frame.camera.world_from_pixel(at * glm::vec2(depth.width(), depth.height()), depth.at(x, y));
+  const float z = camera.camera_from_world(point_world).z;
+  return z > 0 ? std::optional(z) : std::nullopt;
+}
+
+ToolContext Viewport::tool_context(const glm::vec2& pixel) {
+  const int pane = pane_at(pixel);
+  return {camera_,
+          ws_.view,
+          pane_camera(),
+          pixels_per_point_,
+          [this](const glm::vec2& at) { return pick(at); },
+          [this](const glm::vec2& at) { return depth_on_screen(at); },
+          [this, pane] { return seen(pane); }};
+}
+
+}  // namespace splatcut

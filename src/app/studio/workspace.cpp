@@ -1,0 +1,23 @@
+#include "app/studio/workspace.h"
+
+#include "core/error.h"
+
+namespace splatcut {
+
+std::size_t Workspace::gaussians_of(ObjectId object) const {
+  const ObjectItem* item = document().find(object);
+  return item && scene ? labels.count(document(), *item, gaussians()) : 0;
+}
+
+void Workspace::require_scene() const {
+  if (!scene)
+    throw Error("splatcut", "no scene is open", "Open one with Ctrl+O, or drop a file on the window");
+}
+
+void Workspace::say(Message::Kind kind, std::string text) {
+  constexpr std::size_t kKept = 100;
+  messages.push_back({kind, std::move(text), clock_s});
+  if (messages.size() > kKept) messages.pop_front();
+}
+
+}  // namespace splatcut
