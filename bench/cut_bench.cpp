@@ -187,45 +187,6 @@ void lambda_sweep(benchmark::State& state, const ProblemOf& problem_of, bool ris
   state.counters["cold_starts"] = static_cast<double>(cold);
 }
 
-void flip_cost_of_all(benchmark::State& state, const ProblemOf& problem_of) {
-  const CutProblem& p = problem_of();
-  MaxFlow max_flow(p.graph, p.capacity);
-  max_flow.set_terminals(p.terminal);
-  max_flow.solve();
-  std::int64_t sum = 0;
-  for (auto _ : state)
-    timed(state, [&] {
-      for (std::uint32_t v = 0; v < p.graph.nodes(); ++v) sum += max_flow.flip_cost(v).at_most;
-    });
-  benchmark::DoNotOptimize(sum);
-}
-
-void min_marginals_of_100(benchmark::State& state, const ProblemOf& problem_of) {
-  const CutProblem& p = problem_of();
-  MaxFlow max_flow(p.graph, p.capacity);
-  max_flow.set_terminals(p.terminal);
-  max_flow.solve();
-  std::mt19937 random(5);
-  for (auto _ : state)
-    timed(state, [&] {
-      for (int i = 0; i < 100; ++i)
-        max_flow.min_marginal(static_cast<std::uint32_t>(random() % p.graph.nodes()));
-    });
-}
-
-void snapshot_and_restore(benchmark::State& state, const ProblemOf& problem_of) {
-  const CutProblem& p = problem_of();
-  MaxFlow max_flow(p.graph, p.capacity);
-  max_flow.set_terminals(p.terminal);
-  max_flow.solve();
-  for (auto _ : state)
-    timed(state, [&] {
-      const MaxFlow::Snapshot kept = max_flow.snapshot();
-      max_flow.restore(kept);
-    });
-  demand(max_flow.certified());
-}
-
 benchmark::internal::Benchmark* manual(benchmark::internal::Benchmark* bench) {
   return bench->Unit(benchmark::kMillisecond)->UseManualTime();
 }
@@ -260,9 +221,6 @@ void register_problem(const std::string& name, const ProblemOf& problem, bool wi
     for (const bool warm : {true, false})
       add(fmt::format("lambda_{}_{}", rising ? "rising" : "falling", warm ? "warm" : "cold"),
           [=](benchmark::State& s) { lambda_sweep(s, problem, rising, warm); });
-  add("snapshot_and_restore", [=](benchmark::State& s) { snapshot_and_restore(s, problem); });
-  add("flip_cost_of_all", [=](benchmark::State& s) { flip_cost_of_all(s, problem); });
-  add("min_marginals_of_100", [=](benchmark::State& s) { min_marginals_of_100(s, problem); });
 }
 
 }  // namespace

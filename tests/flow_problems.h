@@ -72,13 +72,12 @@ struct BruteForceCut {
   std::uint32_t source_set = 0;  // the smallest of the minimum cuts, a bit per node
 };
 
-// The least energy of all cuts; `fixed` nodes only as in `sides`.
-inline BruteForceCut brute_force(const FlowProblem& p, std::uint32_t fixed = 0, std::uint32_t sides = 0) {
+// The least energy of all cuts.
+inline BruteForceCut brute_force(const FlowProblem& p) {
   const auto nodes = static_cast<std::uint32_t>(p.graph.nodes());
   BruteForceCut best;
   std::vector<std::uint8_t> side(nodes);
   for (std::uint32_t cut = 0; cut < (1u << nodes); ++cut) {
-    if ((cut & fixed) != (sides & fixed)) continue;
     for (std::uint32_t n = 0; n < nodes; ++n) side[n] = cut >> n & 1;
     const std::int64_t energy = cut_energy(p.graph, p.capacity, p.terminal, side);
     if (energy < best.energy)

@@ -34,11 +34,6 @@
 
 namespace splatcut {
 
-// How much the energy rises at least and at most when one node changes side and all others may follow.
-struct FlipCost {
-  std::int64_t at_least = 0, at_most = 0;
-};
-
 class MaxFlow {
  public:
   // All b = 0. graph and capacity must outlive this and stay as they are.
@@ -64,20 +59,6 @@ class MaxFlow {
   bool certified() const;       // the optimality conditions above, over the nodes touched
   std::size_t touched() const { return touched_.size(); }
   std::size_t cold_starts() const { return cold_starts_; }
-
-  // Bounds from the node and its arcs. v on the source side: at_least = e(v) + sum_u min(r(u,v), max(e(u),
-  // 0)), at_most = e(v) + sum of r(u,v) from the source side; on the other side the same with arcs turned and
-  // -e. Cost: its arcs.
-  FlipCost flip_cost(std::uint32_t node) const;
-  // The exact rise, its min-marginal (Kohli, Torr 2008): the flow that its forced change adds; at most
-  // kLargestTerminal - |b| of it. Two warm solves; leaves everything as it was but the forests.
-  std::int64_t min_marginal(std::uint32_t node);
-
-  // The state after a solve(), for undo. Capacities must be the same at restore(). 4 bytes a node; 16, and 4
-  // per arc, a node touched.
-  struct Snapshot;
-  Snapshot snapshot() const;
-  void restore(const Snapshot& snapshot);
 
  private:
   static constexpr std::uint32_t kOrphan = 0xffffffffu, kRoot = 0xfffffffeu;
@@ -127,14 +108,6 @@ class MaxFlow {
   std::size_t work_ = 0, work_when_cold_ = 0;  // nodes scanned and adopted by a solve
   std::size_t cold_starts_ = 0;
   bool warm_ = false;
-};
-
-struct MaxFlow::Snapshot {
-  std::vector<std::int32_t> b;
-  std::vector<std::uint32_t> touched;
-  std::vector<Node> node;              // of touched
-  std::vector<std::int32_t> residual;  // of the arcs of touched, in their order
-  std::int64_t positive_b = 0, positive_excess = 0;
 };
 
 struct MinCutReport {
