@@ -144,7 +144,7 @@ void Studio::refresh_style() {
   std::vector<std::uint8_t> owner(n, 0), active(n, 0);
   FrameStyle style;
   style.background = document.background;
-  style.checker_px = view_.checker ? std::lround(kCheckerPoints * pixels_per_point_) : 0;
+  style.checker_px = view_.checker ? std::round(kCheckerPoints * pixels_per_point_) : 0;
   style.tint = view_.tint;
   style.outline = view_.outline;
   bool any = false;
@@ -220,7 +220,10 @@ void Studio::request_picture() {
   requested_full_ = still;
   requested_style_ = style_version_;
   FrameRequest request{scene_->serial, scene_->cloud, coarse_, {}, draw_limits(), still};
-  for (int pane = 0; pane < panes(); ++pane) request.panes.push_back({camera, shown_[pane], style_[pane]});
+  for (int pane = 0; pane < panes(); ++pane) {
+    request.panes.push_back({camera, shown_[pane], style_[pane]});
+    request.panes.back().style.checker_px *= scale;  // on the screen it stays as large
+  }
   frames_.request(std::move(request));
 }
 
