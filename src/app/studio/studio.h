@@ -184,7 +184,6 @@ class Studio {
   // studio_click.cpp
   void perform(const AddStroke& c);
   void perform(const ComeNearer&);
-  void perform(const IntersectStroke& c);
   void perform(const StepScale& c);
   bool hits_anything(const AddStroke& c) const;
   std::string already_so(const AddStroke& c) const;
@@ -195,8 +194,12 @@ class Studio {
   void refresh_hover();
   void show_hover(const Flags& change, bool rest);
 
-  // studio_edit.cpp
+  // studio_strokes_alone.cpp
+  void perform(const IntersectStroke& c);
   void perform(const AddBox& c);
+  void combine_with(const StrokedView& strokes, SetOperation operation, const std::string& title);
+
+  // studio_edit.cpp
   void perform(const SelectRegion& c);
   void perform(const SelectVolume& c);
   void perform(const SelectColour& c);

@@ -97,35 +97,6 @@ void Studio::perform(const AddStroke& c) {
   push(title_of(c.stroke), std::move(after), {}, held.empty() ? message : held);
 }
 
-// Keeps those Gaussians of the object that the stroke alone would select.
-void Studio::perform(const IntersectStroke& c) {
-  require_scene();
-  const ObjectItem* object = document().active_object();
-  if (!object || gaussians_of(object->id) == 0)
-    throw Error("intersect", "there is no object yet", "Click one first");
-  if (!session_) throw Error("intersect", "the scene is still being prepared", "Try again in a moment");
-  if (c.stroke.points_px.empty()) throw Error("stroke", "it has no points");
-  if (!hits_anything({c.camera, c.stroke, c.seen}))
-    throw Error("click", "there is nothing in that place", "Click on something that can be seen");
-  tasks_.submit(TaskKind::kSelect, [this, c, id = object->id, session = session_, scene = scene_,
-                                    settings = cut_settings(document(), *object)](const Job& job) {
-    const Session::Preview preview =
-        session->preview({}, {c.camera, c.stroke, c.seen}, settings, {job.stop, {}});
-    if (job.cancelled()) return;
-    tasks_.post([this, id, scene, meant = preview.after] {
-      if (scene != scene_ || document().active != id) return;
-      if (meant.empty())
-        say(Message::Kind::kRefused,
-            "intersect: with this quality there are no parts that a click could take. Intersect with a "
-            "region, "
-            "or choose another quality.");
-      else
-        select_or_refuse(meant, SetOperation::kIntersect, "Intersect (click)");
-    });
-  });
-  if (options_.inline_tasks) tasks_.deliver();
-}
-
 bool Studio::found_nothing() const {
   const CutRun* run = cut_run(document().active);
   return run && !run->running && run->result && run->result->outcome == Outcome::kNothingFound;

@@ -140,13 +140,6 @@ template void Studio::perform(const SetSmoothness&);
 template void Studio::perform(const SetPreset&);
 template void Studio::perform(const SetBackground&);
 
-void Studio::perform(const AddBox& c) {
-  require_scene();
-  Document after = history_.now();
-  const std::string message = edit(&after, c, context());
-  push("Box", std::move(after), {}, message);
-}
-
 void Studio::apply_selection(const Selection& region, SetOperation operation, const std::string& title) {
   Document after = history_.now();
   const std::string message = splatcut::edit_selection(&after, region, operation, context());
