@@ -258,6 +258,12 @@ void Studio::run(Action action) {
     case Action::kCentres:
       change_view([](ViewState& v) { v.centres = !v.centres; });
       break;
+    case Action::kRings:
+      change_view([](ViewState& v) { v.rings = !v.rings; });
+      break;
+    case Action::kGrid:
+      change_view([](ViewState& v) { v.grid = !v.grid; });
+      break;
     case Action::kNextCamera:
     case Action::kPreviousCamera: {
       // The nearest given camera says where in the row we are.
