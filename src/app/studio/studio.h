@@ -63,9 +63,11 @@ struct ClickMeanings {
   std::string key;                            // of that click, see key_of_first_stroke()
   int choice = 0;                             // whose sizes these are:
   std::size_t sizes = 0, likeliest_size = 0;  // how many, and the one that a click takes
+  std::size_t size = 0;                       // the one taken
   Camera camera;                              // of the click
   // Per meaning its borders in the camera's pixels.
   std::vector<std::vector<std::vector<glm::vec2>>> outlines;
+  std::vector<std::vector<glm::vec2>> smaller, larger;  // of the next sizes; empty: there is none
 };
 
 // The last cut of an object, or the one that runs.
@@ -143,6 +145,10 @@ class Studio {
   Camera viewport_camera() const;  // of the first pane
   // Other meanings of the active object's first click, offered until it gets another stroke; null: none.
   const ClickMeanings* offer() const;
+  // The sizes beside the one that the wheel is at, for a while after the click or the last step; and how
+  // clearly they show, from 1 to 0.
+  const ClickMeanings* sizes() const;
+  float sizes_opacity() const;
   // True if the active object's clicks found nothing, mostly for being made from too far away.
   bool found_nothing() const;
   // Where a drag goes on; 1: the right one.
@@ -193,6 +199,7 @@ class Studio {
   std::optional<HoverAsk> hover_wanted() const;
   void refresh_hover();
   void show_hover(const Flags& change, bool rest);
+  void note_sizes();  // studio_sizes.cpp
 
   // studio_strokes_alone.cpp
   void perform(const IntersectStroke& c);
@@ -322,6 +329,7 @@ class Studio {
   std::optional<HoverAsk> hover_;
   Flags active_labels_;         // of the active object, as they are shown
   std::string declined_offer_;  // its key
+  double stepped_s_ = -1e9;     // when a size was chosen last, or a click found some
   bool pointer_inside_ = false;
   std::size_t floater_count_ = 0;
   std::optional<FrameResult> picture_;

@@ -164,6 +164,7 @@ void Studio::perform(const StepScale& c) {
   if (known) limit();
   const std::string message = edit(&after, c, context());
   if (known) limit();
+  stepped_s_ = clock_s_;
   push(c.steps > 0 ? "Larger part" : "Smaller part", std::move(after), {}, message);
 }
 

@@ -1,5 +1,5 @@
-// What strokes alone would cut out, taken from the object or kept of it: Alt of the stroke tools, Ctrl and Alt
-// of the box.
+// What strokes alone would cut out, taken from the object or kept of it: Alt of the stroke tools, Ctrl and
+// Alt of the box.
 #include <fmt/format.h>
 
 #include "app/studio/document_edits.h"
@@ -11,7 +11,8 @@ namespace splatcut {
 void Studio::combine_with(const StrokedView& strokes, SetOperation operation, const std::string& title) {
   const std::string doing = operation == SetOperation::kRemove ? "remove" : "intersect";
   const ObjectItem* object = document().active_object();
-  if (!object || gaussians_of(object->id) == 0) throw Error(doing, "there is no object yet", "Click one first");
+  if (!object || gaussians_of(object->id) == 0)
+    throw Error(doing, "there is no object yet", "Click one first");
   if (!session_) throw Error(doing, "the scene is still being prepared", "Try again in a moment");
   tasks_.submit(TaskKind::kSelect, [this, strokes, operation, title, doing, id = object->id,
                                     session = session_, scene = scene_,

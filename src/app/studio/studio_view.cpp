@@ -278,7 +278,7 @@ bool Studio::update(double seconds) {
   request_picture();
   take_picture();
   autosave(seconds);
-  return flies || travels || !idle();
+  return flies || travels || !idle() || sizes();
 }
 
 }  // namespace splatcut

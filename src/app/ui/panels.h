@@ -35,6 +35,7 @@ void start_page(UiContext& ui, const UiRect& area);
 void draw_strokes(const UiContext& ui, const UiRect& area);
 void draw_offer(const UiContext& ui, const UiRect& area,
                 float bottom);  // other meanings of a click, with their keys
+void draw_sizes(const UiContext& ui, const UiRect& area, float bottom);  // the next ones of a click
 void draw_tool_shape(const UiContext& ui, const UiRect& area);
 void draw_brush_ring(const UiContext& ui, const UiRect& area);
 void draw_points(const UiContext& ui, const UiRect& area);  // of the ground, of what is measured

@@ -184,6 +184,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   }
   ImGui::PushClipRect(vec(area.min), {area.min.x + pane_width, area.max.y}, true);
   draw_offer(ui, area, bottom);
+  draw_sizes(ui, area, bottom);
   draw_strokes(ui, area);
   ImGui::PopClipRect();
   ImGui::PushClipRect(vec(area.min), vec(area.max), true);
