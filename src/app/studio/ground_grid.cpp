@@ -11,9 +11,9 @@ namespace splatcut {
 namespace {
 
 constexpr float kBelowShare = 0.02f;  // floaters under the ground
-constexpr int kMostCells = 20;
-constexpr float kStepPx = 4;     // between questions to the depth
-constexpr int kStepsAPiece = 6;  // which has one opacity
+constexpr float kFewestCells = 8;     // across the scene; rounding makes them 20 at most
+constexpr float kStepPx = 4;          // between questions to the depth
+constexpr int kStepsAPiece = 6;       // which has one opacity
 constexpr float kRoughCells = 0.15f;  // of the scene's cell: no ground is level
 
 struct Line {
@@ -83,8 +83,7 @@ float opacity_at(const GroundGrid& grid, const Camera& camera, const glm::vec3& 
 
 bool hidden(const GroundGrid& grid, const PictureDepth& depth, const glm::vec3& at_world) {
   const auto surface = depth.before(at_world);
-  return surface &&
-         std::abs(glm::dot(*surface - grid.origin_world, grid.up_world)) > grid.rough;
+  return surface && std::abs(glm::dot(*surface - grid.origin_world, grid.up_world)) > grid.rough;
 }
 
 void add_pieces(const GroundGrid& grid, const Line& line, const Camera& camera, const DrawLimits& limits,
@@ -132,9 +131,9 @@ float round_length_below(float length) {
 
 float ground_height(const GaussianCloud& cloud, const Box& bounds, const glm::vec3& up_world) {
   constexpr std::size_t kSample = 1 << 16;
-  constexpr float kFacesUp = 0.8f;       // cosine between up and the splat's normal
-  constexpr std::size_t kLayers = 64;    // from the lowest to the highest height that counts
-  constexpr double kLayerShare = 0.25f;  // of what faces up in the lower half, in two layers: a ground
+  constexpr float kFacesUp = 0.8f;      // cosine between up and the splat's normal
+  constexpr std::size_t kLayers = 64;   // from the lowest to the highest height that counts
+  constexpr double kLayerShare = 0.25;  // of what faces up in the lower half, in two layers: a ground
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / kSample);
   struct Piece {
     float height, area;  // 0: it does not face up
@@ -151,8 +150,8 @@ float ground_height(const GaussianCloud& cloud, const Box& bounds, const glm::ve
   }
   if (pieces.empty()) return glm::dot(bounds.centre(), up_world);
   const auto at_share = [&](float share) {
-    const auto at = pieces.begin() +
-                    static_cast<std::ptrdiff_t>(share * static_cast<float>(pieces.size() - 1));
+    const auto at =
+        pieces.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(pieces.size() - 1));
     std::ranges::nth_element(pieces, at, {}, &Piece::height);
     return at->height;
   };
@@ -193,15 +192,13 @@ GroundGrid ground_grid(const GaussianCloud& cloud, const Box& bounds, const glm:
   glm::vec2 reach(0);  // of the box along the grid's directions
   for (int i = 0; i < 2; ++i) reach[i] = glm::dot(glm::abs(grid.along_world[i]), half);
   const float across_scene = 2 * std::max({reach.x, reach.y, 1e-12f});
-  grid.cell = round_length_below(across_scene / (kMostCells / 2 - 2));
-  while (across_scene > kMostCells * grid.cell) grid.cell = round_length_below(2.5f * grid.cell);
+  grid.cell = round_length_below(across_scene / kFewestCells);
   grid.rough = kRoughCells * grid.cell;
   const glm::vec3 from_origin = bounds.centre() - grid.origin_world;
   // As wide as the scene both ways, and a cell beyond.
   const int cells = static_cast<int>(std::ceil(0.5f * across_scene / grid.cell)) + 1;
   for (int i = 0; i < 2; ++i) {
-    const int middle =
-        static_cast<int>(std::lround(glm::dot(from_origin, grid.along_world[i]) / grid.cell));
+    const int middle = static_cast<int>(std::lround(glm::dot(from_origin, grid.along_world[i]) / grid.cell));
     grid.first[i] = middle - cells;
     grid.last[i] = middle + cells;
   }

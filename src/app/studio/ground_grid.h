@@ -2,10 +2,11 @@
 //
 // The plane is perpendicular to up. Its height is that of the largest surface that faces up in the lower half
 // of the scene, by the area of its splats; where none stands out, the height below which kBelowShare of the
-// Gaussians lie. Those beyond the scene's robust bounds do not count. Cells are 1, 2 or 5 times a power of ten, about 8 to 20 across the scene;
-// from within a scene smaller ones, before the eye, as the eye comes near the ground.
-// Lines lie at multiples of the cell from the world's origin, along those of the world's axes that come
-// nearest to the ground, so that with an upright scene the coloured lines are the axes themselves.
+// Gaussians lie. Those beyond the scene's robust bounds do not count. Cells are 1, 2 or 5 times a power of
+// ten, about 8 to 20 across the scene; from within a scene smaller ones, before the eye, as the eye comes
+// near the ground. Lines lie at multiples of the cell from the world's origin, along those of the world's
+// axes that come nearest to the ground, so that with an upright scene the coloured lines are the axes
+// themselves.
 #pragma once
 
 #include <optional>
@@ -21,7 +22,7 @@ struct GroundGrid {
   glm::vec3 up_world{0}, along_world[2]{};  // unit, perpendicular to each other
   int axis[2] = {0, 1};                     // of the world, that along_world follows: 0 x, 1 y, 2 z
   float cell = 1;                           // scene units
-  float rough = 0;  // how far what stands on the ground rises at least, scene units
+  float rough = 0;                          // how far what stands on the ground rises at least, scene units
   glm::ivec2 first{0}, last{0};             // lines, cells from the origin
   glm::vec3 point_world(float i, float j) const {
     return origin_world + cell * (i * along_world[0] + j * along_world[1]);

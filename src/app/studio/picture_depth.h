@@ -1,4 +1,5 @@
-// Whether the last picture shows a point in space, or something before it: for what is drawn over the picture.
+// Whether the last picture shows a point in space, or something before it: for what is drawn over the
+// picture.
 //
 // The point is looked up in the picture's own camera, so a picture that lags behind a moving view still
 // answers for the place. A reference to the frame is kept: the frame must outlive it. Cost: two products of

@@ -63,7 +63,8 @@ void SplatRings::begin(std::shared_ptr<const GaussianCloud> cloud, const Flags& 
     for (std::size_t g = b * kBlock; g < std::min(cloud_->size(), (b + 1) * kBlock); ++g) {
       if (!wanted(g)) continue;
       const glm::vec3& at = cloud_->position[g];
-      block.box = block.count == 0 ? Box{at, at} : Box{glm::min(block.box.min, at), glm::max(block.box.max, at)};
+      block.box =
+          block.count == 0 ? Box{at, at} : Box{glm::min(block.box.min, at), glm::max(block.box.max, at)};
       ++block.count;
     }
   });
@@ -78,7 +79,8 @@ std::vector<Ring> SplatRings::in_view(const Camera& camera, const PictureDepth& 
     in_view.push_back(b);
     members += blocks_[b].count;
   }
-  const double share = std::min(1.0, static_cast<double>(options.most_tried) / static_cast<double>(std::max<std::size_t>(1, members)));
+  const double share = std::min(
+      1.0, static_cast<double>(options.most_tried) / static_cast<double>(std::max<std::size_t>(1, members)));
   const glm::vec2 size(camera.width_px, camera.height_px);
   const float least_px2 = options.least_radius_px * options.least_radius_px;
 
@@ -96,7 +98,8 @@ std::vector<Ring> SplatRings::in_view(const Camera& camera, const PictureDepth& 
       const glm::vec2 at_px = camera.pixel_from_camera(at_camera);
       if (!(at_px.x >= 0 && at_px.y >= 0 && at_px.x < size.x && at_px.y < size.y)) continue;
       Splat splat;
-      if (!project(*cloud_, g, camera, options.limits.near_plane, &splat, options.limits.low_pass_px2)) continue;
+      if (!project(*cloud_, g, camera, options.limits.near_plane, &splat, options.limits.low_pass_px2))
+        continue;
       const Ring ring = ring_of(splat, g);
       if (glm::dot(ring.long_px, ring.long_px) < least_px2) continue;
       // A splat on the surface is part of it: its centre may lie behind by its own thickness.

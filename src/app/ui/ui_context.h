@@ -60,7 +60,8 @@ struct PropertyChoice {
 struct RingsShown {
   SplatRings rings;
   std::vector<Ring> in_view;
-  std::uint64_t scene = 0, style = 0, picture = 0;  // serials of what they were made for
+  std::uint64_t scene = 0, picture = 0;  // serials of what they were made for
+  Flags shown, of_object;
   bool moving = false;
   std::optional<Camera> camera;
 };

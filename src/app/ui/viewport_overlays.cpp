@@ -43,14 +43,16 @@ ImU32 ring_ink(const GaussianCloud& cloud, std::size_t g) {
 
 void refresh(RingsShown* shown, const Studio& studio, int pane) {
   const Camera camera = studio.viewport_camera();
-  const std::uint64_t scene = studio.scene()->serial, style = studio.style_serial();
-  const bool same_who = shown->scene == scene && shown->style == style;
+  const std::uint64_t scene = studio.scene()->serial;
+  const Flags visible = studio.shown(pane), mine = of_object(studio);
+  const bool same_who = shown->scene == scene && shown->shown == visible && shown->of_object == mine;
   if (same_who && shown->picture == studio.picture_serial() && shown->moving == studio.moving() &&
       shown->camera && same_camera(*shown->camera, camera))
     return;
-  if (!same_who) shown->rings.begin(studio.scene()->cloud, studio.shown(pane), of_object(studio));
+  if (!same_who) shown->rings.begin(studio.scene()->cloud, visible, mine);
   shown->scene = scene;
-  shown->style = style;
+  shown->shown = visible;
+  shown->of_object = mine;
   shown->picture = studio.picture_serial();
   shown->moving = studio.moving();
   shown->camera = camera;
@@ -60,8 +62,7 @@ void refresh(RingsShown* shown, const Studio& studio, int pane) {
     options.most = kMostMoving;
     options.most_tried = kMostTriedMoving;
   }
-  shown->in_view =
-      shown->rings.in_view(camera, {studio.picture(), static_cast<std::size_t>(pane)}, options);
+  shown->in_view = shown->rings.in_view(camera, {studio.picture(), static_cast<std::size_t>(pane)}, options);
 }
 
 }  // namespace

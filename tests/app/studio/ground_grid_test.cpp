@@ -27,7 +27,8 @@ GaussianCloud room() {
   GaussianCloud cloud;
   for (int x = -40; x <= 40; ++x)
     for (int z = -40; z <= 40; ++z)
-      add(&cloud, {0.1f * static_cast<float>(x), kFloorY, 0.1f * static_cast<float>(z)}, {0.06f, 0.001f, 0.06f});
+      add(&cloud, {0.1f * static_cast<float>(x), kFloorY, 0.1f * static_cast<float>(z)},
+          {0.06f, 0.001f, 0.06f});
   for (int i = 0; i < 60; ++i) add(&cloud, {0.1f * static_cast<float>(i % 7), 2.5f, 0}, glm::vec3(0.02f));
   for (int x = -10; x <= 10; ++x)
     for (int y = 0; y <= 20; ++y)
@@ -108,9 +109,12 @@ TEST_CASE("grid: a block hides what lies behind it and under it; the axes run th
     }
     return length;
   };
-  const auto pixel_of = [&](const glm::vec3& p) { return camera.pixel_from_camera(camera.camera_from_world(p)); };
+  const auto pixel_of = [&](const glm::vec3& p) {
+    return camera.pixel_from_camera(camera.camera_from_world(p));
+  };
   // Well inside of the block's front.
-  const glm::vec2 low = pixel_of({-0.35f, kFloorY - 0.85f, -0.5f}), high = pixel_of({0.35f, kFloorY - 0.2f, -0.5f});
+  const glm::vec2 low = pixel_of({-0.35f, kFloorY - 0.85f, -0.5f}),
+                  high = pixel_of({0.35f, kFloorY - 0.2f, -0.5f});
   CHECK(length_within(all, low, high) > 20);
   CHECK(length_within(seen, low, high) == 0);
   // Before the block the floor hides nothing of it.
@@ -139,7 +143,8 @@ TEST_CASE("grid: nothing of it lies before the near plane, and it fades to its b
   const GroundGrid grid = ground_grid(cloud, bounds_of_room(), kUp);
   // From within the plane of the ground's middle, low above it: lines run behind the eye.
   const Camera camera = look_at({0.1f, kFloorY - 0.8f, 0.1f}, {2, kFloorY, 1.5f}, kUp, 0.9f, 320, 240);
-  for (const GridPiece& piece : pieces_in_view(as_seen_by(grid, camera), camera, {.near_plane = 0.3f}, {nullptr, 0}))
+  for (const GridPiece& piece :
+       pieces_in_view(as_seen_by(grid, camera), camera, {.near_plane = 0.3f}, {nullptr, 0}))
     for (const glm::vec2& p : {piece.from_px, piece.to_px}) {
       CHECK(p.x >= -0.5f);
       CHECK(p.x <= 320.5f);

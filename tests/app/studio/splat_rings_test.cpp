@@ -102,7 +102,8 @@ TEST_CASE("rings: as many as asked, evenly, and fewer are a part of more") {
   for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
     const auto within = [&](std::uint32_t g) { return g / 5000 == quarter; };
     options.most = 100000;
-    const auto whole = static_cast<double>(std::ranges::count_if(who(rings_of(cloud, camera, options)), within));
+    const auto whole =
+        static_cast<double>(std::ranges::count_if(who(rings_of(cloud, camera, options)), within));
     const auto kept = static_cast<double>(std::ranges::count_if(many, within));
     CHECK(kept / 2000 == doctest::Approx(whole / static_cast<double>(all)).epsilon(0.15));
   }

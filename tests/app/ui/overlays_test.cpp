@@ -20,7 +20,7 @@ std::size_t pixels_that_differ(const Image<Rgb8>& a, const Image<Rgb8>& b, const
   return count;
 }
 
-void toggle(Studio& studio, bool ViewState::* what) {
+void toggle(Studio& studio, bool ViewState::*what) {
   ViewState view = studio.view();
   view.*what = !(view.*what);
   studio.apply(SetView{view});
