@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "scene/raster/splat_math.h"
-
 namespace splatcut {
 
 namespace {
@@ -131,45 +129,18 @@ float round_length_below(float length) {
 
 float ground_height(const GaussianCloud& cloud, const Box& bounds, const glm::vec3& up_world) {
   constexpr std::size_t kSample = 1 << 16;
-  constexpr float kFacesUp = 0.8f;      // cosine between up and the splat's normal
-  constexpr std::size_t kLayers = 64;   // from the lowest to the highest height that counts
-  constexpr double kLayerShare = 0.25;  // of what faces up in the lower half, in two layers: a ground
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / kSample);
-  struct Piece {
-    float height, area;  // 0: it does not face up
-  };
-  std::vector<Piece> pieces;
+  std::vector<float> heights;
   for (std::size_t g = 0; g < cloud.size(); g += step) {
-    const glm::vec3 &p = cloud.position[g], &s = cloud.scale[g];
-    if (!glm::all(glm::greaterThanEqual(p, bounds.min)) || !glm::all(glm::lessThanEqual(p, bounds.max)))
-      continue;
-    const bool faces = std::abs(glm::dot(shortest_axis(s, cloud.rotation[g]), up_world)) > kFacesUp;
-    const float thinnest = std::min({s.x, s.y, s.z});
-    const float area = faces && thinnest > 0 ? s.x * s.y * s.z / thinnest : 0;
-    pieces.push_back({glm::dot(p, up_world), area * cloud.opacity[g]});
+    const glm::vec3& p = cloud.position[g];
+    if (glm::all(glm::greaterThanEqual(p, bounds.min)) && glm::all(glm::lessThanEqual(p, bounds.max)))
+      heights.push_back(glm::dot(p, up_world));
   }
-  if (pieces.empty()) return glm::dot(bounds.centre(), up_world);
-  const auto at_share = [&](float share) {
-    const auto at =
-        pieces.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(pieces.size() - 1));
-    std::ranges::nth_element(pieces, at, {}, &Piece::height);
-    return at->height;
-  };
-  const float low = at_share(kBelowShare), high = at_share(1 - kBelowShare);
-  std::array<double, kLayers> area{};
-  double lower_half = 0;
-  for (const Piece& piece : pieces) {
-    if (piece.height < low || !(piece.height < high)) continue;
-    const auto layer = static_cast<std::size_t>(kLayers * (piece.height - low) / (high - low));
-    area[std::min(layer, kLayers - 1)] += piece.area;
-    if (layer < kLayers / 2) lower_half += piece.area;
-  }
-  std::size_t best = 0;
-  const auto two_layers = [&](std::size_t i) { return area[i] + area[i + 1]; };
-  for (std::size_t i = 1; i < kLayers / 2; ++i)
-    if (two_layers(i) > two_layers(best)) best = i;
-  if (!(two_layers(best) > kLayerShare * lower_half)) return low;
-  return low + (high - low) * static_cast<float>(best + 1) / kLayers;
+  if (heights.empty()) return glm::dot(bounds.centre(), up_world);
+  const auto low =
+      heights.begin() + static_cast<std::ptrdiff_t>(kBelowShare * static_cast<float>(heights.size() - 1));
+  std::ranges::nth_element(heights, low);
+  return *low;
 }
 
 GroundGrid ground_grid(const GaussianCloud& cloud, const Box& bounds, const glm::vec3& up_world) {

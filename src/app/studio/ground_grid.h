@@ -1,12 +1,12 @@
 // A grid on the ground of the scene, to judge size and level by.
 //
-// The plane is perpendicular to up. Its height is that of the largest surface that faces up in the lower half
-// of the scene, by the area of its splats; where none stands out, the height below which kBelowShare of the
-// Gaussians lie. Those beyond the scene's robust bounds do not count. Cells are 1, 2 or 5 times a power of
-// ten, about 8 to 20 across the scene; from within a scene smaller ones, before the eye, as the eye comes
-// near the ground. Lines lie at multiples of the cell from the world's origin, along those of the world's
-// axes that come nearest to the ground, so that with an upright scene the coloured lines are the axes
-// themselves.
+// The plane is perpendicular to up, through the height below which kBelowShare of the Gaussians lie, of those
+// within the scene's robust bounds: a table that stands on a floor is not the ground. Cells are 1, 2 or 5
+// times a power of ten, 8 to 20 across the scene; from within a scene smaller ones, before the eye, as the
+// eye comes near the ground. Lines lie at multiples of the cell from the world's origin, along those of the
+// world's axes that come nearest to the ground, so that with an upright scene the coloured lines are the axes
+// themselves. Not handled: ground that slopes. Where it rises above the plane by more than `rough`, it hides
+// the grid.
 #pragma once
 
 #include <optional>

@@ -109,7 +109,7 @@ void draw_ground_grid(const UiContext& ui, const UiRect& area, int pane) {
   constexpr ImU32 kAxes[] = {IM_COL32(235, 85, 80, 255), IM_COL32(110, 195, 80, 255),
                              IM_COL32(80, 140, 245, 255)};  // as the axes in the corner
   constexpr ImU32 kPlain = IM_COL32(235, 235, 235, 255), kShade = IM_COL32(0, 0, 0, 255);
-  constexpr float kLine = 0.55f, kAxis = 0.9f;  // opacity at most
+  constexpr float kLine = 0.75f, kAxis = 0.95f;  // opacity at most
   GridShown& shown = ui.state.grid;
   const OpenedScene& scene = *studio.scene();
   if (shown.scene != scene.serial || shown.up_world != studio.document().up_world)
@@ -126,7 +126,7 @@ void draw_ground_grid(const UiContext& ui, const UiRect& area, int pane) {
       return (ink & ~IM_COL32_A_MASK) | (static_cast<ImU32>(255 * opacity * share) << IM_COL32_A_SHIFT);
     };
     const ImVec2 from = place(piece.from_px), to = place(piece.to_px);
-    list.AddLine(from, to, faded(kShade, 0.5f), 3);  // for light ground
+    list.AddLine(from, to, faded(kShade, 0.35f), 3);  // for light ground
     list.AddLine(from, to, faded(piece.axis ? kAxes[*piece.axis] : kPlain, 1), piece.axis ? 2.0f : 1.0f);
   }
 }
