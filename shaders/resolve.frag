@@ -3,7 +3,7 @@
 uniform sampler2D picture;
 uniform sampler2D selected;
 uniform vec3 background;
-uniform int checker_px;          // side of a checker's squares in place of the background; 0: none
+uniform float checker_px;        // side of a checker's squares in place of the background; 0: none
 uniform float tint_strength;     // [0, 1]
 uniform bool tint_shaded;        // the tint keeps the picture's light and dark
 uniform float outline_strength;  // [0, 1]
@@ -22,8 +22,9 @@ vec3 shaded_tint(vec3 hue, vec3 colour) {
 
 // As checker_colour() has it.
 vec3 behind(ivec2 p) {
-  if (checker_px == 0) return background;
-  return vec3((p.x / checker_px + p.y / checker_px) % 2 == 0 ? 0.62 : 0.42);
+  if (checker_px == 0.0) return background;
+  ivec2 square = ivec2((vec2(p) + 0.5) / checker_px);
+  return vec3((square.x + square.y) % 2 == 0 ? 0.62 : 0.42);
 }
 
 void main() {

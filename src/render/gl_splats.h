@@ -32,7 +32,7 @@ struct SplatDrawOptions {
 
 struct ResolveOptions {
   glm::vec3 background{0};
-  int checker_px = 0;          // side of a checker's squares in place of the background; 0: none
+  float checker_px = 0;        // side of a checker's squares in place of the background; 0: none
   float tint_strength = 0;     // [0, 1]: how much of the selection colour covers the picture
   bool tint_shaded = false;    // the tint keeps the picture's light and dark
   float outline_strength = 0;  // [0, 1]

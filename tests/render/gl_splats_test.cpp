@@ -148,6 +148,35 @@ TEST_CASE("a hidden Gaussian leaves no trace and a selected one gives its colour
   CHECK(middle[1] == doctest::Approx(255 * 0.0225).epsilon(0.2));
 }
 
+TEST_CASE("a checker stands behind the splats, its squares as large as asked, from the top left") {
+  const auto context = make_osmesa_context();
+  const GaussianCloud cloud = single_splat(2, 0.2f, 0.9f, glm::vec3(0.25f));
+  GlSplats splats;
+  splats.upload(cloud);
+  const std::uint32_t only[] = {0};
+  splats.upload_order(only);
+  splats.draw(axis_camera());
+  const Image<glm::vec4> drawn = splats.read_picture();
+  for (const float side_px : {4.0f, 5.5f}) {
+    splats.resolve({.background = glm::vec3(1, 0, 1), .checker_px = side_px});
+    std::vector<std::uint8_t> rgba(33 * 33 * 4);
+    glBindTexture(GL_TEXTURE_2D, splats.picture_texture());
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    double farthest = 0;
+    for (int y = 0; y < 33; ++y)
+      for (int x = 0; x < 33; ++x) {
+        const double across = std::floor((x + 0.5) / side_px), down = std::floor((y + 0.5) / side_px);
+        const double behind = std::fmod(across + down, 2) == 0 ? 0.62 : 0.42;
+        const glm::vec4 over = drawn.at(x, y);
+        const double expected = 255 * (over.r + (1 - over.a) * behind);
+        farthest = std::max(
+            farthest,
+            std::abs(expected - rgba[4u * (33u * static_cast<unsigned>(y) + static_cast<unsigned>(x))]));
+      }
+    CHECK(farthest <= 1);
+  }
+}
+
 TEST_CASE("depth order: back to front, equal depths in reverse, what is behind the camera left out") {
   GaussianCloud cloud;
   cloud.resize(5, 0);

@@ -66,6 +66,8 @@ constexpr std::array kOwnBindings = {
     Binding{Action::kHeat, 'M', kPlain, "Display", "Likelihood heat map"},
     Binding{Action::kBackdrop, 'J', kPlain, "Display", "Next background"},
     Binding{Action::kCentres, 'X', kPlain, "Display", "Centres of the Gaussians"},
+    Binding{Action::kRings, 'X', kShift, "Display", "Rings of the Gaussians"},
+    Binding{Action::kGrid, 'G', kShift, "Display", "Grid on the ground"},
     Binding{Action::kTheme, 'L', kPlain, "Display", "Light or dark"},
     Binding{Action::kHelp, key::kF1, kPlain, "Display", "This page"},
     Binding{Action::kHelp, '/', kShift, "Display", "This page"},

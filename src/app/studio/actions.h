@@ -67,6 +67,8 @@ enum class Action {
   kHeat,
   kBackdrop,
   kCentres,
+  kRings,
+  kGrid,
   kFrameObject,
   kFrameScene,
   kNextCamera,

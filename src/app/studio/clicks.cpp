@@ -93,34 +93,6 @@ void Clicks::perform(const AddStroke& c) {
   edits_.push(title_of(c), std::move(after), {}, held.empty() ? message : held);
 }
 
-// Keeps those Gaussians of the object that the stroke alone would select.
-void Clicks::perform(const IntersectStroke& c) {
-  ws_.require_scene();
-  const ObjectItem* object = ws_.document().active_object();
-  if (!object || ws_.gaussians_of(object->id) == 0)
-    throw Error("intersect", "there is no object yet", "Click one first");
-  if (!ws_.session) throw Error("intersect", "the scene is still being prepared", "Try again in a moment");
-  if (c.stroke.points_px.empty()) throw Error("stroke", "it has no points");
-  if (!hits_anything({c.camera, c.stroke, c.seen}))
-    throw Error("click", "there is nothing in that place", "Click on something that can be seen");
-  ws_.tasks.submit(TaskKind::kSelect, [this, c, id = object->id, session = ws_.session, scene = ws_.scene,
-                                       settings = cut_settings(ws_.document(), *object)](const Job& job) {
-    const Session::Preview preview =
-        session->preview({}, {c.camera, c.stroke, c.seen}, settings, {job.stop, {}});
-    if (job.cancelled()) return;
-    ws_.tasks.post([this, id, scene, meant = preview.after] {
-      if (scene != ws_.scene || ws_.document().active != id) return;
-      if (meant.empty())
-        ws_.say(Message::Kind::kRefused,
-                "intersect: with this quality there are no parts that a click could take. Intersect with a "
-                "region, or choose another quality.");
-      else
-        edits_.in_turn(
-            [this, meant] { edits_.select_later(meant, SetOperation::kIntersect, "Intersect (click)"); });
-    });
-  });
-}
-
 bool Clicks::found_nothing() const {
   const CutRun* run = cuts_.run(ws_.document().active);
   return run && !run->running && run->result && run->result->outcome == Outcome::kNothingFound;
@@ -188,6 +160,7 @@ void Clicks::perform(const StepScale& c) {
   if (known) limit();
   const std::string message = edit(&after, c, ws_.context());
   if (known) limit();
+  stepped_s_ = ws_.clock_s;
   edits_.push(title_of(c), std::move(after), {}, message);
 }
 
@@ -211,7 +184,7 @@ std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
 
 // Outlines what a click would change: outside of the object a click that adds, on it one that removes. The
 // worker does what the click would; the newest place is asked for once it is free.
-void Clicks::update() {
+void Clicks::refresh_hover() {
   const std::optional<HoverAsk> ask = hover_wanted();
   if (!ask) {
     if (hover_) show_hover(nullptr, false);
@@ -246,6 +219,11 @@ void Clicks::update() {
 void Clicks::show_hover(const Flags& change, bool rest) {
   constexpr Rgb8 kAdds{255, 255, 255}, kRemoves{225, 25, 60};
   viewport_.highlight(change, rest ? kRemoves : kAdds);
+}
+
+void Clicks::update() {
+  if (std::exchange(cuts_done_, cuts_.done()) != cuts_.done()) note_sizes();
+  refresh_hover();
 }
 
 void Clicks::reset() {

@@ -27,6 +27,8 @@ struct AddBox {
   Camera camera;
   glm::vec2 a_px, b_px;  // opposite corners
   Flags seen{};
+  // Otherwise than kAdd: removes from the object, or keeps of it, what the box alone would cut out.
+  SetOperation operation = SetOperation::kAdd;
 };
 struct SelectRegion {
   Camera camera;

@@ -227,6 +227,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string doubt = run.doubts.empty() ? std::string() : run.doubts.front();
   const double seconds = run.total_ms / 1000;
   running_.reset();
+  ++done_;
   const auto labels_now = [&] {
     const ObjectItem* item = ws_.document().find(order.object);
     return item ? ws_.labels.labels(ws_.document(), *item, ws_.gaussians()) : nullptr;

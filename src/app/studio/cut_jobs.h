@@ -22,6 +22,7 @@ class CutJobs {
   // The cut that runs for the object, else the one whose labels it has; null: none is known.
   const CutRun* run(ObjectId object) const;
   ObjectId cutting() const { return running_ ? running_->object : 0; }
+  std::uint64_t done() const { return done_; }  // cuts so far
 
   void reset();   // another scene
   void update();  // once a frame
@@ -53,7 +54,7 @@ class CutJobs {
   std::optional<Known> running_;
   std::deque<Known> known_;         // the newest last
   std::set<std::string> given_up_;  // keys that were cancelled or failed
-  std::uint64_t next_card_serial_ = 1;
+  std::uint64_t next_card_serial_ = 1, done_ = 0;
 };
 
 }  // namespace splatcut

@@ -83,16 +83,24 @@ std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, cons
                     .choice = request.choice,
                     .sizes = result.sizes,
                     .likeliest_size = result.likeliest_size,
+                    .size = result.size,
                     .camera = {},
-                    .outlines = {}};
+                    .outlines = {},
+                    .smaller = {},
+                    .larger = {}};
   const auto first = std::ranges::find_if(request.strokes, marks_object);
   if (first != request.strokes.end()) out.camera = first->camera;
-  for (const Mask& mask : result.meanings) {
-    out.outlines.push_back(outlines(mask));
+  const auto in_camera = [&](const Mask& mask) {
+    if (mask.size() == 0) return std::vector<std::vector<glm::vec2>>();
+    auto borders = outlines(mask);
     const float factor = static_cast<float>(out.camera.width_px) / static_cast<float>(mask.width());
-    for (auto& border : out.outlines.back())
+    for (auto& border : borders)
       for (glm::vec2& point : border) point *= factor;
-  }
+    return borders;
+  };
+  for (const Mask& mask : result.meanings) out.outlines.push_back(in_camera(mask));
+  out.smaller = in_camera(result.smaller);
+  out.larger = in_camera(result.larger);
   return std::make_shared<const ClickMeanings>(std::move(out));
 }
 

@@ -28,9 +28,11 @@ struct ClickMeanings {
   std::string key;                            // of that click, see key_of_first_stroke()
   int choice = 0;                             // whose sizes these are:
   std::size_t sizes = 0, likeliest_size = 0;  // how many, and the one that a click takes
+  std::size_t size = 0;                       // the one taken
   Camera camera;                              // of the click
   // Per meaning its borders in the camera's pixels.
   std::vector<std::vector<std::vector<glm::vec2>>> outlines;
+  std::vector<std::vector<glm::vec2>> smaller, larger;  // of the next sizes; empty: there is none
 };
 
 // A cut that is done, or the one that runs.

@@ -133,18 +133,23 @@ Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px, const glm::vec
   return strokes;
 }
 
-std::string edit(Document* document, const AddBox& command, const EditContext&) {
+Strokes strokes_of(const AddBox& command, bool all_around) {
   const glm::vec2 picture(command.camera.width_px, command.camera.height_px);
   const glm::vec2 size = glm::abs(glm::clamp(command.a_px, glm::vec2(0), picture) -
                                   glm::clamp(command.b_px, glm::vec2(0), picture));
   constexpr float kSmallestPx = 6;  // of what the picture shows of it
   if (!(std::min(size.x, size.y) >= kSmallestPx))
     throw Error("box", "it is too small", "Drag from one corner to the other");
+  return box_strokes(command.a_px, command.b_px, picture, all_around);
+}
+
+std::string edit(Document* document, const AddBox& command, const EditContext&) {
+  const bool first_stroke =
+      !document->active_object() || std::ranges::none_of(document->active_object()->views, marks_object);
+  const Strokes strokes = strokes_of(command, first_stroke);
   ObjectItem& object = stroked(document);
-  const bool first = std::ranges::none_of(object.views, marks_object);
   StrokedView& view = view_for(&object, command.camera, command.seen);
-  for (Stroke& stroke : box_strokes(command.a_px, command.b_px, picture, first))
-    view.strokes.push_back(std::move(stroke));
+  view.strokes.insert(view.strokes.end(), strokes.begin(), strokes.end());
   return "Box around " + object.name;
 }
 

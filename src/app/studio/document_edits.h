@@ -59,5 +59,6 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
 // middle of what is inside of the picture is object.
 Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px, const glm::vec2& picture_px,
                     bool all_around);
+Strokes strokes_of(const AddBox& command, bool all_around);  // throws Error where the box is too small
 
 }  // namespace splatcut

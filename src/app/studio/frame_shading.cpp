@@ -79,9 +79,10 @@ glm::vec3 heat_colour(float value) {
   return glm::mix(kStops[i], kStops[i + 1], t - static_cast<float>(i));
 }
 
-glm::vec3 checker_colour(int x, int y, long side_px) {
+glm::vec3 checker_colour(int x, int y, float side_px) {
   constexpr float kLight = 0.62f, kDark = 0.42f;
-  return glm::vec3((x / side_px + y / side_px) % 2 == 0 ? kLight : kDark);
+  const glm::ivec2 square((glm::vec2(x, y) + 0.5f) / side_px);
+  return glm::vec3((square.x + square.y) % 2 == 0 ? kLight : kDark);
 }
 
 Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style) {
@@ -91,7 +92,8 @@ Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style) {
   const Image<std::uint8_t> highlights = owners_of(frame, style.highlight);
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      const glm::vec3 behind = style.checker_px ? checker_colour(x, y, style.checker_px) : style.background;
+      const glm::vec3 behind =
+          style.checker_px > 0 ? checker_colour(x, y, style.checker_px) : style.background;
       glm::vec3 c = frame.colour.at(x, y) + (1 - frame.alpha.at(x, y)) * behind;
       const std::int32_t hit = frame.first_hit.at(x, y);
       if (style.heat && hit >= 0)

@@ -32,7 +32,7 @@ inline constexpr float kTintStrength = 0.6f, kHeatStrength = 0.7f, kOutlineStren
 
 struct FrameStyle {
   glm::vec3 background{0};
-  long checker_px = 0;  // side of its squares, in place of the background; 0: none
+  float checker_px = 0;  // side of its squares, in place of the background; 0: none
   bool tint = true;
   bool outline = true;
   Flags owner;  // per Gaussian: number of the object it belongs to, 0 none; null: none
@@ -43,7 +43,7 @@ struct FrameStyle {
 };
 
 // Of the checker at a pixel.
-glm::vec3 checker_colour(int x, int y, long side_px);
+glm::vec3 checker_colour(int x, int y, float side_px);
 
 Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style);
 

@@ -110,7 +110,7 @@ bool Studio::update(double seconds) {
   const bool moves = viewport_.update(seconds, flight());
   clicks_.update();
   files_.update(seconds);
-  return moves || !idle();
+  return moves || !idle() || clicks_.sizes();
 }
 
 TaskThread::Progress Studio::progress() const {

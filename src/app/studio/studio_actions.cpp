@@ -245,6 +245,12 @@ void Studio::run(Action action) {
     case Action::kCentres:
       change_view([](ViewState& v) { v.centres = !v.centres; });
       break;
+    case Action::kRings:
+      change_view([](ViewState& v) { v.rings = !v.rings; });
+      break;
+    case Action::kGrid:
+      change_view([](ViewState& v) { v.grid = !v.grid; });
+      break;
     case Action::kNextCamera:
       step_camera(1);
       break;

@@ -33,7 +33,7 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
   const Document& document = order.document;
   FrameStyle style;
   style.background = document.background;
-  style.checker_px = order.view.checker ? std::lround(kCheckerPoints * order.pixels_per_point) : 0;
+  style.checker_px = order.view.checker ? std::round(kCheckerPoints * order.pixels_per_point) : 0;
   style.tint = order.view.tint;
   style.outline = order.view.outline;
   std::vector<std::uint8_t> owner(n, 0);

@@ -27,6 +27,8 @@ struct ViewState {
   float colour_tolerance = 0.1f;  // of the eyedropper and the flood, as select_colour() has it
   bool checker = false;           // behind the scene, in place of the document's background
   bool centres = false;           // of the Gaussians, as dots
+  bool rings = false;             // outlines of the Gaussians' ellipses
+  bool grid = false;              // on the ground
   bool web_low_pass = false;      // splats as thin as web viewers draw them, see kWebLowPassPx2
 
   bool operator==(const ViewState&) const = default;

@@ -190,7 +190,10 @@ void Viewport::request_picture() {
   requested_full_ = still;
   requested_style_ = style_serial_;
   FrameRequest request{ws_.scene->serial, ws_.scene->cloud, ws_.coarse, {}, draw_limits(), still};
-  for (int pane = 0; pane < panes(); ++pane) request.panes.push_back({camera, shown(pane), style(pane)});
+  for (int pane = 0; pane < panes(); ++pane) {
+    request.panes.push_back({camera, shown(pane), style(pane)});
+    request.panes.back().style.checker_px *= scale;  // on the screen it stays as large
+  }
   frames_.request(std::move(request));
 }
 

@@ -66,7 +66,7 @@ std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
     splats.draw(camera, {limits.near_plane, limits.far_plane, limits.low_pass_px2});
     const FrameStyle style = studio.viewport().style(i);
     splats.resolve({.background = style.background,
-                    .checker_px = static_cast<int>(style.checker_px),
+                    .checker_px = style.checker_px,
                     .tint_strength = style.heat   ? kHeatStrength
                                      : style.tint ? kTintStrength
                                                   : 0,

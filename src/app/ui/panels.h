@@ -35,10 +35,14 @@ void start_page(UiContext& ui, const UiRect& area);
 void draw_strokes(const UiContext& ui, const UiRect& area);
 void draw_offer(const UiContext& ui, const UiRect& area,
                 float bottom);  // other meanings of a click, with their keys
+void draw_sizes(const UiContext& ui, const UiRect& area, float bottom);  // the next ones of a click
 void draw_tool_shape(const UiContext& ui, const UiRect& area);
 void draw_brush_ring(const UiContext& ui, const UiRect& area);
-void draw_points(const UiContext& ui, const UiRect& area);       // of the ground, of what is measured
-void draw_centres(const UiContext& ui, const UiRect& area);      // of the Gaussians that are shown
+void draw_points(const UiContext& ui, const UiRect& area);  // of the ground, of what is measured
+// Of the Gaussians that a pane shows; area: the pane's.
+void draw_centres(const UiContext& ui, const UiRect& area, int pane);
+void draw_rings(const UiContext& ui, const UiRect& area, int pane);
+void draw_ground_grid(const UiContext& ui, const UiRect& area, int pane);
 void draw_cursor_sign(const UiContext& ui, const UiRect& area);  // what a press would do to the selection
 UiRect axes_gizmo(UiContext& ui, const UiRect& area);            // which takes clicks: look along an axis
 

@@ -108,6 +108,10 @@ void scene_panel(UiContext& ui) {
   tooltip("Thin splats are drawn half as wide as in training; the cut does not change");
   if (ImGui::Checkbox("Centres of the Gaussians", &view.centres)) ui.ask(SetView{view});
   tooltip(tip_of(Action::kCentres));
+  if (ImGui::Checkbox("Rings of the Gaussians", &view.rings)) ui.ask(SetView{view});
+  tooltip(tip_of(Action::kRings) + "\nTheir outlines at two standard deviations; of many some, evenly");
+  if (ImGui::Checkbox("Grid on the ground", &view.grid)) ui.ask(SetView{view});
+  tooltip(tip_of(Action::kGrid));
   axes_row(ui);
   up_buttons(ui);
   const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/studio/ground_grid.h"
+#include "app/studio/splat_rings.h"
 #include "app/studio/studio.h"
 #include "app/ui/file_browser.h"
 #include "app/ui/native_dialog.h"
@@ -54,6 +56,22 @@ struct PropertyChoice {
   std::string histogram_key;  // what it was made of
 };
 
+// Rings of one pane, kept while nothing changes.
+struct RingsShown {
+  SplatRings rings;
+  std::vector<Ring> in_view;
+  std::uint64_t scene = 0, picture = 0;  // serials of what they were made for
+  Flags shown, of_object;
+  bool moving = false;
+  std::optional<Camera> camera;
+};
+
+struct GridShown {
+  GroundGrid grid;
+  std::uint64_t scene = 0;  // serial
+  glm::vec3 up_world{0};
+};
+
 enum class FilePurpose { kOpen, kSaveWork, kSnapshot, kTurntable, kExport };
 
 // The interface's own state: neither document nor view.
@@ -77,6 +95,8 @@ struct UiState {
   bool turntable_open = false;
   TurntableChoice turntable;
   PropertyChoice property;
+  RingsShown rings[2];  // of each pane
+  GridShown grid;
   ObjectId renaming = 0;
   std::string new_name;
   std::string renderer_line;  // which renderer draws, and why

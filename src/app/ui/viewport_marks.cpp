@@ -1,5 +1,4 @@
-// What is drawn over the picture: points that were set, centres of Gaussians, a sign at the pointer, the
-// axes.
+// What is drawn over the picture: points that were set, a sign at the pointer, the axes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -74,29 +73,6 @@ void draw_points(const UiContext& ui, const UiRect& area) {
   if (overlay.length && at.size() == 2)
     boxed_text(list, {0.5f * (at[0].x + at[1].x), 0.5f * (at[0].y + at[1].y) - 18},
                length_text(*overlay.length) + " units", ui);
-}
-
-// Every n-th alone, so that a frame stays fast; those of the object in white.
-void draw_centres(const UiContext& ui, const UiRect& area) {
-  const Studio& studio = ui.studio;
-  if (!studio.view().centres) return;
-  constexpr std::size_t kMost = 12000;
-  const GaussianCloud& cloud = *studio.scene()->cloud;
-  const Camera camera = studio.viewport().pane_camera();
-  const Flags shown = studio.viewport().shown(0), mine = studio.viewport().active_labels();
-  const bool of_object = studio.gaussians_of(studio.document().active) > 0;
-  const std::size_t all = of_object ? studio.gaussians_of(studio.document().active) : cloud.size();
-  const std::size_t step = 1 + all / kMost;
-  const OnScreen place = on_screen(ui, area);
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (std::size_t g = 0, counted = 0; g < cloud.size(); ++g) {
-    if ((shown && !(*shown)[g]) || (of_object && mine && !(*mine)[g]) || counted++ % step != 0) continue;
-    const glm::vec3 seen = camera.camera_from_world(cloud.position[g]);
-    if (!(seen.z > studio.viewport().draw_limits().near_plane)) continue;
-    const ImVec2 at = place(camera.pixel_from_camera(seen));
-    if (!area.contains({at.x, at.y})) continue;
-    list.AddRectFilled({at.x - 1, at.y - 1}, {at.x + 1, at.y + 1}, IM_COL32(255, 255, 255, 200));
-  }
 }
 
 void draw_cursor_sign(const UiContext& ui, const UiRect& area) {

@@ -176,13 +176,19 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
       list.AddImage(
           ui.renderer.texture(kPaneKey + pane, studio.viewport().picture_serial(), picture->pictures[pane]),
           from, to);
+    const UiRect of_pane = {{from.x, from.y}, {to.x, to.y}};
+    ImGui::PushClipRect(from, to, true);
+    draw_ground_grid(ui, of_pane, i);
+    draw_rings(ui, of_pane, i);
+    draw_centres(ui, of_pane, i);
+    ImGui::PopClipRect();
   }
   ImGui::PushClipRect(vec(area.min), {area.min.x + pane_width, area.max.y}, true);
   draw_offer(ui, area, bottom);
+  draw_sizes(ui, area, bottom);
   draw_strokes(ui, area);
   ImGui::PopClipRect();
   ImGui::PushClipRect(vec(area.min), vec(area.max), true);
-  if (panes == 1) draw_centres(ui, area);
   draw_tool_shape(
       ui,
       {area.min + glm::vec2(pane_width * static_cast<float>(studio.viewport().drag_pane()), 0), area.max});

@@ -101,12 +101,34 @@ std::optional<ImVec2> label_place(const std::vector<ImVec2>& border, const std::
   return best;
 }
 
-void draw_badge(const UiContext& ui, ImDrawList& list, const ImVec2& at, int number) {
-  const std::string text = fmt::format("{}", number);
+void draw_badge(const UiContext& ui, ImDrawList& list, const ImVec2& at, const std::string& text,
+                float opacity = 1) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  list.AddCircleFilled(at, 11, packed(ui.theme.colour.panel, 0.92f));
-  list.AddCircle(at, 11, IM_COL32(255, 255, 255, 230), 0, 1.5f);
-  list.AddText({at.x - 0.5f * size.x, at.y - 0.5f * size.y}, packed(ui.theme.colour.text), text.c_str());
+  list.AddCircleFilled(at, 11, packed(ui.theme.colour.panel, 0.92f * opacity));
+  list.AddCircle(at, 11, IM_COL32(255, 255, 255, static_cast<int>(230 * opacity)), 0, 1.5f);
+  list.AddText({at.x - 0.5f * size.x, at.y - 0.5f * size.y}, packed(ui.theme.colour.text, opacity),
+               text.c_str());
+}
+
+// Dashes along a closed path, of equal length whatever its corners.
+void dashed(ImDrawList& list, const std::vector<ImVec2>& path, ImU32 ink, float width) {
+  constexpr float kDash = 6, kGap = 5;
+  float along = 0;  // points since the last dash began
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const ImVec2 &a = path[i], &b = path[(i + 1) % path.size()];
+    const float length = std::hypot(b.x - a.x, b.y - a.y);
+    const auto at = [&](float s) {
+      return ImVec2{a.x + (b.x - a.x) * s / length, a.y + (b.y - a.y) * s / length};
+    };
+    for (float s = 0; s < length;) {
+      const bool draws = along < kDash;
+      const float until = std::min(length, s + (draws ? kDash : kDash + kGap) - along);
+      if (draws) list.AddLine(at(s), at(until), ink, width);
+      along += until - s;
+      if (along >= kDash + kGap - 1e-3f) along = 0;
+      s = std::max(until, s + 1e-3f);
+    }
+  }
 }
 
 }  // namespace
@@ -146,7 +168,7 @@ void draw_offer(const UiContext& ui, const UiRect& area, float bottom) {
   const UiRect free_area{area.min, {area.max.x, area.max.y - bottom}};
   const ClickMeanings* offer = ui.studio.clicks().offer();
   const Camera now = ui.studio.viewport().pane_camera();
-  if (!offer || !same_pose(offer->camera, now)) return;
+  if (!offer || !same_pose(offer->camera, now) || ui.studio.clicks().sizes()) return;
   const OnScreen there = placement_of(offer->camera, now, place);
   const int taken = ui.studio.document().active_object()->choice;
   std::vector<ImVec2> apart;
@@ -166,8 +188,36 @@ void draw_offer(const UiContext& ui, const UiRect& area, float bottom) {
     }
     if (!label) continue;
     apart.push_back(*label);
-    draw_badge(ui, list, *label, i + 1);
+    draw_badge(ui, list, *label, fmt::format("{}", i + 1));
   }
+}
+
+// The next larger and smaller size of the click, dashed, with what the wheel says to them: + upwards.
+void draw_sizes(const UiContext& ui, const UiRect& area, float bottom) {
+  const ClickMeanings* sizes = ui.studio.clicks().sizes();
+  const Camera now = ui.studio.viewport().pane_camera();
+  if (!sizes || !same_pose(sizes->camera, now)) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const OnScreen there = placement_of(sizes->camera, now, on_screen(ui, area));
+  const UiRect free_area{area.min, {area.max.x, area.max.y - bottom}};
+  const float opacity = ui.studio.clicks().sizes_opacity();
+  std::vector<ImVec2> apart;
+  for (const StrokedView& view : ui.studio.document().active_object()->views)
+    for (const Stroke& stroke : view.strokes) apart.push_back(there(stroke.points_px.front()));
+  const auto draw = [&](const std::vector<std::vector<glm::vec2>>& borders, const char* sign) {
+    std::optional<ImVec2> label;
+    for (const std::vector<glm::vec2>& border : borders) {
+      const std::vector<ImVec2> path = rounded(placed(border, there));
+      dashed(list, path, IM_COL32(0, 0, 0, static_cast<int>(140 * opacity)), 3);
+      dashed(list, path, IM_COL32(255, 255, 255, static_cast<int>(215 * opacity)), 1.3f);
+      if (!label) label = label_place(path, apart, free_area);
+    }
+    if (!label) return;
+    apart.push_back(*label);
+    draw_badge(ui, list, *label, sign, opacity);
+  };
+  draw(sizes->larger, "+");
+  draw(sizes->smaller, "-");
 }
 
 void draw_tool_shape(const UiContext& ui, const UiRect& area) {

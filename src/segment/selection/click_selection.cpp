@@ -186,6 +186,19 @@ void ClickSelection::note_first(const LeafView& view, const Answers& found, Cand
   sizes_ = distinct.size();
   size_ = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(wanted, 0, std::ssize(distinct) - 1));
   best->index = distinct[size_];
+  NextSizes next;
+  if (size_ > 0) next.smaller = shown_at(view, found, *best, distinct[size_ - 1]);
+  if (size_ + 1 < sizes_) next.larger = shown_at(view, found, *best, distinct[size_ + 1]);
+  next_sizes_ = std::make_shared<const NextSizes>(std::move(next));
+}
+
+// The candidate in another size of its chain, as the view shows it.
+Mask ClickSelection::shown_at(const LeafView& view, const Answers& found, Candidate candidate,
+                              std::size_t index) const {
+  candidate.index = index;
+  std::vector<std::uint8_t> leaves(parts_.leaves);
+  for (std::uint32_t l = 0; l < parts_.leaves; ++l) leaves[l] = found.changes(candidate, l);
+  return shown(view.leaves, view.camera, leaves);
 }
 
 struct ClickSelection::Asked {

@@ -53,6 +53,10 @@ class ClickSelection {
   std::size_t sizes() const { return sizes_; }
   std::size_t size() const { return size_; }
   std::size_t likeliest_size() const { return likeliest_size_; }  // at part_step 0
+  // What the next smaller and the next larger size would show in the first click's view; empty: there is
+  // none.
+  const Mask& smaller() const { return next_sizes_->smaller; }
+  const Mask& larger() const { return next_sizes_->larger; }
   bool ambiguous() const { return ambiguous_; }
 
   // A mask for each meaning of the first click that is nearly as likely as the best and looks clearly
@@ -75,6 +79,7 @@ class ClickSelection {
                                   float least_radius_px) const;
   void note_offers(const LeafView& view, const Answers& answers);
   void note_first(const LeafView& view, const Answers& answers, Candidate* best);
+  Mask shown_at(const LeafView& view, const Answers& answers, Candidate candidate, std::size_t index) const;
   void change_leaves(const Answers& answers, const Candidate& best, const std::vector<std::uint8_t>& certain,
                      const Click& click);
   enum class Pin { kAll, kSaidAlready };
@@ -91,6 +96,10 @@ class ClickSelection {
     std::vector<Mask> masks;  // of each, in the first click's view
   };
   std::shared_ptr<const Offers> offers_;
+  struct NextSizes {
+    Mask smaller, larger;
+  };
+  std::shared_ptr<const NextSizes> next_sizes_ = std::make_shared<const NextSizes>();
   std::vector<std::uint8_t> labels_;
   std::vector<std::int8_t> said_;
   bool any_ = false;

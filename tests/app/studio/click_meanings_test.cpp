@@ -120,3 +120,72 @@ TEST_CASE("clicks: nothing is offered once more was said") {
   artist.app.key('2');
   CHECK(artist.object().choice == 0);
 }
+
+TEST_CASE("clicks: the next sizes show for a while, and are what the wheel takes") {
+  Artist artist(on_sample("mug", kOnMug));
+  CHECK_FALSE(artist.studio().clicks().sizes());
+  artist.click_on_it();
+  artist.app.key(key::kEscape);  // keeps this meaning, should others be offered
+  artist.app->handle(WheelTurned{-1, {.shift = true}});
+  REQUIRE(artist.app.settle());
+  const ClickMeanings* sizes = artist.studio().clicks().sizes();
+  REQUIRE(sizes);
+  CHECK(artist.studio().clicks().sizes_opacity() == doctest::Approx(1));
+  CHECK(sizes->size + 1 == sizes->likeliest_size);
+  REQUIRE_FALSE(sizes->larger.empty());
+  const auto mask_of = [&](const std::vector<std::vector<glm::vec2>>& borders) {
+    Mask mask(sizes->camera.width_px, sizes->camera.height_px);
+    for (int y = 0; y < mask.height(); ++y)
+      for (int x = 0; x < mask.width(); ++x) {
+        bool inside = false;
+        const glm::vec2 at(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+        for (const std::vector<glm::vec2>& border : borders)
+          for (std::size_t i = 0; i < border.size(); ++i) {
+            const glm::vec2 &a = border[i], &b = border[(i + 1) % border.size()];
+            if ((a.y > at.y) != (b.y > at.y) && at.x < a.x + (at.y - a.y) * (b.x - a.x) / (b.y - a.y))
+              inside = !inside;
+          }
+        mask.at(x, y) = inside ? kMaskObject : 0;
+      }
+    return mask;
+  };
+  const Mask larger = mask_of(sizes->larger);
+  const bool had_smaller = !sizes->smaller.empty();
+  const Mask smaller = had_smaller ? mask_of(sizes->smaller) : Mask();
+  artist.app->handle(WheelTurned{1, {.shift = true}});
+  REQUIRE(artist.app.settle());
+  CHECK(iou(larger, artist.shown(artist.labels())) > 0.9);
+  if (had_smaller) {
+    artist.app->handle(WheelTurned{-1, {.shift = true}});
+    artist.app->handle(WheelTurned{-1, {.shift = true}});
+    REQUIRE(artist.app.settle());
+    CHECK(iou(smaller, artist.shown(artist.labels())) > 0.85);
+  }
+  REQUIRE(artist.studio().clicks().sizes());
+  CHECK(artist.studio().update(0.1));  // the window goes on drawing while they fade
+  artist.app->frame(1.9);
+  CHECK(artist.studio().clicks().sizes_opacity() < 1);
+  artist.app->frame(1);
+  CHECK_FALSE(artist.studio().clicks().sizes());
+  artist.app.key('I');
+  artist.app->handle(WheelTurned{1, {.shift = true}});
+  REQUIRE(artist.app.settle());
+  CHECK_FALSE(artist.studio().clicks().sizes());  // of the object alone
+}
+
+TEST_CASE("clicks: at the ends there is no next size") {
+  Artist artist(on_sample("mug", kOnMug));
+  artist.click_on_it();
+  for (const float notch : {1.0f, -1.0f}) {
+    for (int i = 0; i < 60 && artist.said().find(" sizes") == std::string::npos; ++i) {
+      artist.app->handle(WheelTurned{notch, {.shift = true}});
+      REQUIRE(artist.app.settle());
+    }
+    const auto& run = *artist.studio().cuts().run(artist.object().id);
+    REQUIRE(run.result);
+    CHECK((notch > 0 ? run.result->larger : run.result->smaller).size() == 0);
+    CHECK((notch > 0 ? run.result->smaller : run.result->larger).size() > 0);
+    artist.app->handle(WheelTurned{-notch, {.shift = true}});
+    REQUIRE(artist.app.settle());
+  }
+}

@@ -315,6 +315,58 @@ TEST_CASE("hands: a box around a second thing leaves what was clicked first") {
   CHECK(share_of(kOrange) > 0.5);
 }
 
+TEST_CASE("hands: keys held with a box add what it would cut out, remove it, or keep it alone") {
+  Hands hands;
+  const Scene& scene = *hands.studio().scene()->scene;
+  const auto share_of = [&](std::uint8_t thing) {
+    const std::vector<std::uint8_t> labels = hands.studio().labels(hands.studio().document().active),
+                                    truth = sample_truth(scene, thing);
+    std::size_t both = 0;
+    for (std::size_t g = 0; g < labels.size(); ++g) both += labels[g] && truth[g];
+    return static_cast<double>(both) / static_cast<double>(count_flags(truth));
+  };
+  const auto box_around = [&](const glm::vec2& pixel, const Modifiers& held) {
+    const glm::vec2 at = hands.app.screen_of(pixel);
+    hands.app.move(at - 34.0f, held);
+    hands.app.press(PointerButton::kLeft, held);
+    hands.app.move(at + 34.0f, held);
+    hands.app.release(PointerButton::kLeft, held);
+    hands.app->frame(0.5);  // no double-click with the next
+    REQUIRE(hands.app.settle());
+  };
+  REQUIRE(share_of(kApple) > 0.8);
+  REQUIRE(share_of(kOrange) < 0.1);
+  hands.app.key('4');
+  box_around(kOnOrange, {.shift = true});
+  CHECK(share_of(kApple) > 0.8);
+  CHECK(share_of(kOrange) > 0.5);
+  const std::vector<std::uint8_t> both = hands.studio().labels(hands.studio().document().active);
+  box_around(kOnOrange, {.ctrl = true});
+  CHECK(share_of(kApple) > 0.8);
+  CHECK(share_of(kOrange) < 0.1);  // what the box takes alone, not what was added
+  hands.app.key('Z', {.ctrl = true});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().labels(hands.studio().document().active) == both);
+  box_around(kOnOrange, {.alt = true});
+  CHECK(share_of(kApple) < 0.05);
+  CHECK(share_of(kOrange) > 0.5);
+  const std::size_t entries = hands.studio().history().entries().size();
+  hands.studio().apply(
+      AddBox{hands.studio().viewport().pane_camera(), {5, 5}, {7, 7}, {}, SetOperation::kRemove});
+  CHECK(hands.said().starts_with("box: it is too small"));
+  CHECK(hands.studio().history().entries().size() == entries);
+}
+
+TEST_CASE("hands: a box with Ctrl or Alt wants an object to work on") {
+  Hands hands(false);
+  const Camera camera = hands.studio().viewport().pane_camera();
+  for (const SetOperation operation : {SetOperation::kRemove, SetOperation::kIntersect}) {
+    hands.studio().apply(AddBox{camera, {100, 100}, {300, 300}, {}, operation});
+    CHECK(hands.said().find("there is no object yet") != std::string::npos);
+  }
+  CHECK(hands.studio().document().objects.empty());
+}
+
 TEST_CASE("hands: a box that reaches out of the picture is around what of it is inside") {
   Hands hands(false);
   const Camera camera = hands.studio().viewport().pane_camera();

@@ -2,7 +2,9 @@
 // them before they are committed. Failures leave NAME.actual.png and NAME.difference.png in the build folder.
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #include "core/error.h"
 #include "core/picture_difference.h"
@@ -94,6 +96,69 @@ TEST_CASE("frames: the OpenGL renderer shows what the CPU renderer shows") {
   MESSAGE("PSNR " << d.psnr_db << " dB, SSIM " << d.ssim);
   CHECK(d.psnr_db > 35);
   CHECK(d.ssim > 0.98);
+}
+
+TEST_CASE("frames: OpenGL draws the checker as the CPU does, moving or still, on one pane or two") {
+  const auto checker_frame = [](RendererChoice renderer, bool two, bool moving) {
+    ApplicationOptions options;
+    options.renderer = renderer;
+    HeadlessApp app(760, 420, 1, options);
+    app.interface_state().hint_wanted = false;
+    app.open(kSample);
+    REQUIRE(app.settle());
+    Studio& studio = app.studio();
+    // A few Gaussians alone: nearly all of the picture is checker.
+    Mask spot(studio.viewport().pane_camera().width_px, studio.viewport().pane_camera().height_px);
+    for (int y = 0; y < 12; ++y)
+      for (int x = 0; x < 12; ++x) spot.at(spot.width() / 2 + x, spot.height() / 2 + y) = kMaskObject;
+    studio.apply(SelectRegion{studio.viewport().pane_camera(), spot});
+    ViewState view = studio.view();
+    view.checker = true;
+    view.tint = view.outline = false;
+    view.display = two ? DisplayMode::kSideBySide : DisplayMode::kIsolate;
+    studio.apply(SetView{view});
+    REQUIRE(app.settle());
+    app.wait_for_message_to_go();
+    app.frames(3);
+    if (moving) {
+      const UiRect view_area = app->interface().viewport();
+      app.move(view_area.min + 0.4f * view_area.size());
+      app.press(PointerButton::kMiddle);
+      for (int i = 0; i < 8; ++i) {
+        app.move(view_area.min + 0.4f * view_area.size() + glm::vec2(0.2f * static_cast<float>(i), 0));
+        app.frames(1);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      }
+      CHECK(studio.viewport().moving());
+    }
+    const UiRect area = app->interface().viewport();
+    const Image<Rgb8> frame = app.picture();
+    // Above the object and below the labels.
+    Image<Rgb8> cut(static_cast<int>(area.size().x) - 120, 40);
+    for (int y = 0; y < cut.height(); ++y)
+      for (int x = 0; x < cut.width(); ++x)
+        cut.at(x, y) = frame.at(x + static_cast<int>(area.min.x), y + static_cast<int>(area.min.y) + 48);
+    return cut;
+  };
+  const Image<Rgb8> expected = checker_frame(RendererChoice::kCpu, false, false);
+  constexpr int kSide = 12, kTop = 48;
+  for (const auto& [x, y] : {std::pair(1, 0), {11, 11}, {12, 0}, {1, 12}, {12, 12}, {150, 5}}) {
+    CAPTURE(x);
+    CAPTURE(y);
+    const std::uint8_t level = (x / kSide + (y + kTop) / kSide) % 2 == 0 ? 158 : 107;  // 0.62, 0.42 of 255
+    CHECK(expected.at(x, y) == Rgb8{level, level, level});
+  }
+  for (const bool two : {false, true})
+    for (const bool moving : {false, true}) {
+      const Image<Rgb8> cpu = checker_frame(RendererChoice::kCpu, two, moving),
+                        gl = checker_frame(RendererChoice::kGl, two, moving);
+      const PictureDifference d = picture_difference(cpu, gl, kLevels);
+      CAPTURE(two);
+      CAPTURE(moving);
+      MESSAGE("two panes ", two, ", moving ", moving, ": ", d.share_beyond, " of the pixels differ");
+      if (!moving) CHECK(d.share_beyond == 0);
+      if (moving) CHECK(d.psnr_db > 15);  // the CPU's moving picture is smaller, and enlarged
+    }
 }
 
 TEST_CASE("frames: HiDPI") {

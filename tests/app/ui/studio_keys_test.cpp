@@ -148,6 +148,8 @@ const std::map<Action, Check> kChecks = {
        return app.studio().document().background != b.document.background;
      }},
     {Action::kCentres, view_changed(&ViewState::centres)},
+    {Action::kRings, view_changed(&ViewState::rings)},
+    {Action::kGrid, view_changed(&ViewState::grid)},
     {Action::kViewFront, camera_moved},
     {Action::kViewRight, camera_moved},
     {Action::kViewTop, camera_moved},

@@ -73,8 +73,10 @@ constinit const Tool Tool::kScribble = {
 constinit const Tool Tool::kBox = {
     .name = "Box around the object",
     .key = '4',
-    .sentence = "Drag a box around the object.",
-    .hint = "drag a box around the object",
+    .sentence =
+        "Drag a box around the object. Shift adds what is in the box, Ctrl removes it, Alt keeps of "
+        "the object what is in it.",
+    .hint = "drag around the object   Ctrl: remove   Alt: intersect",
     .icon =
         [] {
           return Icon{icon_loop({{-0.9f, -0.75f}, {0.9f, -0.75f}, {0.9f, 0.75f}, {-0.9f, 0.75f}}),
@@ -82,11 +84,13 @@ constinit const Tool Tool::kBox = {
         },
     .drag = Drag::kCorners,
     .strokes = true,
+    .shows_keys = true,
     .release =
         [](ToolHand& hand) {
           const std::vector<glm::vec2>& corners = hand.state.path_px;
           if (corners.size() == 2)
-            hand.ask(AddBox{hand.context.pane_camera, corners[0], corners[1], hand.context.seen()});
+            hand.ask(AddBox{hand.context.pane_camera, corners[0], corners[1], hand.context.seen(),
+                            hand.state.held_operation()});
         },
     .shape = ToolShape::kRectangle,
 };

@@ -21,6 +21,10 @@ std::span<const Tool* const> tools() {
   return kAllTools;
 }
 
+SetOperation ToolState::held_operation() const {
+  return operation(ViewState{});
+}
+
 SetOperation ToolState::operation(const ViewState& view) const {
   if (modifiers.alt || (modifiers.shift && modifiers.ctrl)) return SetOperation::kIntersect;
   if (modifiers.shift) return SetOperation::kAdd;

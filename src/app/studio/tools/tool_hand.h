@@ -65,7 +65,9 @@ struct ToolState {
 
   bool right() const { return button == PointerButton::kRight; }
   bool rest() const { return right() || modifiers.ctrl; }
+  // What the keys that are held say; without any: what the view says, or to add.
   SetOperation operation(const ViewState& view) const;
+  SetOperation held_operation() const;
 };
 
 // One event.

@@ -1,0 +1,38 @@
+// The sizes beside the one that a click has: shown for a while, so that a person sees what the wheel offers.
+#include <algorithm>
+
+#include "app/studio/clicks.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr double kShownSeconds = 1.6, kFadeSeconds = 0.6;
+constexpr double kAwaitedSeconds = 20;  // a cut that takes longer was not waited for
+
+}  // namespace
+
+// What a click or a step of the wheel asked for is there: it shows from now on.
+void Clicks::note_sizes() {
+  if (ws_.tools.scale_armed() || ws_.clock_s - stepped_s_ < kAwaitedSeconds) stepped_s_ = ws_.clock_s;
+}
+
+float Clicks::sizes_opacity() const {
+  const double since_s = ws_.clock_s - stepped_s_;
+  return static_cast<float>(std::clamp(1 - (since_s - kShownSeconds) / kFadeSeconds, 0.0, 1.0));
+}
+
+// Nothing while other meanings of the click are offered and the wheel was not turned: one question at a time.
+const ClickMeanings* Clicks::sizes() const {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || object->locked || ws_.view.display != DisplayMode::kWhole || ws_.view.heat || sizes_opacity() <= 0)
+    return nullptr;
+  const ClickMeanings* known = meanings(*object);
+  if (!known || known->choice != object->choice || (object->part_step == 0 && offer())) return nullptr;
+  const auto wanted = static_cast<std::ptrdiff_t>(known->likeliest_size) + object->part_step;
+  const bool current = static_cast<std::ptrdiff_t>(known->size) ==
+                       std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(known->sizes) - 1);
+  return current && !(known->smaller.empty() && known->larger.empty()) ? known : nullptr;
+}
+
+}  // namespace splatcut

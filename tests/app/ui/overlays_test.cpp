@@ -1,0 +1,94 @@
+// What of the scene is drawn over the picture: rings of Gaussians, the grid on the ground.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include "hands.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+std::size_t pixels_that_differ(const Image<Rgb8>& a, const Image<Rgb8>& b, const UiRect& within) {
+  std::size_t count = 0;
+  for (int y = static_cast<int>(within.min.y); y < static_cast<int>(within.max.y); ++y)
+    for (int x = static_cast<int>(within.min.x); x < static_cast<int>(within.max.x); ++x)
+      count += a.at(x, y) != b.at(x, y);
+  return count;
+}
+
+void toggle(Studio& studio, bool ViewState::*what) {
+  ViewState view = studio.view();
+  view.*what = !(view.*what);
+  studio.apply(SetView{view});
+}
+
+}  // namespace
+
+TEST_CASE("overlays: rings are drawn over the picture of either renderer, and follow what is shown") {
+  for (const RendererChoice renderer : {RendererChoice::kCpu, RendererChoice::kGl}) {
+    CAPTURE(static_cast<int>(renderer));
+    ApplicationOptions options;
+    options.renderer = renderer;
+    Hands hands(true, options);
+    hands.app.key('F');  // from afar splats are dots
+    hands.app.move({5, kHandsHeight - 5});
+    REQUIRE(hands.app.settle());
+    hands.app.wait_for_message_to_go();
+    const UiRect area = hands.app->interface().viewport();
+    const Image<Rgb8> without = hands.app.picture();
+    const auto labels = hands.studio().labels(hands.studio().document().active);
+    const auto of_object = [&](const std::vector<Ring>& rings) {
+      return std::ranges::all_of(rings, [&](const Ring& r) { return labels[r.gaussian] != 0; });
+    };
+    const RingsShown* shown = hands.app.interface_state().rings;
+    toggle(hands.studio(), &ViewState::rings);
+    REQUIRE(hands.app.settle());
+    CHECK(pixels_that_differ(without, hands.app.picture(), area) > 500);
+    CHECK(shown[0].in_view.size() > 100);
+    CHECK(of_object(shown[0].in_view));
+    hands.app.key('H');
+    REQUIRE(hands.app.settle());
+    CHECK(shown[0].in_view.size() > 100);
+    CHECK(std::ranges::none_of(shown[0].in_view, [&](const Ring& r) { return labels[r.gaussian] != 0; }));
+    hands.app.key('B');
+    REQUIRE(hands.app.settle());
+    CHECK(shown[1].in_view.size() > 100);
+    CHECK(of_object(shown[1].in_view));
+    hands.app.key('H', {.shift = true});
+    toggle(hands.studio(), &ViewState::rings);
+    REQUIRE(hands.app.settle());
+    CHECK(pixels_that_differ(without, hands.app.picture(), area) == 0);
+  }
+}
+
+TEST_CASE("overlays: the grid shows in the window, in no picture that is saved") {
+  Hands hands(false);
+  hands.app.key('F', {.shift = true});
+  REQUIRE(hands.app.settle());
+  hands.app.wait_for_message_to_go();
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "splatcut_overlays_test";
+  std::filesystem::create_directories(folder);
+  const auto snapshot = [&](const char* name) {
+    hands.studio().apply(SaveSnapshot{folder / name, false});
+    REQUIRE(hands.app.settle());
+    std::ifstream in(folder / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  hands.studio().camera().look_along(hands.studio().document().up_world * -0.4f + glm::vec3(0, 0, 1));
+  REQUIRE(hands.app.settle());
+  hands.app.wait_for_message_to_go();
+  const Image<Rgb8> level = hands.app.picture();
+  const std::string saved_level = snapshot("level.png");
+  REQUIRE(saved_level.size() > 1000);
+  hands.app.wait_for_message_to_go();
+  toggle(hands.studio(), &ViewState::grid);
+  toggle(hands.studio(), &ViewState::rings);
+  REQUIRE(hands.app.settle());
+  CHECK(pixels_that_differ(level, hands.app.picture(), hands.app->interface().viewport()) > 300);
+  CHECK(snapshot("with.png") == saved_level);
+  std::filesystem::remove_all(folder);
+}
