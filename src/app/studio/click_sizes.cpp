@@ -25,7 +25,8 @@ float Clicks::sizes_opacity() const {
 // Nothing while other meanings of the click are offered and the wheel was not turned: one question at a time.
 const ClickMeanings* Clicks::sizes() const {
   const ObjectItem* object = ws_.document().active_object();
-  if (!object || object->locked || ws_.view.display != DisplayMode::kWhole || ws_.view.heat || sizes_opacity() <= 0)
+  if (!object || object->locked || ws_.view.display != DisplayMode::kWhole || ws_.view.heat ||
+      sizes_opacity() <= 0)
     return nullptr;
   const ClickMeanings* known = meanings(*object);
   if (!known || known->choice != object->choice || (object->part_step == 0 && offer())) return nullptr;

@@ -1,4 +1,5 @@
-// Alt of the stroke tools, Ctrl and Alt of the box: what strokes alone would cut out, combined with the object.
+// Alt of the stroke tools, Ctrl and Alt of the box: what strokes alone would cut out, combined with the
+// object.
 #include "app/studio/clicks.h"
 #include "app/studio/edit_titles.h"
 #include "core/error.h"
@@ -23,8 +24,9 @@ void Clicks::combine_with(const StrokedView& strokes, SetOperation operation, co
       if (scene != ws_.scene || ws_.document().active != id) return;
       if (meant.empty())
         ws_.say(Message::Kind::kRefused,
-                doing + ": with this quality there are no parts that a click could take. Use a region, or "
-                        "choose another quality.");
+                doing +
+                    ": with this quality there are no parts that a click could take. Use a region, or "
+                    "choose another quality.");
       else
         edits_.in_turn([this, meant, operation, title] { edits_.select_later(meant, operation, title); });
     });

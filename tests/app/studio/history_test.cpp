@@ -8,6 +8,7 @@
 #include "app/studio/label_cache.h"
 #include "app/studio/studio.h"
 #include "headless_app.h"
+#include "random_scene.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -146,10 +147,12 @@ TEST_CASE("kept labels are those of the document, whatever of it changes") {
 }
 
 TEST_CASE("edits asked for at once are made in order, as if each had been waited for") {
-  const auto work_after = [](bool haste, std::vector<std::string>* titles) {
+  const ScratchFolder folder("haste");
+  write_random_scene(folder / "random.ply");
+  const auto work_after = [&](bool haste, std::vector<std::string>* titles) {
     Studio studio({});
     studio.set_viewport(64, 48, 1);
-    studio.apply(OpenScene{kSample});
+    studio.apply(OpenScene{folder / "random.ply"});
     REQUIRE(studio.settle(300));
     const auto then = [&](const Command& command) {
       studio.apply(command);
@@ -179,9 +182,11 @@ TEST_CASE("edits asked for at once are made in order, as if each had been waited
 }
 
 TEST_CASE("edits that were asked for and cancelled leave the document as it was") {
+  const ScratchFolder folder("cancelled");
+  write_random_scene(folder / "random.ply");
   Studio studio({});
   studio.set_viewport(64, 48, 1);
-  studio.apply(OpenScene{kSample});
+  studio.apply(OpenScene{folder / "random.ply"});
   REQUIRE(studio.settle(300));
   studio.apply(NewObject{});
   const Document before = studio.document();

@@ -7,8 +7,8 @@
 
 #include "app/studio/studio.h"
 #include "headless_app.h"
-#include "scene/formats/scene_file.h"
-#include "synthetic_cloud.h"
+
+#include "random_scene.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -126,15 +126,6 @@ class Fuzz {
   Studio& studio_;
   std::mt19937 random_;
 };
-
-void write_random_scene(const std::filesystem::path& path) {
-  constexpr std::size_t kGaussians = 400;
-  Scene scene;
-  scene.cloud = random_cloud(kGaussians, 11, 1);
-  scene.file_rows = kGaussians;
-  scene.format = SceneFormat::kSplat;  // not .ply: rows are written, not copied
-  save_scene(path, scene, {}, SceneFormat::kPly);
-}
 
 }  // namespace
 
