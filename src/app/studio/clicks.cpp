@@ -40,7 +40,8 @@ bool Clicks::hits_anything(const AddStroke& c) const {
                    to = glm::clamp(glm::ceil(high + reach) + 1.0f, glm::vec2(0), most);
   const PixelRect around{from.x, from.y, to.x, to.y};
   if (around.empty()) return false;
-  const Frame* frame = viewport_.panes() == 1 ? viewport_.full_picture_of(c.camera) : nullptr;
+  const std::shared_ptr<const Frame> frame =
+      viewport_.panes() == 1 ? viewport_.full_picture_of(c.camera) : nullptr;
   Image<float> drawn;
   if (!frame) {
     const DrawLimits limits = viewport_.draw_limits();

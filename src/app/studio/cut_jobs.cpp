@@ -45,7 +45,8 @@ struct CutJobs::Order {
   ObjectId object = 0;
   std::string key;
   Rgb8 colour{};
-  bool heat = false;  // the likelihood is shown
+  bool heat = false;         // the likelihood is shown
+  std::uint64_t number = 0;  // the same key may be cut again
 };
 
 const CutJobs::Known* CutJobs::known(ObjectId object, const std::string& key) const {
@@ -59,8 +60,8 @@ CutRun* CutJobs::known_run(ObjectId object, const std::string& key) {
   return found ? const_cast<CutRun*>(&found->run) : nullptr;
 }
 
-bool CutJobs::runs(ObjectId object, const std::string& key) const {
-  return running_ && running_->object == object && running_->run.key == key;
+bool CutJobs::runs(const Order& order) const {
+  return running_ && order.scene == ws_.scene && order.number == started_;
 }
 
 const CutRun* CutJobs::run(ObjectId object) const {
@@ -93,7 +94,7 @@ void CutJobs::reset() {
 }
 
 void CutJobs::update() {
-  if (!ws_.session) return;
+  if (!ws_.session || ws_.tasks.busy(TaskKind::kLoad)) return;
   const Document& document = ws_.document();
   if (running_) {
     const ObjectItem* object = document.find(running_->object);
@@ -119,12 +120,28 @@ void CutJobs::recompute() {
   start(*object);
 }
 
-void CutJobs::cancel() {
+bool CutJobs::cancel() {
+  if (!running_) return false;
   ws_.tasks.cancel(TaskKind::kCut);
-  end(running_ ? running_->run.key : std::string());
+  end(std::string(running_->run.key));
+  return true;
 }
 
-// The cut before it is shown again.
+bool CutJobs::cancel_likelihood() {
+  const ObjectItem* object = ws_.document().active_object();
+  CutRun* run = object && ws_.view.heat ? known_run(object->id, object->cut_key) : nullptr;
+  if (!run || run->likelihood || run->likelihood_failed || !ws_.tasks.busy(TaskKind::kCut)) return false;
+  run->likelihood_failed = true;
+  ws_.tasks.cancel(TaskKind::kCut);
+  return true;
+}
+
+void CutJobs::pause() {
+  ws_.tasks.cancel(TaskKind::kCut);
+  if (running_) end({});
+}
+
+// Forgets what runs; what the object had before is shown again. given_up: its key, not tried again by itself.
 void CutJobs::end(const std::string& given_up) {
   if (!given_up.empty()) given_up_.insert(given_up);
   running_.reset();
@@ -148,10 +165,11 @@ void CutJobs::start(const ObjectItem& object) {
                     object.id,
                     running_->run.key,
                     object.colour,
-                    ws_.view.heat};
+                    ws_.view.heat,
+                    ++started_};
   // If the labels have arrived already, only pictures or the heat map failed: the cut stands.
-  const auto failed = [this, id = order.object, key = order.key] {
-    if (runs(id, key)) end(key);
+  const auto failed = [this, order] {
+    if (runs(order)) end(order.key);
   };
   ws_.tasks.cancel(TaskKind::kHover);
   ws_.tasks.submit({TaskKind::kCut, failed}, [this, order](const Job& job) { work(order, job); });
@@ -201,7 +219,7 @@ void CutJobs::work(const Order& order, const Job& job) {
 }
 
 void CutJobs::show_snapshot(const Order& order, CutRun so_far, double first_mask_ms) {
-  if (order.scene != ws_.scene || !runs(order.object, order.key)) return;
+  if (!runs(order)) return;
   CutRun& now = running_->run;
   if (first_mask_ms > 0) {
     now.first_mask_ms = first_mask_ms;
@@ -218,7 +236,7 @@ void CutJobs::show_snapshot(const Order& order, CutRun so_far, double first_mask
 }
 
 void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
-  if (order.scene != ws_.scene || !runs(order.object, order.key)) return;
+  if (!runs(order)) return;
   const CutRun& now = running_->run;
   run.views = now.views;
   run.stages = run.result->stages.empty() ? now.stages : run.result->stages;

@@ -28,7 +28,11 @@ class CutJobs {
   void update();  // once a frame
   // Throws Error where there is nothing to cut yet.
   void recompute();
-  void cancel();  // what runs
+  // What runs, or the likelihood of the active object, is not tried again by itself. False where neither
+  // does.
+  bool cancel();
+  bool cancel_likelihood();
+  void pause();  // what runs stops and starts anew once no scene is being opened
   void want_again(const ObjectItem& object) { given_up_.erase(ws_.history.keys(object).cut); }
 
  private:
@@ -40,7 +44,7 @@ class CutJobs {
 
   const Known* known(ObjectId object, const std::string& key) const;
   CutRun* known_run(ObjectId object, const std::string& key);
-  bool runs(ObjectId object, const std::string& key) const;
+  bool runs(const Order& order) const;
   void keep(Known known);
   void start(const ObjectItem& object);
   void work(const Order& order, const Job& job);
@@ -54,7 +58,7 @@ class CutJobs {
   std::optional<Known> running_;
   std::deque<Known> known_;         // the newest last
   std::set<std::string> given_up_;  // keys that were cancelled or failed
-  std::uint64_t next_card_serial_ = 1, done_ = 0;
+  std::uint64_t next_card_serial_ = 1, started_ = 0, done_ = 0;
 };
 
 }  // namespace splatcut

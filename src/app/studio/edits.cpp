@@ -33,15 +33,16 @@ void Edits::in_turn(std::function<void()> command) {
 
 bool Edits::cancel() {
   if (!under_way_) return false;
-  reset();
-  return true;
-}
-
-void Edits::reset() {
   ws_.quick.cancel(TaskKind::kSelect);
   ++number_;
   under_way_ = false;
   waiting_.clear();
+  return true;
+}
+
+void Edits::reset() {
+  cancel();
+  volume_key_.clear();
   volume_seen_.reset();
 }
 
@@ -108,10 +109,10 @@ void Edits::select_later(Selection region, SetOperation operation, std::string t
               }});
 }
 
-bool Edits::perform_plain(const Command& command) {
+void Edits::perform_plain(const Command& command) {
   return std::visit(
       [this](const auto& c) {
-        if constexpr (requires(Document * d) { edit(d, c, ws_.context()); }) {
+        if constexpr (kKnows<std::decay_t<decltype(c)>>) {
           ws_.require_scene();
           if constexpr (kPasses<std::decay_t<decltype(c)>>) {
             push_later(
@@ -122,9 +123,6 @@ bool Edits::perform_plain(const Command& command) {
             const std::string message = edit(&after, c, ws_.context());
             push(title_of(c), std::move(after), merge_key_of(c), message);
           }
-          return true;
-        } else {
-          return false;
         }
       },
       command);
@@ -136,18 +134,18 @@ void Edits::perform(const SelectRegion& c) {
     throw Error("selection", "the shape holds no pixel");
   const DrawLimits limits = viewport_.draw_limits();
   const bool through = ws_.view.see_through;
-  SeeThroughOptions options;
-  std::shared_ptr<const Frame> surface;
-  if (const FrameResult* picture = viewport_.picture(); through && ws_.view.depth_limit > 0 && picture) {
-    surface = picture->frames.front();
-    options.surface_depth = &surface->depth;
-    options.depth_limit = ws_.view.depth_limit * viewport_.camera().scene_size();
-  }
+  const bool limited = through && ws_.view.depth_limit > 0;
+  const float depth_limit = ws_.view.depth_limit * viewport_.camera().scene_size();
+  const std::shared_ptr<const Frame> surface = viewport_.full_picture_of(c.camera);
   push_later({std::string(title_of(c.operation)) + (through ? " (see-through)" : " (visible)"),
               {},
-              [c, limits, through, options, surface, shown = viewport_.shown(0)](
+              [c, limits, through, limited, depth_limit, surface, shown = viewport_.shown(0)](
                   Document* document, const EditContext& context, const Job& job) {
                 const Flags visible = within_far_plane(context.cloud, c.camera, shown, limits.far_plane);
+                SeeThroughOptions options;
+                std::shared_ptr<const Frame> frame = surface;
+                if (limited && !frame) frame = raster_frame(context.cloud, c.camera, shown, limits, job);
+                if (limited && frame) options = {&frame->depth, depth_limit};
                 const Selection found =
                     through ? select_through(context.cloud, c.camera, c.region, all_of(visible), options)
                             : select_visible(context.cloud, c.camera, c.region, all_of(visible), job);

@@ -48,8 +48,12 @@ class Edits {
   void perform(const Undo&);
   void perform(const Redo&);
   void perform(const JumpHistory& c);
-  // Any command that edit() in document_edits.h has; false where it has not.
-  bool perform_plain(const Command& command);
+  // Any command that edit() in document_edits.h has; others do nothing.
+  template <class C>
+  static constexpr bool kKnows = requires(Document* document, const C& c, const EditContext& context) {
+    edit(document, c, context);
+  };
+  void perform_plain(const Command& command);
 
  private:
   void start(const Step& step);

@@ -142,7 +142,12 @@ void FrameThread::run(const std::stop_token& stop) {
     drawing_stop_ = std::stop_source();
     const std::stop_token token = drawing_stop_.get_token();
     lock.unlock();
-    auto result = arena_.execute([&] { return draw(request, token); });
+    std::optional<FrameResult> result;
+    try {
+      result = arena_.execute([&] { return draw(request, token); });
+    } catch (const std::exception&) {
+      kept_.clear();  // out of memory: the picture before it stays, the next request tries again
+    }
     lock.lock();
     drawing_.reset();
     if (result) done_ = std::move(result);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <thread>
 
 #include "app/studio/capture.h"
 #include "app/studio/turntable.h"
@@ -20,7 +21,8 @@ constexpr double kAutosaveAfterSeconds = 2, kAutosaveViewAfterSeconds = 10;
 constexpr std::size_t kCoarseFrom = 300000;  // Gaussians; fewer are drawn fast enough as they are
 
 std::string described(const std::filesystem::path& work) {
-  const auto written = std::chrono::file_clock::to_sys(std::filesystem::last_write_time(work));
+  std::error_code ignored;  // it may go in this moment
+  const auto written = std::chrono::file_clock::to_sys(std::filesystem::last_write_time(work, ignored));
   const std::time_t seconds = std::chrono::system_clock::to_time_t(
       std::chrono::time_point_cast<std::chrono::system_clock::duration>(written));
   const std::string when = fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(seconds));
@@ -43,16 +45,39 @@ std::string described(const OpenedScene& opened) {
 
 }  // namespace
 
-SessionFiles::SessionFiles(Workspace& workspace, Viewport& viewport, std::function<void()> opened)
-    : ws_(workspace), viewport_(viewport), opened_(std::move(opened)) {
+SessionFiles::SessionFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts,
+                           std::function<void()> opened)
+    : ws_(workspace),
+      viewport_(viewport),
+      cuts_(cuts),
+      opened_(std::move(opened)),
+      autosaves_(workspace.options.state_folder) {
   autosaved_serial_ = saved_serial_ = ws_.history.serial();
-  find_autosave();
+  describe_offered();
+}
+
+bool SessionFiles::unsaved() const {
+  const Document& document = ws_.document();
+  return (!document.objects.empty() || document.deleted) && saved_serial_ != ws_.history.serial();
+}
+
+// What was restored is not offered again while it waits to be saved.
+std::filesystem::path SessionFiles::offered() const {
+  const std::filesystem::path left = autosaves_.left_behind();
+  return left == restored_ ? std::filesystem::path() : left;
+}
+
+void SessionFiles::describe_offered() {
+  if (autosave_found()) restorable_says_ = described(offered());
 }
 
 void SessionFiles::perform(const OpenScene& c) {
   const std::uint64_t serial = next_scene_serial_++;
   ws_.say(Message::Kind::kInfo, "Opening " + c.path.filename().string());
-  ws_.tasks.cancel(TaskKind::kCut);
+  cuts_.pause();
+  // Waited for, it would keep the other scene waiting. If that cannot be opened it goes on, see update().
+  preparing_stopped_ |= ws_.tasks.busy(TaskKind::kPrepare);
+  ws_.tasks.cancel(TaskKind::kPrepare);
   ws_.tasks.submit(TaskKind::kLoad, [this, path = c.path, axes = c.spz_axes, serial](const Job& job) {
     std::optional<WorkFile> file;
     if (is_work_file(path)) file = read_work_file(path);
@@ -73,7 +98,7 @@ void SessionFiles::perform(const OpenScene& c) {
 
 void SessionFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
                           const std::filesystem::path& work_path) {
-  ws_.tasks.cancel(TaskKind::kPrepare);
+  preparing_stopped_ = false;
   ws_.scene = scene;
   ws_.prepared = nullptr;
   ws_.session = nullptr;
@@ -86,7 +111,7 @@ void SessionFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::
   if (work && work->view) viewport_.camera().set_pose(*work->view);
   const bool own = is_work_file(work_path) && work_path.parent_path() != ws_.options.state_folder;
   work_path_ = own ? work_path : std::filesystem::path();
-  if (work_path == restorable_) restorable_.clear();
+  if (work && work_path == offered()) restored_ = work_path;
   autosaved_serial_ = saved_serial_ = ws_.history.serial();
   autosaved_pose_ = viewport_.camera().pose();
   if (work && !own) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
@@ -113,16 +138,10 @@ void SessionFiles::start_preparing() {
   });
 }
 
-void SessionFiles::find_autosave() {
-  const std::filesystem::path& folder = ws_.options.state_folder;
-  if (folder.empty()) return;
-  for (const char* name : {kAutosaveBefore, kAutosave})
-    if (std::filesystem::exists(folder / name)) restorable_ = folder / name;
-  if (!restorable_.empty()) restorable_says_ = described(restorable_);
-}
-
 void SessionFiles::update(double seconds) {
-  if (ws_.options.state_folder.empty() || !ws_.scene) return;
+  if (!ws_.scene || ws_.tasks.busy(TaskKind::kLoad)) return;
+  if (std::exchange(preparing_stopped_, false)) start_preparing();
+  if (autosaves_.own().empty()) return;
   const std::uint64_t serial = ws_.history.serial();
   if (std::exchange(waiting_serial_, serial) != serial) waited_s_ = 0;
   const bool changed = autosaved_serial_ != serial;
@@ -133,29 +152,28 @@ void SessionFiles::update(double seconds) {
   waited_s_ = 0;
   autosaved_serial_ = serial;
   autosaved_pose_ = viewport_.camera().pose();
-  const std::filesystem::path path = ws_.options.state_folder / kAutosave;
-  const std::filesystem::path before = ws_.options.state_folder / kAutosaveBefore;
-  if (restorable_ == path) {  // the offered autosave must not be overwritten
-    std::error_code trouble;
-    std::filesystem::rename(path, before, trouble);
-    if (!trouble) restorable_ = before;
-  }
   ws_.tasks.submit(TaskKind::kAutosave,
-                   [path, restored = restorable_ == before ? std::filesystem::path() : before,
-                    document = ws_.document(), view = autosaved_pose_, scene = ws_.scene](const Job&) {
-                     std::filesystem::create_directories(path.parent_path());
+                   [this, path = autosaves_.own(), restored = restored_, document = ws_.document(),
+                    view = autosaved_pose_, scene = ws_.scene](const Job&) {
                      write_work_file(path, *scene->scene, scene->hash, document, view);
-                     std::error_code ignored;  // what was restored is in the file now
-                     if (!restored.empty()) std::filesystem::remove(restored, ignored);
+                     ws_.tasks.post([this, restored] { forget_restored(restored); });
                    });
 }
 
+// It is in a file of this program now; what was left behind before it is offered next.
+void SessionFiles::forget_restored(const std::filesystem::path& file) {
+  if (file.empty() || file != restored_) return;
+  autosaves_.remove(std::exchange(restored_, {}));
+  describe_offered();
+}
+
 void SessionFiles::leave() {
-  if (ws_.options.state_folder.empty() || unsaved()) return;
+  if (autosaves_.own().empty() || unsaved()) return;
   ws_.tasks.cancel(TaskKind::kAutosave);
+  while (ws_.tasks.busy(TaskKind::kAutosave)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  forget_restored(restored_);
   std::error_code ignored;
-  if (restorable_ != ws_.options.state_folder / kAutosave)
-    std::filesystem::remove(ws_.options.state_folder / kAutosave, ignored);
+  std::filesystem::remove(autosaves_.own(), ignored);
 }
 
 void SessionFiles::perform(const SaveWork& c) {
@@ -176,16 +194,16 @@ void SessionFiles::perform(const SaveWork& c) {
 }
 
 void SessionFiles::perform(const RestoreAutosave&) {
-  if (restorable_.empty()) throw Error("restore", "there is no autosaved work");
+  if (!autosave_found()) throw Error("restore", "there is no autosaved work");
   ws_.say(Message::Kind::kInfo, "Restoring the work of last time: " + restorable_says_);
-  perform(OpenScene{restorable_});  // after that it is no longer offered
+  perform(OpenScene{offered()});  // after that it is no longer offered
 }
 
 void SessionFiles::perform(const DropAutosave&) {
-  if (restorable_.empty()) throw Error("restore", "there is no autosaved work");
-  std::error_code ignored;
-  std::filesystem::remove(std::exchange(restorable_, {}), ignored);
+  if (!autosave_found()) throw Error("restore", "there is no autosaved work");
+  autosaves_.remove(offered());
   ws_.say(Message::Kind::kInfo, "The work of last time is gone");
+  describe_offered();
 }
 
 void SessionFiles::perform(const Export& c) {

@@ -1,6 +1,6 @@
 // Files of a session: the opened scene and its work file, the autosave, what is exported.
 //
-// Everything is read and written on the worker; the window goes on.
+// Scenes and work are read and written on the worker; the window goes on.
 #pragma once
 
 #include <filesystem>
@@ -8,29 +8,28 @@
 #include <optional>
 #include <string>
 
+#include "app/studio/autosaves.h"
 #include "app/studio/command.h"
+#include "app/studio/cut_jobs.h"
 #include "app/studio/viewport.h"
 #include "app/studio/work_file.h"
 #include "app/studio/workspace.h"
 
 namespace splatcut {
 
-// Files in the state folder: the autosave of now, and the one that a crashed program left.
-inline constexpr const char* kAutosave = "autosave.splatcut.json";
-inline constexpr const char* kAutosaveBefore = "autosave.before.splatcut.json";
-
 class SessionFiles {
  public:
   // opened: called when the workspace has another scene and document, before the view is set up.
-  SessionFiles(Workspace& workspace, Viewport& viewport, std::function<void()> opened);
+  SessionFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts, std::function<void()> opened);
 
   void update(double seconds);  // once a frame: the autosave
   void leave();                 // the program ends: an autosave that is not needed goes
 
   const std::filesystem::path& work_path() const { return work_path_; }
-  bool unsaved() const { return !ws_.document().objects.empty() && saved_serial_ != ws_.history.serial(); }
-  // Unsaved work of the last run: offered until it is restored or dropped.
-  bool autosave_found() const { return !restorable_.empty(); }
+  bool unsaved() const;
+  // Unsaved work that a crash left: offered until it is restored or dropped.
+  bool autosave_found() const { return !offered().empty(); }
+  const std::filesystem::path& own_autosave() const { return autosaves_.own(); }
   // "garden.ply, 2026-03-01 18:40": of which scene, and when it was written.
   const std::string& autosave_says() const { return restorable_says_; }
 
@@ -43,17 +42,22 @@ class SessionFiles {
   void perform(const SaveTurntable& c);
 
  private:
-  void find_autosave();
+  std::filesystem::path offered() const;
+  void describe_offered();
+  void forget_restored(const std::filesystem::path& file);
   void opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
               const std::filesystem::path& work_path);
   void start_preparing();
 
   Workspace& ws_;
   Viewport& viewport_;
+  CutJobs& cuts_;
   std::function<void()> opened_;
   std::filesystem::path work_path_;
-  std::filesystem::path restorable_;  // empty: none
+  Autosaves autosaves_;
+  std::filesystem::path restored_;  // left behind by a crash, in this work now: goes once that is saved
   std::string restorable_says_;
+  bool preparing_stopped_ = false;  // for a scene that was to be opened
   // Serials of the document that is in the files; 0: in none.
   std::uint64_t autosaved_serial_ = 0, saved_serial_ = 0;
   std::uint64_t waiting_serial_ = 0;  // of the document that waits to be autosaved

@@ -10,7 +10,7 @@ namespace splatcut {
 
 namespace {
 
-// Commands that neither change the document nor read it: they need not wait for edits before them.
+// Commands that do not need the edits before them to be done.
 template <class C>
 constexpr bool kAtOnce =
     std::is_same_v<C, SetView> || std::is_same_v<C, GoToCamera> || std::is_same_v<C, LookAlong> ||
@@ -26,7 +26,7 @@ Studio::Studio(const StudioOptions& options)
       viewport_(ws_, cuts_),
       edits_(ws_, viewport_, cuts_),
       clicks_(ws_, viewport_, cuts_, edits_),
-      files_(ws_, viewport_, [this] { scene_opened(); }),
+      files_(ws_, viewport_, cuts_, [this] { scene_opened(); }),
       tasks_(options.wake, options.inline_tasks),
       quick_(options.wake, options.inline_tasks) {
   tasks_.on_error =
@@ -55,8 +55,10 @@ void Studio::dispatch(const Command& command) {
             edits_.perform(c);
           else if constexpr (requires { perform(c); })
             perform(c);
-          else
+          else {
+            static_assert(Edits::kKnows<std::decay_t<decltype(c)>>, "a command that nobody performs");
             edits_.perform_plain(command);
+          }
         },
         command);
     follow_document();
@@ -143,12 +145,11 @@ void Studio::perform(const ShowFloaters& c) {
 
 // What runs for the person, the nearest to its end first.
 bool Studio::cancel_task() {
-  if (tasks_.busy(TaskKind::kCut)) {
-    cuts_.cancel();
+  if (cuts_.cancel()) {
     ws_.say(Message::Kind::kInfo, "Cancelled. The strokes stay; R computes the cutout again.");
     return true;
   }
-  bool cancelled = edits_.cancel();
+  bool cancelled = cuts_.cancel_likelihood() || edits_.cancel();
   for (const TaskKind kind : {TaskKind::kSelect, TaskKind::kExport, TaskKind::kLoad}) {
     if (cancelled || !tasks_.busy(kind)) continue;
     tasks_.cancel(kind);

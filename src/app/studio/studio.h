@@ -2,8 +2,9 @@
 //
 // One thread (the main one) calls everything here. Commands come in by apply() or by events; what the
 // interface shows is read through the parts. Events of a test and of the window run the very same code.
-// Whatever passes over the scene's Gaussians or touches a file runs on a worker and arrives in update(),
-// but for one pixel under the pointer where no picture shows it yet. Errors: every Error ends in apply() or
+// Files, cuts, edits of many Gaussians, styles and pictures are made on workers and arrive in update(). What
+// is left here costs a few milliseconds a million Gaussians at the most: the place under the pointer where no
+// picture shows it yet, labels of an object that changed. Errors: every Error ends in apply() or
 // update() and becomes a message.
 #pragma once
 

@@ -21,6 +21,12 @@ Flags shown_in(DisplayMode mode, const Document& document, const Flags& active) 
   return make_flags(std::move(set));
 }
 
+// With marks by hand and all else that labels come from.
+Flags with_cut(const Document& document, ObjectItem object, const Flags& cut) {
+  object.cut = cut;
+  return make_flags(labels_of(document, object, cut->size()));
+}
+
 Flags kept_if_equal(const Flags& before, const Flags& fresh) {
   const bool equal = before && fresh ? *before == *fresh : before == fresh;
   return equal ? before : fresh;
@@ -42,7 +48,8 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
   for (std::size_t i = 0; i < document.objects.size(); ++i) {
     const ObjectItem& object = document.objects[i];
     const auto preview = order.previews.find(object.id);
-    const Flags own = preview != order.previews.end() ? preview->second : labels->labels(document, object, n);
+    const Flags own = preview != order.previews.end() ? with_cut(document, object, preview->second)
+                                                      : labels->labels(document, object, n);
     const auto number = static_cast<std::uint8_t>(i + 1);
     style.owner_colour[number] = object.colour;
     for (std::size_t g = 0; object.visible && g < n; ++g)

@@ -17,7 +17,7 @@ struct StyleOrder {
   std::shared_ptr<const GaussianCloud> cloud;
   std::shared_ptr<const PreparedScene> prepared;  // for floaters; may be null
   Document document;
-  std::map<ObjectId, Flags> previews;                    // labels shown in place of the object's own
+  std::map<ObjectId, Flags> previews;                    // cuts shown in place of the object's own
   std::shared_ptr<const std::vector<float>> likelihood;  // of the active object, for the heat map
   ViewState view;
   float pixels_per_point = 1;

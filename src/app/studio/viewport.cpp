@@ -214,10 +214,9 @@ void Viewport::take_picture() {
   ++picture_serial_;
 }
 
-const Frame* Viewport::full_picture_of(const Camera& camera) const {
+std::shared_ptr<const Frame> Viewport::full_picture_of(const Camera& camera) const {
   if (!picture_ || !picture_->full || picture_->limits != draw_limits()) return nullptr;
-  const Frame& frame = *picture_->frames.front();
-  return same_camera(frame.camera, camera) ? &frame : nullptr;
+  return same_camera(picture_->frames.front()->camera, camera) ? picture_->frames.front() : nullptr;
 }
 
 std::optional<PickedPoint> Viewport::pick(const glm::vec2& pixel) const {
@@ -225,7 +224,7 @@ std::optional<PickedPoint> Viewport::pick(const glm::vec2& pixel) const {
   const Camera camera = pane_camera();
   const auto x = static_cast<int>(std::floor(pixel.x)), y = static_cast<int>(std::floor(pixel.y));
   if (x < 0 || y < 0 || x >= camera.width_px || y >= camera.height_px) return {};
-  const Frame* frame = full_picture_of(camera);
+  const std::shared_ptr<const Frame> frame = full_picture_of(camera);
   if (!frame) return hit_in(camera, pixel, shown(0));
   if (frame->first_hit.at(x, y) < 0) return {};
   return PickedPoint{camera.world_from_pixel(pixel, frame->depth.at(x, y)), frame->first_hit.at(x, y)};

@@ -59,7 +59,8 @@ class Viewport {
   // Pictures.
   const FrameResult* picture() const { return picture_ ? &*picture_ : nullptr; }
   std::uint64_t picture_serial() const { return picture_serial_; }
-  const Frame* full_picture_of(const Camera& camera) const;  // of the first pane; null: another is shown
+  // Of the first pane; null: the screen shows another view, or not in full.
+  std::shared_ptr<const Frame> full_picture_of(const Camera& camera) const;
   float moving_scale() const { return moving_scale_; }
   double moving_ms() const { return moving_ms_; }
   double still_ms() const { return still_ms_; }

@@ -159,7 +159,9 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   REQUIRE(app.settle());
   app.frames(60 * 3);
   REQUIRE(app.settle());
-  CHECK(std::filesystem::exists(folder / kAutosave));
+  CHECK(std::filesystem::exists(folder / "autosave.splatcut.json"));
+  CHECK(app.studio().files().own_autosave() == folder / "autosave.2.splatcut.json");
+  CHECK(std::filesystem::exists(folder / "autosave.2.splatcut.json"));
   REQUIRE(app.studio().files().autosave_found());
   app.studio().apply(RestoreAutosave{});
   REQUIRE(app.settle());
@@ -173,10 +175,11 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   app.frames(60 * 3);
   REQUIRE(app.settle());
   app.studio().leave();
-  REQUIRE(std::filesystem::exists(folder / kAutosave));
-  CHECK_FALSE(std::filesystem::exists(folder / kAutosaveBefore));
-  const auto again = open_scene(read_work_file(folder / kAutosave).scene);
-  CHECK(same(restored(read_work_file(folder / kAutosave), *again->scene, again->hash).document, saved));
+  const std::filesystem::path own = app.studio().files().own_autosave();
+  REQUIRE(std::filesystem::exists(own));
+  CHECK_FALSE(std::filesystem::exists(folder / "autosave.splatcut.json"));  // it is in the other now
+  const auto again = open_scene(read_work_file(own).scene);
+  CHECK(same(restored(read_work_file(own), *again->scene, again->hash).document, saved));
 }
 
 TEST_CASE("work that was saved by itself stays offered where its scene cannot be opened") {
@@ -186,7 +189,7 @@ TEST_CASE("work that was saved by itself stays offered where its scene cannot be
   const auto scene = open_scene(moved);
   Document document;
   add_object(&document, "mug");
-  write_work_file(folder / kAutosave, *scene->scene, scene->hash, document);
+  write_work_file(folder / "autosave.splatcut.json", *scene->scene, scene->hash, document);
   std::filesystem::rename(moved, folder / "elsewhere");
   ApplicationOptions options;
   options.studio.state_folder = folder.path();
@@ -253,4 +256,45 @@ TEST_CASE("objects: one byte per Gaussian names 255 of them, the 256th is refuse
   document.objects.push_back(another);
   write_work_file(file, *scene->scene, scene->hash, document);
   CHECK_THROWS_AS(restored(read_work_file(file), *scene->scene, scene->hash), Error);
+}
+
+TEST_CASE("two programs save by themselves beside each other, neither offers what the other works on") {
+  const ScratchFolder folder("two_programs");
+  const auto left_after = [&](const char* name) {  // by a program that crashed
+    const auto scene = open_scene(kSample);
+    Document document;
+    add_object(&document, name);
+    const Autosaves autosaves(folder.path());
+    write_work_file(autosaves.own(), *scene->scene, scene->hash, document);
+    return autosaves.own();
+  };
+  const auto first_left = left_after("mug"), then_left = left_after("lamp");
+  std::filesystem::last_write_time(first_left,
+                                   std::filesystem::last_write_time(then_left) - std::chrono::hours(1));
+  Autosaves one(folder.path());
+  const Autosaves two(folder.path());
+  CHECK(one.own() != two.own());
+  CHECK(one.left_behind() == then_left);  // the newest first
+  CHECK(two.left_behind().empty());       // the other offers them
+  one.remove(then_left);
+  CHECK_FALSE(std::filesystem::exists(then_left));
+  CHECK(one.left_behind() == first_left);
+  one.remove(first_left);
+  CHECK(one.left_behind().empty());
+}
+
+TEST_CASE("a scene that cannot be opened leaves the cut and the preparing that it stopped to go on") {
+  const ScratchFolder folder("cannot_be_opened");
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  app.open(kSample);
+  while (!app.studio().scene()) app.frames(1);
+  app.studio().apply(OpenScene{folder / "nowhere.ply"});  // while it is prepared
+  REQUIRE(app.settle());
+  CHECK(app.studio().prepared());
+  app.studio().apply(SetPreset{"fast"});
+  app.click(app.screen_of(kOnApple));
+  app.studio().apply(OpenScene{folder / "nowhere.ply"});  // while it is cut
+  REQUIRE(app.settle());
+  CHECK(app.studio().cuts().cutting() == 0);
+  CHECK(app.studio().gaussians_of(app.studio().document().active) > 0);
 }
