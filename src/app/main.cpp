@@ -19,7 +19,8 @@ bool is_scene(const std::string& word) {
 
 // Options first, then a scene and no command: `splatcut --width 1280 scene.ply`.
 bool only_options_before_scene(const std::vector<std::string>& words) {
-  constexpr std::array kCommands = {"view", "info", "render", "cut", "convert", "compare", "describe"};
+  constexpr std::array kCommands = {"view",    "info",  "render",  "cut",
+                                    "convert", "merge", "compare", "describe"};
   if (words.empty() || !words.front().starts_with('-')) return false;
   const auto first = std::ranges::find_if(words, [&](const std::string& word) {
     return is_scene(word) || std::ranges::find(kCommands, word) != kCommands.end() ||
@@ -50,6 +51,7 @@ void add_commands(CLI::App& program, const CommonOptions& common) {
   add_render_command(program, common);
   add_cut_command(program, common);
   add_convert_command(program, common);
+  add_merge_command(program, common);
   add_compare_command(program, common);
   add_view_command(program, common);
   add_describe_command(program);

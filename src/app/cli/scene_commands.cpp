@@ -216,10 +216,7 @@ void add_convert_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("scene", args->scene, "Scene file")->required();
   args->how.add_to(command);
   command.add_option("-o,--output", args->output, "File to write; its ending names the format")->required();
-  command
-      .add_option("--spz-version", args->spz_version,
-                  "Version of a .spz to write: 3, which all programs read, or 4, which is smaller")
-      ->check(CLI::IsMember({3, 4}));
+  add_spz_version(command, &args->spz_version);
   command.add_flag("--overwrite", args->overwrite, "Replace an existing file");
   command.callback([args, &common] { run_convert(*args, common); });
 }

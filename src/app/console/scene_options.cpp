@@ -1,9 +1,19 @@
 #include "app/console/scene_options.h"
 
+#include <fmt/format.h>
+
 #include "app/console/console.h"
 #include "scene/camera/camera_file.h"
 
 namespace splatcut {
+
+namespace {
+
+void say(std::string_view called, const std::string& sentence, bool quiet) {
+  if (!sentence.empty()) warn(called.empty() ? sentence : fmt::format("{}: {}", called, sentence), quiet);
+}
+
+}  // namespace
 
 void SceneOptions::add_to(CLI::App& command) {
   command
@@ -14,17 +24,24 @@ void SceneOptions::add_to(CLI::App& command) {
 }
 
 Scene SceneOptions::load(const std::filesystem::path& scene, const std::filesystem::path& cameras, bool quiet,
-                         const Job& job) const {
+                         const Job& job, std::string_view called) const {
   LoadOptions options{axes(), {}};
   if (!cameras.empty()) options.cameras = load_cameras(cameras);
   Scene loaded = load_scene(scene, options, job);
   if (!options.spz_axes && !loaded.axes_note.empty()) {
     end_progress();
-    warn(loaded.axes_note + ". --spz-axes takes others", quiet);
+    say(called, loaded.axes_note + ". --spz-axes takes others", quiet);
   }
-  warn(loaded.left_out, quiet);
-  warn(loaded.oddity, quiet);
+  say(called, loaded.left_out, quiet);
+  say(called, loaded.oddity, quiet);
   return loaded;
+}
+
+void add_spz_version(CLI::App& command, int* version) {
+  command
+      .add_option("--spz-version", *version,
+                  "Version of a .spz to write: 3, which all programs read, or 4, which is smaller")
+      ->check(CLI::IsMember({3, 4}));
 }
 
 }  // namespace splatcut

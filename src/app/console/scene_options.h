@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "scene/formats/scene_file.h"
 
@@ -17,9 +18,13 @@ struct SceneOptions {
   std::optional<SpzAxes> axes() const { return spz_axes_from_name(spz_axes); }
 
   // cameras: file or folder of --cameras, which helps to tell the axes of a .spz, or empty. Where they had to
-  // be guessed, and where something is left out, a sentence on stderr says so.
+  // be guessed, and where something is left out, a sentence on stderr says so. called: what it begins with
+  // where the scene is one of several.
   Scene load(const std::filesystem::path& scene, const std::filesystem::path& cameras, bool quiet,
-             const Job& job) const;
+             const Job& job, std::string_view called = {}) const;
 };
+
+// Of SaveOptions, for commands that write a scene.
+void add_spz_version(CLI::App& command, int* version);
 
 }  // namespace splatcut

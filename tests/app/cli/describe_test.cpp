@@ -10,7 +10,7 @@ using namespace splatcut::testing;
 
 namespace {
 
-const char* const kCommands[] = {"info", "render", "cut", "convert", "compare", "view"};
+const char* const kCommands[] = {"info", "render", "cut", "convert", "merge", "compare", "view"};
 
 std::string described(const Workplace& place, const std::string& what) {
   const Result result = place.run("describe " + what);

@@ -31,6 +31,7 @@ const std::vector<Command>& commands() {
       {"render", render.c_str(), "out.png"},
       {"convert to .spz", "convert a.ply -o out.spz --quiet", "out.spz"},
       {"convert to .sog", "convert a.ply -o out.sog --quiet", "out.sog"},
+      {"merge", "merge a.ply a.ply -o out.glb --quiet", "out.glb"},
       {"cut", cut.c_str(), "out"},
   };
   return all;

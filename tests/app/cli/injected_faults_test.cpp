@@ -76,6 +76,8 @@ const std::vector<Deed>& deeds() {
        "convert made/a.ply -o out.glb --overwrite --quiet", "out.glb"},
       {"convert from .sog", "convert b.splat -o out.splat --overwrite --quiet",
        "convert a.sog -o out.splat --overwrite --quiet", "out.splat"},
+      {"merge", "merge made/a.ply b.splat -o out.ply --overwrite --quiet",
+       "merge b.splat made/a.ply -o out.ply --overwrite --quiet", "out.ply"},
       {"render", render + "--camera 1", render + "--camera 0", "out.png"},
       {"eval", eval + "--clicks 2", eval + "--clicks 1", "out", 256},
   };
