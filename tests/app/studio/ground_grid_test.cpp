@@ -90,7 +90,7 @@ TEST_CASE("grid: for scenes of every size and any up, ten to some twenty cells, 
     }
 }
 
-TEST_CASE("grid: a block hides what lies behind it and under it; the axes run through the origin") {
+TEST_CASE("grid: a block hides what lies behind it and under it, the axes run through the origin") {
   const auto cloud = std::make_shared<const GaussianCloud>(room());
   const GroundGrid grid = ground_grid(*cloud, bounds_of_room(), kUp);
   const Camera camera = look_at({0, -2.5f, -5}, {0, kFloorY, 0}, kUp, 0.9f, 320, 240);
