@@ -75,6 +75,12 @@ void CameraController::set_pose(const CameraPose& pose) {
   pose_ = pose;
 }
 
+CameraPose CameraController::kept_pose() const {
+  CameraPose pose = pose_;
+  pose.distance = glm::dot(turned_around() - pose.position_world, world_from_camera(pose)[2]);
+  return pose;
+}
+
 void CameraController::orbit(const glm::vec2& delta_px) {
   finish_transition();
   const glm::vec3 centre = turned_around();

@@ -62,6 +62,7 @@ class CameraController {
 
   const CameraPose& pose() const { return pose_; }
   void set_pose(const CameraPose& pose);
+  CameraPose kept_pose() const;  // for files: its pivot is as deep as what orbit() turns around
   const glm::vec3& up_world() const { return up_world_; }
   glm::vec3 pivot_world() const;
   Camera camera(int width_px, int height_px) const;

@@ -28,9 +28,9 @@ std::string what_changed(const std::vector<std::uint8_t>& before, const std::vec
     added += after[g] && !before[g];
   }
   const std::size_t removed = was + added - is;
-  if (was == 0) return fmt::format("{} Gaussians cut out in {:.1f} s", grouped(is), seconds);
-  if (added + removed == 0) return fmt::format("{} Gaussians, as before", grouped(is));
-  return fmt::format("{} Gaussians, {} added and {} removed in {:.1f} s", grouped(is), grouped(added),
+  if (was == 0) return fmt::format("{} cut out in {:.1f} s", gaussians_text(is), seconds);
+  if (added + removed == 0) return gaussians_text(is) + ", as before";
+  return fmt::format("{}, {} added and {} removed in {:.1f} s", gaussians_text(is), grouped(added),
                      grouped(removed), seconds);
 }
 

@@ -176,7 +176,7 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
   const char* what = operation == SetOperation::kAdd      ? "added"
                      : operation == SetOperation::kRemove ? "removed"
                                                           : "changed";
-  return fmt::format("{} Gaussians {}. {}", grouped(changed), what, counted(*document, object, context));
+  return fmt::format("{} {}. {}", gaussians_text(changed), what, counted(*document, object, context));
 }
 
 std::string edit(Document* document, const EditSelection& command, const EditContext& context) {

@@ -27,7 +27,8 @@ std::string described(const std::filesystem::path& work) {
       std::chrono::time_point_cast<std::chrono::system_clock::duration>(written));
   const std::string when = fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(seconds));
   try {
-    return fmt::format("{}, {}", read_work_file(work).scene.filename().string(), when);
+    const std::filesystem::path scene = read_work_file(work).scene;
+    return fmt::format("{}, {}", (scene.parent_path().filename() / scene.filename()).string(), when);
   } catch (const Error&) {
     return when;  // what is wrong with it is said when it is restored
   }
@@ -113,7 +114,7 @@ void SessionFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::
   work_path_ = own ? work_path : std::filesystem::path();
   if (work && work_path == offered()) restored_ = work_path;
   autosaved_serial_ = saved_serial_ = ws_.history.serial();
-  autosaved_pose_ = viewport_.camera().pose();
+  autosaved_pose_ = viewport_.camera().kept_pose();
   if (work && !own) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
   ws_.say(Message::Kind::kDone, described(*scene));
   start_preparing();
@@ -145,13 +146,13 @@ void SessionFiles::update(double seconds) {
   const std::uint64_t serial = ws_.history.serial();
   if (std::exchange(waiting_serial_, serial) != serial) waited_s_ = 0;
   const bool changed = autosaved_serial_ != serial;
-  const bool looks_elsewhere = unsaved() && autosaved_pose_ != viewport_.camera().pose();
+  const bool looks_elsewhere = unsaved() && autosaved_pose_ != viewport_.camera().kept_pose();
   if ((!changed && !looks_elsewhere) || ws_.tasks.busy(TaskKind::kCut)) return;
   waited_s_ += seconds;
   if (waited_s_ < (changed ? kAutosaveAfterSeconds : kAutosaveViewAfterSeconds)) return;
   waited_s_ = 0;
   autosaved_serial_ = serial;
-  autosaved_pose_ = viewport_.camera().pose();
+  autosaved_pose_ = viewport_.camera().kept_pose();
   ws_.tasks.submit(TaskKind::kAutosave,
                    [this, path = autosaves_.own(), restored = restored_, document = ws_.document(),
                     view = autosaved_pose_, scene = ws_.scene](const Job&) {
@@ -180,17 +181,18 @@ void SessionFiles::perform(const SaveWork& c) {
   ws_.require_scene();
   std::filesystem::path path = c.path;
   if (!is_work_file(path)) path += ".splatcut.json";
-  ws_.tasks.submit(TaskKind::kSave, [this, path, serial = ws_.history.serial(), document = ws_.document(),
-                                     view = viewport_.camera().pose(), scene = ws_.scene](const Job& job) {
-    job.progress("saving", 0);
-    write_work_file(path, *scene->scene, scene->hash, document, view);
-    ws_.tasks.post([this, path, serial, scene] {
-      ws_.say(Message::Kind::kDone, "Work saved to " + path.string());
-      if (scene != ws_.scene) return;
-      work_path_ = path;
-      saved_serial_ = serial;
-    });
-  });
+  ws_.tasks.submit(TaskKind::kSave,
+                   [this, path, serial = ws_.history.serial(), document = ws_.document(),
+                    view = viewport_.camera().kept_pose(), scene = ws_.scene](const Job& job) {
+                     job.progress("saving", 0);
+                     write_work_file(path, *scene->scene, scene->hash, document, view);
+                     ws_.tasks.post([this, path, serial, scene] {
+                       ws_.say(Message::Kind::kDone, "Work saved to " + path.string());
+                       if (scene != ws_.scene) return;
+                       work_path_ = path;
+                       saved_serial_ = serial;
+                     });
+                   });
 }
 
 void SessionFiles::perform(const RestoreAutosave&) {
@@ -208,6 +210,8 @@ void SessionFiles::perform(const DropAutosave&) {
 
 void SessionFiles::perform(const Export& c) {
   ws_.require_scene();
+  if (is_work_file(c.request.path))
+    throw Error(c.request.path.string(), "is the name of saved work, not of a scene", "Choose another");
   const TaskThread::Order export_order(TaskKind::kExport,
                                        [this] { ws_.ui_requests.push_back(UiRequest::kExportFailed); });
   ws_.tasks.submit(export_order, [this, request = c.request, document = ws_.document(),

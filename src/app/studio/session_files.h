@@ -30,7 +30,7 @@ class SessionFiles {
   // Unsaved work that a crash left: offered until it is restored or dropped.
   bool autosave_found() const { return !offered().empty(); }
   const std::filesystem::path& own_autosave() const { return autosaves_.own(); }
-  // "garden.ply, 2026-03-01 18:40": of which scene, and when it was written.
+  // "garden/point_cloud.ply, 2026-03-01 18:40": of which scene, and when it was written.
   const std::string& autosave_says() const { return restorable_says_; }
 
   void perform(const OpenScene& c);

@@ -22,7 +22,6 @@ bool waits_for_edits(Action action) {
   switch (action) {
     case Action::kUndo:
     case Action::kRedo:
-    case Action::kSave:
     case Action::kExport:
     case Action::kSelectNone:
     case Action::kInvert:

@@ -12,6 +12,10 @@ std::string grouped(std::size_t n) {
   return fmt::format("{},{:03}", grouped(n / 1000), n % 1000);
 }
 
+std::string gaussians_text(std::size_t n) {
+  return grouped(n) + (n == 1 ? " Gaussian" : " Gaussians");
+}
+
 std::string length_text(float length) {
   const float size = std::abs(length);
   if (!(size > 0)) return "0";

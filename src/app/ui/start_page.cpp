@@ -19,7 +19,8 @@ void restore_buttons(UiContext& ui) {
 
 void recent_list(UiContext& ui) {
   for (const auto& path : ui.state.recent) {
-    if (ImGui::Selectable(path.filename().string().c_str())) ui.ask(OpenScene{path});
+    const std::string name = (path.parent_path().filename() / path.filename()).string();
+    if (ImGui::Selectable((name + "##" + path.string()).c_str())) ui.ask(OpenScene{path});
     tooltip(path.string());
   }
 }

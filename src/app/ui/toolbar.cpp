@@ -59,14 +59,18 @@ void region_options(UiContext& ui) {
   ViewState view = ui.studio.view();
   struct Choice {
     SetOperation operation;
-    const char *label, *tip;
+    const char *label, *sign, *tip;
   };
-  constexpr Choice kChoices[] = {{SetOperation::kAdd, "Add", "Add to the selection  (Shift)"},
-                                 {SetOperation::kRemove, "Remove", "Take out of the selection  (Ctrl)"},
-                                 {SetOperation::kIntersect, "Intersect", "Keep only what is in both  (Alt)"}};
+  constexpr Choice kChoices[] = {
+      {SetOperation::kAdd, "Add", "+", "Add to the selection  (Shift)"},
+      {SetOperation::kRemove, "Remove", "-", "Take out of the selection  (Ctrl)"},
+      {SetOperation::kIntersect, "Intersect", "&", "Keep only what is in both  (Alt)"}};
+  constexpr float kWordsWidth = 405, kDepthWidth = 150;  // of the choices in words; of the depth limit
+  const float room = ImGui::GetWindowWidth() - kDisplayWidth - ImGui::GetCursorPosX();
+  const bool narrow = room < kWordsWidth + (view.see_through ? kDepthWidth : 0);
   for (const Choice& c : kChoices) {
     if (c.operation != SetOperation::kAdd) ImGui::SameLine(0, 2);
-    if (button(ui, c.label, c.tip, {}, view.operation == c.operation)) {
+    if (button(ui, narrow ? c.sign : c.label, c.tip, {}, view.operation == c.operation)) {
       view.operation = c.operation;
       set_view(ui, view);
     }
@@ -74,11 +78,11 @@ void region_options(UiContext& ui) {
   gap();
   if (view.tool.selects == Tool::Selects::kSpace) return hint(ui);
   if (view.tool.selects == Tool::Selects::kColours) return tolerance(ui);
-  const bool visible =
-      button(ui, "Visible only", "Takes the surface that you see  (V)", {}, !view.see_through);
+  const bool visible = button(ui, narrow ? "Visible" : "Visible only", "Takes the surface that you see  (V)",
+                              {}, !view.see_through);
   ImGui::SameLine(0, 2);
-  const bool through =
-      button(ui, "See-through", "Takes what is hidden behind the surface, too  (V)", {}, view.see_through);
+  const bool through = button(ui, narrow ? "Through" : "See-through",
+                              "Takes what is hidden behind the surface, too  (V)", {}, view.see_through);
   if ((visible && view.see_through) || (through && !view.see_through)) ui.ask(Action::kSeeThrough);
   if (!view.see_through) return;
   ImGui::SameLine();

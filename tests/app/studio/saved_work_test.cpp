@@ -143,7 +143,7 @@ TEST_CASE("work is saved by itself and offered after a crash") {
     REQUIRE(app.settle());
     saved = app.studio().document();
     app.studio().camera().orbit({60, 20});  // the view alone
-    pose = app.studio().camera().pose();
+    pose = app.studio().camera().kept_pose();
     app.frames(60 * 11);
     REQUIRE(app.settle());
   }  // no leave(): as if it had crashed
@@ -152,7 +152,7 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   options.studio.state_folder = folder.path();
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
   CHECK(app.studio().files().autosave_found());
-  CHECK(app.studio().files().autosave_says().starts_with("sample.compressed.ply, 20"));
+  CHECK(app.studio().files().autosave_says().starts_with("sample/sample.compressed.ply, 20"));
   // Started with a scene and worked on: what is offered is still there.
   opened(app);
   app.click(app.screen_of(kOnOrange));
