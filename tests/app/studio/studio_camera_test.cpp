@@ -22,7 +22,7 @@ TEST_CASE("hands: +Z up comes back with the view, and pressed again sets a leani
   hands.studio().apply(SetUp{{0, 0, 1}});
   REQUIRE(hands.app.settle());
   CHECK(upright());
-  const CameraPose pose = hands.studio().camera().pose();
+  const CameraPose pose = hands.studio().camera().kept_pose();
   hands.studio().apply(SaveWork{folder / "up.splatcut.json"});
   REQUIRE(hands.app.settle());
   hands.studio().apply(OpenScene{folder / "up.splatcut.json"});
