@@ -49,15 +49,14 @@ struct CutJobs::Order {
   std::uint64_t number = 0;  // the same key may be cut again
 };
 
-const CutJobs::Known* CutJobs::known(ObjectId object, const std::string& key) const {
+const CutRun* CutJobs::known_run(ObjectId object, const std::string& key) const {
   const auto found = std::ranges::find_if(
       known_, [&](const Known& known) { return known.object == object && known.run.key == key; });
-  return found == known_.end() ? nullptr : &*found;
+  return found == known_.end() ? nullptr : &found->run;
 }
 
 CutRun* CutJobs::known_run(ObjectId object, const std::string& key) {
-  const Known* found = known(object, key);
-  return found ? const_cast<CutRun*>(&found->run) : nullptr;
+  return const_cast<CutRun*>(std::as_const(*this).known_run(object, key));
 }
 
 bool CutJobs::runs(const Order& order) const {
@@ -67,8 +66,7 @@ bool CutJobs::runs(const Order& order) const {
 const CutRun* CutJobs::run(ObjectId object) const {
   if (running_ && running_->object == object) return &running_->run;
   const ObjectItem* item = ws_.document().find(object);
-  const Known* found = item ? known(object, item->cut_key) : nullptr;
-  return found ? &found->run : nullptr;
+  return item ? known_run(object, item->cut_key) : nullptr;
 }
 
 // Cuts that no object shows now are kept for undo and redo, the last few: one that is forgotten has no

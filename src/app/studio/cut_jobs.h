@@ -42,7 +42,7 @@ class CutJobs {
   };
   struct Order;
 
-  const Known* known(ObjectId object, const std::string& key) const;
+  const CutRun* known_run(ObjectId object, const std::string& key) const;
   CutRun* known_run(ObjectId object, const std::string& key);
   bool runs(const Order& order) const;
   void keep(Known known);

@@ -141,7 +141,7 @@ void SessionFiles::start_preparing() {
 
 void SessionFiles::update(double seconds) {
   if (!ws_.scene || ws_.tasks.busy(TaskKind::kLoad)) return;
-  if (std::exchange(preparing_stopped_, false)) start_preparing();
+  if (std::exchange(preparing_stopped_, false) && !ws_.session) start_preparing();
   if (autosaves_.own().empty()) return;
   const std::uint64_t serial = ws_.history.serial();
   if (std::exchange(waiting_serial_, serial) != serial) waited_s_ = 0;
