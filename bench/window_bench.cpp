@@ -197,7 +197,7 @@ int main(int argc, char** argv) {
   until(
       app, [] { return true; }, &longest);
   moving_pictures(app);
-  s.camera().go_to(s.scene()->cameras.empty() ? camera : s.scene()->cameras.front());
+  s.camera().go_to(s.scene()->views().cameras.empty() ? camera : s.scene()->views().cameras.front());
   s.camera().finish_transition();
   until(
       app, [] { return true; }, &longest);

@@ -125,8 +125,8 @@ class Artist {
     const auto file = folder / "artist.splatcut.json";
     studio().apply(SaveWork{file});
     REQUIRE(app.settle());
-    const auto scene = open_scene(read_work_file(file).scene);
-    Document read = restored(read_work_file(file), *scene->scene, scene->hash).document;
+    const auto scene = open_scene(read_work_file(file).files);
+    Document read = restored(read_work_file(file), *scene).document;
     CHECK(same(read, studio().document()));
     read.objects.front().cut = nullptr;
     const Document again = computed_again(*scene, read);

@@ -35,6 +35,8 @@ void add_view_command(CLI::App& program, const CommonOptions& common) {
   CLI::App& command = *program.add_subcommand("view", "Open the window (splatcut SCENE does the same)");
   command.footer("Example: splatcut view scene.ply");
   command.add_option("scene", args->window.open, "Scene file or .splatcut.json");
+  command.add_option("more", args->window.added,
+                     "Further scenes in the same window, each in its own coordinates");
   args->how.add_to(command);
   command
       .add_option("--renderer", args->renderer,

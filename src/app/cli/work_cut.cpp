@@ -42,7 +42,7 @@ Document computed_again(const OpenedScene& scene, Document document, const Job& 
                         const PreparedCache& cache) {
   Session session(session_scene(scene, prepare(scene, job, cache)));
   for (ObjectItem& object : document.objects) {
-    if (object.views.empty() || job.cancelled()) continue;
+    if (object.views.empty() || object.cut_kept || job.cancelled()) continue;
     CutResult result = session.cut(cut_request(document, object), cut_settings(document, object), job);
     if (result.outcome == Outcome::kNothingFound)
       throw Error(object.name, "is not found again: " + result.reason);
@@ -56,9 +56,9 @@ void run_work_cut(const WorkCutOptions& options) {
   const Job job = console_job(options.quiet);  // first: a signal must find its handler once there is a folder
   OutputFolder folder(options.output, options.overwrite);
   const WorkFile file = read_work_file(options.work);
-  const auto scene = open_scene(file.scene, job, file.spz_axes);
+  const auto scene = open_scene(file.files, job);
   stop_if_cancelled(job, "splatcut cut");
-  RestoredWork work = restored(file, *scene->scene, scene->hash);
+  RestoredWork work = restored(file, *scene);
   warn(work.warning, options.quiet);
   const Document document = computed_again(*scene, std::move(work.document), job, options.cache);
   end_progress();

@@ -8,8 +8,9 @@
 
 namespace splatcut {
 
-// Every object's labels from its strokes; the result's labels are the window's, bit for bit. Throws Error
-// where an object's strokes find nothing. Cancelled: the document is incomplete.
+// Every object's labels from its strokes, but for those that are kept (ObjectItem::cut_kept); the result's
+// labels are the window's, bit for bit. Throws Error where an object's strokes find nothing. Cancelled: the
+// document is incomplete.
 Document computed_again(const OpenedScene& scene, Document document, const Job& job = {},
                         const PreparedCache& cache = {});
 

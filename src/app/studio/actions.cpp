@@ -27,6 +27,7 @@ constexpr const char* kTools = "Tools";
 // Those of the tools stand in their rows.
 constexpr std::array kOwnBindings = {
     Binding{Action::kOpen, 'O', kCtrl, "File", "Open a scene or a work file"},
+    Binding{Action::kAddScene, 'O', kCtrlShift, "File", "Add a scene to this one"},
     Binding{Action::kSave, 'S', kCtrl, "File", "Save the work"},
     Binding{Action::kExport, 'E', kCtrl, "File", "Export"},
     Binding{Action::kSnapshot, key::kF12, kPlain, "File", "Picture of this view"},

@@ -29,6 +29,7 @@ struct Modifiers {
 enum class Action {
   kNone,
   kOpen,
+  kAddScene,
   kSave,
   kExport,
   kSnapshot,

@@ -41,10 +41,14 @@ glm::quat looking(const glm::vec3& forward, const glm::vec3& up, const glm::vec3
 
 }  // namespace
 
-void CameraController::reset(const Box& scene, const glm::vec3& up_world) {
+void CameraController::change_scene(const Box& scene) {
   scene_ = scene;
   scene_size_ = glm::length(scene.extent());
   if (!(scene_size_ > 0)) scene_size_ = 1;
+}
+
+void CameraController::reset(const Box& scene, const glm::vec3& up_world) {
+  change_scene(scene);
   up_world_ = glm::normalize(up_world);
   target_.reset();
   orbit_centre_.reset();

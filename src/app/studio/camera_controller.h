@@ -35,6 +35,7 @@ class CameraController {
  public:
   // scene: what is framed by frame_scene(); outlier Gaussians do not count in it.
   void reset(const Box& scene, const glm::vec3& up_world);
+  void change_scene(const Box& scene);  // the view stays as it is
 
   void orbit(const glm::vec2& delta_px);
   // What lies at `depth` (camera z, scene units; the pivot's where not given) follows the pointer.

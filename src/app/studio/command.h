@@ -8,6 +8,7 @@
 #include "app/studio/capture.h"
 #include "app/studio/document.h"
 #include "app/studio/export_plan.h"
+#include "app/studio/scene_sources.h"
 #include "app/studio/view_state.h"
 
 namespace splatcut {
@@ -51,6 +52,10 @@ struct PickColour {  // selects by a Gaussian's colour, within the view's tolera
 };
 struct SelectFlood {  // what is connected to a Gaussian and has its colour, within that tolerance
   std::int32_t gaussian;
+  SetOperation operation = SetOperation::kAdd;
+};
+struct SelectScene {  // the Gaussians of one of the scene's files
+  std::uint32_t file;
   SetOperation operation = SetOperation::kAdd;
 };
 struct SelectRange {
@@ -164,8 +169,20 @@ struct SetFieldOfView {
 
 // Files.
 struct OpenScene {
-  std::filesystem::path path;            // a scene or a work file
-  std::optional<SpzAxes> spz_axes = {};  // as LoadOptions has it; a work file says its own
+  std::filesystem::path path;                     // a scene or a work file
+  std::optional<SpzAxes> spz_axes = {};           // as LoadOptions has it; a work file says its own
+  std::vector<std::filesystem::path> added = {};  // further scenes, see AddScene
+};
+struct AddScene {
+  std::filesystem::path path;  // a scene, put where its own coordinates say
+  std::optional<SpzAxes> spz_axes = {};
+};
+struct PlaceScene {
+  std::uint32_t file;  // id in OpenedScene::files, not the first
+  ScenePlace place;
+};
+struct RemoveScene {
+  std::uint32_t file;
 };
 struct SaveWork {
   std::filesystem::path path;
@@ -189,12 +206,12 @@ struct SaveTurntable {
 
 using Command =
     std::variant<AddStroke, IntersectStroke, AddBox, SelectRegion, SelectVolume, SelectColour, PickColour,
-                 SelectFlood, SelectRange, EditSelection, ShowFloaters, StepScale, ChooseMeaning,
+                 SelectFlood, SelectScene, SelectRange, EditSelection, ShowFloaters, StepScale, ChooseMeaning,
                  ClearStrokes, ComeNearer, NewObject, RemoveObject, RenameObject, RecolourObject, ShowObject,
                  LockObject, ActivateObject, MergeObjects, SplitObject, DuplicateObject, SeparateObject,
                  DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness, SetPreset, SetBackground, SetUp,
                  Undo, Redo, JumpHistory, Cancel, Recompute, SetView, GoToCamera, LookAlong, NextBackdrop,
-                 SetBackdrop, SetFieldOfView, OpenScene, SaveWork, RestoreAutosave, DropAutosave, Export,
-                 SaveSnapshot, SaveTurntable>;
+                 SetBackdrop, SetFieldOfView, OpenScene, AddScene, PlaceScene, RemoveScene, SaveWork,
+                 RestoreAutosave, DropAutosave, Export, SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

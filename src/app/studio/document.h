@@ -40,6 +40,7 @@ struct ObjectItem {
   std::optional<float> smoothness;    // the preset's own where not given
   Flags cut;                          // labels from the strokes, 1 = object
   std::string cut_key;                // cut_key() of what they were computed from; empty: none yet
+  bool cut_kept = false;              // computed before the scene got other files; the next stroke ends that
   Flags hand;                         // HandMark
 };
 

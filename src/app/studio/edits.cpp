@@ -24,9 +24,9 @@ std::span<const std::uint8_t> all_of(const Flags& flags) {
 
 }  // namespace
 
-void Edits::in_turn(std::function<void()> command) {
+void Edits::in_turn(std::function<void()> command, OnCancel on_cancel) {
   if (under_way_)
-    waiting_.push_back(std::move(command));
+    waiting_.push_back({std::move(command), on_cancel});
   else
     command();
 }
@@ -35,12 +35,13 @@ bool Edits::cancel() {
   if (!under_way_) return false;
   ws_.quick.cancel(TaskKind::kSelect);
   ++number_;
-  under_way_ = false;
-  waiting_.clear();
+  std::erase_if(waiting_, [](const Waiting& w) { return w.on_cancel == OnCancel::kDropped; });
+  finish();
   return true;
 }
 
 void Edits::reset() {
+  waiting_.clear();
   cancel();
   volume_key_.clear();
   volume_seen_.reset();
@@ -95,7 +96,7 @@ void Edits::start(const Step& step) {
 void Edits::finish() {
   under_way_ = false;
   while (!under_way_ && !waiting_.empty()) {
-    const std::function<void()> next = std::move(waiting_.front());
+    const std::function<void()> next = std::move(waiting_.front().command);
     waiting_.pop_front();
     next();
   }
@@ -203,6 +204,17 @@ void Edits::perform(const SelectFlood& c) {
                 return edit_selection(
                     document, select_flood(context.cloud, *context.graph, start, tolerance, all_of(shown)),
                     c.operation, context);
+              }});
+}
+
+void Edits::perform(const SelectScene& c) {
+  ws_.require_scene();
+  const SceneSource* file = ws_.scene->file(c.file);
+  if (!file) throw Error("selection", "there is no such file");
+  push_later({fmt::format("{} ({})", title_of(c.operation), file->path.filename().string()),
+              {},
+              [c, scene = ws_.scene](Document* document, const EditContext& context, const Job&) {
+                return edit_selection(document, gaussians_of(*scene, c.file), c.operation, context);
               }});
 }
 

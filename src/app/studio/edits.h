@@ -20,10 +20,11 @@ class Edits {
   Edits(Workspace& workspace, const Viewport& viewport, CutJobs& cuts)
       : ws_(workspace), viewport_(viewport), cuts_(cuts) {}
 
-  // Runs it now, or after the edits that were asked for before.
-  void in_turn(std::function<void()> command);
+  // Runs it now, or after the edits that were asked for before. kStays: also where these are cancelled.
+  enum class OnCancel { kDropped, kStays };
+  void in_turn(std::function<void()> command, OnCancel on_cancel = OnCancel::kDropped);
   bool waiting() const { return under_way_; }
-  bool cancel();  // what is under way and what waits; false where nothing does
+  bool cancel();  // what is under way and the edits that wait; false where nothing does
   void reset();   // another scene
 
   // `after` becomes the document. message: shown when it does.
@@ -45,6 +46,7 @@ class Edits {
   void perform(const SelectRange& c);
   void perform(const PickColour& c);
   void perform(const SelectFlood& c);
+  void perform(const SelectScene& c);
   void perform(const Undo&);
   void perform(const Redo&);
   void perform(const JumpHistory& c);
@@ -65,7 +67,11 @@ class Edits {
   CutJobs& cuts_;
   bool under_way_ = false;
   std::uint64_t number_ = 0;  // of the edit that is under way
-  std::deque<std::function<void()>> waiting_;
+  struct Waiting {
+    std::function<void()> command;
+    OnCancel on_cancel;
+  };
+  std::deque<Waiting> waiting_;
   std::string volume_key_;   // merge key of the last volume's step
   Flags volume_seen_;        // what was shown when it first selected
   std::size_t volumes_ = 0;  // so far

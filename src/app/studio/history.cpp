@@ -118,7 +118,20 @@ void History::set_cut(ObjectId object, const std::string& cut_key, const Flags& 
       if (item.id != object || entry.keys[i]->cut != cut_key) continue;
       item.cut = cut;
       item.cut_key = cut_key;
+      item.cut_kept = false;
     }
+  ++serial_;
+}
+
+void History::carry(const std::function<Document(const Document&)>& carried) {
+  const Entry none;
+  const Entry* before = &none;
+  for (Entry& entry : entries_) {
+    entry.document = carried(entry.document);
+    entry.keys = keys_of(entry.document, *before);
+    before = &entry;
+  }
+  merging_ = false;
   ++serial_;
 }
 

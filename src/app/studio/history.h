@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -49,6 +50,9 @@ class History {
 
   // The result of a cut reaches every state that has exactly its inputs: undo and redo find it, too.
   void set_cut(ObjectId object, const std::string& cut_key, const Flags& cut);
+
+  // Every state becomes what `carried` makes of it: the scene has other Gaussians.
+  void carry(const std::function<Document(const Document&)>& carried);
 
  private:
   void forget_oldest();

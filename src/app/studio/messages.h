@@ -15,6 +15,7 @@ struct Message {
 // Requests that only the interface can fulfil.
 enum class UiRequest {
   kOpenDialog,
+  kAddDialog,
   kSaveDialog,
   kExportDialog,
   kHelp,

@@ -3,10 +3,12 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include "app/studio/capture.h"
+#include "app/studio/carried_document.h"
 #include "app/studio/turntable.h"
 #include "app/studio/words.h"
 #include "core/error.h"
@@ -27,7 +29,7 @@ std::string described(const std::filesystem::path& work) {
       std::chrono::time_point_cast<std::chrono::system_clock::duration>(written));
   const std::string when = fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(seconds));
   try {
-    const std::filesystem::path scene = read_work_file(work).scene;
+    const std::filesystem::path scene = read_work_file(work).files.front().path;
     return fmt::format("{}, {}", (scene.parent_path().filename() / scene.filename()).string(), when);
   } catch (const Error&) {
     return when;  // what is wrong with it is said when it is restored
@@ -39,19 +41,24 @@ std::string described(const OpenedScene& opened) {
   std::string text = fmt::format("{}: {} Gaussians, SH degree {}", scene.path.filename().string(),
                                  grouped(scene.cloud.size()), scene.cloud.sh_degree);
   if (scene.dropped) text += fmt::format(", {} unusable rows left out", grouped(scene.dropped));
-  return text + (opened.cameras.empty()
+  return text + (opened.views().cameras.empty()
                      ? std::string(". Does it lean or stand on its head? Set what is up under View")
-                     : fmt::format(", {} cameras (N, P)", opened.cameras.size()));
+                     : fmt::format(", {} cameras (N, P)", opened.views().cameras.size()));
+}
+
+bool same_files(const std::vector<SceneSource>& a, const std::vector<SceneSource>& b) {
+  return std::ranges::equal(a, b, [](const SceneSource& left, const SceneSource& right) {
+    return left.id == right.id && left.place == right.place;
+  });
 }
 
 }  // namespace
 
-SessionFiles::SessionFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts,
-                           std::function<void()> opened)
+SessionFiles::SessionFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts, Calls calls)
     : ws_(workspace),
       viewport_(viewport),
       cuts_(cuts),
-      opened_(std::move(opened)),
+      calls_(std::move(calls)),
       autosaves_(workspace.options.state_folder) {
   autosaved_serial_ = saved_serial_ = ws_.history.serial();
   describe_offered();
@@ -59,7 +66,8 @@ SessionFiles::SessionFiles(Workspace& workspace, Viewport& viewport, CutJobs& cu
 
 bool SessionFiles::unsaved() const {
   const Document& document = ws_.document();
-  return (!document.objects.empty() || document.deleted) && saved_serial_ != ws_.history.serial();
+  const bool several = ws_.scene && ws_.scene->files.size() > 1;
+  return (!document.objects.empty() || document.deleted || several) && saved_serial_ != ws_.history.serial();
 }
 
 // What was restored is not offered again while it waits to be saved.
@@ -72,43 +80,149 @@ void SessionFiles::describe_offered() {
   if (autosave_found()) restorable_says_ = described(offered());
 }
 
-void SessionFiles::perform(const OpenScene& c) {
-  const std::uint64_t serial = next_scene_serial_++;
-  ws_.say(Message::Kind::kInfo, "Opening " + c.path.filename().string());
+void SessionFiles::stop_for_loading() {
   cuts_.pause();
   // Waited for, it would keep the other scene waiting. If that cannot be opened it goes on, see update().
   preparing_stopped_ |= ws_.tasks.busy(TaskKind::kPrepare);
   ws_.tasks.cancel(TaskKind::kPrepare);
-  ws_.tasks.submit(TaskKind::kLoad, [this, path = c.path, axes = c.spz_axes, serial](const Job& job) {
-    std::optional<WorkFile> file;
-    if (is_work_file(path)) file = read_work_file(path);
-    const std::shared_ptr<OpenedScene> scene =
-        file ? open_scene(file->scene, job, file->spz_axes) : open_scene(path, job, axes);
+}
+
+void SessionFiles::perform(const OpenScene& c) {
+  const std::uint64_t serial = next_scene_serial_++;
+  ws_.say(Message::Kind::kInfo, "Opening " + c.path.filename().string());
+  stop_for_loading();
+  changing_to_.clear();
+  std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes}};
+  for (const std::filesystem::path& added : c.added) files.push_back({.path = added});
+  ws_.tasks.submit(
+      TaskKind::kLoad, [this, path = c.path, files, serial, id = next_file_id_](const Job& job) mutable {
+        std::optional<WorkFile> file;
+        if (is_work_file(path)) file = read_work_file(path);
+        if (file && files.size() > 1)
+          throw Error(path.filename().string(), "is saved work: other scenes cannot be opened with it",
+                      "Open it, then add them");
+        if (file) files = file->files;
+        for (SceneSource& source : files) source.id = id++;
+        const std::shared_ptr<OpenedScene> scene = open_scene(files, job);
+        if (job.cancelled()) return;
+        scene->serial = serial;
+        std::optional<RestoredWork> work;
+        if (file) work = restored(*file, *scene);
+        ws_.tasks.post([this, scene, work, id, work_path = file ? path : std::filesystem::path()] {
+          next_file_id_ = std::max(next_file_id_, id);
+          opened(scene, work, work_path);
+          for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
+          if (work && !work->warning.empty()) ws_.say(Message::Kind::kInfo, work->warning);
+        });
+      });
+}
+
+void SessionFiles::cancel_loading() {
+  ws_.tasks.cancel(TaskKind::kLoad);
+  changing_to_.clear();
+}
+
+std::vector<SceneSource> SessionFiles::wanted_files() const {
+  ws_.require_scene();
+  return changing_to_.empty() ? ws_.scene->files : changing_to_;
+}
+
+SceneSource& SessionFiles::added_file(std::vector<SceneSource>* files, std::uint32_t id) const {
+  const auto found = std::ranges::find(*files, id, &SceneSource::id);
+  if (found == files->end()) throw Error("scene", "there is no such file in it");
+  if (found == files->begin())
+    throw Error(found->path.filename().string(), "was opened first: the others stand in its scene");
+  return *found;
+}
+
+void SessionFiles::perform(const AddScene& c) {
+  if (is_work_file(c.path))
+    throw Error(c.path.filename().string(), "is saved work, not a scene", "Open it, or add the scene itself");
+  std::vector<SceneSource> files = wanted_files();
+  files.push_back({.id = next_file_id_++, .path = c.path, .spz_axes = c.spz_axes});
+  const std::string name = c.path.filename().string();
+  change_files(std::move(files), "Adding " + name, name + " added. Placed under Files");
+}
+
+void SessionFiles::perform(const PlaceScene& c) {
+  std::vector<SceneSource> files = wanted_files();
+  SceneSource& file = added_file(&files, c.file);
+  check(c.place, file.path);
+  if (file.place == c.place) return;
+  file.place = c.place;
+  const std::string name = file.path.filename().string();
+  change_files(std::move(files), "Placing " + name, name + " placed");
+}
+
+void SessionFiles::perform(const RemoveScene& c) {
+  std::vector<SceneSource> files = wanted_files();
+  const std::string name = added_file(&files, c.file).path.filename().string();
+  std::erase_if(files, [&](const SceneSource& file) { return file.id == c.file; });
+  change_files(std::move(files), "Taking out " + name, name + " taken out; the file stays as it is");
+}
+
+void SessionFiles::change_files(std::vector<SceneSource> files, const std::string& doing,
+                                const std::string& done) {
+  ws_.say(Message::Kind::kInfo, doing);
+  stop_for_loading();
+  changing_to_ = files;
+  const TaskThread::Order order(TaskKind::kLoad, [this] { changing_to_.clear(); });
+  ws_.tasks.submit(order, [this, files = std::move(files), before = ws_.scene, serial = next_scene_serial_++,
+                           done](const Job& job) {
+    const std::shared_ptr<OpenedScene> scene = open_scene(files, job, before.get());
     if (job.cancelled()) return;
     scene->serial = serial;
-    std::optional<RestoredWork> work;
-    if (file) work = restored(*file, *scene->scene, scene->hash);
-    const std::string note = work ? work->warning : axes ? "" : scene->scene->axes_note;
-    ws_.tasks.post([this, scene, work, note, work_path = file ? path : std::filesystem::path()] {
-      opened(scene, work, work_path);
-      for (const std::string& said : {scene->scene->left_out, scene->scene->oddity, note})
-        if (!said.empty()) ws_.say(Message::Kind::kInfo, said);
+    ws_.tasks.post([this, scene, done] { carry_document(scene, done); });
+  });
+}
+
+// Labels pass over the Gaussians, so that it is done on the worker; again where the document changed
+// meanwhile.
+void SessionFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const std::string& done) {
+  const TaskThread::Order order(TaskKind::kLoad, [this] { changing_to_.clear(); });
+  ws_.tasks.submit(order, [this, scene, done, before = ws_.scene, history = ws_.history,
+                           serial = ws_.history.serial()](const Job& job) mutable {
+    job.progress("carrying labels", 0);
+    history.carry(CarriedDocument(*before, *scene));
+    if (job.cancelled()) return;
+    ws_.tasks.post([this, scene, done, before, history = std::move(history), serial] {
+      calls_.in_turn([this, scene, done, before, history, serial] {
+        if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
+        if (before != ws_.scene || serial != ws_.history.serial()) return carry_document(scene, done);
+        files_changed(scene, history, done);
+      });
     });
   });
 }
 
-void SessionFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
-                          const std::filesystem::path& work_path) {
+void SessionFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, History history,
+                                 const std::string& done) {
   preparing_stopped_ = false;
+  if (same_files(changing_to_, scene->files)) changing_to_.clear();
+  take(scene);
+  ws_.history = std::move(history);
+  calls_.opened(true);
+  ws_.say(Message::Kind::kDone, done);
+  for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
+  start_preparing();
+}
+
+void SessionFiles::take(const std::shared_ptr<OpenedScene>& scene) {
   ws_.scene = scene;
   ws_.prepared = nullptr;
   ws_.session = nullptr;
   ws_.coarse = nullptr;
   ws_.labels.clear();
+}
+
+void SessionFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
+                          const std::filesystem::path& work_path) {
+  preparing_stopped_ = false;
+  take(scene);
   Document start;
-  start.up_world = scene->up_world;
+  start.up_world = scene->views().up_world;
   ws_.history.reset(work ? work->document : start, work ? "Open work" : "Open scene");
-  opened_();
+  calls_.opened(false);
   if (work && work->view) viewport_.camera().set_pose(*work->view);
   const bool own = is_work_file(work_path) && work_path.parent_path() != ws_.options.state_folder;
   work_path_ = own ? work_path : std::filesystem::path();
@@ -156,7 +270,7 @@ void SessionFiles::update(double seconds) {
   ws_.tasks.submit(TaskKind::kAutosave,
                    [this, path = autosaves_.own(), restored = restored_, document = ws_.document(),
                     view = autosaved_pose_, scene = ws_.scene](const Job&) {
-                     write_work_file(path, *scene->scene, scene->hash, document, view);
+                     write_work_file(path, *scene, document, view);
                      ws_.tasks.post([this, restored] { forget_restored(restored); });
                    });
 }
@@ -185,7 +299,7 @@ void SessionFiles::perform(const SaveWork& c) {
                    [this, path, serial = ws_.history.serial(), document = ws_.document(),
                     view = viewport_.camera().kept_pose(), scene = ws_.scene](const Job& job) {
                      job.progress("saving", 0);
-                     write_work_file(path, *scene->scene, scene->hash, document, view);
+                     write_work_file(path, *scene, document, view);
                      ws_.tasks.post([this, path, serial, scene] {
                        ws_.say(Message::Kind::kDone, "Work saved to " + path.string());
                        if (scene != ws_.scene) return;

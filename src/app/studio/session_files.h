@@ -1,4 +1,4 @@
-// Files of a session: the opened scene and its work file, the autosave, what is exported.
+// Files of a session: those of the opened scene and its work file, the autosave, what is exported.
 //
 // Scenes and work are read and written on the worker; the window goes on.
 #pragma once
@@ -19,8 +19,13 @@ namespace splatcut {
 
 class SessionFiles {
  public:
-  // opened: called when the workspace has another scene and document, before the view is set up.
-  SessionFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts, std::function<void()> opened);
+  struct Calls {
+    // The workspace has another scene and document, the view is not set up yet. same: the same scene with
+    // other files in it, or placed otherwise.
+    std::function<void(bool same)> opened;
+    std::function<void(std::function<void()>)> in_turn;  // after the edits that were asked for before
+  };
+  SessionFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts, Calls calls);
 
   void update(double seconds);  // once a frame: the autosave
   void leave();                 // the program ends: an autosave that is not needed goes
@@ -33,7 +38,12 @@ class SessionFiles {
   // "garden/point_cloud.ply, 2026-03-01 18:40": of which scene, and when it was written.
   const std::string& autosave_says() const { return restorable_says_; }
 
+  void cancel_loading();  // the scene stays as it is, its files where they are
+
   void perform(const OpenScene& c);
+  void perform(const AddScene& c);
+  void perform(const PlaceScene& c);
+  void perform(const RemoveScene& c);
   void perform(const SaveWork& c);
   void perform(const RestoreAutosave&);
   void perform(const DropAutosave&);
@@ -48,11 +58,19 @@ class SessionFiles {
   void opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
               const std::filesystem::path& work_path);
   void start_preparing();
+  void stop_for_loading();
+  void take(const std::shared_ptr<OpenedScene>& scene);
+  // Files of the scene as they are to be, those under way included.
+  std::vector<SceneSource> wanted_files() const;
+  SceneSource& added_file(std::vector<SceneSource>* files, std::uint32_t id) const;
+  void change_files(std::vector<SceneSource> files, const std::string& doing, const std::string& done);
+  void carry_document(const std::shared_ptr<OpenedScene>& scene, const std::string& done);
+  void files_changed(const std::shared_ptr<OpenedScene>& scene, History history, const std::string& done);
 
   Workspace& ws_;
   Viewport& viewport_;
   CutJobs& cuts_;
-  std::function<void()> opened_;
+  Calls calls_;
   std::filesystem::path work_path_;
   Autosaves autosaves_;
   std::filesystem::path restored_;  // left behind by a crash, in this work now: goes once that is saved
@@ -64,6 +82,8 @@ class SessionFiles {
   double waited_s_ = 0;
   CameraPose autosaved_pose_;
   std::uint64_t next_scene_serial_ = 1;
+  std::uint32_t next_file_id_ = 1;
+  std::vector<SceneSource> changing_to_;  // files of the scene that is being made; empty: none is
 };
 
 }  // namespace splatcut

@@ -18,6 +18,11 @@ constexpr bool kAtOnce =
     std::is_same_v<C, ShowFloaters> || std::is_same_v<C, Cancel> || std::is_same_v<C, OpenScene> ||
     std::is_same_v<C, RestoreAutosave> || std::is_same_v<C, DropAutosave>;
 
+// Files that were asked for: cancelling the edits before them does not take them back.
+template <class C>
+constexpr bool kWritesFile = std::is_same_v<C, SaveWork> || std::is_same_v<C, Export> ||
+                             std::is_same_v<C, SaveSnapshot> || std::is_same_v<C, SaveTurntable>;
+
 }  // namespace
 
 Studio::Studio(const StudioOptions& options)
@@ -26,7 +31,10 @@ Studio::Studio(const StudioOptions& options)
       viewport_(ws_, cuts_),
       edits_(ws_, viewport_, cuts_),
       clicks_(ws_, viewport_, cuts_, edits_),
-      files_(ws_, viewport_, cuts_, [this] { scene_opened(); }),
+      files_(
+          ws_, viewport_, cuts_,
+          {[this](bool same) { scene_opened(same); },
+           [this](std::function<void()> next) { edits_.in_turn(std::move(next), Edits::OnCancel::kStays); }}),
       tasks_(options.wake, options.inline_tasks),
       quick_(options.wake, options.inline_tasks) {
   tasks_.on_error =
@@ -37,10 +45,13 @@ Studio::~Studio() = default;
 
 void Studio::apply(const Command& command) {
   const bool at_once = std::visit([](const auto& c) { return kAtOnce<std::decay_t<decltype(c)>>; }, command);
+  const bool stays =
+      std::visit([](const auto& c) { return kWritesFile<std::decay_t<decltype(c)>>; }, command);
   if (at_once || !edits_.waiting())
     dispatch(command);
   else
-    edits_.in_turn([this, command] { dispatch(command); });
+    edits_.in_turn([this, command] { dispatch(command); },
+                   stays ? Edits::OnCancel::kStays : Edits::OnCancel::kDropped);
 }
 
 void Studio::dispatch(const Command& command) {
@@ -73,11 +84,15 @@ void Studio::run_all(const std::vector<Command>& commands) {
   for (const Command& command : commands) apply(command);
 }
 
-void Studio::scene_opened() {
+void Studio::scene_opened(bool same) {
   cuts_.reset();
   edits_.reset();
   clicks_.reset();
   ws_.tools.abandon();
+  if (same) {
+    ++ws_.view_serial;
+    return viewport_.change_scene();
+  }
   ViewState& view = ws_.view;
   view.display = DisplayMode::kWhole;
   view.heat = false;
@@ -150,9 +165,13 @@ bool Studio::cancel_task() {
     return true;
   }
   bool cancelled = cuts_.cancel_likelihood() || edits_.cancel();
-  for (const TaskKind kind : {TaskKind::kSelect, TaskKind::kExport, TaskKind::kLoad}) {
+  for (const TaskKind kind : {TaskKind::kSelect, TaskKind::kExport}) {
     if (cancelled || !tasks_.busy(kind)) continue;
     tasks_.cancel(kind);
+    cancelled = true;
+  }
+  if (!cancelled && tasks_.busy(TaskKind::kLoad)) {
+    files_.cancel_loading();
     cancelled = true;
   }
   if (cancelled) ws_.say(Message::Kind::kInfo, "Cancelled");

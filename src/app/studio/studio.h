@@ -92,7 +92,7 @@ class Studio {
   void perform(const SetBackdrop& c);
   void dispatch(const Command& command);
   bool cancel_task();
-  void scene_opened();
+  void scene_opened(bool same);
   void follow_document();
   void run_all(const std::vector<Command>& commands);
   void scale_brush(float factor);

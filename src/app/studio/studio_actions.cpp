@@ -86,7 +86,7 @@ std::string Studio::why_not(Action action) const {
       return active && !active->views.empty() ? "" : "The object has no strokes";
     case Action::kNextCamera:
     case Action::kPreviousCamera:
-      return ws_.scene->cameras.empty() ? "No camera file was found beside the scene" : "";
+      return ws_.scene->views().cameras.empty() ? "No camera file was found beside the scene" : "";
     case Action::kConfirm:
       return ws_.view.tool.confirm && ws_.tools.at_work() ? "" : "There is no polygon to close";
     case Action::kPartLarger:
@@ -123,6 +123,9 @@ void Studio::run(Action action) {
   switch (action) {
     case Action::kOpen:
       ws_.ui_requests.push_back(UiRequest::kOpenDialog);
+      break;
+    case Action::kAddScene:
+      ws_.ui_requests.push_back(UiRequest::kAddDialog);
       break;
     case Action::kSave:
       ws_.ui_requests.push_back(UiRequest::kSaveDialog);
@@ -264,7 +267,7 @@ void Studio::run(Action action) {
 // The nearest given camera says where in the row we are.
 void Studio::step_camera(int direction) {
   const glm::vec3 eye = camera().pose().position_world;
-  const auto& cameras = ws_.scene->cameras;
+  const auto& cameras = ws_.scene->views().cameras;
   const auto distance = [&](const Camera& c) { return glm::length(c.centre_world() - eye); };
   const auto nearest = std::ranges::min_element(cameras, {}, distance);
   const auto count = static_cast<std::ptrdiff_t>(cameras.size());

@@ -40,17 +40,22 @@ void Viewport::set_size(int width_px, int height_px, float pixels_per_point, flo
   pixels_per_point_ = pixels_per_point;
 }
 
-void Viewport::reset() {
+void Viewport::change_scene() {
   ws_.quick.cancel(TaskKind::kStyle);
   style_labels_ = std::make_shared<LabelCache>();
   styles_ = {};
   styled_document_ = 0;
   styles_on_the_way_ = floaters_shown_ = false;
   picture_.reset();
+  camera_.change_scene(ws_.scene->bounds);
+}
+
+void Viewport::reset() {
+  change_scene();
   camera_.reset(ws_.scene->bounds, ws_.document().up_world);
-  const auto& cameras = ws_.scene->cameras;
-  if (cameras.empty() && !ws_.scene->first_view) return;
-  camera_.go_to(cameras.empty() ? *ws_.scene->first_view : cameras.front());
+  const FileViews& views = ws_.scene->views();
+  if (views.cameras.empty() && !views.first_view) return;
+  camera_.go_to(views.reference);
   camera_.finish_transition();
 }
 

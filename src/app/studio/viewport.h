@@ -25,6 +25,7 @@ class Viewport {
   // A GPU draws the splats: pictures are then made for picking only, when nothing moves.
   void set_gpu_view(bool gpu) { gpu_view_ = gpu; }
   void reset();                                       // another scene, the workspace's
+  void change_scene();                                // the same with other files in it: the camera stays
   bool update(double seconds, const Flight& flight);  // once a frame; true while the view moves
   bool idle() const;  // the last picture is full, current, in the current style
 

@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <glm/gtc/constants.hpp>
 
 #include "app/console/seeds_file.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/json_file.h"
-#include "core/mapped_file.h"
 
 namespace splatcut {
 
@@ -20,8 +18,9 @@ namespace {
 
 using nlohmann::json;
 
-// 1 stored left-out views by number; 2 lacked the choice and the Gaussians displayed at a stroke.
-constexpr int kVersion = 3;
+// 1 stored left-out views by number; 2 lacked the choice and the Gaussians displayed at a stroke; 3 knew one
+// file only, and is still written where there is one.
+constexpr int kVersion = 4, kVersionOfOneFile = 3;
 
 json list(const glm::vec3& v) {
   return {v.x, v.y, v.z};
@@ -184,6 +183,7 @@ json object_json(const Document& document, const ObjectItem& o, const Scene& sce
               {"hand", runs_json(o.hand, scene)}};
   if (o.smoothness) out["smoothness"] = *o.smoothness;
   if (o.up_world) out["up"] = list(*o.up_world);
+  if (o.cut_kept) out["cut_is_kept"] = true;
   return out;
 }
 
@@ -206,6 +206,7 @@ ObjectItem object_from(const json& j, const Scene& scene) {
   if (j.contains("up")) o.up_world = direction_from(j.at("up"));
   if (j.contains("smoothness")) o.smoothness = j.at("smoothness").get<float>();
   o.cut = flags_from(j.value("cut", json()), scene, 1);
+  o.cut_kept = o.cut && j.value("cut_is_kept", false);
   o.hand = flags_from(j.value("hand", json()), scene, kHandRest);
   return o;
 }
@@ -225,14 +226,40 @@ json parse(const std::filesystem::path& path) {
   return work;
 }
 
-std::filesystem::path scene_path(const json& work, const std::filesystem::path& path) {
-  const json& said = work.at("scene");
-  std::filesystem::path scene = said.at("path").get<std::string>();
+// A file beside or below the work file moves with it.
+json source_json(const SceneSource& file, const std::filesystem::path& work) {
+  const std::filesystem::path absolute = std::filesystem::absolute(file.path).lexically_normal();
+  const std::filesystem::path relative =
+      absolute.lexically_relative(std::filesystem::absolute(work).parent_path().lexically_normal());
+  const bool beside = !relative.empty() && !relative.string().starts_with("..");
+  const std::string place = (beside ? relative : absolute).string();
+  json source = {{"path", place}, {"hash", fmt::format("{:016x}", file.hash)}, {"gaussians", file.gaussians}};
+  if (!is_utf8(place)) source["path_bytes"] = std::vector<std::uint8_t>(place.begin(), place.end());
+  if (file.spz_axes) source["spz_axes"] = name_of(*file.spz_axes);
+  if (file.place != ScenePlace{})
+    source["place"] = {{"move", list(file.place.move)},
+                       {"turn_deg", list(file.place.turn_deg)},
+                       {"scale", file.place.scale}};
+  return source;
+}
+
+SceneSource source_from(const json& said, const std::filesystem::path& work) {
+  SceneSource file;
+  file.path = said.at("path").get<std::string>();
   if (said.contains("path_bytes")) {
     const auto bytes = said.at("path_bytes").get<std::vector<std::uint8_t>>();
-    scene = std::string(bytes.begin(), bytes.end());
+    file.path = std::string(bytes.begin(), bytes.end());
   }
-  return scene.is_absolute() ? scene : std::filesystem::absolute(path).parent_path() / scene;
+  if (!file.path.is_absolute()) file.path = std::filesystem::absolute(work).parent_path() / file.path;
+  const std::string hash = said.at("hash");
+  if (std::from_chars(hash.data(), hash.data() + hash.size(), file.hash, 16).ec != std::errc())
+    throw Error(work.string(), "does not say which scene it belongs to: its \"hash\" is no number");
+  file.spz_axes = spz_axes_from_name(said.value("spz_axes", ""));
+  if (!said.contains("place")) return file;
+  const json& place = said["place"];
+  file.place = {vec3_from(place.at("move")), vec3_from(place.at("turn_deg")), place.at("scale").get<float>()};
+  check(file.place, file.path);
+  return file;
 }
 
 }  // namespace
@@ -246,11 +273,9 @@ WorkFile read_work_file(const std::filesystem::path& path) {
     json work = parse(path);
     WorkFile out;
     out.path = path;
-    out.scene = scene_path(work, path);
-    const std::string hash = work.at("scene").at("hash");
-    if (std::from_chars(hash.data(), hash.data() + hash.size(), out.scene_hash, 16).ec != std::errc())
-      throw Error(path.string(), "does not say which scene it belongs to: its \"hash\" is no number");
-    out.spz_axes = spz_axes_from_name(work.at("scene").value("spz_axes", ""));
+    out.files.push_back(source_from(work.at("scene"), path));
+    for (const json& added : work.value("added", json::array()))
+      out.files.push_back(source_from(added, path));
     out.content = std::make_shared<const json>(std::move(work));
     return out;
   } catch (const json::exception& error) {
@@ -258,11 +283,15 @@ WorkFile read_work_file(const std::filesystem::path& path) {
   }
 }
 
-RestoredWork restored(const WorkFile& file, const Scene& scene, std::uint64_t scene_hash) {
-  if (file.scene_hash != scene_hash)
-    throw Error(file.path.string(),
-                fmt::format("belongs to another version of {}", file.scene.filename().string()),
-                "Its labels would be wrong; open the scene itself to start anew");
+RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
+  if (file.files.size() != opened.files.size())
+    throw Error(file.path.string(), "belongs to a scene of other files");
+  for (std::size_t i = 0; i < file.files.size(); ++i)
+    if (file.files[i].hash != opened.files[i].hash)
+      throw Error(file.path.string(),
+                  fmt::format("belongs to another version of {}", file.files[i].path.filename().string()),
+                  "Its labels would be wrong; open the scene itself to start anew");
+  const Scene& scene = *opened.scene;
   try {
     const json& work = *file.content;
     RestoredWork out;
@@ -297,22 +326,15 @@ RestoredWork restored(const WorkFile& file, const Scene& scene, std::uint64_t sc
   }
 }
 
-void write_work_file(const std::filesystem::path& path, const Scene& scene, std::uint64_t scene_hash,
-                     const Document& document, const std::optional<CameraPose>& view) {
-  json objects = json::array();
+void write_work_file(const std::filesystem::path& path, const OpenedScene& opened, const Document& document,
+                     const std::optional<CameraPose>& view) {
+  const Scene& scene = *opened.scene;
+  const std::span<const SceneSource> files = opened.files;
+  json objects = json::array(), added = json::array();
   for (const ObjectItem& o : document.objects) objects.push_back(object_json(document, o, scene));
-  // A scene beside or below the work file moves with it.
-  const std::filesystem::path absolute = std::filesystem::absolute(scene.path).lexically_normal();
-  const std::filesystem::path relative =
-      absolute.lexically_relative(std::filesystem::absolute(path).parent_path().lexically_normal());
-  const bool beside = !relative.empty() && !relative.string().starts_with("..");
-  const std::string place = (beside ? relative : absolute).string();
-  json source = {
-      {"path", place}, {"hash", fmt::format("{:016x}", scene_hash)}, {"gaussians", scene.cloud.size()}};
-  if (!is_utf8(place)) source["path_bytes"] = std::vector<std::uint8_t>(place.begin(), place.end());
-  if (scene.taken_axes) source["spz_axes"] = name_of(*scene.taken_axes);
-  json work = {{"splatcut_work", kVersion},
-               {"scene", source},
+  for (const SceneSource& file : files.subspan(1)) added.push_back(source_json(file, path));
+  json work = {{"splatcut_work", added.empty() ? kVersionOfOneFile : kVersion},
+               {"scene", source_json(files.front(), path)},
                {"active", document.active},
                {"next_id", document.next_id},
                {"up", list(document.up_world)},
@@ -320,23 +342,9 @@ void write_work_file(const std::filesystem::path& path, const Scene& scene, std:
                {"background", list(document.background)},
                {"deleted", runs_json(document.deleted, scene)},
                {"objects", objects}};
+  if (!added.empty()) work["added"] = added;
   if (view) work["view"] = pose_json(*view);
   write_text_file(path, json_text(work) + "\n");
-}
-
-std::uint64_t hash_of_file(const std::filesystem::path& path) {
-  const MappedFile file(path);
-  const std::span<const std::byte> bytes = file.bytes();
-  std::uint64_t hash = 14695981039346656037ull;
-  constexpr std::uint64_t kPrime = 1099511628211ull;
-  std::size_t i = 0;
-  for (; i + 8 <= bytes.size(); i += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + i, 8);
-    hash = (hash ^ word) * kPrime;
-  }
-  for (; i < bytes.size(); ++i) hash = (hash ^ static_cast<std::uint64_t>(bytes[i])) * kPrime;
-  return hash;
 }
 
 }  // namespace splatcut

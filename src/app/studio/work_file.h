@@ -1,10 +1,11 @@
 // The work file (.splatcut.json): which scene, and what was made of it. Text, written whole or not at all.
 //
-// Holds the scene's path (relative to the work file where it lies below or beside it) and hash, and the
-// document: strokes with their cameras in full float precision, hand marks and labels as run lengths over the
-// Gaussians in file order, settings, and where the user looked from. The labels of an object are a function
-// of scene, strokes, settings and marks, so that `splatcut cut --work` computes the same bits again. Errors:
-// Error naming the file and the entry.
+// Holds the path (relative to the work file where it lies below or beside it), hash and place of each file of
+// the scene, and the document: strokes with their cameras in full float precision, hand marks and labels as
+// run lengths over the Gaussians in file order, settings, and where the user looked from. The labels of an
+// object are a function of scene, strokes, settings and marks, so that `splatcut cut --work` computes the
+// same bits again; those that were cut before the scene got other files (ObjectItem::cut_kept) are kept as
+// they are. Errors: Error naming the file and the entry.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +13,18 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/studio/camera_controller.h"
 #include "app/studio/document.h"
-#include "scene/formats/scene_file.h"
+#include "app/studio/opened_scene.h"
 
 namespace splatcut {
 
-// A work file as it was read: the scene it belongs to, to load that, and the rest for restored().
+// A work file as it was read: the files of its scene, to load those, and the rest for restored().
 struct WorkFile {
   std::filesystem::path path;
-  std::filesystem::path scene;  // absolute
-  std::uint64_t scene_hash = 0;
-  std::optional<SpzAxes> spz_axes;  // of a scene whose file does not say them: those of the labels
+  std::vector<SceneSource> files;  // of its scene, one or more; paths are absolute
   std::shared_ptr<const nlohmann::json> content;
 };
 
@@ -38,14 +38,10 @@ bool is_work_file(const std::filesystem::path& path);  // by its name
 
 WorkFile read_work_file(const std::filesystem::path& path);
 
-// scene: the loaded scene of the file; its cloud gives the arrays their order. Throws Error where they
-// differ.
-RestoredWork restored(const WorkFile& file, const Scene& scene, std::uint64_t scene_hash);
+// scene: of those files; its cloud gives the arrays their order. Throws Error where they differ.
+RestoredWork restored(const WorkFile& file, const OpenedScene& scene);
 
-void write_work_file(const std::filesystem::path& path, const Scene& scene, std::uint64_t scene_hash,
-                     const Document& document, const std::optional<CameraPose>& view = {});
-
-// FNV-1a over the 64-bit words of the file.
-std::uint64_t hash_of_file(const std::filesystem::path& path);
+void write_work_file(const std::filesystem::path& path, const OpenedScene& scene, const Document& document,
+                     const std::optional<CameraPose>& view = {});
 
 }  // namespace splatcut

@@ -132,7 +132,7 @@ void Application::handle_one(const TextTyped& event) {
 }
 
 void Application::handle_one(const FileDropped& event) {
-  open({event.path, {}});
+  open({event.path, {}, event.more});
 }
 
 void Application::open(const OpenScene& command) {

@@ -31,6 +31,8 @@ Kind kind_of(FilePurpose purpose) {
     case FilePurpose::kOpen:
       return {"Open a scene or saved work", "Open", "",
               with(extensions_of(scene_formats()), ".splatcut.json")};
+    case FilePurpose::kAdd:
+      return {"Add a scene to this one", "Add", "", extensions_of(scene_formats())};
     case FilePurpose::kSaveWork:
       return {"Save the work", "Save", ".splatcut.json", {".splatcut.json"}};
     case FilePurpose::kSnapshot:
@@ -52,6 +54,8 @@ void use(UiContext& ui, const std::filesystem::path& path) {
   switch (ui.state.file_purpose) {
     case FilePurpose::kOpen:
       return ui.ask(OpenScene{path});
+    case FilePurpose::kAdd:
+      return ui.ask(AddScene{path});
     case FilePurpose::kSaveWork:
       return ui.ask(SaveWork{path});
     case FilePurpose::kSnapshot:
@@ -173,7 +177,7 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
   ui.state.file_purpose = purpose;
   files.title = kind.title;
   files.extensions = kind.shown;
-  files.saving = files.name_first = purpose != FilePurpose::kOpen;
+  files.saving = files.name_first = purpose != FilePurpose::kOpen && purpose != FilePurpose::kAdd;
   files.name.clear();
   const std::string stem = stem_of_scene(ui.studio);
   if (purpose == FilePurpose::kSaveWork) files.name = stem + ".splatcut.json";

@@ -146,6 +146,7 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
                 cutout_panel(ui);
                 repair_panel(ui);
                 scene_panel(ui);
+                files_panel(ui);
                 history_panel(ui);
                 ImGui::EndChild();
               });
@@ -189,6 +190,8 @@ void Interface::show(UiRequest request, const Studio& studio, UiRenderer* render
   switch (request) {
     case UiRequest::kOpenDialog:
       return open_file_dialog(ui, FilePurpose::kOpen);
+    case UiRequest::kAddDialog:
+      return open_file_dialog(ui, FilePurpose::kAdd);
     case UiRequest::kSaveDialog:
       return open_file_dialog(ui, FilePurpose::kSaveWork);
     case UiRequest::kSnapshotDialog:

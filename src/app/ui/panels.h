@@ -20,6 +20,7 @@ void objects_panel(UiContext& ui);
 void cutout_panel(UiContext& ui);
 void repair_panel(UiContext& ui);
 void scene_panel(UiContext& ui);
+void files_panel(UiContext& ui);  // what the scene is made of
 void history_panel(UiContext& ui);
 void view_strip(UiContext& ui);
 float view_strip_width(const Studio& studio);  // of all its cards, points; 0: none
@@ -43,6 +44,7 @@ void draw_points(const UiContext& ui, const UiRect& area);  // of the ground, of
 void draw_centres(const UiContext& ui, const UiRect& area, int pane);
 void draw_rings(const UiContext& ui, const UiRect& area, int pane);
 void draw_ground_grid(const UiContext& ui, const UiRect& area, int pane);
+void draw_placed_file(const UiContext& ui, const UiRect& area, int pane);  // where it would stand
 void draw_cursor_sign(const UiContext& ui, const UiRect& area);  // what a press would do to the selection
 UiRect axes_gizmo(UiContext& ui, const UiRect& area);            // which takes clicks: look along an axis
 

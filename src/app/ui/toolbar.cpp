@@ -157,9 +157,12 @@ void display_buttons(UiContext& ui) {
 void top_bar(UiContext& ui) {
   action_button(ui, Action::kOpen, fmt::format("{} Open", icon::kOpen).c_str());
   ImGui::SameLine(0, 1);
-  if (button(ui, icon::kDown, "Recent files", ui.state.recent.empty() ? "Nothing was opened so far" : ""))
-    ImGui::OpenPopup("recent");
+  const std::string nothing =
+      ui.state.recent.empty() && !ui.studio.scene() ? "Nothing was opened so far" : "";
+  if (button(ui, icon::kDown, "Recent files; add a scene to this one", nothing)) ImGui::OpenPopup("recent");
   if (ImGui::BeginPopup("recent")) {
+    const std::string add = fmt::format("{} Add a scene to this one", icon::kPlus);
+    if (ui.studio.scene() && ImGui::Selectable(add.c_str())) ui.ask(Action::kAddScene);
     recent_list(ui);
     ImGui::EndPopup();
   }

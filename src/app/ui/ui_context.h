@@ -72,7 +72,14 @@ struct GridShown {
   glm::vec3 up_world{0};
 };
 
-enum class FilePurpose { kOpen, kSaveWork, kSnapshot, kTurntable, kExport };
+// The file of the scene that is chosen in the files panel, and where it is to stand.
+struct PlacingChoice {
+  std::uint32_t file = 0;  // id; 0: none
+  ScenePlace place;
+  std::size_t files_before = 1;  // the section opens when there are more
+};
+
+enum class FilePurpose { kOpen, kAdd, kSaveWork, kSnapshot, kTurntable, kExport };
 
 // The interface's own state: neither document nor view.
 struct UiState {
@@ -97,6 +104,7 @@ struct UiState {
   PropertyChoice property;
   RingsShown rings[2];  // of each pane
   GridShown grid;
+  PlacingChoice placing;
   ObjectId renaming = 0;
   std::string new_name;
   std::string renderer_line;  // which renderer draws, and why

@@ -36,6 +36,7 @@ struct TextTyped {
 };
 struct FileDropped {
   std::filesystem::path path;
+  std::vector<std::filesystem::path> more;  // dropped with it
 };
 struct FocusChanged {
   bool focused = true;

@@ -132,4 +132,17 @@ void draw_ground_grid(const UiContext& ui, const UiRect& area, int pane) {
   }
 }
 
+void draw_placed_file(const UiContext& ui, const UiRect& area, int pane) {
+  const SceneSource* file = ui.studio.scene()->file(ui.state.placing.file);
+  if (!file || pane != 0) return;
+  SceneSource placed = *file;
+  placed.place = ui.state.placing.place;
+  const Similarity to = similarity_of(placed);
+  const Volume box{false, moved(file->bounds.centre(), to), 0.5f * to.scale * file->bounds.extent(),
+                   to.rotation};
+  const OnScreen place = on_screen(ui, area);
+  for (const auto& [from, end] : edges_px(box, ui.studio.viewport().pane_camera()))
+    ImGui::GetWindowDrawList()->AddLine(place(from), place(end), packed(ui.theme.colour.accent, 0.8f), 1.5f);
+}
+
 }  // namespace splatcut

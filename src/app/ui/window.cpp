@@ -191,7 +191,7 @@ void install_callbacks(GLFWwindow* window) {
   glfwSetWindowFocusCallback(
       window, [](GLFWwindow* w, int focused) { loop_of(w).send(FocusChanged{focused == GLFW_TRUE}); });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
-    if (count > 0) loop_of(w).send(FileDropped{paths[0]});
+    if (count > 0) loop_of(w).send(FileDropped{paths[0], {paths + 1, paths + count}});
   });
 }
 
@@ -315,7 +315,7 @@ void run_window(const WindowOptions& options) {
     install_clipboard(window.handle);
     glfwSetWindowUserPointer(window.handle, &loop);
     install_callbacks(window.handle);
-    if (!options.open.empty()) app.studio().apply(OpenScene{options.open, options.spz_axes});
+    if (!options.open.empty()) app.studio().apply(OpenScene{options.open, options.spz_axes, options.added});
     run_loop(loop, &keeper);
     app.studio().leave();
     keeper.keep(settings_now(loop, keeper.kept()));

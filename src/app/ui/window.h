@@ -8,7 +8,8 @@
 namespace splatcut {
 
 struct WindowOptions {
-  std::filesystem::path open;  // a scene or a work file; empty: the start page
+  std::filesystem::path open;                // a scene or a work file; empty: the start page
+  std::vector<std::filesystem::path> added;  // scenes in the same window
   std::optional<SpzAxes> spz_axes;
   RendererChoice renderer = RendererChoice::kAuto;
   float ui_scale = 0;         // 0: the screen's, times the remembered one

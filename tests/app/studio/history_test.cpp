@@ -193,8 +193,10 @@ TEST_CASE("edits that were asked for and cancelled leave the document as it was"
   studio.apply(EditSelection{SelectionEdit::kAll});
   studio.apply(EditSelection{SelectionEdit::kInvert});
   studio.apply(RenameObject{1, "never"});
+  studio.apply(SaveWork{folder / "kept.splatcut.json"});
   studio.apply(Cancel{});
   REQUIRE(studio.settle(60));
+  CHECK(std::filesystem::exists(folder / "kept.splatcut.json"));  // a file that was asked for is no edit
   CHECK(same(studio.document(), before));
   studio.apply(RenameObject{1, "afterwards"});
   CHECK(studio.document().objects.front().name == "afterwards");

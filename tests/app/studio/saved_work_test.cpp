@@ -29,8 +29,8 @@ TEST_CASE("saved work: read back the same, and computed again bit for bit") {
   const auto labels = active_labels(app);
   const Document saved = app.studio().document();
 
-  const auto scene = open_scene(read_work_file(file).scene);
-  const Document read = restored(read_work_file(file), *scene->scene, scene->hash).document;
+  const auto scene = open_scene(read_work_file(file).files);
+  const Document read = restored(read_work_file(file), *scene).document;
   CHECK(same(read, saved));
   Document empty = read;
   for (ObjectItem& object : empty.objects) object.cut = nullptr;
@@ -49,12 +49,12 @@ TEST_CASE("saved work: what is wrong with a file is said in one sentence") {
   const auto scene = open_scene(kSample);
   Document document;
   add_object(&document, "mug");
-  write_work_file(file, *scene->scene, scene->hash, document);
+  write_work_file(file, *scene, document);
   const nlohmann::json right = nlohmann::json::parse(std::ifstream(file));
   const auto said_of = [&](const nlohmann::json& work) -> std::string {
     std::ofstream(file) << work;
     try {
-      restored(read_work_file(file), *scene->scene, scene->hash);
+      restored(read_work_file(file), *scene);
     } catch (const Error& error) {
       return error.what();
     }
@@ -110,8 +110,8 @@ TEST_CASE("a view left out is that view: after a save, and after another preset 
   const auto file = folder / "apple.splatcut.json";
   app.studio().apply(SaveWork{file});
   REQUIRE(app.settle());
-  const auto scene = open_scene(read_work_file(file).scene);
-  const RestoredWork read = restored(read_work_file(file), *scene->scene, scene->hash);
+  const auto scene = open_scene(read_work_file(file).files);
+  const RestoredWork read = restored(read_work_file(file), *scene);
   CHECK(read.warning.empty());
   CHECK(same(read.document, app.studio().document()));
 
@@ -121,7 +121,7 @@ TEST_CASE("a view left out is that view: after a save, and after another preset 
   old["splatcut_work"] = 1;
   old["objects"][0]["left_out"] = {2};
   std::ofstream(file) << old;
-  const RestoredWork numbered = restored(read_work_file(file), *scene->scene, scene->hash);
+  const RestoredWork numbered = restored(read_work_file(file), *scene);
   CHECK(numbered.warning.find("Leave them out again") != std::string::npos);
   CHECK(numbered.document.objects[0].left_out.empty());
   CHECK(is_stale(numbered.document, numbered.document.objects[0]));
@@ -178,8 +178,8 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   const std::filesystem::path own = app.studio().files().own_autosave();
   REQUIRE(std::filesystem::exists(own));
   CHECK_FALSE(std::filesystem::exists(folder / "autosave.splatcut.json"));  // it is in the other now
-  const auto again = open_scene(read_work_file(own).scene);
-  CHECK(same(restored(read_work_file(own), *again->scene, again->hash).document, saved));
+  const auto again = open_scene(read_work_file(own).files);
+  CHECK(same(restored(read_work_file(own), *again).document, saved));
 }
 
 TEST_CASE("work that was saved by itself stays offered where its scene cannot be opened") {
@@ -189,7 +189,7 @@ TEST_CASE("work that was saved by itself stays offered where its scene cannot be
   const auto scene = open_scene(moved);
   Document document;
   add_object(&document, "mug");
-  write_work_file(folder / "autosave.splatcut.json", *scene->scene, scene->hash, document);
+  write_work_file(folder / "autosave.splatcut.json", *scene, document);
   std::filesystem::rename(moved, folder / "elsewhere");
   ApplicationOptions options;
   options.studio.state_folder = folder.path();
@@ -249,13 +249,13 @@ TEST_CASE("objects: one byte per Gaussian names 255 of them, the 256th is refuse
 
   const auto scene = open_scene(kSample);
   const auto file = folder / "many.splatcut.json";
-  write_work_file(file, *scene->scene, scene->hash, document);
-  CHECK(restored(read_work_file(file), *scene->scene, scene->hash).document.objects.size() == kMostObjects);
+  write_work_file(file, *scene, document);
+  CHECK(restored(read_work_file(file), *scene).document.objects.size() == kMostObjects);
   ObjectItem another = document.objects.back();
   another.id = document.next_id++;
   document.objects.push_back(another);
-  write_work_file(file, *scene->scene, scene->hash, document);
-  CHECK_THROWS_AS(restored(read_work_file(file), *scene->scene, scene->hash), Error);
+  write_work_file(file, *scene, document);
+  CHECK_THROWS_AS(restored(read_work_file(file), *scene), Error);
 }
 
 TEST_CASE("two programs save by themselves beside each other, neither offers what the other works on") {
@@ -265,7 +265,7 @@ TEST_CASE("two programs save by themselves beside each other, neither offers wha
     Document document;
     add_object(&document, name);
     const Autosaves autosaves(folder.path());
-    write_work_file(autosaves.own(), *scene->scene, scene->hash, document);
+    write_work_file(autosaves.own(), *scene, document);
     return autosaves.own();
   };
   const auto first_left = left_after("mug"), then_left = left_after("lamp");

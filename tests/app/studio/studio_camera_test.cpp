@@ -144,7 +144,7 @@ TEST_CASE("hands: what is under the pointer stays there while the wheel goes nea
   hands.app.key('1');
   for (const glm::vec2& pixel : {kOnApple, kOnMug}) {
     const glm::vec2 at = hands.app.screen_of(pixel);
-    hands.studio().apply(GoToCamera{hands.studio().scene()->cameras.front()});
+    hands.studio().apply(GoToCamera{hands.studio().scene()->views().cameras.front()});
     REQUIRE(hands.app.settle());
     const glm::vec3 point = hands.under(at);
     const float before = glm::distance(hands.studio().camera().pose().position_world, point);

@@ -196,7 +196,7 @@ TEST_CASE("every key of the F1 page does what the page says") {
     s.apply(JumpHistory{2});  // the apple's click, its cutout computed
     s.apply(SetView{});
     s.apply(ShowFloaters{false});
-    s.camera().go_to(s.scene()->cameras.front());
+    s.camera().go_to(s.scene()->views().cameras.front());
     s.camera().finish_transition();
     app->interface().state().history_open = false;
     REQUIRE(app.settle());

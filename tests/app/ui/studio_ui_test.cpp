@@ -188,7 +188,7 @@ TEST_CASE(
   app.open(file);
   REQUIRE(app.settle());
   REQUIRE(app.studio().scene());
-  CHECK(app.studio().scene()->cameras.empty());
+  CHECK(app.studio().scene()->views().cameras.empty());
   const Camera window = app.studio().viewport().pane_camera();
   CameraOptions options;
   options.size = fmt::format("{}x{}", window.width_px, window.height_px);

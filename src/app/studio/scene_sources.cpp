@@ -1,0 +1,76 @@
+#include "app/studio/scene_sources.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/mapped_file.h"
+
+namespace splatcut {
+
+namespace {
+
+glm::quat rotation_of(const ScenePlace& place) {
+  const glm::vec3 angles = glm::radians(place.turn_deg);
+  return glm::angleAxis(angles.z, glm::vec3(0, 0, 1)) * glm::angleAxis(angles.y, glm::vec3(0, 1, 0)) *
+         glm::angleAxis(angles.x, glm::vec3(1, 0, 0));
+}
+
+bool finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
+
+void check(const ScenePlace& place, const std::filesystem::path& file) {
+  constexpr float kLeastScale = 1e-6f, kMostScale = 1e6f, kFarthest = 1e9f;
+  if (!(place.scale >= kLeastScale && place.scale <= kMostScale))
+    throw Error(
+        file.filename().string(),
+        fmt::format("it cannot be placed {:g} times as large: {:g} to {:g}", place.scale, kLeastScale, kMostScale));
+  if (!finite(place.turn_deg)) throw Error(file.filename().string(), "the turn must be ordinary numbers");
+  if (!finite(place.move) || !(glm::length(place.move) < kFarthest))
+    throw Error(file.filename().string(), fmt::format("it cannot be moved by more than {:g}", kFarthest));
+}
+
+Similarity similarity_of(const SceneSource& file) {
+  const glm::vec3 middle = file.bounds.centre();
+  return {rotation_of(file.place), file.place.scale, middle, middle + file.place.move};
+}
+
+Similarity similarity_between(const SceneSource& before, const SceneSource& after) {
+  const Similarity from = similarity_of(before), to = similarity_of(after);
+  return {to.rotation * glm::conjugate(from.rotation), to.scale / from.scale, from.move, to.move};
+}
+
+glm::vec3 moved(const glm::vec3& point, const Similarity& to) {
+  return to.scale * (to.rotation * (point - to.origin)) + to.move;
+}
+
+// The centre moves along; the picture stays the same as all depths grow by the scale.
+Camera moved(const Camera& camera, const Similarity& to) {
+  Camera out = camera;
+  out.name.clear();
+  out.camera_from_world_rotation = camera.camera_from_world_rotation * glm::transpose(glm::mat3_cast(to.rotation));
+  out.camera_from_world_translation = -(out.camera_from_world_rotation * moved(camera.centre_world(), to));
+  return out;
+}
+
+std::uint64_t hash_of_file(const std::filesystem::path& path) {
+  const MappedFile file(path);
+  const std::span<const std::byte> bytes = file.bytes();
+  std::uint64_t hash = 14695981039346656037ull;
+  constexpr std::uint64_t kPrime = 1099511628211ull;
+  std::size_t i = 0;
+  for (; i + 8 <= bytes.size(); i += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + i, 8);
+    hash = (hash ^ word) * kPrime;
+  }
+  for (; i < bytes.size(); ++i) hash = (hash ^ static_cast<std::uint64_t>(bytes[i])) * kPrime;
+  return hash;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,113 @@
+// The files that the scene is made of: added, placed by numbers, selected, taken out.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+// Three numbers in a row, dragged or typed. True where the change is done.
+bool three_numbers(const char* label, const char* tip, glm::vec3* values, float step, const char* format) {
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  bool done = false;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  ImGui::SameLine(64);
+  const float third = (ImGui::GetContentRegionAvail().x - 8) / 3;
+  ImGui::PushID(label);
+  for (int i = 0; i < 3; ++i) {
+    if (i > 0) ImGui::SameLine(0, 4);
+    ImGui::SetNextItemWidth(third);
+    ImGui::DragFloat(fmt::format("##{}", kAxes[i]).c_str(), &(*values)[i], step, 0, 0, fmt::format("{} {}", kAxes[i], format).c_str(),
+                     ImGuiSliderFlags_NoRoundToFormat);
+    done |= ImGui::IsItemDeactivatedAfterEdit();
+    tooltip(fmt::format("{}. Drag, or double-click and type.", tip));
+  }
+  ImGui::PopID();
+  return done;
+}
+
+bool scale_number(float* scale) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Scale");
+  ImGui::SameLine(64);
+  ImGui::SetNextItemWidth((ImGui::GetContentRegionAvail().x - 8) / 3);
+  constexpr float kLeast = 1e-3f, kMost = 1e3f;
+  ImGui::DragFloat("##scale", scale, 0.01f, kLeast, kMost, "%.4g times",
+                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat);
+  const bool done = ImGui::IsItemDeactivatedAfterEdit();
+  tooltip("About the middle of the file. Drag, or double-click and type.");
+  return done;
+}
+
+void placing(UiContext& ui, const SceneSource& file) {
+  ScenePlace& place = ui.state.placing.place;
+  if (!ImGui::IsAnyItemActive() && !ui.studio.loading()) place = file.place;
+  constexpr float kStep = 0.001f;  // of the scene's size
+  bool done = three_numbers("Move", "By how much it stands elsewhere, in scene units", &place.move,
+                            kStep * ui.studio.camera().scene_size(), "%.4g");
+  done |= three_numbers("Turn", "About this axis of the scene, around the middle of the file, in degrees",
+                        &place.turn_deg, 0.5f, "%.1f");
+  done |= scale_number(&place.scale);
+  if (done) ui.ask(PlaceScene{file.id, place});
+  const float third = (ImGui::GetContentRegionAvail().x - 8) / 3;
+  if (button(ui, "Bring here", "Puts its middle at the point that the view turns around", {}, false, third)) {
+    ScenePlace here = place;
+    here.move = ui.studio.camera().pivot_world() - file.bounds.centre();
+    ui.ask(PlaceScene{file.id, here});
+  }
+  ImGui::SameLine(0, 4);
+  if (button(ui, "As in file", "Back to its own coordinates", file.place == ScenePlace{} ? "It stands there" : "", false,
+             third))
+    ui.ask(PlaceScene{file.id, {}});
+  ImGui::SameLine(0, 4);
+  if (button(ui, "Take out", "The window's scene goes on without it; the file stays as it is", {}, false, third))
+    ui.ask(RemoveScene{file.id});
+}
+
+void file_row(UiContext& ui, const SceneSource& file, bool first) {
+  PlacingChoice& choice = ui.state.placing;
+  const bool chosen = choice.file == file.id;
+  ImGui::PushID(static_cast<int>(file.id));
+  const std::string count = grouped(file.gaussians);
+  const float select_width = 54, count_width = ImGui::CalcTextSize(count.c_str()).x;
+  ImGui::AlignTextToFramePadding();
+  const std::string name = file.path.filename().string() + "##file";
+  if (ImGui::Selectable(name.c_str(), chosen && !first, 0,
+                        {ImGui::GetContentRegionAvail().x - select_width - count_width - 16, 0}))
+    choice.file = chosen || first ? 0 : file.id;
+  tooltip(first ? fmt::format("{}\nOpened first: the others stand in its scene", file.path.string())
+                : fmt::format("{}\nClick to place it", file.path.string()));
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - select_width - count_width - 8);
+  muted_text(ui, count);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - select_width);
+  if (button(ui, "Select", "Adds its Gaussians to the object", {}, false, select_width))
+    ui.ask(SelectScene{file.id, ui.studio.view().operation});
+  if (chosen && !first) placing(ui, file);
+  ImGui::PopID();
+}
+
+}  // namespace
+
+void files_panel(UiContext& ui) {
+  const OpenedScene* scene = ui.studio.scene();
+  if (!scene) return;
+  PlacingChoice& choice = ui.state.placing;
+  if (scene->files.size() > choice.files_before) {
+    ImGui::SetNextItemOpen(true);
+    choice.file = scene->files.back().id;
+  }
+  choice.files_before = scene->files.size();
+  if (!section(ui, "Files", false)) {
+    choice.file = 0;
+    return;
+  }
+  const std::vector<SceneSource>& files = scene->files;
+  for (const SceneSource& file : files) file_row(ui, file, &file == &files.front());
+  action_button(ui, Action::kAddScene, fmt::format("{} Add a scene", icon::kPlus).c_str(), false, -1);
+}
+
+}  // namespace splatcut
