@@ -11,13 +11,15 @@ constexpr std::int32_t kNotSeen = -2;  // in keys of arrays that are no views
 // By row of the scene: which file it is of.
 std::vector<std::int32_t> file_of_rows(const std::vector<SceneSource>& files) {
   std::vector<std::int32_t> of;
-  for (std::size_t i = 0; i < files.size(); ++i) of.insert(of.end(), files[i].file_rows, static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < files.size(); ++i)
+    of.insert(of.end(), files[i].file_rows, static_cast<std::int32_t>(i));
   return of;
 }
 
 std::vector<std::int32_t> gaussian_of_rows(const OpenedScene& scene) {
   std::vector<std::int32_t> of(scene.scene->file_rows, -1);
-  for (std::size_t g = 0; g < scene.cloud->size(); ++g) of[scene.cloud->file_row[g]] = static_cast<std::int32_t>(g);
+  for (std::size_t g = 0; g < scene.cloud->size(); ++g)
+    of[scene.cloud->file_row[g]] = static_cast<std::int32_t>(g);
   return of;
 }
 
@@ -40,7 +42,8 @@ CarriedDocument::CarriedDocument(const OpenedScene& before, const OpenedScene& a
     if (source == before.files.end()) continue;
     known[i] = true;
     files_[i] = {source->place != after.files[i].place, similarity_between(*source, after.files[i])};
-    shift[i] = static_cast<std::int64_t>(first_row(before.files, static_cast<std::size_t>(source - before.files.begin()))) -
+    shift[i] = static_cast<std::int64_t>(
+                   first_row(before.files, static_cast<std::size_t>(source - before.files.begin()))) -
                static_cast<std::int64_t>(first_row(after.files, i));
   }
   for (std::size_t g = 0; g < before_of_.size(); ++g) {
@@ -67,8 +70,10 @@ Flags CarriedDocument::seen(const Flags& flags, std::int32_t only_file) {
   if (known) return known;
   std::vector<std::uint8_t> out(before_of_.size(), 0);
   for (std::size_t g = 0; g < out.size(); ++g) {
-    const bool counts = only_file == kAnyFile ? !files_[static_cast<std::size_t>(file_of_[g])].moved : file_of_[g] == only_file;
-    if (before_of_[g] != kNew && counts) out[g] = flags ? (*flags)[static_cast<std::size_t>(before_of_[g])] : 1;
+    const bool counts = only_file == kAnyFile ? !files_[static_cast<std::size_t>(file_of_[g])].moved
+                                              : file_of_[g] == only_file;
+    if (before_of_[g] != kNew && counts)
+      out[g] = flags ? (*flags)[static_cast<std::size_t>(before_of_[g])] : 1;
   }
   return known = make_flags(std::move(out));
 }

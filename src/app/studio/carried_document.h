@@ -2,8 +2,8 @@
 //
 // Labels, marks and what was deleted go with their Gaussians; Gaussians of added files have none. Labels that
 // are current stay so, see ObjectItem::cut_kept. Strokes see what they saw: added files are not in their
-// views, files that have moved no longer are. Where most of an object lies in a file that has moved, its views
-// move along and see that file alone.
+// views, files that have moved no longer are. Where most of an object lies in a file that has moved, its
+// views move along and see that file alone.
 #pragma once
 
 #include <cstdint>

@@ -34,6 +34,22 @@ std::string what_changed(const std::vector<std::uint8_t>& before, const std::vec
                      grouped(removed), seconds);
 }
 
+// Objects may overlap; a click that takes most of another one is rarely meant.
+std::string shared_with(const Workspace& workspace, ObjectId id) {
+  const Document& document = workspace.document();
+  const ObjectItem* object = document.find(id);
+  const Flags own = workspace.labels.labels(document, *object, workspace.gaussians());
+  for (const ObjectItem& other : document.objects) {
+    if (other.id == id || other.id == object->within || other.within == id) continue;
+    const Flags labels = workspace.labels.labels(document, other, workspace.gaussians());
+    std::size_t both = 0;
+    for (std::size_t g = 0; g < own->size(); ++g) both += (*own)[g] & (*labels)[g];
+    if (2 * both > workspace.gaussians_of(other.id) && both > 0)
+      return fmt::format(". {} of {}'s are in it, too", grouped(both), other.name);
+  }
+  return {};
+}
+
 }  // namespace
 
 // What the worker needs.
@@ -105,6 +121,7 @@ void CutJobs::update() {
     if (!is_stale(object, key) || given_up_.contains(key)) continue;
     return start(object);
   }
+  recall();
   request_likelihood();
 }
 
@@ -255,12 +272,46 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string& name = ws_.document().find(order.object)->name;
   if (result->outcome == Outcome::kNothingFound)
     return ws_.say(Message::Kind::kRefused, name + ": " + result->reason);
+  const std::string shared = shared_with(ws_, order.object);
   const bool offers_sizes = result->ambiguous && ws_.tools.scale_armed();
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
-          fmt::format("{}: {}{}", name, what_changed(*before, *labels_now(), seconds),
+          fmt::format("{}: {}{}{}", name, what_changed(*before, *labels_now(), seconds), shared,
                       !doubt.empty() ? ". But " + doubt
                       : offers_sizes ? ". Not all of it? Turn the wheel for another size"
                                      : ""));
+}
+
+// Labels of opened work, or of a step that undo went back to, are there without what is known of their cut:
+// it is made again to look at, its views and sizes. The labels stay, also where an older program made them.
+void CutJobs::recall() {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || !object->cut || object->views.empty() || object->cut_kept || ws_.tasks.busy(TaskKind::kCut))
+    return;
+  if (known_run(object->id, object->cut_key) || is_stale(*object, ws_.history.keys(*object).cut)) return;
+  const auto know = [this, scene = ws_.scene, id = object->id](CutRun run) {
+    if (scene != ws_.scene || known_run(id, run.key)) return;
+    for (ViewCard& card : run.views) card.serial = next_card_serial_++;
+    keep({id, std::move(run)});
+    ++ws_.view_serial;
+  };
+  CutRun nothing;
+  nothing.key = object->cut_key;
+  const auto failed = [know, nothing] { know(nothing); };  // not tried again
+  ws_.tasks.submit(
+      {TaskKind::kCut, failed}, [this, know, run = nothing, session = ws_.session, labels = object->cut,
+                                 colour = object->colour, request = cut_request(ws_.document(), *object),
+                                 settings = cut_settings(ws_.document(), *object)](const Job& job) mutable {
+        const auto result = std::make_shared<const CutResult>(session->cut(request, settings, job));
+        if (job.cancelled()) return;
+        if (result->labels == *labels) {
+          run.result = result;
+          run.stages = result->stages;
+          run.meanings = meanings_of(request, *result);
+          run.doubts = doubts_of(*result);
+          run.views = picture_cards(*session, request, settings, *result, colour, job);
+        }
+        if (!job.cancelled()) ws_.tasks.post([know, run] { know(run); });
+      });
 }
 
 void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {

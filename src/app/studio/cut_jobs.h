@@ -53,6 +53,7 @@ class CutJobs {
   void show_views(const Order& order, std::vector<ViewCard> cards);
   void end(const std::string& given_up);
   void request_likelihood();
+  void recall();
 
   Workspace& ws_;
   std::optional<Known> running_;

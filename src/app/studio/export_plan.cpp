@@ -90,6 +90,9 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
     if (report.files == 0) throw Error("export", "no object holds any Gaussians", "Select something first");
     return report;
   }
+  if (!request.path.string().ends_with(request.format.extension))
+    throw Error(request.path.string(), fmt::format("does not end with {}", request.format.extension),
+                "It could not be opened again");
   const ObjectItem* item = document.find(object);
   if (!item) throw Error("export", "no object is chosen", "Click an object first");
   std::vector<std::uint8_t> keep = labels_of(document, *item, n);

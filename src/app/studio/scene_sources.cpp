@@ -27,9 +27,8 @@ bool finite(const glm::vec3& v) {
 void check(const ScenePlace& place, const std::filesystem::path& file) {
   constexpr float kLeastScale = 1e-6f, kMostScale = 1e6f, kFarthest = 1e9f;
   if (!(place.scale >= kLeastScale && place.scale <= kMostScale))
-    throw Error(
-        file.filename().string(),
-        fmt::format("it cannot be placed {:g} times as large: {:g} to {:g}", place.scale, kLeastScale, kMostScale));
+    throw Error(file.filename().string(), fmt::format("it cannot be placed {:g} times as large: {:g} to {:g}",
+                                                      place.scale, kLeastScale, kMostScale));
   if (!finite(place.turn_deg)) throw Error(file.filename().string(), "the turn must be ordinary numbers");
   if (!finite(place.move) || !(glm::length(place.move) < kFarthest))
     throw Error(file.filename().string(), fmt::format("it cannot be moved by more than {:g}", kFarthest));
@@ -53,7 +52,8 @@ glm::vec3 moved(const glm::vec3& point, const Similarity& to) {
 Camera moved(const Camera& camera, const Similarity& to) {
   Camera out = camera;
   out.name.clear();
-  out.camera_from_world_rotation = camera.camera_from_world_rotation * glm::transpose(glm::mat3_cast(to.rotation));
+  out.camera_from_world_rotation =
+      camera.camera_from_world_rotation * glm::transpose(glm::mat3_cast(to.rotation));
   out.camera_from_world_translation = -(out.camera_from_world_rotation * moved(camera.centre_world(), to));
   return out;
 }

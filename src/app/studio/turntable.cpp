@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -24,10 +25,15 @@ void check_turntable(const SaveTurntable& c) {
 std::vector<Camera> cameras_of_turn(const ObjectExtent& extent, const Camera& front,
                                     const glm::vec3& up_world, const SaveTurntable& c) {
   const glm::vec3 back = front.centre_world() - extent.centre_world;
-  const glm::vec3 offset = glm::normalize(back) * (extent.radius * 2 * OrbitOptions{}.distance_sizes);
-  const float fov_y = 2 * std::atan(0.5f * static_cast<float>(front.height_px) / front.fy_px);
+  const float half_y = std::atan(0.5f * static_cast<float>(front.height_px) / front.fy_px),
+              fov_y = 2 * half_y;
   const int width = c.width_px > 0 ? c.width_px : front.width_px;
   const int height = c.height_px > 0 ? c.height_px : front.height_px;
+  // The sphere around the object fits into the smaller side, however wide the view is.
+  constexpr float kMargin = 1.08f;  // Gaussians reach beyond their centres
+  const float aspect = static_cast<float>(width) / static_cast<float>(height);
+  const float half = std::min(half_y, std::atan(aspect * std::tan(half_y)));
+  const glm::vec3 offset = glm::normalize(back) * (kMargin * extent.radius / std::sin(half));
   std::vector<Camera> cameras;
   for (int i = 0; i < c.frames; ++i) {
     const float angle = glm::two_pi<float>() * static_cast<float>(i) / static_cast<float>(c.frames);

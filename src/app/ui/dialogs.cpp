@@ -60,6 +60,19 @@ void propose_path(UiContext& ui) {
   choice.path = free_path(proposed, folder_of_all ? "" : choice.format.extension).string();
 }
 
+// Where it goes: under another ending the file could not be opened again.
+std::filesystem::path target_of(const ExportChoice& choice) {
+  const bool folder = choice.what == ExportWhat::kAllObjects;
+  if (folder || choice.path.empty() || choice.path.ends_with(choice.format.extension)) return choice.path;
+  return choice.path + choice.format.extension;
+}
+
+// A name that ends like another format means that format.
+void follow_typed_name(ExportChoice& choice) {
+  const SceneFormat* named = choice.what == ExportWhat::kAllObjects ? nullptr : find_format(choice.path);
+  if (named && named->write && choice.path.ends_with(named->extension)) choice.format = *named;
+}
+
 void fact(const char* symbol, const ImVec4& colour, const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(symbol);
@@ -94,10 +107,10 @@ void export_choices(UiContext& ui) {
     }
   }
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("File");
+  ImGui::TextUnformatted(choice.what == ExportWhat::kAllObjects ? "Folder" : "File");
   ImGui::SameLine(90);
   ImGui::SetNextItemWidth(-44);
-  ImGui::InputText("##path", &choice.path);
+  if (ImGui::InputText("##path", &choice.path)) follow_typed_name(choice);
   ImGui::SameLine(0, 4);
   if (button(ui, icon::kFolder, "Choose a folder and name")) {
     ui.state.export_open = false;
@@ -234,7 +247,10 @@ void export_dialog(UiContext& ui) {
   fact(plan.lost.empty() ? icon::kCheck : icon::kWarning, plan.lost.empty() ? p.good : p.warn,
        plan.lost.empty() ? "Nothing is lost." : "Lost: " + plan.lost);
   if (!choice.trouble.empty()) fact(icon::kWarning, p.bad, choice.trouble);
-  const bool exists = std::filesystem::exists(choice.path);
+  const std::filesystem::path target = target_of(choice);
+  if (target != choice.path) fact(icon::kInfo, p.accent, "The file will be " + target.filename().string());
+  std::error_code ignored;
+  const bool exists = std::filesystem::exists(target, ignored);
   if (exists) ImGui::Checkbox("Replace the file that is there", &choice.overwrite);
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
   const bool cancelled = ImGui::Button("Cancel", {110, 0}) || (!typing && escape_pressed());
@@ -247,7 +263,7 @@ void export_dialog(UiContext& ui) {
                                  : "";
   const bool pressed = button(ui, "Export", "Write the file  (Enter)", reason, reason.empty(), 110);
   const bool done = pressed || (reason.empty() && !typing && enter_pressed());
-  if (done) ui.ask(Export{{choice.what, choice.format, choice.path, choice.overwrite, choice.placement}});
+  if (done) ui.ask(Export{{choice.what, choice.format, target, choice.overwrite, choice.placement}});
   if (done || cancelled) {
     ui.state.export_open = false;
     choice.trouble.clear();

@@ -21,8 +21,8 @@ bool three_numbers(const char* label, const char* tip, glm::vec3* values, float 
   for (int i = 0; i < 3; ++i) {
     if (i > 0) ImGui::SameLine(0, 4);
     ImGui::SetNextItemWidth(third);
-    ImGui::DragFloat(fmt::format("##{}", kAxes[i]).c_str(), &(*values)[i], step, 0, 0, fmt::format("{} {}", kAxes[i], format).c_str(),
-                     ImGuiSliderFlags_NoRoundToFormat);
+    ImGui::DragFloat(fmt::format("##{}", kAxes[i]).c_str(), &(*values)[i], step, 0, 0,
+                     fmt::format("{} {}", kAxes[i], format).c_str(), ImGuiSliderFlags_NoRoundToFormat);
     done |= ImGui::IsItemDeactivatedAfterEdit();
     tooltip(fmt::format("{}. Drag, or double-click and type.", tip));
   }
@@ -60,11 +60,12 @@ void placing(UiContext& ui, const SceneSource& file) {
     ui.ask(PlaceScene{file.id, here});
   }
   ImGui::SameLine(0, 4);
-  if (button(ui, "As in file", "Back to its own coordinates", file.place == ScenePlace{} ? "It stands there" : "", false,
-             third))
+  if (button(ui, "As in file", "Back to its own coordinates",
+             file.place == ScenePlace{} ? "It stands there" : "", false, third))
     ui.ask(PlaceScene{file.id, {}});
   ImGui::SameLine(0, 4);
-  if (button(ui, "Take out", "The window's scene goes on without it; the file stays as it is", {}, false, third))
+  if (button(ui, "Take out", "The window's scene goes on without it; the file stays as it is", {}, false,
+             third))
     ui.ask(RemoveScene{file.id});
 }
 

@@ -38,9 +38,29 @@ TEST_CASE("saved work: read back the same, and computed again bit for bit") {
   CHECK(labels_of(again, *again.active_object(), labels.size()) == labels);
   CHECK(same(again, saved));
 
-  app.open(file);  // and the window opens it
+  app.open(file);  // and the window opens it, with what is known of the cut
   REQUIRE(app.settle());
   CHECK(same(app.studio().document(), saved));
+  const CutRun* run = app.studio().cuts().run(saved.active);
+  REQUIRE(run);
+  CHECK(run->views.size() > 2);
+  CHECK(run->meanings);
+  CHECK(app.studio().why_not(Action::kPartLarger).empty());
+
+  nlohmann::json of_another = nlohmann::json::parse(std::ifstream(file));
+  nlohmann::json& cut = of_another["objects"][0]["cut"];
+  cut[0] = 1 - cut[0].get<int>();  // labels that this program would not make
+  cut[2] = cut[0];
+  std::ofstream(file) << of_another;
+  app.open(file);
+  REQUIRE(app.settle());
+  CHECK(app.studio().labels(saved.active) ==
+        labels_of(restored(read_work_file(file), *scene).document,
+                  *restored(read_work_file(file), *scene).document.active_object(), labels.size()));
+  CHECK(app.studio().labels(saved.active) != labels);
+  run = app.studio().cuts().run(saved.active);
+  REQUIRE(run);
+  CHECK(run->views.empty());  // what it would show is another cut
 }
 
 TEST_CASE("saved work: what is wrong with a file is said in one sentence") {

@@ -45,8 +45,9 @@ std::vector<std::uint8_t> longer(std::vector<std::uint8_t> rows, std::size_t by)
 }
 
 bool same_cloud(const GaussianCloud& a, const GaussianCloud& b) {
-  return a.position == b.position && a.scale == b.scale && a.rotation == b.rotation && a.opacity == b.opacity &&
-         a.f_dc == b.f_dc && a.sh_rest == b.sh_rest && a.file_row == b.file_row && a.near_plane == b.near_plane;
+  return a.position == b.position && a.scale == b.scale && a.rotation == b.rotation &&
+         a.opacity == b.opacity && a.f_dc == b.f_dc && a.sh_rest == b.sh_rest && a.file_row == b.file_row &&
+         a.near_plane == b.near_plane;
 }
 
 void add(Hands& hands, const std::filesystem::path& path) {
@@ -251,7 +252,8 @@ TEST_CASE("several scenes: asked for in haste, cancelled, refused") {
   CHECK(refused(AddScene{folder / "work.splatcut.json"}).find("is saved work") != std::string::npos);
   CHECK(refused(RemoveScene{first}).find("was opened first") != std::string::npos);
   CHECK(refused(PlaceScene{first, {{1, 0, 0}}}).find("was opened first") != std::string::npos);
-  CHECK(refused(PlaceScene{second, {{0, 0, 0}, {0, 0, 0}, 0}}).find("placed 0 times as large") != std::string::npos);
+  CHECK(refused(PlaceScene{second, {{0, 0, 0}, {0, 0, 0}, 0}}).find("placed 0 times as large") !=
+        std::string::npos);
   CHECK(refused(PlaceScene{second, {{NAN, 0, 0}}}).find("moved") != std::string::npos);
   CHECK(refused(PlaceScene{99999, {}}).find("no such file") != std::string::npos);
   CHECK(refused(SelectScene{99999}).find("no such file") != std::string::npos);
@@ -269,7 +271,8 @@ TEST_CASE("several scenes: asked for in haste, cancelled, refused") {
 
 TEST_CASE("several scenes: carried arrays against brute force") {
   const ScratchFolder folder("several_brute");
-  const auto a = small_scene(folder, "a.ply", 1), b = small_scene(folder, "b.ply", 2), c = small_scene(folder, "c.ply", 3);
+  const auto a = small_scene(folder, "a.ply", 1), b = small_scene(folder, "b.ply", 2),
+             c = small_scene(folder, "c.ply", 3);
   const auto scene_of = [](const std::vector<std::pair<std::uint32_t, std::filesystem::path>>& files) {
     std::vector<SceneSource> sources;
     for (const auto& [id, path] : files) sources.push_back({.id = id, .path = path});
@@ -277,7 +280,9 @@ TEST_CASE("several scenes: carried arrays against brute force") {
   };
   const auto before = scene_of({{1, a}, {2, b}, {3, c}}), after = scene_of({{1, a}, {3, c}, {4, b}});
   // A number for each Gaussian by its file and row there.
-  const auto value = [](std::uint32_t id, std::size_t row) { return static_cast<std::uint8_t>((id * 31 + row * 7) % 3); };
+  const auto value = [](std::uint32_t id, std::size_t row) {
+    return static_cast<std::uint8_t>((id * 31 + row * 7) % 3);
+  };
   const auto flags = [&](const OpenedScene& scene, bool new_ones) {
     std::vector<std::uint8_t> out(scene.cloud->size());
     for (std::size_t g = 0; g < out.size(); ++g) {

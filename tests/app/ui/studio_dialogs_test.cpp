@@ -124,6 +124,7 @@ TEST_CASE(
   app.open(kSample);
   REQUIRE(app.settle());
   app.studio().apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(app.settle());
   FileBrowser& files = app.interface_state().files;
   const auto type = [&](std::string_view text) {
     for (const char c : text) {
@@ -242,6 +243,33 @@ TEST_CASE("dialogs: Enter and Esc in a number end the number, not the dialog") {
   CHECK_FALSE(app->interface().dialog_open());
 }
 
+TEST_CASE("dialogs: an export is named as its format is, whatever was typed") {
+  const ScratchFolder folder("named");
+  HeadlessApp app(760, 520);
+  REQUIRE(cut_out_apple(app));
+  UiState& state = app.interface_state();
+  const auto export_as = [&](const std::string& name) {
+    app.key('E', {.ctrl = true});
+    app.frames(3);
+    app.type_into("###export", {"##path"}, (folder / name).string());
+    app.key(key::kEnter);
+    REQUIRE(app.settle());
+    CHECK_FALSE(app->interface().dialog_open());
+  };
+  export_as("without");
+  CHECK(state.exporting.format == SceneFormat::kPly);
+  CHECK(load_scene(folder / "without.ply").format == SceneFormat::kPly);
+  export_as("small.spz");
+  CHECK(load_scene(folder / "small.spz").format == SceneFormat::kSpz);
+  export_as("picture.png");
+  CHECK(load_scene(folder / "picture.png.spz").format == SceneFormat::kSpz);
+  const Export wrong{{ExportWhat::kObject, SceneFormat::kPly, folder / "wrong.spz", true}};
+  app.studio().apply(wrong);
+  REQUIRE(app.settle());
+  CHECK(app.studio().messages().back().text.find("does not end with .ply") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder / "wrong.spz"));
+}
+
 TEST_CASE("dialogs: Esc where a folder is chosen goes back to the export, which stays") {
   HeadlessApp app(760, 520);
   REQUIRE(cut_out_apple(app));
@@ -274,6 +302,7 @@ TEST_CASE("dialogs: what an export keeps and loses is told as it is written, mov
   REQUIRE(app.settle());
   REQUIRE(app.studio().scene()->scene->rows_can_be_copied);
   app.studio().apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(app.settle());
   UiState& state = app.interface_state();
   app.key('E', {.ctrl = true});
   app.frames(3);
