@@ -113,22 +113,44 @@ void Application::handle_one(const WheelTurned& event) {
 }
 
 void Application::handle_one(const KeyChanged& event) {
-  ImGuiIO& io = ImGui::GetIO();
+  type(event);
+  if (!event.down) return studio_.key_released(event.key);
+  if (ImGui::GetIO().WantTextInput || interface_.dialog_open()) return;
+  if (event.repeated && !repeats(action_for(event.key, event.modifiers))) return;
+  studio_.key_pressed(event.key, event.modifiers, event.repeated);
+}
+
+void Application::handle_one(const TextTyped& event) {
+  type(event);
+}
+
+void Application::type(const TypedEvent& event) {
+  const auto* key = std::get_if<KeyChanged>(&event);
+  const bool waits = !held_back_.empty() || (key && !key->down && key_pressed_since_frame_);
+  if (waits)
+    held_back_.push_back(event);
+  else
+    std::visit([this](const auto& e) { type_now(e); }, event);
+}
+
+void Application::type_held_back() {
+  key_pressed_since_frame_ = false;
+  for (const TypedEvent& event : std::exchange(held_back_, {})) type(event);
+}
+
+void Application::type_now(const TextTyped& event) {
+  ImGui::GetIO().AddInputCharacter(event.code_point);
+}
+
+void Application::type_now(const KeyChanged& event) {
   // X11 says what was held before the event: a field would take letters typed after Ctrl for shortcuts.
   Modifiers now = event.modifiers;
   if (event.key == key::kLeftShift || event.key == key::kRightShift) now.shift = event.down;
   if (event.key == key::kLeftControl || event.key == key::kRightControl) now.ctrl = event.down;
   if (event.key == key::kLeftAlt || event.key == key::kRightAlt) now.alt = event.down;
   set_modifiers(now);
-  if (event.key >= 0 && event.key < key::kCount) io.KeysDown[event.key] = event.down;
-  if (!event.down) return studio_.key_released(event.key);
-  if (io.WantTextInput || interface_.dialog_open()) return;
-  if (event.repeated && !repeats(action_for(event.key, event.modifiers))) return;
-  studio_.key_pressed(event.key, event.modifiers, event.repeated);
-}
-
-void Application::handle_one(const TextTyped& event) {
-  ImGui::GetIO().AddInputCharacter(event.code_point);
+  if (event.key >= 0 && event.key < key::kCount) ImGui::GetIO().KeysDown[event.key] = event.down;
+  key_pressed_since_frame_ |= event.down;
 }
 
 void Application::handle_one(const FileDropped& event) {
@@ -145,6 +167,7 @@ void Application::open(const OpenScene& command) {
 void Application::handle_one(const FocusChanged& event) {
   if (event.focused) return;
   studio_.release_keys();
+  held_back_.clear();
   std::ranges::fill(ImGui::GetIO().KeysDown, false);
   set_modifiers({});
 }
@@ -192,7 +215,7 @@ bool Application::frame(double seconds) {
   if (const auto command = std::exchange(interface_.state().open_now, {})) studio_.apply(*command);
   times.requests = lap();
   if (times.total() > longest_.total()) longest_ = times;
-  return busy || !ask.actions.empty() || !ask.commands.empty();
+  return busy || !held_back_.empty() || !ask.actions.empty() || !ask.commands.empty();
 }
 
 void Application::build_interface(double seconds, Requests* ask) {
@@ -208,6 +231,7 @@ void Application::build_interface(double seconds, Requests* ask) {
     glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
   }
   interface_.build(studio_, seconds, &renderer_, gpu_pictures, ask);
+  type_held_back();
 }
 
 void Application::draw_interface() {

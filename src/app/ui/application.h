@@ -3,6 +3,7 @@
 // thread only.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 
@@ -58,6 +59,13 @@ class Application {
   glm::vec2 in_viewport_px(const glm::vec2& point) const;
   bool is_second_click(const PointerButtonChanged& press);
   void set_modifiers(const Modifiers& modifiers);
+  // Keys and text for the interface, which looks at what is held once a frame: what follows a key that was
+  // pressed and released between two frames waits for the next.
+  using TypedEvent = std::variant<KeyChanged, TextTyped>;
+  void type(const TypedEvent& event);
+  void type_now(const KeyChanged& event);
+  void type_now(const TextTyped& event);
+  void type_held_back();
   void choose_renderer(RendererChoice choice);
   void open(const OpenScene& command);  // asks first where work would be lost
   void remember_recent();
@@ -73,6 +81,8 @@ class Application {
   glm::vec2 pointer_{-1e6f, -1e6f};
   bool dragging_picture_ = false;
   bool pressed_since_frame_[3] = {};
+  bool key_pressed_since_frame_ = false;
+  std::deque<TypedEvent> held_back_;
   bool button_down_[3] = {};
   double clock_s_ = 0;
   std::optional<double> last_click_s_;

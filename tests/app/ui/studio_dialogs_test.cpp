@@ -243,6 +243,31 @@ TEST_CASE("dialogs: Enter and Esc in a number end the number, not the dialog") {
   CHECK_FALSE(app->interface().dialog_open());
 }
 
+TEST_CASE("dialogs: keys that are pressed and released between two frames count, in their order") {
+  const ScratchFolder folder("quick");
+  HeadlessApp app(760, 520);
+  REQUIRE(cut_out_apple(app));
+  app.key('E', {.ctrl = true});
+  app.frames(3);
+  app.type_into("###export", {"##path"}, "/wrong");
+  const auto tap = [&](int code, const Modifiers& modifiers = {}) {
+    app->handle(KeyChanged{code, true, false, modifiers});
+    app->handle(KeyChanged{code, false, false, modifiers});
+  };
+  app->handle(KeyChanged{key::kLeftControl, true, false, {}});
+  tap('A', {.ctrl = true});
+  app->handle(KeyChanged{key::kLeftControl, false, false, {.ctrl = true}});
+  for (const char c : (folder / "right.ply").string()) {
+    tap(c);
+    app->handle(TextTyped{static_cast<unsigned>(c)});
+  }
+  tap(key::kEnter);
+  app.frames(120);
+  tap(key::kEnter);
+  REQUIRE(app.settle());
+  CHECK(std::filesystem::exists(folder / "right.ply"));
+}
+
 TEST_CASE("dialogs: an export is named as its format is, whatever was typed") {
   const ScratchFolder folder("named");
   HeadlessApp app(760, 520);
