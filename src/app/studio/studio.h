@@ -95,6 +95,13 @@ class Studio {
   void scene_opened(bool same);
   void follow_document();
   void run_all(const std::vector<Command>& commands);
+  // What keys and buttons do, see studio_actions.cpp.
+  struct ActionRow;
+  static const ActionRow* row_of(Action action);  // null: a tool, or a flight key
+  void ask(UiRequest request) { ws_.ui_requests.push_back(request); }
+  void close_shape();
+  void turn_over(bool ViewState::*part);  // on or off
+  void turn_over(DisplayMode mode);       // that display, or the whole again
   void scale_brush(float factor);
   void step_camera(int direction);
   void hold(const Modifiers& modifiers);

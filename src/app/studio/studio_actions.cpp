@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "app/studio/studio.h"
 
@@ -17,90 +18,155 @@ glm::vec3 level_direction(const glm::vec3& up, bool right) {
   return right ? -glm::cross(front, up) : front;
 }
 
-// Commands on the document, or what they make possible: they wait for the edits before them.
-bool waits_for_edits(Action action) {
-  switch (action) {
-    case Action::kUndo:
-    case Action::kRedo:
-    case Action::kExport:
-    case Action::kSelectNone:
-    case Action::kInvert:
-    case Action::kGrow:
-    case Action::kShrink:
-    case Action::kLargestPart:
-    case Action::kFloaters:
-    case Action::kDelete:
-    case Action::kIsolate:
-    case Action::kHide:
-    case Action::kSideBySide:
-    case Action::kFrameObject:
-      return true;
-    default:
-      return false;
-  }
+// Why an action is not allowed now; empty where it is.
+using Refusal = std::string (*)(const Studio& studio);
+
+std::string without_scene(const Studio& s) {
+  return s.scene() ? "" : "Open a scene first";
 }
+
+std::string without_undo(const Studio& s) {
+  if (!s.scene()) return without_scene(s);
+  return s.history().can_undo() ? "" : "There is nothing to undo";
+}
+
+std::string without_redo(const Studio& s) {
+  if (!s.scene()) return without_scene(s);
+  return s.history().can_redo() ? "" : "There is nothing to redo";
+}
+
+std::string without_object(const Studio& s) {
+  if (!s.scene()) return without_scene(s);
+  return s.document().active_object() ? "" : "Click an object first";
+}
+
+std::string without_gaussians(const Studio& s) {
+  if (std::string reason = without_object(s); !reason.empty()) return reason;
+  return s.gaussians_of(s.document().active) > 0 ? "" : "The object is empty so far: click on it";
+}
+
+std::string without_selection(const Studio& s) {
+  if (!s.scene()) return without_scene(s);
+  const ObjectItem* active = s.document().active_object();
+  if (!active || s.gaussians_of(active->id) == 0) return "Nothing is selected";
+  return active->locked ? active->name + " is locked" : "";
+}
+
+std::string without_neighbours(const Studio& s) {
+  if (std::string reason = without_selection(s); !reason.empty()) return reason;
+  return s.prepared() ? "" : "Neighbours are still being prepared";
+}
+
+std::string without_cutout(const Studio& s) {
+  if (!s.scene()) return without_scene(s);
+  const ObjectItem* active = s.document().active_object();
+  return active && !active->cut_key.empty() ? "" : "There is no cutout yet: click an object";
+}
+
+std::string without_strokes(const Studio& s) {
+  if (!s.scene()) return without_scene(s);
+  const ObjectItem* active = s.document().active_object();
+  return active && !active->views.empty() ? "" : "The object has no strokes";
+}
+
+std::string without_cameras(const Studio& s) {
+  if (!s.scene()) return without_scene(s);
+  return s.scene()->views().cameras.empty() ? "No camera file was found beside the scene" : "";
+}
+
+std::string without_polygon(const Studio& s) {
+  if (!s.scene()) return without_scene(s);
+  return s.view().tool.confirm && s.tools().at_work() ? "" : "There is no polygon to close";
+}
+
+template <int kSteps>
+std::string without_size(const Studio& s) {
+  return s.scene() ? s.clicks().why_not_step(kSteps) : without_scene(s);
+}
+
+constexpr float kBrushStep = 1.12f;
+constexpr bool kWaits = true;
 
 }  // namespace
 
+struct Studio::ActionRow {
+  Action action;
+  Refusal why_not;  // null: it is always allowed
+  void (*does)(Studio& studio);
+  bool waits = false;  // for the edits before it: it is one, or they decide whether it is allowed
+};
+
+const Studio::ActionRow* Studio::row_of(Action action) {
+  using S = Studio;
+  static const std::vector<ActionRow> rows = {
+      {Action::kOpen, nullptr, [](S& s) { s.ask(UiRequest::kOpenDialog); }},
+      {Action::kAddScene, without_scene, [](S& s) { s.ask(UiRequest::kAddDialog); }},
+      {Action::kSave, without_scene, [](S& s) { s.ask(UiRequest::kSaveDialog); }},
+      {Action::kExport, without_gaussians, [](S& s) { s.ask(UiRequest::kExportDialog); }, kWaits},
+      {Action::kSnapshot, without_scene, [](S& s) { s.ask(UiRequest::kSnapshotDialog); }},
+      {Action::kQuit, nullptr, [](S& s) { s.ask(UiRequest::kQuit); }},
+      {Action::kHelp, nullptr, [](S& s) { s.ask(UiRequest::kHelp); }},
+      {Action::kTheme, nullptr, [](S& s) { s.ask(UiRequest::kTheme); }},
+      {Action::kHistory, without_scene, [](S& s) { s.ask(UiRequest::kHistory); }},
+      {Action::kUndo, without_undo, [](S& s) { s.apply(Undo{}); }, kWaits},
+      {Action::kRedo, without_redo, [](S& s) { s.apply(Redo{}); }, kWaits},
+      {Action::kCancel, without_scene, [](S& s) { s.apply(Cancel{}); }},
+      {Action::kConfirm, without_polygon, [](S& s) { s.close_shape(); }},
+      {Action::kRecompute, without_strokes, [](S& s) { s.apply(Recompute{}); }},
+      {Action::kSelectAll, without_scene, [](S& s) { s.apply(EditSelection{SelectionEdit::kAll}); }},
+      {Action::kSelectNone, without_selection, [](S& s) { s.apply(EditSelection{SelectionEdit::kNone}); },
+       kWaits},
+      {Action::kInvert, without_object, [](S& s) { s.apply(EditSelection{SelectionEdit::kInvert}); }, kWaits},
+      {Action::kGrow, without_neighbours, [](S& s) { s.apply(EditSelection{SelectionEdit::kGrow}); }, kWaits},
+      {Action::kShrink, without_neighbours, [](S& s) { s.apply(EditSelection{SelectionEdit::kShrink}); },
+       kWaits},
+      {Action::kLargestPart, without_neighbours,
+       [](S& s) { s.apply(EditSelection{SelectionEdit::kLargestPart}); }, kWaits},
+      {Action::kFloaters, without_neighbours,
+       [](S& s) { s.apply(ShowFloaters{!s.viewport_.floaters_shown()}); }, kWaits},
+      {Action::kSeeThrough, without_scene, [](S& s) { s.turn_over(&ViewState::see_through); }},
+      {Action::kDelete, without_selection, [](S& s) { s.apply(DeleteSelected{}); }, kWaits},
+      {Action::kNewObject, without_scene, [](S& s) { s.apply(NewObject{}); }},
+      {Action::kBrushSmaller, without_scene, [](S& s) { s.scale_brush(1 / kBrushStep); }},
+      {Action::kBrushLarger, without_scene, [](S& s) { s.scale_brush(kBrushStep); }},
+      {Action::kPartLarger, without_size<1>, [](S& s) { s.apply(StepScale{1}); }},
+      {Action::kPartSmaller, without_size<-1>, [](S& s) { s.apply(StepScale{-1}); }},
+      {Action::kIsolate, without_gaussians, [](S& s) { s.turn_over(DisplayMode::kIsolate); }, kWaits},
+      {Action::kHide, without_gaussians, [](S& s) { s.turn_over(DisplayMode::kHide); }, kWaits},
+      {Action::kSideBySide, without_gaussians, [](S& s) { s.turn_over(DisplayMode::kSideBySide); }, kWaits},
+      {Action::kShowAll, without_scene, [](S& s) { s.turn_over(s.ws_.view.display); }},
+      {Action::kTint, without_scene, [](S& s) { s.turn_over(&ViewState::tint); }},
+      {Action::kOutline, without_scene, [](S& s) { s.turn_over(&ViewState::outline); }},
+      {Action::kHeat, without_cutout, [](S& s) { s.turn_over(&ViewState::heat); }},
+      {Action::kCentres, without_scene, [](S& s) { s.turn_over(&ViewState::centres); }},
+      {Action::kRings, without_scene, [](S& s) { s.turn_over(&ViewState::rings); }},
+      {Action::kGrid, without_scene, [](S& s) { s.turn_over(&ViewState::grid); }},
+      {Action::kBackdrop, without_scene, [](S& s) { s.apply(NextBackdrop{}); }},
+      {Action::kFrameObject, without_gaussians, [](S& s) { s.viewport_.frame_object(); }, kWaits},
+      {Action::kFrameScene, without_scene, [](S& s) { s.camera().frame_scene(); }},
+      {Action::kNextCamera, without_cameras, [](S& s) { s.step_camera(1); }},
+      {Action::kPreviousCamera, without_cameras, [](S& s) { s.step_camera(-1); }},
+      {Action::kViewFront, without_scene,
+       [](S& s) { s.apply(LookAlong{level_direction(s.document().up_world, false)}); }},
+      {Action::kViewRight, without_scene,
+       [](S& s) { s.apply(LookAlong{level_direction(s.document().up_world, true)}); }},
+      {Action::kViewTop, without_scene, [](S& s) { s.apply(LookAlong{-s.document().up_world}); }},
+  };
+  const auto row = std::ranges::find(rows, action, &ActionRow::action);
+  return row == rows.end() ? nullptr : &*row;
+}
+
 std::string Studio::why_not(Action action) const {
-  const ObjectItem* active = document().active_object();
-  const bool selected = active && gaussians_of(active->id) > 0;
-  switch (action) {
-    case Action::kOpen:
-    case Action::kQuit:
-    case Action::kHelp:
-    case Action::kTheme:
-    case Action::kNone:
-      return {};
-    default:
-      break;
-  }
-  if (!ws_.scene) return "Open a scene first";
-  switch (action) {
-    case Action::kUndo:
-      return ws_.history.can_undo() ? "" : "There is nothing to undo";
-    case Action::kRedo:
-      return ws_.history.can_redo() ? "" : "There is nothing to redo";
-    case Action::kExport:
-    case Action::kInvert:
-    case Action::kIsolate:
-    case Action::kHide:
-    case Action::kSideBySide:
-    case Action::kFrameObject:
-      if (!active) return "Click an object first";
-      return selected || action == Action::kInvert ? "" : "The object is empty so far: click on it";
-    case Action::kSelectNone:
-    case Action::kDelete:
-    case Action::kGrow:
-    case Action::kShrink:
-    case Action::kLargestPart:
-    case Action::kFloaters:
-      if (!selected) return "Nothing is selected";
-      if (active->locked) return active->name + " is locked";
-      if (!ws_.prepared && action != Action::kDelete && action != Action::kSelectNone)
-        return "Neighbours are still being prepared";
-      return {};
-    case Action::kHeat:
-      return active && !active->cut_key.empty() ? "" : "There is no cutout yet: click an object";
-    case Action::kRecompute:
-      return active && !active->views.empty() ? "" : "The object has no strokes";
-    case Action::kNextCamera:
-    case Action::kPreviousCamera:
-      return ws_.scene->views().cameras.empty() ? "No camera file was found beside the scene" : "";
-    case Action::kConfirm:
-      return ws_.view.tool.confirm && ws_.tools.at_work() ? "" : "There is no polygon to close";
-    case Action::kPartLarger:
-      return clicks_.why_not_step(1);
-    case Action::kPartSmaller:
-      return clicks_.why_not_step(-1);
-    default:
-      return {};
-  }
+  if (action == Action::kNone) return {};
+  const ActionRow* row = row_of(action);
+  if (!row) return without_scene(*this);  // tools; flight keys act while they are held
+  return row->why_not ? row->why_not(*this) : "";
 }
 
 void Studio::run(Action action) {
   if (action == Action::kNone) return;
-  if (edits_.waiting() && waits_for_edits(action)) return edits_.in_turn([this, action] { run(action); });
+  const ActionRow* row = row_of(action);
+  if (row && row->waits && edits_.waiting()) return edits_.in_turn([this, action] { run(action); });
   if (const std::string reason = why_not(action); !reason.empty()) {
     ws_.say(Message::Kind::kRefused, fmt::format("{}: {}", name_of(action), reason));
     return;
@@ -110,158 +176,23 @@ void Studio::run(Action action) {
     view.tool = *tool;
     return apply(SetView{view});
   }
-  const auto edit_selection = [&](SelectionEdit edit) { apply(EditSelection{edit}); };
-  const auto change_view = [&](const auto& change) {
-    ViewState view = ws_.view;
-    change(view);
-    apply(SetView{view});
-  };
-  const auto display = [&](DisplayMode mode) {
-    change_view([&](ViewState& v) { v.display = v.display == mode ? DisplayMode::kWhole : mode; });
-  };
-  constexpr float kBrushStep = 1.12f;
-  switch (action) {
-    case Action::kOpen:
-      ws_.ui_requests.push_back(UiRequest::kOpenDialog);
-      break;
-    case Action::kAddScene:
-      ws_.ui_requests.push_back(UiRequest::kAddDialog);
-      break;
-    case Action::kSave:
-      ws_.ui_requests.push_back(UiRequest::kSaveDialog);
-      break;
-    case Action::kExport:
-      ws_.ui_requests.push_back(UiRequest::kExportDialog);
-      break;
-    case Action::kSnapshot:
-      ws_.ui_requests.push_back(UiRequest::kSnapshotDialog);
-      break;
-    case Action::kQuit:
-      ws_.ui_requests.push_back(UiRequest::kQuit);
-      break;
-    case Action::kHelp:
-      ws_.ui_requests.push_back(UiRequest::kHelp);
-      break;
-    case Action::kTheme:
-      ws_.ui_requests.push_back(UiRequest::kTheme);
-      break;
-    case Action::kHistory:
-      ws_.ui_requests.push_back(UiRequest::kHistory);
-      break;
-    case Action::kUndo:
-      apply(Undo{});
-      break;
-    case Action::kRedo:
-      apply(Redo{});
-      break;
-    case Action::kCancel:
-      apply(Cancel{});
-      break;
-    case Action::kConfirm:
-      run_all(ws_.tools.confirm(viewport_.tool_context(ws_.tools.pointer_px())));
-      break;
-    case Action::kRecompute:
-      apply(Recompute{});
-      break;
-    case Action::kSelectAll:
-      edit_selection(SelectionEdit::kAll);
-      break;
-    case Action::kSelectNone:
-      edit_selection(SelectionEdit::kNone);
-      break;
-    case Action::kInvert:
-      edit_selection(SelectionEdit::kInvert);
-      break;
-    case Action::kGrow:
-      edit_selection(SelectionEdit::kGrow);
-      break;
-    case Action::kShrink:
-      edit_selection(SelectionEdit::kShrink);
-      break;
-    case Action::kLargestPart:
-      edit_selection(SelectionEdit::kLargestPart);
-      break;
-    case Action::kFloaters:
-      apply(ShowFloaters{!viewport_.floaters_shown()});
-      break;
-    case Action::kSeeThrough:
-      change_view([](ViewState& v) { v.see_through = !v.see_through; });
-      break;
-    case Action::kDelete:
-      apply(DeleteSelected{});
-      break;
-    case Action::kNewObject:
-      apply(NewObject{});
-      break;
-    case Action::kBrushSmaller:
-      scale_brush(1 / kBrushStep);
-      break;
-    case Action::kBrushLarger:
-      scale_brush(kBrushStep);
-      break;
-    case Action::kPartLarger:
-      apply(StepScale{1});
-      break;
-    case Action::kPartSmaller:
-      apply(StepScale{-1});
-      break;
-    case Action::kIsolate:
-      display(DisplayMode::kIsolate);
-      break;
-    case Action::kHide:
-      display(DisplayMode::kHide);
-      break;
-    case Action::kSideBySide:
-      display(DisplayMode::kSideBySide);
-      break;
-    case Action::kShowAll:
-      change_view([](ViewState& v) { v.display = DisplayMode::kWhole; });
-      break;
-    case Action::kTint:
-      change_view([](ViewState& v) { v.tint = !v.tint; });
-      break;
-    case Action::kOutline:
-      change_view([](ViewState& v) { v.outline = !v.outline; });
-      break;
-    case Action::kHeat:
-      change_view([](ViewState& v) { v.heat = !v.heat; });
-      break;
-    case Action::kFrameObject:
-      viewport_.frame_object();
-      break;
-    case Action::kFrameScene:
-      camera().frame_scene();
-      break;
-    case Action::kViewFront:
-      apply(LookAlong{level_direction(document().up_world, false)});
-      break;
-    case Action::kViewRight:
-      apply(LookAlong{level_direction(document().up_world, true)});
-      break;
-    case Action::kViewTop:
-      apply(LookAlong{-document().up_world});
-      break;
-    case Action::kBackdrop:
-      apply(NextBackdrop{});
-      break;
-    case Action::kCentres:
-      change_view([](ViewState& v) { v.centres = !v.centres; });
-      break;
-    case Action::kRings:
-      change_view([](ViewState& v) { v.rings = !v.rings; });
-      break;
-    case Action::kGrid:
-      change_view([](ViewState& v) { v.grid = !v.grid; });
-      break;
-    case Action::kNextCamera:
-      step_camera(1);
-      break;
-    case Action::kPreviousCamera:
-      step_camera(-1);
-      break;
-    default:
-      break;  // flight keys act while they are held
-  }
+  if (row) row->does(*this);
+}
+
+void Studio::close_shape() {
+  run_all(ws_.tools.confirm(viewport_.tool_context(ws_.tools.pointer_px())));
+}
+
+void Studio::turn_over(bool ViewState::*part) {
+  ViewState view = ws_.view;
+  view.*part = !(view.*part);
+  apply(SetView{view});
+}
+
+void Studio::turn_over(DisplayMode mode) {
+  ViewState view = ws_.view;
+  view.display = view.display == mode ? DisplayMode::kWhole : mode;
+  apply(SetView{view});
 }
 
 // The nearest given camera says where in the row we are.

@@ -80,6 +80,7 @@ Check flies(int axis, float sign) {
 
 const std::map<Action, Check> kChecks = {
     {Action::kOpen, dialog()},
+    {Action::kAddScene, dialog()},
     {Action::kSave, dialog()},
     {Action::kExport, dialog()},
     {Action::kSnapshot, dialog()},
