@@ -137,22 +137,22 @@ void Edits::perform(const SelectRegion& c) {
   const bool through = ws_.view.see_through;
   const bool limited = through && ws_.view.depth_limit > 0;
   const float depth_limit = ws_.view.depth_limit * viewport_.camera().scene_size();
-  const std::shared_ptr<const Frame> surface = viewport_.full_picture_of(c.camera);
-  push_later({std::string(title_of(c.operation)) + (through ? " (see-through)" : " (visible)"),
-              {},
-              [c, limits, through, limited, depth_limit, surface, shown = viewport_.shown(0)](
-                  Document* document, const EditContext& context, const Job& job) {
-                const Flags visible = within_far_plane(context.cloud, c.camera, shown, limits.far_plane);
-                SeeThroughOptions options;
-                std::shared_ptr<const Frame> frame = surface;
-                if (limited && !frame) frame = raster_frame(context.cloud, c.camera, shown, limits, job);
-                if (limited && frame) options = {&frame->depth, depth_limit};
-                const Selection found =
-                    through ? select_through(context.cloud, c.camera, c.region, all_of(visible), options)
-                            : select_visible(context.cloud, c.camera, c.region, all_of(visible), job);
-                return job.cancelled() ? std::string()
-                                       : edit_selection(document, found, c.operation, context);
-              }});
+  const std::shared_ptr<const Frame> surface = viewport_.full_picture_of(c.camera, viewport_.pressed_pane());
+  push_later(
+      {std::string(title_of(c.operation)) + (through ? " (see-through)" : " (visible)"),
+       {},
+       [c, limits, through, limited, depth_limit, surface, shown = viewport_.shown(viewport_.pressed_pane())](
+           Document* document, const EditContext& context, const Job& job) {
+         const Flags visible = within_far_plane(context.cloud, c.camera, shown, limits.far_plane);
+         SeeThroughOptions options;
+         std::shared_ptr<const Frame> frame = surface;
+         if (limited && !frame) frame = raster_frame(context.cloud, c.camera, shown, limits, job);
+         if (limited && frame) options = {&frame->depth, depth_limit};
+         const Selection found =
+             through ? select_through(context.cloud, c.camera, c.region, all_of(visible), options)
+                     : select_visible(context.cloud, c.camera, c.region, all_of(visible), job);
+         return job.cancelled() ? std::string() : edit_selection(document, found, c.operation, context);
+       }});
 }
 
 // From the state before its first selection, seen as it was then; a cut in between has reached that, too.
@@ -161,7 +161,7 @@ void Edits::perform(const SelectVolume& c) {
   const bool again = c.adjusts && ws_.history.merges(volume_key_);
   if (!again) {
     volume_key_ = fmt::format("volume {}", ++volumes_);
-    volume_seen_ = viewport_.shown(0);
+    volume_seen_ = viewport_.shown(viewport_.pressed_pane());
   }
   push_later({std::string(title_of(c.operation)) + (c.volume.round ? " (sphere)" : " (box)"), volume_key_,
               [c, seen = volume_seen_](Document* document, const EditContext& context, const Job&) {
@@ -198,7 +198,7 @@ void Edits::perform(const SelectFlood& c) {
   if (!ws_.prepared) throw Error("flood", "neighbours are still being prepared", "Try again in a moment");
   push_later({std::string(title_of(c.operation)) + " (flood)",
               {},
-              [c, shown = viewport_.shown(0), tolerance = ws_.view.colour_tolerance](
+              [c, shown = viewport_.shown(viewport_.pressed_pane()), tolerance = ws_.view.colour_tolerance](
                   Document* document, const EditContext& context, const Job&) {
                 const auto start = static_cast<std::size_t>(c.gaussian);
                 return edit_selection(

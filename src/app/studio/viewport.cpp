@@ -219,9 +219,11 @@ void Viewport::take_picture() {
   ++picture_serial_;
 }
 
-std::shared_ptr<const Frame> Viewport::full_picture_of(const Camera& camera) const {
+std::shared_ptr<const Frame> Viewport::full_picture_of(const Camera& camera, int pane) const {
   if (!picture_ || !picture_->full || picture_->limits != draw_limits()) return nullptr;
-  return same_camera(picture_->frames.front()->camera, camera) ? picture_->frames.front() : nullptr;
+  if (static_cast<std::size_t>(pane) >= picture_->frames.size()) return nullptr;
+  const std::shared_ptr<const Frame>& frame = picture_->frames[static_cast<std::size_t>(pane)];
+  return same_camera(frame->camera, camera) ? frame : nullptr;
 }
 
 std::optional<PickedPoint> Viewport::pick(const glm::vec2& pixel) const {
@@ -229,8 +231,8 @@ std::optional<PickedPoint> Viewport::pick(const glm::vec2& pixel) const {
   const Camera camera = pane_camera();
   const auto x = static_cast<int>(std::floor(pixel.x)), y = static_cast<int>(std::floor(pixel.y));
   if (x < 0 || y < 0 || x >= camera.width_px || y >= camera.height_px) return {};
-  const std::shared_ptr<const Frame> frame = full_picture_of(camera);
-  if (!frame) return hit_in(camera, pixel, shown(0));
+  const std::shared_ptr<const Frame> frame = full_picture_of(camera, pressed_pane());
+  if (!frame) return hit_in(camera, pixel, shown(pressed_pane()));
   if (frame->first_hit.at(x, y) < 0) return {};
   return PickedPoint{camera.world_from_pixel(pixel, frame->depth.at(x, y)), frame->first_hit.at(x, y)};
 }
@@ -256,7 +258,8 @@ std::optional<PickedPoint> Viewport::hit_in(const Camera& camera, const glm::vec
 
 std::optional<float> Viewport::depth_on_screen(const glm::vec2& pixel) const {
   if (!picture_ || picture_->frames.empty() || picture_->scene != ws_.scene->serial) return {};
-  const Frame& frame = *picture_->frames.front();
+  const auto pane = std::min(static_cast<std::size_t>(pressed_pane()), picture_->frames.size() - 1);
+  const Frame& frame = *picture_->frames[pane];
   const Image<float>& depth = frame.depth;
   const Camera camera = pane_camera();
   const glm::vec2 at = pixel / glm::vec2(camera.width_px, camera.height_px);

@@ -38,6 +38,7 @@ class Viewport {
   // Where a drag goes on; 1: the right one.
   int drag_pane() const { return panes() == 2 && ws_.tools.dragging() ? pressed_pane_ : 0; }
   void press_in(int pane) { pressed_pane_ = pane; }
+  int pressed_pane() const { return panes() == 2 ? pressed_pane_ : 0; }  // the last one: where the hand works
   glm::vec2 in_pane(const glm::vec2& pixel) const;
   float pixels_per_point() const { return pixels_per_point_; }
   void frame_object();
@@ -60,13 +61,14 @@ class Viewport {
   // Pictures.
   const FrameResult* picture() const { return picture_ ? &*picture_ : nullptr; }
   std::uint64_t picture_serial() const { return picture_serial_; }
-  // Of the first pane; null: the screen shows another view, or not in full.
-  std::shared_ptr<const Frame> full_picture_of(const Camera& camera) const;
+  // Of the pane; null: the screen shows another view, or not in full.
+  std::shared_ptr<const Frame> full_picture_of(const Camera& camera, int pane = 0) const;
   float moving_scale() const { return moving_scale_; }
   double moving_ms() const { return moving_ms_; }
   double still_ms() const { return still_ms_; }
 
-  // What lies under a pixel. The picture knows, where it shows this view, else that one pixel is drawn.
+  // What lies under a pixel of the pressed pane. The picture knows, where it shows this view, else that one
+  // pixel is drawn.
   std::optional<PickedPoint> pick(const glm::vec2& pixel) const;
   std::optional<PickedPoint> hit_in(const Camera& camera, const glm::vec2& pixel, const Flags& visible) const;
   // Camera z, from the last picture of any size and camera: while the view moves it lags behind.

@@ -428,3 +428,22 @@ TEST_CASE("hands: a box around a pot leaves the plant that grows out of it, but 
   MESSAGE("outside ", outside, " of ", count_flags(labels));
   CHECK(static_cast<double>(outside) < 0.25 * static_cast<double>(count_flags(labels)));
 }
+
+TEST_CASE("hands: side by side, what is drawn in the right pane takes what that pane shows") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  const std::size_t apple = hands.selected();
+  ViewState view = studio.view();
+  view.display = DisplayMode::kSideBySide;
+  view.tool = Tool::kRectangle;
+  studio.apply(SetView{view});
+  REQUIRE(hands.app.settle());
+  const UiRect area = hands.app->interface().viewport();
+  const glm::vec2 size = area.size();
+  const auto drag = [&](float from, float to) {
+    hands.app.drag({area.min + size * glm::vec2(from, 0.1f), area.min + size * glm::vec2(to, 0.8f)});
+    return hands.selected();
+  };
+  CHECK(drag(0.55f, 0.95f) == apple);  // the object stands there alone
+  CHECK(drag(0.05f, 0.45f) > 2 * apple);
+}
