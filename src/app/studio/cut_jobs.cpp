@@ -170,6 +170,7 @@ void CutJobs::start(const ObjectItem& object) {
   run.key = ws_.history.keys(object).cut;
   if (before) {  // shown until there is something newer
     run.views = before->views;
+    run.views_of_before = !run.views.empty();
     run.meanings = before->meanings;
   }
   running_ = Known{object.id, std::move(run)};
@@ -239,9 +240,9 @@ void CutJobs::show_snapshot(const Order& order, CutRun so_far, double first_mask
   if (first_mask_ms > 0) {
     now.first_mask_ms = first_mask_ms;
     now.meanings = std::move(so_far.meanings);
-    now.views.clear();  // those of the cut before
   }
   for (ViewCard& card : so_far.views) {
+    if (now.views_of_before) break;  // a strip that empties and fills again would be all that one sees
     card.serial = next_card_serial_++;
     now.views.push_back(std::move(card));
   }
@@ -317,7 +318,7 @@ void CutJobs::recall() {
 void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   CutRun* run = order.scene == ws_.scene ? known_run(order.object, order.key) : nullptr;
   if (!run) return;
-  run->views = std::move(cards);
+  run->views = in_places_of(run->views, std::move(cards));
   for (ViewCard& card : run->views) card.serial = next_card_serial_++;
 }
 

@@ -77,6 +77,25 @@ std::vector<ViewCard> picture_cards(Session& session, const CutRequest& request,
   return cards;
 }
 
+std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vector<ViewCard> cards) {
+  constexpr float kSameDirection = 0.94f;  // cosine, 20 degrees: views around an object are farther apart
+  std::vector<ViewCard> out, left;
+  for (ViewCard& card : cards)
+    (out.empty() ? out : left).push_back(std::move(card));  // the user's own is first
+  for (std::size_t i = 1; i < before.size(); ++i) {
+    const Camera& old = before[i].camera;
+    const auto near = std::ranges::min_element(left, {}, [&](const ViewCard& card) {
+      return glm::length(card.camera.centre_world() - old.centre_world());
+    });
+    if (near == left.end() || glm::dot(near->camera.forward_world(), old.forward_world()) < kSameDirection)
+      continue;
+    out.push_back(std::move(*near));
+    left.erase(near);
+  }
+  std::ranges::move(left, std::back_inserter(out));
+  return out;
+}
+
 std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result) {
   if (result.meanings.empty()) return nullptr;
   ClickMeanings out{.key = key_of_first_stroke(request),

@@ -17,6 +17,10 @@ ViewCard mask_card(const ViewReport& view, const Rgb8& colour);
 std::vector<ViewCard> picture_cards(Session& session, const CutRequest& request, const CutSettings& settings,
                                     const CutResult& result, const Rgb8& colour, const Job& job);
 
+// A card that looks nearly as one did before takes its place in the strip, the others come behind; the first,
+// the user's own view, stays first.
+std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vector<ViewCard> cards);
+
 // Null as long as the result has none.
 std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result);
 

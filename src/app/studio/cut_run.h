@@ -42,7 +42,8 @@ struct CutRun {
   std::shared_ptr<const CutResult> result;  // null until it is done
   std::vector<StageTime> stages;            // so far
   std::vector<ViewCard> views;
-  Flags preview;  // labels so far
+  bool views_of_before = false;  // they are those of the object's cut before, until its own are drawn
+  Flags preview;                 // labels so far
   double first_mask_ms = 0, total_ms = 0;
   std::shared_ptr<const ClickMeanings> meanings;         // of the first click, as far as it is known
   std::vector<std::string> doubts;                       // a sentence each

@@ -19,7 +19,7 @@ namespace splatcut {
 namespace {
 
 // Changes of the view alone are saved later: the view changes all the time.
-constexpr double kAutosaveAfterSeconds = 2, kAutosaveViewAfterSeconds = 10;
+constexpr double kAutosaveAfterSeconds = 2, kAutosaveViewAfterSeconds = 10, kAutosaveAgainSeconds = 30;
 constexpr std::size_t kCoarseFrom = 300000;  // Gaussians; fewer are drawn fast enough as they are
 
 std::string described(const std::filesystem::path& work) {
@@ -267,7 +267,11 @@ void SessionFiles::update(double seconds) {
   waited_s_ = 0;
   autosaved_serial_ = serial;
   autosaved_pose_ = viewport_.camera().kept_pose();
-  ws_.tasks.submit(TaskKind::kAutosave,
+  const auto failed = [this] {  // not forgotten: tried again without another change
+    autosaved_serial_ = 0;
+    waited_s_ = -kAutosaveAgainSeconds;
+  };
+  ws_.tasks.submit({TaskKind::kAutosave, failed},
                    [this, path = autosaves_.own(), restored = restored_, document = ws_.document(),
                     view = autosaved_pose_, scene = ws_.scene](const Job&) {
                      write_work_file(path, *scene, document, view);

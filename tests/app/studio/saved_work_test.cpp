@@ -225,6 +225,33 @@ TEST_CASE("work that was saved by itself stays offered where its scene cannot be
   CHECK_FALSE(app.studio().files().autosave_found());
 }
 
+TEST_CASE("work that could not be saved by itself is saved once it can be, without another change") {
+  const ScratchFolder folder("full");
+  ApplicationOptions options;
+  options.studio.state_folder = folder.path();
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  opened(app);
+  const std::filesystem::path own = app.studio().files().own_autosave();
+  std::filesystem::create_directory(own);  // where the file should go
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(app.settle());
+  const auto refusals = [&] {
+    return std::ranges::count(app.studio().messages(), Message::Kind::kError, &Message::kind);
+  };
+  const auto wait = [&](int seconds) {
+    for (int s = 0; s < seconds; ++s) {
+      app->frame(1);
+      REQUIRE(app.settle());
+    }
+  };
+  wait(5);
+  CHECK(refusals() == 1);  // said, but not every two seconds
+  std::filesystem::remove(own);
+  wait(40);
+  CHECK(std::filesystem::is_regular_file(own));
+  CHECK(refusals() == 1);
+}
+
 TEST_CASE("opening asks before unsaved work goes, dropped files and recent ones alike") {
   const ScratchFolder folder("open_asks");
   HeadlessApp app(kSmallWidth, kSmallHeight);
