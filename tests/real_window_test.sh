@@ -45,6 +45,7 @@ shot 1_opened
 wait_for 10 "settings, kept while it runs" grep -q sample "$work/config/splatcut/settings.json"
 click 668 524                                   # the apple
 wait_for 240 "cutout of the apple" grep -q '"cut_is_current": *true' "$autosave"
+xdotool mousemove 1110 600 sleep 0.7  # beside the picture: hovering outlines what a click would change
 shot 2_clicked
 before=$(stat -c %Y.%s "$autosave")
 xdotool key Escape key 3 mousemove 660 505 mousedown 1 mousemove 668 515 mousemove 676 530 mouseup 1

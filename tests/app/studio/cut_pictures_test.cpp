@@ -28,14 +28,14 @@ std::vector<ViewCard> cards(std::initializer_list<float> steps) {
 }
 
 bool same_order(const std::vector<ViewCard>& a, const std::vector<ViewCard>& b) {
-  return std::ranges::equal(a, b, [](const ViewCard& left, const ViewCard& right) {
-    return same_view(left.camera, right.camera);
-  });
+  return std::ranges::equal(
+      a, b, [](const ViewCard& left, const ViewCard& right) { return same_view(left.camera, right.camera); });
 }
 
 }  // namespace
 
-TEST_CASE("thumbnails: a view that was clicked stays where it was, others nearly as before, new ones come last") {
+TEST_CASE(
+    "thumbnails: a view that was clicked stays where it was, others nearly as before, new ones come last") {
   const auto before = cards({0, 1, 11, 2, 10});
   // The view at 11 was corrected: it counts now, so that the cut lists it second; the others moved a little.
   const auto after = in_places_of(before, cards({0, 11, 1.1f, 1.9f, 10.1f, 5}));
