@@ -230,7 +230,7 @@ void Edits::perform(const SelectRange& c) {
        }});
 }
 
-void Edits::perform(const Undo&) {
+void Edits::undo() {
   History& history = ws_.history;
   if (!history.can_undo()) throw Error("undo", "there is nothing to undo");
   const std::string title = history.entries()[history.cursor()].title;
@@ -238,7 +238,7 @@ void Edits::perform(const Undo&) {
   ws_.say(Message::Kind::kInfo, "Undone: " + title);
 }
 
-void Edits::perform(const Redo&) {
+void Edits::redo() {
   History& history = ws_.history;
   if (!history.can_redo()) throw Error("redo", "there is nothing to redo");
   history.redo();

@@ -47,8 +47,8 @@ class Edits {
   void perform(const PickColour& c);
   void perform(const SelectFlood& c);
   void perform(const SelectScene& c);
-  void perform(const Undo&);
-  void perform(const Redo&);
+  void undo();
+  void redo();
   void perform(const JumpHistory& c);
   // Any command that edit() in document_edits.h has; others do nothing.
   template <class C>

@@ -93,6 +93,12 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
   if (!request.path.string().ends_with(request.format.extension))
     throw Error(request.path.string(), fmt::format("does not end with {}", request.format.extension),
                 "It could not be opened again");
+  if (request.what == ExportWhat::kScene) {
+    std::vector<std::uint8_t> keep(n, 1);
+    for (std::size_t g = 0; document.deleted && g < n; ++g) keep[g] = !(*document.deleted)[g];
+    save(request.path, scene, keep, request, place(keep), &report);
+    return report;
+  }
   const ObjectItem* item = document.find(object);
   if (!item) throw Error("export", "no object is chosen", "Click an object first");
   std::vector<std::uint8_t> keep = labels_of(document, *item, n);

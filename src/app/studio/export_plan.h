@@ -13,7 +13,8 @@
 
 namespace splatcut {
 
-enum class ExportWhat { kObject, kRest, kAllObjects };  // kAllObjects: one file each, named after the object
+// kAllObjects: one file each, named after the object. kScene: all that was not deleted.
+enum class ExportWhat { kObject, kRest, kScene, kAllObjects };
 
 struct ExportRequest {
   ExportWhat what = ExportWhat::kObject;

@@ -46,7 +46,7 @@ std::vector<std::shared_ptr<const ObjectKeys>> keys_of(const Document& document,
 void History::reset(Document document, std::string title) {
   entries_.clear();
   auto keys = keys_of(document, {});
-  entries_.push_back({std::move(title), {}, std::move(document), std::move(keys)});
+  entries_.push_back({std::move(title), {}, std::move(document), std::move(keys), 0});
   cursor_ = 0;
   ++serial_;
   merging_ = false;
@@ -65,7 +65,7 @@ bool History::merges(std::string_view merge_key) const {
 
 bool History::push(std::string title, Document after, std::string merge_key) {
   const Entry& before = entries_[cursor_];
-  Entry entry{std::move(title), std::move(merge_key), std::move(after), {}};
+  Entry entry{std::move(title), std::move(merge_key), std::move(after), {}, 0};
   entry.keys = keys_of(entry.document, before);
   // The same keys are the same objects, see keys_of().
   if (entry.keys == before.keys && same_but_strokes(entry.document, before.document)) return false;
@@ -81,6 +81,22 @@ bool History::push(std::string title, Document after, std::string merge_key) {
   constexpr std::size_t kCheckEvery = 64;  // counting walks the whole history
   if (entries_.size() % kCheckEvery == 0) forget_oldest();
   return true;
+}
+
+void History::push_other_files(std::string title, std::uint64_t number) {
+  forget_redo();
+  Entry entry = entries_[cursor_];
+  entry.title = std::move(title);
+  entry.merge_key.clear();
+  entry.other_files = number;
+  entries_.push_back(std::move(entry));
+  ++cursor_;
+  merging_ = false;
+  ++serial_;
+}
+
+void History::forget_redo() {
+  entries_.resize(cursor_ + 1);
 }
 
 void History::forget_oldest() {

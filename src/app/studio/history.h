@@ -27,6 +27,8 @@ class History {
     std::string merge_key;  // consecutive steps with the same non-empty key become one (a slider as it moves)
     Document document;      // after it was done
     std::vector<std::shared_ptr<const ObjectKeys>> keys;  // of its objects, made once
+    std::uint64_t other_files =
+        0;  // not 0: a step to other files of the scene, which whoever made it takes back
   };
 
   History() { reset({}, "Open"); }
@@ -44,6 +46,9 @@ class History {
   // False where the document is as before: nothing to undo.
   bool push(std::string title, Document after, std::string merge_key = {});
   bool merges(std::string_view merge_key) const;  // a push with it would replace the step at the cursor
+  // A step that changes nothing of the document. What could be redone is forgotten.
+  void push_other_files(std::string title, std::uint64_t number);
+  void forget_redo();
   void undo();
   void redo();
   void jump(std::size_t entry);

@@ -38,8 +38,10 @@ std::string described(const std::filesystem::path& work) {
 
 std::string described(const OpenedScene& opened) {
   const Scene& scene = *opened.scene;
-  std::string text = fmt::format("{}: {} Gaussians, SH degree {}", scene.path.filename().string(),
-                                 grouped(scene.cloud.size()), scene.cloud.sh_degree);
+  const std::size_t more = opened.files.size() - 1;
+  std::string text = fmt::format("{}{}: {} Gaussians, SH degree {}", scene.path.filename().string(),
+                                 more ? fmt::format(" and {} more", more) : "", grouped(scene.cloud.size()),
+                                 scene.cloud.sh_degree);
   if (scene.dropped) text += fmt::format(", {} unusable rows left out", grouped(scene.dropped));
   return text + (opened.views().cameras.empty()
                      ? std::string(". Does it lean or stand on its head? Set what is up under View")
@@ -89,7 +91,9 @@ void SessionFiles::stop_for_loading() {
 
 void SessionFiles::perform(const OpenScene& c) {
   const std::uint64_t serial = next_scene_serial_++;
-  ws_.say(Message::Kind::kInfo, "Opening " + c.path.filename().string());
+  const bool restores = autosave_found() && c.path == offered();  // after that it is no longer offered
+  ws_.say(Message::Kind::kInfo, restores ? "Restoring the work of last time: " + restorable_says_
+                                         : "Opening " + c.path.filename().string());
   stop_for_loading();
   changing_to_.clear();
   std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes}};
@@ -141,7 +145,7 @@ void SessionFiles::perform(const AddScene& c) {
   std::vector<SceneSource> files = wanted_files();
   files.push_back({.id = next_file_id_++, .path = c.path, .spz_axes = c.spz_axes});
   const std::string name = c.path.filename().string();
-  change_files(std::move(files), "Adding " + name, name + " added. Placed under Files");
+  change_files(std::move(files), "Adding " + name, name + " added; place it under Files");
 }
 
 void SessionFiles::perform(const PlaceScene& c) {
@@ -199,15 +203,67 @@ void SessionFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Hist
                                  const std::string& done) {
   preparing_stopped_ = false;
   if (same_files(changing_to_, scene->files)) changing_to_.clear();
+  constexpr std::size_t kMostKept = 3;  // each holds a scene
+  ws_.history.forget_redo();
+  before_files_.push_back(kept_now(next_step_));
+  if (before_files_.size() > kMostKept) before_files_.erase(before_files_.begin());
+  undone_files_.clear();
   take(scene);
   ws_.history = std::move(history);
+  ws_.history.push_other_files(done.substr(0, done.find(';')), next_step_++);
   calls_.opened(true);
   ws_.say(Message::Kind::kDone, done);
   for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
   start_preparing();
 }
 
-void SessionFiles::take(const std::shared_ptr<OpenedScene>& scene) {
+SessionFiles::Kept SessionFiles::kept_now(std::uint64_t step) const {
+  return {step, ws_.scene, ws_.prepared, ws_.session, ws_.coarse, ws_.history};
+}
+
+void SessionFiles::go_back_to(Kept kept) {
+  stop_for_loading();
+  cancel_loading();
+  preparing_stopped_ = false;
+  take(kept.scene);
+  ws_.prepared = std::move(kept.prepared);
+  ws_.session = std::move(kept.session);
+  ws_.coarse = std::move(kept.coarse);
+  ws_.history = std::move(kept.history);
+  calls_.opened(true);
+  if (!ws_.session) start_preparing();
+}
+
+bool SessionFiles::undo_files() {
+  const History::Entry& entry = ws_.history.entries()[ws_.history.cursor()];
+  const auto before = std::ranges::find(before_files_, entry.other_files, &Kept::step);
+  if (entry.other_files == 0 || before == before_files_.end()) return false;
+  const std::string title = entry.title;
+  undone_files_.push_back(kept_now(entry.other_files));
+  Kept to = std::move(*before);
+  before_files_.erase(before, before_files_.end());
+  go_back_to(std::move(to));
+  redo_serial_ = ws_.history.serial();
+  ws_.say(Message::Kind::kInfo, "Undone: " + title);
+  return true;
+}
+
+bool SessionFiles::can_redo_files() const {
+  return !undone_files_.empty() && redo_serial_ == ws_.history.serial();
+}
+
+bool SessionFiles::redo_files() {
+  if (!can_redo_files()) return false;
+  Kept to = std::move(undone_files_.back());
+  undone_files_.pop_back();
+  before_files_.push_back(kept_now(to.step));
+  go_back_to(std::move(to));
+  redo_serial_ = ws_.history.serial();
+  ws_.say(Message::Kind::kInfo, "Redone: " + ws_.history.entries()[ws_.history.cursor()].title);
+  return true;
+}
+
+void SessionFiles::take(const std::shared_ptr<const OpenedScene>& scene) {
   ws_.scene = scene;
   ws_.prepared = nullptr;
   ws_.session = nullptr;
@@ -218,6 +274,8 @@ void SessionFiles::take(const std::shared_ptr<OpenedScene>& scene) {
 void SessionFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
                           const std::filesystem::path& work_path) {
   preparing_stopped_ = false;
+  before_files_.clear();
+  undone_files_.clear();
   take(scene);
   Document start;
   start.up_world = scene->views().up_world;
@@ -315,8 +373,7 @@ void SessionFiles::perform(const SaveWork& c) {
 
 void SessionFiles::perform(const RestoreAutosave&) {
   if (!autosave_found()) throw Error("restore", "there is no autosaved work");
-  ws_.say(Message::Kind::kInfo, "Restoring the work of last time: " + restorable_says_);
-  perform(OpenScene{offered()});  // after that it is no longer offered
+  perform(OpenScene{offered()});
 }
 
 void SessionFiles::perform(const DropAutosave&) {
@@ -328,8 +385,10 @@ void SessionFiles::perform(const DropAutosave&) {
 
 void SessionFiles::perform(const Export& c) {
   ws_.require_scene();
-  if (is_work_file(c.request.path))
+  if (is_work_file(c.request.path)) {
+    ws_.ui_requests.push_back(UiRequest::kExportFailed);
     throw Error(c.request.path.string(), "is the name of saved work, not of a scene", "Choose another");
+  }
   const TaskThread::Order export_order(TaskKind::kExport,
                                        [this] { ws_.ui_requests.push_back(UiRequest::kExportFailed); });
   ws_.tasks.submit(export_order, [this, request = c.request, document = ws_.document(),

@@ -34,11 +34,17 @@ class SessionFiles {
   bool unsaved() const;
   // Unsaved work that a crash left: offered until it is restored or dropped.
   bool autosave_found() const { return !offered().empty(); }
+  std::filesystem::path offered() const;  // the work file of that; empty: none
   const std::filesystem::path& own_autosave() const { return autosaves_.own(); }
   // "garden/point_cloud.ply, 2026-03-01 18:40": of which scene, and when it was written.
   const std::string& autosave_says() const { return restorable_says_; }
 
   void cancel_loading();  // the scene stays as it is, its files where they are
+  // The last change of the files is taken back, or made again, where that is the next step. False where it is
+  // not, or no longer kept.
+  bool undo_files();
+  bool redo_files();
+  bool can_redo_files() const;
 
   void perform(const OpenScene& c);
   void perform(const AddScene& c);
@@ -52,14 +58,13 @@ class SessionFiles {
   void perform(const SaveTurntable& c);
 
  private:
-  std::filesystem::path offered() const;
   void describe_offered();
   void forget_restored(const std::filesystem::path& file);
   void opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
               const std::filesystem::path& work_path);
   void start_preparing();
   void stop_for_loading();
-  void take(const std::shared_ptr<OpenedScene>& scene);
+  void take(const std::shared_ptr<const OpenedScene>& scene);
   // Files of the scene as they are to be, those under way included.
   std::vector<SceneSource> wanted_files() const;
   SceneSource& added_file(std::vector<SceneSource>* files, std::uint32_t id) const;
@@ -84,6 +89,22 @@ class SessionFiles {
   std::uint64_t next_scene_serial_ = 1;
   std::uint32_t next_file_id_ = 1;
   std::vector<SceneSource> changing_to_;  // files of the scene that is being made; empty: none is
+
+  // A scene with all that is made of it and of it alone: to go back to as a whole.
+  struct Kept {
+    std::uint64_t step = 0;  // before or after which it was; History::Entry::other_files
+    std::shared_ptr<const OpenedScene> scene;
+    std::shared_ptr<const PreparedScene> prepared;
+    std::shared_ptr<Session> session;
+    std::shared_ptr<const CoarseCloud> coarse;
+    History history;
+  };
+  Kept kept_now(std::uint64_t step) const;
+  void go_back_to(Kept kept);
+  std::vector<Kept> before_files_;  // the newest last
+  std::vector<Kept> undone_files_;
+  std::uint64_t redo_serial_ = 0;  // of the document after which the last of these may be made again
+  std::uint64_t next_step_ = 1;
 };
 
 }  // namespace splatcut

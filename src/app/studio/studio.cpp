@@ -185,6 +185,14 @@ void Studio::perform(const Cancel&) {
   if (ws_.view.tool != Tool::kNavigate) run(Action::kToolNavigate);
 }
 
+void Studio::perform(const Undo&) {
+  if (!files_.undo_files()) edits_.undo();
+}
+
+void Studio::perform(const Redo&) {
+  if (!files_.redo_files()) edits_.redo();
+}
+
 void Studio::perform(const Recompute&) {
   ws_.require_scene();
   cuts_.recompute();

@@ -82,6 +82,8 @@ class Studio {
  private:
   void perform(const ShowFloaters& c);
   void perform(const Cancel&);
+  void perform(const Undo&);
+  void perform(const Redo&);
   void perform(const Recompute&);
   void perform(const SetUp& c);
   void perform(const SetView& c);

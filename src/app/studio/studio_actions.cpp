@@ -32,7 +32,7 @@ std::string without_undo(const Studio& s) {
 
 std::string without_redo(const Studio& s) {
   if (!s.scene()) return without_scene(s);
-  return s.history().can_redo() ? "" : "There is nothing to redo";
+  return s.history().can_redo() || s.files().can_redo_files() ? "" : "There is nothing to redo";
 }
 
 std::string without_object(const Studio& s) {
@@ -102,7 +102,7 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kOpen, nullptr, [](S& s) { s.ask(UiRequest::kOpenDialog); }},
       {Action::kAddScene, without_scene, [](S& s) { s.ask(UiRequest::kAddDialog); }},
       {Action::kSave, without_scene, [](S& s) { s.ask(UiRequest::kSaveDialog); }},
-      {Action::kExport, without_gaussians, [](S& s) { s.ask(UiRequest::kExportDialog); }, kWaits},
+      {Action::kExport, without_scene, [](S& s) { s.ask(UiRequest::kExportDialog); }, kWaits},
       {Action::kSnapshot, without_scene, [](S& s) { s.ask(UiRequest::kSnapshotDialog); }},
       {Action::kQuit, nullptr, [](S& s) { s.ask(UiRequest::kQuit); }},
       {Action::kHelp, nullptr, [](S& s) { s.ask(UiRequest::kHelp); }},

@@ -16,7 +16,8 @@ namespace splatcut {
 
 namespace {
 
-constexpr const char* kWhatNames[] = {"The object", "Everything else", "All objects, a file each"};
+constexpr const char* kWhatNames[] = {"The object", "Everything else", "The whole scene",
+                                      "All objects, a file each"};
 
 void centre_next_window(const ImVec2& size) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
@@ -30,9 +31,9 @@ std::size_t gaussians_to_export(const Studio& studio, ExportWhat what) {
   const Document& document = studio.document();
   const std::size_t object = studio.gaussians_of(document.active);
   if (what == ExportWhat::kObject) return object;
-  if (what == ExportWhat::kRest) {
+  if (what == ExportWhat::kRest || what == ExportWhat::kScene) {
     const std::size_t deleted = document.deleted ? count_flags(*document.deleted) : 0;
-    return studio.scene()->cloud->size() - object - deleted;
+    return studio.scene()->cloud->size() - (what == ExportWhat::kRest ? object : 0) - deleted;
   }
   std::size_t sum = 0;
   for (const ObjectItem& item : document.objects) sum += studio.gaussians_of(item.id);
@@ -49,6 +50,7 @@ void propose_path(UiContext& ui) {
   stem = stem.substr(0, stem.find('.'));
   const ObjectItem* active = s.document().active_object();
   std::string name = choice.what == ExportWhat::kRest         ? "rest"
+                     : choice.what == ExportWhat::kScene      ? "scene"
                      : choice.what == ExportWhat::kAllObjects ? "objects"
                      : active                                 ? active->name
                                                               : "object";
@@ -87,10 +89,13 @@ void export_choices(UiContext& ui) {
   ExportChoice& choice = ui.state.exporting;
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("What");
-  for (int i = 0; i < 3; ++i) {
+  const ObjectItem* active = ui.studio.document().active_object();
+  const std::string no_object = active ? "" : "There is no object yet";
+  for (int i = 0; i < 4; ++i) {
     ImGui::SameLine(i == 0 ? 90.0f : 0.0f, i == 0 ? -1.0f : 2.0f);
     const auto what = static_cast<ExportWhat>(i);
-    if (button(ui, kWhatNames[i], kWhatNames[i], {}, choice.what == what)) {
+    if (button(ui, kWhatNames[i], kWhatNames[i], what == ExportWhat::kScene ? "" : no_object,
+               choice.what == what)) {
       choice.what = what;
       propose_path(ui);
     }
@@ -225,10 +230,11 @@ void export_dialog(UiContext& ui) {
   const char* id = "Export###export";
   if (ui.state.export_open && !ImGui::IsPopupOpen(id)) {
     if (!ui.studio.scene()) return;
+    if (!ui.studio.document().active_object()) ui.state.exporting.what = ExportWhat::kScene;
     if (ui.state.exporting.path.empty()) propose_path(ui);
     ImGui::OpenPopup(id);
   }
-  centre_next_window({620, 452});
+  centre_next_window({640, 452});
   if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
   const bool typing = typing_beside("##path");
   export_choices(ui);

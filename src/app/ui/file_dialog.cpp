@@ -118,6 +118,11 @@ void entry_list(FileBrowser& files, float height, bool moved, bool double_clicke
   if (enter) files.enter(*enter);
 }
 
+std::filesystem::path with_home(const std::string& typed) {
+  const char* home = std::getenv("HOME");
+  return home && (typed == "~" || typed.starts_with("~/")) ? home + typed.substr(1) : typed;
+}
+
 // Arrows, Page Up and Down, Home, End and the first letters of a name. True where they moved.
 bool keys_in_list(FileBrowser& files) {
   constexpr int kPage = 12;
@@ -229,7 +234,15 @@ void file_dialog(UiContext& ui) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   const bool goes = ImGui::InputText("##folder", &files.typed_folder, ImGuiInputTextFlags_EnterReturnsTrue);
-  if (goes) files.enter(files.typed_folder);
+  std::error_code ignored;
+  const std::filesystem::path typed = with_home(files.typed_folder);
+  if (goes && std::filesystem::is_regular_file(typed, ignored)) {  // a whole path, typed or pasted
+    files.folder = typed.parent_path();
+    files.name = typed.filename().string();
+    chosen = !files.saving;
+  } else if (goes) {
+    files.enter(typed);
+  }
   const bool moved = keys_in_list(files);
   const float height = files.saving ? -80.0f : -44.0f;
   places(ui, height);

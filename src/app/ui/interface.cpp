@@ -137,6 +137,12 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
               [&] { covered_ = viewport_pane(ui, view, cards > 0 ? kStrip : 0, gpu_picture); });
   fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
               [&] { top_bar(ui); });
+  if (state_.options_below) {  // over the picture, under the bar
+    constexpr float kHeight = 44, kMostWidth = 600;
+    const UiRect row = {view.min, {std::min(view.max.x, view.min.x + kMostWidth), view.min.y + kHeight}};
+    covered_.push_back(row);
+    fixed_panel("options", row, p, kOverPicture, {9, 8}, [&] { tool_options(ui); });
+  }
   fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatus}}, p,
               kFixed | ImGuiWindowFlags_NoScrollWithMouse, {8, 8}, [&] { tool_column(ui); });
   fixed_panel("side", {{size.x - kSideWidth, kTopHeight}, {size.x, size.y - kStatus}}, p, kFixed, {12, 8},

@@ -15,6 +15,8 @@ struct UiRect {
 };
 
 void top_bar(UiContext& ui);
+void tool_options(UiContext& ui);
+void turntable_button(UiContext& ui, const char* label, float width);
 void tool_column(UiContext& ui);
 void objects_panel(UiContext& ui);
 void cutout_panel(UiContext& ui);

@@ -121,12 +121,7 @@ void scene_panel(UiContext& ui) {
   action_button(ui, Action::kPreviousCamera, "Previous camera", false, half);
   ImGui::SameLine(0, 4);
   action_button(ui, Action::kNextCamera, "Next camera", false, half);
-  const ObjectItem* active = s.document().active_object();
-  const bool selected = active && s.gaussians_of(active->id) > 0;
-  if (button(ui, fmt::format("{} Turntable", icon::kFilm).c_str(),
-             "The object turning once: pictures, animated WebP, video",
-             selected ? "" : "There is no object to turn", false, -1))
-    ui.state.turntable_open = true;
+  turntable_button(ui, fmt::format("{} Turntable", icon::kFilm).c_str(), -1);
 }
 
 void history_panel(UiContext& ui) {

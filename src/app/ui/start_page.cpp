@@ -12,7 +12,7 @@ void restore_buttons(UiContext& ui) {
   wrapped_muted(ui, "Not saved last time: " + ui.studio.files().autosave_says());
   if (button(ui, fmt::format("{} Restore the work of last time", icon::kRefresh).c_str(),
              "It was saved by itself before the program ended"))
-    ui.ask(RestoreAutosave{});
+    ui.ask(OpenScene{ui.studio.files().offered()});  // asks where other work would be lost
   ImGui::SameLine(0, 4);
   if (button(ui, icon::kTrash, "Throw that work away")) ui.ask(DropAutosave{});
 }

@@ -38,14 +38,18 @@ void brush_size(UiContext& ui) {
                       keys_of(Action::kBrushLarger)));
 }
 
-// Where there is room for it beside the display buttons.
+// Where the options end: at the display buttons, or in a row of their own.
+float options_end(const UiContext& ui) {
+  return ImGui::GetWindowWidth() - (ui.state.options_below ? 0 : kDisplayWidth);
+}
+
+// Where there is room for it.
 void hint(UiContext& ui) {
   const std::string words =
       fmt::format(fmt::runtime(ui.studio.view().tool.hint), ui.studio.tools().points_set());
   const char* text = words.c_str();
   ImGui::AlignTextToFramePadding();
-  if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x <= ImGui::GetWindowWidth() - kDisplayWidth)
-    muted_text(ui, text);
+  if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x <= options_end(ui)) muted_text(ui, text);
 }
 
 void tolerance(UiContext& ui) {
@@ -66,7 +70,7 @@ void region_options(UiContext& ui) {
       {SetOperation::kRemove, "Remove", "-", "Take out of the selection  (Ctrl)"},
       {SetOperation::kIntersect, "Intersect", "&", "Keep only what is in both  (Alt)"}};
   constexpr float kWordsWidth = 405, kDepthWidth = 150;  // of the choices in words; of the depth limit
-  const float room = ImGui::GetWindowWidth() - kDisplayWidth - ImGui::GetCursorPosX();
+  const float room = options_end(ui) - ImGui::GetCursorPosX();
   const bool narrow = room < kWordsWidth + (view.see_through ? kDepthWidth : 0);
   for (const Choice& c : kChoices) {
     if (c.operation != SetOperation::kAdd) ImGui::SameLine(0, 2);
@@ -97,6 +101,26 @@ void region_options(UiContext& ui) {
   tooltip("How far behind the visible surface it reaches, in scene units; at the left end there is no limit");
 }
 
+// With signs in place of words; hints go where there is no room for them.
+float options_width(const UiContext& ui) {
+  constexpr float kBrush = 185, kRegion = 225, kDepth = 135, kColour = 245, kSpace = 85;
+  if (!ui.studio.scene()) return 0;
+  const ViewState& view = ui.studio.view();
+  const float brush = view.tool.brush > 0 ? kBrush : 0;
+  switch (view.tool.selects) {
+    case Tool::Selects::kNothing:
+      return brush;
+    case Tool::Selects::kSpace:
+      return brush + kSpace;
+    case Tool::Selects::kColours:
+      return brush + kColour;
+    default:
+      return brush + kRegion + (view.see_through ? kDepth : 0);
+  }
+}
+
+}  // namespace
+
 void tool_options(UiContext& ui) {
   const Tool& tool = ui.studio.view().tool;
   if (tool.brush > 0) {
@@ -106,6 +130,8 @@ void tool_options(UiContext& ui) {
   if (tool.selects != Tool::Selects::kNothing) return region_options(ui);
   if (*tool.hint) hint(ui);
 }
+
+namespace {
 
 // radius in points.
 void draw_icon(ImDrawList& list, const Icon& icon, const ImVec2& centre, float radius, ImU32 ink) {
@@ -172,12 +198,16 @@ void top_bar(UiContext& ui) {
   action_button(ui, Action::kExport, fmt::format("{} Export", icon::kExport).c_str());
   ImGui::SameLine(0, 2);
   action_button(ui, Action::kSnapshot, icon::kCamera);
+  ImGui::SameLine(0, 2);
+  turntable_button(ui, icon::kFilm, 0);
   gap();
   action_button(ui, Action::kUndo, icon::kUndo);
   ImGui::SameLine(0, 2);
   action_button(ui, Action::kRedo, icon::kRedo);
   gap();
-  if (ui.studio.scene()) tool_options(ui);
+  ui.state.options_below =
+      options_width(ui) > ImGui::GetWindowWidth() - kDisplayWidth - ImGui::GetCursorPosX();
+  if (ui.studio.scene() && !ui.state.options_below) tool_options(ui);
   ImGui::SameLine(ImGui::GetWindowWidth() - kDisplayWidth);
   display_buttons(ui);
 }

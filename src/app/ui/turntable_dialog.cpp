@@ -114,6 +114,14 @@ std::string what_is_written(const TurntableChoice& choice) {
 
 }  // namespace
 
+void turntable_button(UiContext& ui, const char* label, float width) {
+  const ObjectItem* active = ui.studio.document().active_object();
+  const bool selected = active && ui.studio.gaussians_of(active->id) > 0;
+  if (button(ui, label, "Turntable: the object turning once, as pictures, animated WebP, video",
+             selected ? "" : "There is no object to turn", false, width))
+    ui.state.turntable_open = true;
+}
+
 void turntable_dialog(UiContext& ui) {
   const char* id = "Turntable pictures###turntable";
   TurntableChoice& choice = ui.state.turntable;

@@ -89,6 +89,7 @@ struct UiState {
   std::optional<OpenScene> open_asked, open_now;  // open_asked: would discard unsaved work
   std::optional<bool> history_wanted;             // opens or closes the history section
   bool hint_wanted = true;                        // the first-run hint, until the first click
+  bool options_below = false;                     // those of the tool have no room in the bar
   bool double_clicked = false;  // the last press was the second of two, by the events' own times
   bool steady = false;          // for pictures that must repeat: no times, no version, no blinking
   std::vector<std::filesystem::path> recent;

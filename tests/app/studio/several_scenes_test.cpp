@@ -84,9 +84,10 @@ TEST_CASE("several scenes: the window shows the merge, labels and history stay w
   CHECK(studio.camera().pose() == pose);
   CHECK(studio.unsaved());
   CHECK(active_by_row(studio) == longer(grown, kAdded));
-  studio.apply(Undo{});
+  const std::size_t now = studio.history().cursor();
+  studio.apply(JumpHistory{now - 2});  // before it grew
   CHECK(active_by_row(studio) == longer(apple, kAdded));
-  studio.apply(Redo{});
+  studio.apply(JumpHistory{now});
   REQUIRE(hands.app.settle());
   CHECK(active_by_row(studio) == longer(grown, kAdded));
   CHECK(studio.cuts().done() == cuts);  // what was cut stays as it was
@@ -267,6 +268,55 @@ TEST_CASE("several scenes: asked for in haste, cancelled, refused") {
   studio.apply(OpenScene{kSample});
   REQUIRE(hands.app.settle());
   CHECK(studio.scene()->files.size() == 1);
+}
+
+TEST_CASE(
+    "several scenes: adding, placing and taking out are undone and redone, with what was made meanwhile") {
+  const ScratchFolder folder("several_undone");
+  Hands hands;
+  Studio& studio = hands.studio();
+  const auto apple = active_by_row(studio);
+  add(hands, small_scene(folder));
+  studio.apply(NewObject{});
+  studio.apply(SelectScene{last_file(hands).id});
+  REQUIRE(hands.selected() == kAdded);
+  const ObjectId object = studio.document().active;
+  const ScenePlace aside{{1, 2, 3}, {0, 45, 0}, 2};
+  studio.apply(PlaceScene{last_file(hands).id, aside});
+  REQUIRE(hands.app.settle());
+  const GaussianCloud placed = *studio.scene()->cloud;
+  studio.apply(RemoveScene{last_file(hands).id});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.gaussians_of(object) == 0);
+  const auto go = [&](Action action) {
+    REQUIRE(studio.why_not(action).empty());
+    studio.run(action);
+    REQUIRE(hands.app.settle());
+  };
+  go(Action::kUndo);
+  CHECK(same_cloud(*studio.scene()->cloud, placed));
+  CHECK(studio.gaussians_of(object) == kAdded);  // its marks came back with it
+  CHECK(last_file(hands).place == aside);
+  go(Action::kUndo);
+  CHECK(last_file(hands).place == ScenePlace{});
+  CHECK(studio.gaussians_of(object) == kAdded);
+  go(Action::kUndo);  // the selection
+  CHECK(studio.gaussians_of(object) == 0);
+  go(Action::kRedo);
+  CHECK(studio.gaussians_of(object) == kAdded);
+  go(Action::kUndo);
+  go(Action::kUndo);  // the object
+  go(Action::kUndo);  // the file
+  CHECK(studio.scene()->files.size() == 1);
+  CHECK(active_by_row(studio) == apple);
+  CHECK(studio.prepared());
+  go(Action::kRedo);
+  CHECK(studio.scene()->files.size() == 2);
+  CHECK(active_by_row(studio) == longer(apple, kAdded));
+  go(Action::kUndo);
+  studio.apply(EditSelection{SelectionEdit::kNone});  // another way on: nothing is left to redo
+  REQUIRE(hands.app.settle());
+  CHECK_FALSE(studio.why_not(Action::kRedo).empty());
 }
 
 TEST_CASE("several scenes: carried arrays against brute force") {

@@ -268,6 +268,28 @@ TEST_CASE("dialogs: keys that are pressed and released between two frames count,
   CHECK(std::filesystem::exists(folder / "right.ply"));
 }
 
+TEST_CASE("dialogs: a second scene, and all of both is exported without an object") {
+  const ScratchFolder folder("whole");
+  HeadlessApp app(760, 520);
+  app.open(kSample);
+  REQUIRE(app.settle());
+  app.key('O', {.shift = true, .ctrl = true});
+  app.frames(3);
+  FileBrowser& files = app.interface_state().files;
+  REQUIRE(files.open);
+  files.enter(kSampleFolder);
+  files.name = kSample.filename().string();
+  app.key(key::kEnter);
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().scene()->files.size() == 2);
+  app.key('E', {.ctrl = true});
+  app.frames(3);
+  app.type_into("###export", {"##path"}, (folder / "both.ply").string());
+  app.key(key::kEnter);
+  REQUIRE(app.settle());
+  CHECK(load_scene(folder / "both.ply").cloud.size() == app.studio().scene()->cloud->size());
+}
+
 TEST_CASE("dialogs: an export is named as its format is, whatever was typed") {
   const ScratchFolder folder("named");
   HeadlessApp app(760, 520);
