@@ -396,13 +396,13 @@ TEST_CASE("panels: a number is typed in the unit it is shown in") {
   CHECK(property.tolerance == doctest::Approx(0.25f));
   app.key('C');
   app.frames(2);
-  typed("bar", {"##tolerance"}, 35);
+  typed("options", {"##tolerance"}, 35);  // below the bar, which has no room for them here
   CHECK(view.colour_tolerance == doctest::Approx(0.35f));
   app.key('7');
   app.key('V');
   app.frames(2);
   REQUIRE(view.see_through);
-  typed("bar", {"##depth"}, 0.125f * size);
+  typed("options", {"##depth"}, 0.125f * size);
   CHECK(view.depth_limit == doctest::Approx(0.125f).epsilon(1e-3));
 }
 
