@@ -1,6 +1,7 @@
 #include "app/studio/history.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <unordered_set>
 
@@ -10,6 +11,13 @@ namespace {
 
 // Oldest steps are forgotten when the arrays that only the history holds would take more than this.
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+
+// Never the same twice, in whatever history: one that is kept and gone back to has its own numbers for
+// itself.
+std::uint64_t next_serial() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
 
 std::size_t distinct_bytes(const std::vector<History::Entry>& entries) {
   std::unordered_set<const void*> seen;
@@ -48,7 +56,7 @@ void History::reset(Document document, std::string title) {
   auto keys = keys_of(document, {});
   entries_.push_back({std::move(title), {}, std::move(document), std::move(keys), 0});
   cursor_ = 0;
-  ++serial_;
+  serial_ = next_serial();
   merging_ = false;
 }
 
@@ -77,7 +85,7 @@ bool History::push(std::string title, Document after, std::string merge_key) {
     ++cursor_;
   }
   merging_ = true;
-  ++serial_;
+  serial_ = next_serial();
   constexpr std::size_t kCheckEvery = 64;  // counting walks the whole history
   if (entries_.size() % kCheckEvery == 0) forget_oldest();
   return true;
@@ -92,7 +100,7 @@ void History::push_other_files(std::string title, std::uint64_t number) {
   entries_.push_back(std::move(entry));
   ++cursor_;
   merging_ = false;
-  ++serial_;
+  serial_ = next_serial();
 }
 
 void History::forget_redo() {
@@ -110,21 +118,21 @@ void History::undo() {
   assert(can_undo());
   --cursor_;
   merging_ = false;
-  ++serial_;
+  serial_ = next_serial();
 }
 
 void History::redo() {
   assert(can_redo());
   ++cursor_;
   merging_ = false;
-  ++serial_;
+  serial_ = next_serial();
 }
 
 void History::jump(std::size_t entry) {
   assert(entry < entries_.size());
   cursor_ = entry;
   merging_ = false;
-  ++serial_;
+  serial_ = next_serial();
 }
 
 void History::set_cut(ObjectId object, const std::string& cut_key, const Flags& cut) {
@@ -136,7 +144,7 @@ void History::set_cut(ObjectId object, const std::string& cut_key, const Flags& 
       item.cut_key = cut_key;
       item.cut_kept = false;
     }
-  ++serial_;
+  serial_ = next_serial();
 }
 
 void History::carry(const std::function<Document(const Document&)>& carried) {
@@ -148,7 +156,7 @@ void History::carry(const std::function<Document(const Document&)>& carried) {
     before = &entry;
   }
   merging_ = false;
-  ++serial_;
+  serial_ = next_serial();
 }
 
 }  // namespace splatcut

@@ -35,7 +35,7 @@ class History {
   void reset(Document document, std::string title);
 
   const Document& now() const { return entries_[cursor_].document; }
-  // Changes whenever now() does; never 0.
+  // Changes whenever now() does; never 0, and that of no other document of the program.
   std::uint64_t serial() const { return serial_; }
   const ObjectKeys& keys(const ObjectItem& object) const;  // of an object of now()
   const std::vector<Entry>& entries() const { return entries_; }

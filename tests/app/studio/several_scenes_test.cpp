@@ -319,6 +319,51 @@ TEST_CASE(
   CHECK_FALSE(studio.why_not(Action::kRedo).empty());
 }
 
+TEST_CASE("several scenes: what was saved is known apart from what was done after files were taken back") {
+  const ScratchFolder folder("several_serials");
+  Hands hands;
+  Studio& studio = hands.studio();
+  add(hands, small_scene(folder));
+  studio.apply(NewObject{});
+  studio.apply(SaveWork{folder / "two.splatcut.json"});
+  REQUIRE(hands.app.settle());
+  REQUIRE_FALSE(studio.unsaved());
+  studio.apply(Undo{});  // the object
+  studio.apply(Undo{});  // the file
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.scene()->files.size() == 1);
+  for (int step = 0; step < 8; ++step) {  // as many steps as lay between: none of these documents is saved
+    CHECK(studio.unsaved());
+    studio.apply(NewObject{});
+  }
+}
+
+TEST_CASE("several scenes: a file stood upright stands on its point, whichever way up it was") {
+  SceneSource file;
+  file.bounds = {{-1, -2, -3}, {2, 1, 4}};
+  const ScenePlace placed{{5, 6, 7}, {10, 20, 30}, 1.5f};
+  for (const glm::vec3& own :
+       {glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(1, 0, 0), glm::vec3(0.3f, -0.5f, 0.8f)})
+    for (const glm::vec3& up : {glm::vec3(0, -1, 0), glm::vec3(0, 0, 2), glm::vec3(0.6f, 0.1f, -0.2f)}) {
+      auto views = std::make_shared<FileViews>();
+      views->up_world = own;
+      file.views = views;
+      const glm::vec3 point(0.5f, -4, 9);
+      file.place = stood_on(file, stood_upright(file, placed, up), point, up);
+      const Similarity to = similarity_of(file);
+      CHECK(glm::dot(glm::normalize(to.rotation * own), glm::normalize(up)) > 0.9999f);
+      CHECK(file.place.scale == placed.scale);
+      float lowest = 1e9f;
+      for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at((corner & 1) ? file.bounds.min.x : file.bounds.max.x,
+                           (corner & 2) ? file.bounds.min.y : file.bounds.max.y,
+                           (corner & 4) ? file.bounds.min.z : file.bounds.max.z);
+        lowest = std::min(lowest, glm::dot(moved(at, to) - point, glm::normalize(up)));
+      }
+      CHECK(std::abs(lowest) < 1e-4f);
+    }
+}
+
 TEST_CASE("several scenes: carried arrays against brute force") {
   const ScratchFolder folder("several_brute");
   const auto a = small_scene(folder, "a.ply", 1), b = small_scene(folder, "b.ply", 2),
