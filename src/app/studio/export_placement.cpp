@@ -16,19 +16,6 @@ namespace {
 constexpr int kMostInBand = 7;
 using BandMatrix = std::array<std::array<double, kMostInBand>, kMostInBand>;
 
-// The shortest turn from one direction to another.
-glm::quat turn_between(const glm::vec3& from, const glm::vec3& to) {
-  const glm::vec3 a = glm::normalize(from), b = glm::normalize(to);
-  const float cosine = glm::dot(a, b);
-  constexpr float kOpposite = -0.999999f;
-  if (cosine < kOpposite) {  // any axis across
-    const glm::vec3 across = std::abs(a.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    return glm::angleAxis(3.14159265f, glm::normalize(glm::cross(a, across)));
-  }
-  const glm::vec3 axis = glm::cross(a, b);
-  return glm::normalize(glm::quat(1 + cosine, axis.x, axis.y, axis.z));
-}
-
 glm::vec3 file_up(ExportUp up, const glm::vec3& up_world) {
   switch (up) {
     case ExportUp::kPlusY:
@@ -106,6 +93,18 @@ void turn_harmonics(std::span<float> rest, int degree, const std::array<BandMatr
 }
 
 }  // namespace
+
+glm::quat turn_between(const glm::vec3& from, const glm::vec3& to) {
+  const glm::vec3 a = glm::normalize(from), b = glm::normalize(to);
+  const float cosine = glm::dot(a, b);
+  constexpr float kOpposite = -0.999999f;
+  if (cosine < kOpposite) {  // any axis across
+    const glm::vec3 across = std::abs(a.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    return glm::angleAxis(3.14159265f, glm::normalize(glm::cross(a, across)));
+  }
+  const glm::vec3 axis = glm::cross(a, b);
+  return glm::normalize(glm::quat(1 + cosine, axis.x, axis.y, axis.z));
+}
 
 Similarity similarity_of(const ExportPlacement& placement, const GaussianCloud& cloud,
                          std::span<const std::uint8_t> keep, const glm::vec3& up_world) {

@@ -31,6 +31,10 @@ struct Similarity {
   float scale = 1;
   glm::vec3 origin{0}, move{0};
 };
+// The shortest turn from one direction to another, of any lengths but 0; where they are opposite, about some
+// axis across.
+glm::quat turn_between(const glm::vec3& from, const glm::vec3& to);
+
 // keep: 0 or 1 per Gaussian; outliers do not count for its middle and its foot. up_world: the document's.
 Similarity similarity_of(const ExportPlacement& placement, const GaussianCloud& cloud,
                          std::span<const std::uint8_t> keep, const glm::vec3& up_world);

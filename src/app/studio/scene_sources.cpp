@@ -44,6 +44,21 @@ Similarity similarity_between(const SceneSource& before, const SceneSource& afte
   return {to.rotation * glm::conjugate(from.rotation), to.scale / from.scale, from.move, to.move};
 }
 
+ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::vec3& up_world) {
+  place.turn_deg = glm::degrees(glm::eulerAngles(turn_between(file.views->up_world, up_world)));
+  return place;
+}
+
+ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& point_world,
+                    const glm::vec3& up_world) {
+  file.place = place;
+  const Similarity to = similarity_of(file);
+  const glm::vec3 up = glm::normalize(up_world), up_in_file = glm::conjugate(to.rotation) * up;
+  const float half = 0.5f * to.scale * glm::dot(glm::abs(up_in_file), file.bounds.extent());
+  file.place.move = point_world + half * up - file.bounds.centre();
+  return file.place;
+}
+
 glm::vec3 moved(const glm::vec3& point, const Similarity& to) {
   return to.scale * (to.rotation * (point - to.origin)) + to.move;
 }

@@ -51,6 +51,13 @@ Similarity similarity_of(const SceneSource& file);
 // From where the file stands in `before` to where it stands in `after`.
 Similarity similarity_between(const SceneSource& before, const SceneSource& after);
 
+// The same place, but that the file's own way up is `up_world`.
+ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::vec3& up_world);
+// The same, but that the file's box stands on the point: its middle lies above that by half of what the box
+// measures along up_world.
+ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& point_world,
+                    const glm::vec3& up_world);
+
 glm::vec3 moved(const glm::vec3& point, const Similarity& to);
 // Sees of a moved scene what the camera sees of the scene.
 Camera moved(const Camera& camera, const Similarity& to);

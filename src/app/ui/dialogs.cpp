@@ -230,7 +230,13 @@ void export_dialog(UiContext& ui) {
   const char* id = "Export###export";
   if (ui.state.export_open && !ImGui::IsPopupOpen(id)) {
     if (!ui.studio.scene()) return;
-    if (!ui.studio.document().active_object()) ui.state.exporting.what = ExportWhat::kScene;
+    ExportChoice& choice = ui.state.exporting;
+    const bool object = ui.studio.document().active_object() != nullptr;
+    if (object && std::exchange(choice.for_want_of_object, false)) choice.what = ExportWhat::kObject;
+    if (!object && choice.what != ExportWhat::kScene) {
+      choice.what = ExportWhat::kScene;
+      choice.for_want_of_object = true;
+    }
     if (ui.state.exporting.path.empty()) propose_path(ui);
     ImGui::OpenPopup(id);
   }

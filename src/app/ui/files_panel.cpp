@@ -2,11 +2,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <cmath>
-#include <glm/gtc/constants.hpp>
-#define GLM_ENABLE_EXPERIMENTAL
-#include <glm/gtx/quaternion.hpp>  // rotation()
-
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
@@ -48,29 +43,6 @@ bool scale_number(float* scale) {
   return done;
 }
 
-// Of the file's box, lowest along `up`.
-ScenePlace brought_to(SceneSource file, const ScenePlace& place, const glm::vec3& point,
-                      const glm::vec3& up) {
-  file.place = place;
-  const Similarity to = similarity_of(file);
-  const glm::vec3 up_in_file = glm::conjugate(to.rotation) * glm::normalize(up);
-  const float half = 0.5f * to.scale * glm::dot(glm::abs(up_in_file), file.bounds.extent());
-  file.place.move = point + half * glm::normalize(up) - file.bounds.centre();
-  return file.place;
-}
-
-// The way up of the file's own cameras or splats points where the scene's does.
-ScenePlace upright(const SceneSource& file, ScenePlace place, const glm::vec3& up) {
-  const glm::vec3 from = glm::normalize(file.views->up_world), to = glm::normalize(up);
-  constexpr float kOpposite = -0.999999f;
-  const glm::vec3 across = std::abs(from.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-  const glm::quat turn = glm::dot(from, to) < kOpposite
-                             ? glm::angleAxis(glm::pi<float>(), glm::normalize(glm::cross(from, across)))
-                             : glm::rotation(from, to);
-  place.turn_deg = glm::degrees(glm::eulerAngles(turn));
-  return place;
-}
-
 void placing(UiContext& ui, const SceneSource& file) {
   ScenePlace& place = ui.state.placing.place;
   if (!ImGui::IsAnyItemActive() && !ui.studio.loading()) place = file.place;
@@ -83,12 +55,12 @@ void placing(UiContext& ui, const SceneSource& file) {
   ImGui::SameLine(0, 4);
   if (button(ui, "Stand it upright", "Its own way up, guessed or of its cameras, becomes the scene's", {},
              false, -1))
-    ui.ask(PlaceScene{file.id, upright(file, place, ui.studio.document().up_world)});
+    ui.ask(PlaceScene{file.id, stood_upright(file, place, ui.studio.document().up_world)});
   if (done) ui.ask(PlaceScene{file.id, place});
   const float third = (ImGui::GetContentRegionAvail().x - 8) / 3;
   if (button(ui, "Bring here", "Stands it on the point that the view turns around", {}, false, third))
     ui.ask(PlaceScene{
-        file.id, brought_to(file, place, ui.studio.camera().pivot_world(), ui.studio.document().up_world)});
+        file.id, stood_on(file, place, ui.studio.camera().pivot_world(), ui.studio.document().up_world)});
   ImGui::SameLine(0, 4);
   if (button(ui, "As in file", "Back to its own coordinates",
              file.place == ScenePlace{} ? "It stands there" : "", false, third))

@@ -29,6 +29,7 @@ struct Requests {
 // Choices in the export dialog.
 struct ExportChoice {
   ExportWhat what = ExportWhat::kObject;
+  bool for_want_of_object = false;  // the whole scene, as there was no object when it was asked for
   SceneFormat format = SceneFormat::kPly;
   std::string path;
   bool overwrite = false;
