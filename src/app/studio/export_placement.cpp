@@ -106,26 +106,50 @@ glm::quat turn_between(const glm::vec3& from, const glm::vec3& to) {
   return glm::normalize(glm::quat(1 + cosine, axis.x, axis.y, axis.z));
 }
 
-Similarity similarity_of(const ExportPlacement& placement, const GaussianCloud& cloud,
+ExportFrame export_frame(const ExportPlacement& placement, const GaussianCloud& cloud,
                          std::span<const std::uint8_t> keep, const glm::vec3& up_world) {
-  Similarity to;
-  const glm::vec3 up = file_up(placement.up, up_world);
-  const glm::quat upright = turn_between(up_world, up);
-  to.rotation = glm::normalize(glm::angleAxis(glm::radians(placement.turn_deg), up) * upright);
-  to.scale = placement.scale;
-  to.move = placement.move;
-  if (placement.origin == ExportOrigin::kScene) return to;
+  ExportFrame frame;
+  frame.up_file = file_up(placement.up, up_world);
+  frame.upright = turn_between(up_world, frame.up_file);
   std::vector<glm::vec3> positions;
   for (std::size_t g = 0; g < cloud.size(); ++g)
-    if (keep.empty() || keep[g]) positions.push_back(upright * cloud.position[g]);
+    if (keep.empty() || keep[g]) positions.push_back(frame.upright * cloud.position[g]);
   const Box box = robust_bounds(positions);
   glm::vec3 origin = box.centre();
-  if (placement.origin == ExportOrigin::kFoot) {
-    const glm::vec3 half = 0.5f * box.extent();
-    origin -= glm::dot(glm::abs(up), half) * up;
-  }
-  to.origin = glm::conjugate(upright) * origin;
-  return to;
+  if (placement.origin == ExportOrigin::kFoot)
+    origin -= glm::dot(glm::abs(frame.up_file), 0.5f * box.extent()) * frame.up_file;
+  frame.middle_world = glm::conjugate(frame.upright) * box.centre();
+  if (placement.origin != ExportOrigin::kScene) frame.origin_world = glm::conjugate(frame.upright) * origin;
+  return frame;
+}
+
+Similarity similarity_of(const ExportPlacement& placement, const ExportFrame& frame) {
+  const glm::quat turn = glm::angleAxis(glm::radians(placement.turn_deg), frame.up_file);
+  return {glm::normalize(turn * frame.upright), placement.scale, frame.origin_world, placement.move};
+}
+
+Similarity similarity_of(const ExportPlacement& placement, const GaussianCloud& cloud,
+                         std::span<const std::uint8_t> keep, const glm::vec3& up_world) {
+  return similarity_of(placement, export_frame(placement, cloud, keep, up_world));
+}
+
+glm::vec3 moved(const glm::vec3& point, const Similarity& to) {
+  return to.scale * (to.rotation * (point - to.origin)) + to.move;
+}
+
+glm::vec3 pivot_of(const ExportPlacement& placement, const ExportFrame& frame) {
+  if (placement.origin != ExportOrigin::kScene) return placement.move;
+  return moved(frame.middle_world, similarity_of(placement, frame));
+}
+
+ExportPlacement changed(ExportPlacement placement, const glm::vec3& pivot_file, const PlacingChange& change) {
+  constexpr float kLeastScale = 1e-3f, kMostScale = 1e3f;
+  const float scale = glm::clamp(placement.scale * change.scale, kLeastScale, kMostScale);
+  const float factor = scale / placement.scale;
+  placement.turn_deg = std::remainder(placement.turn_deg + glm::degrees(change.angle_rad), 360.0f);
+  placement.move = factor * (change.turn * (placement.move - pivot_file)) + pivot_file + change.move_world;
+  placement.scale = scale;
+  return placement;
 }
 
 GaussianCloud placed(const GaussianCloud& cloud, std::span<const std::uint8_t> keep, const Similarity& to) {

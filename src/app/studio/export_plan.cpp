@@ -50,6 +50,21 @@ std::vector<std::uint8_t> labels_of_all(const Document& document, std::size_t ga
 
 }  // namespace
 
+std::vector<std::uint8_t> exported(const Document& document, ObjectId object, ExportWhat what,
+                                   std::size_t gaussians) {
+  if (what == ExportWhat::kAllObjects) return labels_of_all(document, gaussians);
+  const ObjectItem* item = document.find(object);
+  if (what == ExportWhat::kObject)
+    return item ? labels_of(document, *item, gaussians) : std::vector<std::uint8_t>(gaussians, 0);
+  std::vector<std::uint8_t> keep(gaussians, 1);
+  if (what == ExportWhat::kRest && item) keep = labels_of(document, *item, gaussians);
+  for (std::size_t g = 0; g < gaussians; ++g) {
+    if (what == ExportWhat::kRest && item) keep[g] = !keep[g];
+    if (document.deleted && (*document.deleted)[g]) keep[g] = 0;
+  }
+  return keep;
+}
+
 std::string file_name_of(const std::string& object_name) {
   std::string name;
   for (const char c : object_name) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
@@ -80,7 +95,7 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
   if (request.what == ExportWhat::kAllObjects) {
     std::filesystem::create_directories(request.path);
     std::set<std::string> taken;
-    const auto to = place(labels_of_all(document, n));  // objects stay beside each other
+    const auto to = place(exported(document, object, request.what, n));  // objects stay beside each other
     for (const ObjectItem& item : document.objects) {
       const std::vector<std::uint8_t> labels = labels_of(document, item, n);
       if (count_flags(labels) == 0) continue;
@@ -93,17 +108,9 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
   if (!request.path.string().ends_with(request.format.extension))
     throw Error(request.path.string(), fmt::format("does not end with {}", request.format.extension),
                 "It could not be opened again");
-  if (request.what == ExportWhat::kScene) {
-    std::vector<std::uint8_t> keep(n, 1);
-    for (std::size_t g = 0; document.deleted && g < n; ++g) keep[g] = !(*document.deleted)[g];
-    save(request.path, scene, keep, request, place(keep), &report);
-    return report;
-  }
-  const ObjectItem* item = document.find(object);
-  if (!item) throw Error("export", "no object is chosen", "Click an object first");
-  std::vector<std::uint8_t> keep = labels_of(document, *item, n);
-  if (request.what == ExportWhat::kRest)
-    for (std::size_t g = 0; g < n; ++g) keep[g] = !keep[g] && !(document.deleted && (*document.deleted)[g]);
+  if (request.what != ExportWhat::kScene && !document.find(object))
+    throw Error("export", "no object is chosen", "Click an object first");
+  const std::vector<std::uint8_t> keep = exported(document, object, request.what, n);
   save(request.path, scene, keep, request, place(keep), &report);
   return report;
 }

@@ -30,6 +30,10 @@ struct ExportReport {
   std::string loss;
 };
 
+// 1 for each of the scene's Gaussians that is written, of kAllObjects into any of the files.
+std::vector<std::uint8_t> exported(const Document& document, ObjectId object, ExportWhat what,
+                                   std::size_t gaussians);
+
 // Throws Error: nothing to export, the file exists and overwriting was not asked for, the disk is full.
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
                         const ExportRequest& request);

@@ -44,6 +44,15 @@ Similarity similarity_between(const SceneSource& before, const SceneSource& afte
   return {to.rotation * glm::conjugate(from.rotation), to.scale / from.scale, from.move, to.move};
 }
 
+ScenePlace changed(ScenePlace place, const PlacingChange& change) {
+  constexpr float kLeastScale = 1e-3f, kMostScale = 1e3f;
+  place.move += change.move_world;
+  if (change.angle_rad != 0)  // angles that say the same would be others
+    place.turn_deg = glm::degrees(glm::eulerAngles(change.turn * rotation_of(place)));
+  place.scale = glm::clamp(place.scale * change.scale, kLeastScale, kMostScale);
+  return place;
+}
+
 ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::vec3& up_world) {
   place.turn_deg = glm::degrees(glm::eulerAngles(turn_between(file.views->up_world, up_world)));
   return place;
@@ -57,10 +66,6 @@ ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& 
   const float half = 0.5f * to.scale * glm::dot(glm::abs(up_in_file), file.bounds.extent());
   file.place.move = point_world + half * up - file.bounds.centre();
   return file.place;
-}
-
-glm::vec3 moved(const glm::vec3& point, const Similarity& to) {
-  return to.scale * (to.rotation * (point - to.origin)) + to.move;
 }
 
 // The centre moves along; the picture stays the same as all depths grow by the scale.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/studio/export_placement.h"
+#include "app/studio/placing_handles.h"
 #include "scene/camera/camera.h"
 #include "scene/formats/scene_file.h"
 
@@ -51,6 +52,9 @@ Similarity similarity_of(const SceneSource& file);
 // From where the file stands in `before` to where it stands in `after`.
 Similarity similarity_between(const SceneSource& before, const SceneSource& after);
 
+// After a drag of handles whose centre is the file's middle where it stands.
+ScenePlace changed(ScenePlace place, const PlacingChange& change);
+
 // The same place, but that the file's own way up is `up_world`.
 ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::vec3& up_world);
 // The same, but that the file's box stands on the point: its middle lies above that by half of what the box
@@ -58,7 +62,6 @@ ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::v
 ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& point_world,
                     const glm::vec3& up_world);
 
-glm::vec3 moved(const glm::vec3& point, const Similarity& to);
 // Sees of a moved scene what the camera sees of the scene.
 Camera moved(const Camera& camera, const Similarity& to);
 

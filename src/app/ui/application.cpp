@@ -88,6 +88,7 @@ void Application::handle_one(const PointerButtonChanged& event) {
   const bool twice = is_second_click(event);
   interface_.state().double_clicked = twice;
   if (!interface_.picture_at(pointer_, studio_)) return;
+  if (event.button == PointerButton::kLeft && interface_.handle_at(pointer_)) return;
   dragging_picture_ = true;
   if (twice)
     studio_.pointer_double_clicked(in_viewport_px(pointer_));

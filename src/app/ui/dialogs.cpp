@@ -85,6 +85,14 @@ void fact(const char* symbol, const ImVec4& colour, const std::string& text) {
   ImGui::PopTextWrapPos();
 }
 
+// Of the column: ImGui's own separator spans all of them.
+void line_across(const Palette& palette) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddLine(at, {at.x + ImGui::GetContentRegionAvail().x, at.y},
+                                      packed(palette.line));
+  ImGui::Dummy({0, 2});
+}
+
 void export_choices(UiContext& ui) {
   ExportChoice& choice = ui.state.exporting;
   ImGui::AlignTextToFramePadding();
@@ -240,16 +248,23 @@ void export_dialog(UiContext& ui) {
     if (ui.state.exporting.path.empty()) propose_path(ui);
     ImGui::OpenPopup(id);
   }
-  centre_next_window({640, 452});
+  constexpr float kWidth = 640, kHeight = 452, kPreview = 330;
+  const bool previews = ImGui::GetIO().DisplaySize.x >= kWidth + kPreview;
+  centre_next_window({previews ? kWidth + kPreview : kWidth, kHeight});
   if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
+  const bool dragging = ui.state.export_preview.grips.drag.has_value();  // Esc is for that
   const bool typing = typing_beside("##path");
+  if (previews) {
+    ImGui::Columns(2, "sides", false);
+    ImGui::SetColumnWidth(0, kWidth);
+  }
   export_choices(ui);
   placement_choices(ui);
   ExportChoice& choice = ui.state.exporting;
   const std::size_t gaussians = gaussians_to_export(ui.studio, choice.what);
   const FormatPlan& plan = export_plan(ui, gaussians);
   const Palette& p = ui.theme.colour;
-  ImGui::Separator();
+  line_across(p);
   fact(icon::kInfo, p.accent,
        fmt::format("{} Gaussians, {}{}", grouped(gaussians), plan.about ? "about " : "",
                    human_bytes(plan.bytes)));
@@ -264,8 +279,13 @@ void export_dialog(UiContext& ui) {
   std::error_code ignored;
   const bool exists = std::filesystem::exists(target, ignored);
   if (exists) ImGui::Checkbox("Replace the file that is there", &choice.overwrite);
+  if (previews) {
+    ImGui::NextColumn();
+    export_preview(ui, {kPreview - 20, kHeight - 96});
+    ImGui::Columns(1);
+  }
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || (!typing && escape_pressed());
+  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || (!typing && !dragging && escape_pressed());
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);
   const std::string reason = choice.path.empty()             ? "Type where it should go"
                              : !(choice.placement.scale > 0) ? "The scale must be larger than 0"

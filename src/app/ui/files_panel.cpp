@@ -45,7 +45,6 @@ bool scale_number(float* scale) {
 
 void placing(UiContext& ui, const SceneSource& file) {
   ScenePlace& place = ui.state.placing.place;
-  if (!ImGui::IsAnyItemActive() && !ui.studio.loading()) place = file.place;
   constexpr float kStep = 0.001f;  // of the scene's size
   bool done = three_numbers("Move", "By how much it stands elsewhere, in scene units", &place.move,
                             kStep * ui.studio.camera().scene_size(), "%.4g");
@@ -83,7 +82,7 @@ void file_row(UiContext& ui, const SceneSource& file, bool first) {
                         {ImGui::GetContentRegionAvail().x - select_width - count_width - 16, 0}))
     choice.file = chosen || first ? 0 : file.id;
   tooltip(first ? fmt::format("{}\nOpened first: the others stand in its scene", file.path.string())
-                : fmt::format("{}\nClick to place it", file.path.string()));
+                : fmt::format("{}\nClick to place it, by handles or numbers", file.path.string()));
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - select_width - count_width - 8);
   muted_text(ui, count);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - select_width);

@@ -118,6 +118,10 @@ bool Interface::picture_at(const glm::vec2& point, const Studio& studio) const {
   return std::ranges::none_of(covered_, [&](const UiRect& r) { return r.contains(point); });
 }
 
+bool Interface::handle_at(const glm::vec2& point) const {
+  return state_.placing.grips.at(point);
+}
+
 void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer, ImTextureID gpu_picture[2],
                       Requests* ask) {
   make_current();

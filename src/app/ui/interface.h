@@ -26,6 +26,8 @@ class Interface {
   UiRect viewport() const;
   // True where a press at this point is meant for the picture.
   bool picture_at(const glm::vec2& point, const Studio& studio) const;
+  // True where a left press takes a handle that lies on the picture.
+  bool handle_at(const glm::vec2& point) const;
   bool dialog_open() const;
   float covered_bottom(const Studio& studio) const;  // of the picture, by thumbnails; points
 

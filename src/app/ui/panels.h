@@ -46,12 +46,15 @@ void draw_points(const UiContext& ui, const UiRect& area);  // of the ground, of
 void draw_centres(const UiContext& ui, const UiRect& area, int pane);
 void draw_rings(const UiContext& ui, const UiRect& area, int pane);
 void draw_ground_grid(const UiContext& ui, const UiRect& area, int pane);
-void draw_placed_file(const UiContext& ui, const UiRect& area, int pane);  // where it would stand
+// The file that is chosen in the files panel: where it would stand, and handles that move it.
+void draw_placed_file(UiContext& ui, const UiRect& area);
 void draw_cursor_sign(const UiContext& ui, const UiRect& area);  // what a press would do to the selection
 UiRect axes_gizmo(UiContext& ui, const UiRect& area);            // which takes clicks: look along an axis
 
 void help_page(UiContext& ui);
 void export_dialog(UiContext& ui);
+// What is exported as it will stand in the file, with handles; a picture in the dialog, of that size.
+void export_preview(UiContext& ui, const glm::vec2& size_points);
 void turntable_dialog(UiContext& ui);
 void quit_dialog(UiContext& ui);
 void open_anyway_dialog(UiContext& ui);

@@ -26,6 +26,10 @@ void apply_theme(Theme* theme, bool dark);
 
 ImU32 packed(const ImVec4& colour, float alpha = 1);
 
+// x red, y green, z blue, wherever axes are drawn.
+inline constexpr ImU32 kAxisInks[] = {IM_COL32(235, 85, 80, 255), IM_COL32(110, 195, 80, 255),
+                                      IM_COL32(80, 140, 245, 255)};
+
 // Symbols of the icon font.
 namespace icon {
 inline constexpr const char *kOpen = "\xef\x81\xbc", *kSave = "\xef\x83\x87", *kExport = "\xef\x82\x8e",

@@ -11,6 +11,7 @@
 #include "app/studio/splat_rings.h"
 #include "app/studio/studio.h"
 #include "app/ui/file_browser.h"
+#include "app/ui/grips.h"
 #include "app/ui/native_dialog.h"
 #include "app/ui/theme.h"
 #include "app/ui/ui_renderer.h"
@@ -37,6 +38,17 @@ struct ExportChoice {
   FormatPlan plan;
   std::string plan_key;  // what it was made for
   std::string trouble;   // why the last try failed
+};
+
+// What the export dialog shows of where things will stand in the file.
+struct ExportPreview {
+  std::string key;  // what frame and sample were made for
+  ExportFrame frame;
+  std::vector<std::uint32_t> sample;  // of the Gaussians that are written
+  float azimuth_rad = 0.7f, elevation_rad = 0.45f;
+  Camera camera;  // stays while a handle is dragged
+  Grips grips;
+  ExportPlacement before;  // the drag
 };
 
 // Choices in the turntable dialog.
@@ -77,6 +89,11 @@ struct GridShown {
 struct PlacingChoice {
   std::uint32_t file = 0;  // id; 0: none
   ScenePlace place;
+  Grips grips;                        // in the picture
+  ScenePlace before;                  // the drag
+  std::vector<std::uint32_t> sample;  // of its Gaussians
+  std::uint64_t sample_scene = 0;     // serial
+  std::uint32_t sample_file = 0;
   std::size_t files_before = 1;  // the section opens when there are more
 };
 
@@ -101,6 +118,7 @@ struct UiState {
   FilePurpose file_purpose = FilePurpose::kOpen;
   std::optional<std::filesystem::path> replace_asked;  // a file of that name is there
   ExportChoice exporting;
+  ExportPreview export_preview;
   bool turntable_open = false;
   TurntableChoice turntable;
   PropertyChoice property;

@@ -30,8 +30,7 @@ struct Axis {
 
 // The six ends of the axes, the farthest first.
 std::array<Axis, 6> axes_seen_by(const Camera& camera) {
-  const ImU32 red = IM_COL32(235, 85, 80, 255), green = IM_COL32(110, 195, 80, 255),
-              blue = IM_COL32(80, 140, 245, 255);
+  const auto [red, green, blue] = kAxisInks;
   std::array<Axis, 6> axes = {Axis{"X", {1, 0, 0}, red, {}},     Axis{"Y", {0, 1, 0}, green, {}},
                               Axis{"Z", {0, 0, 1}, blue, {}},    Axis{"-X", {-1, 0, 0}, red, {}},
                               Axis{"-Y", {0, -1, 0}, green, {}}, Axis{"-Z", {0, 0, -1}, blue, {}}};

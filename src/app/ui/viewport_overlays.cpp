@@ -107,8 +107,6 @@ void draw_centres(const UiContext& ui, const UiRect& area, int pane) {
 void draw_ground_grid(const UiContext& ui, const UiRect& area, int pane) {
   const Studio& studio = ui.studio;
   if (!studio.view().grid) return;
-  constexpr ImU32 kAxes[] = {IM_COL32(235, 85, 80, 255), IM_COL32(110, 195, 80, 255),
-                             IM_COL32(80, 140, 245, 255)};  // as the axes in the corner
   constexpr ImU32 kPlain = IM_COL32(235, 235, 235, 255), kShade = IM_COL32(0, 0, 0, 255);
   constexpr float kLine = 0.75f, kAxis = 0.95f;  // opacity at most
   GridShown& shown = ui.state.grid;
@@ -128,21 +126,8 @@ void draw_ground_grid(const UiContext& ui, const UiRect& area, int pane) {
     };
     const ImVec2 from = place(piece.from_px), to = place(piece.to_px);
     list.AddLine(from, to, faded(kShade, 0.35f), 3);  // for light ground
-    list.AddLine(from, to, faded(piece.axis ? kAxes[*piece.axis] : kPlain, 1), piece.axis ? 2.0f : 1.0f);
+    list.AddLine(from, to, faded(piece.axis ? kAxisInks[*piece.axis] : kPlain, 1), piece.axis ? 2.0f : 1.0f);
   }
-}
-
-void draw_placed_file(const UiContext& ui, const UiRect& area, int pane) {
-  const SceneSource* file = ui.studio.scene()->file(ui.state.placing.file);
-  if (!file || pane != 0) return;
-  SceneSource placed = *file;
-  placed.place = ui.state.placing.place;
-  const Similarity to = similarity_of(placed);
-  const Volume box{false, moved(file->bounds.centre(), to), 0.5f * to.scale * file->bounds.extent(),
-                   to.rotation};
-  const OnScreen place = on_screen(ui, area);
-  for (const auto& [from, end] : edges_px(box, ui.studio.viewport().pane_camera()))
-    ImGui::GetWindowDrawList()->AddLine(place(from), place(end), packed(ui.theme.colour.accent, 0.8f), 1.5f);
 }
 
 }  // namespace splatcut

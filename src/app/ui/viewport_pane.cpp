@@ -180,7 +180,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     ImGui::PushClipRect(from, to, true);
     draw_ground_grid(ui, of_pane, i);
     draw_rings(ui, of_pane, i);
-    draw_placed_file(ui, of_pane, i);
+    if (i == 0) draw_placed_file(ui, of_pane);
     draw_centres(ui, of_pane, i);
     ImGui::PopClipRect();
   }

@@ -1,0 +1,144 @@
+// What is exported as it will stand in the file: its axes and ground, some of its Gaussians, handles.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/ui/splat_dots.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+ImVec2 vec(const glm::vec2& v) {
+  return {v.x, v.y};
+}
+
+// Looks at all Gaussians: made once for each choice but the numbers.
+void refresh(UiContext& ui) {
+  constexpr std::size_t kMost = 5000;
+  const ExportChoice& choice = ui.state.exporting;
+  ExportPreview& preview = ui.state.export_preview;
+  const Studio& studio = ui.studio;
+  std::string key = fmt::format("{} {} {} {} {}", studio.scene()->serial, studio.history().serial(),
+                                static_cast<int>(choice.what), static_cast<int>(choice.placement.origin),
+                                static_cast<int>(choice.placement.up));
+  if (preview.key == key) return;
+  const GaussianCloud& cloud = *studio.scene()->cloud;
+  const Document& document = studio.document();
+  const std::vector<std::uint8_t> keep = exported(document, document.active, choice.what, cloud.size());
+  preview.sample = some_of(keep, kMost);
+  if (!preview.sample.empty()) preview.frame = export_frame(choice.placement, cloud, keep, document.up_world);
+  preview.grips.drag.reset();
+  preview.key = std::move(key);
+}
+
+struct Shown {
+  Box box;             // of the sample and, where it is near, of 0, 0, 0
+  bool origin = true;  // is in it
+};
+
+Shown what_to_show(const ExportPreview& preview, const GaussianCloud& cloud, const Similarity& to) {
+  constexpr float kFar = 5;  // times the size of what is exported: it would be a dot
+  std::vector<glm::vec3> positions;
+  for (const std::uint32_t g : preview.sample) positions.push_back(moved(cloud.position[g], to));
+  Shown shown{robust_bounds(positions), true};
+  const float size = std::max(1e-9f, glm::length(shown.box.extent()));
+  shown.origin = glm::length(shown.box.centre()) < kFar * size;
+  if (!shown.origin) return shown;
+  shown.box.min = glm::min(shown.box.min, glm::vec3(0));
+  shown.box.max = glm::max(shown.box.max, glm::vec3(0));
+  return shown;
+}
+
+Camera camera_around(const ExportPreview& preview, const Box& box, const UiRect& area) {
+  constexpr float kFov = 0.6f, kMargin = 1.25f;  // rad; room for the handles
+  const glm::vec3 up = preview.frame.up_file;
+  const glm::vec3 other = std::abs(up.z) < 0.7f ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
+  const glm::vec3 side = glm::normalize(glm::cross(up, other)), ahead = glm::cross(side, up);
+  const glm::vec3 from = std::cos(preview.elevation_rad) *
+                             (std::cos(preview.azimuth_rad) * ahead + std::sin(preview.azimuth_rad) * side) +
+                         std::sin(preview.elevation_rad) * up;
+  const float radius = std::max(1e-6f, 0.5f * glm::length(box.extent()));
+  const glm::vec2 size = area.size();
+  const float narrow = std::min(1.0f, size.x / size.y);
+  const float distance = kMargin * radius / (std::sin(0.5f * kFov) * narrow);
+  const Camera camera = look_at(box.centre() + distance * from, box.centre(), up, kFov,
+                                static_cast<int>(size.x), static_cast<int>(size.y));
+  return in_window_points(camera, area.min, 1);
+}
+
+void segment(const Camera& camera, const glm::vec3& a, const glm::vec3& b, ImU32 ink, float width) {
+  const glm::vec3 from = camera.camera_from_world(a), to = camera.camera_from_world(b);
+  if (!(from.z > 0) || !(to.z > 0)) return;
+  ImGui::GetWindowDrawList()->AddLine(vec(camera.pixel_from_camera(from)), vec(camera.pixel_from_camera(to)),
+                                      ink, width);
+}
+
+// Ten lines each way through 0, 0, 0 at right angles to up, and the file's axes.
+void draw_ground(const UiContext& ui, const Camera& camera, float reach) {
+  constexpr int kLines = 5;
+  const glm::vec3 up = ui.state.export_preview.frame.up_file;
+  const glm::vec3 other = std::abs(up.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
+  const glm::vec3 v = glm::normalize(glm::cross(up, other)), u = glm::cross(v, up);
+  const ImU32 faint = packed(ui.theme.colour.muted, 0.3f);
+  for (int i = -kLines; i <= kLines; ++i) {
+    const float at = reach * static_cast<float>(i) / kLines;
+    segment(camera, at * u - reach * v, at * u + reach * v, faint, 1);
+    segment(camera, at * v - reach * u, at * v + reach * u, faint, 1);
+  }
+  for (int i = 0; i < 3; ++i) {
+    glm::vec3 axis(0);
+    axis[i] = reach;
+    segment(camera, {}, axis, kAxisInks[i], 2);
+  }
+}
+
+void turn_view(ExportPreview* preview, bool held) {
+  constexpr float kRadPerPoint = 0.01f, kSteepest = 1.5f;
+  if (!held || preview->grips.drag) return;
+  const ImVec2 way = ImGui::GetIO().MouseDelta;
+  preview->azimuth_rad -= kRadPerPoint * way.x;
+  preview->elevation_rad = std::clamp(preview->elevation_rad + kRadPerPoint * way.y, -kSteepest, kSteepest);
+}
+
+void drag_handles(UiContext& ui, bool hovered) {
+  ExportPreview& preview = ui.state.export_preview;
+  ExportPlacement& placement = ui.state.exporting.placement;
+  constexpr float kReach = 62;
+  const PlacingHandles shown = {
+      pivot_of(placement, preview.frame), {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {preview.frame.up_file}, kReach};
+  const GripsMoved hand = grips(&preview.grips, shown, preview.camera, hovered, ui.theme);
+  if (hand.began) preview.before = placement;
+  if (hand.change) placement = changed(preview.before, pivot_of(preview.before, preview.frame), *hand.change);
+}
+
+}  // namespace
+
+void export_preview(UiContext& ui, const glm::vec2& size_points) {
+  refresh(ui);
+  ExportPreview& preview = ui.state.export_preview;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const UiRect area = {{at.x, at.y}, glm::vec2(at.x, at.y) + size_points};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(vec(area.min), vec(area.max), packed(ui.theme.colour.panel_low), 6);
+  ImGui::InvisibleButton("##preview", {size_points.x, size_points.y});
+  const bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
+  if (preview.sample.empty()) return preview.grips.shown.clear();
+  const GaussianCloud& cloud = *ui.studio.scene()->cloud;
+  const Similarity to = similarity_of(ui.state.exporting.placement, preview.frame);
+  const Shown shown = what_to_show(preview, cloud, to);
+  turn_view(&preview, held);
+  if (!preview.grips.drag) preview.camera = camera_around(preview, shown.box, area);
+  ImGui::PushClipRect(at, vec(area.max), true);
+  if (shown.origin) draw_ground(ui, preview.camera, 0.75f * glm::length(shown.box.extent()));
+  draw_dots(cloud, preview.sample, to, preview.camera, area);
+  drag_handles(ui, hovered);
+  const std::string words =
+      shown.origin ? "In the file: x red, y green, z blue" : "0, 0, 0 of the file is far away";
+  list.AddText({at.x + 8, area.max.y - 22}, packed(ui.theme.colour.muted), words.c_str());
+  ImGui::PopClipRect();
+}
+
+}  // namespace splatcut

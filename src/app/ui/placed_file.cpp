@@ -1,0 +1,59 @@
+// An added file while it is placed: its box, some of its Gaussians where they would stand, handles.
+#include "app/ui/on_screen.h"
+#include "app/ui/splat_dots.h"
+
+namespace splatcut {
+
+namespace {
+
+const std::vector<std::uint32_t>& sample_of(PlacingChoice* choice, const OpenedScene& scene,
+                                            const SceneSource& file) {
+  constexpr std::size_t kMost = 4000;
+  if (choice->sample_scene == scene.serial && choice->sample_file == file.id) return choice->sample;
+  choice->sample = some_of(gaussians_of(scene, file.id), kMost);
+  choice->sample_scene = scene.serial;
+  choice->sample_file = file.id;
+  return choice->sample;
+}
+
+void draw_box(const SceneSource& file, const Similarity& to, const Camera& camera, const Theme& theme) {
+  const Volume box{false, moved(file.bounds.centre(), to), 0.5f * to.scale * file.bounds.extent(),
+                   to.rotation};
+  for (const auto& [from, end] : edges_px(box, camera))
+    ImGui::GetWindowDrawList()->AddLine({from.x, from.y}, {end.x, end.y}, packed(theme.colour.accent, 0.8f),
+                                        1.5f);
+}
+
+// Not while a number of it is dragged or typed, and not before the scene has followed.
+void take_place(UiContext& ui, const SceneSource& file) {
+  PlacingChoice& choice = ui.state.placing;
+  if (!choice.grips.drag && !ImGui::IsAnyItemActive() && !ui.studio.loading()) choice.place = file.place;
+}
+
+}  // namespace
+
+void draw_placed_file(UiContext& ui, const UiRect& area) {
+  PlacingChoice& choice = ui.state.placing;
+  const SceneSource* file = ui.studio.scene()->file(choice.file);
+  choice.grips.shown.clear();
+  if (!file) return choice.grips.drag.reset();
+  take_place(ui, *file);
+  SceneSource there = *file;
+  there.place = choice.place;
+  const Camera camera =
+      in_window_points(ui.studio.viewport().pane_camera(), area.min, ui.theme.pixels_per_point);
+  const Similarity to = similarity_of(there);
+  if (there.place != file->place)
+    draw_dots(*ui.studio.scene()->cloud, sample_of(&choice, *ui.studio.scene(), *file),
+              similarity_between(*file, there), camera, area);
+  draw_box(there, to, camera, ui.theme);
+  if (ui.studio.loading()) return choice.grips.drag.reset();
+  const std::vector<glm::vec3> axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const bool free = ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered();
+  const GripsMoved hand = grips(&choice.grips, {to.move, axes, axes}, camera, free, ui.theme);
+  if (hand.began) choice.before = choice.place;
+  if (hand.change) choice.place = changed(choice.before, *hand.change);
+  if (hand.done && choice.place != file->place) ui.ask(PlaceScene{file->id, choice.place});
+}
+
+}  // namespace splatcut
