@@ -187,7 +187,6 @@ struct RemoveScene {
 struct SaveWork {
   std::filesystem::path path;
 };
-struct RestoreAutosave {};
 struct DropAutosave {};
 struct Export {
   ExportRequest request;
@@ -212,6 +211,6 @@ using Command =
                  DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness, SetPreset, SetBackground, SetUp,
                  Undo, Redo, JumpHistory, Cancel, Recompute, SetView, GoToCamera, LookAlong, NextBackdrop,
                  SetBackdrop, SetFieldOfView, OpenScene, AddScene, PlaceScene, RemoveScene, SaveWork,
-                 RestoreAutosave, DropAutosave, Export, SaveSnapshot, SaveTurntable>;
+                 DropAutosave, Export, SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

@@ -16,7 +16,7 @@ constexpr bool kAtOnce =
     std::is_same_v<C, SetView> || std::is_same_v<C, GoToCamera> || std::is_same_v<C, LookAlong> ||
     std::is_same_v<C, SetFieldOfView> || std::is_same_v<C, NextBackdrop> || std::is_same_v<C, SetBackdrop> ||
     std::is_same_v<C, ShowFloaters> || std::is_same_v<C, Cancel> || std::is_same_v<C, OpenScene> ||
-    std::is_same_v<C, RestoreAutosave> || std::is_same_v<C, DropAutosave>;
+    std::is_same_v<C, DropAutosave>;
 
 // Files that were asked for: cancelling the edits before them does not take them back.
 template <class C>
@@ -31,10 +31,12 @@ Studio::Studio(const StudioOptions& options)
       viewport_(ws_, cuts_),
       edits_(ws_, viewport_, cuts_),
       clicks_(ws_, viewport_, cuts_, edits_),
+      work_(ws_, viewport_),
       files_(
-          ws_, viewport_, cuts_,
+          ws_, viewport_, cuts_, work_,
           {[this](bool same) { scene_opened(same); },
            [this](std::function<void()> next) { edits_.in_turn(std::move(next), Edits::OnCancel::kStays); }}),
+      exports_(ws_, viewport_),
       tasks_(options.wake, options.inline_tasks),
       quick_(options.wake, options.inline_tasks) {
   tasks_.on_error =
@@ -62,6 +64,10 @@ void Studio::dispatch(const Command& command) {
             clicks_.perform(c);
           else if constexpr (requires { files_.perform(c); })
             files_.perform(c);
+          else if constexpr (requires { work_.perform(c); })
+            work_.perform(c);
+          else if constexpr (requires { exports_.perform(c); })
+            exports_.perform(c);
           else if constexpr (requires { edits_.perform(c); })
             edits_.perform(c);
           else if constexpr (requires { perform(c); })
@@ -126,7 +132,8 @@ bool Studio::update(double seconds) {
   cuts_.update();
   const bool moves = viewport_.update(seconds, flight());
   clicks_.update();
-  files_.update(seconds);
+  files_.update();
+  work_.update(seconds);
   return moves || !idle() || clicks_.sizes();
 }
 

@@ -16,7 +16,8 @@
 #include "app/studio/clicks.h"
 #include "app/studio/cut_jobs.h"
 #include "app/studio/edits.h"
-#include "app/studio/session_files.h"
+#include "app/studio/exports.h"
+#include "app/studio/scene_files.h"
 #include "app/studio/viewport.h"
 #include "app/studio/workspace.h"
 
@@ -43,7 +44,7 @@ class Studio {
   void release_keys();  // the window lost the focus
   void pointer_left();  // the viewport
   void set_gpu_view(bool gpu) { viewport_.set_gpu_view(gpu); }
-  void leave() { files_.leave(); }  // the program ends
+  void leave() { work_.leave(); }  // the program ends
 
   // Once a frame: results, transitions, requests. True while something moves or waits.
   bool update(double seconds);
@@ -52,7 +53,8 @@ class Studio {
   const Viewport& viewport() const { return viewport_; }
   const CutJobs& cuts() const { return cuts_; }
   const Clicks& clicks() const { return clicks_; }
-  const SessionFiles& files() const { return files_; }
+  const SavedWork& work() const { return work_; }
+  const SceneFiles& files() const { return files_; }
   CameraController& camera() { return viewport_.camera(); }
   const CameraController& camera() const { return viewport_.camera(); }
   const PointerTools& tools() const { return ws_.tools; }
@@ -70,7 +72,7 @@ class Studio {
   std::size_t gaussians_of(ObjectId object) const { return ws_.gaussians_of(object); }
 
   // Also while work is being written.
-  bool unsaved() const { return edits_.waiting() || files_.unsaved(); }
+  bool unsaved() const { return edits_.waiting() || work_.unsaved(); }
   bool loading() const { return tasks_.busy(TaskKind::kLoad); }
   bool cutting() const { return tasks_.busy(TaskKind::kCut); }
   TaskThread::Progress progress() const;
@@ -114,7 +116,9 @@ class Studio {
   Viewport viewport_;
   Edits edits_;
   Clicks clicks_;
-  SessionFiles files_;
+  SavedWork work_;
+  SceneFiles files_;
+  Exports exports_;
   std::set<int> held_keys_;
   double brush_repeated_s_ = -1e9;
   std::uint64_t followed_serial_ = 0;  // of the document that follow_document() saw last

@@ -80,7 +80,7 @@ void use_choice(UiContext& ui, std::filesystem::path path, bool asked) {
   }
   const bool writes = purpose == FilePurpose::kSaveWork || purpose == FilePurpose::kSnapshot;
   std::error_code ignored;
-  if (writes && !asked && path != ui.studio.files().work_path() && std::filesystem::exists(path, ignored))
+  if (writes && !asked && path != ui.studio.work().work_path() && std::filesystem::exists(path, ignored))
     ui.state.replace_asked = path;
   else
     use(ui, path);

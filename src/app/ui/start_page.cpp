@@ -9,10 +9,10 @@
 namespace splatcut {
 
 void restore_buttons(UiContext& ui) {
-  wrapped_muted(ui, "Not saved last time: " + ui.studio.files().autosave_says());
+  wrapped_muted(ui, "Not saved last time: " + ui.studio.work().autosave_says());
   if (button(ui, fmt::format("{} Restore the work of last time", icon::kRefresh).c_str(),
              "It was saved by itself before the program ended"))
-    ui.ask(OpenScene{ui.studio.files().offered()});  // asks where other work would be lost
+    ui.ask(OpenScene{ui.studio.work().offered()});  // asks where other work would be lost
   ImGui::SameLine(0, 4);
   if (button(ui, icon::kTrash, "Throw that work away")) ui.ask(DropAutosave{});
 }
@@ -42,7 +42,7 @@ void start_page(UiContext& ui, const UiRect& area) {
     if (button(ui, "Open the sample scene", "A still life on a table, to try things on"))
       ui.ask(OpenScene{ui.state.sample});
   }
-  if (ui.studio.files().autosave_found()) {
+  if (ui.studio.work().autosave_found()) {
     ImGui::Dummy({0, 4});
     restore_buttons(ui);
   }

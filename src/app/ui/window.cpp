@@ -252,7 +252,7 @@ void keep_settings(const Loop& loop, SettingsKeeper* keeper) {
 std::string title_of(const Studio& studio) {
   if (!studio.scene()) return "splatcut";
   const std::filesystem::path& shown =
-      studio.files().work_path().empty() ? studio.scene()->scene->path : studio.files().work_path();
+      studio.work().work_path().empty() ? studio.scene()->scene->path : studio.work().work_path();
   return fmt::format("{}{} - splatcut", studio.unsaved() ? "* " : "", shown.filename().string());
 }
 

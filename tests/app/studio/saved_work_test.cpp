@@ -155,7 +155,7 @@ TEST_CASE("work is saved by itself and offered after a crash") {
     ApplicationOptions options;
     options.studio.state_folder = folder.path();
     HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
-    CHECK_FALSE(app.studio().files().autosave_found());
+    CHECK_FALSE(app.studio().work().autosave_found());
     opened(app);
     app.click(app.screen_of(kOnApple));
     REQUIRE(app.settle());
@@ -171,8 +171,8 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   ApplicationOptions options;
   options.studio.state_folder = folder.path();
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
-  CHECK(app.studio().files().autosave_found());
-  CHECK(app.studio().files().autosave_says().starts_with("sample/sample.compressed.ply, 20"));
+  CHECK(app.studio().work().autosave_found());
+  CHECK(app.studio().work().autosave_says().starts_with("sample/sample.compressed.ply, 20"));
   // Started with a scene and worked on: what is offered is still there.
   opened(app);
   app.click(app.screen_of(kOnOrange));
@@ -180,22 +180,22 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   app.frames(60 * 3);
   REQUIRE(app.settle());
   CHECK(std::filesystem::exists(folder / "autosave.splatcut.json"));
-  CHECK(app.studio().files().own_autosave() == folder / "autosave.2.splatcut.json");
+  CHECK(app.studio().work().own_autosave() == folder / "autosave.2.splatcut.json");
   CHECK(std::filesystem::exists(folder / "autosave.2.splatcut.json"));
-  REQUIRE(app.studio().files().autosave_found());
-  app.studio().apply(RestoreAutosave{});
+  REQUIRE(app.studio().work().autosave_found());
+  app.studio().apply(OpenScene{app.studio().work().offered()});
   REQUIRE(app.settle());
   CHECK(same(app.studio().document(), saved));
   CHECK(app.studio().camera().pose() == pose);
   CHECK(std::ranges::any_of(app.studio().messages(), [&](const Message& m) {
-    return m.text == "Restoring the work of last time: " + app.studio().files().autosave_says();
+    return m.text == "Restoring the work of last time: " + app.studio().work().autosave_says();
   }));
-  CHECK_FALSE(app.studio().files().autosave_found());
+  CHECK_FALSE(app.studio().work().autosave_found());
   CHECK(app.studio().unsaved());  // it is nowhere else yet
   app.frames(60 * 3);
   REQUIRE(app.settle());
   app.studio().leave();
-  const std::filesystem::path own = app.studio().files().own_autosave();
+  const std::filesystem::path own = app.studio().work().own_autosave();
   REQUIRE(std::filesystem::exists(own));
   CHECK_FALSE(std::filesystem::exists(folder / "autosave.splatcut.json"));  // it is in the other now
   const auto again = open_scene(read_work_file(own).files);
@@ -214,15 +214,15 @@ TEST_CASE("work that was saved by itself stays offered where its scene cannot be
   ApplicationOptions options;
   options.studio.state_folder = folder.path();
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
-  app.studio().apply(RestoreAutosave{});
+  app.studio().apply(OpenScene{app.studio().work().offered()});
   REQUIRE(app.settle());
   CHECK(app.studio().messages().back().text.find("moved.compressed.ply") != std::string::npos);
-  CHECK(app.studio().files().autosave_found());
+  CHECK(app.studio().work().autosave_found());
   std::filesystem::rename(folder / "elsewhere", moved);
-  app.studio().apply(RestoreAutosave{});
+  app.studio().apply(OpenScene{app.studio().work().offered()});
   REQUIRE(app.settle());
   CHECK(app.studio().document().objects.size() == 1);
-  CHECK_FALSE(app.studio().files().autosave_found());
+  CHECK_FALSE(app.studio().work().autosave_found());
 }
 
 TEST_CASE("work that could not be saved by itself is saved once it can be, without another change") {
@@ -231,7 +231,7 @@ TEST_CASE("work that could not be saved by itself is saved once it can be, witho
   options.studio.state_folder = folder.path();
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
   opened(app);
-  const std::filesystem::path own = app.studio().files().own_autosave();
+  const std::filesystem::path own = app.studio().work().own_autosave();
   std::filesystem::create_directory(own);  // where the file should go
   app.studio().apply(EditSelection{SelectionEdit::kAll});
   REQUIRE(app.settle());

@@ -1,6 +1,7 @@
-// Files of a session: those of the opened scene and its work file, the autosave, what is exported.
+// Files that the window's scene is made of: opened, added, placed, taken out, undone as a whole, and
+// prepared.
 //
-// Scenes and work are read and written on the worker; the window goes on.
+// Scenes are read and prepared on the worker; the window goes on.
 #pragma once
 
 #include <filesystem>
@@ -8,16 +9,15 @@
 #include <optional>
 #include <string>
 
-#include "app/studio/autosaves.h"
 #include "app/studio/command.h"
 #include "app/studio/cut_jobs.h"
+#include "app/studio/saved_work.h"
 #include "app/studio/viewport.h"
-#include "app/studio/work_file.h"
 #include "app/studio/workspace.h"
 
 namespace splatcut {
 
-class SessionFiles {
+class SceneFiles {
  public:
   struct Calls {
     // The workspace has another scene and document, the view is not set up yet. same: the same scene with
@@ -25,20 +25,9 @@ class SessionFiles {
     std::function<void(bool same)> opened;
     std::function<void(std::function<void()>)> in_turn;  // after the edits that were asked for before
   };
-  SessionFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts, Calls calls);
+  SceneFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts, SavedWork& work, Calls calls);
 
-  void update(double seconds);  // once a frame: the autosave
-  void leave();                 // the program ends: an autosave that is not needed goes
-
-  const std::filesystem::path& work_path() const { return work_path_; }
-  bool unsaved() const;
-  // Unsaved work that a crash left: offered until it is restored or dropped.
-  bool autosave_found() const { return !offered().empty(); }
-  std::filesystem::path offered() const;  // the work file of that; empty: none
-  const std::filesystem::path& own_autosave() const { return autosaves_.own(); }
-  // "garden/point_cloud.ply, 2026-03-01 18:40": of which scene, and when it was written.
-  const std::string& autosave_says() const { return restorable_says_; }
-
+  void update();          // once a frame: preparing goes on where a scene could not be opened
   void cancel_loading();  // the scene stays as it is, its files where they are
   // The last change of the files is taken back, or made again, where that is the next step. False where it is
   // not, or no longer kept.
@@ -50,16 +39,8 @@ class SessionFiles {
   void perform(const AddScene& c);
   void perform(const PlaceScene& c);
   void perform(const RemoveScene& c);
-  void perform(const SaveWork& c);
-  void perform(const RestoreAutosave&);
-  void perform(const DropAutosave&);
-  void perform(const Export& c);
-  void perform(const SaveSnapshot& c);
-  void perform(const SaveTurntable& c);
 
  private:
-  void describe_offered();
-  void forget_restored(const std::filesystem::path& file);
   void opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
               const std::filesystem::path& work_path);
   void start_preparing();
@@ -75,17 +56,9 @@ class SessionFiles {
   Workspace& ws_;
   Viewport& viewport_;
   CutJobs& cuts_;
+  SavedWork& work_;
   Calls calls_;
-  std::filesystem::path work_path_;
-  Autosaves autosaves_;
-  std::filesystem::path restored_;  // left behind by a crash, in this work now: goes once that is saved
-  std::string restorable_says_;
   bool preparing_stopped_ = false;  // for a scene that was to be opened
-  // Serials of the document that is in the files; 0: in none.
-  std::uint64_t autosaved_serial_ = 0, saved_serial_ = 0;
-  std::uint64_t waiting_serial_ = 0;  // of the document that waits to be autosaved
-  double waited_s_ = 0;
-  CameraPose autosaved_pose_;
   std::uint64_t next_scene_serial_ = 1;
   std::uint32_t next_file_id_ = 1;
   std::vector<SceneSource> changing_to_;  // files of the scene that is being made; empty: none is

@@ -1,0 +1,71 @@
+#include "app/studio/exports.h"
+
+#include <fmt/format.h>
+
+#include "app/studio/capture.h"
+#include "app/studio/turntable.h"
+#include "app/studio/words.h"
+#include "app/studio/work_file.h"
+#include "core/error.h"
+#include "core/png_file.h"
+
+namespace splatcut {
+
+void Exports::perform(const Export& c) {
+  ws_.require_scene();
+  if (is_work_file(c.request.path)) {
+    ws_.ui_requests.push_back(UiRequest::kExportFailed);
+    throw Error(c.request.path.string(), "is the name of saved work, not of a scene", "Choose another");
+  }
+  const TaskThread::Order export_order(TaskKind::kExport,
+                                       [this] { ws_.ui_requests.push_back(UiRequest::kExportFailed); });
+  ws_.tasks.submit(export_order, [this, request = c.request, document = ws_.document(),
+                                  object = ws_.document().active, scene = ws_.scene](const Job& job) {
+    job.progress("exporting", 0);
+    const ExportReport report = run_export(*scene->scene, document, object, request);
+    std::string text = fmt::format("{} Gaussians, {} saved to {}", grouped(report.gaussians),
+                                   human_bytes(report.bytes), request.path.string());
+    if (!report.loss.empty()) text += ". Lost: " + report.loss;
+    ws_.tasks.post([this, text] { ws_.say(Message::Kind::kDone, text); });
+  });
+}
+
+void Exports::perform(const SaveSnapshot& c) {
+  ws_.require_scene();
+  ws_.tasks.submit(
+      TaskKind::kExport, [this, c, camera = viewport_.pane_camera(), visible = viewport_.shown(0),
+                          limits = viewport_.draw_limits(), background = ws_.document().background,
+                          scene = ws_.scene](const Job& job) {
+        job.progress("drawing", 0);
+        const Image<Rgba8> picture =
+            capture(*scene->cloud, camera, visible, limits, background, c.transparent, job);
+        if (job.cancelled()) return;
+        write_png(c.path, picture);
+        ws_.tasks.post([this, c] { ws_.say(Message::Kind::kDone, "Picture saved to " + c.path.string()); });
+      });
+}
+
+void Exports::perform(const SaveTurntable& c) {
+  ws_.require_scene();
+  check_turntable(c);
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || ws_.gaussians_of(object->id) == 0)
+    throw Error("turntable", "there is no object to turn", "Click an object first");
+  const Flags own = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
+  DrawLimits limits = viewport_.draw_limits();
+  limits.far_plane = DrawLimits{}.far_plane;  // that of another view
+  ws_.tasks.submit(TaskKind::kExport,
+                   [this, c, own, limits, front = viewport_.pane_camera(), up_world = ws_.document().up_world,
+                    background = ws_.document().background, scene = ws_.scene](const Job& job) {
+                     const std::vector<Camera> cameras =
+                         cameras_of_turn(object_extent(*scene->cloud, *own), front, up_world, c);
+                     const TurntableOptions options{c.as, c.path, c.turn_s, background};
+                     if (!save_turntable(*scene->cloud, cameras, own, limits, options, job)) return;
+                     ws_.tasks.post([this, c] {
+                       ws_.say(Message::Kind::kDone,
+                               fmt::format("{} frames saved to {}", c.frames, c.path.string()));
+                     });
+                   });
+}
+
+}  // namespace splatcut

@@ -1,0 +1,24 @@
+// What the window writes for others: scenes, pictures of the view, turntables. Written on the worker, of the
+// document as it is when it is asked for.
+#pragma once
+
+#include "app/studio/command.h"
+#include "app/studio/viewport.h"
+#include "app/studio/workspace.h"
+
+namespace splatcut {
+
+class Exports {
+ public:
+  Exports(Workspace& workspace, const Viewport& viewport) : ws_(workspace), viewport_(viewport) {}
+
+  void perform(const Export& c);
+  void perform(const SaveSnapshot& c);
+  void perform(const SaveTurntable& c);
+
+ private:
+  Workspace& ws_;
+  const Viewport& viewport_;
+};
+
+}  // namespace splatcut

@@ -1,0 +1,269 @@
+#include "app/studio/scene_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/studio/carried_document.h"
+#include "app/studio/words.h"
+#include "core/error.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr std::size_t kCoarseFrom = 300000;  // Gaussians; fewer are drawn fast enough as they are
+
+std::string described(const OpenedScene& opened) {
+  const Scene& scene = *opened.scene;
+  const std::size_t more = opened.files.size() - 1;
+  std::string text = fmt::format("{}{}: {} Gaussians, SH degree {}", scene.path.filename().string(),
+                                 more ? fmt::format(" and {} more", more) : "", grouped(scene.cloud.size()),
+                                 scene.cloud.sh_degree);
+  if (scene.dropped) text += fmt::format(", {} unusable rows left out", grouped(scene.dropped));
+  return text + (opened.views().cameras.empty()
+                     ? std::string(". Does it lean or stand on its head? Set what is up under View")
+                     : fmt::format(", {} cameras (N, P)", opened.views().cameras.size()));
+}
+
+bool same_files(const std::vector<SceneSource>& a, const std::vector<SceneSource>& b) {
+  return std::ranges::equal(a, b, [](const SceneSource& left, const SceneSource& right) {
+    return left.id == right.id && left.place == right.place;
+  });
+}
+
+}  // namespace
+
+SceneFiles::SceneFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts, SavedWork& work, Calls calls)
+    : ws_(workspace), viewport_(viewport), cuts_(cuts), work_(work), calls_(std::move(calls)) {}
+
+void SceneFiles::stop_for_loading() {
+  cuts_.pause();
+  // Waited for, it would keep the other scene waiting. If that cannot be opened it goes on, see update().
+  preparing_stopped_ |= ws_.tasks.busy(TaskKind::kPrepare);
+  ws_.tasks.cancel(TaskKind::kPrepare);
+}
+
+void SceneFiles::perform(const OpenScene& c) {
+  const std::uint64_t serial = next_scene_serial_++;
+  const bool restores = work_.autosave_found() && c.path == work_.offered();
+  ws_.say(Message::Kind::kInfo, restores ? "Restoring the work of last time: " + work_.autosave_says()
+                                         : "Opening " + c.path.filename().string());
+  stop_for_loading();
+  changing_to_.clear();
+  std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes}};
+  for (const std::filesystem::path& added : c.added) files.push_back({.path = added});
+  ws_.tasks.submit(
+      TaskKind::kLoad, [this, path = c.path, files, serial, id = next_file_id_](const Job& job) mutable {
+        std::optional<WorkFile> file;
+        if (is_work_file(path)) file = read_work_file(path);
+        if (file && files.size() > 1)
+          throw Error(path.filename().string(), "is saved work: other scenes cannot be opened with it",
+                      "Open it, then add them");
+        if (file) files = file->files;
+        for (SceneSource& source : files) source.id = id++;
+        const std::shared_ptr<OpenedScene> scene = open_scene(files, job);
+        if (job.cancelled()) return;
+        scene->serial = serial;
+        std::optional<RestoredWork> work;
+        if (file) work = restored(*file, *scene);
+        ws_.tasks.post([this, scene, work, id, work_path = file ? path : std::filesystem::path()] {
+          next_file_id_ = std::max(next_file_id_, id);
+          opened(scene, work, work_path);
+          for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
+          if (work && !work->warning.empty()) ws_.say(Message::Kind::kInfo, work->warning);
+        });
+      });
+}
+
+void SceneFiles::cancel_loading() {
+  ws_.tasks.cancel(TaskKind::kLoad);
+  changing_to_.clear();
+}
+
+std::vector<SceneSource> SceneFiles::wanted_files() const {
+  ws_.require_scene();
+  return changing_to_.empty() ? ws_.scene->files : changing_to_;
+}
+
+SceneSource& SceneFiles::added_file(std::vector<SceneSource>* files, std::uint32_t id) const {
+  const auto found = std::ranges::find(*files, id, &SceneSource::id);
+  if (found == files->end()) throw Error("scene", "there is no such file in it");
+  if (found == files->begin())
+    throw Error(found->path.filename().string(), "was opened first: the others stand in its scene");
+  return *found;
+}
+
+void SceneFiles::perform(const AddScene& c) {
+  if (is_work_file(c.path))
+    throw Error(c.path.filename().string(), "is saved work, not a scene", "Open it, or add the scene itself");
+  std::vector<SceneSource> files = wanted_files();
+  files.push_back({.id = next_file_id_++, .path = c.path, .spz_axes = c.spz_axes});
+  const std::string name = c.path.filename().string();
+  change_files(std::move(files), "Adding " + name, name + " added; place it under Files");
+}
+
+void SceneFiles::perform(const PlaceScene& c) {
+  std::vector<SceneSource> files = wanted_files();
+  SceneSource& file = added_file(&files, c.file);
+  check(c.place, file.path);
+  if (file.place == c.place) return;
+  file.place = c.place;
+  const std::string name = file.path.filename().string();
+  change_files(std::move(files), "Placing " + name, name + " placed");
+}
+
+void SceneFiles::perform(const RemoveScene& c) {
+  std::vector<SceneSource> files = wanted_files();
+  const std::string name = added_file(&files, c.file).path.filename().string();
+  std::erase_if(files, [&](const SceneSource& file) { return file.id == c.file; });
+  change_files(std::move(files), "Taking out " + name, name + " taken out; the file stays as it is");
+}
+
+void SceneFiles::change_files(std::vector<SceneSource> files, const std::string& doing,
+                              const std::string& done) {
+  ws_.say(Message::Kind::kInfo, doing);
+  stop_for_loading();
+  changing_to_ = files;
+  const TaskThread::Order order(TaskKind::kLoad, [this] { changing_to_.clear(); });
+  ws_.tasks.submit(order, [this, files = std::move(files), before = ws_.scene, serial = next_scene_serial_++,
+                           done](const Job& job) {
+    const std::shared_ptr<OpenedScene> scene = open_scene(files, job, before.get());
+    if (job.cancelled()) return;
+    scene->serial = serial;
+    ws_.tasks.post([this, scene, done] { carry_document(scene, done); });
+  });
+}
+
+// Labels pass over the Gaussians, so that it is done on the worker; again where the document changed
+// meanwhile.
+void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const std::string& done) {
+  const TaskThread::Order order(TaskKind::kLoad, [this] { changing_to_.clear(); });
+  ws_.tasks.submit(order, [this, scene, done, before = ws_.scene, history = ws_.history,
+                           serial = ws_.history.serial()](const Job& job) mutable {
+    job.progress("carrying labels", 0);
+    history.carry(CarriedDocument(*before, *scene));
+    if (job.cancelled()) return;
+    ws_.tasks.post([this, scene, done, before, history = std::move(history), serial] {
+      calls_.in_turn([this, scene, done, before, history, serial] {
+        if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
+        if (before != ws_.scene || serial != ws_.history.serial()) return carry_document(scene, done);
+        files_changed(scene, history, done);
+      });
+    });
+  });
+}
+
+void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, History history,
+                               const std::string& done) {
+  preparing_stopped_ = false;
+  if (same_files(changing_to_, scene->files)) changing_to_.clear();
+  constexpr std::size_t kMostKept = 3;  // each holds a scene
+  ws_.history.forget_redo();
+  before_files_.push_back(kept_now(next_step_));
+  if (before_files_.size() > kMostKept) before_files_.erase(before_files_.begin());
+  undone_files_.clear();
+  take(scene);
+  ws_.history = std::move(history);
+  ws_.history.push_other_files(done.substr(0, done.find(';')), next_step_++);
+  calls_.opened(true);
+  ws_.say(Message::Kind::kDone, done);
+  for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
+  start_preparing();
+}
+
+SceneFiles::Kept SceneFiles::kept_now(std::uint64_t step) const {
+  return {step, ws_.scene, ws_.prepared, ws_.session, ws_.coarse, ws_.history};
+}
+
+void SceneFiles::go_back_to(Kept kept) {
+  stop_for_loading();
+  cancel_loading();
+  preparing_stopped_ = false;
+  take(kept.scene);
+  ws_.prepared = std::move(kept.prepared);
+  ws_.session = std::move(kept.session);
+  ws_.coarse = std::move(kept.coarse);
+  ws_.history = std::move(kept.history);
+  calls_.opened(true);
+  if (!ws_.session) start_preparing();
+}
+
+bool SceneFiles::undo_files() {
+  const History::Entry& entry = ws_.history.entries()[ws_.history.cursor()];
+  const auto before = std::ranges::find(before_files_, entry.other_files, &Kept::step);
+  if (entry.other_files == 0 || before == before_files_.end()) return false;
+  const std::string title = entry.title;
+  undone_files_.push_back(kept_now(entry.other_files));
+  Kept to = std::move(*before);
+  before_files_.erase(before, before_files_.end());
+  go_back_to(std::move(to));
+  redo_serial_ = ws_.history.serial();
+  ws_.say(Message::Kind::kInfo, "Undone: " + title);
+  return true;
+}
+
+bool SceneFiles::can_redo_files() const {
+  return !undone_files_.empty() && redo_serial_ == ws_.history.serial();
+}
+
+bool SceneFiles::redo_files() {
+  if (!can_redo_files()) return false;
+  Kept to = std::move(undone_files_.back());
+  undone_files_.pop_back();
+  before_files_.push_back(kept_now(to.step));
+  go_back_to(std::move(to));
+  redo_serial_ = ws_.history.serial();
+  ws_.say(Message::Kind::kInfo, "Redone: " + ws_.history.entries()[ws_.history.cursor()].title);
+  return true;
+}
+
+void SceneFiles::take(const std::shared_ptr<const OpenedScene>& scene) {
+  ws_.scene = scene;
+  ws_.prepared = nullptr;
+  ws_.session = nullptr;
+  ws_.coarse = nullptr;
+  ws_.labels.clear();
+}
+
+void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
+                        const std::filesystem::path& work_path) {
+  preparing_stopped_ = false;
+  before_files_.clear();
+  undone_files_.clear();
+  take(scene);
+  Document start;
+  start.up_world = scene->views().up_world;
+  ws_.history.reset(work ? work->document : start, work ? "Open work" : "Open scene");
+  calls_.opened(false);
+  if (work && work->view) viewport_.camera().set_pose(*work->view);
+  work_.opened(work, work_path);
+  ws_.say(Message::Kind::kDone, described(*scene));
+  start_preparing();
+}
+
+void SceneFiles::update() {
+  if (!ws_.scene || ws_.tasks.busy(TaskKind::kLoad)) return;
+  if (std::exchange(preparing_stopped_, false) && !ws_.session) start_preparing();
+}
+
+void SceneFiles::start_preparing() {
+  ws_.tasks.submit(TaskKind::kPrepare, [this, scene = ws_.scene](const Job& job) {
+    if (scene->cloud->size() >= kCoarseFrom)
+      ws_.tasks.post(
+          [this, scene, coarse = std::make_shared<const CoarseCloud>(coarse_cloud(*scene->cloud))] {
+            if (scene == ws_.scene) ws_.coarse = coarse;
+          });
+    auto prepared = prepare(*scene, job, ws_.options.cache);
+    if (job.cancelled()) return;
+    auto session = std::make_shared<Session>(session_scene(*scene, prepared));
+    session->make_ready(preset("default"), job);
+    ws_.tasks.post([this, scene, prepared, session] {
+      if (scene != ws_.scene) return;
+      ws_.prepared = prepared;
+      ws_.session = session;
+    });
+  });
+}
+
+}  // namespace splatcut
