@@ -13,6 +13,7 @@
 #include "core/json_file.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
+#include "scene/formats/sog_rows.h"
 #include "scene/formats/webp.h"
 #include "scene/formats/zip_file.h"
 
@@ -43,11 +44,15 @@ class SogFiles {
     return parse_json(zip_ ? file_.path() / kMetaName : file_.path(),
                       {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
-  Image<Rgba8> picture(const std::string& name) const {
+  // Adds the file that it lies in to `packed`.
+  Image<Rgba8> picture(const std::string& name,
+                       std::map<std::filesystem::path, std::uint64_t>* packed) const {
+    packed->emplace(file_.path(), file_.bytes().size());
     if (zip_) return read_webp(file_.path(), name, zip_->read(prefix_ + name), file_.bytes().size());
     if (std::filesystem::path(name).filename() != name)
       throw Error(file_.path().string(), fmt::format("names the picture \"{}\" in another folder", name));
     const MappedFile picture(file_.path().parent_path() / name);
+    packed->emplace(picture.path(), picture.bytes().size());
     return read_webp(picture.path(), name, picture.bytes(), picture.bytes().size() + file_.bytes().size());
   }
 
@@ -57,8 +62,7 @@ class SogFiles {
   std::string prefix_;
 };
 
-// 256 numbers for each of four channels: a codebook, or the steps of a range.
-using Tables = std::array<std::array<float, 256>, 4>;
+using Tables = SogRows::Tables;
 
 Tables tables_of_codebook(const json& codebook) {
   Tables tables{};
@@ -82,71 +86,41 @@ Tables tables_of(const json& part) {
                                    : tables_of_ranges(part.at("mins"), part.at("maxs"));
 }
 
-struct SogRows {
-  glm::vec3 least{0}, most{0};  // of the logarithms of positions
-  Image<Rgba8> low, high, quats, scales, sh0, centroids, labels;
-  Tables scale_tables{}, sh0_tables{}, sh_tables{};
-  bool logits = false;  // opacities of version 1
-  int degree = 0;
-  std::size_t palette = 0;  // entries
+float byte(const Image<Rgba8>& image, std::size_t row, std::size_t channel) {
+  return static_cast<float>(image.pixels()[row][channel]);
+}
 
-  static float byte(const Image<Rgba8>& image, std::size_t row, std::size_t channel) {
-    return static_cast<float>(image.pixels()[row][channel]);
+glm::vec3 scale_of(const SogRows& rows, std::size_t row) {
+  const Rgba8& p = rows.scales.pixels()[row];
+  const Tables& t = rows.scale_tables;
+  return glm::exp(glm::vec3(t[0][p[0]], t[1][p[1]], t[2][p[2]]));
+}
+
+glm::vec3 f_dc_of(const SogRows& rows, std::size_t row) {
+  const Rgba8& p = rows.sh0.pixels()[row];
+  const Tables& t = rows.sh0_tables;
+  return {t[0][p[0]], t[1][p[1]], t[2][p[2]]};
+}
+
+std::size_t label_of(const SogRows& rows, std::size_t row) {
+  const Rgba8& p = rows.labels.pixels()[row];
+  return p[0] | static_cast<std::size_t>(p[1]) << 8;
+}
+
+glm::quat rotation_of(const SogRows& rows, std::size_t row) {
+  const Rgba8& p = rows.quats.pixels()[row];
+  const auto largest = static_cast<std::size_t>(p[3] - sog::kLargestAt);
+  std::array<float, 4> q{};
+  float sum = 0;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (i == largest) continue;
+    q[i] = (static_cast<float>(p[next++]) / 255.0f * 2 - 1) / std::sqrt(2.0f);
+    sum += q[i] * q[i];
   }
-  glm::vec3 scale(std::size_t row) const {
-    const Rgba8& p = scales.pixels()[row];
-    return glm::exp(glm::vec3(scale_tables[0][p[0]], scale_tables[1][p[1]], scale_tables[2][p[2]]));
-  }
-  glm::vec3 f_dc(std::size_t row) const {
-    const Rgba8& p = sh0.pixels()[row];
-    return {sh0_tables[0][p[0]], sh0_tables[1][p[1]], sh0_tables[2][p[2]]};
-  }
-  std::size_t label(std::size_t row) const {
-    const Rgba8& p = labels.pixels()[row];
-    return p[0] | static_cast<std::size_t>(p[1]) << 8;
-  }
-  glm::vec3 position(std::size_t row) const {
-    const bool good = quats.pixels()[row][3] >= sog::kLargestAt && is_finite(scale(row)) &&
-                      is_finite(f_dc(row)) && (degree == 0 || label(row) < palette);
-    if (!good) return kDroppedRow;
-    glm::vec3 p;
-    for (int c = 0; c < 3; ++c) {
-      const auto channel = static_cast<std::size_t>(c);
-      const float fraction = (byte(low, row, channel) + 256.0f * byte(high, row, channel)) / sog::kSteps;
-      p[c] = sog::from_log(least[c] + (most[c] - least[c]) * fraction);
-    }
-    return p;
-  }
-  glm::quat rotation(std::size_t row) const {
-    const Rgba8& p = quats.pixels()[row];
-    const auto largest = static_cast<std::size_t>(p[3] - sog::kLargestAt);
-    std::array<float, 4> q{};
-    float sum = 0;
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (i == largest) continue;
-      q[i] = (static_cast<float>(p[next++]) / 255.0f * 2 - 1) / std::sqrt(2.0f);
-      sum += q[i] * q[i];
-    }
-    q[largest] = std::sqrt(std::max(0.0f, 1 - sum));
-    return glm::normalize(glm::quat(q[0], q[1], q[2], q[3]));
-  }
-  void decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const {
-    const std::uint8_t opacity = sh0.pixels()[row][3];
-    cloud.scale[g] = scale(row);
-    cloud.rotation[g] = rotation(row);
-    cloud.f_dc[g] = f_dc(row);
-    cloud.opacity[g] = logits ? sigmoid(sh0_tables[3][opacity]) : static_cast<float>(opacity) / 255.0f;
-    if (degree == 0) return;
-    const auto coefficients = static_cast<std::size_t>(sh_rest_coefficients(degree));
-    const std::size_t entry = label(row);
-    const Rgba8* centroid = &centroids.row(
-        static_cast<int>(entry / sog::kCentroidsPerRow))[entry % sog::kCentroidsPerRow * coefficients];
-    float* rest = cloud.sh_rest.data() + g * cloud.sh_stride();
-    for (std::size_t k = 0; k < coefficients; ++k)
-      for (std::size_t c = 0; c < 3; ++c) rest[c * coefficients + k] = sh_tables[c][centroid[k][c]];
-  }
-};
+  q[largest] = std::sqrt(std::max(0.0f, 1 - sum));
+  return glm::normalize(glm::quat(q[0], q[1], q[2], q[3]));
+}
 
 glm::vec3 vec3_of(const json& list) {
   return {list.at(0).get<float>(), list.at(1).get<float>(), list.at(2).get<float>()};
@@ -159,8 +133,8 @@ int degree_of_width(int width) {
   return 0;
 }
 
-void read_pictures(const MappedFile& file, const SogFiles& files, const json& meta, std::size_t count,
-                   SogRows* rows, const Job& job) {
+void read_pictures(const MappedFile& file, const SogFiles& files, const json& meta, SogRows* rows,
+                   const Job& job) {
   struct Wanted {
     const char* part;
     std::size_t index;
@@ -179,24 +153,38 @@ void read_pictures(const MappedFile& file, const SogFiles& files, const json& me
   for (const Wanted& wanted : all) {
     if (job.cancelled()) return;
     const auto name = meta.at(wanted.part).at("files").at(wanted.index).get<std::string>();
-    *wanted.image = files.picture(name);
-    if (wanted.each_gaussian && wanted.image->size() < count)
+    *wanted.image = files.picture(name, &rows->packed);
+    if (wanted.each_gaussian && wanted.image->size() < rows->count)
       throw Error(file.path().string(),
                   fmt::format("truncated: the picture {} has {} pixels for {} Gaussians", name,
-                              wanted.image->size(), count));
+                              wanted.image->size(), rows->count));
   }
 }
 
+std::size_t count_of(const MappedFile& file, const json& meta) {
+  const int version = meta.value("version", 1);
+  if (version != 1 && version != 2)
+    throw Error(file.path().string(), fmt::format("version {} of .sog is not supported", version));
+  const auto count =
+      (version == 1 ? meta.at("means").at("shape").at(0) : meta.at("count")).get<std::size_t>();
+  if (count == 0 || count > std::numeric_limits<std::uint32_t>::max())
+    throw Error(file.path().string(), fmt::format("promises {} Gaussians", count));
+  return count;
+}
+
 // Incomplete when cancelled.
-SogRows read_rows_of(const MappedFile& file, const SogFiles& files, const json& meta, std::size_t count,
-                     const Job& job) {
+SogRows rows_of(const MappedFile& file, const Job& job) {
+  const SogFiles files(file);
+  const json meta = files.meta();
   SogRows rows;
+  rows.count = count_of(file, meta);
+  rows.antialiased = meta.value("antialias", false);
   rows.logits = !meta.contains("version");
   rows.least = vec3_of(meta.at("means").at("mins"));
   rows.most = vec3_of(meta.at("means").at("maxs"));
   rows.scale_tables = tables_of(meta.at("scales"));
   rows.sh0_tables = tables_of(meta.at("sh0"));
-  read_pictures(file, files, meta, count, &rows, job);
+  read_pictures(file, files, meta, &rows, job);
   if (!meta.contains("shN") || job.cancelled()) return rows;
   rows.sh_tables = tables_of(meta.at("shN"));
   for (const auto& table : rows.sh_tables)
@@ -212,30 +200,11 @@ SogRows read_rows_of(const MappedFile& file, const SogFiles& files, const json& 
   return rows;
 }
 
-std::size_t count_of(const MappedFile& file, const json& meta) {
-  const int version = meta.value("version", 1);
-  if (version != 1 && version != 2)
-    throw Error(file.path().string(), fmt::format("version {} of .sog is not supported", version));
-  const auto count =
-      (version == 1 ? meta.at("means").at("shape").at(0) : meta.at("count")).get<std::size_t>();
-  if (count == 0 || count > std::numeric_limits<std::uint32_t>::max())
-    throw Error(file.path().string(), fmt::format("promises {} Gaussians", count));
-  return count;
-}
-
 void read_sog(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
-  try {
-    const SogFiles files(file);
-    const json meta = files.meta();
-    const std::size_t count = count_of(file, meta);
-    job.progress("unpacking pictures", 0.0);
-    const SogRows rows = read_rows_of(file, files, meta, count, job);
-    scene.antialiased = meta.value("antialias", false);
-    if (!job.cancelled()) decode_rows(rows, count, rows.degree, scene, job);
-  } catch (const json::exception& error) {
-    throw Error(file.path().string(),
-                fmt::format("its meta.json is not that of a .sog ({})", fault_of(error)));
-  }
+  job.progress("unpacking pictures", 0.0);
+  const SogRows rows = read_sog_rows(file, job);
+  scene.antialiased = rows.antialiased;
+  if (!job.cancelled()) decode_rows(rows, rows.count, rows.degree, scene, job);
 }
 
 bool is_sog(const MappedFile& file) {
@@ -247,6 +216,51 @@ bool is_sog(const MappedFile& file) {
 }
 
 }  // namespace
+
+glm::vec3 SogRows::position(std::size_t row) const {
+  const bool good = quats.pixels()[row][3] >= sog::kLargestAt && is_finite(scale_of(*this, row)) &&
+                    is_finite(f_dc_of(*this, row)) && (degree == 0 || label_of(*this, row) < palette);
+  if (!good) return kDroppedRow;
+  glm::vec3 p;
+  for (int c = 0; c < 3; ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    const float fraction = (byte(low, row, channel) + 256.0f * byte(high, row, channel)) / sog::kSteps;
+    p[c] = sog::from_log(least[c] + (most[c] - least[c]) * fraction);
+  }
+  return p;
+}
+
+void SogRows::decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const {
+  const std::uint8_t opacity = sh0.pixels()[row][3];
+  cloud.scale[g] = scale_of(*this, row);
+  cloud.rotation[g] = rotation_of(*this, row);
+  cloud.f_dc[g] = f_dc_of(*this, row);
+  cloud.opacity[g] = logits ? sigmoid(sh0_tables[3][opacity]) : static_cast<float>(opacity) / 255.0f;
+  if (degree == 0) return;
+  const auto own = static_cast<std::size_t>(sh_rest_coefficients(degree));
+  const std::size_t all = cloud.sh_stride() / 3, entry = label_of(*this, row);
+  const Rgba8* centroid =
+      &centroids.row(static_cast<int>(entry / sog::kCentroidsPerRow))[entry % sog::kCentroidsPerRow * own];
+  float* rest = cloud.sh_rest.data() + g * cloud.sh_stride();
+  for (std::size_t k = 0; k < own; ++k)
+    for (std::size_t c = 0; c < 3; ++c) rest[c * all + k] = sh_tables[c][centroid[k][c]];
+}
+
+std::uint64_t SogRows::unpacked_bytes() const {
+  std::uint64_t pixels = 0;
+  for (const Image<Rgba8>* picture : {&low, &high, &quats, &scales, &sh0, &centroids, &labels})
+    pixels += picture->size();
+  return pixels * sizeof(Rgba8);
+}
+
+SogRows read_sog_rows(const MappedFile& file, const Job& job) {
+  try {
+    return rows_of(file, job);
+  } catch (const json::exception& error) {
+    throw Error(file.path().string(),
+                fmt::format("its meta.json is not that of a .sog ({})", fault_of(error)));
+  }
+}
 
 constinit const SceneFormat SceneFormat::kSog = {
     .name = "sog",
