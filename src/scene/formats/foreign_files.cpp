@@ -36,8 +36,6 @@ constexpr Foreign kForeign[] = {
     {".usdc", "PXR-USDC", "is a USD file, which is not read", kExport},
     {".splatv", "\x4b\x67\x00\x00"sv, "is a moving scene (.splatv), which is not read",
      "Export one moment of it as .ply"},
-    {"lod-meta.json", "", "is the index of a streamed scene in several pieces",
-     "Give the meta.json of one of the folders beside it"},
     {".lcc", "", "is a scene of XGRIDS, which is not read", kExport},
     {".rad", "", "is a streamed scene of Spark, which is not read", kExport},
     {".ckpt", "", "is a checkpoint of a training, not a scene",

@@ -25,8 +25,10 @@ SceneFormat format_of(const MappedFile& file) {
 // A folder stands for the scene of several files in it.
 std::filesystem::path in_folder(const std::filesystem::path& path) {
   std::error_code ignored;
-  const std::filesystem::path meta = path / "meta.json";
-  return std::filesystem::is_directory(path, ignored) && std::filesystem::exists(meta, ignored) ? meta : path;
+  if (!std::filesystem::is_directory(path, ignored)) return path;
+  for (const char* name : {"lod-meta.json", "meta.json"})
+    if (std::filesystem::exists(path / name, ignored)) return path / name;
+  return path;
 }
 
 std::vector<std::uint32_t> kept_in_file_order(const GaussianCloud& cloud,

@@ -17,6 +17,7 @@
   row(kSplat)                       \
   row(kSpz)                         \
   row(kSog)                         \
+  row(kStreamedSog)                 \
   row(kGlb)                         \
   row(kKsplat)                      \
 // clang-format on
@@ -40,7 +41,7 @@ struct FormatPlan {
 // One row. A value that is copied freely; rows are equal where their names are.
 struct SceneFormat {
   const char* name = "";       // in reports and on the command line: "compressed.ply"
-  const char* extension = "";  // what file names end with, small letters: ".compressed.ply"
+  const char* extension = "";  // what file names end with, small letters: ".compressed.ply", "lod-meta.json"
   const char* also = "";       // another ending that is read: "meta.json"; empty for none
 
   // By the first bytes. Null: nothing marks such files but their name.

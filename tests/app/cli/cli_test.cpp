@@ -313,7 +313,7 @@ TEST_CASE("convert goes through every format and back, and says what is lost") {
 TEST_CASE("convert refuses an ending that it reads but does not write, and lists what it writes") {
   const StillLife& life = still_life();
   const Workplace& place = life.place;
-  for (const std::string name : {"a.ksplat", "a.gltf", "meta.json", "a.obj", "a"}) {
+  for (const std::string name : {"a.ksplat", "a.gltf", "meta.json", "lod-meta.json", "a.obj", "a"}) {
     CAPTURE(name);
     const Result result = place.run("convert " + life.scene + " -o " + name);
     CHECK(result.code == 1);

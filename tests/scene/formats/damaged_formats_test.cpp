@@ -163,7 +163,7 @@ TEST_CASE("files of other kinds are refused with what to do") {
   check("a.splatv", std::string("\x4b\x67\x00\x00", 4), {"moving scene", ".ply"});
   check("moving.splat", std::string("\x4b\x67\x00\x00", 4) + std::string(60, 'a'), {"moving scene", ".ply"});
   check("step-30000.ckpt", "PK", {"checkpoint", "ns-export"});
-  check("lod-meta.json", "{}", {"streamed", "meta.json"});
+  check("lod-meta.json", "{}", {"lod-meta.json", "not the index of a streamed scene", "'filenames'"});
   check("scene.xyzzy", "what", {"extension", ".splat", ".sog"});
 }
 

@@ -33,7 +33,9 @@ TEST_CASE("formats: names differ, every extension finds its row, lists follow fr
   CHECK_FALSE(has_scene_extension("scene.png"));
   CHECK(output_format_from_name("b.GLB") == SceneFormat::kGlb);
   CHECK(format_from_name("b.gltf") == SceneFormat::kGlb);
-  for (const char* read_only : {"b.gltf", "meta.json", "b.ksplat", "b.png"})
+  CHECK(format_from_name("a/meta.json") == SceneFormat::kSog);
+  CHECK(format_from_name("a/lod-meta.json") == SceneFormat::kStreamedSog);
+  for (const char* read_only : {"b.gltf", "meta.json", "lod-meta.json", "b.ksplat", "b.png"})
     CHECK_THROWS_AS(output_format_from_name(read_only), Error);
 }
 
