@@ -60,6 +60,30 @@ void write_picture(const char* name, int width) {
   if (beside) load_and_save(place().write("meta.json", bytes));
 }
 
+// Gaussians in a row.
+[[maybe_unused]] void write_sog(const char* name, std::size_t gaussians, int degree) {
+  Scene scene;
+  scene.cloud.resize(gaussians, degree);
+  for (std::size_t g = 0; g < gaussians; ++g) {
+    scene.cloud.position[g] = glm::vec3(static_cast<float>(g));
+    scene.cloud.scale[g] = glm::vec3(0.1f);
+    scene.cloud.rotation[g] = glm::quat(1, 0, 0, 0);
+    scene.cloud.opacity[g] = 0.5f;
+    scene.cloud.file_row[g] = static_cast<std::uint32_t>(g);
+  }
+  save_scene(place().folder() / name, scene, {}, SceneFormat::kSog);
+}
+
+// The index of a streamed scene, with pieces that it can name.
+[[maybe_unused]] void fuzz_streamed_sog_text(std::string_view bytes) {
+  static const bool beside = [] {
+    write_sog("a.sog", 8, 1);
+    write_sog("b.sog", 5, 0);
+    return true;
+  }();
+  if (beside) load_and_save(place().write("lod-meta.json", bytes));
+}
+
 [[maybe_unused]] void fuzz_glb(std::string_view bytes) {
   load_and_save(place().write("a.glb", bytes));
 }
