@@ -22,11 +22,11 @@ SceneFormat format_of(const MappedFile& file) {
   return format_from_name(file.path());
 }
 
-// A folder stands for the scene of several files in it.
+// A folder stands for the scene of several files in it. Where there are both, meta.json needs no other folders.
 std::filesystem::path in_folder(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(path, ignored)) return path;
-  for (const char* name : {"lod-meta.json", "meta.json"})
+  for (const char* name : {"meta.json", "lod-meta.json"})
     if (std::filesystem::exists(path / name, ignored)) return path / name;
   return path;
 }

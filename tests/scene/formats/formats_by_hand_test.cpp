@@ -234,7 +234,7 @@ TEST_CASE("real files: .sog of three writers, .ksplat, text and colours, against
   };
   for (const Known& known :
        {Known{"sog_v1", 174724, 0}, Known{"sog_v2/monkey_0001.sog", 31658, 0},
-        Known{"sog_v2/jfigbor_scene.sog", 360196, 0}, Known{"sog_v2_unbundled/meta.json", 87271, 3},
+        Known{"sog_v2/jfigbor_scene.sog", 360196, 0}, Known{"sog_v2_unbundled", 87271, 3},
         Known{"supersplat-engine/test.ply", 64, 3}}) {
     CAPTURE(known.path);
     const Scene scene = load_scene(fixtures / known.path);
