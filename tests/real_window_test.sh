@@ -54,7 +54,7 @@ wait_for 240 "new cutout after the stroke" changed
 shot 3_scribbled
 xdotool key i; shot 4_isolated
 xdotool key ctrl+e sleep 1; shot 5_export
-click 883 599   # Export
+click 1058 599  # Export
 exported() { ls "$work"/sample_*.ply; }
 wait_for 60 "exported file" exported
 shot 6_exported

@@ -17,10 +17,18 @@ struct ViewArguments {
   bool check = false;
 };
 
+void require_file(const std::filesystem::path& path) {
+  std::error_code unreadable;
+  if (!path.empty() && !std::filesystem::exists(path, unreadable) && !unreadable)
+    throw Error(path.string(), "there is no such file or folder");
+}
+
 void run_view(ViewArguments args) {
   if (const std::string reason = args.check ? why_no_window() : ""; !reason.empty())
     throw Error("window", "cannot be opened here: " + reason);
   if (args.check) return;
+  require_file(args.window.open);  // said here, not in a window that stays empty
+  for (const std::filesystem::path& added : args.window.added) require_file(added);
   args.window.renderer = args.renderer == "gl"    ? RendererChoice::kGl
                          : args.renderer == "cpu" ? RendererChoice::kCpu
                                                   : RendererChoice::kAuto;

@@ -26,7 +26,7 @@ int lock_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-Autosaves::Autosaves(const std::filesystem::path& folder) {
+Autosaves::Autosaves(const std::filesystem::path& folder) : folder_(folder) {
   if (folder.empty()) return;
   std::error_code trouble;
   std::filesystem::create_directories(folder, trouble);

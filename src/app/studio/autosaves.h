@@ -21,6 +21,10 @@ class Autosaves {
   const std::filesystem::path& own() const { return own_.file; }  // empty: none is to be written
   // Left by others, the newest; empty: none. No other program offers it meanwhile.
   std::filesystem::path left_behind() const;
+  // Also what a program left that had not quite ended before.
+  void look_again() {
+    if (!folder_.empty()) hold_left_behind(folder_);
+  }
   void remove(const std::filesystem::path& file);  // one that was left behind
 
  private:
@@ -32,6 +36,7 @@ class Autosaves {
   void hold_left_behind(const std::filesystem::path& folder);
   void hold_own(const std::filesystem::path& folder);
 
+  std::filesystem::path folder_;
   Held own_;
   std::vector<Held> left_;  // the newest last
 };

@@ -26,7 +26,10 @@ void Exports::perform(const Export& c) {
     std::string text = fmt::format("{} Gaussians, {} saved to {}", grouped(report.gaussians),
                                    human_bytes(report.bytes), request.path.string());
     if (!report.loss.empty()) text += ". Lost: " + report.loss;
-    ws_.tasks.post([this, text] { ws_.say(Message::Kind::kDone, text); });
+    ws_.tasks.post([this, text, path = request.path] {
+      last_ = path;
+      ws_.say(Message::Kind::kDone, text);
+    });
   });
 }
 

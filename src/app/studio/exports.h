@@ -2,6 +2,8 @@
 // document as it is when it is asked for.
 #pragma once
 
+#include <filesystem>
+
 #include "app/studio/command.h"
 #include "app/studio/viewport.h"
 #include "app/studio/workspace.h"
@@ -16,9 +18,13 @@ class Exports {
   void perform(const SaveSnapshot& c);
   void perform(const SaveTurntable& c);
 
+  // The scene, or folder of scenes, that was written last; empty: none was.
+  const std::filesystem::path& last() const { return last_; }
+
  private:
   Workspace& ws_;
   const Viewport& viewport_;
+  std::filesystem::path last_;
 };
 
 }  // namespace splatcut

@@ -8,7 +8,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kRingShare = 0.72f, kScaleShare = 0.98f;  // of the reach: radius of rings; the square's way
+constexpr float kArrowShare = 0.74f, kScaleShare = 1.2f;  // of the reach: arrows; the way to the square
 constexpr float kEndOn = 0.97f;                           // cosine of an arrow that points at the camera
 
 glm::vec2 pixel_of(const Camera& camera, const glm::vec3& point_world) {
@@ -38,7 +38,7 @@ std::vector<glm::vec3> ring_world(const PlacingHandles& handles, const glm::vec3
                                   const Camera& camera) {
   constexpr int kSteps = 32;
   constexpr float kFromTheFront = 0.96f;
-  const float radius = kRingShare * reach_world(handles, camera);
+  const float radius = reach_world(handles, camera);
   const auto [u, v] = across(axis);
   const glm::vec3 to_camera = glm::normalize(camera.centre_world() - handles.centre_world);
   const bool whole = std::abs(glm::dot(axis, to_camera)) > kFromTheFront;
@@ -105,7 +105,7 @@ float turned(const PlacingHandles& handles, const glm::vec3& axis, const Camera&
 }  // namespace
 
 std::vector<PlacingHandle> handles_px(const PlacingHandles& handles, const Camera& camera) {
-  constexpr float kFromMiddle = 0.2f;  // of the reach: arrows begin beside the ball
+  constexpr float kFromMiddle = 0.16f;  // of the reach: arrows begin beside the ball
   std::vector<PlacingHandle> shown;
   if (!(depth_of(handles, camera) > 1e-6f)) return shown;
   const float reach = reach_world(handles, camera);
@@ -119,7 +119,7 @@ std::vector<PlacingHandle> handles_px(const PlacingHandles& handles, const Camer
   }
   for (std::size_t i = 0; i < handles.arrow_axes.size(); ++i) {
     const glm::vec3& axis = handles.arrow_axes[i];
-    const glm::vec3 tip = handles.centre_world + reach * axis;
+    const glm::vec3 tip = handles.centre_world + kArrowShare * reach * axis;
     if (std::abs(glm::dot(axis, sight)) > kEndOn || !(camera.camera_from_world(tip).z > 0)) continue;
     shown.push_back(
         {PlacingGrip::kMoveAlong,
@@ -163,14 +163,21 @@ PlacingChange dragged(const PlacingHandles& handles, const PlacingHandle& handle
     case PlacingGrip::kTurn: {
       const glm::vec3& axis = handles.turn_axes[handle.axis];
       change.angle_rad = turned(handles, axis, camera, from_px, to_px);
-      if (in_steps) change.angle_rad = kTurnStep * std::round(change.angle_rad / kTurnStep);
+      if (in_steps) {
+        const float before =
+            handle.axis < handles.turned_deg.size() ? glm::radians(handles.turned_deg[handle.axis]) : 0;
+        change.angle_rad = kTurnStep * std::round((before + change.angle_rad) / kTurnStep) - before;
+      }
       change.turn = glm::angleAxis(change.angle_rad, axis);
       break;
     }
     case PlacingGrip::kScale: {
       const glm::vec2 middle = pixel_of(camera, handles.centre_world);
       change.scale = glm::distance(to_px, middle) / std::max(1.0f, glm::distance(from_px, middle));
-      if (in_steps) change.scale = std::max(kScaleStep, kScaleStep * std::round(change.scale / kScaleStep));
+      if (in_steps) {
+        const float whole = kScaleStep * std::round(handles.scaled * change.scale / kScaleStep);
+        change.scale = std::max(kScaleStep, whole) / handles.scaled;
+      }
       change.scale = std::max(kLeastScale, change.scale);
       break;
     }

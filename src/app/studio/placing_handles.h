@@ -18,7 +18,9 @@ struct PlacingHandles {
   glm::vec3 centre_world{0};          // what turning and scaling leave where it is
   std::vector<glm::vec3> arrow_axes;  // unit length
   std::vector<glm::vec3> turn_axes;   // unit length
-  float reach_px = 84;                // of the arrows
+  float reach_px = 84;                // of the rings, which lie around the arrows
+  std::vector<float> turned_deg;      // about each of turn_axes, so far; steps are of the sum
+  float scaled = 1;                   // so far; steps are of the product
 };
 
 enum class PlacingGrip { kMove, kMoveAlong, kTurn, kScale };
@@ -35,7 +37,7 @@ struct PlacingHandle {
 struct PlacingChange {
   glm::vec3 move_world{0};
   glm::quat turn{1, 0, 0, 0};
-  float angle_rad = 0;  // of the turn, about its axis, (-pi, pi]
+  float angle_rad = 0;  // of the turn, about its axis, -2 pi to 2 pi
   float scale = 1;      // > 0
 };
 
@@ -47,7 +49,8 @@ std::vector<PlacingHandle> handles_px(const PlacingHandles& handles, const Camer
 std::optional<std::size_t> handle_at(std::span<const PlacingHandle> shown, const glm::vec2& at_px,
                                      float within_px);
 
-// What a drag of the handle from one pixel to another does. in_steps: turns by 15 degrees, scales by tenths.
+// What a drag of the handle from one pixel to another does. in_steps: to turns of 15 degrees, to tenths of
+// the scale.
 PlacingChange dragged(const PlacingHandles& handles, const PlacingHandle& handle, const glm::vec2& from_px,
                       const glm::vec2& to_px, const Camera& camera, bool in_steps);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "core/error.h"
@@ -62,7 +63,20 @@ void SavedWork::opened(const std::optional<RestoredWork>& work, const std::files
   if (work && !own) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
 }
 
+// A program that was killed may hold its autosave for some seconds more.
+void SavedWork::look_for_more(double seconds) {
+  constexpr double kEverySeconds = 2, kForSeconds = 60;
+  if (autosave_found() || looked_for_s_ > kForSeconds) return;
+  const bool now =
+      std::floor(looked_for_s_ / kEverySeconds) < std::floor((looked_for_s_ + seconds) / kEverySeconds);
+  looked_for_s_ += seconds;
+  if (!now) return;
+  autosaves_.look_again();
+  describe_offered();
+}
+
 void SavedWork::update(double seconds) {
+  look_for_more(seconds);
   if (!ws_.scene || ws_.tasks.busy(TaskKind::kLoad) || autosaves_.own().empty()) return;
   const std::uint64_t serial = ws_.history.serial();
   if (std::exchange(waiting_serial_, serial) != serial) waited_s_ = 0;

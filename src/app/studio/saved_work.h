@@ -38,6 +38,7 @@ class SavedWork {
   void perform(const DropAutosave&);
 
  private:
+  void look_for_more(double seconds);
   void describe_offered();
   void forget_restored(const std::filesystem::path& file);
 
@@ -47,6 +48,7 @@ class SavedWork {
   Autosaves autosaves_;
   std::filesystem::path restored_;  // left behind by a crash, in this work now: goes once that is saved
   std::string restorable_says_;
+  double looked_for_s_ = 0;
   // Serials of the document that is in the files; 0: in none.
   std::uint64_t autosaved_serial_ = 0, saved_serial_ = 0;
   std::uint64_t waiting_serial_ = 0;  // of the document that waits to be autosaved

@@ -54,6 +54,7 @@ class Studio {
   const CutJobs& cuts() const { return cuts_; }
   const Clicks& clicks() const { return clicks_; }
   const SavedWork& work() const { return work_; }
+  const Exports& exports() const { return exports_; }
   const SceneFiles& files() const { return files_; }
   CameraController& camera() { return viewport_.camera(); }
   const CameraController& camera() const { return viewport_.camera(); }

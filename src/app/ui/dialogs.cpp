@@ -169,16 +169,19 @@ void placement_choices(UiContext& ui) {
   placement_choice<ExportUp>(ui, &p.up, kUps, "Where the scene's up (see View) points in the file");
   ImGui::SameLine(0, 14);
   placement_number("##turn", &p.turn_deg, 1, "turn %.1f deg", 110);
-  tooltip("About that axis. Drag, or double-click and type.");
+  tooltip("About that axis. Drag, or click and type.");
   placement_row("Scale, move");
   placement_number("##scale", &p.scale, 0.01f, "%.4g times", 90);
-  tooltip("Every length of the file times this. Drag, or double-click and type.");
+  tooltip("Every length of the file times this. Drag, or click and type.");
   constexpr const char *kIds[] = {"##x", "##y", "##z"}, *kFormats[] = {"x %.4g", "y %.4g", "z %.4g"};
   for (int i = 0; i < 3; ++i) {
     ImGui::SameLine(0, i == 0 ? 14.0f : 2.0f);
     placement_number(kIds[i], &p.move[i], 0.01f, kFormats[i], 100);
-    tooltip("Added to every position, after all else. Drag, or double-click and type.");
+    tooltip("Added to every position, after all else. Drag, or click and type.");
   }
+  if (p == ExportPlacement{}) return;
+  ImGui::SameLine(0, 6);
+  if (button(ui, icon::kUndo, "Back to where it stands in the scene")) p = {};
 }
 
 // Made once for each choice: it looks at all Gaussians.

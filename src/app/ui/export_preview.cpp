@@ -11,6 +11,10 @@ namespace splatcut {
 
 namespace {
 
+// Between dark objects and light ones, in both themes.
+constexpr ImU32 kBackdrop = IM_COL32(104, 107, 112, 255), kFaint = IM_COL32(255, 255, 255, 60),
+                kWords = IM_COL32(255, 255, 255, 210);
+
 ImVec2 vec(const glm::vec2& v) {
   return {v.x, v.y};
 }
@@ -77,16 +81,14 @@ void segment(const Camera& camera, const glm::vec3& a, const glm::vec3& b, ImU32
 }
 
 // Ten lines each way through 0, 0, 0 at right angles to up, and the file's axes.
-void draw_ground(const UiContext& ui, const Camera& camera, float reach) {
+void draw_ground(const glm::vec3& up, const Camera& camera, float reach) {
   constexpr int kLines = 5;
-  const glm::vec3 up = ui.state.export_preview.frame.up_file;
   const glm::vec3 other = std::abs(up.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
   const glm::vec3 v = glm::normalize(glm::cross(up, other)), u = glm::cross(v, up);
-  const ImU32 faint = packed(ui.theme.colour.muted, 0.3f);
   for (int i = -kLines; i <= kLines; ++i) {
     const float at = reach * static_cast<float>(i) / kLines;
-    segment(camera, at * u - reach * v, at * u + reach * v, faint, 1);
-    segment(camera, at * v - reach * u, at * v + reach * u, faint, 1);
+    segment(camera, at * u - reach * v, at * u + reach * v, kFaint, 1);
+    segment(camera, at * v - reach * u, at * v + reach * u, kFaint, 1);
   }
   for (int i = 0; i < 3; ++i) {
     glm::vec3 axis(0);
@@ -106,9 +108,13 @@ void turn_view(ExportPreview* preview, bool held) {
 void drag_handles(UiContext& ui, bool hovered) {
   ExportPreview& preview = ui.state.export_preview;
   ExportPlacement& placement = ui.state.exporting.placement;
-  constexpr float kReach = 62;
-  const PlacingHandles shown = {
-      pivot_of(placement, preview.frame), {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {preview.frame.up_file}, kReach};
+  constexpr float kReach = 70;
+  const PlacingHandles shown{.centre_world = pivot_of(placement, preview.frame),
+                             .arrow_axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                             .turn_axes = {preview.frame.up_file},
+                             .reach_px = kReach,
+                             .turned_deg = {placement.turn_deg},
+                             .scaled = placement.scale};
   const GripsMoved hand = grips(&preview.grips, shown, preview.camera, hovered, ui.theme);
   if (hand.began) preview.before = placement;
   if (hand.change) placement = changed(preview.before, pivot_of(preview.before, preview.frame), *hand.change);
@@ -122,7 +128,7 @@ void export_preview(UiContext& ui, const glm::vec2& size_points) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const UiRect area = {{at.x, at.y}, glm::vec2(at.x, at.y) + size_points};
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(vec(area.min), vec(area.max), packed(ui.theme.colour.panel_low), 6);
+  list.AddRectFilled(vec(area.min), vec(area.max), kBackdrop, 6);
   ImGui::InvisibleButton("##preview", {size_points.x, size_points.y});
   const bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
   if (preview.sample.empty()) return preview.grips.shown.clear();
@@ -132,12 +138,15 @@ void export_preview(UiContext& ui, const glm::vec2& size_points) {
   turn_view(&preview, held);
   if (!preview.grips.drag) preview.camera = camera_around(preview, shown.box, area);
   ImGui::PushClipRect(at, vec(area.max), true);
-  if (shown.origin) draw_ground(ui, preview.camera, 0.75f * glm::length(shown.box.extent()));
+  if (shown.origin)
+    draw_ground(preview.frame.up_file, preview.camera, 0.75f * glm::length(shown.box.extent()));
   draw_dots(cloud, preview.sample, to, preview.camera, area);
   drag_handles(ui, hovered);
   const std::string words =
       shown.origin ? "In the file: x red, y green, z blue" : "0, 0, 0 of the file is far away";
-  list.AddText({at.x + 8, area.max.y - 22}, packed(ui.theme.colour.muted), words.c_str());
+  list.AddText({at.x + 8, area.max.y - 22}, kWords, words.c_str());
+  if (ui.state.exporting.placement.up != ExportUp::kScene)
+    list.AddText({at.x + 8, at.y + 6}, kWords, "Does it lean? Set what is up under View first");
   ImGui::PopClipRect();
 }
 

@@ -24,7 +24,7 @@ bool three_numbers(const char* label, const char* tip, glm::vec3* values, float 
     ImGui::DragFloat(fmt::format("##{}", kAxes[i]).c_str(), &(*values)[i], step, 0, 0,
                      fmt::format("{} {}", kAxes[i], format).c_str(), ImGuiSliderFlags_NoRoundToFormat);
     done |= ImGui::IsItemDeactivatedAfterEdit();
-    tooltip(fmt::format("{}. Drag, or double-click and type.", tip));
+    tooltip(fmt::format("{}. Drag, or click and type.", tip));
   }
   ImGui::PopID();
   return done;
@@ -39,7 +39,7 @@ bool scale_number(float* scale) {
   ImGui::DragFloat("##scale", scale, 0.01f, kLeast, kMost, "%.4g times",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat);
   const bool done = ImGui::IsItemDeactivatedAfterEdit();
-  tooltip("About the middle of the file. Drag, or double-click and type.");
+  tooltip("About the middle of the file. Drag, or click and type.");
   return done;
 }
 
@@ -103,12 +103,12 @@ void files_panel(UiContext& ui) {
     choice.file = scene->files.back().id;
   }
   choice.files_before = scene->files.size();
-  if (!section(ui, "Files", false)) {
-    choice.file = 0;
-    return;
-  }
+  choice.open = section(ui, "Files", false);
+  if (!choice.open) return;
   const std::vector<SceneSource>& files = scene->files;
   for (const SceneSource& file : files) file_row(ui, file, &file == &files.front());
+  if (files.size() > 1 && !scene->file(choice.file))
+    wrapped_muted(ui, "Click a file that was added: it gets handles.");
   action_button(ui, Action::kAddScene, fmt::format("{} Add a scene", icon::kPlus).c_str(), false, -1);
 }
 

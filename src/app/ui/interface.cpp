@@ -49,6 +49,7 @@ Interface::Interface() : context_(ImGui::CreateContext()) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
+  io.ConfigDragClickToInputText = true;  // a double-click may fall between two frames
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   const std::pair<ImGuiKey, int> kKeys[] = {{ImGuiKey_Tab, key::kTab},
                                             {ImGuiKey_LeftArrow, key::kLeft},
@@ -142,8 +143,9 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
               [&] { top_bar(ui); });
   if (state_.options_below) {  // over the picture, under the bar
-    constexpr float kHeight = 44, kMostWidth = 600;
-    const UiRect row = {view.min, {std::min(view.max.x, view.min.x + kMostWidth), view.min.y + kHeight}};
+    constexpr float kMostWidth = 600;
+    const UiRect row = {view.min,
+                        {std::min(view.max.x, view.min.x + kMostWidth), view.min.y + kOptionsHeight}};
     covered_.push_back(row);
     fixed_panel("options", row, p, kOverPicture, {9, 8}, [&] { tool_options(ui); });
   }
@@ -210,7 +212,6 @@ void Interface::show(UiRequest request, const Studio& studio, UiRenderer* render
       state_.exporting.path.clear();
       state_.exporting.trouble.clear();
       state_.exporting.overwrite = false;
-      state_.exporting.placement = {};
       state_.export_open = true;
       return;
     case UiRequest::kExportFailed:

@@ -141,6 +141,27 @@ void object_row(UiContext& ui, const ObjectItem& object) {
   ImGui::PopID();
 }
 
+// What was exported last, to be taken to another program.
+void exported_file(UiContext& ui) {
+  const std::filesystem::path& file = ui.studio.exports().last();
+  if (file.empty()) return;
+  const std::string name = fmt::format("{}  {}##exported", icon::kFile, file.filename().string());
+  ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
+  if (ImGui::Button(name.c_str(), {-1, 0})) ImGui::SetClipboardText(std::filesystem::absolute(file).c_str());
+  ImGui::PopStyleVar();
+  constexpr float kStart = 6;  // points: less is a click
+  if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, kStart) && !ui.state.drags_out) {
+    ui.state.dragged_out = file;
+    ui.state.drags_out = true;
+  }
+  if (!ImGui::IsItemActive()) ui.state.drags_out = false;
+  if (ui.state.drags_out)
+    ImGui::SetTooltip("%s", file.filename().c_str());
+  else
+    tooltip(fmt::format("{}\nExported last. Drag it into another program, or click: its path is copied",
+                        file.string()));
+}
+
 }  // namespace
 
 void objects_panel(UiContext& ui) {
@@ -154,6 +175,7 @@ void objects_panel(UiContext& ui) {
     wrapped_muted(ui, ui.studio.gaussians_of(active->id) == 0 && active->views.empty()
                           ? fmt::format("{} is empty: click it in the picture.", active->name)
                           : fmt::format("Clicks and strokes go to {}.", active->name));
+  exported_file(ui);
 }
 
 }  // namespace splatcut

@@ -14,6 +14,8 @@ struct UiRect {
   }
 };
 
+inline constexpr float kOptionsHeight = 44;  // of their row under the bar, where they have one
+
 void top_bar(UiContext& ui);
 void tool_options(UiContext& ui);
 void turntable_button(UiContext& ui, const char* label, float width);

@@ -36,7 +36,7 @@ void draw_placed_file(UiContext& ui, const UiRect& area) {
   PlacingChoice& choice = ui.state.placing;
   const SceneSource* file = ui.studio.scene()->file(choice.file);
   choice.grips.shown.clear();
-  if (!file) return choice.grips.drag.reset();
+  if (!file || !choice.open) return choice.grips.drag.reset();
   take_place(ui, *file);
   SceneSource there = *file;
   there.place = choice.place;
@@ -49,8 +49,11 @@ void draw_placed_file(UiContext& ui, const UiRect& area) {
   draw_box(there, to, camera, ui.theme);
   if (ui.studio.loading()) return choice.grips.drag.reset();
   const std::vector<glm::vec3> axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  PlacingHandles shown{.centre_world = to.move, .arrow_axes = axes, .turn_axes = axes};
+  shown.turned_deg = {choice.place.turn_deg.x, choice.place.turn_deg.y, choice.place.turn_deg.z};
+  shown.scaled = choice.place.scale;
   const bool free = ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered();
-  const GripsMoved hand = grips(&choice.grips, {to.move, axes, axes}, camera, free, ui.theme);
+  const GripsMoved hand = grips(&choice.grips, shown, camera, free, ui.theme);
   if (hand.began) choice.before = choice.place;
   if (hand.change) choice.place = changed(choice.before, *hand.change);
   if (hand.done && choice.place != file->place) ui.ask(PlaceScene{file->id, choice.place});

@@ -181,7 +181,12 @@ void display_buttons(UiContext& ui) {
 }  // namespace
 
 void top_bar(UiContext& ui) {
-  action_button(ui, Action::kOpen, fmt::format("{} Open", icon::kOpen).c_str());
+  constexpr float kRoomForWords = 880;
+  const bool words = ImGui::GetWindowWidth() >= kRoomForWords;
+  const auto labelled = [&](Action action, const char* symbol, const char* word) {
+    action_button(ui, action, words ? fmt::format("{} {}", symbol, word).c_str() : symbol);
+  };
+  labelled(Action::kOpen, icon::kOpen, "Open");
   ImGui::SameLine(0, 1);
   const std::string nothing =
       ui.state.recent.empty() && !ui.studio.scene() ? "Nothing was opened so far" : "";
@@ -193,9 +198,9 @@ void top_bar(UiContext& ui) {
     ImGui::EndPopup();
   }
   ImGui::SameLine(0, 2);
-  action_button(ui, Action::kSave, fmt::format("{} Save", icon::kSave).c_str());
+  labelled(Action::kSave, icon::kSave, "Save");
   ImGui::SameLine(0, 2);
-  action_button(ui, Action::kExport, fmt::format("{} Export", icon::kExport).c_str());
+  labelled(Action::kExport, icon::kExport, "Export");
   ImGui::SameLine(0, 2);
   action_button(ui, Action::kSnapshot, icon::kCamera);
   ImGui::SameLine(0, 2);

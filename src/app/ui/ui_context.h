@@ -88,6 +88,7 @@ struct GridShown {
 // The file of the scene that is chosen in the files panel, and where it is to stand.
 struct PlacingChoice {
   std::uint32_t file = 0;  // id; 0: none
+  bool open = false;       // the panel's section is
   ScenePlace place;
   Grips grips;                        // in the picture
   ScenePlace before;                  // the drag
@@ -125,6 +126,8 @@ struct UiState {
   RingsShown rings[2];  // of each pane
   GridShown grid;
   PlacingChoice placing;
+  std::optional<std::filesystem::path> dragged_out;  // by the pointer, into another program
+  bool drags_out = false;                            // that began and the button is still held
   ObjectId renaming = 0;
   std::string new_name;
   std::string renderer_line;  // which renderer draws, and why

@@ -116,6 +116,11 @@ std::optional<UiRect> nearer_line(UiContext& ui, const ImVec2& at) {
   return UiRect{{at.x, at.y}, {end.x, end.y}};
 }
 
+// Of the picture, by the tool's options.
+float covered_top(const UiContext& ui) {
+  return ui.state.options_below ? kOptionsHeight : 0;
+}
+
 // At the picture's lower edge, where a scene has its floor and no object; a small window has more room at the
 // upper one.
 std::optional<UiRect> hint(UiContext& ui, const UiRect& area, float bottom) {
@@ -130,7 +135,7 @@ std::optional<UiRect> hint(UiContext& ui, const UiRect& area, float bottom) {
   const std::size_t rows = wide ? 2 : 4;
   const ImVec2 size = {wide ? 600.0f : 376.0f, kRow * static_cast<float>(rows) + 20};
   const ImVec2 at = {area.min.x + kMargin,
-                     wide ? area.max.y - bottom - size.y - kMargin : area.min.y + kMargin};
+                     wide ? area.max.y - bottom - size.y - kMargin : area.min.y + kMargin + covered_top(ui)};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, packed(ui.theme.colour.panel, 0.94f), 9);
   list.AddRect(at, {at.x + size.x, at.y + size.y}, packed(ui.theme.colour.accent, 0.7f), 9, 0, 1.5f);
@@ -197,20 +202,19 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   draw_brush_ring(ui, area);
   draw_cursor_sign(ui, area);
   ImGui::PopClipRect();
+  const float top = area.min.y + covered_top(ui) + 12;
   if (panes == 2) {
     list.AddLine({area.min.x + pane_width, area.min.y}, {area.min.x + pane_width, area.max.y},
                  packed(ui.theme.colour.line), 2);
-    pane_label(ui, {area.min.x + pane_width + 12, area.min.y + 12}, "Object");
-    pane_label(ui, {area.min.x + 12, area.min.y + 12}, "Scene");
+    pane_label(ui, {area.min.x + pane_width + 12, top}, "Object");
+    pane_label(ui, {area.min.x + 12, top}, "Scene");
   } else if (const char* label = mode_label(studio)) {
-    pane_label(ui, {area.min.x + 12, area.min.y + 12}, label);
+    pane_label(ui, {area.min.x + 12, top}, label);
   }
   const float below_label = panes == 2 || mode_label(studio) ? 40.0f : 0.0f;
-  if (const auto rect = offer_line(ui, {area.min.x + 12, area.min.y + 12 + below_label}))
-    covered.push_back(*rect);
-  if (const auto rect = nearer_line(ui, {area.min.x + 12, area.min.y + 12 + below_label}))
-    covered.push_back(*rect);
-  covered.push_back(axes_gizmo(ui, area));
+  if (const auto rect = offer_line(ui, {area.min.x + 12, top + below_label})) covered.push_back(*rect);
+  if (const auto rect = nearer_line(ui, {area.min.x + 12, top + below_label})) covered.push_back(*rect);
+  covered.push_back(axes_gizmo(ui, {{area.min.x, area.min.y + covered_top(ui)}, area.max}));
   if (const auto rect = hint(ui, area, bottom)) {
     covered.push_back(*rect);
     if (rect->max.y > 0.5f * (area.min.y + area.max.y))

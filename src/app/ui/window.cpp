@@ -8,10 +8,12 @@
 #include <chrono>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/console/console.h"
 #include "app/console/user_folders.h"
+#include "app/ui/file_drag.h"
 #include "app/ui/settings.h"
 #include "app/ui/window_place.h"
 #include "core/error.h"
@@ -262,6 +264,7 @@ void run_loop(Loop& loop, SettingsKeeper* keeper) {
   constexpr double kKeepSeconds = 1;
   double before = glfwGetTime(), kept_s = before;
   std::string title;
+  FileDrag drag;
   while (!loop.app.wants_to_close()) {
     if (glfwWindowShouldClose(loop.window)) {
       glfwSetWindowShouldClose(loop.window, GLFW_FALSE);
@@ -278,9 +281,11 @@ void run_loop(Loop& loop, SettingsKeeper* keeper) {
       keep_settings(loop, keeper);
       kept_s = now;
     }
+    if (const auto file = std::exchange(loop.app.interface().state().dragged_out, {})) drag.begin(*file);
+    const bool drags = drag.update();
     glfwSwapBuffers(loop.window);
     const bool fresh = glfwGetTime() - loop.last_event_s < kAfterEventSeconds;
-    const bool moving = fresh || loop.app.studio().viewport().moving();
+    const bool moving = fresh || drags || loop.app.studio().viewport().moving();
     glfwWaitEventsTimeout(moving ? kMovingSeconds : busy ? kWorkingSeconds : kIdleSeconds);
   }
 }

@@ -22,7 +22,8 @@ SceneFormat format_of(const MappedFile& file) {
   return format_from_name(file.path());
 }
 
-// A folder stands for the scene of several files in it. Where there are both, meta.json needs no other folders.
+// A folder stands for the scene of several files in it. Where there are both, meta.json needs no other
+// folders.
 std::filesystem::path in_folder(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(path, ignored)) return path;

@@ -55,7 +55,7 @@ TEST_CASE("placing: drags by hand, seen along z from five units away") {
   CHECK_FALSE(find(shown, PlacingGrip::kMoveAlong, 2));  // it points at the camera
   const PlacingHandle* x = find(shown, PlacingGrip::kMoveAlong, 0);
   REQUIRE(x);
-  CHECK(glm::distance(x->path_px.back(), {180, 100}) < 1e-3f);
+  CHECK(glm::distance(x->path_px.back(), {100 + 0.74f * 80, 100}) < 1e-3f);
   const PlacingChange along = dragged(handles, *x, {120, 100}, {140, 100}, camera, false);
   CHECK(glm::distance(along.move_world, {1, 0, 0}) < 1e-4f);  // 20 pixels at depth 5 over 100
   CHECK(along.scale == 1);
@@ -67,11 +67,17 @@ TEST_CASE("placing: drags by hand, seen along z from five units away") {
   CHECK(std::abs(dragged(handles, *z, {150, 100}, {150, 112}, camera, true).angle_rad - glm::radians(15.0f)) <
         1e-5f);
   CHECK(dragged(handles, *z, {150, 100}, {150, 104}, camera, true).angle_rad == 0);
+  PlacingHandles turned = handles;  // steps are of all that it is turned and scaled
+  turned.turned_deg = {0, 0, 37.9f};
+  turned.scaled = 1.23f;
+  CHECK(std::abs(dragged(turned, *z, {150, 100}, {150, 108}, camera, true).angle_rad -
+                 glm::radians(45 - 37.9f)) < 1e-5f);
   const PlacingHandle* scale = find(shown, PlacingGrip::kScale);
   REQUIRE(scale);
   CHECK(std::abs(dragged(handles, *scale, {130, 100}, {100, 160}, camera, false).scale - 2) < 1e-5f);
   CHECK(std::abs(dragged(handles, *scale, {130, 100}, {100, 161}, camera, true).scale - 2) < 1e-5f);
   CHECK(dragged(handles, *scale, {130, 100}, {100, 100}, camera, true).scale > 0);
+  CHECK(std::abs(1.23f * dragged(turned, *scale, {130, 100}, {132, 100}, camera, true).scale - 1.3f) < 1e-5f);
   const PlacingHandle* move = find(shown, PlacingGrip::kMove);
   REQUIRE(move);
   CHECK(glm::distance(dragged(handles, *move, {100, 100}, {80, 140}, camera, false).move_world, {-1, 2, 0}) <
@@ -126,7 +132,7 @@ TEST_CASE("placing: a ring seen from its edge turns with the pointer that runs a
   const Camera camera = camera_at_five();
   const auto shown = handles_px(handles, camera);
   REQUIRE(shown.size() == 3);
-  const float radius = 0.72f * 80 / 100 * 5;
+  const float radius = 80.0f / 100 * 5;
   // The nearest of its points lies before the middle; to the right is about +y's negative sense.
   const PlacingChange change = dragged(handles, shown[0], {100, 100}, {110, 100}, camera, false);
   const glm::vec3 near_point(0, 0, -radius);

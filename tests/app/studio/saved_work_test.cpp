@@ -1,5 +1,8 @@
 // Work in files: saved and read back, saved by itself, asked for before it goes.
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -200,6 +203,26 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   CHECK_FALSE(std::filesystem::exists(folder / "autosave.splatcut.json"));  // it is in the other now
   const auto again = open_scene(read_work_file(own).files);
   CHECK(same(restored(read_work_file(own), *again).document, saved));
+}
+
+TEST_CASE("work of a program that ends a little later is offered, too") {
+  const ScratchFolder folder("state_held");
+  const auto scene = open_scene(kSample);
+  Document document;
+  add_object(&document, "mug");
+  write_work_file(folder / "autosave.splatcut.json", *scene, document);
+  const int lock = ::open((folder / "autosave.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  REQUIRE(lock >= 0);
+  REQUIRE(::flock(lock, LOCK_EX | LOCK_NB) == 0);  // as the other program holds it
+  ApplicationOptions options;
+  options.studio.state_folder = folder.path();
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  app.frames(60 * 3);
+  CHECK_FALSE(app.studio().work().autosave_found());
+  ::close(lock);
+  app.frames(60 * 3);
+  CHECK(app.studio().work().autosave_found());
+  CHECK(app.studio().work().autosave_says().starts_with("sample/sample.compressed.ply, 20"));
 }
 
 TEST_CASE("work that was saved by itself stays offered where its scene cannot be opened") {

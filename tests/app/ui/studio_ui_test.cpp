@@ -7,7 +7,9 @@
 #include <thread>
 
 #include "app/console/camera_options.h"
+#include "app/ui/file_drag.h"
 #include "core/error.h"
+#include "hands.h"
 #include "opened_sample.h"
 
 using namespace splatcut;
@@ -203,4 +205,38 @@ TEST_CASE(
   CHECK_NOTHROW(choose_camera(options, scene.cloud));
   options.up = "0,0,1";
   CHECK_THROWS_AS(choose_camera(options, scene.cloud), Error);
+}
+
+TEST_CASE("ui: what was exported last is dragged out of the window, or its path is copied by a click") {
+  const ScratchFolder folder("drag_out");
+  Hands hands(false);
+  UiState& state = hands.app.interface_state();
+  hands.studio().apply(Export{{ExportWhat::kScene, SceneFormat::kSplat, folder / "all.splat"}});
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  CHECK(hands.studio().exports().last() == folder / "all.splat");
+  const UiRect side = hands.app.window("side");
+  const glm::vec2 row(0.5f * (side.min.x + side.max.x), side.min.y + 106);
+  hands.app.move(row);
+  hands.app.press(PointerButton::kLeft);
+  hands.app.frames(2);
+  CHECK_FALSE(state.dragged_out);
+  hands.app.move(row + glm::vec2(12, 0));
+  hands.app.frames(1);
+  CHECK(state.dragged_out == folder / "all.splat");
+  state.dragged_out.reset();  // the window takes it
+  hands.app.move(row + glm::vec2(60, 5));
+  hands.app.frames(2);
+  CHECK_FALSE(state.dragged_out);  // once
+  hands.app.move(row + glm::vec2(300, 300));
+  hands.app.release(PointerButton::kLeft);
+  hands.app.frames(2);
+  hands.app.click(row);
+  hands.app.frames(1);
+  CHECK(std::string(ImGui::GetClipboardText()) == folder / "all.splat");
+}
+
+TEST_CASE("ui: the address of a file that is dragged out is one that other programs read") {
+  CHECK(file_uri("/a b/ä%.ply") == "file:///a%20b/%C3%A4%25.ply");
+  CHECK(file_uri("/plain-1_2.~/x.ply") == "file:///plain-1_2.~/x.ply");
 }

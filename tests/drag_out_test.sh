@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Drags an exported file out of one window into another program's, which opens it: a second one of this program.
+# Usage: drag_out_test.sh PROGRAM SAMPLE_FOLDER [SHOTS_FOLDER]   exit 77: skipped, with a sentence why.
+set -euo pipefail
+program=$1 sample=$2 shots=${3:-}
+for tool in Xvfb xdotool; do
+  command -v $tool >/dev/null || { echo "skipped: $tool is not installed (apt install xvfb xdotool)"; exit 77; }
+done
+[ -z "$shots" ] || mkdir -p "$shots"
+work=$(mktemp -d)
+children=()
+cleanup() { for pid in "${children[@]}"; do kill "$pid" 2>/dev/null || true; done; rm -rf "$work"; }
+trap cleanup EXIT
+fail() { echo "failed: $*"; cat "$work"/*.log; exit 1; }
+
+mkdir "$work/a b" "$work/cache"  # a name that must be encoded on its way
+cp "$sample/sample.compressed.ply" "$sample/cameras.json" "$work/a b/"
+Xvfb -displayfd 3 -screen 0 2100x800x24 -nolisten tcp -noreset 3>"$work/display" 2>/dev/null &
+children+=($!)
+for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
+[ -s "$work/display" ] || { echo "skipped: Xvfb does not start here"; exit 77; }
+export DISPLAY=:$(cat "$work/display")
+unset WAYLAND_DISPLAY
+window() {  # window NAME WIDTH [SCENE]: of a program with its own folders
+  XDG_CONFIG_HOME=$work/$1/config XDG_STATE_HOME=$work/$1/state XDG_CACHE_HOME=$work/cache \
+    "$program" view --width "$2" --height 800 ${3:+"$3"} >"$work/$1.log" 2>&1 &
+  children+=($!)
+}
+shot() { [ -z "$shots" ] || import -window root "$shots/$1.png"; }
+wait_for() {  # wait_for SECONDS WHAT COMMAND...
+  local seconds=$1 what=$2; shift 2
+  for _ in $(seq $((seconds * 5))); do
+    "$@" >/dev/null 2>&1 && return
+    sleep 0.2
+  done
+  shot failed
+  fail "no $what after $seconds s"
+}
+
+window taker 800
+wait_for 60 "second window" xdotool search --name '^splatcut$'
+xdotool windowmove "$(xdotool search --name '^splatcut$' | tail -1)" 1290 0
+window giver 1280 "$work/a b/sample.compressed.ply"
+wait_for 60 "window with the scene" xdotool search --name 'sample.compressed.ply - splatcut'
+xdotool windowmove "$(xdotool search --name 'sample.compressed.ply - splatcut' | tail -1)" 0 0 sleep 0.5
+xdotool mousemove 600 300 sleep 0.3 key ctrl+e sleep 1.5 key Return
+exported() { ls "$work/a b/sample_scene.ply"; }
+wait_for 60 "exported file" exported
+sleep 1; shot 1_exported
+drag=(mousemove 1060 152 sleep 0.4 mousedown 1)  # its row under Objects
+for x in 1080 1120 1200 1300 1400 1500 1560; do drag+=(mousemove "$x" 300 sleep 0.15); done
+xdotool "${drag[@]}"
+shot 2_dragged
+xdotool mouseup 1
+wait_for 60 "scene in the second window" xdotool search --name 'sample_scene.ply - splatcut'
+sleep 1; shot 3_opened
+kill -0 "${children[1]}" && kill -0 "${children[2]}" || fail "a program ended"
+echo "passed"
