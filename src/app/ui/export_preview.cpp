@@ -19,9 +19,10 @@ ImVec2 vec(const glm::vec2& v) {
   return {v.x, v.y};
 }
 
-// Looks at all Gaussians: made once for each choice but the numbers.
+// Passes over all Gaussians: made once for each choice but the numbers. Of many some say where the middle
+// and the foot are, so that the window does not stand still; what is written goes by all.
 void refresh(UiContext& ui) {
-  constexpr std::size_t kMost = 5000;
+  constexpr std::size_t kMost = 5000, kMostForFrame = 200000;
   const ExportChoice& choice = ui.state.exporting;
   ExportPreview& preview = ui.state.export_preview;
   const Studio& studio = ui.studio;
@@ -33,7 +34,9 @@ void refresh(UiContext& ui) {
   const Document& document = studio.document();
   const std::vector<std::uint8_t> keep = exported(document, document.active, choice.what, cloud.size());
   preview.sample = some_of(keep, kMost);
-  if (!preview.sample.empty()) preview.frame = export_frame(choice.placement, cloud, keep, document.up_world);
+  std::vector<std::uint8_t> some(cloud.size(), 0);
+  for (const std::uint32_t g : some_of(keep, kMostForFrame)) some[g] = 1;
+  if (!preview.sample.empty()) preview.frame = export_frame(choice.placement, cloud, some, document.up_world);
   preview.grips.drag.reset();
   preview.key = std::move(key);
 }

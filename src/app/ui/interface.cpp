@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/ui/widgets.h"
 
@@ -212,6 +213,9 @@ void Interface::show(UiRequest request, const Studio& studio, UiRenderer* render
       state_.exporting.path.clear();
       state_.exporting.trouble.clear();
       state_.exporting.overwrite = false;
+      if (const OpenedScene* scene = studio.scene())
+        if (std::exchange(state_.exporting.placed_file, scene->files.front().id) != scene->files.front().id)
+          state_.exporting.placement = {};
       state_.export_open = true;
       return;
     case UiRequest::kExportFailed:

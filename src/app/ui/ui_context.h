@@ -34,7 +34,8 @@ struct ExportChoice {
   SceneFormat format = SceneFormat::kPly;
   std::string path;
   bool overwrite = false;
-  ExportPlacement placement;
+  ExportPlacement placement;      // kept for the next export of the scene
+  std::uint32_t placed_file = 0;  // the scene's first, that it is for
   FormatPlan plan;
   std::string plan_key;  // what it was made for
   std::string trouble;   // why the last try failed

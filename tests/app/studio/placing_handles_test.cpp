@@ -312,6 +312,17 @@ TEST_CASE("placing: the export dialog's picture has handles that change its numb
       similarity_of(placement, *app.studio().scene()->cloud, keep, app.studio().document().up_world);
   const GaussianCloud expected = placed(*app.studio().scene()->cloud, keep, to);
   REQUIRE(written.cloud.size() == expected.size());
+  app.key('E', {.ctrl = true});
+  app.frames(3);
+  CHECK(state.exporting.placement == placement);  // for the next object
+  app.key(key::kEscape);
+  app.open(kSample);
+  app.frames(3);
+  app.press_item("###open_anyway", {"Open"});
+  REQUIRE(app.settle());
+  app.key('E', {.ctrl = true});
+  app.frames(3);
+  CHECK(state.exporting.placement == ExportPlacement{});  // another scene
   const Box a = robust_bounds(written.cloud.position), b = robust_bounds(expected.position);
   CHECK(glm::distance(a.min, b.min) + glm::distance(a.max, b.max) < 1e-4f);
 }
