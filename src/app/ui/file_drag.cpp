@@ -65,10 +65,10 @@ struct FileDrag::Source {
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
-  Atom atom(const char* name) const { return XInternAtom(display, name, 0); }
   bool update();
 
  private:
+  Atom atom(const char* name) const { return XInternAtom(display, name, 0); }
   template <class T>
   std::optional<T> number(Window of, Atom property, Atom type) const;
   Window taker_at(int x, int y) const;
@@ -80,11 +80,7 @@ struct FileDrag::Source {
   void serve(const XSelectionRequestEvent& request) const;
 
   std::string uris;
-
- public:
   Display* display;
-
- private:
   Window window = 0, target = 0;  // target: of another program, under the pointer; 0: none
   std::optional<std::pair<int, int>> offered_at;
   bool waits = false, accepted = false;  // for the target's answer; what that was
