@@ -117,6 +117,7 @@ void Application::handle_one(const KeyChanged& event) {
   type(event);
   if (!event.down) return studio_.key_released(event.key);
   if (ImGui::GetIO().WantTextInput || interface_.dialog_open()) return;
+  if (event.key == key::kEscape && interface_.dragging_handle()) return;
   if (event.repeated && !repeats(action_for(event.key, event.modifiers))) return;
   studio_.key_pressed(event.key, event.modifiers, event.repeated);
 }

@@ -15,10 +15,6 @@ namespace {
 constexpr ImU32 kBackdrop = IM_COL32(104, 107, 112, 255), kFaint = IM_COL32(255, 255, 255, 60),
                 kWords = IM_COL32(255, 255, 255, 210);
 
-ImVec2 vec(const glm::vec2& v) {
-  return {v.x, v.y};
-}
-
 // Passes over all Gaussians: made once for each choice but the numbers. Of many some say where the middle
 // and the foot are, so that the window does not stand still; what is written goes by all.
 void refresh(UiContext& ui) {

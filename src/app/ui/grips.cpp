@@ -16,10 +16,6 @@ namespace {
 constexpr float kReach = 9;  // points: as near is on it
 constexpr ImU32 kShade = IM_COL32(0, 0, 0, 130), kWhite = IM_COL32(255, 255, 255, 240);
 
-ImVec2 vec(const glm::vec2& v) {
-  return {v.x, v.y};
-}
-
 // An axis of the coordinates has its colour; another one, as the scene's up, has none.
 ImU32 ink_of(const glm::vec3& axis, const Theme& theme) {
   for (int i = 0; i < 3; ++i)

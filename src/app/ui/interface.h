@@ -28,6 +28,7 @@ class Interface {
   bool picture_at(const glm::vec2& point, const Studio& studio) const;
   // True where a left press takes a handle that lies on the picture.
   bool handle_at(const glm::vec2& point) const;
+  bool dragging_handle() const { return state_.placing.grips.drag.has_value(); }  // Esc is for that
   bool dialog_open() const;
   float covered_bottom(const Studio& studio) const;  // of the picture, by thumbnails; points
 

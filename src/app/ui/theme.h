@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <glm/glm.hpp>
+
 namespace splatcut {
 
 struct Palette {
@@ -25,6 +27,10 @@ void load_fonts(Theme* theme, float pixels_per_point);
 void apply_theme(Theme* theme, bool dark);
 
 ImU32 packed(const ImVec4& colour, float alpha = 1);
+
+inline ImVec2 vec(const glm::vec2& v) {
+  return {v.x, v.y};
+}
 
 // x red, y green, z blue, wherever axes are drawn.
 inline constexpr ImU32 kAxisInks[] = {IM_COL32(235, 85, 80, 255), IM_COL32(110, 195, 80, 255),

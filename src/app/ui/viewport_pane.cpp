@@ -15,10 +15,6 @@ namespace {
 constexpr std::uint64_t kPaneKey = 1;  // of the panes' textures
 constexpr double kMessageSeconds = 7;
 
-ImVec2 vec(const glm::vec2& v) {
-  return {v.x, v.y};
-}
-
 // The background of what floats over the picture.
 void floating_box(const UiContext& ui, const ImVec2& from, const ImVec2& to) {
   ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -46,6 +46,17 @@ glm::vec3 after(const glm::vec3& p, const PlacingChange& change, const glm::vec3
   return change.scale * (change.turn * (p - centre)) + centre + change.move_world;
 }
 
+// The files panel opens with the added file chosen.
+void add_small(Hands& hands, const ScratchFolder& folder) {
+  Scene small;
+  small.cloud = random_cloud(300, 1, 1);
+  small.file_rows = small.cloud.size();
+  save_scene(folder / "small.ply", small, {}, SceneFormat::kPly);
+  hands.studio().apply(AddScene{folder / "small.ply"});
+  REQUIRE(hands.app.settle());
+  hands.app.frames(3);
+}
+
 }  // namespace
 
 TEST_CASE("placing: drags by hand, seen along z from five units away") {
@@ -182,13 +193,7 @@ TEST_CASE("placing: in the window a file is moved, turned and scaled by its hand
   const ScratchFolder folder("handles");
   Hands hands;
   Studio& studio = hands.studio();
-  Scene small;
-  small.cloud = random_cloud(300, 1, 1);
-  small.file_rows = small.cloud.size();
-  save_scene(folder / "small.ply", small, {}, SceneFormat::kPly);
-  studio.apply(AddScene{folder / "small.ply"});
-  REQUIRE(hands.app.settle());
-  hands.app.frames(3);  // the files panel opens with the added file chosen
+  add_small(hands, folder);
   PlacingChoice& choice = hands.app.interface_state().placing;
   const std::uint32_t id = studio.scene()->files.back().id;
   REQUIRE(choice.file == id);
@@ -224,13 +229,7 @@ TEST_CASE("placing: Esc ends a drag with everything where it was") {
   const ScratchFolder folder("handles_esc");
   Hands hands;
   Studio& studio = hands.studio();
-  Scene small;
-  small.cloud = random_cloud(300, 1, 1);
-  small.file_rows = small.cloud.size();
-  save_scene(folder / "small.ply", small, {}, SceneFormat::kPly);
-  studio.apply(AddScene{folder / "small.ply"});
-  REQUIRE(hands.app.settle());
-  hands.app.frames(3);
+  add_small(hands, folder);
   PlacingChoice& choice = hands.app.interface_state().placing;
   const std::size_t step = studio.history().cursor();
   REQUIRE_FALSE(choice.grips.shown.empty());
@@ -241,7 +240,9 @@ TEST_CASE("placing: Esc ends a drag with everything where it was") {
   hands.app.move(at + glm::vec2(40, 0));
   hands.app.frames(1);
   CHECK(choice.place.move != glm::vec3(0));
+  const Tool tool = studio.view().tool;
   hands.app.key(key::kEscape);
+  CHECK(studio.view().tool == tool);  // Esc was for the drag
   hands.app.release(PointerButton::kLeft);
   REQUIRE(hands.app.settle());
   hands.app.frames(2);
