@@ -3,24 +3,14 @@
 # Usage: drag_out_test.sh PROGRAM SAMPLE_FOLDER [SHOTS_FOLDER]   exit 77: skipped, with a sentence why.
 set -euo pipefail
 program=$1 sample=$2 shots=${3:-}
-for tool in Xvfb xdotool; do
-  command -v $tool >/dev/null || { echo "skipped: $tool is not installed (apt install xvfb xdotool)"; exit 77; }
-done
+source "$(dirname "$0")/virtual_screen.sh"
 [ -z "$shots" ] || mkdir -p "$shots"
-work=$(mktemp -d)
-children=()
-cleanup() { for pid in "${children[@]}"; do kill "$pid" 2>/dev/null || true; done; rm -rf "$work"; }
-trap cleanup EXIT
 fail() { echo "failed: $*"; cat "$work"/*.log; exit 1; }
 
 mkdir "$work/a b" "$work/cache"  # a name that must be encoded on its way
 cp "$sample/sample.compressed.ply" "$sample/cameras.json" "$work/a b/"
-Xvfb -displayfd 3 -screen 0 2100x800x24 -nolisten tcp -noreset 3>"$work/display" 2>/dev/null &
-children+=($!)
-for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
-[ -s "$work/display" ] || { echo "skipped: Xvfb does not start here"; exit 77; }
-export DISPLAY=:$(cat "$work/display")
-unset WAYLAND_DISPLAY
+start_screen 2100x800
+export DISPLAY=$screen
 window() {  # window NAME WIDTH [SCENE]: of a program with its own folders
   XDG_CONFIG_HOME=$work/$1/config XDG_STATE_HOME=$work/$1/state XDG_CACHE_HOME=$work/cache \
     "$program" view --width "$2" --height 800 ${3:+"$3"} >"$work/$1.log" 2>&1 &

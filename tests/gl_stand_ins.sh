@@ -4,27 +4,13 @@
 # Prints the table of docs/reliability.md. Exit 77: skipped, with a sentence why.
 set -uo pipefail
 program=$1 scene=$2
-for tool in Xvfb xdotool; do
-  command -v $tool >/dev/null || { echo "skipped: $tool is not installed (apt install xvfb xdotool)"; exit 77; }
-done
-work=$(mktemp -d)
-children=()
-cleanup() { for pid in "${children[@]}"; do kill "$pid" 2>/dev/null; done; rm -rf "$work"; }
-trap cleanup EXIT
-export XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state XDG_CACHE_HOME=$work/cache
-unset WAYLAND_DISPLAY DISPLAY
+source "$(dirname "$0")/virtual_screen.sh"
 mkdir "$work/empty"
 
-start_display() { # NAME OPTIONS...: its number is in $work/NAME
-  Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp -noreset "${@:2}" 3>"$work/$1" 2>/dev/null &
-  children+=($!)
-  for _ in $(seq 300); do [ -s "$work/$1" ] && return; sleep 0.1; done
-  echo "skipped: Xvfb does not start here"
-  exit 77
-}
-start_display usual
-start_display without_glx -extension GLX
-usual=DISPLAY=:$(cat "$work/usual") without_glx=DISPLAY=:$(cat "$work/without_glx")
+start_screen 1280x800
+usual=DISPLAY=$screen
+start_screen 1280x800 -extension GLX
+without_glx=DISPLAY=$screen
 
 wrong=0
 try() { # WHAT window|sentence VARIABLES...

@@ -4,24 +4,13 @@
 # Usage: real_window_test.sh PROGRAM SAMPLE_FOLDER [SHOTS_FOLDER]   exit 77: skipped, with a sentence why.
 set -euo pipefail
 program=$1 sample=$2 shots=${3:-}
-for tool in Xvfb xdotool; do
-  command -v $tool >/dev/null || { echo "skipped: $tool is not installed (apt install xvfb xdotool)"; exit 77; }
-done
+source "$(dirname "$0")/virtual_screen.sh"
 [ -z "$shots" ] || mkdir -p "$shots"
-work=$(mktemp -d)
-children=()
-cleanup() { for pid in "${children[@]}"; do kill "$pid" 2>/dev/null || true; done; rm -rf "$work"; }
-trap cleanup EXIT
 fail() { echo "failed: $*"; cat "$work/program.log"; exit 1; }
 
 cp "$sample/sample.compressed.ply" "$sample/cameras.json" "$work/"
-export XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state XDG_CACHE_HOME=$work/cache
-Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp -noreset 3>"$work/display" 2>/dev/null &
-children+=($!)
-for _ in $(seq 100); do [ -s "$work/display" ] && break; sleep 0.1; done
-[ -s "$work/display" ] || { echo "skipped: Xvfb does not start here"; exit 77; }
-export DISPLAY=:$(cat "$work/display")
-unset WAYLAND_DISPLAY
+start_screen 1280x800
+export DISPLAY=$screen
 
 "$program" --width 1280 --height 800 "$work/sample.compressed.ply" >"$work/program.log" 2>&1 &
 pid=$!

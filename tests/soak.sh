@@ -1,31 +1,36 @@
 #!/usr/bin/env bash
 # tests/soak.sh [STEPS [SECONDS]]: long sessions, as CSV. Without a window: STEPS (1000) random edits, cuts, undos and
 # exports, then a tenth as many scenes opened, cut and closed. In a window on a virtual screen for SECONDS (300): clicks,
-# strokes, turns, undo, isolation, with memory, open files and threads every ten seconds. BUILD chooses other programs.
+# strokes, turns, undo, isolation, with memory, open files, threads and the longest frames every ten seconds. BUILD chooses
+# other programs.
 set -uo pipefail
 steps=${1:-1000} seconds=${2:-300}
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$(cd "${BUILD:-$root/build/release}" && pwd)
 SPLATCUT_SOAK=$steps "$build/tests/studio_tests" --test-case='soak*' || exit 1
 
-work=$(mktemp -d)
-children=()
-cleanup() { for pid in "${children[@]}"; do kill "$pid" 2>/dev/null; done; rm -rf "$work"; }
-trap cleanup EXIT
+source "$root/tests/virtual_screen.sh"
 cp "$root"/assets/sample/{sample.compressed.ply,cameras.json} "$work/"
-export XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state XDG_CACHE_HOME=$work/cache
-unset WAYLAND_DISPLAY
-Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp -noreset 3>"$work/display" 2>/dev/null &
-children+=($!)
-for _ in $(seq 300); do [ -s "$work/display" ] && break; sleep 0.1; done
-export DISPLAY=:$(cat "$work/display")
-"$build/splatcut" "$work/sample.compressed.ply" --width 1280 --height 800 >"$work/log" 2>&1 &
+start_screen 1280x800
+export DISPLAY=$screen
+"$build/splatcut" view "$work/sample.compressed.ply" --width 1280 --height 800 --frame-times >"$work/frames" 2>"$work/log" &
 pid=$!
 children+=($pid)
 for _ in $(seq 300); do xdotool search --name sample >/dev/null 2>&1 && break; sleep 0.2; done
 RANDOM=${SEED:-1}
 any() { echo $(($1 + RANDOM % ($2 - $1))); }
-echo "window,second,memory_mb,files,threads,actions"
+frames_written() { wc -l <"$work/frames"; }
+longest_frames() {  # of the seconds after line $1: all; while something was computed; of these without OpenGL
+  awk -F, -v from="$1" 'NR > from && NR > 1 {
+      own = $4 + $5 + $6 + $8
+      if ($3 > all) all = $3
+      if ($10 && $3 > busy) busy = $3
+      if ($10 && own > without) without = own
+    }
+    END { printf "%.1f,%.1f,%.1f", all, busy, without }' "$work/frames"
+}
+echo "window,second,memory_mb,files,threads,actions,longest_frame_ms,longest_working_ms,longest_working_without_gl_ms"
+seen=$(frames_written)
 start=$SECONDS actions=0 next=0
 while [ $((SECONDS - start)) -lt "$seconds" ]; do
   x=$(any 400 1000) y=$(any 200 650)
@@ -41,7 +46,8 @@ while [ $((SECONDS - start)) -lt "$seconds" ]; do
   actions=$((actions + 1))
   kill -0 $pid 2>/dev/null || { echo "the window ended:"; cat "$work/log"; exit 1; }
   if [ $((SECONDS - start)) -ge $next ]; then
-    echo "window,$((SECONDS - start)),$(awk '/VmRSS/ {printf "%.1f", $2 / 1024}' /proc/$pid/status),$(ls /proc/$pid/fd | wc -l),$(awk '/Threads/ {print $2}' /proc/$pid/status),$actions"
+    echo "window,$((SECONDS - start)),$(awk '/VmRSS/ {printf "%.1f", $2 / 1024}' /proc/$pid/status),$(ls /proc/$pid/fd | wc -l),$(awk '/Threads/ {print $2}' /proc/$pid/status),$actions,$(longest_frames "$seen")"
+    seen=$(frames_written)
     next=$((next + 10))
   fi
   sleep 0.3

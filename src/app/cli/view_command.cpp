@@ -1,4 +1,5 @@
 // splatcut view: the window.
+#include <iostream>
 #include <memory>
 
 #include "app/cli/commands.h"
@@ -14,7 +15,7 @@ struct ViewArguments {
   WindowOptions window;
   SceneOptions how;
   std::string renderer = "auto";
-  bool check = false;
+  bool check = false, frame_times = false;
 };
 
 void require_file(const std::filesystem::path& path) {
@@ -33,6 +34,7 @@ void run_view(ViewArguments args) {
                          : args.renderer == "cpu" ? RendererChoice::kCpu
                                                   : RendererChoice::kAuto;
   args.window.spz_axes = args.how.axes();
+  if (args.frame_times) args.window.frame_times = &std::cout;
   run_window(args.window);
 }
 
@@ -55,6 +57,9 @@ void add_view_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--width", args->window.width, "Width of the window")->check(CLI::Range(640, 8192));
   command.add_option("--height", args->window.height, "Height of the window")->check(CLI::Range(480, 8192));
   command.add_flag("--check", args->check, "Only say whether a window can open here (exit code 0 or 1)");
+  command.add_flag(
+      "--frame-times", args->frame_times,
+      "Print the longest frame and the longest of its parts in every second, milliseconds as CSV");
   command.callback([args, &common] {
     args->window.cache = prepared_cache(common);
     run_view(*args);

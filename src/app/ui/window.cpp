@@ -14,6 +14,7 @@
 #include "app/console/console.h"
 #include "app/console/user_folders.h"
 #include "app/ui/file_drag.h"
+#include "app/ui/frame_log.h"
 #include "app/ui/settings.h"
 #include "app/ui/window_place.h"
 #include "core/error.h"
@@ -133,6 +134,7 @@ struct Loop {
   Application& app;
   float ui_scale;
   double last_event_s = 0;
+  double events_ms = 0;  // since the last frame
 
   // Window coordinates (which on some systems are no pixels) to logical points.
   glm::vec2 points(double x, double y) const {
@@ -157,6 +159,7 @@ struct Loop {
   void send(const UiEvent& event) {
     last_event_s = glfwGetTime();
     app.handle(event);
+    events_ms += 1000 * (glfwGetTime() - last_event_s);
   }
 };
 
@@ -258,7 +261,7 @@ std::string title_of(const Studio& studio) {
   return fmt::format("{}{} - splatcut", studio.unsaved() ? "* " : "", shown.filename().string());
 }
 
-void run_loop(Loop& loop, SettingsKeeper* keeper) {
+void run_loop(Loop& loop, SettingsKeeper* keeper, std::optional<FrameLog> log) {
   constexpr double kAfterEventSeconds = 0.3, kIdleSeconds = 0.5, kMovingSeconds = 0.004;
   constexpr double kWorkingSeconds = 0.05;  // software OpenGL would take the cores that the work needs
   constexpr double kKeepSeconds = 1;
@@ -275,6 +278,8 @@ void run_loop(Loop& loop, SettingsKeeper* keeper) {
     refuse_lost_context();
     const bool busy = loop.app.frame(now - before);
     before = now;
+    const FrameTimes parts = loop.app.take_longest();
+    const double drawn_s = glfwGetTime();
     if (std::string wanted = title_of(loop.app.studio()); wanted != title)
       glfwSetWindowTitle(loop.window, (title = wanted).c_str());
     if (now - kept_s > kKeepSeconds) {
@@ -284,6 +289,9 @@ void run_loop(Loop& loop, SettingsKeeper* keeper) {
     if (const auto file = std::exchange(loop.app.interface().state().dragged_out, {})) drag.begin(*file);
     const bool drags = drag.update();
     glfwSwapBuffers(loop.window);
+    if (log)
+      log->add({now, std::exchange(loop.events_ms, 0), parts, 1000 * (glfwGetTime() - drawn_s),
+                loop.app.studio().progress().busy});
     const bool fresh = glfwGetTime() - loop.last_event_s < kAfterEventSeconds;
     const bool moving = fresh || drags || loop.app.studio().viewport().moving();
     glfwWaitEventsTimeout(moving ? kMovingSeconds : busy ? kWorkingSeconds : kIdleSeconds);
@@ -321,7 +329,8 @@ void run_window(const WindowOptions& options) {
     glfwSetWindowUserPointer(window.handle, &loop);
     install_callbacks(window.handle);
     if (!options.open.empty()) app.studio().apply(OpenScene{options.open, options.spz_axes, options.added});
-    run_loop(loop, &keeper);
+    run_loop(loop, &keeper,
+             options.frame_times ? std::optional<FrameLog>(options.frame_times) : std::nullopt);
     app.studio().leave();
     keeper.keep(settings_now(loop, keeper.kept()));
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 
 #include "app/ui/application.h"
 
@@ -15,6 +16,7 @@ struct WindowOptions {
   float ui_scale = 0;         // 0: the screen's, times the remembered one
   int width = 0, height = 0;  // 0: as it was left
   PreparedCache cache;
+  std::ostream* frame_times = nullptr;  // takes a FrameLog
 };
 
 // Runs until the window is closed.
