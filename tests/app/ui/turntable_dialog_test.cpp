@@ -1,0 +1,116 @@
+// Turntables as pictures, animation and video.
+#include <doctest/doctest.h>
+
+#include <webp/demux.h>
+
+#include "app/studio/animated_webp.h"
+#include "core/error.h"
+#include "core/png_file.h"
+#include "headless_app.h"
+#include "only_path.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("dialogs: the turntable writes as many pictures of the size asked for") {
+  const ScratchFolder folder("turntable");
+  HeadlessApp app(760, 420);
+  REQUIRE(cut_out_apple(app));
+  UiState& state = app.interface_state();
+  state.turntable_open = true;
+  app.frames(3);
+  CHECK(app->interface().dialog_open());
+  CHECK(state.turntable.width_px == app.studio().viewport().pane_camera().width_px);
+  state.turntable = {5, 96, 64, (folder / "turn").string()};
+  app.frames(1);
+  app.press_item("###turntable", {"Save"});
+  REQUIRE(app.settle());
+  CHECK_FALSE(app->interface().dialog_open());
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "turn")) {
+    const Image<Rgb8> picture = read_png_rgb(entry.path());
+    CHECK(picture.width() == 96);
+    CHECK(picture.height() == 64);
+    ++files;
+  }
+  CHECK(files == 5);
+  app.studio().apply(SaveTurntable{folder / "none", 1});
+  CHECK(app.studio().messages().back().kind == Message::Kind::kRefused);
+  app.studio().apply(SaveTurntable{folder / "none", 5, 100000, 5});
+  CHECK(app.studio().messages().back().kind == Message::Kind::kRefused);
+  CHECK_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+TEST_CASE("dialogs: the turntable as an animated WebP is one that readers of WebP know") {
+  const ScratchFolder folder("turntable_webp");
+  HeadlessApp app(760, 420);
+  REQUIRE(cut_out_apple(app));
+  const auto file = folder / "turn.webp";
+  app.studio().apply(SaveTurntable{file, 6, 97, 64, TurntableAs::kWebp, 1.5f});
+  REQUIRE(app.settle());
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  REQUIRE(bytes.size() > 1000);
+  const WebPData data{reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
+  WebPDemuxer* demuxer = WebPDemux(&data);
+  REQUIRE(demuxer);
+  CHECK(WebPDemuxGetI(demuxer, WEBP_FF_CANVAS_WIDTH) == 97);
+  CHECK(WebPDemuxGetI(demuxer, WEBP_FF_CANVAS_HEIGHT) == 64);
+  CHECK(WebPDemuxGetI(demuxer, WEBP_FF_FRAME_COUNT) == 6);
+  CHECK(WebPDemuxGetI(demuxer, WEBP_FF_LOOP_COUNT) == 0);
+  WebPDemuxDelete(demuxer);
+  WebPAnimDecoder* decoder = WebPAnimDecoderNew(&data, nullptr);
+  REQUIRE(decoder);
+  int frames = 0, time_ms = 0;
+  while (WebPAnimDecoderHasMoreFrames(decoder)) {
+    std::uint8_t* rgba = nullptr;
+    REQUIRE(WebPAnimDecoderGetNext(decoder, &rgba, &time_ms));
+    CHECK(rgba[3] == 0);                                             // nothing in the corner
+    CHECK(rgba[4 * (32 * 97 + 48) + 3] > 200);                       // the apple in the middle
+    CHECK(rgba[4 * (32 * 97 + 48)] > rgba[4 * (32 * 97 + 48) + 2]);  // which is red
+    ++frames;
+  }
+  WebPAnimDecoderDelete(decoder);
+  CHECK(frames == 6);
+  CHECK(time_ms == 1500);
+}
+
+TEST_CASE("dialogs: an animation larger than its format can hold is refused before it is written") {
+  const Image<Rgba8> picture(32, 32, Rgba8{200, 30, 30, 255});
+  AnimatedWebp one(40);
+  one.add(picture);
+  const std::size_t bytes = one.bytes().size();
+  AnimatedWebp small(40, bytes + 64);
+  small.add(picture);
+  CHECK(small.bytes().size() == bytes);
+  CHECK_THROWS_AS(small.add(picture), Error);
+  CHECK(AnimatedWebp::kMostBytes <= 0xffffffff);
+}
+
+TEST_CASE("dialogs: the turntable as a video is made by ffmpeg, and its failure is told") {
+  const ScratchFolder folder("turntable_video");
+  HeadlessApp app(760, 420);
+  REQUIRE(cut_out_apple(app));
+  const auto file = folder / "turn.mp4";
+  const auto save = [&] {
+    app.studio().apply(SaveTurntable{file, 4, 96, 64, TurntableAs::kVideo, 2});
+    REQUIRE(app.settle());
+    return app.studio().messages().back().text;
+  };
+  {
+    const OnlyPath path(folder.path());
+    CHECK(save().find("ffmpeg: is not installed") != std::string::npos);
+    path.put("ffmpeg", "exit 3");
+    CHECK(save().find("could not make the video") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(file));
+    // The last argument is the file to make.
+    path.put("ffmpeg", "for last; do :; done; echo made >\"$last\"");
+    CHECK(save().find("4 frames saved") != std::string::npos);
+    CHECK(path.asked().find("-framerate\n2.0000\n") != std::string::npos);
+    CHECK(path.asked().find("frame_%04d.png") != std::string::npos);
+  }
+  std::ifstream in(file);
+  std::string text;
+  std::getline(in, text);
+  CHECK(text == "made");
+}
