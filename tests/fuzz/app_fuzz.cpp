@@ -7,6 +7,7 @@
 #include "app/console/seeds_file.h"
 #include "app/lab/eval_suite.h"
 #include "app/studio/work_file.h"
+#include "app/studio/work_history.h"
 #include "core/json_file.h"
 #include "fuzz.h"
 #include "segment/superpoints/prepared_cache.h"
@@ -43,7 +44,10 @@ const Scene& small_scene() {
   OpenedScene scene;
   scene.scene = std::shared_ptr<const Scene>(std::shared_ptr<const Scene>(), &small_scene());
   scene.files = work.files;  // however many it says: the scene's rows are what counts
-  write_work_file(place().folder() / "again.splatcut.json", scene, restored(work, scene).document);
+  const RestoredWork read = restored(work, scene);
+  History history;
+  if (!read.history.steps.empty()) history.reset(read.history);
+  write_work_file(place().folder() / "again.splatcut.json", scene, read.document, {}, saved_steps(history));
 }
 
 [[maybe_unused]] void fuzz_suite(std::string_view bytes) {

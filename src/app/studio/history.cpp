@@ -60,6 +60,23 @@ void History::reset(Document document, std::string title) {
   merging_ = false;
 }
 
+void History::reset(const SavedSteps& saved) {
+  assert(saved.cursor < saved.steps.size());
+  entries_.clear();
+  const Entry none;
+  for (const SavedSteps::Step& step : saved.steps) {
+    auto keys = keys_of(step.document, entries_.empty() ? none : entries_.back());
+    entries_.push_back({step.title, {}, step.document, std::move(keys), 0});
+  }
+  cursor_ = saved.cursor;
+  merging_ = false;
+  serial_ = next_serial();
+  const std::vector<ObjectItem> known = now().objects;
+  for (const ObjectItem& object : known)
+    if (object.cut && !object.cut_kept && !object.cut_key.empty())
+      set_cut(object.id, object.cut_key, object.cut);
+}
+
 const ObjectKeys& History::keys(const ObjectItem& object) const {
   const std::vector<ObjectItem>& objects = now().objects;
   const auto found = std::ranges::find(objects, object.id, &ObjectItem::id);

@@ -20,6 +20,16 @@ struct ObjectKeys {
   bool operator==(const ObjectKeys&) const = default;
 };
 
+// Steps of a history as files hold them.
+struct SavedSteps {
+  struct Step {
+    std::string title;
+    Document document;
+  };
+  std::vector<Step> steps;
+  std::size_t cursor = 0;
+};
+
 class History {
  public:
   struct Entry {
@@ -33,6 +43,8 @@ class History {
 
   History() { reset({}, "Open"); }
   void reset(Document document, std::string title);
+  // At least one step. Labels known at the cursor reach the others.
+  void reset(const SavedSteps& saved);
 
   const Document& now() const { return entries_[cursor_].document; }
   // Changes whenever now() does; never 0, and that of no other document of the program.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "app/studio/work_history.h"
 #include "core/error.h"
 
 namespace splatcut {
@@ -94,8 +95,8 @@ void SavedWork::update(double seconds) {
   };
   ws_.tasks.submit({TaskKind::kAutosave, failed},
                    [this, path = autosaves_.own(), restored = restored_, document = ws_.document(),
-                    view = autosaved_pose_, scene = ws_.scene](const Job&) {
-                     write_work_file(path, *scene, document, view);
+                    view = autosaved_pose_, scene = ws_.scene, steps = saved_steps(ws_.history)](const Job&) {
+                     write_work_file(path, *scene, document, view, steps);
                      ws_.tasks.post([this, restored] { forget_restored(restored); });
                    });
 }
@@ -120,18 +121,18 @@ void SavedWork::perform(const SaveWork& c) {
   ws_.require_scene();
   std::filesystem::path path = c.path;
   if (!is_work_file(path)) path += ".splatcut.json";
-  ws_.tasks.submit(TaskKind::kSave,
-                   [this, path, serial = ws_.history.serial(), document = ws_.document(),
-                    view = viewport_.camera().kept_pose(), scene = ws_.scene](const Job& job) {
-                     job.progress("saving", 0);
-                     write_work_file(path, *scene, document, view);
-                     ws_.tasks.post([this, path, serial, scene] {
-                       ws_.say(Message::Kind::kDone, "Work saved to " + path.string());
-                       if (scene != ws_.scene) return;
-                       work_path_ = path;
-                       saved_serial_ = serial;
-                     });
-                   });
+  ws_.tasks.submit(TaskKind::kSave, [this, path, serial = ws_.history.serial(), document = ws_.document(),
+                                     view = viewport_.camera().kept_pose(), scene = ws_.scene,
+                                     steps = saved_steps(ws_.history)](const Job& job) {
+    job.progress("saving", 0);
+    write_work_file(path, *scene, document, view, steps);
+    ws_.tasks.post([this, path, serial, scene] {
+      ws_.say(Message::Kind::kDone, "Work saved to " + path.string());
+      if (scene != ws_.scene) return;
+      work_path_ = path;
+      saved_serial_ = serial;
+    });
+  });
 }
 
 void SavedWork::perform(const DropAutosave&) {

@@ -234,7 +234,10 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
   take(scene);
   Document start;
   start.up_world = scene->views().up_world;
-  ws_.history.reset(work ? work->document : start, work ? "Open work" : "Open scene");
+  if (work && !work->history.steps.empty())
+    ws_.history.reset(work->history);
+  else
+    ws_.history.reset(work ? work->document : start, work ? "Open work" : "Open scene");
   calls_.opened(false);
   if (work && work->view) viewport_.camera().set_pose(*work->view);
   work_.opened(work, work_path);

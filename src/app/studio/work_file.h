@@ -5,7 +5,8 @@
 // run lengths over the Gaussians in file order, settings, and where the user looked from. The labels of an
 // object are a function of scene, strokes, settings and marks, so that `splatcut cut --work` computes the
 // same bits again; those that were cut before the scene got other files (ObjectItem::cut_kept) are kept as
-// they are. Errors: Error naming the file and the entry.
+// they are. What can be undone and redone stands beside it, see work_history.h. Errors: Error naming the file
+// and the entry.
 #pragma once
 
 #include <filesystem>
@@ -17,6 +18,7 @@
 
 #include "app/studio/camera_controller.h"
 #include "app/studio/document.h"
+#include "app/studio/history.h"
 #include "app/studio/opened_scene.h"
 
 namespace splatcut {
@@ -32,6 +34,7 @@ struct RestoredWork {
   Document document;
   std::optional<CameraPose> view;  // none in files of older programs
   std::string warning;             // a sentence about what the file could not say, or empty
+  SavedSteps history;              // around the document; none in files of older programs
 };
 
 bool is_work_file(const std::filesystem::path& path);  // by its name
@@ -42,6 +45,6 @@ WorkFile read_work_file(const std::filesystem::path& path);
 RestoredWork restored(const WorkFile& file, const OpenedScene& scene);
 
 void write_work_file(const std::filesystem::path& path, const OpenedScene& scene, const Document& document,
-                     const std::optional<CameraPose>& view = {});
+                     const std::optional<CameraPose>& view = {}, const SavedSteps& history = {});
 
 }  // namespace splatcut

@@ -1,0 +1,194 @@
+// What can be undone and redone, in work files.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "app/studio/work_file.h"
+#include "app/studio/work_history.h"
+#include "core/error.h"
+#include "opened_sample.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+std::vector<std::string> titles(const History& history) {
+  std::vector<std::string> out;
+  for (const History::Entry& entry : history.entries()) out.push_back(entry.title);
+  return out;
+}
+
+// A history of objects named one after the other.
+History of_names(const std::vector<std::string>& names) {
+  History history;
+  Document document;
+  for (const std::string& name : names) {
+    add_object(&document, name);
+    history.push("New " + name, document);
+  }
+  return history;
+}
+
+}  // namespace
+
+TEST_CASE("saved work: what was done before a crash can be undone after it, and what was undone redone") {
+  const ScratchFolder folder("history_saved");
+  ApplicationOptions options;
+  options.studio.state_folder = folder.path();
+  std::vector<std::string> steps;
+  std::vector<Document> documents;
+  std::vector<std::vector<std::uint8_t>> labels;
+  {
+    HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+    opened(app);
+    app.click(app.screen_of(kOnApple));
+    REQUIRE(app.settle());
+    const ObjectId apple = app.studio().document().active;
+    app.studio().apply(RenameObject{apple, "apple"});
+    const Camera camera = app.studio().viewport().pane_camera();
+    app.studio().apply(SelectRegion{
+        camera, rectangle_region({0, 0}, {90, 90}, camera.width_px, camera.height_px), SetOperation::kAdd});
+    REQUIRE(app.settle());
+    app.studio().apply(SetSmoothness{apple, 3.5f});
+    REQUIRE(app.settle());
+    const History& history = app.studio().history();
+    for (const History::Entry& entry : history.entries()) {
+      documents.push_back(entry.document);
+      labels.push_back(entry.document.objects.empty()
+                           ? std::vector<std::uint8_t>()
+                           : labels_of(entry.document, entry.document.objects.front(),
+                                       app.studio().scene()->cloud->size()));
+    }
+    app.studio().apply(Undo{});
+    REQUIRE(app.settle());
+    app.frames(60 * 3);
+    REQUIRE(app.settle());
+    steps = titles(history);
+    REQUIRE(steps.size() >= 6);  // opened, preset, click, name, marks, smoothness
+    REQUIRE(history.cursor() + 2 == steps.size());
+  }  // no leave(): as if it had crashed
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  app.studio().apply(OpenScene{app.studio().work().offered()});
+  REQUIRE(app.settle());
+  const History& history = app.studio().history();
+  CHECK(titles(history) == steps);
+  REQUIRE(history.cursor() + 2 == steps.size());
+  const auto is_as_it_was = [&] {
+    const std::size_t at = history.cursor();
+    CAPTURE(at);
+    REQUIRE(app.settle());
+    CHECK(same(app.studio().document(), documents[at]));
+    if (!documents[at].objects.empty()) CHECK(active_labels(app) == labels[at]);
+  };
+  is_as_it_was();
+  while (history.can_undo()) {
+    app.studio().apply(Undo{});
+    is_as_it_was();
+  }
+  while (history.can_redo()) {
+    app.studio().apply(Redo{});
+    is_as_it_was();
+  }
+}
+
+TEST_CASE("saved work: steps back to the last one that changed the scene's files, two hundred at most") {
+  History history = of_names({"a", "b", "c"});
+  SavedSteps saved = saved_steps(history);
+  CHECK(saved.steps.size() == 4);
+  CHECK(saved.cursor == 3);
+  history.push_other_files("Adding", 1);
+  CHECK(saved_steps(history).steps.size() == 1);
+  Document more = history.now();
+  add_object(&more, "d");
+  history.push("New d", more);
+  saved = saved_steps(history);
+  CHECK(saved.steps.size() == 2);
+  CHECK(saved.cursor == 1);
+  history.jump(2);  // past the step to other files, which ends what can be redone
+  saved = saved_steps(history);
+  CHECK(saved.steps.size() == 4);
+  CHECK(saved.cursor == 2);
+
+  History long_one;
+  for (int i = 0; i < 500; ++i) {
+    Document next = long_one.now();
+    next.background.r = static_cast<float>(i + 1) / 1000;
+    long_one.push("Background", next);
+  }
+  CHECK(saved_steps(long_one).cursor == kMostSavedSteps / 2);
+  long_one.jump(300);
+  CHECK(saved_steps(long_one).steps.size() == kMostSavedSteps);
+  CHECK(saved_steps(long_one).steps[saved_steps(long_one).cursor].document.background.r ==
+        doctest::Approx(0.3f));
+}
+
+TEST_CASE("saved work: what steps share stands in the file once") {
+  const ScratchFolder folder("history_shared");
+  const auto file = folder / "work.splatcut.json";
+  const auto scene = open_scene(kSample);
+  Document document;
+  add_object(&document, "mug").hand =
+      make_flags(std::vector<std::uint8_t>(scene->cloud->size(), kHandObject));
+  History history;
+  history.push("Marks", document);
+  for (int i = 0; i < 20; ++i) {
+    document.background.r = static_cast<float>(i + 1) / 50;
+    history.push("Background", document);
+  }
+  document.objects.front().hand = make_flags(std::vector<std::uint8_t>(scene->cloud->size(), kHandRest));
+  history.push("Marks", document);
+  write_work_file(file, *scene, document, {}, saved_steps(history));
+  const nlohmann::json written = nlohmann::json::parse(std::ifstream(file));
+  CHECK(written["history"]["arrays"].size() == 2);
+  CHECK(written["history"]["objects"].size() == 2);
+  CHECK(written["history"]["steps"].size() == 23);
+  const RestoredWork read = restored(read_work_file(file), *scene);
+  CHECK(read.warning.empty());
+  REQUIRE(read.history.steps.size() == 23);
+  for (std::size_t i = 0; i < 23; ++i)
+    CHECK(same(read.history.steps[i].document, history.entries()[i].document));
+}
+
+TEST_CASE("saved work: steps that cannot be read are left out, and that is said") {
+  const ScratchFolder folder("history_damaged");
+  const auto file = folder / "work.splatcut.json";
+  const auto scene = open_scene(kSample);
+  const History history = of_names({"a", "b"});
+  write_work_file(file, *scene, history.now(), {}, saved_steps(history));
+  const nlohmann::json right = nlohmann::json::parse(std::ifstream(file));
+  REQUIRE(restored(read_work_file(file), *scene).history.steps.size() == 3);
+  const auto is_left_out = [&](const char* where, const nlohmann::json& what) {
+    CAPTURE(where);
+    nlohmann::json work = right;
+    work["history"][nlohmann::json::json_pointer(where)] = what;
+    std::ofstream(file) << work;
+    const RestoredWork read = restored(read_work_file(file), *scene);
+    CHECK(read.history.steps.empty());
+    CHECK(read.warning.starts_with("the steps before it cannot be undone ("));
+    CHECK(same(read.document, history.now()));
+  };
+  is_left_out("/cursor", 3);
+  is_left_out("/cursor", -1);
+  is_left_out("/cursor", "last");
+  is_left_out("/steps/0/deleted", 0);  // no such array
+  is_left_out("/steps/1/objects", {7});
+  is_left_out("/steps/1/objects", {0, 0});
+  is_left_out("/steps/1/up", {0, 0, 0});
+  is_left_out("/steps/1/preset", "none of these");
+  is_left_out("/objects/0/name", 3);
+  is_left_out("/steps", nlohmann::json(std::vector<int>(100'000, 0)));
+  is_left_out("/arrays", std::vector<nlohmann::json>(10'000, {0, 1}));
+  nlohmann::json three = right;  // hand marks are three values, labels two
+  three["history"]["arrays"] = {{2, scene->scene->file_rows}};
+  three["history"]["steps"][0]["deleted"] = 0;
+  std::ofstream(file) << three;
+  CHECK(restored(read_work_file(file), *scene).warning.find("array 0 holds more than 1") !=
+        std::string::npos);
+  nlohmann::json none = right;
+  none.erase("history");  // as older programs wrote it
+  std::ofstream(file) << none;
+  CHECK(restored(read_work_file(file), *scene).warning.empty());
+}
