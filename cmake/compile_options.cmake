@@ -12,3 +12,11 @@ if(SPLATCUT_SANITIZE)
   target_compile_definitions(splatcut_options INTERFACE HWY_COMPILE_ONLY_STATIC)  # one SIMD target: quicker to build
   target_link_options(splatcut_options INTERFACE -fsanitize=${SPLATCUT_SANITIZE})
 endif()
+
+# For libraries whose loops run under TBB, which the thread sanitizer cannot follow (tests/tsan_suppressions.txt), and
+# which have no threads of their own: built for it as in a release, so that the whole suite ends in hours.
+function(splatcut_loops_under_tbb library)
+  if(SPLATCUT_SANITIZE STREQUAL "thread")
+    target_compile_options(${library} PRIVATE -fno-sanitize=thread -O3 -UHWY_COMPILE_ONLY_STATIC)
+  endif()
+endfunction()
