@@ -9,7 +9,6 @@ target_compile_options(splatcut_options INTERFACE
 if(SPLATCUT_SANITIZE)
   target_compile_options(splatcut_options INTERFACE
     -fsanitize=${SPLATCUT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  target_compile_definitions(splatcut_options INTERFACE HWY_COMPILE_ONLY_STATIC)  # one SIMD target: quicker to build
   target_link_options(splatcut_options INTERFACE -fsanitize=${SPLATCUT_SANITIZE})
 endif()
 
@@ -17,6 +16,6 @@ endif()
 # which have no threads of their own: built for it as in a release, so that the whole suite ends in hours.
 function(splatcut_loops_under_tbb library)
   if(SPLATCUT_SANITIZE STREQUAL "thread")
-    target_compile_options(${library} PRIVATE -fno-sanitize=thread -O3 -UHWY_COMPILE_ONLY_STATIC)
+    target_compile_options(${library} PRIVATE -fno-sanitize=thread -O3)
   endif()
 endfunction()
