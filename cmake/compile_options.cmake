@@ -11,11 +11,3 @@ if(SPLATCUT_SANITIZE)
     -fsanitize=${SPLATCUT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(splatcut_options INTERFACE -fsanitize=${SPLATCUT_SANITIZE})
 endif()
-
-# For libraries whose loops run under TBB, which the thread sanitizer cannot follow (tests/tsan_suppressions.txt), and
-# which have no threads of their own: built for it as in a release, so that the whole suite ends in hours.
-function(splatcut_loops_under_tbb library)
-  if(SPLATCUT_SANITIZE STREQUAL "thread")
-    target_compile_options(${library} PRIVATE -fno-sanitize=thread -O3)
-  endif()
-endfunction()

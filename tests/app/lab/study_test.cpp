@@ -206,7 +206,9 @@ TEST_CASE("the presets that are shipped are those of the study, and near its fro
     CHECK_MESSAGE(behind <= (name == "fast" ? 0.005 : 0.025), name << " " << behind);
     // What the study measured is what the command does: nothing is set beside the preset.
     REQUIRE(place.run("eval made/some.json -o " + name + " --no-curve --preset " + name).code == 0);
-    for (const json& scene : json::parse(place.text(name + "/eval.json"))["scenes"]) {
+    const json scenes = json::parse(place.text(name + "/eval.json"))["scenes"];
+    REQUIRE(!scenes.empty());
+    for (const json& scene : scenes) {
       const auto own = std::ranges::find_if(results, [&](const json& r) {
         return r["series"] == "preset" && r["preset"] == name && r["scene"] == scene["name"];
       });
