@@ -7,7 +7,18 @@ target_compile_options(splatcut_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wno-missing-field-initializers -Wno-psabi
   -ffp-contract=off -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/= -fno-math-errno -fno-trapping-math)
 if(SPLATCUT_SANITIZE)
-  target_compile_options(splatcut_options INTERFACE
-    -fsanitize=${SPLATCUT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_options(splatcut_options INTERFACE -fno-omit-frame-pointer
+    "$<$<NOT:$<BOOL:$<TARGET_PROPERTY:SPLATCUT_NOT_SANITIZED>>>:-fsanitize=${SPLATCUT_SANITIZE};-fno-sanitize-recover=all>")
   target_link_options(splatcut_options INTERFACE -fsanitize=${SPLATCUT_SANITIZE})
 endif()
+
+# Libraries that are built as in a release where SPLATCUT_SANITIZE_LOOPS is OFF: those whose own tests check their loops,
+# so that under tsan the tests of the window, which call them again and again, end in an hour.
+function(splatcut_loops)
+  if(NOT SPLATCUT_SANITIZE_LOOPS)
+    set_target_properties(${ARGV} PROPERTIES SPLATCUT_NOT_SANITIZED ON)
+    foreach(library IN LISTS ARGV)
+      target_compile_options(${library} PRIVATE -O3)
+    endforeach()
+  endif()
+endfunction()

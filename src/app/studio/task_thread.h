@@ -2,8 +2,9 @@
 // comes back as closures that the main thread runs in deliver().
 //
 // A task of a kind replaces the waiting and stops the running task of the same kind: the latest request wins.
-// Exports and saved work wait for each other: each is a file that somebody asked for. Preparing runs at a
-// lower priority: pictures of the scene come first, also where there are few cores. Cancel is a normal end.
+// Exports and saved work wait for each other: each is a file that somebody asked for. Everything runs at a
+// lower priority than what draws the window, preparing lower still: pictures of the scene come first, also
+// where there are few cores. Cancel is a normal end.
 // Shutdown: work that waits to be saved is saved, other tasks are stopped or dropped, the thread is joined.
 #pragma once
 

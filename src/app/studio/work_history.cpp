@@ -130,15 +130,22 @@ SavedSteps history_from(const json& j, const Scene& scene, const Document& docum
     throw Error("history", fmt::format("step {} of {}", out.cursor, steps.size()));
   if (arrays.size() * std::max<std::size_t>(scene.file_rows, 1) > kMostArrayBytes)
     throw Error("history", fmt::format("{} arrays of {} rows are too many", arrays.size(), scene.file_rows));
-  std::vector<Flags> read(arrays.size());
+  struct ReadArray {
+    Flags flags;
+    std::uint8_t largest = 0;
+  };
+  std::vector<ReadArray> read(arrays.size());  // each once, however many steps name it
   const ReadFlags flags = [&](const json& number, std::uint8_t most) -> Flags {
     if (number.is_null()) return nullptr;
     const json& runs = arrays.at(number.get<std::size_t>());
-    Flags& known = read[number.get<std::size_t>()];
-    if (!known) known = flags_from(runs, scene, kHandRest);
-    if (std::ranges::any_of(*known, [most](std::uint8_t value) { return value > most; }))
+    ReadArray& known = read[number.get<std::size_t>()];
+    if (!known.flags) {
+      known.flags = flags_from(runs, scene, kHandRest);
+      for (const std::uint8_t value : *known.flags) known.largest = std::max(known.largest, value);
+    }
+    if (known.largest > most)
       throw Error("history", fmt::format("array {} holds more than {}", number.get<std::size_t>(), most));
-    return known;
+    return known.flags;
   };
   for (const json& step : steps) {
     if (out.steps.size() == out.cursor) {
