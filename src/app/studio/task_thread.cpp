@@ -13,7 +13,8 @@ namespace splatcut {
 
 namespace {
 
-// A third and a ninth of the share of a thread that draws: what is computed makes way where there are few cores.
+// A third and a ninth of the share of a thread that draws: what is computed makes way where there are few
+// cores.
 constexpr int kNice = 5, kBackgroundNice = 10;
 
 // For good: a thread may lack the privilege to raise its priority again.
