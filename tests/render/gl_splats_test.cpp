@@ -12,12 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#ifdef __SANITIZE_ADDRESS__
-#include <dlfcn.h>
-#include <link.h>
-#endif
-
 #include "core/error.h"
+#include "keep_drivers_loaded.h"
 #include "render/context.h"
 #include "render/depth_sorter.h"
 #include "scene/camera/camera_file.h"
@@ -118,25 +114,9 @@ TEST_CASE("OSMesa: one point of a low-pass looks as by hand and as on the CPU") 
   }
 }
 
-#ifdef __SANITIZE_ADDRESS__
-// The search for leaks comes after EGL has unloaded its driver, and with it the pointers to what that keeps.
-void keep_libraries_loaded() {
-  std::vector<std::string> names;
-  const auto note = [](dl_phdr_info* library, std::size_t, void* all) {
-    static_cast<std::vector<std::string>*>(all)->push_back(library->dlpi_name);
-    return 0;
-  };
-  dl_iterate_phdr(note, &names);
-  for (const std::string& name : names)
-    if (!name.empty()) dlopen(name.c_str(), RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
-}
-#endif
-
 TEST_CASE("EGL without a surface draws the same picture") {
   const auto context = make_egl_context();
-#ifdef __SANITIZE_ADDRESS__
-  keep_libraries_loaded();
-#endif
+  keep_drivers_loaded();
   compare(random_cloud(2000, 3, 1), front_camera());
 }
 

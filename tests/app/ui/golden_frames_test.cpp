@@ -10,6 +10,7 @@
 #include "core/picture_difference.h"
 #include "core/png_file.h"
 #include "headless_app.h"
+#include "keep_drivers_loaded.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -194,6 +195,7 @@ TEST_CASE("frames: the program over EGL without a surface shows what it shows ov
     MESSAGE("skipped: no EGL context here, " << error.what());
     return;
   }
+  keep_drivers_loaded();
   const bool software = current_gl_info().software;
   HeadlessApp app(1040, 600, 1, {}, std::move(context));
   app.open(kSample);
