@@ -4,7 +4,7 @@
 //   SPLATCUT_FAULT=CALL:NTH:HOW[:FROM_BYTES]   SPLATCUT_FAULT_HIT=FILE   LD_PRELOAD=fault_shim.so   PROGRAM
 //
 // CALL: write, read (of files alone, not of stdin, stdout, stderr), open, close, rename, link, mkdir, remove,
-//       truncate, lock, map (a file into memory), allocate (blocks of FROM_BYTES and more).
+//       truncate, lock, sync, map (a file into memory), allocate (blocks of FROM_BYTES and more).
 // HOW: a number of errno; "short": a write or read takes half of what was asked for. "28+": the NTH and all
 // after it. FILE is made where a call was reached, so that a caller who counts up knows when to end.
 //
@@ -56,6 +56,7 @@ constexpr Group kGroups[] = {
     {"remove", false, {SYS_unlink, SYS_rmdir, SYS_unlinkat, -1}},
     {"truncate", true, {SYS_ftruncate, -1}},
     {"lock", true, {SYS_flock, -1}},
+    {"sync", false, {SYS_fsync, SYS_fdatasync, -1}},
     {"map", false, {-1}},
     {"allocate", false, {-1}},
 };

@@ -95,7 +95,15 @@ fs::path behind_links(fs::path path) {
   return path;
 }
 
-AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
+void wait_for_disk(const fs::path& path, const fs::path& meant) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0) throw cannot_be_written(meant, errno);
+  const int failure = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (failure != 0 && failure != EINVAL && failure != ENOSYS) throw cannot_be_written(meant, failure);
+}
+
+AtomicFile::AtomicFile(fs::path path, PowerCut power_cut) : path_(std::move(path)), power_cut_(power_cut) {
   int descriptor = -1;
   if (is_stream(path_)) {
     descriptor = open_stream(path_);
@@ -125,12 +133,14 @@ void AtomicFile::commit() {
   if (std::fflush(stream_) != 0) throw cannot_be_written(path_, errno);
   if (std::fclose(std::exchange(stream_, nullptr)) != 0) throw cannot_be_written(path_, errno);
   std::error_code failure;
+  if (part_ && power_cut_ == PowerCut::kLeavesOldOrNew && fs::exists(target_, failure))
+    wait_for_disk(part_->path(), path_);
   if (part_) fs::rename(part_->path(), target_, failure);
   if (failure) throw cannot_be_written(path_, failure.value());
 }
 
-void write_text_file(const fs::path& path, std::string_view text) {
-  AtomicFile file(path);
+void write_text_file(const fs::path& path, std::string_view text, PowerCut power_cut) {
+  AtomicFile file(path, power_cut);
   file.write(std::as_bytes(std::span(text.data(), text.size())));
   file.commit();
 }

@@ -29,12 +29,17 @@ class HeldFile {
   int descriptor_ = -1;
 };
 
+// What a power cut may do to a file that takes the place of another: to wait for the disk takes a tenth of a
+// second and more.
+enum class PowerCut { kLeavesOldOrNew, kMayLeaveNone };
+
 // Written beside its place as NAME.splatcut.part, renamed by commit(), removed where commit() is never
 // reached; what a killed process left is written over. A symbolic link stays, what it points to is replaced.
 // What takes bytes but is no file (a pipe, /dev/null) is written to as it is.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);  // throws Error when it cannot be created
+  // Throws Error when it cannot be created.
+  explicit AtomicFile(std::filesystem::path path, PowerCut power_cut = PowerCut::kLeavesOldOrNew);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();
@@ -46,6 +51,7 @@ class AtomicFile {
 
  private:
   std::filesystem::path path_, target_;
+  PowerCut power_cut_;
   std::optional<HeldFile> part_;  // none for a stream
   std::FILE* stream_ = nullptr;
   std::uint64_t bytes_written_ = 0;
@@ -58,7 +64,12 @@ bool is_stream(const std::filesystem::path& path);
 // Where the symbolic links lead that the path ends in; the last may point to nothing.
 std::filesystem::path behind_links(std::filesystem::path path);
 
+// Waits until all that was written to a file, or the names in a folder, are on the disk. Throws Error, naming
+// `meant`, where they cannot be; file systems that know no such wait go on.
+void wait_for_disk(const std::filesystem::path& path, const std::filesystem::path& meant);
+
 // The whole text at once.
-void write_text_file(const std::filesystem::path& path, std::string_view text);
+void write_text_file(const std::filesystem::path& path, std::string_view text,
+                     PowerCut power_cut = PowerCut::kLeavesOldOrNew);
 
 }  // namespace splatcut

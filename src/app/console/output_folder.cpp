@@ -152,6 +152,12 @@ void OutputFolder::link_other_files() {
     if (inode_of(fresh_ / name) == 0) ::link((target_ / name).c_str(), (fresh_ / name).c_str());
 }
 
+// What replaces something is on the disk before it does.
+void OutputFolder::wait_for_files() const {
+  for (const fs::path& name : names_in(fresh_)) wait_for_disk(fresh_ / name, path_);
+  wait_for_disk(fresh_, path_);
+}
+
 void OutputFolder::move_each() {
   for (const fs::path& name : names_in(fresh_)) move(fresh_ / name, target_ / name);
   std::error_code ignored;
@@ -165,6 +171,7 @@ void OutputFolder::commit() {
   for (const fs::path& name : names_in(fresh_))
     if (fs::is_directory(fs::symlink_status(target_ / name, failure)))
       throw Error((path_ / name).string(), "is a folder, where a file is to be written");
+  wait_for_files();
   if (!exchangeable_) return move_each();
   make_like(target_, fresh_);
   link_other_files();

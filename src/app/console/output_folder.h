@@ -39,6 +39,7 @@ class OutputFolder {
   void set_right();
   void remove_unfinished();
   void bring_back();
+  void wait_for_files() const;
   void link_other_files();
   void move_each();
   std::uint64_t number_in_lock() const;

@@ -56,7 +56,7 @@ void save_settings(const std::filesystem::path& file, const Settings& s) {
                          {"web_low_pass", s.view.web_low_pass}};
   if (s.position) json["position"] = {s.position->x, s.position->y};
   std::filesystem::create_directories(file.parent_path());
-  write_text_file(file, json_text(json, 2) + "\n");
+  write_text_file(file, json_text(json, 2) + "\n", PowerCut::kMayLeaveNone);  // the window waits for it
 }
 
 void SettingsKeeper::keep(const Settings& now) {

@@ -49,6 +49,8 @@ const std::vector<Fault>& faults() {
       {"mkdir", "28", "no space"},
       {"remove", "1", "not permitted"},
       {"lock", "37", "no locks here"},
+      {"sync", "5", "input/output error"},
+      {"sync", "22+", "not possible here, from there on"},
       {"map", "12", "no memory"},
       {"allocate", "12", "no memory for a large array"},
       {"allocate", "12+", "no memory for large arrays, from there on"},
@@ -230,7 +232,8 @@ TEST_CASE(
     "injected faults: whatever call fails, an output is the old or the new, and one sentence says why") {
   const char* every_nth = std::getenv("SPLATCUT_EVERY_FAULT");
   const int stride = every_nth ? std::stoi(every_nth) : 0;
-  const char* only = std::getenv("SPLATCUT_FAULTS_OF");  // a deed
+  const char* only = std::getenv("SPLATCUT_FAULTS_OF");        // a deed
+  const char* only_call = std::getenv("SPLATCUT_FAULT_CALL");  // a call
   Bench bench;
   std::vector<int> reached(faults().size(), 0);
   if (stride > 0)
@@ -241,6 +244,7 @@ TEST_CASE(
     if (only && deed.name != only) continue;
     bench.prepare(deed);
     for (const Fault& fault : faults()) {
+      if (only_call && fault.call != only_call) continue;
       Ends ends;
       int& runs = reached[static_cast<std::size_t>(&fault - faults().data())];
       const int first = fault.how == kNothingLeft ? 128 : 1;  // before main() nothing can be said
@@ -253,7 +257,7 @@ TEST_CASE(
       std::fflush(stdout);
     }
   }
-  for (std::size_t f = 0; f < reached.size() && !only; ++f) {
+  for (std::size_t f = 0; f < reached.size() && !only && !only_call; ++f) {
     CAPTURE(faults()[f].call);
     CAPTURE(faults()[f].meant);
     CHECK(reached[f] > 0);
