@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kWindow = 11;
 constexpr double kSigma = 1.5;
+constexpr int kBandRows = 64;  // large pictures take little memory beside themselves
 
 void require_same_size(const Image<Rgb8>& a, const Image<Rgb8>& b) {
   if (a.width() != b.width() || a.height() != b.height())
@@ -22,9 +23,10 @@ void require_same_size(const Image<Rgb8>& a, const Image<Rgb8>& b) {
                                         b.width(), b.height()));
 }
 
-Image<double> luma(const Image<Rgb8>& picture) {
-  Image<double> out(picture.width(), picture.height());
-  std::ranges::transform(picture.pixels(), out.pixels().begin(),
+Image<double> luma_of_rows(const Image<Rgb8>& picture, int begin, int rows) {
+  Image<double> out(picture.width(), rows);
+  const auto first = static_cast<std::size_t>(begin) * static_cast<std::size_t>(picture.width());
+  std::ranges::transform(picture.pixels().subspan(first, out.size()), out.pixels().begin(),
                          [](const Rgb8& p) { return 0.299 * p[0] + 0.587 * p[1] + 0.114 * p[2]; });
   return out;
 }
@@ -55,20 +57,29 @@ Image<double> product(const Image<double>& a, const Image<double>& b) {
   return out;
 }
 
-double mean_ssim(const Image<Rgb8>& first, const Image<Rgb8>& second) {
-  const Image<double> a = luma(first), b = luma(second);
-  const int window = std::min({kWindow, a.width(), a.height()});
+// Of all windows that lie inside.
+double sum_of_ssim(const Image<double>& a, const Image<double>& b, int window, double sum) {
   const Image<double> mean_a = windowed(a, window), mean_b = windowed(b, window);
   const Image<double> aa = windowed(product(a, a), window), bb = windowed(product(b, b), window),
                       ab = windowed(product(a, b), window);
   constexpr double kC1 = 0.01 * 255 * 0.01 * 255, kC2 = 0.03 * 255 * 0.03 * 255;
-  double sum = 0;
   for (std::size_t i = 0; i < aa.size(); ++i) {
     const double ma = mean_a.pixels()[i], mb = mean_b.pixels()[i];
     const double va = aa.pixels()[i] - ma * ma, vb = bb.pixels()[i] - mb * mb, cov = ab.pixels()[i] - ma * mb;
     sum += (2 * ma * mb + kC1) * (2 * cov + kC2) / ((ma * ma + mb * mb + kC1) * (va + vb + kC2));
   }
-  return sum / static_cast<double>(aa.size());
+  return sum;
+}
+
+double mean_ssim(const Image<Rgb8>& a, const Image<Rgb8>& b) {
+  const int window = std::min({kWindow, a.width(), a.height()});
+  const int columns = a.width() - window + 1, rows = a.height() - window + 1;
+  double sum = 0;
+  for (int y = 0; y < rows; y += kBandRows) {
+    const int seen = std::min(kBandRows, rows - y) + window - 1;
+    sum = sum_of_ssim(luma_of_rows(a, y, seen), luma_of_rows(b, y, seen), window, sum);
+  }
+  return sum / (static_cast<double>(columns) * rows);
 }
 
 int channel_difference(const Rgb8& a, const Rgb8& b, std::size_t c) {

@@ -42,3 +42,27 @@ TEST_CASE("SSIM: two constants give the luminance term alone, noise its variance
   CHECK(picture_difference(a, noisy).ssim == doctest::Approx(c2 / (variance + c2)).epsilon(0.05));
   CHECK(picture_difference(noisy, noisy).ssim == doctest::Approx(1));
 }
+
+TEST_CASE("SSIM: the mean over all rows of windows, however tall the picture") {
+  // Rows of noise and rows alike, far from each other: each half's windows alone, and those across, add up.
+  const auto noisy_rows = [](int height, int noisy_from, unsigned seed) {
+    Image<Rgb8> out(16, height, Rgb8{100, 100, 100});
+    std::mt19937 random(seed);
+    for (int y = noisy_from; y < height; ++y)
+      for (int x = 0; x < 16; ++x) out.at(x, y).fill(static_cast<std::uint8_t>(80 + random() % 41));
+    return out;
+  };
+  constexpr int kHeight = 300, kWindowRows = 11;
+  const Image<Rgb8> a = noisy_rows(kHeight, 150, 1), b = noisy_rows(kHeight, 150, 2);
+  double sum = 0;
+  for (int y = 0; y + kWindowRows <= kHeight; ++y) {
+    Image<Rgb8> row_a(16, kWindowRows), row_b(16, kWindowRows);
+    for (int i = 0; i < kWindowRows; ++i)
+      for (int x = 0; x < 16; ++x) {
+        row_a.at(x, i) = a.at(x, y + i);
+        row_b.at(x, i) = b.at(x, y + i);
+      }
+    sum += picture_difference(row_a, row_b).ssim;
+  }
+  CHECK(picture_difference(a, b).ssim == doctest::Approx(sum / (kHeight - kWindowRows + 1)).epsilon(1e-12));
+}
