@@ -7,7 +7,33 @@
 
 namespace splatcut {
 
+namespace {
+
+// A text of brackets alone would take 75 times its bytes while it is parsed.
+void refuse_deep(const std::filesystem::path& path, std::string_view text) {
+  constexpr int kDeepest = 4000;  // a tree of a streamed scene may go to 2000
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      in_string = c != '"';
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDeepest)
+        throw Error(path.string(), fmt::format("is JSON nested deeper than {} at byte {}", kDeepest, i + 1));
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+}
+
+}  // namespace
+
 nlohmann::json parse_json(const std::filesystem::path& path, std::string_view text) {
+  refuse_deep(path, text);
   try {
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {

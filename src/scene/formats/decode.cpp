@@ -27,6 +27,14 @@ void check_expansion(const std::filesystem::path& path, std::uint64_t packed_byt
                           packed_bytes, unpacked_bytes));
 }
 
+void check_cloud_size(const std::filesystem::path& path, std::uint64_t packed_bytes, std::uint64_t gaussians,
+                      int degree) {
+  constexpr std::uint64_t kGaussianBytes = 68, kMostFold = 6;
+  const auto coefficients = static_cast<std::uint64_t>(sh_rest_coefficients(degree));
+  check_expansion(path, packed_bytes,
+                  gaussians * (kGaussianBytes + 3 * sizeof(float) * coefficients) / kMostFold);
+}
+
 void resize_for_decode(GaussianCloud& cloud, std::size_t n, int degree) {
   cloud.sh_degree = degree;
   reserve_in_large_pages(cloud.position, n);

@@ -45,6 +45,11 @@ void resize_for_decode(GaussianCloud& cloud, std::size_t n, int degree);
 void check_expansion(const std::filesystem::path& path, std::uint64_t packed_bytes,
                      std::uint64_t unpacked_bytes);
 
+// The same for what stands in a file once and is a Gaussian many times, or of a higher degree of spherical
+// harmonics than its own: throws Error if the cloud would take more than six times what may be unpacked.
+void check_cloud_size(const std::filesystem::path& path, std::uint64_t packed_bytes, std::uint64_t gaussians,
+                      int degree);
+
 // Source: `glm::vec3 position(row) const`, NaN for a row to drop, and `void decode(row, cloud, g) const`,
 // which fills all attributes of Gaussian g but position and file_row. Both are called from many threads.
 template <class Source>

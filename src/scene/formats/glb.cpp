@@ -314,15 +314,14 @@ class Collector {
 
  private:
   void add_mesh(std::size_t index, const glm::mat4& scene_from_local) {
-    constexpr std::size_t kLeastRowBytes = 32;  // of a Gaussian as numbers
     for (const json& about : gltf_.text.at("meshes").at(index).at("primitives")) {
       if (!about.value("extensions", json::object()).contains(kExtension)) continue;
       Primitive p = primitive_of(file_, gltf_, about);
       place(file_, scene_from_local, &p);
       p.first_row = count;
       count += p.rows;
-      check_expansion(file_.path(), file_bytes_, count * kLeastRowBytes);  // nodes can share a mesh
       rows.degree = std::max(rows.degree, p.degree);
+      check_cloud_size(file_.path(), file_bytes_, count, rows.degree);  // nodes can share a mesh
       rows.primitives.push_back(std::move(p));
     }
   }

@@ -154,6 +154,7 @@ void read_pictures(const MappedFile& file, const SogFiles& files, const json& me
     if (job.cancelled()) return;
     const auto name = meta.at(wanted.part).at("files").at(wanted.index).get<std::string>();
     *wanted.image = files.picture(name, &rows->packed);
+    check_expansion(file.path(), rows->packed_bytes(), rows->unpacked_bytes());
     if (wanted.each_gaussian && wanted.image->size() < rows->count)
       throw Error(file.path().string(),
                   fmt::format("truncated: the picture {} has {} pixels for {} Gaussians", name,
@@ -244,6 +245,12 @@ void SogRows::decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const
   float* rest = cloud.sh_rest.data() + g * cloud.sh_stride();
   for (std::size_t k = 0; k < own; ++k)
     for (std::size_t c = 0; c < 3; ++c) rest[c * all + k] = sh_tables[c][centroid[k][c]];
+}
+
+std::uint64_t SogRows::packed_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const auto& [path, file_bytes] : packed) bytes += file_bytes;
+  return bytes;
 }
 
 std::uint64_t SogRows::unpacked_bytes() const {

@@ -34,11 +34,13 @@ struct SogRows {
   // The degree of the cloud may be higher than that of the rows: the other coefficients stay as they are.
   void decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const;
 
-  std::uint64_t unpacked_bytes() const;
+  std::uint64_t packed_bytes() const;
+  std::uint64_t unpacked_bytes() const;  // of the pictures that were read so far
 };
 
 // From an archive, or from the meta.json of a folder. Incomplete when cancelled. Throws Error for what is no
-// .sog, for pictures with fewer pixels than Gaussians, and for what check_expansion() refuses.
+// .sog, for pictures with fewer pixels than Gaussians, and for what check_expansion() refuses
+// of all its pictures together.
 SogRows read_sog_rows(const MappedFile& file, const Job& job);
 
 }  // namespace splatcut

@@ -183,13 +183,9 @@ class StreamedBounds {
     unpacked_ += piece.unpacked_bytes();
     check_expansion(path_, packed_, unpacked_);
   }
-  // The cloud takes at most six times what may be unpacked, also where a piece without spherical harmonics
-  // takes those of another.
+  // Also where a piece without spherical harmonics takes those of another.
   void check_cloud(const StreamedRows& rows) const {
-    constexpr std::uint64_t kGaussianBytes = 68, kMostFold = 6;
-    const auto coefficients = static_cast<std::uint64_t>(sh_rest_coefficients(rows.degree));
-    check_expansion(path_, packed_,
-                    rows.count * (kGaussianBytes + 3 * sizeof(float) * coefficients) / kMostFold);
+    check_cloud_size(path_, packed_, rows.count, rows.degree);
   }
 
  private:

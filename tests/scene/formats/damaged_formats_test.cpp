@@ -169,7 +169,7 @@ TEST_CASE("files of other kinds are refused with what to do") {
 
 TEST_CASE("text in glTF and .sog that is no JSON, or another, is refused without the words of a library") {
   const Folder folder;
-  const auto said = [&](const char* name, const char* text) {
+  const auto said = [&](const char* name, const std::string& text) {
     write(folder / name, text);
     const std::string sentence = refusal(folder / name);
     CHECK(sentence.find("json.exception") == std::string::npos);
@@ -177,6 +177,9 @@ TEST_CASE("text in glTF and .sog that is no JSON, or another, is refused without
   };
   CHECK(mentions(said("a.gltf", "{\"asset\": "), {"a.gltf", "is not valid JSON at byte"}));
   CHECK(mentions(said("a.gltf", "{\"asset\": {}}"), {"is not glTF as its standard has it", "not found"}));
+  const std::string deep(4001, '[');
+  CHECK(mentions(said("a.gltf", "{\"asset\": " + deep), {"a.gltf", "nested deeper than 4000 at byte 4010"}));
+  CHECK(mentions(said("a.gltf", R"({"asset": "\")" + deep + "\"}"), {"is not glTF as its standard has it"}));
   CHECK(
       mentions(said("meta.json", "{\"means\": 1, \"quats\": "), {"meta.json", "is not valid JSON at byte"}));
   CHECK(mentions(said("meta.json", "{\"means\": 1, \"quats\": 2, \"version\": 2}"),
