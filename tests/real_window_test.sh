@@ -72,3 +72,18 @@ rows=$("$program" info "$work/sample.compressed.ply" | awk '$1 == "gaussians" {p
 [ "$(stat -c %s "$work"/again/*.labels.u8)" -eq "$rows" ] || fail "the labels do not cover the file's $rows rows"
 [ "$(tr -d '\000' <"$(echo "$work"/again/*.labels.u8)" | wc -c)" -eq "$count" ] || fail "labels and exported rows differ"
 echo "cut --work: the same $count Gaussians, byte for byte"
+
+# Ended by a signal a moment after a stroke: nothing is asked, nothing is lost, nothing is left half written.
+"$program" --width 1280 --height 800 "$work/sample.compressed.ply" >"$work/program.log" 2>&1 &
+pid=$!
+children+=($pid)
+wait_for 60 "window again" xdotool search --name sample
+sleep 1
+click 668 524
+wait_for 60 "mark of unsaved work" xdotool search --name '^\* sample'
+kill -TERM $pid
+wait $pid || fail "a signal ended it with an error"
+grep -q '"label": *"object"' "$autosave" || fail "the stroke before the signal is lost"
+left=$(find "$work" -name '*.splatcut.part' -o -name '*.splatcut.new')
+[ -z "$left" ] || fail "left behind: $left"
+echo "SIGTERM: the stroke is in saved work"

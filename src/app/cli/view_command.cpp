@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/cli/commands.h"
+#include "app/console/console.h"
 #include "app/console/scene_options.h"
 #include "app/ui/window.h"
 #include "core/error.h"
@@ -35,6 +36,8 @@ void run_view(ViewArguments args) {
                                                   : RendererChoice::kAuto;
   args.window.spz_axes = args.how.axes();
   if (args.frame_times) args.window.frame_times = &std::cout;
+  constexpr bool kQuiet = true;
+  args.window.stop = console_job(kQuiet).stop;
   run_window(args.window);
 }
 

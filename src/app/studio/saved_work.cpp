@@ -93,12 +93,15 @@ void SavedWork::update(double seconds) {
     autosaved_serial_ = 0;
     waited_s_ = -kAutosaveAgainSeconds;
   };
-  ws_.tasks.submit({TaskKind::kAutosave, failed},
-                   [this, path = autosaves_.own(), restored = restored_, document = ws_.document(),
-                    view = autosaved_pose_, scene = ws_.scene, steps = saved_steps(ws_.history)](const Job&) {
-                     write_work_file(path, *scene, document, view, steps);
-                     ws_.tasks.post([this, restored] { forget_restored(restored); });
-                   });
+  ws_.tasks.submit({TaskKind::kAutosave, failed}, autosaving());
+}
+
+TaskThread::Work SavedWork::autosaving() {
+  return [this, path = autosaves_.own(), restored = restored_, document = ws_.document(),
+          view = autosaved_pose_, scene = ws_.scene, steps = saved_steps(ws_.history)](const Job&) {
+    write_work_file(path, *scene, document, view, steps);
+    ws_.tasks.post([this, restored] { forget_restored(restored); });
+  };
 }
 
 // It is in a file of this program now; what was left behind before it is offered next.
@@ -106,6 +109,13 @@ void SavedWork::forget_restored(const std::filesystem::path& file) {
   if (file.empty() || file != restored_) return;
   autosaves_.remove(std::exchange(restored_, {}));
   describe_offered();
+}
+
+void SavedWork::keep_unsaved() {
+  if (!ws_.scene || autosaves_.own().empty() || !unsaved()) return;
+  ws_.tasks.cancel(TaskKind::kAutosave);
+  autosaved_pose_ = viewport_.camera().kept_pose();
+  ws_.tasks.submit(TaskKind::kSave, autosaving());  // which is waited for when the worker ends
 }
 
 void SavedWork::leave() {

@@ -22,6 +22,7 @@ class SavedWork {
 
   void update(double seconds);  // once a frame: the autosave
   void leave();                 // the program ends: an autosave that is not needed goes
+  void keep_unsaved();          // it is ended from outside: offered at the next start
 
   const std::filesystem::path& work_path() const { return work_path_; }
   bool unsaved() const;
@@ -38,6 +39,7 @@ class SavedWork {
   void perform(const DropAutosave&);
 
  private:
+  TaskThread::Work autosaving();
   void look_for_more(double seconds);
   void describe_offered();
   void forget_restored(const std::filesystem::path& file);

@@ -44,7 +44,8 @@ class Studio {
   void release_keys();  // the window lost the focus
   void pointer_left();  // the viewport
   void set_gpu_view(bool gpu) { viewport_.set_gpu_view(gpu); }
-  void leave() { work_.leave(); }  // the program ends
+  void leave() { work_.leave(); }                // the program ends
+  void keep_unsaved() { work_.keep_unsaved(); }  // it is ended from outside, by a signal
 
   // Once a frame: results, transitions, requests. True while something moves or waits.
   bool update(double seconds);

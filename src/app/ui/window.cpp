@@ -261,14 +261,14 @@ std::string title_of(const Studio& studio) {
   return fmt::format("{}{} - splatcut", studio.unsaved() ? "* " : "", shown.filename().string());
 }
 
-void run_loop(Loop& loop, SettingsKeeper* keeper, std::optional<FrameLog> log) {
+void run_loop(Loop& loop, SettingsKeeper* keeper, const std::stop_token& stop, std::optional<FrameLog> log) {
   constexpr double kAfterEventSeconds = 0.3, kIdleSeconds = 0.5, kMovingSeconds = 0.004;
   constexpr double kWorkingSeconds = 0.05;  // software OpenGL would take the cores that the work needs
   constexpr double kKeepSeconds = 1;
   double before = glfwGetTime(), kept_s = before;
   std::string title;
   FileDrag drag;
-  while (!loop.app.wants_to_close()) {
+  while (!loop.app.wants_to_close() && !stop.stop_requested()) {
     if (glfwWindowShouldClose(loop.window)) {
       glfwSetWindowShouldClose(loop.window, GLFW_FALSE);
       loop.app.studio().run(Action::kQuit);
@@ -329,9 +329,12 @@ void run_window(const WindowOptions& options) {
     glfwSetWindowUserPointer(window.handle, &loop);
     install_callbacks(window.handle);
     if (!options.open.empty()) app.studio().apply(OpenScene{options.open, options.spz_axes, options.added});
-    run_loop(loop, &keeper,
+    run_loop(loop, &keeper, options.stop,
              options.frame_times ? std::optional<FrameLog>(options.frame_times) : std::nullopt);
-    app.studio().leave();
+    if (options.stop.stop_requested())
+      app.studio().keep_unsaved();
+    else
+      app.studio().leave();
     keeper.keep(settings_now(loop, keeper.kept()));
   }
 }

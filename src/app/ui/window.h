@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <stop_token>
 
 #include "app/ui/application.h"
 
@@ -17,9 +18,10 @@ struct WindowOptions {
   int width = 0, height = 0;  // 0: as it was left
   PreparedCache cache;
   std::ostream* frame_times = nullptr;  // takes a FrameLog
+  std::stop_token stop;  // ends the program; work that is not saved is offered at the next start
 };
 
-// Runs until the window is closed.
+// Runs until the window is closed, or a stop was asked for.
 void run_window(const WindowOptions& options);
 
 // Whether a window can open here; if not, why.

@@ -205,6 +205,39 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   CHECK(same(restored(read_work_file(own), *again).document, saved));
 }
 
+TEST_CASE("work of a program that a signal ends is offered as it was, without a moment for saving it") {
+  const ScratchFolder folder("state_signal");
+  ApplicationOptions options;
+  options.studio.state_folder = folder.path();
+  Document saved;
+  CameraPose pose;
+  {
+    HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+    opened(app);
+    app.studio().keep_unsaved();  // there is nothing
+    CHECK_FALSE(std::filesystem::exists(app.studio().work().own_autosave()));
+    app.studio().apply(EditSelection{SelectionEdit::kAll});
+    REQUIRE(app.settle());
+    app.studio().camera().orbit({60, 20});
+    app.click(app.screen_of(kOnApple));  // whose cut has just begun
+    saved = app.studio().document();
+    pose = app.studio().camera().kept_pose();
+    app.studio().keep_unsaved();
+  }
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  REQUIRE(app.studio().work().autosave_found());
+  app.studio().apply(OpenScene{app.studio().work().offered()});
+  REQUIRE(app.settle());
+  Document now = app.studio().document();
+  for (ObjectItem& o : now.objects) {  // cut again from its strokes
+    CHECK(o.cut != nullptr);
+    o.cut = nullptr;
+    o.cut_key.clear();
+  }
+  CHECK(same(now, saved));
+  CHECK(app.studio().camera().kept_pose() == pose);
+}
+
 TEST_CASE("work of a program that ends a little later is offered, too") {
   const ScratchFolder folder("state_held");
   const auto scene = open_scene(kSample);
