@@ -115,7 +115,12 @@ void SavedWork::keep_unsaved() {
   if (!ws_.scene || autosaves_.own().empty() || !unsaved()) return;
   ws_.tasks.cancel(TaskKind::kAutosave);
   autosaved_pose_ = viewport_.camera().kept_pose();
-  ws_.tasks.submit(TaskKind::kSave, autosaving());  // which is waited for when the worker ends
+  // It is waited for when the worker ends; what it posts comes too late.
+  ws_.tasks.submit(TaskKind::kSave, [write = autosaving(), restored = restored_](const Job& job) {
+    write(job);
+    std::error_code ignored;
+    std::filesystem::remove(restored, ignored);
+  });
 }
 
 void SavedWork::leave() {

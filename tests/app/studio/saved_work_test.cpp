@@ -224,9 +224,20 @@ TEST_CASE("work of a program that a signal ends is offered as it was, without a 
     pose = app.studio().camera().kept_pose();
     app.studio().keep_unsaved();
   }
+  {  // restored and ended again before it is saved by itself: offered once
+    HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+    app.studio().apply(OpenScene{app.studio().work().offered()});
+    while (!app.studio().scene()) app.frames(1);
+    app.studio().keep_unsaved();
+  }
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
   REQUIRE(app.studio().work().autosave_found());
-  app.studio().apply(OpenScene{app.studio().work().offered()});
+  const std::filesystem::path offered = app.studio().work().offered();
+  std::size_t works = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    works += entry.path().filename().string().ends_with(".splatcut.json");
+  CHECK(works == 1);
+  app.studio().apply(OpenScene{offered});
   REQUIRE(app.settle());
   Document now = app.studio().document();
   for (ObjectItem& o : now.objects) {  // cut again from its strokes
