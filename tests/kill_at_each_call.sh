@@ -25,7 +25,7 @@ cp -a out old
 cut 670,490
 new=$(contents)
 wrong=0
-for call in mkdir flock ftruncate pwrite64 rename link renameat2 unlink rmdir; do
+for call in mkdir flock ftruncate pwrite64 fsync rename link renameat2 unlink rmdir; do
   for ((nth = 1; nth < 100; ++nth)); do
     rm -rf out out.splatcut.*
     cp -a old out
