@@ -11,6 +11,13 @@ if(SPLATCUT_SANITIZE)
     "$<$<NOT:$<BOOL:$<TARGET_PROPERTY:SPLATCUT_NOT_SANITIZED>>>:-fsanitize=${SPLATCUT_SANITIZE};-fno-sanitize-recover=all>")
   target_link_options(splatcut_options INTERFACE -fsanitize=${SPLATCUT_SANITIZE})
 endif()
+if(SPLATCUT_SANITIZE AND NOT SPLATCUT_SANITIZE_LOOPS)
+  # Programs take the first of equal templates: TBB's ends of loops as the sanitizer sees them, not those of a release.
+  add_library(ends_of_loops OBJECT tests/ends_of_loops.cpp)
+  target_compile_options(ends_of_loops PRIVATE -fsanitize=${SPLATCUT_SANITIZE})
+  target_link_options(splatcut_options INTERFACE $<TARGET_OBJECTS:ends_of_loops>)
+  add_dependencies(splatcut_options ends_of_loops)
+endif()
 
 # Libraries that are built as in a release where SPLATCUT_SANITIZE_LOOPS is OFF: those whose own tests check their loops,
 # so that under tsan the tests of the window, which call them again and again, end in an hour.
