@@ -179,8 +179,9 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
       CHECK(artist.studio().viewport().style(0).highlight_colour ==
             (rest ? Rgb8{225, 25, 60} : Rgb8{255, 255, 255}));
       artist.click(at, rest ? PointerButton::kRight : PointerButton::kLeft);
+      const Labels after = artist.labels();
       Labels changed(before.size());
-      for (std::size_t g = 0; g < before.size(); ++g) changed[g] = before[g] != artist.labels()[g];
+      for (std::size_t g = 0; g < before.size(); ++g) changed[g] = before[g] != after[g];
       MESSAGE(place.name, ": outlined ", count_flags(outlined), ", changed ", count_flags(changed), ", IoU ",
               iou_of(outlined, changed));
       // The cut moves the border a little, which counts where little was meant.
