@@ -52,8 +52,11 @@ wait_for 60 "exported file" exported
 shot 6_exported
 cp "$autosave" "$work/apple.splatcut.json"       # leaving the program for good removes it
 xdotool key ctrl+q sleep 1; shot 7_quit
-click 595 448   # Leave
-for _ in $(seq 100); do kill -0 $pid 2>/dev/null || break; sleep 0.1; done
+for _ in $(seq 60); do
+  click 595 448   # Leave; again where the dialog was not there yet
+  kill -0 $pid 2>/dev/null || break
+  sleep 1
+done
 kill -0 $pid 2>/dev/null && fail "it does not quit"
 wait $pid || fail "it ended with an error"
 info=$("$program" info "$work"/sample_*.ply)
