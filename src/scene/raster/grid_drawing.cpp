@@ -24,6 +24,7 @@ void check_sizes([[maybe_unused]] const GaussianCloud& cloud, [[maybe_unused]] c
                  [[maybe_unused]] const RasterOptions& options) {
   [[maybe_unused]] const auto fits = [&](std::size_t size) { return size == 0 || size == cloud.size(); };
   assert(fits(options.colour_override.size()) && fits(options.labels.size()) && fits(options.shown.size()));
+  assert(!options.blocks || options.blocks->gaussians() == cloud.size());
   assert(options.labels.empty() || !options.colour);
   assert(!options.sums ||
          (options.sum_mask && options.sums->total.size() == cloud.size() &&

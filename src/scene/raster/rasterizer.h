@@ -21,6 +21,7 @@
 #include "core/image.h"
 #include "core/job.h"
 #include "scene/camera/camera.h"
+#include "scene/cloud/cloud_blocks.h"
 #include "scene/cloud/gaussian_cloud.h"
 #include "scene/raster/splat_math.h"
 
@@ -54,6 +55,7 @@ struct RasterOptions {
   std::span<const std::uint32_t> groups;       // size of the cloud, with colour = false: gives groups
   float least_group_weight = 0.02f;            // less is not listed
   std::span<const std::uint8_t> shown;         // size of the cloud: 0 leaves the Gaussian out
+  const CloudBlocks* blocks = nullptr;         // of the cloud: runs that the view does not show cost nothing
   const Mask* sum_mask = nullptr;              // with `sums`: size of the camera's picture, non-zero = object
   MaskedSums* sums = nullptr;                  // added to; arrays of the cloud's size
   bool sum_whole_pixels = false;               // a pixel counts 1, not by its weight, where alpha >= 1/255

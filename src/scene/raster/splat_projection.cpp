@@ -28,7 +28,6 @@ constexpr std::size_t kWidth = hn::MaxLanes(kF);
 constexpr float kLog2E = 1.4426950408889634f;
 constexpr float kLn2 = 0.6931471805599453f;
 constexpr float kLog2Of255 = 7.994353436858858f;
-constexpr float kCutoffSigmas = 3.4f;  // a little more than sqrt(2 ln 255): beyond it alpha is below 1/255
 
 struct V3 {
   V x, y, z;

@@ -13,6 +13,9 @@
 
 namespace splatcut {
 
+inline constexpr float kCutoffSigmas =
+    3.4f;  // a little more than sqrt(2 ln 255): beyond it alpha is below 1/255
+
 struct SplatBatch {
   static constexpr std::size_t kGaussians = 256;             // that project_batch() takes at most
   static constexpr std::size_t kCapacity = kGaussians + 16;  // room for the last whole vector

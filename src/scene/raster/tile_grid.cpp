@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "scene/raster/block_view.h"
 #include "scene/raster/splat_projection.h"
 
 namespace splatcut {
@@ -105,9 +106,11 @@ void project_run(const GaussianCloud& cloud, const Camera& camera, const RasterO
                  const PixelRect& region, std::size_t begin, std::size_t end, TileGrid* grid, Run* run,
                  std::vector<SplatTile>* pairs, std::atomic<std::int64_t>* room) {
   run->place.assign(static_cast<std::size_t>(grid->tiles()), 0);
-  pairs->reserve(2 * (end - begin));
   SplatBatch batch;
+  static_assert(SplatBatch::kGaussians == CloudBlocks::kGaussians);
+  const BlockView view(camera, options.near_plane.value_or(cloud.near_plane), options.low_pass_px2, region);
   for (std::size_t g = begin; g < end; g += SplatBatch::kGaussians) {
+    if (options.blocks && !view.may_show(options.blocks->blocks()[g / CloudBlocks::kGaussians])) continue;
     const std::size_t last = std::min(end, g + SplatBatch::kGaussians);
     project_batch(cloud, static_cast<std::uint32_t>(g), static_cast<std::uint32_t>(last), camera, options,
                   region, &batch);
