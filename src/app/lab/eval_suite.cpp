@@ -56,7 +56,7 @@ void load_mask_truth(const std::filesystem::path& folder, const std::vector<Came
 }
 
 // "reference", then "references": one of them at least.
-std::vector<nlohmann::json> references_of(const nlohmann::json& entry) {
+std::vector<nlohmann::json> references_json(const nlohmann::json& entry) {
   std::vector<nlohmann::json> all;
   if (entry.contains("reference")) all.push_back(entry.at("reference"));
   if (entry.contains("references"))
@@ -93,7 +93,7 @@ std::vector<Camera> fill_case(const nlohmann::json& entry, const std::filesystem
   if (entry.contains("cameras"))
     cameras = load_cameras(folder / entry.at("cameras").get<std::string>(), &loaded->warning);
   test.scene_cameras = cameras;
-  const std::vector<nlohmann::json> references = references_of(entry);
+  const std::vector<nlohmann::json> references = references_json(entry);
   const auto camera_of = [&](const nlohmann::json& view) {
     return view.contains("camera") ? find_camera(cameras, view.at("camera"), test.name) : look_at_of(view);
   };

@@ -8,7 +8,7 @@ namespace splatcut {
 
 namespace {
 
-double ms_since(std::chrono::steady_clock::time_point start) {
+double drawn_ms(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -49,7 +49,7 @@ std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera
   frame->alpha = std::move(out.alpha);
   frame->depth = std::move(out.median_depth);
   frame->first_hit = std::move(out.first_hit);
-  frame->raster_ms = ms_since(start);
+  frame->raster_ms = drawn_ms(start);
   return frame;
 }
 
@@ -129,7 +129,7 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
     result.frames.push_back(kept.frame);
     result.pictures.push_back(shaded(*kept.frame, pane.style));
   }
-  result.ms = ms_since(start);
+  result.ms = drawn_ms(start);
   return result;
 }
 

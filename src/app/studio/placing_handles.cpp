@@ -67,8 +67,8 @@ float distance_to(const std::vector<glm::vec2>& path, const glm::vec2& at) {
 }
 
 // How far along a line from the centre the point lies that is nearest to the pixel's ray.
-float along(const PlacingHandles& handles, const glm::vec3& axis, const Camera& camera,
-            const glm::vec2& pixel) {
+float distance_along(const PlacingHandles& handles, const glm::vec3& axis, const Camera& camera,
+                     const glm::vec2& pixel) {
   constexpr float kLeast = 1 - kEndOn * kEndOn;  // the pointer may go where the ray runs along the axis
   const glm::vec3 ray = ray_through(camera, pixel), way = handles.centre_world - camera.centre_world();
   const float cosine = glm::dot(axis, ray);
@@ -157,7 +157,8 @@ PlacingChange dragged(const PlacingHandles& handles, const PlacingHandle& handle
     case PlacingGrip::kMoveAlong: {
       const glm::vec3& axis = handles.arrow_axes[handle.axis];
       change.move_world =
-          (along(handles, axis, camera, to_px) - along(handles, axis, camera, from_px)) * axis;
+          (distance_along(handles, axis, camera, to_px) - distance_along(handles, axis, camera, from_px)) *
+          axis;
       break;
     }
     case PlacingGrip::kTurn: {

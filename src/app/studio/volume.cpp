@@ -37,7 +37,7 @@ bool in_front(const Camera& camera, const glm::vec3& point_world) {
   return camera.camera_from_world(point_world).z > 1e-6f;
 }
 
-glm::vec2 pixel_of(const Camera& camera, const glm::vec3& point_world) {
+glm::vec2 pixel_from_world(const Camera& camera, const glm::vec3& point_world) {
   return camera.pixel_from_camera(camera.camera_from_world(point_world));
 }
 
@@ -46,7 +46,8 @@ float along(const Camera& camera, const glm::vec3& from_world, const glm::vec3& 
             const glm::vec2& way_px) {
   const float small = 1e-3f * camera.camera_from_world(from_world).z;
   const glm::vec2 per_unit =
-      (pixel_of(camera, from_world + small * direction) - pixel_of(camera, from_world)) / small;
+      (pixel_from_world(camera, from_world + small * direction) - pixel_from_world(camera, from_world)) /
+      small;
   const float steep = glm::dot(per_unit, per_unit);
   const float flat = 0.1f * camera.fy_px / camera.camera_from_world(from_world).z;
   if (steep < flat * flat) return 0;  // it points at the camera: the drag gives no distance
@@ -67,7 +68,7 @@ std::vector<glm::vec2> handles_px(const Volume& volume, const Camera& camera) {
   for (std::size_t handle = 0; handle < (volume.round ? 2 : kBoxHandles); ++handle) {
     const glm::vec3 at = handle_world(volume, handle, camera);
     if (!in_front(camera, at)) return {};
-    out.push_back(pixel_of(camera, at));
+    out.push_back(pixel_from_world(camera, at));
   }
   return out;
 }
@@ -84,7 +85,7 @@ Edges edges_px(const Volume& volume, const Camera& camera) {
     for (const int bit : {1, 2, 4}) {
       const glm::vec3 from = corner(a), to = corner(a | bit);
       if ((a & bit) == 0 && in_front(camera, from) && in_front(camera, to))
-        out.emplace_back(pixel_of(camera, from), pixel_of(camera, to));
+        out.emplace_back(pixel_from_world(camera, from), pixel_from_world(camera, to));
     }
   return out;
 }

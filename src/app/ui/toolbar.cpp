@@ -44,7 +44,7 @@ float options_end(const UiContext& ui) {
 }
 
 // Where there is room for it.
-void hint(UiContext& ui) {
+void tool_hint(UiContext& ui) {
   const std::string words =
       fmt::format(fmt::runtime(ui.studio.view().tool.hint), ui.studio.tools().points_set());
   const char* text = words.c_str();
@@ -80,7 +80,7 @@ void region_options(UiContext& ui) {
     }
   }
   gap();
-  if (view.tool.selects == Tool::Selects::kSpace) return hint(ui);
+  if (view.tool.selects == Tool::Selects::kSpace) return tool_hint(ui);
   if (view.tool.selects == Tool::Selects::kColours) return tolerance(ui);
   const bool visible = button(ui, narrow ? "Visible" : "Visible only", "Takes the surface that you see  (V)",
                               {}, !view.see_through);
@@ -128,7 +128,7 @@ void tool_options(UiContext& ui) {
     gap();
   }
   if (tool.selects != Tool::Selects::kNothing) return region_options(ui);
-  if (*tool.hint) hint(ui);
+  if (*tool.hint) tool_hint(ui);
 }
 
 namespace {

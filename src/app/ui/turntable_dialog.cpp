@@ -53,7 +53,7 @@ void frames_row(UiContext& ui, TurntableChoice& choice) {
   }
 }
 
-void size_row(UiContext& ui, TurntableChoice& choice) {
+void picture_size_row(UiContext& ui, TurntableChoice& choice) {
   label("Size");
   number("##width", &choice.width_px, 16, 8192);
   ImGui::SameLine(0, 6);
@@ -137,7 +137,7 @@ void turntable_dialog(UiContext& ui) {
   const bool typing = typing_beside("##folder");
   as_row(ui, choice);
   frames_row(ui, choice);
-  size_row(ui, choice);
+  picture_size_row(ui, choice);
   label(choice.as == TurntableAs::kPictures ? "Folder" : "File");
   ImGui::SetNextItemWidth(-44);
   ImGui::InputText("##folder", &choice.path);

@@ -11,7 +11,7 @@ namespace splatcut {
 
 namespace {
 
-const ImU32 kShade = IM_COL32(0, 0, 0, 150), kWhite = IM_COL32(255, 255, 255, 235);
+const ImU32 kMarkShade = IM_COL32(0, 0, 0, 150), kMarkWhite = IM_COL32(255, 255, 255, 235);
 
 void boxed_text(ImDrawList& list, const ImVec2& middle, const std::string& text, const UiContext& ui) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -60,13 +60,13 @@ void draw_points(const UiContext& ui, const UiRect& area) {
   std::vector<ImVec2> at;
   for (const glm::vec2& p : overlay.points_px) at.push_back(place(p));
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-    list.AddLine(at[i], at[i + 1], kShade, 4);
+    list.AddLine(at[i], at[i + 1], kMarkShade, 4);
     list.AddLine(at[i], at[i + 1], packed(ui.theme.colour.accent), 2);
   }
   for (std::size_t i = 0; i < at.size(); ++i) {
-    list.AddCircleFilled(at[i], 6.5f, kShade);
+    list.AddCircleFilled(at[i], 6.5f, kMarkShade);
     list.AddCircleFilled(at[i], 5, packed(ui.theme.colour.accent));
-    list.AddCircle(at[i], 5, kWhite, 0, 1.3f);
+    list.AddCircle(at[i], 5, kMarkWhite, 0, 1.3f);
     if (overlay.counted) boxed_text(list, {at[i].x + 18, at[i].y - 14}, fmt::format("{}", i + 1), ui);
   }
   if (overlay.length && at.size() == 2)
@@ -86,7 +86,7 @@ void draw_cursor_sign(const UiContext& ui, const UiRect& area) {
   const ImU32 ink = *sign == '+'   ? IM_COL32(90, 220, 120, 255)
                     : *sign == '-' ? IM_COL32(245, 95, 90, 255)
                                    : packed(ui.theme.colour.accent);
-  list.AddCircleFilled(at, 9, kShade);
+  list.AddCircleFilled(at, 9, kMarkShade);
   if (*sign == 'x') {  // two rings that meet: what is in both
     list.AddCircle({at.x - 2.2f, at.y}, 3.8f, ink, 0, 1.6f);
     list.AddCircle({at.x + 2.2f, at.y}, 3.8f, ink, 0, 1.6f);
@@ -115,7 +115,7 @@ UiRect axes_gizmo(UiContext& ui, const UiRect& area) {
     if (positive) list.AddLine(middle, at, axis.ink, 2);
     const float size = positive ? kBall : 0.6f * kBall;
     list.AddCircleFilled(at, size, positive || hovered ? axis.ink : packed(ui.theme.colour.panel, 0.8f));
-    list.AddCircle(at, size, hovered ? kWhite : axis.ink, 0, 1.5f);
+    list.AddCircle(at, size, hovered ? kMarkWhite : axis.ink, 0, 1.5f);
     if (!positive) continue;
     const ImVec2 text = ImGui::CalcTextSize(axis.name);
     list.AddText({at.x - 0.5f * text.x, at.y - 0.5f * text.y}, IM_COL32(15, 15, 18, 255), axis.name);

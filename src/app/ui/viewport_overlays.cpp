@@ -41,7 +41,7 @@ ImU32 ring_ink(const GaussianCloud& cloud, std::size_t g) {
   return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, kOpacity});
 }
 
-void refresh(RingsShown* shown, const Studio& studio, int pane) {
+void refresh_rings(RingsShown* shown, const Studio& studio, int pane) {
   const Camera camera = studio.viewport().pane_camera();
   const std::uint64_t scene = studio.scene()->serial;
   const Flags visible = studio.viewport().shown(pane), mine = of_object(studio);
@@ -72,7 +72,7 @@ void draw_rings(const UiContext& ui, const UiRect& area, int pane) {
   const Studio& studio = ui.studio;
   if (!studio.view().rings) return;
   RingsShown& shown = ui.state.rings[pane];
-  refresh(&shown, studio, pane);
+  refresh_rings(&shown, studio, pane);
   const OnScreen place = on_screen(ui, area);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (const Ring& ring : shown.in_view) {

@@ -119,7 +119,7 @@ float covered_top(const UiContext& ui) {
 
 // At the picture's lower edge, where a scene has its floor and no object; a small window has more room at the
 // upper one.
-std::optional<UiRect> hint(UiContext& ui, const UiRect& area, float bottom) {
+std::optional<UiRect> first_run_hint(UiContext& ui, const UiRect& area, float bottom) {
   if (!ui.state.hint_wanted || !ui.studio.document().objects.empty()) return {};
   constexpr std::array<std::pair<const char*, const char*>, 4> kLines = {
       {{"Click", "an object: it is cut out"},
@@ -211,7 +211,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   if (const auto rect = offer_line(ui, {area.min.x + 12, top + below_label})) covered.push_back(*rect);
   if (const auto rect = nearer_line(ui, {area.min.x + 12, top + below_label})) covered.push_back(*rect);
   covered.push_back(axes_gizmo(ui, {{area.min.x, area.min.y + covered_top(ui)}, area.max}));
-  if (const auto rect = hint(ui, area, bottom)) {
+  if (const auto rect = first_run_hint(ui, area, bottom)) {
     covered.push_back(*rect);
     if (rect->max.y > 0.5f * (area.min.y + area.max.y))
       bottom = area.max.y - rect->min.y;  // messages come above it

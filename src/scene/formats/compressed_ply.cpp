@@ -178,7 +178,7 @@ std::array<std::uint32_t, 4> pack(const GaussianCloud& cloud, std::uint32_t g, c
               to_steps(cloud.opacity[g], 8)};
 }
 
-std::string header_for(std::size_t gaussians, std::size_t chunks, std::size_t sh) {
+std::string chunked_header(std::size_t gaussians, std::size_t chunks, std::size_t sh) {
   std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement chunk {}\n", chunks);
   for (const char* name : kBounds) header += fmt::format("property float {}\n", name);
   header += fmt::format("element vertex {}\n", gaussians);
@@ -241,7 +241,7 @@ std::string write_compressed_ply(AtomicFile& out, const Scene& scene,
   for (std::size_t begin = 0; begin < order.size(); begin += kChunkRows)
     chunks.push_back(
         chunk_of(cloud, std::span(order).subspan(begin, std::min(kChunkRows, order.size() - begin))));
-  const std::string header = header_for(order.size(), chunks.size(), cloud.sh_stride());
+  const std::string header = chunked_header(order.size(), chunks.size(), cloud.sh_stride());
   out.write(std::as_bytes(std::span(header)));
   static_assert(sizeof(Chunk) ==
                 sizeof(float) * kBounds.size());  // its members stand in the order of kBounds

@@ -20,7 +20,7 @@ constexpr const char* kExtension = "KHR_gaussian_splatting";
 constexpr std::string_view kGlbMark = "glTF";
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 constexpr int kInt8 = 5120, kUint8 = 5121, kInt16 = 5122, kUint16 = 5123, kFloat = 5126;
-constexpr int kPoints = 0;
+constexpr int kPointsMode = 0;  // of a primitive
 
 struct GlbHeader {
   std::uint32_t magic, version, bytes;

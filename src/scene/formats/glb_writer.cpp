@@ -63,7 +63,7 @@ class GlbWriter {
                             {"projection", "perspective"},
                             {"sortingMethod", "cameraDistance"}};
     const json primitive = {
-        {"attributes", attributes_}, {"mode", kPoints}, {"extensions", {{kExtension, extension}}}};
+        {"attributes", attributes_}, {"mode", kPointsMode}, {"extensions", {{kExtension, extension}}}};
     return {{"asset", {{"version", "2.0"}, {"generator", "splatcut"}}},
             {"extensionsUsed", {kExtension}},
             {"scene", 0},

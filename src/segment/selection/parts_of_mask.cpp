@@ -15,7 +15,7 @@ std::vector<float> inside_pixels(const PartHierarchy& parts, const PartView& vie
 }
 
 // Sums over the subtree of each node.
-std::vector<float> summed(const PartTree& tree, std::vector<float> of_leaves) {
+std::vector<float> summed_up(const PartTree& tree, std::vector<float> of_leaves) {
   of_leaves.resize(tree.nodes(), 0);
   for (std::size_t node = 0; node < tree.nodes(); ++node)
     if (tree.parent[node] != kNoPart) of_leaves[tree.parent[node]] += of_leaves[node];
@@ -27,10 +27,10 @@ std::vector<std::uint8_t> chosen_nodes(const PartTree& tree, std::size_t leaves,
                                        const std::vector<float>& pixels,
                                        const std::vector<float>& inside_of_leaves,
                                        const MaskToPartsOptions& options) {
-  const std::vector<float> inside = summed(tree, inside_of_leaves);
+  const std::vector<float> inside = summed_up(tree, inside_of_leaves);
   std::vector<float> shown_area(leaves, 0);
   for (std::size_t leaf = 0; leaf < leaves; ++leaf) shown_area[leaf] = pixels[leaf] > 0 ? tree.area[leaf] : 0;
-  shown_area = summed(tree, std::move(shown_area));
+  shown_area = summed_up(tree, std::move(shown_area));
   std::vector<float> best(tree.nodes(), 0);  // most pixels right minus wrong
   std::vector<std::uint8_t> whole(tree.nodes(), 0);
   for (std::size_t node = 0; node < tree.nodes(); ++node) {

@@ -43,7 +43,7 @@ void measure(const GaussianCloud& cloud, const SurfaceFeatures& f, SurfaceEdge* 
   e->distance = distance / std::max(e->length, kNoDistance);
 }
 
-float weight(const SurfaceEdge& e, const SuperpointOptions& o) {
+float weight_of(const SurfaceEdge& e, const SuperpointOptions& o) {
   return e.colour / o.colour_unit + o.normal * e.normal + o.concavity * std::max(0.0f, e.concavity) +
          o.gap * std::min(o.gap_most, o.gap_unit * e.gap) + o.distance * e.distance;
 }
@@ -73,7 +73,7 @@ std::vector<KeyValue<std::uint32_t>> by_weight(std::span<const SurfaceEdge> edge
                                                const SuperpointOptions& options) {
   std::vector<KeyValue<std::uint32_t>> order(edges.size()), scratch(edges.size());
   for (std::uint32_t i = 0; i < edges.size(); ++i)
-    order[i] = {std::bit_cast<std::uint32_t>(weight(edges[i], options)), i};  // weights >= 0 sort as bits
+    order[i] = {std::bit_cast<std::uint32_t>(weight_of(edges[i], options)), i};  // weights >= 0 sort as bits
   radix_sort<11>(std::span(order), std::span(scratch), 0, 32);
   return order;
 }

@@ -33,7 +33,7 @@ std::filesystem::path made_still_life(const StudyScenesOptions& options, const H
 }
 
 // Objects that show what the still life is for come first.
-bool shows(const HardStillLife& hard, const std::string& object) {
+bool is_made_for(const HardStillLife& hard, const std::string& object) {
   const auto one_of = [&](std::initializer_list<const char*> names) {
     return std::ranges::find(names, object) != names.end();
   };
@@ -58,7 +58,7 @@ void add_scenes(const std::filesystem::path& suite, const HardStillLife* hard, b
   std::size_t taken = 0;
   for (nlohmann::json entry : read_suite(suite)) {
     const std::string name = entry.value("name", "?");
-    if (hard && !shows(*hard, name)) continue;
+    if (hard && !is_made_for(*hard, name)) continue;
     if (quick && taken++ == 2) break;
     if (hard) keep_some_views(quick, &entry);
     scenes->push_back({entry, suite.parent_path(), hard ? hard->name + ", " + name : name,
