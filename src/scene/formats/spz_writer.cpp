@@ -1,4 +1,5 @@
-// Writer of .spz, versions 3 (gzip) and 4 (zstd), always in axes x right, y up, z back.
+// Writer of .spz, versions 3 (gzip) and 4 (zstd), always in axes x right, y up, z back, which only version 4
+// says: common readers of version 3 take any byte behind the attributes for a damaged file.
 #include <fmt/format.h>
 #include <zlib.h>
 #include <zstd.h>
@@ -62,7 +63,7 @@ void add_rotation(Buffer& out, const glm::quat& rotation) {
   for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<std::uint8_t>(packed >> shift));
 }
 
-void add_sh(Buffer& out, std::span<const float> rest) {
+void add_sh_bytes(Buffer& out, std::span<const float> rest) {
   static constexpr std::array<float, 15> kSigns = kRightUpBack.sh();
   const std::size_t coefficients = rest.size() / 3;
   for (std::size_t k = 0; k < coefficients; ++k)
@@ -75,7 +76,6 @@ spz::Header header_of(const Scene& scene, std::span<const std::uint32_t> gaussia
   header.points = static_cast<std::uint32_t>(gaussians.size());
   header.sh_degree = static_cast<std::uint8_t>(scene.cloud.sh_degree);
   header.fractional_bits = fractional_bits_for(scene.cloud, gaussians);
-  header.flags = spz::kFlagExtensions;
   if (scene.antialiased) header.flags |= spz::kFlagAntialiased;
   return header;
 }
@@ -93,7 +93,7 @@ std::array<Buffer, spz::kAttributes> attributes(const GaussianCloud& cloud,
       out[3].push_back(to_byte((std::log(cloud.scale[g][c]) - spz::kLogScaleMin) * spz::kLogScaleSteps));
     }
     add_rotation(out[4], cloud.rotation[g]);
-    add_sh(out[5], cloud.sh_rest_of(g));
+    add_sh_bytes(out[5], cloud.sh_rest_of(g));
   }
   return out;
 }
@@ -145,7 +145,6 @@ void write_version_3(AtomicFile& out, const spz::Header& header, std::span<const
   GzipWriter gzip(out);
   gzip.write(bytes_of(header));
   for (const Buffer& attribute : attributes) gzip.write(std::as_bytes(std::span(attribute)));
-  gzip.write(bytes_of(spz::AxesRecord{}));
   gzip.finish();
 }
 
@@ -163,6 +162,7 @@ void write_version_4(AtomicFile& out, const spz::Header& first, std::span<const 
   spz::HeaderV4 header;
   header.first = first;
   header.first.version = 4;
+  header.first.flags |= spz::kFlagExtensions;
   header.first.streams = static_cast<std::uint8_t>(first.sh_degree > 0 ? 6 : 5);
   header.table_begin = sizeof(spz::HeaderV4) + sizeof(spz::AxesRecord);
   out.write(bytes_of(header));

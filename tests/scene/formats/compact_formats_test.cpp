@@ -116,7 +116,7 @@ TEST_CASE("spz: version 4, zstd streams, holds what version 3 of the same cloud 
       streams += packed;
       begin += 500 * bytes;
     }
-    REQUIRE(begin + 12 == v3.size());  // what is left says the axes
+    REQUIRE(begin == v3.size());
     std::string header = "NGSP" + bytes_of(4u) + v3.substr(8, 6) + std::string(1, '\0');
     header += static_cast<char>(table.size() / 16);
     header += bytes_of(32u) + std::string(12, '\0');
