@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "app/cli/commands.h"
+#include "app/console/kept_inputs.h"
 #include "app/console/output_folder.h"
 #include "core/error.h"
 #include "core/json_file.h"
@@ -36,7 +37,11 @@ std::string shortfall(const CompareArguments& args, const PictureDifference& d) 
 }
 
 void run_compare(const CompareArguments& args, const CommonOptions& common) {
-  if (!args.diff.empty()) check_output_file(args.diff, args.overwrite);
+  if (!args.diff.empty()) {
+    refuse_scene_name(args.diff);
+    refuse_written_inputs(args.diff, {args.a, args.b});
+    check_output_file(args.diff, args.overwrite);
+  }
   const Image<Rgb8> a = read_png_rgb(args.a), b = read_png_rgb(args.b);
   const PictureDifference d = picture_difference(a, b, args.max_diff.value_or(0));
   if (!args.diff.empty()) write_png(args.diff, difference_picture(a, b));

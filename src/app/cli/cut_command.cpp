@@ -13,6 +13,7 @@
 #include "app/cli/work_cut.h"
 #include "app/console/camera_options.h"
 #include "app/console/console.h"
+#include "app/console/kept_inputs.h"
 #include "app/console/mask_options.h"
 #include "app/console/scene_options.h"
 #include "app/console/setting_options.h"
@@ -126,6 +127,8 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
     return run_work_cut(
         {args.work, args.output, args.overwrite, args.json, common.quiet, prepared_cache(common)});
   if (args.scene.empty()) throw CLI::RequiredError("scene, or --work FILE.splatcut.json,");
+  refuse_written_inputs(args.output, {args.scene, args.camera.cameras, args.object.seeds, args.object.mask,
+                                      args.object.masks_folder});
   const ObjectInput input = args.object.read(args.camera);
   const Job job =
       console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
@@ -137,6 +140,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   const auto scene =
       std::make_shared<const Scene>(args.how.load(args.scene, args.camera.cameras, common.quiet, job));
   stop_if_cancelled(job, "splatcut cut");
+  refuse_written_inputs(args.output, scene->files);
   const double load_ms = ms_since_start();
   ChosenCamera chosen = choose_camera(args.camera, scene->cloud);
   warn(chosen.warning, common.quiet);

@@ -5,6 +5,7 @@
 
 #include "app/cli/commands.h"
 #include "app/console/console.h"
+#include "app/console/kept_inputs.h"
 #include "app/console/output_folder.h"
 #include "app/console/scene_options.h"
 #include "scene/formats/merged_scene.h"
@@ -50,6 +51,7 @@ std::vector<std::string> counts_of(const std::vector<Scene>& scenes) {
 }
 
 void run_merge(const MergeArguments& args, const CommonOptions& common) {
+  refuse_written_inputs(args.output, args.scenes);
   check_output_file(args.output, args.overwrite);
   const SceneFormat format = output_format_from_name(args.output);
   const Job job = console_job(common.quiet);
@@ -58,6 +60,7 @@ void run_merge(const MergeArguments& args, const CommonOptions& common) {
   const MergedScene whole = merged(std::move(scenes), job);
   end_progress();
   stop_if_cancelled(job, "splatcut merge");
+  refuse_written_inputs(args.output, whole.scene.files);
   const SaveReport report = save_scene(args.output, whole.scene, {}, format, {args.spz_version});
   if (common.quiet) return;
   for (const std::string& count : counts) fmt::print("{}\n", count);

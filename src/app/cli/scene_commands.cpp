@@ -8,6 +8,7 @@
 #include "app/cli/commands.h"
 #include "app/console/camera_options.h"
 #include "app/console/console.h"
+#include "app/console/kept_inputs.h"
 #include "app/console/output_folder.h"
 #include "app/console/scene_options.h"
 #include "core/error.h"
@@ -125,9 +126,12 @@ void write_depth(const std::filesystem::path& path, const Image<float>& depth) {
 }
 
 void run_render(const SceneArguments& args, const CommonOptions& common) {
+  refuse_scene_name(args.output);
+  refuse_written_inputs(args.output, {args.scene, args.camera.cameras, args.labels});
   check_output_file(args.output, args.overwrite);
   const Job job = console_job(common.quiet);
   const Scene scene = args.how.load(args.scene, args.camera.cameras, common.quiet, job);
+  refuse_written_inputs(args.output, scene.files);
   const ChosenCamera chosen = choose_camera(args.camera, scene.cloud);
   warn(chosen.warning, common.quiet);
   RasterOptions options;
@@ -164,12 +168,14 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
 }
 
 void run_convert(const SceneArguments& args, const CommonOptions& common) {
+  refuse_written_inputs(args.output, {args.scene});
   check_output_file(args.output, args.overwrite);
   const SceneFormat format = output_format_from_name(args.output);
   const Job job = console_job(common.quiet);
   const Scene scene = args.how.load(args.scene, {}, common.quiet, job);
   end_progress();
   stop_if_cancelled(job, "splatcut convert");
+  refuse_written_inputs(args.output, scene.files);
   const SaveReport report = save_scene(args.output, scene, {}, format, {args.spz_version});
   if (common.quiet) return;
   fmt::print("{}: {} Gaussians, {} bytes\n", args.output.string(), report.gaussians, report.bytes);

@@ -4,6 +4,7 @@
 
 #include "app/cli/cutout_files.h"
 #include "app/console/console.h"
+#include "app/console/kept_inputs.h"
 #include "app/console/output_folder.h"
 #include "app/studio/export_plan.h"
 #include "app/studio/work_file.h"
@@ -54,8 +55,11 @@ Document computed_again(const OpenedScene& scene, Document document, const Job& 
 
 void run_work_cut(const WorkCutOptions& options) {
   const Job job = console_job(options.quiet);  // first: a signal must find its handler once there is a folder
-  OutputFolder folder(options.output, options.overwrite);
   const WorkFile file = read_work_file(options.work);
+  std::vector<std::filesystem::path> inputs = {options.work};
+  for (const SceneSource& source : file.files) inputs.push_back(source.path);
+  refuse_written_inputs(options.output, inputs);
+  OutputFolder folder(options.output, options.overwrite);
   const auto scene = open_scene(file.files, job);
   stop_if_cancelled(job, "splatcut cut");
   RestoredWork work = restored(file, *scene);

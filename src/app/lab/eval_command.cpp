@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/console/console.h"
+#include "app/console/kept_inputs.h"
 #include "app/console/mask_options.h"
 #include "app/console/output_folder.h"
 #include "app/console/setting_options.h"
@@ -293,6 +294,7 @@ void check_any_view(const EvalArguments& args) {
 void run_eval(const EvalArguments& args, const CommonOptions& common) {
   check_ways_in(args);
   check_any_view(args);
+  refuse_written_inputs(args.output, {args.suite, args.nvos, args.spin_nerf, args.scenes, args.model});
   const Job job =
       console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
   OutputFolder folder(args.output, args.overwrite);

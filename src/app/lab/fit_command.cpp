@@ -13,6 +13,7 @@
 #include <numeric>
 
 #include "app/console/console.h"
+#include "app/console/kept_inputs.h"
 #include "app/console/output_folder.h"
 #include "app/lab/decisions.h"
 #include "app/lab/eval_suite.h"
@@ -278,6 +279,8 @@ std::uint32_t bits_of(const FitArguments& args) {
 }
 
 void run_fit(FitArguments args, const CommonOptions& common) {
+  refuse_written_inputs(args.output, args.suites);
+  refuse_written_inputs(args.output, {args.model});
   const Job job = console_job(common.quiet);
   OutputFolder folder(args.output, args.overwrite);
   args.fit.without = bits_of(args);

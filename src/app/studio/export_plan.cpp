@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/console/kept_inputs.h"
 #include "app/console/output_folder.h"
 #include "core/error.h"
 
@@ -30,6 +31,7 @@ void save(const std::filesystem::path& path, const Scene& scene, const std::vect
           const ExportRequest& request, const std::optional<Similarity>& to, ExportReport* report) {
   if (count_flags(keep) == 0)
     throw Error(path.filename().string(), "would hold no Gaussians", "Select something first");
+  refuse_written_inputs(path, scene.files);
   check_output_file(path, request.overwrite);
   const SaveReport saved = to ? save_placed(path, scene, keep, request.format, *to)
                               : save_scene(path, scene, keep, request.format);

@@ -34,7 +34,8 @@ struct ExportReport {
 std::vector<std::uint8_t> exported(const Document& document, ObjectId object, ExportWhat what,
                                    std::size_t gaussians);
 
-// Throws Error: nothing to export, the file exists and overwriting was not asked for, the disk is full.
+// Throws Error: nothing to export, the file is one that the scene was read from, or exists and overwriting
+// was not asked for, the disk is full.
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
                         const ExportRequest& request);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/console/kept_inputs.h"
 #include "app/studio/capture.h"
 #include "app/studio/turntable.h"
 #include "app/studio/words.h"
@@ -35,6 +36,8 @@ void Exports::perform(const Export& c) {
 
 void Exports::perform(const SaveSnapshot& c) {
   ws_.require_scene();
+  refuse_scene_name(c.path);
+  refuse_written_inputs(c.path, ws_.scene->scene->files);
   ws_.tasks.submit(
       TaskKind::kExport, [this, c, camera = viewport_.pane_camera(), visible = viewport_.shown(0),
                           limits = viewport_.draw_limits(), background = ws_.document().background,
@@ -51,6 +54,8 @@ void Exports::perform(const SaveSnapshot& c) {
 void Exports::perform(const SaveTurntable& c) {
   ws_.require_scene();
   check_turntable(c);
+  refuse_scene_name(c.path);
+  refuse_written_inputs(c.path, ws_.scene->scene->files);
   const ObjectItem* object = ws_.document().active_object();
   if (!object || ws_.gaussians_of(object->id) == 0)
     throw Error("turntable", "there is no object to turn", "Click an object first");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "app/console/kept_inputs.h"
 #include "app/studio/work_history.h"
 #include "core/error.h"
 
@@ -17,7 +18,7 @@ namespace {
 // Changes of the view alone are saved later: the view changes all the time.
 constexpr double kAutosaveAfterSeconds = 2, kAutosaveViewAfterSeconds = 10, kAutosaveAgainSeconds = 30;
 
-std::string described(const std::filesystem::path& work) {
+std::string work_and_time(const std::filesystem::path& work) {
   std::error_code ignored;  // it may go in this moment
   const auto written = std::chrono::file_clock::to_sys(std::filesystem::last_write_time(work, ignored));
   const std::time_t seconds = std::chrono::system_clock::to_time_t(
@@ -52,7 +53,7 @@ std::filesystem::path SavedWork::offered() const {
 }
 
 void SavedWork::describe_offered() {
-  if (autosave_found()) restorable_says_ = described(offered());
+  if (autosave_found()) restorable_says_ = work_and_time(offered());
 }
 
 void SavedWork::opened(const std::optional<RestoredWork>& work, const std::filesystem::path& file) {
@@ -136,6 +137,7 @@ void SavedWork::perform(const SaveWork& c) {
   ws_.require_scene();
   std::filesystem::path path = c.path;
   if (!is_work_file(path)) path += ".splatcut.json";
+  refuse_written_inputs(path, ws_.scene->scene->files);
   ws_.tasks.submit(TaskKind::kSave, [this, path, serial = ws_.history.serial(), document = ws_.document(),
                                      view = viewport_.camera().kept_pose(), scene = ws_.scene,
                                      steps = saved_steps(ws_.history)](const Job& job) {

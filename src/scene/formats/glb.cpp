@@ -340,6 +340,7 @@ std::vector<std::size_t> roots_of(const json& text) {
 void read_glb(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
   try {
     const Gltf gltf(file);
+    for (const auto& beside : gltf.beside) scene.files.push_back(beside->path());
     Collector found(file, gltf);
     for (const std::size_t root : roots_of(gltf.text)) found.collect(root, glm::mat4(1), 0);
     if (found.count == 0)

@@ -46,6 +46,7 @@ Scene described(const std::vector<Scene>& scenes) {
     whole.dropped += scene.dropped;
     whole.file_bytes += scene.file_bytes;
     add_names(scene.other_properties, &whole.other_properties);
+    whole.files.insert(whole.files.end(), scene.files.begin(), scene.files.end());
   }
   return whole;
 }

@@ -97,6 +97,7 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
   const MappedFile file(in_folder(path));
   Scene scene;
   scene.path = file.path();
+  scene.files = {file.path()};
   scene.format = format_of(file);
   scene.file_bytes = file.bytes().size();
   scene.modified_ns = file.modified_ns();

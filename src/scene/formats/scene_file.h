@@ -26,8 +26,9 @@ const char* name_of(SpzAxes axes);  // as --spz-axes takes them
 std::optional<SpzAxes> spz_axes_from_name(std::string_view name);
 
 struct Scene {
-  GaussianCloud cloud;         // Morton order
-  std::filesystem::path path;  // where it came from; reopened to copy rows
+  GaussianCloud cloud;                       // Morton order
+  std::filesystem::path path;                // where it came from; reopened to copy rows
+  std::vector<std::filesystem::path> files;  // all that were read: path, then buffers, pictures, pieces
   SceneFormat format = SceneFormat::kPly;
   std::size_t file_rows = 0;     // Gaussians in the file, dropped ones included
   std::size_t dropped = 0;       // rows left out: NaN, zero quaternion, beyond 1e15 units

@@ -205,6 +205,7 @@ void read_sog(const MappedFile& file, const LoadOptions&, Scene& scene, const Jo
   job.progress("unpacking pictures", 0.0);
   const SogRows rows = read_sog_rows(file, job);
   scene.antialiased = rows.antialiased;
+  rows.add_files(&scene);
   if (!job.cancelled()) decode_rows(rows, rows.count, rows.degree, scene, job);
 }
 
@@ -251,6 +252,10 @@ std::uint64_t SogRows::packed_bytes() const {
   std::uint64_t bytes = 0;
   for (const auto& [path, file_bytes] : packed) bytes += file_bytes;
   return bytes;
+}
+
+void SogRows::add_files(Scene* scene) const {
+  for (const auto& [path, file_bytes] : packed) scene->files.push_back(path);
 }
 
 std::uint64_t SogRows::unpacked_bytes() const {

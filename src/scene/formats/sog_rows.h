@@ -35,6 +35,7 @@ struct SogRows {
   void decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const;
 
   std::uint64_t packed_bytes() const;
+  void add_files(Scene* scene) const;    // those of `packed`
   std::uint64_t unpacked_bytes() const;  // of the pictures that were read so far
 };
 

@@ -244,6 +244,7 @@ void read_streamed_sog(const MappedFile& file, const LoadOptions&, Scene& scene,
       scene.left_out = "Coarser levels of detail are left out: of each part of the scene the finest is read";
     const StreamedRows rows = rows_of_pieces(file, std::move(index), job);
     if (job.cancelled()) return;
+    for (const SogRows& piece : rows.pieces) piece.add_files(&scene);
     scene.antialiased = std::ranges::all_of(rows.pieces, &SogRows::antialiased);
     decode_rows(rows, rows.count, rows.degree, scene, job);
   } catch (const json::exception& error) {

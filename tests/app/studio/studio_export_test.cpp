@@ -110,6 +110,38 @@ TEST_CASE("hands: a proposed name is one that no file has yet") {
   CHECK(free_path(folder / "a.compressed.ply", ".compressed.ply") == folder / "a_3.compressed.ply");
 }
 
+namespace {
+std::string bytes_of_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+}  // namespace
+
+TEST_CASE("hands: nothing is saved over the file that the scene was read from, by whatever name") {
+  const ScratchFolder folder("own_file");
+  const std::filesystem::path scene = folder / "mine.compressed.ply", link = folder / "link.compressed.ply",
+                              work = folder / "link.splatcut.json", picture = folder / "link.png";
+  std::filesystem::copy(kSample, scene);
+  for (const auto& name : {link, work, picture}) std::filesystem::create_symlink(scene, name);
+  HeadlessApp app(kHandsWidth, kHandsHeight);
+  app.open(scene);
+  REQUIRE(app.settle());
+  const auto refused = [&](const Command& command, const std::string& sentence) {
+    app.studio().apply(command);
+    REQUIRE(app.settle());
+    const std::string said = app.studio().messages().back().text;
+    CHECK_MESSAGE(said.find(sentence) != std::string::npos, said);
+  };
+  for (const auto& name : {scene, link})
+    refused(Export{{ExportWhat::kScene, SceneFormat::kCompressedPly, name, true}}, "is what is read here");
+  refused(SaveWork{work}, "is what is read here");
+  refused(SaveSnapshot{picture}, "is what is read here");
+  refused(SaveSnapshot{folder / "new.ply"}, "is the name of a scene");
+  CHECK(bytes_of_file(scene) == bytes_of_file(kSample));
+  for (const auto& name : {link, work, picture}) CHECK(std::filesystem::is_symlink(name));
+  CHECK_FALSE(std::filesystem::exists(folder / "new.ply"));
+}
+
 TEST_CASE("hands: an export that would move everything to nowhere is refused") {
   const ScratchFolder folder("nowhere");
   Hands hands;

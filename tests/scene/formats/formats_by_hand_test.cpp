@@ -211,10 +211,12 @@ TEST_CASE("glb by hand: nodes place their Gaussians, normalised bytes, drafts wi
   std::uint32_t text_bytes = 0;
   std::memcpy(&text_bytes, bytes.data() + 12, 4);
   auto text = nlohmann::json::parse(bytes.substr(20, text_bytes));
+  CHECK(text["meshes"][0]["primitives"][0]["mode"] == 0);  // points
   text["buffers"][0]["uri"] = "b.bin";
   write(folder / "b.gltf", text.dump());
   write(folder / "b.bin", bytes.substr(28 + text_bytes));
   check_same(written.cloud, load_scene(folder / "b.gltf"), limits().at("glb").limit);
+  CHECK(load_scene(folder / "b.gltf").files == std::vector<fs::path>{folder / "b.gltf", folder / "b.bin"});
   text["buffers"][0]["uri"] = "../b.bin";
   write(folder / "b.gltf", text.dump());
   CHECK(mentions(refusal(folder / "b.gltf"), {"another folder", ".glb"}));

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "app/console/console.h"
+#include "app/console/kept_inputs.h"
 #include "app/console/version.h"
 #include "app/lab/lab_commands.h"
 #include "app/lab/study/study_charts.h"
@@ -61,9 +62,9 @@ std::string key_of(const StudyCell& cell, const StudyScene& scene) {
 }
 
 // Every cell on every scene that is not measured yet; scene by scene, each is loaded once.
-void measure(const StudyArguments& args, const std::vector<StudyScene>& scenes,
-             const std::vector<StudyCell>& cells, const PreparedCache& cache, const Job& job,
-             StudyStore* store) {
+void measure_cells(const StudyArguments& args, const std::vector<StudyScene>& scenes,
+                   const std::vector<StudyCell>& cells, const PreparedCache& cache, const Job& job,
+                   StudyStore* store) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const auto asked = [](const StudyCell& cell, const StudyScene& scene) {
@@ -195,6 +196,7 @@ std::vector<WorstCase> worst_cases(const StudyArguments& args, std::vector<Lowes
 }
 
 void run_study(const StudyArguments& args, const CommonOptions& common) {
+  refuse_written_inputs(args.output, args.suites);
   const Job job = console_job(common.quiet);
   std::error_code failure;
   std::filesystem::create_directories(args.output, failure);
@@ -207,7 +209,7 @@ void run_study(const StudyArguments& args, const CommonOptions& common) {
     warn(fmt::format("{}: {} measurements of another program do not count",
                      (args.output / "cells.jsonl").string(), store.of_others()),
          common.quiet);
-  measure(args, scenes, cells, cache, job, &store);
+  measure_cells(args, scenes, cells, cache, job, &store);
   end_progress();
   if (store.results().empty())
     throw Error("splatcut-lab study", "none of the scenes has the truth that is asked for");

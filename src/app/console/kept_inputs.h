@@ -1,0 +1,19 @@
+// What a command reads is not written over by the same command, whatever was said about overwriting.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace splatcut {
+
+// Throws Error where `output`, a file or a folder, is one of the inputs or a folder that holds one. Files are
+// told apart by device and inode, so that links do not hide them. Inputs that are empty or not there, and
+// outputs that are pipes or devices, are nothing to lose.
+void refuse_written_inputs(const std::filesystem::path& output,
+                           const std::vector<std::filesystem::path>& inputs);
+
+// Throws Error where a picture would be written under the ending of a scene.
+void refuse_scene_name(const std::filesystem::path& picture);
+
+}  // namespace splatcut
