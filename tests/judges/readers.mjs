@@ -1,0 +1,89 @@
+// The field's own readers and writers, each as a function from a file to a reading (gaussians.mjs).
+import {spawnSync} from 'node:child_process';
+import {readFileSync, writeFileSync} from 'node:fs';
+import {fileURLToPath} from 'node:url';
+import validator from 'gltf-validator';
+import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
+import {GLTFGaussianSplatLoaderExtension} from 'three/addons/loaders/GLTFGaussianSplatLoaderExtension.js';
+import {GaussianSplatPLYLoader} from 'three/addons/loaders/GaussianSplatPLYLoader.js';
+import {KSPLATLoader} from 'three/addons/loaders/KSPLATLoader.js';
+import {SPLATLoader} from 'three/addons/loaders/SPLATLoader.js';
+import {SPZLoader} from 'three/addons/loaders/SPZLoader.js';
+import {coefficients, columnsOfPly, covariance, readingOfColumns} from './gaussians.mjs';
+
+const SH_C0 = 0.28209479177387814;
+const arrayBuffer = (path) => { const b = readFileSync(path); return b.buffer.slice(b.byteOffset, b.byteOffset + b.byteLength); };
+
+// three.js keeps spherical harmonics as bytes, (value - 128) / 128, four to a word, band by band.
+function readingOfGeometry(geometry) {
+  const attribute = (name) => geometry.getAttribute(name);
+  const count = attribute('position').count, colours = attribute('color').array;
+  const bands = [1, 2, 3].map((d) => attribute(`sphericalHarmonics${d}`)).filter((band) => band);
+  const degree = bands.length, sh = [];
+  for (let g = 0; g < count; ++g)
+    bands.forEach((band, d) => {
+      const bytes = new Uint8Array(band.array.buffer, band.array.byteOffset + 4 * g * band.itemSize, 3 * (2 * d + 3));
+      for (const b of bytes) sh.push((b - 128) / 128);
+    });
+  const every = (i, from, to) => i % 4 >= from && i % 4 < to;
+  return {count, degree, sh, position: [...attribute('position').array], covariance: [...attribute('covariance').array],
+    rgb: [...colours].filter((_, i) => every(i, 0, 3)).map((b) => b / 255), alpha: [...colours].filter((_, i) => every(i, 3, 4)).map((b) => b / 255)};
+}
+
+const three = (Loader) => async (path) => readingOfGeometry(await new Loader().parse(arrayBuffer(path)));
+
+export const threePly = three(GaussianSplatPLYLoader);
+export const threeSplat = three(SPLATLoader);
+export const threeSpz = three(SPZLoader);
+export const threeKsplat = three(KSPLATLoader);
+
+export async function threeGlb(path) {
+  const loader = new GLTFLoader().register((parser) => new GLTFGaussianSplatLoaderExtension(parser));
+  const gltf = await loader.parseAsync(arrayBuffer(path), '');
+  let geometry;
+  gltf.scene.traverse((node) => { geometry ??= node.splatGeometry; });
+  return readingOfGeometry(geometry);
+}
+
+// Sentences on what is not as the standard has it. The validator does not know the extension: its names of attributes,
+// with a colon, are none of the standard's own.
+export async function glbFaults(path) {
+  const report = await validator.validateBytes(new Uint8Array(readFileSync(path)), {maxIssues: 20});
+  return report.issues.messages.filter((m) => m.severity <= 1)
+    .filter((m) => !(m.code === 'MESH_PRIMITIVE_INVALID_ATTRIBUTE' && /KHR_gaussian_splatting:/.test(m.pointer))).map((m) => `${m.code} at ${m.pointer}: ${m.message}`);
+}
+
+export async function spzLoader(path) {
+  [process.type, globalThis.window] = ['renderer', globalThis];  // it only starts as in a browser
+  const {loadSpz} = await import('@spz-loader/core');
+  const c = await loadSpz(new Uint8Array(readFileSync(path)), {colorScaleFactor: SH_C0});
+  const of = (array, width, g) => [...array.subarray(width * g, width * (g + 1))];
+  const covariances = [];
+  for (let g = 0; g < c.numPoints; ++g) {
+    const [x, y, z, w] = of(c.rotations, 4, g);
+    covariances.push(...covariance([w, x, y, z], of(c.scales, 3, g)));
+  }
+  return {count: c.numPoints, degree: c.shDegree, position: [...c.positions], covariance: covariances,
+    rgb: [...c.colors], alpha: [...c.alphas],
+    sh: [...c.sh].slice(0, 3 * coefficients(c.shDegree) * c.numPoints)};
+}
+
+const CONVERTER = fileURLToPath(new URL('node_modules/@playcanvas/splat-transform/bin/cli.mjs', import.meta.url));
+
+export function splatTransform(from, to, options = []) {
+  const end = spawnSync(process.execPath, [CONVERTER, '-w', '-q', '-g', 'cpu', from, ...options, to], {encoding: 'utf8'});
+  if (end.status !== 0) throw new Error(`splat-transform ${from} ${to}: ${end.stderr || end.stdout || end.error}`);
+}
+
+export async function converter(path) {
+  splatTransform(path, `${path}.theirs.ply`);
+  return readingOfColumns(columnsOfPly(readFileSync(`${path}.theirs.ply`)));
+}
+
+// Writes a .ksplat of a compression level, 0 to 2.
+export async function writeKsplat(ply, path, level, degree) {
+  globalThis.window = globalThis;  // it asks for timers there
+  const {PlyLoader} = await import('./gaussian-splats-3d.mjs');
+  const buffer = await PlyLoader.loadFromFileData(arrayBuffer(ply), 0, level, true, degree);
+  writeFileSync(path, Buffer.from(buffer.bufferData));
+}
