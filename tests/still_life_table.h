@@ -10,6 +10,7 @@
 #include "scene/still_life/still_life.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/leaf_view.h"
+#include "segment/superpoints/observing_views.h"
 #include "segment/superpoints/part_view.h"
 #include "segment/superpoints/prepared_scene.h"
 
@@ -32,7 +33,8 @@ inline const Table& table() {
     const std::vector<std::uint32_t> order = morton_order(t.scene.cloud.position);
     t.cloud = permuted(t.scene.cloud, order);
     for (const std::uint32_t g : order) t.label.push_back(t.scene.label[g]);
-    t.prepared = prepare_scene(t.cloud, t.scene.cameras.front(), {0, 1, 0}, t.scene.cameras);
+    t.prepared =
+        prepare_scene(t.cloud, observing_views(t.cloud, t.scene.cameras.front(), {0, 1, 0}, t.scene.cameras));
     return t;
   }();
   return made;

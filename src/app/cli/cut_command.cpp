@@ -90,13 +90,12 @@ nlohmann::json settings_json(const CutArguments& args, const ObjectInput& input,
   return json;
 }
 
-// The scene, ready to be cut as the settings want it.
 Session session_of(const std::shared_ptr<const Scene>& scene, const ChosenCamera& chosen,
-                   const CutSettings& settings, const PreparedCache& cache, const Job& job) {
-  auto prepared = std::make_shared<const PreparedScene>(prepare_scene(
-      scene->cloud, chosen.camera, chosen.up_world, chosen.given, prepare_options(settings, cache), job));
-  stop_if_cancelled(job, "splatcut cut");
-  return Session({{scene, &scene->cloud}, std::move(prepared), chosen.up_world, chosen.given});
+                   const PreparedCache& cache) {
+  return Session({.cloud = {scene, &scene->cloud},
+                  .up_world = chosen.up_world,
+                  .photographs = chosen.given,
+                  .prepare = {.observing = {}, .model = {}, .cache = cache}});
 }
 
 CutResult cut_one_object(Session* session, const CutRequest& request, const CutSettings& settings,
@@ -106,8 +105,6 @@ CutResult cut_one_object(Session* session, const CutRequest& request, const CutS
   stop_if_cancelled(job, "splatcut cut");
   if (result.outcome == Outcome::kNothingFound)
     throw Error("splatcut cut", "no object was found: " + result.reason);
-  const std::vector<StageTime>& before = session->scene().prepared->stages;
-  result.stages.insert(result.stages.begin(), before.begin(), before.end());
   return result;
 }
 
@@ -155,7 +152,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   const ManyObjects many{*scene, chosen, args.camera, settings, args.scale, input.objects};
   check_objects(many);
   const nlohmann::json said = settings_json(args, input, chosen, settings);
-  Session session = session_of(scene, chosen, settings, prepared_cache(common), job);
+  Session session = session_of(scene, chosen, prepared_cache(common));
   nlohmann::json json;
   if (input.objects.empty()) {
     CutResult result = cut_one_object(&session, request, settings, job);

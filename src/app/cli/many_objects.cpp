@@ -153,9 +153,7 @@ json cut_many_objects(const ManyObjects& in, Session* session, const OutputFolde
       throw Error(fmt::format("object \"{}\"", object.seeds->name), "was not found: " + object.result.reason);
   }
   const std::vector<std::uint8_t> owner = settle_claims(&objects, scene.cloud.size());
-  json entries = json::array(), stages = json::array();
-  for (const StageTime& stage : session->scene().prepared->stages)
-    stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
+  json entries = json::array();
   for (const CutObject& object : objects) {
     if (job.cancelled()) return {};
     write_object(folder, scene, object);
@@ -167,7 +165,9 @@ json cut_many_objects(const ManyObjects& in, Session* session, const OutputFolde
   save_scene(folder.file("rest.ply"), scene, rest, SceneFormat::kPly);
   write_cutout_picture(folder.file("rest.png"), scene.cloud, in.chosen.camera, rest);
   write_labels(folder.file("labels.u8"), scene, owner);
-  return {{"objects", entries}, {"rest", {{"gaussians", std::ranges::count(rest, 1)}}}, {"stages", stages}};
+  return {{"objects", entries},
+          {"rest", {{"gaussians", std::ranges::count(rest, 1)}}},
+          {"stages", json::array()}};
 }
 
 }  // namespace splatcut

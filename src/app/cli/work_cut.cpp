@@ -41,7 +41,7 @@ nlohmann::json write_objects(const Document& document, const Scene& scene, const
 
 Document computed_again(const OpenedScene& scene, Document document, const Job& job,
                         const PreparedCache& cache) {
-  Session session(session_scene(scene, prepare(scene, job, cache)));
+  Session session = session_on(scene, cache);
   for (ObjectItem& object : document.objects) {
     if (object.views.empty() || object.cut_kept || job.cancelled()) continue;
     CutResult result = session.cut(cut_request(document, object), cut_settings(document, object), job);

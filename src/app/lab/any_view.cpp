@@ -148,11 +148,9 @@ double iou_of_clicks(const AnyViewWorld& world, std::span<const ViewClick> click
   return job.cancelled() ? 0 : mean_iou(world, pictures(world, answer.labels));
 }
 
-WindowCut::WindowCut(const EvaluationCase& scene, const std::string& preset, const Job& job)
-    : session_({borrowed(scene.cloud), borrowed(scene.prepared), scene.up_world, {}}),
-      settings_(splatcut::preset(preset)) {
-  session_.make_ready(settings_, job);  // belongs to loading, as in the window
-}
+WindowCut::WindowCut(const EvaluationCase& scene, const std::string& preset)
+    : session_({borrowed(scene.cloud), {}, scene.up_world, scene.scene_cameras, scene.prepare}),
+      settings_(splatcut::preset(preset)) {}
 
 CutAnswer WindowCut::operator()(std::span<const ViewClick> in_order, int choice, const Job& job) {
   CutRequest request;

@@ -85,7 +85,7 @@ double iou_of_clicks(const AnyViewWorld& world, std::span<const ViewClick> click
 // sessions.
 class WindowCut {
  public:
-  WindowCut(const EvaluationCase& scene, const std::string& preset, const Job& job = {});
+  WindowCut(const EvaluationCase& scene, const std::string& preset);
   CutAnswer operator()(std::span<const ViewClick> in_order, int choice, const Job& job);
 
  private:

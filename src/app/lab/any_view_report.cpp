@@ -89,10 +89,9 @@ nlohmann::json zoom_json(const GaussianCloud& cloud, const AnyViewWorld& world,
 }
 
 // The case on a copy of its scene, which must outlive it.
-EvaluationCase on_copy(const EvaluationCase& test, const SceneCopy& copy, const PreparedScene& prepared) {
+EvaluationCase on_copy(const EvaluationCase& test, const SceneCopy& copy) {
   EvaluationCase there = test;
   there.cloud = &copy.scene.cloud;
-  there.prepared = &prepared;
   there.kept_views = nullptr;
   there.truth_labels.clear();  // the truth is the original's pictures
   return there;
@@ -108,13 +107,10 @@ void replay_on_copy(const LoadedCase& loaded, int number, const std::vector<Trut
   const SceneCopy copy = scene_copy(loaded.scene, number, job);
   if (job.cancelled()) return;
   const EvaluationCase& test = loaded.test;
-  const PreparedScene prepared =
-      prepare_scene(copy.scene.cloud, test.reference, test.up_world, test.scene_cameras, prepare, job);
-  if (job.cancelled()) return;
-  EvaluationCase there = on_copy(test, copy, prepared);
+  EvaluationCase there = on_copy(test, copy);
   KeptViews kept(copy.scene.cloud, kMostKeptBytes);
   there.kept_views = &kept;
-  const AnyViewWorld world = window_world(there, views, std::make_shared<WindowCut>(there, preset, job));
+  const AnyViewWorld world = window_world(there, views, std::make_shared<WindowCut>(there, preset));
   for (std::size_t s = 0; s < sessions.size(); ++s)
     for (auto& [clicks, of_sessions] : *iou) {
       if (job.cancelled()) return;
@@ -265,8 +261,7 @@ nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& opt
   scene.kept_views = &kept;
   const Job silent{job.stop, {}};
   const std::vector<TruthView> views = truth_views(scene);
-  const AnyViewWorld world =
-      window_world(scene, views, std::make_shared<WindowCut>(scene, options.preset, silent));
+  const AnyViewWorld world = window_world(scene, views, std::make_shared<WindowCut>(scene, options.preset));
   const auto starts_of_draw = [&](int draw) {
     std::vector<AnyViewStart> starts = any_view_starts(scene, views, static_cast<std::uint64_t>(draw));
     if (options.starts > 0 && std::ssize(starts) > options.starts)

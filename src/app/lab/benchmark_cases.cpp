@@ -124,10 +124,7 @@ std::unique_ptr<LoadedCase> load_task(const BenchmarkTask& task, const PrepareOp
   loaded->load_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   test.cloud = &loaded->scene.cloud;
-  test.prepared = &loaded->prepared;
-  if (!job.cancelled())
-    loaded->prepared =
-        prepare_scene(loaded->scene.cloud, test.reference, test.up_world, cameras, prepare, job);
+  test.prepare = prepare;
   return loaded;
 }
 

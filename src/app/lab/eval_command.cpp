@@ -212,8 +212,8 @@ std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationO
                                     const CommonOptions& common, const OutputFolder& folder, const Job& job) {
   std::vector<nlohmann::json> scores;
   const std::vector<Loader> scenes = loaders(args);
-  const PrepareOptions prepare =
-      prepare_options(options.settings, prepared_cache(common), part_model_of(args));
+  const PrepareOptions prepare = {
+      .observing = {}, .model = part_model_of(args), .cache = prepared_cache(common)};
   if (!args.json) print_heads();
   for (const Loader& load : scenes) {
     const auto loaded = load(prepare, job);
@@ -227,7 +227,6 @@ std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationO
     }
     SceneScore score = evaluate(loaded->test, options, job);
     stop_if_cancelled(job);
-    score.stages.insert(score.stages.begin(), loaded->prepared.stages.begin(), loaded->prepared.stages.end());
     score.stages.insert(score.stages.begin(), {"load", loaded->load_ms});
     scores.push_back(score_json(score));
     if (args.any_view) {

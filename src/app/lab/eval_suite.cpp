@@ -82,13 +82,10 @@ void fill_strokes(const nlohmann::json& entry, EvaluationCase* test) {
                 "Write \"clicks\": \"robot\" for the robot's");
 }
 
-// Returns the given cameras.
-std::vector<Camera> fill_case(const nlohmann::json& entry, const std::filesystem::path& folder,
-                              LoadedCase* loaded) {
+void fill_case(const nlohmann::json& entry, const std::filesystem::path& folder, LoadedCase* loaded) {
   EvaluationCase& test = loaded->test;
   test.name = entry.at("name");
   test.cloud = &loaded->scene.cloud;
-  test.prepared = &loaded->prepared;
   std::vector<Camera> cameras;
   if (entry.contains("cameras"))
     cameras = load_cameras(folder / entry.at("cameras").get<std::string>(), &loaded->warning);
@@ -112,7 +109,6 @@ std::vector<Camera> fill_case(const nlohmann::json& entry, const std::filesystem
     load_mask_truth(folder / truth.at("masks").get<std::string>(), cameras, &test);
   }
   fill_strokes(entry, &test);
-  return cameras;
 }
 
 }  // namespace
@@ -141,9 +137,8 @@ std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::fi
     const auto loaded_at = std::chrono::steady_clock::now();
     loaded->load_ms = ms(start, loaded_at);
     if (job.cancelled()) return loaded;
-    const std::vector<Camera> cameras = fill_case(entry, folder, loaded.get());
-    loaded->prepared = prepare_scene(loaded->scene.cloud, loaded->test.reference, loaded->test.up_world,
-                                     cameras, prepare, job);
+    loaded->test.prepare = prepare;
+    fill_case(entry, folder, loaded.get());
   } catch (const nlohmann::json::exception& error) {
     throw Error("suite", fmt::format("the entry {} lacks something ({})", entry.at("name").get<std::string>(),
                                      fault_of(error)));

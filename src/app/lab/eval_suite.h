@@ -23,7 +23,6 @@ namespace splatcut {
 // A case and what it points into.
 struct LoadedCase {
   Scene scene;
-  PreparedScene prepared;
   double load_ms = 0;
   std::string warning;  // a sentence about its cameras, or empty
   EvaluationCase test;
@@ -32,7 +31,7 @@ struct LoadedCase {
 // The entries of the suite, checked for their form. Throws Error naming file and entry.
 std::vector<nlohmann::json> read_suite(const std::filesystem::path& path);
 
-// Scene, graph, parts, cameras and truth of one entry.
+// Scene, cameras and truth of one entry. prepare: of its sessions.
 std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder,
                                       const PrepareOptions& prepare, const Job& job);
 

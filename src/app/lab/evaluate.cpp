@@ -62,7 +62,6 @@ SceneScore evaluate_left_out(const EvaluationCase& scene, const CutSettings& set
   const auto views = std::ranges::count_if(scene.truth_masks, counts);
   const auto share = 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, views));
   Session session = session_of(scene);
-  session.make_ready(settings, job);
   for (std::size_t v = 0; v < scene.test_views.size(); ++v) {
     if (!counts(scene.truth_masks[v])) continue;
     EvaluationCase left_out = scene;
@@ -90,8 +89,7 @@ SceneScore evaluate_left_out(const EvaluationCase& scene, const CutSettings& set
 
 Session session_of(const EvaluationCase& scene) {
   const std::shared_ptr<void> elsewhere;  // the case's owner owns them
-  return Session(
-      {{elsewhere, scene.cloud}, {elsewhere, scene.prepared}, scene.up_world, scene.scene_cameras});
+  return Session({{elsewhere, scene.cloud}, {}, scene.up_world, scene.scene_cameras, scene.prepare});
 }
 
 CutRequest request_of(const EvaluationCase& scene, const Strokes& strokes) {
@@ -194,8 +192,7 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
       if (job.cancelled()) return score;
       score.image_iou_after_clicks[n] = score_images(scene, result.labels).iou;
     }
-  Session timed = session_of(scene);  // that knows nothing yet but what belongs to loading, as in the window
-  timed.make_ready(options.settings, job);
+  Session timed = session_of(scene);  // that knows nothing yet
   const CutRequest request =
       request_with(scene, options, scribbles_alone ? strokes : first_strokes(strokes, options.clicks));
   const auto start = std::chrono::steady_clock::now();

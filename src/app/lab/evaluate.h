@@ -27,7 +27,7 @@ struct GivenReference {
 struct EvaluationCase {
   std::string name;
   const GaussianCloud* cloud = nullptr;
-  const PreparedScene* prepared = nullptr;
+  PrepareOptions prepare;                  // of its sessions
   std::vector<std::uint8_t> truth_labels;  // per Gaussian of the cloud, or empty
   std::vector<Camera> test_views;
   std::vector<Mask> truth_masks;  // per test view

@@ -75,8 +75,13 @@ Bank load_bank(const FitArguments& args, const PrepareOptions& prepare, const Jo
         continue;
       const auto loaded = load_case(entry, suite.parent_path(), prepare, job);
       stop_if_fit_cancelled(job);
+      const EvaluationCase& test = loaded->test;
+      PreparedScene whole = prepare_scene(
+          *test.cloud, observing_views(*test.cloud, test.reference, test.up_world, test.scene_cameras),
+          prepare, job);
+      stop_if_fit_cancelled(job);
       bank.scenes.push_back(std::make_unique<PartsScene>(
-          parts_scene(loaded->test, std::move(loaded->prepared.parts), options, Job{job.stop, {}})));
+          parts_scene(test, std::move(whole.parts), options, Job{job.stop, {}})));
       std::filesystem::path capture = suite.parent_path() / entry.at("scene").get<std::string>();
       if (std::ranges::find(args.together, loaded->test.name) != args.together.end()) capture.clear();
       bank.capture.push_back(captures.try_emplace(capture, captures.size()).first->second);

@@ -84,8 +84,7 @@ void Clicks::perform(const AddStroke& c) {
     throw Error("click", "there is nothing in that place", "Click on something that can be seen");
   const std::string held = already_so(c);
   Document after = ws_.document();
-  std::string message = edit(&after, c, ws_.context());
-  if (!ws_.session) message += ". It is cut out as soon as the scene is prepared, in the background";
+  const std::string message = edit(&after, c, ws_.context());
   // The view turns around what was clicked.
   if (c.stroke.points_px.size() == 1 && c.stroke.label == SeedLabel::kObject && viewport_.panes() == 1 &&
       same_camera(c.camera, viewport_.pane_camera()))

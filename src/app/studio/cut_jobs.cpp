@@ -129,7 +129,6 @@ void CutJobs::recompute() {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || object->views.empty())
     throw Error("cutout", "the object has no strokes", "Click on it first");
-  if (!ws_.session) throw Error("cutout", "the scene is still being prepared", "Try again in a moment");
   want_again(*object);
   ws_.session = std::make_shared<Session>(ws_.session->scene());  // with empty caches
   start(*object);

@@ -40,8 +40,8 @@ ObjectItem& stroked(Document* document) {
 }
 
 const FlowGraph& required_graph(const EditContext& context) {
-  if (!context.graph) throw Error("neighbours", "are still being prepared", "Try again in a moment");
-  return *context.graph;
+  assert(context.graph);
+  return context.graph->get(context.job);
 }
 
 std::vector<std::uint8_t> labels(const Document& document, const ObjectItem& object,

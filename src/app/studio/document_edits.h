@@ -6,15 +6,16 @@
 #include <string>
 
 #include "app/studio/command.h"
+#include "app/studio/scene_graph.h"
 #include "scene/cloud/gaussian_cloud.h"
-#include "segment/graphcut/max_flow.h"
 
 namespace splatcut {
 
 // What edits may read.
 struct EditContext {
   const GaussianCloud& cloud;
-  const FlowGraph* graph = nullptr;  // null while it is being built
+  SceneGraph* graph = nullptr;  // of the cloud; null if no edit asks for neighbours
+  Job job{};
 };
 
 std::string edit(Document* document, const AddStroke& command, const EditContext& context);

@@ -71,12 +71,12 @@ void Edits::start(const Step& step) {
   };
   ws_.quick.submit({TaskKind::kSelect, failed}, [this, step, document = std::move(before), failed,
                                                  serial = history.serial(), number = number_,
-                                                 scene = ws_.scene, prepared = ws_.prepared](const Job& job) {
+                                                 scene = ws_.scene, graph = ws_.graph](const Job& job) {
     job.progress("selecting", 0);
     Document after = document;
     std::string message, refusal;
     try {
-      message = step.change(&after, {*scene->cloud, prepared ? &prepared->graph : nullptr}, job);
+      message = step.change(&after, {*scene->cloud, graph.get(), job}, job);
     } catch (const Error& error) {
       refusal = error.what();
     }
@@ -195,15 +195,15 @@ void Edits::perform(const PickColour& c) {
 
 void Edits::perform(const SelectFlood& c) {
   require_gaussian(c.gaussian);
-  if (!ws_.prepared) throw Error("flood", "neighbours are still being prepared", "Try again in a moment");
   push_later({std::string(title_of(c.operation)) + " (flood)",
               {},
               [c, shown = viewport_.shown(viewport_.pressed_pane()), tolerance = ws_.view.colour_tolerance](
                   Document* document, const EditContext& context, const Job&) {
                 const auto start = static_cast<std::size_t>(c.gaussian);
-                return edit_selection(
-                    document, select_flood(context.cloud, *context.graph, start, tolerance, all_of(shown)),
-                    c.operation, context);
+                return edit_selection(document,
+                                      select_flood(context.cloud, context.graph->get(context.job), start,
+                                                   tolerance, all_of(shown)),
+                                      c.operation, context);
               }});
 }
 

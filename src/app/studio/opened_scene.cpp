@@ -10,7 +10,6 @@
 #include "scene/formats/merged_scene.h"
 #include "scene/raster/first_view.h"
 #include "scene/raster/guessed_up.h"
-#include "segment/superpoints/observing_views.h"
 
 namespace splatcut {
 
@@ -58,14 +57,6 @@ Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::ve
       known ? known->views
             : std::make_shared<const FileViews>(views_of(scene, file->bounds, std::move(cameras), job));
   return scene;
-}
-
-// Views that show the file's surfaces, where it stands.
-std::vector<Camera> observing(const Scene& scene, const SceneSource& file, const Job& job) {
-  std::vector<Camera> views =
-      observing_views(scene.cloud, file.views->reference, file.views->up_world, file.views->cameras, {}, job);
-  for (Camera& view : views) view = moved(view, similarity_of(file));
-  return views;
 }
 
 Scene one_of(std::vector<Scene> scenes, const Job& job) {
@@ -120,8 +111,6 @@ std::shared_ptr<OpenedScene> open_scene(std::vector<SceneSource> files, const Jo
   std::vector<Scene> scenes;
   for (SceneSource& file : files) {
     scenes.push_back(load(&file, before, job, &opened->remarks));
-    if (!job.cancelled() && files.size() > 1)
-      std::ranges::copy(observing(scenes.back(), file, job), std::back_inserter(opened->observed_from));
     if (job.cancelled()) return opened;
     if (file.place != ScenePlace{})
       scenes.back().cloud = placed(scenes.back().cloud, {}, similarity_of(file));
@@ -130,6 +119,7 @@ std::shared_ptr<OpenedScene> open_scene(std::vector<SceneSource> files, const Jo
   if (job.cancelled()) return opened;
   opened->cloud = std::shared_ptr<const GaussianCloud>(scene, &scene->cloud);
   opened->bounds = framed_bounds(scene->cloud);
+  opened->blocks = std::make_shared<const CloudBlocks>(scene->cloud);
   opened->files = std::move(files);
   opened->scene = std::move(scene);
   return opened;
@@ -139,23 +129,13 @@ std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const
   return open_scene(std::vector{SceneSource{.path = file}}, job);
 }
 
-// Of several files, views of each: a file that stands apart shows little of itself in those of another.
-std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job& job,
-                                             const PreparedCache& cache) {
+Session session_on(const OpenedScene& scene, const PreparedCache& cache) {
   const FileViews& views = scene.views();
-  PrepareOptions options;
-  options.cache = cache;
-  std::span<const Camera> given = views.cameras;
-  if (!scene.observed_from.empty()) {
-    given = std::span(scene.observed_from).subspan(1);  // the reference is among them anyway
-    options.observing.most_given = std::max(options.observing.most_given, static_cast<int>(given.size()));
-  }
-  return std::make_shared<const PreparedScene>(
-      prepare_scene(*scene.cloud, views.reference, views.up_world, given, options, job));
-}
-
-SessionScene session_scene(const OpenedScene& scene, std::shared_ptr<const PreparedScene> prepared) {
-  return {scene.cloud, std::move(prepared), scene.views().up_world, {}};
+  return Session({.cloud = scene.cloud,
+                  .blocks = scene.blocks,
+                  .up_world = views.up_world,
+                  .photographs = views.cameras,
+                  .prepare = {.observing = {}, .model = {}, .cache = cache}});
 }
 
 }  // namespace splatcut

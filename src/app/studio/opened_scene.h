@@ -1,5 +1,4 @@
-// A scene as the window and `splatcut cut --work` open it: files, capture cameras, up, what is prepared of
-// it.
+// A scene as the window and `splatcut cut --work` open it: files, capture cameras, up.
 #pragma once
 
 #include <filesystem>
@@ -20,9 +19,9 @@ struct OpenedScene {
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const GaussianCloud> cloud;  // of the scene
   std::vector<SceneSource> files;              // what it is made of, one or more
-  std::vector<std::string> remarks;   // a sentence each on what is odd about files read for the first time
-  Box bounds;                         // robust: outliers do not count
-  std::vector<Camera> observed_from;  // of several files: where each shows its surfaces; see prepare()
+  std::vector<std::string> remarks;  // a sentence each on what is odd about files read for the first time
+  Box bounds;                        // robust: outliers do not count
+  std::shared_ptr<const CloudBlocks> blocks;  // of the cloud
 
   // The first file's say how the whole is looked at.
   const FileViews& views() const { return *files.front().views; }
@@ -38,12 +37,8 @@ std::shared_ptr<OpenedScene> open_scene(std::vector<SceneSource> files, const Jo
                                         const OpenedScene* before = nullptr);
 std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const Job& job = {});
 
-// Graph and parts. A function of the scene and its cameras alone, so that saved work computes the same again.
-std::shared_ptr<const PreparedScene> prepare(const OpenedScene& scene, const Job& job = {},
-                                             const PreparedCache& cache = {});
-
-// What a session is made of. The prepared scene: of this scene.
-SessionScene session_scene(const OpenedScene& scene, std::shared_ptr<const PreparedScene> prepared);
+// A session on it. The cameras beside its first file observe what is clicked.
+Session session_on(const OpenedScene& scene, const PreparedCache& cache = {});
 
 // Capture cameras beside a scene: cameras.json, transforms.json or a COLMAP folder in its folder or the two
 // above.

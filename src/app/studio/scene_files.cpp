@@ -173,7 +173,7 @@ void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Histor
 }
 
 SceneFiles::Kept SceneFiles::kept_now(std::uint64_t step) const {
-  return {step, ws_.scene, ws_.prepared, ws_.session, ws_.coarse, ws_.history};
+  return {step, ws_.scene, ws_.graph, ws_.session, ws_.coarse, ws_.history};
 }
 
 void SceneFiles::go_back_to(Kept kept) {
@@ -181,12 +181,12 @@ void SceneFiles::go_back_to(Kept kept) {
   cancel_loading();
   preparing_stopped_ = false;
   take(kept.scene);
-  ws_.prepared = std::move(kept.prepared);
+  ws_.graph = std::move(kept.graph);
   ws_.session = std::move(kept.session);
   ws_.coarse = std::move(kept.coarse);
   ws_.history = std::move(kept.history);
   calls_.opened(true);
-  if (!ws_.session) start_preparing();
+  start_preparing();
 }
 
 bool SceneFiles::undo_files() {
@@ -220,8 +220,8 @@ bool SceneFiles::redo_files() {
 
 void SceneFiles::take(const std::shared_ptr<const OpenedScene>& scene) {
   ws_.scene = scene;
-  ws_.prepared = nullptr;
-  ws_.session = nullptr;
+  ws_.graph = std::make_shared<SceneGraph>(scene->cloud);
+  ws_.session = std::make_shared<Session>(session_on(*scene, ws_.options.cache));
   ws_.coarse = nullptr;
   ws_.labels.clear();
 }
@@ -247,24 +247,15 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
 
 void SceneFiles::update() {
   if (!ws_.scene || ws_.tasks.busy(TaskKind::kLoad)) return;
-  if (std::exchange(preparing_stopped_, false) && !ws_.session) start_preparing();
+  if (std::exchange(preparing_stopped_, false)) start_preparing();
 }
 
+// What is clicked is prepared when it is clicked or pointed at; a scene itself, to be moved by alone.
 void SceneFiles::start_preparing() {
-  ws_.tasks.submit(TaskKind::kPrepare, [this, scene = ws_.scene](const Job& job) {
-    if (scene->cloud->size() >= kCoarseFrom)
-      ws_.tasks.post(
-          [this, scene, coarse = std::make_shared<const CoarseCloud>(coarse_cloud(*scene->cloud))] {
-            if (scene == ws_.scene) ws_.coarse = coarse;
-          });
-    auto prepared = prepare(*scene, job, ws_.options.cache);
-    if (job.cancelled()) return;
-    auto session = std::make_shared<Session>(session_scene(*scene, prepared));
-    session->make_ready(preset("default"), job);
-    ws_.tasks.post([this, scene, prepared, session] {
-      if (scene != ws_.scene) return;
-      ws_.prepared = prepared;
-      ws_.session = session;
+  if (ws_.coarse || ws_.gaussians() < kCoarseFrom) return;
+  ws_.tasks.submit(TaskKind::kPrepare, [this, scene = ws_.scene](const Job&) {
+    ws_.tasks.post([this, scene, coarse = std::make_shared<const CoarseCloud>(coarse_cloud(*scene->cloud))] {
+      if (scene == ws_.scene) ws_.coarse = coarse;
     });
   });
 }

@@ -67,7 +67,7 @@ class SceneFiles {
   struct Kept {
     std::uint64_t step = 0;  // before or after which it was; History::Entry::other_files
     std::shared_ptr<const OpenedScene> scene;
-    std::shared_ptr<const PreparedScene> prepared;
+    std::shared_ptr<SceneGraph> graph;
     std::shared_ptr<Session> session;
     std::shared_ptr<const CoarseCloud> coarse;
     History history;

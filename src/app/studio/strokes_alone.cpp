@@ -11,7 +11,6 @@ void Clicks::combine_with(const StrokedView& strokes, SetOperation operation, co
   const ObjectItem* object = ws_.document().active_object();
   if (!object || ws_.gaussians_of(object->id) == 0)
     throw Error(doing, "there is no object yet", "Click one first");
-  if (!ws_.session) throw Error(doing, "the scene is still being prepared", "Try again in a moment");
   ws_.tasks.submit(TaskKind::kSelect, [this, strokes, operation, title, doing, id = object->id,
                                        session = ws_.session, scene = ws_.scene,
                                        settings = cut_settings(ws_.document(), *object)](const Job& job) {

@@ -65,7 +65,6 @@ class Studio {
   const History& history() const { return ws_.history; }
   const ViewState& view() const { return ws_.view; }
   const OpenedScene* scene() const { return ws_.scene.get(); }
-  const PreparedScene* prepared() const { return ws_.prepared.get(); }
   const Modifiers& held() const { return ws_.held_modifiers; }
   const std::deque<Message>& messages() const { return ws_.messages; }
   std::vector<UiRequest> take_ui_requests() { return std::exchange(ws_.ui_requests, {}); }

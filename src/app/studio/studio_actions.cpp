@@ -52,11 +52,6 @@ std::string without_selection(const Studio& s) {
   return active->locked ? active->name + " is locked" : "";
 }
 
-std::string without_neighbours(const Studio& s) {
-  if (std::string reason = without_selection(s); !reason.empty()) return reason;
-  return s.prepared() ? "" : "Neighbours are still being prepared";
-}
-
 std::string without_cutout(const Studio& s) {
   if (!s.scene()) return without_scene(s);
   const ObjectItem* active = s.document().active_object();
@@ -117,12 +112,12 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kSelectNone, without_selection, [](S& s) { s.apply(EditSelection{SelectionEdit::kNone}); },
        kWaits},
       {Action::kInvert, without_object, [](S& s) { s.apply(EditSelection{SelectionEdit::kInvert}); }, kWaits},
-      {Action::kGrow, without_neighbours, [](S& s) { s.apply(EditSelection{SelectionEdit::kGrow}); }, kWaits},
-      {Action::kShrink, without_neighbours, [](S& s) { s.apply(EditSelection{SelectionEdit::kShrink}); },
+      {Action::kGrow, without_selection, [](S& s) { s.apply(EditSelection{SelectionEdit::kGrow}); }, kWaits},
+      {Action::kShrink, without_selection, [](S& s) { s.apply(EditSelection{SelectionEdit::kShrink}); },
        kWaits},
-      {Action::kLargestPart, without_neighbours,
+      {Action::kLargestPart, without_selection,
        [](S& s) { s.apply(EditSelection{SelectionEdit::kLargestPart}); }, kWaits},
-      {Action::kFloaters, without_neighbours,
+      {Action::kFloaters, without_selection,
        [](S& s) { s.apply(ShowFloaters{!s.viewport_.floaters_shown()}); }, kWaits},
       {Action::kSeeThrough, without_scene, [](S& s) { s.turn_over(&ViewState::see_through); }},
       {Action::kDelete, without_selection, [](S& s) { s.apply(DeleteSelected{}); }, kWaits},

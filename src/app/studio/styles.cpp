@@ -62,8 +62,8 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
   if (order.view.heat) style.heat = order.likelihood;
   Styles out;
   out.active_labels = active;
-  if (order.floaters && order.prepared) {
-    Selection found = floaters(*order.cloud, order.prepared->graph, *active);
+  if (order.floaters) {
+    Selection found = floaters(*order.cloud, order.graph->get(), *active);
     out.floaters = count_flags(found);
     style.highlight = make_flags(std::move(found));
   }

@@ -8,6 +8,7 @@
 
 #include "app/studio/frame_shading.h"
 #include "app/studio/label_cache.h"
+#include "app/studio/scene_graph.h"
 #include "app/studio/view_state.h"
 #include "segment/session/session.h"
 
@@ -15,7 +16,7 @@ namespace splatcut {
 
 struct StyleOrder {
   std::shared_ptr<const GaussianCloud> cloud;
-  std::shared_ptr<const PreparedScene> prepared;  // for floaters; may be null
+  std::shared_ptr<SceneGraph> graph;  // for floaters
   Document document;
   std::map<ObjectId, Flags> previews;                    // cuts shown in place of the object's own
   std::shared_ptr<const std::vector<float>> likelihood;  // of the active object, for the heat map

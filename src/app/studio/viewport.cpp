@@ -156,8 +156,8 @@ void Viewport::request_styles() {
   styled_document_ = ws_.history.serial();
   styled_view_ = ws_.view_serial;
   styles_on_the_way_ = true;
-  StyleOrder order{ws_.scene->cloud, ws_.prepared, ws_.document(),    {},
-                   nullptr,          ws_.view,     pixels_per_point_, floaters_shown_};
+  StyleOrder order{ws_.scene->cloud, ws_.graph, ws_.document(),    {},
+                   nullptr,          ws_.view,  pixels_per_point_, floaters_shown_};
   for (const ObjectItem& object : order.document.objects)
     if (const CutRun* run = cuts_.run(object.id)) {
       if (run->preview) order.previews[object.id] = run->preview;

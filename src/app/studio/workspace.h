@@ -37,10 +37,10 @@ struct Workspace {
   std::uint64_t view_serial = 1;  // changes with `view` and with previews of a cut
   PointerTools tools{};
   Modifiers held_modifiers{};
-  std::shared_ptr<const OpenedScene> scene{};       // null: none
-  std::shared_ptr<const PreparedScene> prepared{};  // null while it is being prepared
-  std::shared_ptr<Session> session{};               // of both, for `tasks`; null as long as they are
-  std::shared_ptr<const CoarseCloud> coarse{};      // of large scenes, for pictures while the view moves
+  std::shared_ptr<const OpenedScene> scene{};   // null: none
+  std::shared_ptr<Session> session{};           // of the scene, for `tasks`; null as long as it is
+  std::shared_ptr<SceneGraph> graph{};          // of the scene, made at the first edit that asks for it
+  std::shared_ptr<const CoarseCloud> coarse{};  // of large scenes, for pictures while the view moves
   mutable LabelCache labels{};
   std::deque<Message> messages{};  // the last hundred
   std::vector<UiRequest> ui_requests{};
@@ -49,7 +49,7 @@ struct Workspace {
   const Document& document() const { return history.now(); }
   std::size_t gaussians() const { return scene ? scene->cloud->size() : 0; }
   std::size_t gaussians_of(ObjectId object) const;  // 0 where there is no such object
-  EditContext context() const { return {*scene->cloud, prepared ? &prepared->graph : nullptr}; }
+  EditContext context() const { return {*scene->cloud, graph.get()}; }
   void require_scene() const;  // throws Error without one
   void say(Message::Kind kind, std::string text);
 };

@@ -127,10 +127,7 @@ void warnings(UiContext& ui, const CutRun& run) {
 
 // The text for an object that was not cut yet.
 std::string why_no_cutout(const Studio& studio, const ObjectItem& object) {
-  if (!object.views.empty())
-    return studio.prepared() || object.cut
-               ? ""
-               : "Waits until the scene is prepared, then it is cut out by itself.";
+  if (!object.views.empty()) return "";
   return studio.gaussians_of(object.id) == 0 ? "Empty: click it in the picture."
                                              : "Made by hand: no strokes to compute from.";
 }

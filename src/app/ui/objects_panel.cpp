@@ -51,7 +51,6 @@ void merge_menu(UiContext& ui, const ObjectItem& object, const std::string& lock
 void object_menu(UiContext& ui, const ObjectItem& object) {
   const std::string empty = ui.studio.gaussians_of(object.id) == 0 ? "The object is empty so far" : "";
   const std::string locked = object.locked ? object.name + " is locked" : "";
-  const std::string neighbours = ui.studio.prepared() ? "" : "Neighbours are still being prepared";
   if (entry("Rename")) {
     ui.state.renaming = object.id;
     ui.state.new_name = object.name;
@@ -59,8 +58,7 @@ void object_menu(UiContext& ui, const ObjectItem& object) {
   if (entry("New part of this object")) ui.ask(NewObject{object.id});
   if (entry("Duplicate")) ui.ask(DuplicateObject{object.id});
   merge_menu(ui, object, locked);
-  if (entry("Split into connected parts", first_of({locked, empty, neighbours})))
-    ui.ask(SplitObject{object.id});
+  if (entry("Split into connected parts", first_of({locked, empty}))) ui.ask(SplitObject{object.id});
   if (entry("Separate in place", empty)) ui.ask(SeparateObject{object.id});
   ImGui::Separator();
   const bool active = object.id == ui.studio.document().active;

@@ -12,7 +12,7 @@ std::string left_text(const Studio& studio) {
   if (studio.loading()) return fmt::format("Loading: {}", studio.progress().stage);
   if (!studio.scene()) return "No scene";
   const auto progress = studio.progress();
-  if (progress.busy && progress.kind == TaskKind::kPrepare) return "Preparing neighbours in the background";
+  if (progress.busy && progress.kind == TaskKind::kPrepare) return "Making a lighter copy to move by";
   if (progress.busy) return progress.stage.empty() ? "Working" : "Working: " + progress.stage;
   return "Ready";
 }

@@ -65,9 +65,12 @@ const ProjectedView& KeptViews::view(const Camera& camera, bool coloured, const 
 }
 
 RasterOutput Drawer::draw(const Camera& camera, const RasterOptions& options, const Job& job) const {
-  if (!kept_ || options.near_plane || options.low_pass_px2 != kLowPassPx2 || !options.colour_override.empty())
-    return rasterize(*cloud_, camera, options, job);
-  return kept_->view(camera, options.colour, job).draw(options, job);
+  const bool by_kept =
+      kept_ && !options.near_plane && options.low_pass_px2 == kLowPassPx2 && options.colour_override.empty();
+  if (by_kept) return kept_->view(camera, options.colour, job).draw(options, job);
+  RasterOptions past_blocks = options;
+  if (blocks_) past_blocks.blocks = blocks_;
+  return rasterize(*cloud_, camera, past_blocks, job);
 }
 
 }  // namespace splatcut

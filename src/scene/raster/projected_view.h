@@ -60,12 +60,12 @@ class KeptViews {
   std::vector<std::unique_ptr<ProjectedView>> views_;  // the newest last
 };
 
-// Rasterises a cloud, through a cache of projected views if it has one. Cheap to copy. A cloud converts to a
-// drawer without a cache.
+// Rasterises a cloud, through a cache of projected views if it has one, or past the blocks that a view does
+// not show if it has those. Cheap to copy. A cloud converts to a drawer without either.
 class Drawer {
  public:
-  Drawer(const GaussianCloud& cloud, KeptViews* kept = nullptr)
-      : cloud_(&cloud), kept_(kept) {}  // NOLINT: a cloud is a drawer
+  Drawer(const GaussianCloud& cloud, KeptViews* kept = nullptr, const CloudBlocks* blocks = nullptr)
+      : cloud_(&cloud), kept_(kept), blocks_(blocks) {}  // NOLINT: a cloud is a drawer
 
   const GaussianCloud& cloud() const { return *cloud_; }
   RasterOutput draw(const Camera& camera, const RasterOptions& options, const Job& job = {}) const;
@@ -73,6 +73,7 @@ class Drawer {
  private:
   const GaussianCloud* cloud_;
   KeptViews* kept_;
+  const CloudBlocks* blocks_;
 };
 
 }  // namespace splatcut

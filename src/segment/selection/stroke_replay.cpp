@@ -17,15 +17,15 @@ bool same_stroke(const CameraStroke& a, const CameraStroke& b) {
          a.stroke.radius_px == b.stroke.radius_px && a.stroke.points_px == b.stroke.points_px;
 }
 
-std::vector<CameraStroke> object_first(std::span<const CameraStroke> strokes) {
+}  // namespace
+
+std::vector<CameraStroke> in_replay_order(std::span<const CameraStroke> strokes) {
   std::vector<CameraStroke> order(strokes.begin(), strokes.end());
   const auto first =
       std::ranges::find(order, SeedLabel::kObject, [](const CameraStroke& s) { return s.stroke.label; });
   if (first != order.end()) std::rotate(order.begin(), first, first + 1);
   return order;
 }
-
-}  // namespace
 
 const LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int width_px,
                                    const Job& job) {
@@ -67,7 +67,7 @@ std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, 
 
 const ClickSelection& StrokeReplay::replay(const Drawer& drawer, std::span<const CameraStroke> strokes,
                                            const ReplayOptions& options, const Job& job) {
-  const std::vector<CameraStroke> order = object_first(strokes);
+  const std::vector<CameraStroke> order = in_replay_order(strokes);
   std::size_t same = 0;
   if (options == options_)
     while (same < std::min(order.size(), done_.size()) && same_stroke(order[same], done_[same])) ++same;

@@ -30,13 +30,16 @@ struct ReplayOptions {
   bool operator==(const ReplayOptions&) const = default;
 };
 
+// The order in which strokes are applied: the first one on the object, then all others as they were made, as
+// strokes on the background correct an object.
+std::vector<CameraStroke> in_replay_order(std::span<const CameraStroke> strokes);
+
 class StrokeReplay {
  public:
   // parts must outlive this.
   explicit StrokeReplay(const PartHierarchy& parts) : parts_(parts) {}
 
-  // The first stroke on the object is applied first: strokes on the background correct an object. Cancelled:
-  // the selection must not be used. The result is valid until the next call.
+  // Cancelled: the selection must not be used. The result is valid until the next call.
   const ClickSelection& replay(const Drawer& drawer, std::span<const CameraStroke> strokes,
                                const ReplayOptions& options, const Job& job = {});
 

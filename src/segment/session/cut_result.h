@@ -40,7 +40,8 @@ struct CutResult {
   std::vector<ViewReport> views;  // the reference, the others, then stroked views that correct
   std::string why_enough;         // why there are no more views
   CutFigures cut;                 // of the last cut
-  std::size_t trimmed = 0;        // Gaussians that left the object after it
+  std::size_t looked_at_gaussians = 0;  // in the neighbourhood that was cut
+  std::size_t trimmed = 0;              // Gaussians that left the object after it
   std::vector<StageTime> stages;  // in order, same names added up; what was kept costs and lists nothing
 };
 

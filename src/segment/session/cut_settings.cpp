@@ -71,14 +71,4 @@ CutSettings preset(const std::string& name) {
   return found->settings();
 }
 
-PrepareOptions prepare_options(const CutSettings& settings, const PreparedCache& cache,
-                               const PartModel& model) {
-  PrepareOptions prepare;
-  prepare.graph.neighbours = settings.neighbours;
-  prepare.cache = cache;
-  prepare.model = model;
-  prepare.with_parts = settings.first_mask_from == FirstMaskFrom::kParts;
-  return prepare;
-}
-
 }  // namespace splatcut

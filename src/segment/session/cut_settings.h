@@ -76,8 +76,4 @@ std::string preset_names();
 // Throws Error with name, value and range for settings out of range, or that contradict each other.
 void check(const CutSettings& settings);
 
-// What a scene must be prepared with for these settings.
-PrepareOptions prepare_options(const CutSettings& settings, const PreparedCache& cache = {},
-                               const PartModel& model = {});
-
 }  // namespace splatcut

@@ -1,16 +1,12 @@
 #include "segment/session/session.h"
 
-#include <algorithm>
-#include <string_view>
+#include <fmt/format.h>
 
-#include "core/error.h"
-#include "core/stage_clock.h"
-#include "segment/graphcut/knn_graph.h"
-#include "segment/graphcut/likelihood.h"
+#include <algorithm>
+#include <cmath>
+
 #include "segment/masks/cv_image.h"
 #include "segment/masks/mask_tools.h"
-#include "segment/session/correction.h"
-#include "segment/session/pipeline.h"
 #include "segment/session/reference_mask.h"
 #include "segment/superpoints/orbit.h"
 
@@ -18,305 +14,364 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::size_t kMostKept = 3;  // cuts from a reference: each takes about 20 bytes a Gaussian
+constexpr double kMostOfScene = 0.7;  // a cell that holds this share of the Gaussians is the scene
+constexpr int kMostHalvings = 5;      // of the first cell
+constexpr std::size_t kMostPlaces = 4096;
 
-// Times the views used: a correction must win against all that missed it.
-constexpr int kCorrectionWeight = 4;
-
-bool left_out(const CutRequest& request, const Camera& camera) {
-  return std::ranges::any_of(request.left_out, [&](const Camera& c) { return same_view(c, camera); });
+Box joined(const Box& a, const Box& b) {
+  return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
 }
 
-// Of the views but the reference those that the user leaves out no longer count. Returns how many.
-std::size_t leave_out(const CutRequest& request, std::vector<ViewReport>* views) {
-  std::size_t count = 0;
-  for (std::size_t v = 1; v < views->size(); ++v) {
-    ViewReport& view = (*views)[v];
-    if (!left_out(request, view.camera)) continue;
-    view.used = false;
-    view.reason = "left out";
-    ++count;
-  }
-  return count;
+// Where nearly all of what is labelled lies.
+Box bounds_of(const GaussianCloud& cloud, std::span<const std::uint8_t> labels) {
+  constexpr double kInside = 0.96;
+  std::vector<glm::vec3> positions;
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    if (labels[g]) positions.push_back(cloud.position[g]);
+  return robust_bounds(positions, kInside);
 }
 
-std::ptrdiff_t views_used(const CutResult& result) {
-  return std::ranges::count_if(result.views, &ViewReport::used);
+CutResult nothing_found(std::size_t gaussians, const char* reason) {
+  CutResult nothing;
+  nothing.outcome = Outcome::kNothingFound;
+  nothing.reason = reason;
+  nothing.labels.assign(gaussians, 0);
+  return nothing;
 }
 
-std::string key_of_views(const std::vector<ViewReport>& views, bool hard_counts) {
-  CutRequest request;  // its key says which masks there are
-  for (const ViewReport& view : views)
-    if (view.used) request.masks.push_back({view.camera, view.mask});
-  return key_of(request) + (hard_counts ? 'h' : 's');
+bool by_parts(const CutSettings& settings) {
+  return settings.first_mask_from == FirstMaskFrom::kParts;
 }
 
-CutSettings without_smoothness(CutSettings settings) {
-  settings.smoothness.reset();
-  return settings;
-}
-
-// Given masks of several views are made by people, and each is one more observation of its own: nothing is
-// guessed from parts or taken away beside them, and the more there are the more they say against the
-// neighbours. On photographs, each predicted from the masks of all others: docs/masks.md. The paper's presets
-// stay as they are published.
-CutSettings with_given_masks(CutSettings settings, std::size_t others) {
-  if (others == 0 || settings.first_mask_from != FirstMaskFrom::kParts) return settings;
-  constexpr float kFewMasks = 3;  // the energy's weights are those of so many
-  const float share = std::min(1.0f, kFewMasks / static_cast<float>(others + 1));
-  settings.prior_px_per_view = 0;
-  settings.trim = false;
-  settings.cut.energy.v0_px_per_view_at_400 *= share;
-  settings.cut.energy.lambda *= share;
-  if (settings.smoothness) *settings.smoothness *= share;
-  return settings;
+CutRequest request_of(std::span<const CameraStroke> strokes, const CutRequest& like) {
+  CutRequest request;
+  for (const CameraStroke& s : strokes) request.strokes.push_back({s.camera, {s.stroke}, s.seen});
+  request.choice = like.choice;
+  request.part_step = like.part_step;
+  request.up_world = like.up_world;
+  return request;
 }
 
 }  // namespace
 
-// A request, checked and analysed.
-struct Session::Asked {
-  const CutRequest& request;
-  CutSettings settings;
-  std::vector<StrokedView> by_view;
-  std::optional<ReferenceView> reference;
-  CutSettings first_settings;  // of the cut from the reference
-  std::string first_key;
-  bool by_parts = false;  // then strokes of all views are replayed in the first cut
+struct Session::Local {
+  Local(Neighbourhood made, const SessionScene& scene)
+      : near(std::move(made)), session({near.cloud, near.prepared, scene.up_world, scene.photographs}) {}
 
-  // Strokes in other views than the reference.
-  std::vector<const StrokedView*> corrections() const {
-    std::vector<const StrokedView*> views;
-    if (by_parts) return views;
-    for (const StrokedView& view : by_view)
-      if (!view.strokes.empty() && (request.first_mask || !same_view(view.camera, reference->camera)))
-        views.push_back(&view);
-    return views;
+  // Sets of Gaussians that strokes may affect, as the neighbourhood numbers them.
+  SeenGaussians seen_here(const SeenGaussians& seen) {
+    if (!seen || near.row.empty()) return seen;
+    constexpr std::size_t kMostSets = 8;
+    const auto known = std::ranges::find(sets, seen, &std::pair<SeenGaussians, SeenGaussians>::first);
+    if (known != sets.end()) return known->second;
+    if (sets.size() == kMostSets) sets.erase(sets.begin());
+    sets.emplace_back(seen, std::make_shared<const std::vector<std::uint8_t>>(in_neighbourhood(near, *seen)));
+    return sets.back().second;
   }
-  bool smoother() const { return settings.last_lambda() != settings.cut.energy.lambda; }
+
+  Neighbourhood near;
+  LocalSession session;
+  std::vector<std::pair<SeenGaussians, SeenGaussians>> sets;
+  bool told = false;  // its stages stand in a result
 };
 
 Session::Session(SessionScene scene)
-    : scene_(std::move(scene)), views_(*scene_.cloud), strokes_(scene_.prepared->parts) {}
+    : scene_(std::move(scene)),
+      whole_{scene_.cloud, scene_.blocks ? scene_.blocks : std::make_shared<const CloudBlocks>(*scene_.cloud),
+             scene_.up_world, scene_.photographs} {}
 
-const FlowGraph& Session::graph(const CutSettings& settings, const Job& job) {
-  const std::size_t most = scene_.cloud->size() > 0 ? scene_.cloud->size() - 1 : 0;
-  const auto wanted =
-      static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(settings.neighbours), most));
-  if (scene_.prepared->graph.listed == wanted) return scene_.prepared->graph;
-  if (other_graph_ && other_graph_->listed == wanted) return *other_graph_;
-  other_solver_.reset();
-  other_graph_ = knn_graph(*scene_.cloud, {settings.neighbours}, job);
-  return *other_graph_;
+Session::~Session() = default;
+Session::Session(Session&& other) noexcept = default;
+
+const StrokeHits& Session::hits(const CameraStroke& stroke, const Job& job) {
+  std::string key = key_of_strokes(request_of({&stroke, 1}, {}));
+  const auto known = hits_.find(key);
+  if (known != hits_.end()) return known->second;
+  if (hits_.size() >= kMostPlaces) hits_.clear();
+  StrokeHits found = stroke_hits({*scene_.cloud, nullptr, whole_.blocks.get()}, stroke, job);
+  if (job.cancelled()) key.clear();  // it may be incomplete: asked again next time
+  return hits_[key] = std::move(found);
 }
 
-CutSolver& Session::solver(const CutSettings& settings, const Job& job) {
-  const FlowGraph& neighbours = graph(settings, job);
-  std::optional<CutSolver>& solver = &neighbours == &scene_.prepared->graph ? solver_ : other_solver_;
-  if (solver)
-    solver->set_options(settings.cut);
-  else
-    solver.emplace(*scene_.cloud, neighbours, settings.cut);
-  return *solver;
+bool Session::is_whole(const Cell& cell) const {
+  return static_cast<double>(whole_.blocks->count_in(*scene_.cloud, cell.box_world())) >=
+         kMostOfScene * static_cast<double>(scene_.cloud->size());
 }
 
-void Session::make_ready(const CutSettings& settings, const Job& job) {
-  if (job.cancelled()) return;
-  solver(settings, job).make_ready();
-  make_lab_ready();
+Place Session::first_place(const Camera& camera, const glm::vec3& hit_world) const {
+  const glm::vec3 towards_eye = camera.centre_world() - hit_world;
+  Place place;
+  place.from = direction_of(towards_eye, scene_.up_world);
+  const float distance = glm::length(towards_eye);
+  const auto gaussians = [&](int level) {
+    return whole_.blocks->count_in(*scene_.cloud, cell_around(hit_world, level).box_world());
+  };
+  int level = level_above(distance);
+  for (int i = 0; i < kMostHalvings && gaussians(level) > scene_.most_gaussians; ++i) --level;
+  place.cell = cell_around(hit_world, level);
+  place.looked_at = cell_around(hit_world, std::min(level, nearest_level(distance)));
+  place.whole = is_whole(place.cell);
+  return place;
 }
 
-CutScene Session::scene_for(const CutRequest& request, const CutSettings& settings, const Job& job) {
-  const PartHierarchy& parts = scene_.prepared->parts;
-  if (settings.first_mask_from == FirstMaskFrom::kParts && parts.leaf_of.size() != scene_.cloud->size())
-    throw Error("first mask", "the scene was prepared without parts", "Prepare it with the same settings");
-  return {{*scene_.cloud, &views_},
-          graph(settings, job),
-          parts,
-          scene_.prepared->model,
-          solver(settings, job),
-          strokes_,
-          request.up_world.value_or(scene_.up_world),
-          scene_.photographs};
+// The next larger cell that holds the box. eye_level: beyond it, views come no farther away.
+Place Session::grown(const Place& place, const Box& must_hold, int eye_level) const {
+  Place next = place;
+  do {
+    next.cell = cell_around(must_hold.centre(), next.cell.level + 1);
+  } while (!contains(next.cell.box_world(), must_hold.min) ||
+           !contains(next.cell.box_world(), must_hold.max));
+  if (next.cell.level <= eye_level) next.looked_at = next.cell;
+  next.whole = is_whole(next.cell);
+  return next;
 }
 
-Session::Asked Session::asked(const CutRequest& request, const CutSettings& settings) const {
-  check(settings);
-  Asked asked{request, with_given_masks(settings, request.masks.size())};
-  asked.by_view = strokes_by_view(request.strokes);
-  asked.first_settings = without_smoothness(asked.settings);
-  asked.reference = reference_of(request, asked.by_view);
-  asked.by_parts = settings.first_mask_from == FirstMaskFrom::kParts && !request.first_mask;
-  if (asked.reference)
-    asked.first_key =
-        key_of_reference(request, *asked.reference) + (asked.by_parts ? key_of_strokes(request) : "");
-  return asked;
+Place Session::place_of_all(const Camera& reference) const {
+  const Box box = robust_bounds(scene_.cloud->position);
+  Place place;
+  const glm::vec3 towards_eye = reference.centre_world() - box.centre();
+  place.from = direction_of(towards_eye, scene_.up_world);
+  place.cell = place.looked_at = cell_around(box.centre(), nearest_level(glm::length(towards_eye)));
+  place.whole = true;
+  return place;
 }
 
-Session::Kept* Session::kept(const Asked& asked) {
-  if (asked.request.mask_source) return nullptr;  // it may answer differently now
-  const auto found = std::ranges::find_if(
-      kept_, [&](const Kept& k) { return k.key == asked.first_key && k.settings == asked.first_settings; });
-  if (found == kept_.end()) return nullptr;
-  kept_.splice(kept_.begin(), kept_, found);
-  return &kept_.front();
-}
-
-Session::Kept& Session::from_reference(const Asked& asked, const Job& job, const OnSnapshot& on_snapshot,
-                                       bool* fresh) {
-  Kept* known = kept(asked);
-  *fresh = known == nullptr;
-  if (known) return *known;
-  job.progress("first mask", 0);
-  Kept made{asked.first_key, asked.first_settings, {}, {}, {}};
-  made.result.outcome = Outcome::kCancelled;
-  const CutScene scene = scene_for(asked.request, asked.first_settings, job);
-  if (!job.cancelled())
-    made.result =
-        cut_from_reference({scene, *asked.reference, asked.request, asked.first_settings, job}, on_snapshot);
-  if (made.result.outcome == Outcome::kCancelled) return cancelled_ = std::move(made);
-  kept_.push_front(std::move(made));
-  if (kept_.size() > kMostKept) kept_.pop_back();
-  return kept_.front();
-}
-
-// Sums of the views that count, kept until those differ. False: cancelled.
-bool Session::add_up_views(const CutResult& result, const CutSettings& settings, const Job& job,
-                           Kept* first) {
-  std::string key = key_of_views(result.views, settings.hard_counts);
-  if (first->sums && key == first->sums_key) return !job.cancelled();
-  first->sums.reset();
+// Of what the masks show mostly; the whole scene if that is nothing.
+Place Session::place_of_masks(const CutRequest& request, const CutSettings& settings, const Job& job) const {
+  constexpr float kSides = 2;  // of what is shown
   MaskedSums sums(scene_.cloud->size());
-  for (const ViewReport& view : result.views)
-    if (view.used && !job.cancelled())
-      add_masked_sums({*scene_.cloud, &views_}, view.camera, view.mask, settings.hard_counts, job, &sums);
-  if (job.cancelled()) return false;
-  first->sums = std::move(sums);
-  first->sums_key = std::move(key);
-  return true;
+  const Drawer drawer(*scene_.cloud, nullptr, whole_.blocks.get());
+  const auto add = [&](const GivenView& given) {
+    const Camera camera = limited_to_width(given.camera, settings.work_width_px);
+    add_masked_sums(drawer, camera, resized_mask(given.mask, camera.width_px, camera.height_px), false, job,
+                    &sums);
+  };
+  add(*request.first_mask);
+  std::ranges::for_each(request.masks, add);
+  std::vector<std::uint8_t> shown(scene_.cloud->size());
+  for (std::size_t g = 0; g < shown.size(); ++g) shown[g] = 2 * sums.inside[g] > sums.total[g];
+  const Box box = bounds_of(*scene_.cloud, shown);
+  const float extent = std::max({box.extent().x, box.extent().y, box.extent().z});
+  if (!(extent > 0)) return place_of_all(request.first_mask->camera);
+  Place place;
+  place.from = direction_of(request.first_mask->camera.centre_world() - box.centre(), scene_.up_world);
+  place.cell = cell_around(box.centre(), level_above(kSides * extent));
+  place.looked_at = place.cell;
+  place.whole = is_whole(place.cell);
+  return place;
 }
 
-// The likelihood of the last cut: the views that count, corrected by strokes in other views, with the prior
-// of the parts. The result's views are those of the first cut; views of corrections are appended.
-Likelihood Session::evidence(const Asked& asked, const Job& job, Kept* first, CutResult* result) {
-  const CutSettings& settings = asked.settings;
-  StageClock clock(&result->stages);
-  if (!clock.time("likelihood", [&] { return add_up_views(*result, settings, job, first); })) return {};
-  const std::ptrdiff_t first_used = views_used(*result);
-  const Drawer drawer(*scene_.cloud, &views_);
-  MaskedSums sums = *first->sums;
-  for (const StrokedView* view : asked.corrections()) {
-    if (job.cancelled()) break;
-    const Correction c =
-        clock.time("masks", [&] { return corrected(drawer, *view, first->result.labels, settings, job); });
-    clock.time("likelihood", [&] {
-      add_masked_sums(drawer, c.camera, c.mask, settings.hard_counts, job, &sums);
-      add_weighted(drawer, c, kCorrectionWeight * first_used, settings.hard_counts, job, &sums);
-    });
-    result->views.push_back(
-        {.camera = c.camera, .mask = c.mask, .used = true, .confidence = 1, .reason = {}});
+// Places are found stroke by stroke, so that one more stroke asks for no more than what it adds.
+std::optional<Place> Session::place_of_strokes(const CutRequest& request, const CutSettings& settings,
+                                               const Job& job) {
+  const std::vector<CameraStroke> strokes = in_replay_order(strokes_in_order(request));
+  if (strokes.empty() || strokes.front().stroke.label != SeedLabel::kObject) return {};
+  const std::string how = fmt::format("{} {}", settings.work_width_px, settings.least_object_px);
+  const auto first = [&](std::size_t count) { return std::span(strokes).first(count); };
+  const auto key = [&](std::size_t count) { return key_of(request_of(first(count), request)) + how; };
+  std::size_t known = strokes.size();
+  while (known > 0 && !places_.contains(key(known))) --known;
+  std::optional<Place> place;
+  if (known > 0) place = places_.at(key(known));
+  std::optional<Box> must_hold;
+  int eye_level = 0;
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    if (strokes[i].stroke.label == SeedLabel::kObject)
+      for (const auto& hit : hits(strokes[i], job))
+        if (hit) must_hold = must_hold ? joined(*must_hold, {*hit, *hit}) : Box{*hit, *hit};
+    if (job.cancelled() || !must_hold) return {};
+    if (i == 0) {
+      eye_level = nearest_level(glm::distance(strokes[0].camera.centre_world(), must_hold->centre()));
+      if (!place) place = first_place(strokes[0].camera, must_hold->centre());
+    }
+    if (i + 1 <= known) continue;
+    place = place_after(first(i + 1), request, settings, *place, *must_hold, eye_level, job);
+    if (job.cancelled()) return {};
+    if (places_.size() >= kMostPlaces) places_.clear();
+    places_[key(i + 1)] = *place;
   }
-  return with_prior(likelihood(sums), first->result.prior,
-                    settings.prior_px_per_view * static_cast<float>(views_used(*result)));
+  return place;
 }
 
-// The last cut. result: that of the first.
-void Session::correct(const Asked& asked, const Job& job, Kept* first, CutResult* result) {
-  CutSettings settings = asked.settings;
-  settings.cut.energy.lambda = asked.settings.last_lambda();
-  const Likelihood weighed = evidence(asked, job, first, result);
-  if (job.cancelled()) return;
-  job.progress("cut", 0.9);
-  StageClock clock(&result->stages);
-  const LookedAt looked = looked_at(result->views);
-  CutReport report = clock.time("cut", [&] {
-    return solver(settings, job).solve(weighed, looked.views, looked.pixels_per_view(), job, result->said);
+Place Session::place_after(std::span<const CameraStroke> strokes, const CutRequest& like,
+                           const CutSettings& settings, Place place, const Box& must_hold, int eye_level,
+                           const Job& job) {
+  const auto holds = [&](const glm::vec3& p) { return contains(place.cell.box_world(), p); };
+  if (!place.whole && !(holds(must_hold.min) && holds(must_hold.max)))
+    place = grown(place, must_hold, eye_level);
+  const CutRequest request = request_of(strokes, like);
+  while (!job.cancelled()) {
+    Local* there = local(place, settings, job);
+    if (!there) break;
+    const std::vector<std::uint8_t> meant =
+        there->session.meant(in_place(request, there, job), settings, job);
+    if (job.cancelled() || !touches_side(whole_, there->near, meant)) break;
+    place = grown(place, joined(must_hold, bounds_of(*there->near.cloud, meant)), eye_level);
+  }
+  return place;
+}
+
+std::optional<Place> Session::place_of(const CutRequest& request, const CutSettings& settings,
+                                       const Job& job) {
+  if (request.first_mask) return place_of_masks(request, settings, job);
+  const auto reference = std::ranges::find_if(request.strokes, marks_object);
+  if (reference == request.strokes.end()) return {};
+  return by_parts(settings) ? place_of_strokes(request, settings, job) : place_of_all(reference->camera);
+}
+
+// Null if cancelled.
+Session::Local* Session::local(const Place& place, const CutSettings& settings, const Job& job) {
+  const bool with_parts = by_parts(settings);
+  const auto known = std::ranges::find_if(locals_, [&](const Local& l) {
+    return l.near.place == place && (!with_parts || !l.near.prepared->parts.leaf_of.empty());
   });
-  if (job.cancelled()) return;
-  result->cut = report;
-  result->labels = std::move(report.labels);
-  keep_object(result);
-  if (settings.trim)
-    result->trimmed = clock.time("trim", [&] {
-      return trim_to_views({*scene_.cloud, &views_}, result->views, settings, &result->labels, job);
-    });
-  obey_strokes(result);
+  if (known != locals_.end()) {
+    locals_.splice(locals_.begin(), locals_, known);
+    return &locals_.front();
+  }
+  Neighbourhood made = prepare_neighbourhood(whole_, place, with_parts ? &scene_.prepare : nullptr, job);
+  if (job.cancelled()) return nullptr;
+  locals_.emplace_front(std::move(made), scene_);
+  std::size_t bytes = locals_.front().near.bytes();
+  for (auto l = std::next(locals_.begin()); l != locals_.end();) {
+    bytes += l->near.bytes();
+    l = bytes > scene_.most_bytes ? locals_.erase(l) : std::next(l);
+  }
+  return &locals_.front();
+}
+
+// The request as the neighbourhood sees it.
+CutRequest Session::in_place(const CutRequest& request, Local* there, const Job& job) {
+  if (there->near.row.empty()) return request;
+  const Box box = there->near.place.cell.box_world();
+  CutRequest local = request;
+  local.strokes.clear();
+  for (const StrokedView& view : request.strokes) {
+    StrokedView here{view.camera, {}, there->seen_here(view.seen)};
+    for (Stroke stroke : view.strokes) {
+      if (stroke.label == SeedLabel::kRest) {
+        const StrokeHits& at = hits({view.camera, stroke, view.seen}, job);
+        std::vector<glm::vec2> inside;
+        for (std::size_t i = 0; i < at.size(); ++i)
+          if (at[i] && contains(box, *at[i])) inside.push_back(stroke.points_px[i]);
+        stroke.points_px = std::move(inside);
+      }
+      if (!stroke.points_px.empty()) here.strokes.push_back(std::move(stroke));
+    }
+    local.strokes.push_back(std::move(here));
+  }
+  return local;
+}
+
+CutResult Session::in_scene(const Local& there, CutResult result) const {
+  const std::size_t n = scene_.cloud->size();
+  result.labels = splatcut::in_scene(there.near, n, std::move(result.labels));
+  result.prior = splatcut::in_scene(there.near, n, std::move(result.prior));
+  result.said = splatcut::in_scene(there.near, n, std::move(result.said));
+  result.looked_at_gaussians = there.near.cloud->size();
+  return result;
+}
+
+// The neighbourhood of the cut and its result there; null: nothing is marked or hit, or cancelled.
+Session::Local* Session::settled(const CutRequest& request, const CutSettings& settings, const Job& job,
+                                 const OnSnapshot& on_snapshot, CutResult* result) {
+  check(settings);
+  std::optional<Place> place = place_of(request, settings, job);
+  while (place && !job.cancelled()) {
+    Local* there = local(*place, settings, job);
+    if (!there) return nullptr;
+    OnSnapshot in_whole;
+    if (on_snapshot)
+      in_whole = [&](CutPhase phase, const CutResult& so_far) {
+        on_snapshot(phase, in_scene(*there, so_far));
+      };
+    *result = there->session.cut(in_place(request, there, job), settings, job, in_whole);
+    if (result->outcome != Outcome::kDone || !touches_side(whole_, there->near, result->labels)) return there;
+    place = grown(*place, joined(place->cell.box_world(), bounds_of(*there->near.cloud, result->labels)),
+                  place->looked_at.level);
+  }
+  return nullptr;
 }
 
 CutResult Session::cut(const CutRequest& request, const CutSettings& settings, const Job& job,
                        const OnSnapshot& on_snapshot) {
-  const Asked asked = this->asked(request, settings);
-  if (!asked.reference) {
-    CutResult nothing;
-    nothing.outcome = Outcome::kNothingFound;
-    nothing.reason = "no stroke marks the object yet; click on it";
-    nothing.labels.assign(scene_.cloud->size(), 0);
-    return nothing;
+  CutResult result;
+  Local* there = settled(request, settings, job, on_snapshot, &result);
+  if (job.cancelled()) {
+    result = nothing_found(scene_.cloud->size(), "");
+    result.outcome = Outcome::kCancelled;
+    return result;
   }
-  bool fresh = false;
-  Kept& first = from_reference(asked, job, on_snapshot, &fresh);
-  CutResult result = first.result;
-  if (!fresh) result.stages.clear();
-  if (result.outcome != Outcome::kDone || settings.parts_only) return result;
-  const std::size_t without = leave_out(request, &result.views);
-  if (without == 0 && asked.corrections().empty() && !asked.smoother()) return result;
-  correct(asked, job, &first, &result);
-  if (job.cancelled()) result.outcome = Outcome::kCancelled;
+  if (!there)
+    return nothing_found(scene_.cloud->size(), std::ranges::any_of(request.strokes, marks_object)
+                                                   ? "the strokes mark nothing that stands out in this view; "
+                                                     "click on the object itself, or scribble"
+                                                   : "no stroke marks the object yet; click on it");
+  result = in_scene(*there, std::move(result));
+  const std::vector<StageTime>& prepared = there->near.prepared->stages;
+  if (!std::exchange(there->told, true))
+    result.stages.insert(result.stages.begin(), prepared.begin(), prepared.end());
   return result;
 }
 
 Mask Session::first_mask(const CutRequest& request, const CutSettings& settings, const Job& job) {
-  const Asked asked = this->asked(request, settings);
-  if (!asked.reference) return {};
-  const CutScene scene = scene_for(request, asked.first_settings, job);
-  return first_mask_of({scene, *asked.reference, request, asked.first_settings, job});
+  check(settings);
+  const std::optional<Place> place = place_of(request, settings, job);
+  if (!place) return {};
+  Local* there = local(*place, settings, job);
+  return there ? there->session.first_mask(in_place(request, there, job), settings, job) : Mask();
 }
 
 Session::Preview Session::preview(const CutRequest& request, const CameraStroke& stroke,
                                   const CutSettings& settings, const Job& job) {
-  if (settings.first_mask_from != FirstMaskFrom::kParts ||
-      scene_.prepared->parts.leaf_of.size() != scene_.cloud->size())
-    return {};
-  const Drawer drawer(*scene_.cloud, &views_);
-  const ReplayOptions options = replay_options(request, settings, scene_.prepared->model);
-  std::vector<CameraStroke> strokes = strokes_in_order(request);
-  Preview preview;
-  preview.before = strokes_.replay(drawer, strokes, options, job).labels();
-  strokes.push_back(stroke);
-  preview.after = strokes_.replay(drawer, strokes, options, job).labels();
-  return job.cancelled() ? Preview{} : preview;
+  if (!by_parts(settings)) return {};
+  CutRequest after = request;
+  after.strokes.push_back({stroke.camera, {stroke.stroke}, stroke.seen});
+  const std::optional<Place> place = place_of_strokes(after, settings, job);
+  if (!place) return {};
+  Local* there = local(*place, settings, job);
+  if (!there) return {};
+  const std::size_t n = scene_.cloud->size();
+  Preview labels{there->session.meant(in_place(request, there, job), settings, job), {}};
+  labels.after = there->session.meant(in_place(after, there, job), settings, job);
+  if (job.cancelled()) return {};
+  return {splatcut::in_scene(there->near, n, std::move(labels.before)),
+          splatcut::in_scene(there->near, n, std::move(labels.after))};
+}
+
+std::vector<float> Session::likelihood_of(const CutRequest& request, const CutSettings& settings,
+                                          const Job& job) {
+  CutResult result;
+  Local* there = settled(request, settings, job, {}, &result);
+  if (!there || job.cancelled()) return std::vector<float>(scene_.cloud->size(), 0);
+  return splatcut::in_scene(there->near, scene_.cloud->size(),
+                            there->session.likelihood_of(in_place(request, there, job), settings, job));
+}
+
+void Session::make_ready(const CameraStroke& click, const CutSettings& settings, const Job& job) {
+  make_lab_ready();
+  if (by_parts(settings)) place_of_strokes(request_of({&click, 1}, {}), settings, job);
 }
 
 std::vector<GivenView> Session::look_around(const CutRequest& request, const CutResult& result,
                                             const CutSettings& settings, int views, const Job& job) {
   std::vector<GivenView> around;
-  const Asked asked = this->asked(request, settings);
+  const auto reference = reference_of(request, strokes_by_view(request.strokes));
   const ObjectExtent extent = object_extent(*scene_.cloud, result.labels);
-  if (!asked.reference || !(extent.radius > 0)) return around;
+  if (!reference || !(extent.radius > 0)) return around;
   OrbitOptions orbit = settings.orbit;
   orbit.views = views;
+  const Drawer drawer(*scene_.cloud, nullptr, whole_.blocks.get());
   for (const Camera& camera :
-       cameras_around(limited_to_width(asked.reference->camera, settings.work_width_px),
+       cameras_around(limited_to_width(reference->camera, settings.work_width_px),
                       request.up_world.value_or(scene_.up_world), extent, scene_.photographs, orbit)) {
     if (job.cancelled()) break;
     if (std::ranges::any_of(result.views, [&](const ViewReport& v) { return same_view(v.camera, camera); }))
       continue;
-    // Not through the cache of views: these cameras come once and would evict those that the user stands in.
-    Mask seen = thresholded(render_labels(*scene_.cloud, camera, result.labels, job), 0.5f);
+    Mask seen = thresholded(render_labels(drawer, camera, result.labels, job), 0.5f);
     if (count(seen) > 0) around.push_back({camera, std::move(seen)});
   }
   return around;
-}
-
-std::vector<float> Session::likelihood_of(const CutRequest& request, const CutSettings& settings,
-                                          const Job& job) {
-  const Asked asked = this->asked(request, settings);
-  if (!asked.reference) return std::vector<float>(scene_.cloud->size(), 0);
-  bool fresh = false;
-  Kept& first = from_reference(asked, job, {}, &fresh);
-  CutResult result = first.result;
-  leave_out(request, &result.views);
-  return evidence(asked, job, &first, &result).w;
 }
 
 }  // namespace splatcut

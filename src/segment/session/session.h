@@ -1,51 +1,55 @@
 // The one door to a cut: a scene with all that is kept of it between cuts.
 //
-// Command line, window, eval and study cut through it, so that the same strokes give the same labels.
-// Steps: (1) the cut from the reference view at the settings' own smoothness, see pipeline.h; (2) where
-// strokes in other views, views left out or another smoothness ask for it, the masks are corrected and one
-// more cut is solved:
-//   A_g += k (M_g of added + removed pixels),  M_g += k (M_g of added pixels),  k = 4 x views used,
-// so that a stroke in one view outweighs the views that did not see the fault; what the parts say and the
-// trimming count as in step 1. With parts, strokes of all views are replayed in step 1 already, as one
-// selection (selection/stroke_replay.h): step 2 then holds views left out and smoothness alone.
-// Where a request gives masks of several views, n in all, neither parts nor trimming have a say, and v0 and
-// the weights of neighbours are those of the settings times min(1, 3/n), but for the paper's presets. Step 1
-// is kept: what changes only step 2 costs only step 2. The result is a function of scene, request and
-// settings alone, kept steps or not, whatever was cut before, on any number of threads. One call at a time.
+// Command line, window, eval and study cut through it, so that the same strokes give the same labels. What is
+// prepared is a neighbourhood of what was clicked (superpoints/neighbourhood.h), never the scene:
+//   1. The first stroke on the object says where: what it hits, the camera's distance, rounded up to a power
+//      of two, as the cell's side; half of it again and again while the cell holds more than most_gaussians.
+//      With masks, the box of what they show, twice as large.
+//   2. After each stroke, and again after the cut: while what is labelled touches the cell's side, or a
+//   stroke
+//      on the object hits what lies outside, the next cell is twice as large, about both; a cell that holds
+//      most of the scene is the scene. A first answer is shown while it grows.
+// Strokes on the rest that hit nothing of the cell change nothing: there is no object there. Cuts from pixels
+// alone (the baselines) look at the whole scene.
+// The result is a function of scene, request and settings alone, kept steps or not, whatever was cut before,
+// on any number of threads. The neighbourhoods used last are kept within most_bytes. One call at a time.
 #pragma once
 
 #include <list>
+#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/job.h"
-#include "scene/raster/projected_view.h"
-#include "segment/selection/stroke_replay.h"
 #include "segment/session/cut_request.h"
 #include "segment/session/cut_result.h"
 #include "segment/session/cut_settings.h"
-#include "segment/superpoints/prepared_scene.h"
+#include "segment/session/local_session.h"
+#include "segment/session/stroke_hits.h"
+#include "segment/superpoints/neighbourhood.h"
 
 namespace splatcut {
 
-struct CutScene;
-
 struct SessionScene {
   std::shared_ptr<const GaussianCloud> cloud;
-  std::shared_ptr<const PreparedScene> prepared;  // of the cloud
-  glm::vec3 up_world{0, -1, 0};                   // for orbits; a request may know better
-  std::vector<Camera> photographs;                // cameras of the capture, where known
+  std::shared_ptr<const CloudBlocks> blocks{};  // of the cloud; null: the session makes them
+  glm::vec3 up_world{0, -1, 0};                 // for orbits; a request may know better
+  std::vector<Camera> photographs{};            // cameras of the capture, where known
+  PrepareOptions prepare{};
+  std::size_t most_gaussians = 100'000;             // in the first cell
+  std::size_t most_bytes = std::size_t{768} << 20;  // of neighbourhoods kept; the one in use may be larger
 };
 
 class Session {
  public:
   explicit Session(SessionScene scene);
+  ~Session();
+  Session(Session&& other) noexcept;
 
   const SessionScene& scene() const { return scene_; }
 
-  // Throws Error for settings that contradict each other, or parts that the scene was not prepared with.
+  // Throws Error for settings that contradict each other, or parts that the scene is not prepared with.
   // Nothing marked, nothing found, cancelled: in `outcome`, with a reason.
   CutResult cut(const CutRequest& request, const CutSettings& settings, const Job& job = {},
                 const OnSnapshot& on_snapshot = {});
@@ -55,20 +59,18 @@ class Session {
   Mask first_mask(const CutRequest& request, const CutSettings& settings, const Job& job = {});
 
   // Labels before and after one more stroke, by parts alone, with the code of cut()'s first mask. Costs some
-  // 10 ms where the view is known. Empty: cancelled, or the settings know no parts.
-  struct Preview {
-    std::vector<std::uint8_t> before, after;
-  };
+  // 10 ms where place and view are known. Empty: cancelled, the settings know no parts, or nothing is hit.
+  using Preview = LocalSession::Preview;
   Preview preview(const CutRequest& request, const CameraStroke& stroke, const CutSettings& settings,
                   const Job& job = {});
 
   // w_g as the last cut of `request` weighed it, for display: soft or hard, with corrections and what the
-  // parts say. Cancelled, or nothing marked: unspecified.
+  // parts say; 0 outside of its neighbourhood. Cancelled, or nothing marked: unspecified.
   std::vector<float> likelihood_of(const CutRequest& request, const CutSettings& settings,
                                    const Job& job = {});
 
-  // Builds ahead what the first cut with these settings needs.
-  void make_ready(const CutSettings& settings, const Job& job = {});
+  // Builds ahead what a first click there needs.
+  void make_ready(const CameraStroke& click, const CutSettings& settings, const Job& job = {});
 
   // At most `views` views around a cut object to look from, each with the mask of its labels; cameras as
   // cut() would try them first. They influence no cut. Excludes the result's own views and those that show
@@ -76,36 +78,34 @@ class Session {
   std::vector<GivenView> look_around(const CutRequest& request, const CutResult& result,
                                      const CutSettings& settings, int views, const Job& job = {});
 
-  // The graph with the settings' number of neighbours; built and kept if it is not the prepared one.
-  // Cancelled: must not be used.
-  const FlowGraph& graph(const CutSettings& settings, const Job& job = {});
+  std::size_t neighbourhoods() const { return locals_.size(); }  // that are kept
 
  private:
-  struct Kept {  // a cut from the reference
-    std::string key;
-    CutSettings settings;
-    CutResult result;
-    std::string sums_key;  // masks that `sums` was added up from
-    std::optional<MaskedSums> sums;
-  };
-  struct Asked;
+  struct Local;  // a neighbourhood and the session on it
 
-  CutSolver& solver(const CutSettings& settings, const Job& job);
-  CutScene scene_for(const CutRequest& request, const CutSettings& settings, const Job& job);
-  Asked asked(const CutRequest& request, const CutSettings& settings) const;
-  Kept* kept(const Asked& asked);
-  Kept& from_reference(const Asked& asked, const Job& job, const OnSnapshot& on_snapshot, bool* fresh);
-  bool add_up_views(const CutResult& result, const CutSettings& settings, const Job& job, Kept* first);
-  Likelihood evidence(const Asked& asked, const Job& job, Kept* first, CutResult* result);
-  void correct(const Asked& asked, const Job& job, Kept* first, CutResult* result);
+  const StrokeHits& hits(const CameraStroke& stroke, const Job& job);
+  bool is_whole(const Cell& cell) const;
+  Place first_place(const Camera& camera, const glm::vec3& hit_world) const;
+  Place place_of_all(const Camera& reference) const;
+  Place place_of_masks(const CutRequest& request, const CutSettings& settings, const Job& job) const;
+  Place grown(const Place& place, const Box& must_hold, int eye_level) const;
+  std::optional<Place> place_of_strokes(const CutRequest& request, const CutSettings& settings,
+                                        const Job& job);
+  Place place_after(std::span<const CameraStroke> strokes, const CutRequest& like,
+                    const CutSettings& settings, Place place, const Box& must_hold, int eye_level,
+                    const Job& job);
+  std::optional<Place> place_of(const CutRequest& request, const CutSettings& settings, const Job& job);
+  Local* local(const Place& place, const CutSettings& settings, const Job& job);
+  CutRequest in_place(const CutRequest& request, Local* there, const Job& job);
+  CutResult in_scene(const Local& there, CutResult result) const;
+  Local* settled(const CutRequest& request, const CutSettings& settings, const Job& job,
+                 const OnSnapshot& on_snapshot, CutResult* result);
 
   SessionScene scene_;
-  std::optional<FlowGraph> other_graph_;
-  std::optional<CutSolver> solver_, other_solver_;
-  KeptViews views_;
-  StrokeReplay strokes_;
-  std::list<Kept> kept_;  // most recent first
-  Kept cancelled_;        // what came of the last cut that was not finished
+  WholeScene whole_;
+  std::list<Local> locals_;                 // used last first
+  std::map<std::string, Place> places_;     // of strokes so far, by their bytes
+  std::map<std::string, StrokeHits> hits_;  // of single strokes
 };
 
 }  // namespace splatcut

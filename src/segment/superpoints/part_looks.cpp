@@ -129,7 +129,7 @@ std::uint32_t leaf_of_pixel(std::span<const GroupWeight> leaves) {
   return all >= kCovered ? leaves.front().group : kNoPart;
 }
 
-void look_at_parts(const GaussianCloud& cloud, std::span<const Camera> views, PartHierarchy* parts,
+void look_at_parts(const Drawer& drawer, std::span<const Camera> views, PartHierarchy* parts,
                    const Job& job) {
   RasterOptions raster;
   raster.colour = false;
@@ -138,7 +138,7 @@ void look_at_parts(const GaussianCloud& cloud, std::span<const Camera> views, Pa
   for (PartTree& tree : parts->trees) tree.looks.assign(tree.nodes(), {});
   for (const Camera& camera : views) {
     if (job.cancelled()) return;
-    RasterOutput drawn = rasterize(cloud, camera, raster, job);
+    RasterOutput drawn = drawer.draw(camera, raster, job);
     LeafPicture picture{Image<std::uint32_t>(camera.width_px, camera.height_px, kNoPart),
                         std::move(drawn.expected_depth)};
     for (std::size_t i = 0; i < picture.leaf.size(); ++i)

@@ -13,8 +13,7 @@
 #include "core/image.h"
 #include "core/job.h"
 #include "scene/camera/camera.h"
-#include "scene/cloud/gaussian_cloud.h"
-#include "scene/raster/rasterizer.h"
+#include "scene/raster/projected_view.h"
 
 namespace splatcut {
 
@@ -48,7 +47,7 @@ std::vector<std::vector<PartLooks>> looks_in(const PartHierarchy& parts, const L
 std::uint32_t leaf_of_pixel(std::span<const GroupWeight> leaves);
 
 // Draws the views and fills the looks of every tree. Cancelled: incomplete.
-void look_at_parts(const GaussianCloud& cloud, std::span<const Camera> views, PartHierarchy* parts,
+void look_at_parts(const Drawer& drawer, std::span<const Camera> views, PartHierarchy* parts,
                    const Job& job = {});
 
 }  // namespace splatcut

@@ -20,7 +20,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::uint32_t kFormatVersion = 3;
+constexpr std::uint32_t kFormatVersion = 4;
 constexpr std::uint64_t kMagic =
     0x50455250544c5053;  // "SPLTPREP", read backwards on a machine of the other byte order
 constexpr const char* kEnding = ".prepared";
@@ -35,9 +35,6 @@ static_assert(sizeof(Header) == 40);
 // Every array of a prepared scene, in the order of the file. Scene may be const.
 template <class Scene, class Visit>
 void visit_arrays(Scene& scene, const Visit& visit) {
-  visit(scene.graph.first_arc);
-  visit(scene.graph.head);
-  visit(scene.graph.reverse_arc);
   visit(scene.parts.leaf_of);
   visit(scene.parts.leaf_centre_world);
   visit(scene.parts.leaf_area);
@@ -51,10 +48,9 @@ void visit_arrays(Scene& scene, const Visit& visit) {
   }
 }
 
-// What the payload starts with: four numbers and the size of each array.
+// What the payload starts with: three numbers and the size of each array.
 std::vector<std::uint64_t> sizes_of(const PreparedScene& scene) {
-  std::vector<std::uint64_t> sizes = {scene.graph.listed, scene.parts.leaves, scene.parts.trees.size(),
-                                      scene.parts.plain_trees};
+  std::vector<std::uint64_t> sizes = {scene.parts.leaves, scene.parts.trees.size(), scene.parts.plain_trees};
   visit_arrays(scene, [&](const auto& array) { sizes.push_back(array.size()); });
   return sizes;
 }
@@ -109,16 +105,6 @@ bool all_of_range(std::size_t n, const Body& body) {
   return all;
 }
 
-bool sound(const FlowGraph& g, std::size_t gaussians) {
-  if (g.first_arc.size() != gaussians + 1 || g.first_arc.front() != 0 ||
-      g.first_arc.back() != g.head.size() || g.reverse_arc.size() != g.head.size())
-    return false;
-  return all_of_range(gaussians, [&](std::size_t i) { return g.first_arc[i] <= g.first_arc[i + 1]; }) &&
-         all_of_range(g.head.size(), [&](std::size_t a) {
-           return g.head[a] < gaussians && g.reverse_arc[a] < g.head.size();
-         });
-}
-
 bool sound(const PartTree& t, std::uint32_t leaves) {
   const std::size_t n = t.nodes();
   if (n < leaves || t.children.size() != n || t.area.size() != n || t.cut.size() != n ||
@@ -134,8 +120,7 @@ bool sound(const PartTree& t, std::uint32_t leaves) {
 // No index of the scene leads outside of it: what is read may be used without looking again.
 bool sound(const PreparedScene& scene, std::size_t gaussians) {
   const PartHierarchy& parts = scene.parts;
-  if (!sound(scene.graph, gaussians) || (!parts.leaf_of.empty() && parts.leaf_of.size() != gaussians))
-    return false;
+  if (!parts.leaf_of.empty() && parts.leaf_of.size() != gaussians) return false;
   if (parts.plain_trees > parts.trees.size() || parts.leaf_centre_world.size() != parts.leaves ||
       parts.leaf_area.size() != parts.leaves)
     return false;
@@ -155,8 +140,7 @@ void add_camera(const Camera& c, Hasher* hash) {
 
 void add_options(const PrepareOptions& o, Hasher* hash) {
   for (const double value :
-       {static_cast<double>(o.graph.neighbours), static_cast<double>(o.with_parts),
-        static_cast<double>(o.observing.width_px), static_cast<double>(o.observing.most_given),
+       {static_cast<double>(o.observing.width_px), static_cast<double>(o.observing.most_given),
         static_cast<double>(o.observing.ring), static_cast<double>(o.observing.elevation_swing_rad)})
     hash->number(value);
   for (const PartWeight& weight : part_weights())
@@ -165,8 +149,8 @@ void add_options(const PrepareOptions& o, Hasher* hash) {
 
 }  // namespace
 
-std::uint64_t prepared_key(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world,
-                           std::span<const Camera> given, const PrepareOptions& options) {
+std::uint64_t prepared_key(const GaussianCloud& cloud, std::span<const Camera> observing,
+                           const PrepareOptions& options) {
   Hasher hash(kFormatVersion);
   hash.number(hash_of_program());
   hash.number(cloud.size());
@@ -179,12 +163,8 @@ std::uint64_t prepared_key(const GaussianCloud& cloud, const Camera& reference, 
   hash.add(std::as_bytes(std::span(cloud.f_dc)));
   hash.add(std::as_bytes(std::span(cloud.sh_rest)));
   add_options(options, &hash);
-  if (options.with_parts) {  // the graph alone sees no camera
-    add_camera(reference, &hash);
-    hash.add(std::span(&up_world.x, 3));
-    hash.number(given.size());
-    for (const Camera& camera : given) add_camera(camera, &hash);
-  }
+  hash.number(observing.size());
+  for (const Camera& camera : observing) add_camera(camera, &hash);
   return hash.value();
 }
 
@@ -201,13 +181,12 @@ std::optional<PreparedScene> read_prepared(const std::filesystem::path& path, st
   const Header& h = header.front();
   if (h.magic != kMagic || h.version != kFormatVersion || h.key != key || h.payload_bytes != file.left())
     return {};
-  constexpr std::uint64_t kCounts = 4, kMostTrees = 1000;
-  if (!file.read(kCounts, &counts) || counts[2] > kMostTrees) return {};
+  constexpr std::uint64_t kCounts = 3, kMostTrees = 1000;
+  if (!file.read(kCounts, &counts) || counts[1] > kMostTrees) return {};
   PreparedScene scene;
-  scene.graph.listed = static_cast<std::uint32_t>(counts[0]);
-  scene.parts.leaves = static_cast<std::uint32_t>(counts[1]);
-  scene.parts.trees.resize(counts[2]);
-  scene.parts.plain_trees = counts[3];
+  scene.parts.leaves = static_cast<std::uint32_t>(counts[0]);
+  scene.parts.trees.resize(counts[1]);
+  scene.parts.plain_trees = counts[2];
   std::size_t arrays = 0;
   visit_arrays(scene, [&](const auto&) { ++arrays; });
   if (!file.read(arrays, &sizes)) return {};

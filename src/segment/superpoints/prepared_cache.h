@@ -17,8 +17,8 @@
 
 namespace splatcut {
 
-std::uint64_t prepared_key(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world,
-                           std::span<const Camera> given, const PrepareOptions& options);
+std::uint64_t prepared_key(const GaussianCloud& cloud, std::span<const Camera> observing,
+                           const PrepareOptions& options);
 
 std::filesystem::path prepared_file(const std::filesystem::path& folder, std::uint64_t key);
 

@@ -8,19 +8,14 @@ namespace splatcut {
 
 namespace {
 
-PreparedScene made(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world,
-                   std::span<const Camera> given, const PrepareOptions& options, const Job& job) {
+PreparedScene made(const GaussianCloud& cloud, std::span<const Camera> observing,
+                   const PrepareOptions& options, const Job& job) {
   PreparedScene prepared;
   prepared.model = options.model;
   StageClock clock(&prepared.stages);
-  job.progress("graph", 0);
-  clock.time("graph", [&] { prepared.graph = knn_graph(cloud, options.graph, job); });
-  if (!options.with_parts) return prepared;
   job.progress("parts", 0);
-  clock.time("parts", [&] {
-    const auto views = observing_views(cloud, reference, up_world, given, options.observing, job);
-    prepared.parts = build_part_hierarchy(cloud, views, options.model.parts, job);
-  });
+  clock.time("parts",
+             [&] { prepared.parts = build_part_hierarchy(cloud, observing, options.model.parts, job); });
   return prepared;
 }
 
@@ -37,14 +32,14 @@ void keep(const PreparedScene& prepared, const PreparedCache& cache, std::uint64
 
 }  // namespace
 
-PreparedScene prepare_scene(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world,
-                            std::span<const Camera> given, const PrepareOptions& options, const Job& job) {
-  if (options.cache.folder.empty()) return made(cloud, reference, up_world, given, options, job);
+PreparedScene prepare_scene(const GaussianCloud& cloud, std::span<const Camera> observing,
+                            const PrepareOptions& options, const Job& job) {
+  if (options.cache.folder.empty()) return made(cloud, observing, options, job);
   std::vector<StageTime> stages;
   StageClock clock(&stages);
   std::uint64_t key = 0;
   auto kept = clock.time("cache", [&] {
-    key = prepared_key(cloud, reference, up_world, given, options);
+    key = prepared_key(cloud, observing, options);
     return read_prepared(prepared_file(options.cache.folder, key), key, cloud.size());
   });
   if (kept) {
@@ -56,7 +51,7 @@ PreparedScene prepare_scene(const GaussianCloud& cloud, const Camera& reference,
     kept->from_cache = true;
     return std::move(*kept);
   }
-  PreparedScene prepared = made(cloud, reference, up_world, given, options, job);
+  PreparedScene prepared = made(cloud, observing, options, job);
   if (job.cancelled()) return prepared;
   clock.time("cache", [&] { keep(prepared, options.cache, key); });
   prepared.stages.insert(prepared.stages.end(), stages.begin(), stages.end());

@@ -1,5 +1,4 @@
-// What is made of a scene once, before the first click: the graph of neighbours and the hierarchy of parts.
-// Cost: about 2 s for 300,000 Gaussians on two cores; in the window it runs in the background.
+// What is made of Gaussians before the first click on them: the hierarchy of parts.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,6 @@
 #include "core/stage_clock.h"
 #include "scene/camera/camera.h"
 #include "scene/cloud/gaussian_cloud.h"
-#include "segment/graphcut/knn_graph.h"
 #include "segment/superpoints/observing_views.h"
 #include "segment/superpoints/part_hierarchy.h"
 
@@ -26,25 +24,21 @@ struct PreparedCache {
 };
 
 struct PrepareOptions {
-  KnnOptions graph;
   ObservingOptions observing;
   PartModel model;
-  bool with_parts = true;  // they are not needed where masks come from pixels
   PreparedCache cache;
 };
 
 struct PreparedScene {
-  FlowGraph graph;
   PartHierarchy parts;
   PartModel model;  // that parts were made by, and that says what clicks mean
   std::vector<StageTime> stages;
   bool from_cache = false;
 };
 
-// reference: a view from where the scene is looked at; given: cameras of its photographs, may be empty.
-// Cancelled: the result is incomplete and must not be used.
-PreparedScene prepare_scene(const GaussianCloud& cloud, const Camera& reference, const glm::vec3& up_world,
-                            std::span<const Camera> given, const PrepareOptions& options = {},
-                            const Job& job = {});
+// observing: small views of the scene, see observing_views.h. Cancelled: the result is incomplete and must
+// not be used.
+PreparedScene prepare_scene(const GaussianCloud& cloud, std::span<const Camera> observing,
+                            const PrepareOptions& options = {}, const Job& job = {});
 
 }  // namespace splatcut

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "scene/raster/rasterizer.h"
 #include "scene/raster/splat_math.h"
 #include "segment/graphcut/k_nearest.h"
 
@@ -17,7 +16,8 @@ struct Observation {
   std::vector<glm::vec3> towards_views;  // sum of A_g times the direction to the view's centre
 };
 
-Observation observe(const GaussianCloud& cloud, std::span<const Camera> views, const Job& job) {
+Observation observe(const Drawer& drawer, std::span<const Camera> views, const Job& job) {
+  const GaussianCloud& cloud = drawer.cloud();
   Observation o{std::vector<float>(cloud.size(), 0), std::vector<glm::vec3>(cloud.size(), glm::vec3(0))};
   for (const Camera& view : views) {
     if (job.cancelled()) break;
@@ -27,7 +27,7 @@ Observation observe(const GaussianCloud& cloud, std::span<const Camera> views, c
     raster.colour = false;
     raster.sum_mask = &everything;
     raster.sums = &sums;
-    rasterize(cloud, view, raster, job);
+    drawer.draw(view, raster, job);
     const glm::vec3 centre = view.centre_world();
     for_each_index(cloud.size(), [&](std::size_t g) {
       if (sums.total[g] == 0) return;
@@ -96,9 +96,10 @@ void smooth_normals(const SurfaceFeatures& f, int rounds, std::vector<glm::vec3>
 
 }  // namespace
 
-SurfaceFeatures surface_features(const GaussianCloud& cloud, std::span<const Camera> observing,
+SurfaceFeatures surface_features(const Drawer& drawer, std::span<const Camera> observing,
                                  const SurfaceOptions& options, const Job& job) {
-  const Observation seen = observe(cloud, observing, job);
+  const GaussianCloud& cloud = drawer.cloud();
+  const Observation seen = observe(drawer, observing, job);
   SurfaceFeatures f;
   f.core = core_of(cloud, seen, !observing.empty(), options);
   const std::size_t n = f.core.size();

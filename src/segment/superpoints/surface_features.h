@@ -14,7 +14,7 @@
 
 #include "core/job.h"
 #include "scene/camera/camera.h"
-#include "scene/cloud/gaussian_cloud.h"
+#include "scene/raster/projected_view.h"
 #include "segment/superpoints/part_model.h"
 
 namespace splatcut {
@@ -30,7 +30,7 @@ struct SurfaceFeatures {
   std::vector<float> spacing;  // side of the piece of surface that one Gaussian stands for, scene units
 };
 
-SurfaceFeatures surface_features(const GaussianCloud& cloud, std::span<const Camera> observing,
+SurfaceFeatures surface_features(const Drawer& drawer, std::span<const Camera> observing,
                                  const SurfaceOptions& options, const Job& job = {});
 
 }  // namespace splatcut

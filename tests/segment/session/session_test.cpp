@@ -19,7 +19,6 @@ namespace {
 struct Table {
   LabelledScene scene;
   std::shared_ptr<const GaussianCloud> cloud;
-  std::shared_ptr<const PreparedScene> prepared;
 };
 
 const Table& table() {
@@ -29,15 +28,13 @@ const Table& table() {
     options.gaussians = 25000;
     t.scene = make_still_life(options);
     t.cloud = std::make_shared<const GaussianCloud>(t.scene.cloud);
-    t.prepared = std::make_shared<const PreparedScene>(
-        prepare_scene(*t.cloud, t.scene.cameras.front(), {0, -1, 0}, t.scene.cameras));
     return t;
   }();
   return made;
 }
 
 Session fresh_session() {
-  return Session({table().cloud, table().prepared, {0, -1, 0}, {}});
+  return Session({.cloud = table().cloud, .photographs = table().scene.cameras});
 }
 
 CutSettings with_views_around() {
@@ -118,14 +115,6 @@ TEST_CASE("session: kept steps, flow and other objects before it change no label
     CHECK(std::ranges::count(kept.labels, 1) > 0);
     CHECK(kept.labels == fresh_session().cut(request, settings).labels);
   }
-}
-
-TEST_CASE("session: paper-code cuts on its nine neighbours, not on the ten that are prepared") {
-  const CutSettings code = preset("paper-code");
-  REQUIRE(code.neighbours == 9);
-  Session session = fresh_session();
-  CHECK(session.graph(code).listed == 9);
-  CHECK(&session.graph(preset("default")) == &table().prepared->graph);
 }
 
 TEST_CASE("session: without neighbours the heat map decides every label, corrections and all") {
@@ -299,11 +288,7 @@ TEST_CASE(
   options.contact = options.low_contrast = true;
   const LabelledScene scene = make_still_life(options);
   const auto cloud = std::make_shared<const GaussianCloud>(scene.cloud);
-  Session session({cloud,
-                   std::make_shared<const PreparedScene>(
-                       prepare_scene(*cloud, scene.cameras.front(), {0, -1, 0}, scene.cameras)),
-                   {0, -1, 0},
-                   {}});
+  Session session({.cloud = cloud, .photographs = scene.cameras});
   for (const std::string name : {"apple", "mug", "orange"}) {
     CAPTURE(name);
     const auto seed = std::ranges::find(scene.seeds, name, &LabelledScene::SeedClick::object);

@@ -47,7 +47,6 @@ TEST_CASE("parts: draws of unsteady clicks, their median, their least and the cl
   const Table& t = table();
   EvaluationCase scene;
   scene.cloud = &t.cloud;
-  scene.prepared = &t.prepared;
   const auto index = std::ranges::find(t.scene.label_name, "mug") - t.scene.label_name.begin();
   for (const auto label : t.label) scene.truth_labels.push_back(label == index);
   scene.reference = target(t, "mug").camera;

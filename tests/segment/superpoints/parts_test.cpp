@@ -192,7 +192,7 @@ TEST_CASE("parts: cancelled before, or at any step that reports progress, withou
     job.on_progress = [&](std::string_view, double) {
       if (seen++ == step) stop.request_stop();
     };
-    prepare_scene(cloud, camera, {0, -1, 0}, {}, {}, job);
+    prepare_scene(cloud, observing_views(cloud, camera, {0, -1, 0}, {}, {}, job), {}, job);
     stopped_on_the_way += stop.stop_requested();
   }
   CHECK(stopped_on_the_way > 0);
@@ -200,23 +200,11 @@ TEST_CASE("parts: cancelled before, or at any step that reports progress, withou
   stopped.request_stop();
   Job job;
   job.stop = stopped.get_token();
-  CHECK(prepare_scene(cloud, camera, {0, -1, 0}, {}, {}, job).parts.trees.empty());
-  const auto prepared = std::make_shared<const PreparedScene>(prepare_scene(cloud, camera, {0, -1, 0}, {}));
-  Session session({{std::shared_ptr<void>(), &cloud}, prepared, {0, -1, 0}, {}});
+  CHECK(prepare_scene(cloud, observing_views(cloud, camera, {0, -1, 0}, {}, {}, job), {}, job)
+            .parts.trees.empty());
+  Session session({.cloud = {std::shared_ptr<void>(), &cloud}});
   CutRequest request;
   request.strokes = {{camera, {click({80, 60}, SeedLabel::kObject)}}};
-  const Mask none = session.first_mask(request, preset("default"), job);
-  CHECK(none.width() == 160);
-  CHECK(count(none) == 0);
-}
-
-TEST_CASE("parts: a scene prepared for masks from pixels has none") {
-  CutSettings options = preset("default");
-  CHECK(prepare_options(options).with_parts);
-  options.first_mask_from = FirstMaskFrom::kPixels;
-  const GaussianCloud cloud = random_cloud(1000, 8);
-  const Camera camera = look_at({0, 0, -4}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120);
-  const PreparedScene prepared = prepare_scene(cloud, camera, {0, -1, 0}, {}, prepare_options(options));
-  CHECK(prepared.parts.trees.empty());
-  CHECK(prepared.graph.nodes() == cloud.size());
+  CHECK(count(session.first_mask(request, preset("default"), job)) == 0);
+  CHECK(session.neighbourhoods() == 0);
 }

@@ -26,9 +26,7 @@ struct Folder {
 };
 
 bool same(const PreparedScene& a, const PreparedScene& b) {
-  if (a.graph.first_arc != b.graph.first_arc || a.graph.head != b.graph.head ||
-      a.graph.reverse_arc != b.graph.reverse_arc || a.graph.listed != b.graph.listed ||
-      a.parts.leaves != b.parts.leaves || a.parts.leaf_of != b.parts.leaf_of ||
+  if (a.parts.leaves != b.parts.leaves || a.parts.leaf_of != b.parts.leaf_of ||
       a.parts.trees.size() != b.parts.trees.size())
     return false;
   for (std::size_t t = 0; t < a.parts.trees.size(); ++t) {
@@ -52,8 +50,8 @@ void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
 struct Example {
   GaussianCloud cloud = random_cloud(2000, 4);
   Camera reference = front_camera();
-  PreparedScene prepared = prepare_scene(cloud, reference, {0, -1, 0}, {});
-  std::uint64_t key = prepared_key(cloud, reference, {0, -1, 0}, {}, {});
+  PreparedScene prepared = prepare_scene(cloud, observing_views(cloud, reference, {0, -1, 0}, {}));
+  std::uint64_t key = prepared_key(cloud, observing_views(cloud, reference, {0, -1, 0}, {}), {});
 };
 
 }  // namespace
@@ -111,11 +109,6 @@ TEST_CASE("indices that lead outside are refused even with a right checksum") {
     return !read_prepared(file, e.key, e.cloud.size());
   };
   CHECK_FALSE(refused([](PreparedScene&) {}));
-  CHECK(refused([&](PreparedScene& s) { s.graph.head[5] = static_cast<std::uint32_t>(e.cloud.size()); }));
-  CHECK(
-      refused([](PreparedScene& s) { s.graph.reverse_arc[5] = static_cast<std::uint32_t>(s.graph.arcs()); }));
-  CHECK(refused([](PreparedScene& s) { s.graph.first_arc[3] = s.graph.first_arc.back() + 1; }));
-  CHECK(refused([](PreparedScene& s) { s.graph.first_arc.pop_back(); }));
   CHECK(refused([](PreparedScene& s) { s.parts.leaf_of[0] = s.parts.leaves; }));
   CHECK(refused([](PreparedScene& s) { s.parts.trees[1].parent[0] = 0; }));
   CHECK(refused([](PreparedScene& s) {
@@ -129,7 +122,7 @@ TEST_CASE("the key changes with all that the preparation depends on") {
   Example e;
   const auto key = [&](const GaussianCloud& cloud, const Camera& camera, std::span<const Camera> given,
                        const PrepareOptions& options) {
-    return prepared_key(cloud, camera, {0, -1, 0}, given, options);
+    return prepared_key(cloud, observing_views(cloud, camera, {0, -1, 0}, given), options);
   };
   CHECK(key(e.cloud, e.reference, {}, {}) == e.key);
   GaussianCloud cloud = e.cloud;
@@ -146,16 +139,11 @@ TEST_CASE("the key changes with all that the preparation depends on") {
   CHECK(key(e.cloud, camera, {}, {}) != e.key);
   CHECK(key(e.cloud, e.reference, std::vector{camera}, {}) != e.key);
   PrepareOptions options;
-  options.graph.neighbours = 9;
+  options.observing.width_px = 80;
   CHECK(key(e.cloud, e.reference, {}, options) != e.key);
   options = {};
   options.model.parts.merging.gap += 0.1f;
   CHECK(key(e.cloud, e.reference, {}, options) != e.key);
-  options = {};
-  options.with_parts = false;
-  const auto graph_only = key(e.cloud, e.reference, {}, options);
-  CHECK(graph_only != e.key);
-  CHECK(key(e.cloud, camera, {}, options) == graph_only);  // no camera plays a part
 }
 
 TEST_CASE("prepare_scene fills the cache and reads from it, a cancelled run leaves nothing") {
@@ -167,10 +155,12 @@ TEST_CASE("prepare_scene fills the cache and reads from it, a cancelled run leav
   stop.request_stop();
   Job cancelled;
   cancelled.stop = stop.get_token();
-  prepare_scene(e.cloud, e.reference, {0, -1, 0}, {}, options, cancelled);
+  prepare_scene(e.cloud, observing_views(e.cloud, e.reference, {0, -1, 0}, {}), options, cancelled);
   CHECK_FALSE(std::filesystem::exists(options.cache.folder));
-  CHECK_FALSE(prepare_scene(e.cloud, e.reference, {0, -1, 0}, {}, options).from_cache);
-  const PreparedScene again = prepare_scene(e.cloud, e.reference, {0, -1, 0}, {}, options);
+  CHECK_FALSE(
+      prepare_scene(e.cloud, observing_views(e.cloud, e.reference, {0, -1, 0}, {}), options).from_cache);
+  const PreparedScene again =
+      prepare_scene(e.cloud, observing_views(e.cloud, e.reference, {0, -1, 0}, {}), options);
   CHECK(again.from_cache);
   CHECK(same(again, e.prepared));
 }

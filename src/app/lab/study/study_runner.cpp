@@ -124,7 +124,7 @@ StudyRunner::StudyRunner(nlohmann::json entry, std::filesystem::path folder, Pre
 
 void StudyRunner::load(const CutSettings& settings, const Job& job) {
   if (loaded_) return;
-  loaded_ = load_case(entry_, folder_, prepare_options(settings, cache_), job);
+  loaded_ = load_case(entry_, folder_, {.observing = {}, .model = {}, .cache = cache_}, job);
   constexpr std::size_t kMostBytes = std::size_t{768} << 20;  // the test views of a scene, at their own size
   measured_views_.emplace(*loaded_->test.cloud, kMostBytes);
   loaded_->test.kept_views = &*measured_views_;
@@ -134,21 +134,15 @@ void StudyRunner::change_scene(const StudyCell& cell, const CutSettings& setting
                                EvaluationCase* test) {
   if (cell.scene_scale == 1 && cell.hidden == 0) return;
   if (variant_.scale != cell.scene_scale || variant_.hidden != cell.hidden) {
-    variant_ = {cell.scene_scale,
-                cell.hidden,
-                with_board(loaded_->test, cell.hidden),
-                {},
+    variant_ = {cell.scene_scale, cell.hidden, with_board(loaded_->test, cell.hidden),
                 loaded_->test.truth_labels};
     variant_.truth.resize(test->truth_labels.empty() ? 0 : variant_.cloud.size(), 0);
     variant_.cloud = rescaled(variant_.cloud, static_cast<float>(cell.scene_scale));
-    const EvaluationCase there = rescaled(*test, static_cast<float>(cell.scene_scale));
-    variant_.prepared = prepare_scene(variant_.cloud, there.reference, there.up_world, there.scene_cameras,
-                                      prepare_options(settings), job);  // no cache: nobody opens it again
   }
   *test = rescaled(*test, static_cast<float>(cell.scene_scale));
   test->cloud = &variant_.cloud;
   test->kept_views = nullptr;
-  test->prepared = &variant_.prepared;
+  test->prepare.cache = {};  // nobody opens it again
   test->truth_labels = variant_.truth;
   if (cell.hidden > 0) render_truth(test);
 }
@@ -204,7 +198,6 @@ std::unique_ptr<StudyRunner::Setup> StudyRunner::set_up(const StudyCell& cell, c
 
 StudyRunner::Timed StudyRunner::cut(const Setup& setup, const Job& job) const {
   Session session = session_of(setup.test);
-  session.make_ready(setup.settings, job);  // belongs to loading, as in the window
   const auto start = std::chrono::steady_clock::now();
   CutResult result = session.cut(setup.request, setup.settings, job);
   return {std::move(result),

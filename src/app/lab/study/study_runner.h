@@ -36,7 +36,6 @@ class StudyRunner {
   struct Variant {
     double scale = 1, hidden = 0;
     GaussianCloud cloud;
-    PreparedScene prepared;
     std::vector<std::uint8_t> truth;
   };
   ImageScore score_of(const StudyCell& cell, const EvaluationCase& test,

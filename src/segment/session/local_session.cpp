@@ -1,0 +1,300 @@
+#include "segment/session/local_session.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "core/error.h"
+#include "core/stage_clock.h"
+#include "segment/graphcut/knn_graph.h"
+#include "segment/graphcut/likelihood.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/session/correction.h"
+#include "segment/session/pipeline.h"
+#include "segment/session/reference_mask.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr std::size_t kMostKept = 3;  // cuts from a reference: each takes about 20 bytes a Gaussian
+
+// Times the views used: a correction must win against all that missed it.
+constexpr int kCorrectionWeight = 4;
+
+bool left_out(const CutRequest& request, const Camera& camera) {
+  return std::ranges::any_of(request.left_out, [&](const Camera& c) { return same_view(c, camera); });
+}
+
+// Of the views but the reference those that the user leaves out no longer count. Returns how many.
+std::size_t leave_out(const CutRequest& request, std::vector<ViewReport>* views) {
+  std::size_t count = 0;
+  for (std::size_t v = 1; v < views->size(); ++v) {
+    ViewReport& view = (*views)[v];
+    if (!left_out(request, view.camera)) continue;
+    view.used = false;
+    view.reason = "left out";
+    ++count;
+  }
+  return count;
+}
+
+std::ptrdiff_t views_used(const CutResult& result) {
+  return std::ranges::count_if(result.views, &ViewReport::used);
+}
+
+std::string key_of_views(const std::vector<ViewReport>& views, bool hard_counts) {
+  CutRequest request;  // its key says which masks there are
+  for (const ViewReport& view : views)
+    if (view.used) request.masks.push_back({view.camera, view.mask});
+  return key_of(request) + (hard_counts ? 'h' : 's');
+}
+
+CutSettings without_smoothness(CutSettings settings) {
+  settings.smoothness.reset();
+  return settings;
+}
+
+// Given masks of several views are made by people, and each is one more observation of its own: nothing is
+// guessed from parts or taken away beside them, and the more there are the more they say against the
+// neighbours. On photographs, each predicted from the masks of all others: docs/masks.md. The paper's presets
+// stay as they are published.
+CutSettings with_given_masks(CutSettings settings, std::size_t others) {
+  if (others == 0 || settings.first_mask_from != FirstMaskFrom::kParts) return settings;
+  constexpr float kFewMasks = 3;  // the energy's weights are those of so many
+  const float share = std::min(1.0f, kFewMasks / static_cast<float>(others + 1));
+  settings.prior_px_per_view = 0;
+  settings.trim = false;
+  settings.cut.energy.v0_px_per_view_at_400 *= share;
+  settings.cut.energy.lambda *= share;
+  if (settings.smoothness) *settings.smoothness *= share;
+  return settings;
+}
+
+}  // namespace
+
+// A request, checked and analysed.
+struct LocalSession::Asked {
+  const CutRequest& request;
+  CutSettings settings;
+  std::vector<StrokedView> by_view;
+  std::optional<ReferenceView> reference;
+  CutSettings first_settings;  // of the cut from the reference
+  std::string first_key;
+  bool by_parts = false;  // then strokes of all views are replayed in the first cut
+
+  // Strokes in other views than the reference.
+  std::vector<const StrokedView*> corrections() const {
+    std::vector<const StrokedView*> views;
+    if (by_parts) return views;
+    for (const StrokedView& view : by_view)
+      if (!view.strokes.empty() && (request.first_mask || !same_view(view.camera, reference->camera)))
+        views.push_back(&view);
+    return views;
+  }
+  bool smoother() const { return settings.last_lambda() != settings.cut.energy.lambda; }
+};
+
+LocalSession::LocalSession(LocalScene scene)
+    : scene_(std::move(scene)), views_(*scene_.cloud), strokes_(scene_.prepared->parts) {}
+
+const FlowGraph& LocalSession::graph(const CutSettings& settings, const Job& job) {
+  const std::size_t most = scene_.cloud->size() > 0 ? scene_.cloud->size() - 1 : 0;
+  const auto wanted =
+      static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(settings.neighbours), most));
+  if (graph_ && graph_->listed == wanted) return *graph_;
+  solver_.reset();
+  job.progress("graph", 0);
+  graph_ = knn_graph(*scene_.cloud, {settings.neighbours}, job);
+  return *graph_;
+}
+
+CutSolver& LocalSession::solver(const CutSettings& settings, const Job& job) {
+  const FlowGraph& neighbours = graph(settings, job);
+  if (solver_)
+    solver_->set_options(settings.cut);
+  else
+    solver_.emplace(*scene_.cloud, neighbours, settings.cut);
+  return *solver_;
+}
+
+CutScene LocalSession::scene_for(const CutRequest& request, const CutSettings& settings, const Job& job) {
+  const PartHierarchy& parts = scene_.prepared->parts;
+  if (settings.first_mask_from == FirstMaskFrom::kParts && parts.leaf_of.size() != scene_.cloud->size())
+    throw Error("first mask", "the scene was prepared without parts", "Prepare it with the same settings");
+  return {{*scene_.cloud, &views_},
+          graph(settings, job),
+          parts,
+          scene_.prepared->model,
+          solver(settings, job),
+          strokes_,
+          request.up_world.value_or(scene_.up_world),
+          scene_.photographs};
+}
+
+LocalSession::Asked LocalSession::asked(const CutRequest& request, const CutSettings& settings) const {
+  check(settings);
+  Asked asked{request, with_given_masks(settings, request.masks.size())};
+  asked.by_view = strokes_by_view(request.strokes);
+  asked.first_settings = without_smoothness(asked.settings);
+  asked.reference = reference_of(request, asked.by_view);
+  asked.by_parts = settings.first_mask_from == FirstMaskFrom::kParts && !request.first_mask;
+  if (asked.reference)
+    asked.first_key =
+        key_of_reference(request, *asked.reference) + (asked.by_parts ? key_of_strokes(request) : "");
+  return asked;
+}
+
+LocalSession::Kept* LocalSession::kept(const Asked& asked) {
+  if (asked.request.mask_source) return nullptr;  // it may answer differently now
+  const auto found = std::ranges::find_if(
+      kept_, [&](const Kept& k) { return k.key == asked.first_key && k.settings == asked.first_settings; });
+  if (found == kept_.end()) return nullptr;
+  kept_.splice(kept_.begin(), kept_, found);
+  return &kept_.front();
+}
+
+LocalSession::Kept& LocalSession::from_reference(const Asked& asked, const Job& job,
+                                                 const OnSnapshot& on_snapshot, bool* fresh) {
+  Kept* known = kept(asked);
+  *fresh = known == nullptr;
+  if (known) return *known;
+  job.progress("first mask", 0);
+  Kept made{asked.first_key, asked.first_settings, {}, {}, {}};
+  made.result.outcome = Outcome::kCancelled;
+  const CutScene scene = scene_for(asked.request, asked.first_settings, job);
+  if (!job.cancelled())
+    made.result =
+        cut_from_reference({scene, *asked.reference, asked.request, asked.first_settings, job}, on_snapshot);
+  if (made.result.outcome == Outcome::kCancelled) return cancelled_ = std::move(made);
+  kept_.push_front(std::move(made));
+  if (kept_.size() > kMostKept) kept_.pop_back();
+  return kept_.front();
+}
+
+// Sums of the views that count, kept until those differ. False: cancelled.
+bool LocalSession::add_up_views(const CutResult& result, const CutSettings& settings, const Job& job,
+                                Kept* first) {
+  std::string key = key_of_views(result.views, settings.hard_counts);
+  if (first->sums && key == first->sums_key) return !job.cancelled();
+  first->sums.reset();
+  MaskedSums sums(scene_.cloud->size());
+  for (const ViewReport& view : result.views)
+    if (view.used && !job.cancelled())
+      add_masked_sums({*scene_.cloud, &views_}, view.camera, view.mask, settings.hard_counts, job, &sums);
+  if (job.cancelled()) return false;
+  first->sums = std::move(sums);
+  first->sums_key = std::move(key);
+  return true;
+}
+
+// The likelihood of the last cut: the views that count, corrected by strokes in other views, with the prior
+// of the parts. The result's views are those of the first cut; views of corrections are appended.
+Likelihood LocalSession::evidence(const Asked& asked, const Job& job, Kept* first, CutResult* result) {
+  const CutSettings& settings = asked.settings;
+  StageClock clock(&result->stages);
+  if (!clock.time("likelihood", [&] { return add_up_views(*result, settings, job, first); })) return {};
+  const std::ptrdiff_t first_used = views_used(*result);
+  const Drawer drawer(*scene_.cloud, &views_);
+  MaskedSums sums = *first->sums;
+  for (const StrokedView* view : asked.corrections()) {
+    if (job.cancelled()) break;
+    const Correction c =
+        clock.time("masks", [&] { return corrected(drawer, *view, first->result.labels, settings, job); });
+    clock.time("likelihood", [&] {
+      add_masked_sums(drawer, c.camera, c.mask, settings.hard_counts, job, &sums);
+      add_weighted(drawer, c, kCorrectionWeight * first_used, settings.hard_counts, job, &sums);
+    });
+    result->views.push_back(
+        {.camera = c.camera, .mask = c.mask, .used = true, .confidence = 1, .reason = {}});
+  }
+  return with_prior(likelihood(sums), first->result.prior,
+                    settings.prior_px_per_view * static_cast<float>(views_used(*result)));
+}
+
+// The last cut. result: that of the first.
+void LocalSession::correct(const Asked& asked, const Job& job, Kept* first, CutResult* result) {
+  CutSettings settings = asked.settings;
+  settings.cut.energy.lambda = asked.settings.last_lambda();
+  const Likelihood weighed = evidence(asked, job, first, result);
+  if (job.cancelled()) return;
+  job.progress("cut", 0.9);
+  StageClock clock(&result->stages);
+  const LookedAt looked = looked_at(result->views);
+  CutReport report = clock.time("cut", [&] {
+    return solver(settings, job).solve(weighed, looked.views, looked.pixels_per_view(), job, result->said);
+  });
+  if (job.cancelled()) return;
+  result->cut = report;
+  result->labels = std::move(report.labels);
+  keep_object(result);
+  if (settings.trim)
+    result->trimmed = clock.time("trim", [&] {
+      return trim_to_views({*scene_.cloud, &views_}, result->views, settings, &result->labels, job);
+    });
+  obey_strokes(result);
+}
+
+CutResult LocalSession::cut(const CutRequest& request, const CutSettings& settings, const Job& job,
+                            const OnSnapshot& on_snapshot) {
+  const Asked asked = this->asked(request, settings);
+  if (!asked.reference) {
+    CutResult nothing;
+    nothing.outcome = Outcome::kNothingFound;
+    nothing.reason = "no stroke marks the object yet; click on it";
+    nothing.labels.assign(scene_.cloud->size(), 0);
+    return nothing;
+  }
+  bool fresh = false;
+  Kept& first = from_reference(asked, job, on_snapshot, &fresh);
+  CutResult result = first.result;
+  if (!fresh) result.stages.clear();
+  if (result.outcome != Outcome::kDone || settings.parts_only) return result;
+  const std::size_t without = leave_out(request, &result.views);
+  if (without == 0 && asked.corrections().empty() && !asked.smoother()) return result;
+  correct(asked, job, &first, &result);
+  if (job.cancelled()) result.outcome = Outcome::kCancelled;
+  return result;
+}
+
+Mask LocalSession::first_mask(const CutRequest& request, const CutSettings& settings, const Job& job) {
+  const Asked asked = this->asked(request, settings);
+  if (!asked.reference) return {};
+  const CutScene scene = scene_for(request, asked.first_settings, job);
+  return first_mask_of({scene, *asked.reference, request, asked.first_settings, job});
+}
+
+LocalSession::Preview LocalSession::preview(const CutRequest& request, const CameraStroke& stroke,
+                                            const CutSettings& settings, const Job& job) {
+  if (settings.first_mask_from != FirstMaskFrom::kParts ||
+      scene_.prepared->parts.leaf_of.size() != scene_.cloud->size())
+    return {};
+  const Drawer drawer(*scene_.cloud, &views_);
+  const ReplayOptions options = replay_options(request, settings, scene_.prepared->model);
+  std::vector<CameraStroke> strokes = strokes_in_order(request);
+  Preview preview;
+  preview.before = strokes_.replay(drawer, strokes, options, job).labels();
+  strokes.push_back(stroke);
+  preview.after = strokes_.replay(drawer, strokes, options, job).labels();
+  return job.cancelled() ? Preview{} : preview;
+}
+
+std::vector<std::uint8_t> LocalSession::meant(const CutRequest& request, const CutSettings& settings,
+                                              const Job& job) {
+  return strokes_
+      .replay({*scene_.cloud, &views_}, strokes_in_order(request),
+              replay_options(request, settings, scene_.prepared->model), job)
+      .labels();
+}
+
+std::vector<float> LocalSession::likelihood_of(const CutRequest& request, const CutSettings& settings,
+                                               const Job& job) {
+  const Asked asked = this->asked(request, settings);
+  if (!asked.reference) return std::vector<float>(scene_.cloud->size(), 0);
+  bool fresh = false;
+  Kept& first = from_reference(asked, job, {}, &fresh);
+  CutResult result = first.result;
+  leave_out(request, &result.views);
+  return evidence(asked, job, &first, &result).w;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,21 @@
+// What strokes hit of a whole scene.
+//
+// In: a stroke and its camera. Out: per point of it the place on the surface that its pixel shows, or that of
+// the nearest pixel within a eightieth of the picture's width that shows anything. A click is looked up in
+// the camera's own pixels, a scribble in a picture of at most 320 pixels. Cost: one drawing of the blocks
+// that these pixels show.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scene/raster/projected_view.h"
+#include "segment/selection/stroke_replay.h"
+
+namespace splatcut {
+
+using StrokeHits = std::vector<std::optional<glm::vec3>>;  // world, per point
+
+StrokeHits stroke_hits(const Drawer& scene, const CameraStroke& stroke, const Job& job = {});
+
+}  // namespace splatcut
