@@ -61,10 +61,14 @@ std::uint64_t hash_bytes(std::span<const std::byte> bytes, std::uint64_t seed) {
                     of_piece.size() * sizeof(std::uint64_t), seed);
 }
 
+std::uint64_t hash_of_file(const std::filesystem::path& path) {
+  return hash_bytes(MappedFile(path).bytes());
+}
+
 std::uint64_t hash_of_program() {
   static const std::uint64_t hash = [] {
     try {
-      return hash_bytes(MappedFile("/proc/self/exe").bytes());
+      return hash_of_file("/proc/self/exe");
     } catch (const Error&) {
       return std::uint64_t{0};
     }

@@ -5,12 +5,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <type_traits>
 
 namespace splatcut {
 
 std::uint64_t hash_bytes(std::span<const std::byte> bytes, std::uint64_t seed = 0);
+
+// Throws Error for a file that cannot be read.
+std::uint64_t hash_of_file(const std::filesystem::path& path);
 
 // Of the file of the running program; 0 where it cannot be read. Results kept by another build are told by
 // it.

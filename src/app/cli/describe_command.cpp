@@ -199,7 +199,7 @@ complete -o default -F _{0} {0}
 
 }  // namespace
 
-void add_describe_command(CLI::App& program) {
+void add_describe_command(CLI::App& program, const CommonOptions&) {
   auto what = std::make_shared<std::string>();
   CLI::App& command = *program.add_subcommand("describe", "Write the manual page or the completion of bash");
   command.group("");

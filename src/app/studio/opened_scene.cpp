@@ -5,6 +5,7 @@
 
 #include "app/console/camera_options.h"
 #include "app/studio/camera_controller.h"
+#include "core/byte_hash.h"
 #include "core/error.h"
 #include "scene/camera/camera_file.h"
 #include "scene/formats/merged_scene.h"

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "core/error.h"
-#include "core/mapped_file.h"
 
 namespace splatcut {
 
@@ -76,21 +74,6 @@ Camera moved(const Camera& camera, const Similarity& to) {
       camera.camera_from_world_rotation * glm::transpose(glm::mat3_cast(to.rotation));
   out.camera_from_world_translation = -(out.camera_from_world_rotation * moved(camera.centre_world(), to));
   return out;
-}
-
-std::uint64_t hash_of_file(const std::filesystem::path& path) {
-  const MappedFile file(path);
-  const std::span<const std::byte> bytes = file.bytes();
-  std::uint64_t hash = 14695981039346656037ull;
-  constexpr std::uint64_t kPrime = 1099511628211ull;
-  std::size_t i = 0;
-  for (; i + 8 <= bytes.size(); i += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + i, 8);
-    hash = (hash ^ word) * kPrime;
-  }
-  for (; i < bytes.size(); ++i) hash = (hash ^ static_cast<std::uint64_t>(bytes[i])) * kPrime;
-  return hash;
 }
 
 }  // namespace splatcut

@@ -65,7 +65,4 @@ ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& 
 // Sees of a moved scene what the camera sees of the scene.
 Camera moved(const Camera& camera, const Similarity& to);
 
-// FNV-1a over the 64-bit words of the file.
-std::uint64_t hash_of_file(const std::filesystem::path& path);
-
 }  // namespace splatcut

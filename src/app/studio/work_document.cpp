@@ -54,8 +54,7 @@ ObjectItem object_from(const json& j, const ReadFlags& flags) {
                        flags(view.value("seen", json()), 1)});
   o.choice = j.value("choice", 0);
   o.part_step = j.value("part_step", 0);
-  for (const json& camera : j.value("left_out", json::array()))
-    if (camera.is_object()) o.left_out.push_back(camera_from(camera));
+  for (const json& camera : j.value("left_out", json::array())) o.left_out.push_back(camera_from(camera));
   if (j.contains("up")) o.up_world = direction_from(j.at("up"));
   if (j.contains("smoothness")) o.smoothness = j.at("smoothness").get<float>();
   o.cut = flags(j.value("cut", json()), 1);
@@ -78,9 +77,8 @@ json document_json(const Document& document, const WriteFlags& flags) {
           {"objects", std::move(objects)}};
 }
 
-ReadDocument document_from(const json& j, std::span<const json* const> objects, const ReadFlags& flags) {
-  ReadDocument out;
-  Document& d = out.document;
+Document document_from(const json& j, std::span<const json* const> objects, const ReadFlags& flags) {
+  Document d;
   d.active = j.value("active", 0u);
   d.next_id = j.at("next_id");
   d.up_world = direction_from(j.at("up"));
@@ -94,14 +92,10 @@ ReadDocument document_from(const json& j, std::span<const json* const> objects, 
     ObjectItem o = object_from(*said, flags);
     if (o.id == 0 || o.id >= d.next_id || d.find(o.id))
       throw Error("objects", fmt::format("the id {} is used twice or out of range", o.id));
-    const bool forgotten = said->value("left_out", json::array()).size() != o.left_out.size();
-    if (forgotten)
-      out.warning = "which views were left out of " + o.name +
-                    " is not known any more: the file is of an older splatcut. Leave them out again";
-    if (o.cut && !forgotten && said->value("cut_is_current", false)) o.cut_key = cut_key(d, o);
+    if (o.cut && said->value("cut_is_current", false)) o.cut_key = cut_key(d, o);
     d.objects.push_back(std::move(o));
   }
-  return out;
+  return d;
 }
 
 }  // namespace splatcut

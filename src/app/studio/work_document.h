@@ -4,7 +4,6 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
-#include <string>
 
 #include "app/studio/document.h"
 
@@ -16,14 +15,9 @@ using ReadFlags = std::function<Flags(const nlohmann::json&, std::uint8_t most)>
 
 nlohmann::json document_json(const Document& document, const WriteFlags& flags);
 
-struct ReadDocument {
-  Document document;
-  std::string warning;  // a sentence about what the text could not say, or empty
-};
-
 // objects: those of the document, wherever they stand. Throws Error, or a json::exception where the form is
 // not the expected one.
-ReadDocument document_from(const nlohmann::json& j, std::span<const nlohmann::json* const> objects,
-                           const ReadFlags& flags);
+Document document_from(const nlohmann::json& j, std::span<const nlohmann::json* const> objects,
+                       const ReadFlags& flags);
 
 }  // namespace splatcut

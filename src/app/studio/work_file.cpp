@@ -19,9 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-// 1 stored left-out views by number; 2 lacked the choice and the Gaussians displayed at a stroke; 3 knew one
-// file only, and is still written where there is one.
-constexpr int kVersion = 4, kVersionOfOneFile = 3;
+constexpr int kVersion = 5;
 
 json parse(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -31,10 +29,10 @@ json parse(const std::filesystem::path& path) {
   if (!work.is_object() || !work.contains("splatcut_work"))
     throw Error(path.string(), "is no work file of splatcut");
   const json& version = work["splatcut_work"];
-  if (!version.is_number_integer() || version < 1)
+  if (version != kVersion)
     throw Error(path.string(),
-                fmt::format("its version {} is none that a splatcut writes", json_text(version)));
-  if (version > kVersion) throw Error(path.string(), "was written by a newer splatcut", "Update splatcut");
+                fmt::format("is of version {}, this splatcut reads version {}", json_text(version), kVersion),
+                "Open the scene itself to start anew");
   return work;
 }
 
@@ -86,8 +84,7 @@ void read_history(const json& said, const Scene& scene, RestoredWork* work) {
   } catch (const json::exception& error) {
     fault = fault_of(error);
   }
-  work->warning +=
-      (work->warning.empty() ? "" : ". ") + ("the steps before it cannot be undone (" + fault + ")");
+  work->warning = "the steps before it cannot be undone (" + fault + ")";
 }
 
 }  // namespace
@@ -124,10 +121,10 @@ RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
     const json& work = *file.content;
     std::vector<const json*> objects;
     for (const json& o : work.at("objects")) objects.push_back(&o);
-    ReadDocument read = document_from(work, objects, [&scene](const json& runs, std::uint8_t most) {
+    Document document = document_from(work, objects, [&scene](const json& runs, std::uint8_t most) {
       return flags_from(runs, scene, most);
     });
-    RestoredWork out{std::move(read.document), {}, std::move(read.warning), {}};
+    RestoredWork out{std::move(document), {}, {}, {}};
     if (work.contains("view")) out.view = pose_from(work.at("view"));
     if (work.contains("history")) read_history(work["history"], scene, &out);
     return out;
@@ -143,7 +140,7 @@ void write_work_file(const std::filesystem::path& path, const OpenedScene& opene
   const Scene& scene = *opened.scene;
   const std::span<const SceneSource> files = opened.files;
   json work = document_json(document, [&scene](const Flags& flags) { return runs_json(flags, scene); });
-  work["splatcut_work"] = files.size() > 1 ? kVersion : kVersionOfOneFile;
+  work["splatcut_work"] = kVersion;
   work["scene"] = source_json(files.front(), path);
   for (const SceneSource& file : files.subspan(1)) work["added"].push_back(source_json(file, path));
   if (view) work["view"] = pose_json(*view);

@@ -154,7 +154,7 @@ SavedSteps history_from(const json& j, const Scene& scene, const Document& docum
     }
     std::vector<const json*> own;
     for (const json& number : step.at("objects")) own.push_back(&objects.at(number.get<std::size_t>()));
-    out.steps.push_back({step.at("title"), document_from(step, own, flags).document});
+    out.steps.push_back({step.at("title"), document_from(step, own, flags)});
   }
   return out;
 }

@@ -19,7 +19,7 @@
   row(kSog)                         \
   row(kStreamedSog)                 \
   row(kGlb)                         \
-  row(kKsplat)                      \
+  row(kKsplat)
 // clang-format on
 
 namespace splatcut {

@@ -18,7 +18,7 @@
 #define SPLATCUT_PROPAGATORS(row) \
   row(kLift)                      \
   row(kWarp)                      \
-  row(kFlow)                      \
+  row(kFlow)
 // clang-format on
 
 namespace splatcut {
@@ -34,18 +34,18 @@ struct SeenView {
 // A view whose mask is wanted.
 struct OpenView {
   const Camera& camera;
-  const Image<Rgb8>& picture;       // of a propagator that is of pictures; this and the rest are of one size
-  const Image<float>& depth;        // the same
-  std::span<const SeenView> seen;   // the same, never empty then
+  const Image<Rgb8>& picture;      // of a propagator that is of pictures; this and the rest are of one size
+  const Image<float>& depth;       // the same
+  std::span<const SeenView> seen;  // the same, never empty then
   std::function<Mask()> rendered_labels;  // the 3D cut so far, rendered into the view
 };
 
 // One row. A value that is copied freely; rows are equal where their names are.
 struct Propagator {
-  const char* name = "";           // in settings and reports: "dis"
-  const char* sentence = "";       // "masks through depth"
-  const char* stage = "masks";     // that its time is booked on
-  bool of_pictures = false;        // works in two dimensions
+  const char* name = "";        // in settings and reports: "dis"
+  const char* sentence = "";    // "masks through depth"
+  const char* stage = "masks";  // that its time is booked on
+  bool of_pictures = false;     // works in two dimensions
   Mask (*mask)(const OpenView& view) = nullptr;
 
   friend bool operator==(const Propagator& a, const Propagator& b) {

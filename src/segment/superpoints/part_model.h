@@ -1,11 +1,8 @@
 // The fitted model of parts: every weight of surface, superpoints, merging and picking that a search has set.
 //
-// Where the values come from: those of surface, superpoints and merging from searches on the captures and
-// compositions of docs/masks.md and on still lifes, for the mean IoU of a robot's first clicks. Version 8:
-// what a first click means is fitted by `splatcut-lab fit`, which docs/clicks.md shows with its
-// leave-one-capture-out column; what corrections mean is set by hand on the same scenes. No value follows
-// from theory, so none is a setting: experiments replace the whole model (see app/lab/part_model_file.h).
-// Whoever changes a value raises kVersion and says here what was searched on what.
+// The values of surface, superpoints and merging come from searches on the captures and compositions of
+// docs/masks.md and on still lifes, for the mean IoU of a robot's first clicks. No value follows from theory,
+// so none is a setting: experiments replace the whole model (see app/lab/part_model_file.h).
 #pragma once
 
 #include <array>
@@ -122,6 +119,10 @@ struct MaskToPartsOptions {
 };
 
 struct PartModel {
+  // Whoever changes a value raises the version and says here what was searched on what.
+  // Version 9: what a first click means is fitted by `splatcut-lab fit` on the scenes of docs/clicks.md,
+  // which shows the fit without each of the captures; what corrections mean is set by hand on the same
+  // scenes, last the cost of a click on the rest that takes nearly all of the object (Term::kTakes).
   static constexpr int kVersion = 9;
   PartOptions parts;
   SelectionModel selection;

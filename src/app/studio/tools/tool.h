@@ -23,7 +23,7 @@
   tool(Colour)               \
   tool(Flood)                \
   tool(Ground)               \
-  tool(Measure)              \
+  tool(Measure)
 // clang-format on
 
 namespace splatcut {
