@@ -5,7 +5,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")" && pwd)
 source "$root/third_party/setup.sh"
 install_missing_packages apt-packages.txt
-build_release splatcut
+build_preset user splatcut
 program="$root/build/release/splatcut"
 sample="$root/assets/sample"
 if no_window=$("$program" view --check 2>&1); then

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,7 +20,11 @@ namespace splatcut::testing {
 using Labels = std::vector<std::uint8_t>;
 
 inline constexpr int kArtistWidth = 900, kArtistHeight = 520;
-inline const std::filesystem::path kScenes = SPLATCUT_SOURCE_DIR "/../shared/scenes";
+// A folder of real captures to try the same on; the sample alone where the variable is not set.
+inline std::filesystem::path capture_folder() {
+  const char* folder = std::getenv("SPLATCUT_CAPTURES");
+  return folder ? folder : "";
+}
 
 // One scene, with a click on a thing in it and the view that it is made in.
 struct Place {
@@ -33,19 +38,20 @@ inline Place on_sample(const std::string& name, const glm::vec2& pixel) {
   return {name, kSample, load_cameras(kSampleFolder / "cameras.json").front(), pixel};
 }
 
-// Real captures, where they are beside the project.
+// Those of them that are in capture_folder().
 inline std::vector<Place> captures(const std::vector<std::string>& names) {
   std::vector<Place> places;
+  const std::filesystem::path folder = capture_folder();
+  if (folder.empty()) return places;
   const auto add = [&](const char* name, const char* scene, const char* cameras, const char* camera, float x,
                        float y) {
-    if (!std::filesystem::exists(kScenes / scene) || std::ranges::find(names, name) == names.end()) return;
-    const std::vector<Camera> all = load_cameras(kScenes / cameras);
-    places.push_back({name, kScenes / scene, find_camera(all, camera, cameras), {x, y}});
+    if (!std::filesystem::exists(folder / scene) || std::ranges::find(names, name) == names.end()) return;
+    const std::vector<Camera> all = load_cameras(folder / cameras);
+    places.push_back({name, folder / scene, find_camera(all, camera, cameras), {x, y}});
   };
   add("fox", "fox/point_cloud.ply", "fox/cameras.json", "0009", 165, 150);
   add("cup", "cup/point_cloud.ply", "cup/cameras.json", "57", 255, 140);
   add("sign", "real/flowers.compressed.ply", "real/sign/cameras.json", "v0", 400, 112);
-  if (places.empty()) MESSAGE("skipped: no scenes beside the project, the sample alone");
   return places;
 }
 

@@ -11,7 +11,7 @@ inline constexpr int kHandsWidth = 900, kHandsHeight = 520;
 
 class Hands {
  public:
-  explicit Hands(bool cut = true, ApplicationOptions options = {})
+  explicit Hands(bool cut = true, ApplicationOptions options = with_kept_scenes())
       : app(kHandsWidth, kHandsHeight, 1, std::move(options)) {
     app.interface_state().hint_wanted = false;
     app.open(kSample);

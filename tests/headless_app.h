@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,6 +15,7 @@
 #include <imgui_internal.h>  // items by their names
 
 #include "app/ui/application.h"
+#include "places.h"
 #include "render/context.h"
 #include "render/gl_objects.h"
 #include "render/read_back.h"
@@ -21,8 +23,15 @@
 
 namespace splatcut::testing {
 
-inline const std::filesystem::path kSampleFolder = SPLATCUT_SOURCE_DIR "/assets/sample";
+inline const std::filesystem::path kSampleFolder = project_folder() + "/assets/sample";
 inline const std::filesystem::path kSample = kSampleFolder / "sample.compressed.ply";
+
+// Scenes are prepared once for all tests and kept where ctest says; run by hand, and with other options,
+// anew.
+inline ApplicationOptions with_kept_scenes(ApplicationOptions options = {}) {
+  if (const char* folder = std::getenv("SPLATCUT_TEST_CACHE")) options.studio.cache.folder = folder;
+  return options;
+}
 
 // Goes with everything in it.
 class ScratchFolder {
@@ -45,7 +54,7 @@ class ScratchFolder {
 class HeadlessApp {
  public:
   explicit HeadlessApp(int width = 1040, int height = 600, float pixels_per_point = 1,
-                       ApplicationOptions options = {},
+                       ApplicationOptions options = with_kept_scenes(),
                        std::unique_ptr<OffscreenContext> context = make_osmesa_context())
       : context_(std::move(context)), app_(with_target(width, height, std::move(options))) {
     app_.resize(glm::vec2(width, height) / pixels_per_point, pixels_per_point);

@@ -5,13 +5,14 @@
 #include <set>
 
 #include "core/mapped_file.h"
+#include "places.h"
 #include "scene/formats/scene_formats.h"
 
 using namespace splatcut;
 
 namespace {
 
-const std::filesystem::path kPackaging = SPLATCUT_SOURCE_DIR "/packaging";
+const std::filesystem::path kPackaging = splatcut::testing::project_folder() + "/packaging";
 
 // What stands between `before` and `after`, wherever it does.
 std::set<std::string> all_between(const std::string& text, const std::string& before,

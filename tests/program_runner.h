@@ -21,6 +21,8 @@
 #include <thread>
 #include <vector>
 
+#include "places.h"
+
 namespace splatcut::testing {
 
 struct Result {
@@ -120,10 +122,10 @@ class Workplace {
   static std::vector<std::string> words_of(const std::string& arguments,
                                            const std::vector<std::string>& whole_arguments = {}) {
     std::istringstream in(arguments);
-    std::vector<std::string> words = {SPLATCUT_PROGRAM};
+    std::vector<std::string> words = {splatcut_program()};
     for (std::string word; in >> word;) words.push_back(word);
     for (const char* command : {"eval", "study", "make-scene"})
-      if (words.size() > 1 && words[1] == command) words.front() = SPLATCUT_LAB_PROGRAM;
+      if (words.size() > 1 && words[1] == command) words.front() = lab_program();
     words.insert(words.end(), whole_arguments.begin(), whole_arguments.end());
     return words;
   }

@@ -1,4 +1,4 @@
-# Sourced by run.sh, test.sh and .ci/: installs what is missing, builds release. Expects `root`, the project's folder.
+# Sourced by run.sh, test.sh and .ci/: installs what is missing, builds. Expects `root`, the project's folder.
 
 # Of the lists named (files of this folder).
 install_missing_packages() {
@@ -17,6 +17,6 @@ install_missing_packages() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-build_release() {
-  (cd "$root" && cmake --preset release >/dev/null && cmake --build --preset release -- "$@")
+build_preset() {  # build_preset PRESET [TARGET...]
+  (cd "$root" && cmake --preset "$1" >/dev/null && cmake --build --preset "$1" -- "${@:2}")
 }

@@ -25,6 +25,7 @@ const Scene& small_scene() {
     for (int row = 0; row < 3; ++row) {
       const float numbers[6] = {static_cast<float>(row), 0, 2, 0.1f, 0.1f, 0.1f};
       std::memcpy(rows.data() + 32 * row, numbers, sizeof numbers);
+      rows[32 * static_cast<std::size_t>(row) + 28] = '\xff';  // of the rotation: 0x80 is zero
     }
     place().write("small.labels.u8", std::string("\0\1\1", 3));
     return load_scene(place().write("small.splat", rows));

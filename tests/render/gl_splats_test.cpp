@@ -14,6 +14,8 @@
 
 #include "core/error.h"
 #include "keep_drivers_loaded.h"
+#include "places.h"
+#include "quick.h"
 #include "render/context.h"
 #include "render/depth_sorter.h"
 #include "scene/camera/camera_file.h"
@@ -90,7 +92,7 @@ TEST_CASE("OSMesa: random clouds of every SH degree look as on the CPU") {
 
 TEST_CASE("OSMesa: the sample looks as on the CPU, near edges and all") {
   const auto context = make_osmesa_context();
-  const std::string sample = SPLATCUT_SOURCE_DIR "/assets/sample/";
+  const std::string sample = project_folder() + "/assets/sample/";
   const Scene scene = load_scene(sample + "sample.compressed.ply");
   compare(scene.cloud, limited_to_width(load_cameras(sample + "cameras.json")[3], 320));
 }
@@ -180,7 +182,8 @@ TEST_CASE("a checker stands behind the splats, its squares as large as asked, fr
   }
 }
 
-TEST_CASE("depth order: back to front, equal depths in reverse, what is behind the camera left out") {
+QUICK_CASE("depth sorter",
+           "depth order: back to front, equal depths in reverse, what is behind the camera left out") {
   GaussianCloud cloud;
   cloud.resize(5, 0);
   const float z[] = {3, 1, -1, 3, 2};
@@ -189,7 +192,7 @@ TEST_CASE("depth order: back to front, equal depths in reverse, what is behind t
   CHECK(depth_order(shared, axis_camera()).back_to_front == std::vector<std::uint32_t>{3, 0, 4, 1});
 }
 
-TEST_CASE("sorter: the last request is answered") {
+QUICK_CASE("depth sorter", "sorter: the last request is answered") {
   const auto cloud = std::make_shared<const GaussianCloud>(random_cloud(20000, 1));
   std::counting_semaphore<> done(0);
   DepthSorter sorter([&] { done.release(); });

@@ -97,20 +97,18 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   CHECK(place.leftovers().empty());
 }
 
-TEST_CASE("what became the laboratory's is said to be there, whatever the options") {
+TEST_CASE("options may stand before any command, and a scene after it does not make it another") {
   const Workplace place;
-  for (const std::string command : {"eval", "study", "make-scene"})
-    for (const char* rest :
-         {"", " suite.json -o out --preset fast", " --help", " --only views --no-such-option"}) {
-      const Result result = place.run_program(SPLATCUT_PROGRAM, command + rest);
-      CAPTURE(command);
-      CHECK(result.code == 1);
-      CHECK(result.err.find("splatcut-lab " + command) != std::string::npos);
-      CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
-      CHECK_FALSE(place.exists("out"));
-    }
-  CHECK(place.run("--help").out.find("make-scene") == std::string::npos);
-  CHECK(place.run_program(SPLATCUT_LAB_PROGRAM, "cut").code == 2);
+  place.write("scene.ply", "");
+  const std::string help = place.run("--help").out;
+  for (const std::string command : {"info", "render", "cut", "convert", "merge", "compare", "view"}) {
+    CAPTURE(command);
+    CHECK(help.find("\n  " + command + " ") != std::string::npos);
+    const std::string its_own = place.run(command + " --help").out;
+    CHECK(its_own.find("Usage: splatcut " + command) != std::string::npos);
+    CHECK(place.run("--quiet " + command + " scene.ply --help").out == its_own);
+  }
+  CHECK(place.run_program(lab_program(), "cut").code == 2);
 }
 
 TEST_CASE("cut writes every file of a cutout, by click, by seeds and by mask, and a complete report") {

@@ -156,6 +156,6 @@ TEST_CASE("faults: a file that another program cuts short while it is read ends 
 TEST_CASE("faults: that the standard output is full is said") {
   const StillLife& life = still_life();
   const Workplace& place = life.place;
-  place.write("full.sh", std::string(SPLATCUT_PROGRAM) + " info " + life.scene + " > /dev/full\n");
+  place.write("full.sh", splatcut_program() + " info " + life.scene + " > /dev/full\n");
   refused(place.run_program("/bin/sh", "full.sh"), {"standard output", "No space"});
 }

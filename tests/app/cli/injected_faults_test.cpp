@@ -137,7 +137,7 @@ class Bench {
     CAPTURE(deed_.name);
     CAPTURE(at);
     const Result result = place_.run_with(
-        {"SPLATCUT_FAULT=" + at, "SPLATCUT_FAULT_HIT=hit", "LD_PRELOAD=" SPLATCUT_FAULT_SHIM}, deed_.now);
+        {"SPLATCUT_FAULT=" + at, "SPLATCUT_FAULT_HIT=hit", "LD_PRELOAD=" + fault_shim()}, deed_.now);
     CAPTURE(result.err);
     CAPTURE(result.signal);
     const std::map<std::string, std::string> is = contents();

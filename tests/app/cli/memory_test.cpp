@@ -237,10 +237,10 @@ TEST_CASE("memory: text and pictures that hold as much as they can") {
       while (text.size() < kBytes) text += "," + one;
       meter.place.write(name, text + "]");
     });
-    const Measured json =
+    const Measured text =
         meter.measure(name, holds, fmt::format("render base.ply --cameras {} -o x.png", name));
-    CHECK(json.result.code == 1);
-    CHECK(json.factor() < kMostJsonFactor);
+    CHECK(text.result.code == 1);
+    CHECK(text.factor() < kMostJsonFactor);
   };
   check_json("numbers.json", "0", "numbers");
   check_json("lists.json", "[]", "empty lists");

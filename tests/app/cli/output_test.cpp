@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "app/console/output_folder.h"
+#include "core/byte_hash.h"
 #include "core/error.h"
 #include "program_runner.h"
 #include "small_still_life.h"
@@ -302,20 +303,6 @@ TEST_CASE("output: an empty folder that a killed process left is no replaced one
 
 namespace {
 
-// As the window's work files have it: FNV-1a over words of 64 bits.
-std::uint64_t hash_of(const std::string& bytes) {
-  constexpr std::uint64_t kBegin = 14695981039346656037ull, kPrime = 1099511628211ull;
-  std::uint64_t hash = kBegin;
-  std::size_t i = 0;
-  for (; i + 8 <= bytes.size(); i += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + i, 8);
-    hash = (hash ^ word) * kPrime;
-  }
-  for (; i < bytes.size(); ++i) hash = (hash ^ static_cast<std::uint8_t>(bytes[i])) * kPrime;
-  return hash;
-}
-
 // Work of as many objects as there can be, each the whole scene by hand: little to compute, much to write.
 void write_large_work(const Workplace& place, const std::string& file, const std::string& scene) {
   nlohmann::json objects = nlohmann::json::array();
@@ -327,8 +314,8 @@ void write_large_work(const Workplace& place, const std::string& file, const std
                        {"hand", {1, 20000}}});
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx",
-                static_cast<unsigned long long>(hash_of(still_life().place.text("made/small.ply"))));
-  place.write(file, nlohmann::json{{"splatcut_work", 3},
+                static_cast<unsigned long long>(hash_of_file(still_life().place / "made/small.ply")));
+  place.write(file, nlohmann::json{{"splatcut_work", 5},
                                    {"scene", {{"path", scene}, {"hash", hash}}},
                                    {"next_id", 256},
                                    {"up", {0, -1, 0}},

@@ -134,7 +134,7 @@ TEST_CASE("seeds come through a pipe, too, of one object or several") {
   several["objects"][0]["name"] = "apple";
   for (const json& seeds : {one, several}) {
     place.write("seeds.json", seeds.dump());
-    place.write("piped.sh", "cat seeds.json | " SPLATCUT_PROGRAM " " +
+    place.write("piped.sh", "cat seeds.json | " + splatcut_program() + " " +
                                 still_life().cut("--seeds /dev/stdin --parts-only --overwrite -o piped"));
     const Result piped = place.run_program("/bin/sh", "piped.sh");
     REQUIRE_MESSAGE(piped.code == 0, piped.err);

@@ -80,7 +80,7 @@ TEST_CASE("fit by the program: a row a scene, as shipped, fitted with it and wit
     place.write(folder + "/some.json", json{{"scenes", some}}.dump());
   }
   const std::string command = "fit made/some.json other/some.json --robot-clicks 2 --starts 1 -o ";
-  const Result result = place.run_program(SPLATCUT_LAB_PROGRAM, command + "out");
+  const Result result = place.run_program(lab_program(), command + "out");
   REQUIRE_MESSAGE(result.code == 0, result.err);
   const json fit = json::parse(place.text("out/fit.json"));
   REQUIRE(fit["scenes"].size() == 4);
@@ -90,10 +90,10 @@ TEST_CASE("fit by the program: a row a scene, as shipped, fitted with it and wit
     for (const char* key : {"shipped", "fitted_with", "fitted_without"})
       CHECK_MESSAGE(scene[key].size() == 2, key);
   CHECK(fit["scenes"][0]["weights_without"] == fit["scenes"][1]["weights_without"]);
-  REQUIRE(place.run_program(SPLATCUT_LAB_PROGRAM, command + "again --threads 1").code == 0);
+  REQUIRE(place.run_program(lab_program(), command + "again --threads 1").code == 0);
   CHECK(place.text("again/fit.json") == place.text("out/fit.json"));
   // Objects of two files can be left out together; first clicks from elsewhere count, too.
-  REQUIRE(place.run_program(SPLATCUT_LAB_PROGRAM, command + "zoomed --zoom --together apple").code == 0);
+  REQUIRE(place.run_program(lab_program(), command + "zoomed --zoom --together apple").code == 0);
   const json zoomed = json::parse(place.text("zoomed/fit.json"));
   CHECK(zoomed["scenes"][1]["capture"] == zoomed["scenes"][3]["capture"]);
   CHECK(zoomed["scenes"][0]["capture"] != zoomed["scenes"][2]["capture"]);
@@ -103,10 +103,9 @@ TEST_CASE("fit by the program: a row a scene, as shipped, fitted with it and wit
       CHECK_MESSAGE(scene["zoom"][key].size() == 4, key);
   }
   // The model it writes is one to start from.
-  const Result more =
-      place.run_program(SPLATCUT_LAB_PROGRAM, command + "more --of later --model out/model.json");
+  const Result more = place.run_program(lab_program(), command + "more --of later --model out/model.json");
   CHECK_MESSAGE(more.code == 0, more.err);
-  const Result wrong = place.run_program(SPLATCUT_LAB_PROGRAM, command + "wrong --without colour");
+  const Result wrong = place.run_program(lab_program(), command + "wrong --without colour");
   CHECK(wrong.code == 1);
   CHECK(wrong.err.find("colour") != std::string::npos);
 }

@@ -15,14 +15,14 @@ using namespace splatcut::testing;
 
 namespace {
 
-constexpr std::size_t kGaussians = 50;
+constexpr std::size_t kFewGaussians = 50;
 
 Camera small_camera() {
   return look_at({0, 0, -3}, {0, 0, 0}, {0, -1, 0}, 1, 64, 48);
 }
 
 Flags random_flags(std::mt19937& random, int values) {
-  std::vector<std::uint8_t> flags(kGaussians);
+  std::vector<std::uint8_t> flags(kFewGaussians);
   for (std::uint8_t& flag : flags) flag = static_cast<std::uint8_t>(random() % static_cast<unsigned>(values));
   return make_flags(std::move(flags));
 }
@@ -45,7 +45,7 @@ TEST_CASE("history: a step that changes nothing is none, every other counts once
   CHECK(history.serial() != start);
   // Zeros are what no marks are.
   Document marked = history.now();
-  marked.objects.front().hand = make_flags(std::vector<std::uint8_t>(kGaussians, 0));
+  marked.objects.front().hand = make_flags(std::vector<std::uint8_t>(kFewGaussians, 0));
   CHECK_FALSE(history.push("zeros", marked));
   CHECK(history.entries().size() == 2);
   history.undo();
@@ -83,7 +83,7 @@ TEST_CASE("history: a cut reaches every state with its inputs, and no other") {
   renamed.objects.front().name = "mug";
   history.push("rename", renamed);
   history.push("click", with_click(history.now(), {9, 9}));
-  const Flags cut = make_flags(std::vector<std::uint8_t>(kGaussians, 1));
+  const Flags cut = make_flags(std::vector<std::uint8_t>(kFewGaussians, 1));
   history.set_cut(history.now().active, key, cut);
   CHECK(history.now().objects.front().cut == nullptr);
   CHECK(is_stale(history.now(), history.now().objects.front()));
@@ -139,9 +139,9 @@ TEST_CASE("kept labels are those of the document, whatever of it changes") {
         object.cut = nullptr;
     }
     for (const ObjectItem& o : document.objects) {
-      const std::vector<std::uint8_t> labels = labels_of(document, o, kGaussians);
-      CHECK(*cache.labels(document, o, kGaussians) == labels);
-      CHECK(cache.count(document, o, kGaussians) == count_flags(labels));
+      const std::vector<std::uint8_t> labels = labels_of(document, o, kFewGaussians);
+      CHECK(*cache.labels(document, o, kFewGaussians) == labels);
+      CHECK(cache.count(document, o, kFewGaussians) == count_flags(labels));
     }
   }
 }

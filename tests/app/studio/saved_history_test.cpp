@@ -36,7 +36,7 @@ History of_names(const std::vector<std::string>& names) {
 
 TEST_CASE("saved work: what was done before a crash can be undone after it, and what was undone redone") {
   const ScratchFolder folder("history_saved");
-  ApplicationOptions options;
+  ApplicationOptions options = with_kept_scenes();
   options.studio.state_folder = folder.path();
   std::vector<std::string> steps;
   std::vector<Document> documents;

@@ -8,6 +8,7 @@
 #include "app/studio/studio.h"
 #include "headless_app.h"
 
+#include "quick.h"
 #include "random_scene.h"
 
 using namespace splatcut;
@@ -129,7 +130,7 @@ class Fuzz {
 
 }  // namespace
 
-TEST_CASE("threads: random commands while they work, and an end in the middle of it") {
+QUICK_CASE("task thread", "threads: random commands while they work, and an end in the middle of it") {
   const ScratchFolder folder("threads");
   write_random_scene(folder / "random.ply");
   for (unsigned seed = 1; seed <= 3; ++seed) {

@@ -13,6 +13,7 @@
 #include "app/studio/task_thread.h"
 #include "core/error.h"
 #include "headless_app.h"
+#include "quick.h"
 #include "scene/still_life/still_life.h"
 
 using namespace splatcut;
@@ -70,7 +71,7 @@ TEST_CASE(
     "the other") {
   const TwoScenes scenes;
   const auto work_after = [&](bool haste) {
-    HeadlessApp app(kWidth, kHeight);
+    HeadlessApp app(kWidth, kHeight, 1, {});
     app.open(scenes.one());
     REQUIRE(app.settle());
     int step = 0;
@@ -104,7 +105,7 @@ TEST_CASE(
   CHECK(same(work_after(true), work_after(false)));
 }
 
-TEST_CASE("threads: exports wait for each other, of any other kind the latest request wins") {
+QUICK_CASE("task thread", "threads: exports wait for each other, of any other kind the latest request wins") {
   std::atomic<bool> go = false;
   std::vector<std::string> done;
   TaskThread tasks;
@@ -130,7 +131,8 @@ TEST_CASE("threads: exports wait for each other, of any other kind the latest re
                                          "second cut done"});
 }
 
-TEST_CASE("threads: trouble is told to the task it befell, and to nobody where that was replaced") {
+QUICK_CASE("task thread",
+           "threads: trouble is told to the task it befell, and to nobody where that was replaced") {
   std::atomic<bool> go = false;
   std::vector<std::string> told, shown;
   TaskThread tasks;
@@ -155,7 +157,8 @@ TEST_CASE("threads: trouble is told to the task it befell, and to nobody where t
   CHECK(shown == std::vector<std::string>{"cut: failed.", "preparing: failed."});
 }
 
-TEST_CASE("threads: the end of the program waits for work that is being saved, and for nothing else") {
+QUICK_CASE("task thread",
+           "threads: the end of the program waits for work that is being saved, and for nothing else") {
   std::vector<std::string> done;
   std::atomic<bool> running = false;
   {
@@ -175,7 +178,7 @@ TEST_CASE("threads: the end of the program waits for work that is being saved, a
 
 TEST_CASE("threads: another scene is opened while the first is read, prepared and cut") {
   const TwoScenes scenes;
-  HeadlessApp app(kWidth, kHeight);
+  HeadlessApp app(kWidth, kHeight, 1, {});
   for (const int frames : {1, 6}) {
     CAPTURE(frames);
     app.studio().apply(OpenScene{scenes.one()});
@@ -196,7 +199,7 @@ TEST_CASE("threads: another scene is opened while the first is read, prepared an
 TEST_CASE("threads: files are written, pictures taken and views switched while a cut runs") {
   const TwoScenes scenes;
   const auto in = [&](const char* name) { return scenes.folder / name; };
-  HeadlessApp app(kWidth, kHeight);
+  HeadlessApp app(kWidth, kHeight, 1, {});
   app.open(scenes.one());
   REQUIRE(app.settle());
   app.studio().apply(scenes.click_on("apple"));

@@ -11,6 +11,7 @@
 #include "core/png_file.h"
 #include "headless_app.h"
 #include "keep_drivers_loaded.h"
+#include "places.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -22,7 +23,7 @@ constexpr double kMostPixels = 0.001;
 
 void check_golden(const std::string& name, const Image<Rgb8>& picture) {
   const std::filesystem::path golden =
-      std::filesystem::path(SPLATCUT_SOURCE_DIR "/tests/goldens") / (name + ".png");
+      std::filesystem::path(project_folder() + "/tests/goldens") / (name + ".png");
   const char* update = std::getenv("SPLATCUT_UPDATE_GOLDENS");
   if (update && std::string(update) == "1") {
     write_png(golden, picture);
@@ -34,7 +35,7 @@ void check_golden(const std::string& name, const Image<Rgb8>& picture) {
   REQUIRE(expected.height() == picture.height());
   const PictureDifference d = picture_difference(expected, picture, kLevels);
   if (d.share_beyond > kMostPixels) {
-    const std::filesystem::path folder = SPLATCUT_BINARY_DIR "/goldens";
+    const std::filesystem::path folder = build_folder() + "/goldens";
     std::filesystem::create_directories(folder);
     write_png(folder / (name + ".actual.png"), picture);
     write_png(folder / (name + ".difference.png"), difference_picture(expected, picture));
@@ -48,7 +49,7 @@ void check_golden(const std::string& name, const Image<Rgb8>& picture) {
 }  // namespace
 
 TEST_CASE("frames: start page, dark and light") {
-  ApplicationOptions options;
+  ApplicationOptions options = with_kept_scenes();
   options.sample = kSample;
   HeadlessApp app(1040, 600, 1, options);
   app.frames(3);
@@ -72,7 +73,7 @@ TEST_CASE("frames: the sample with the hint, the keys, twice the scale") {
 TEST_CASE("frames: the OpenGL renderer shows what the CPU renderer shows") {
   Image<Rgb8> pictures[2];
   for (const RendererChoice renderer : {RendererChoice::kCpu, RendererChoice::kGl}) {
-    ApplicationOptions options;
+    ApplicationOptions options = with_kept_scenes();
     options.renderer = renderer;
     HeadlessApp app(760, 420, 1, options);
     app.interface_state().hint_wanted = false;
@@ -101,7 +102,7 @@ TEST_CASE("frames: the OpenGL renderer shows what the CPU renderer shows") {
 
 TEST_CASE("frames: OpenGL draws the checker as the CPU does, moving or still, on one pane or two") {
   const auto checker_frame = [](RendererChoice renderer, bool two, bool moving) {
-    ApplicationOptions options;
+    ApplicationOptions options = with_kept_scenes();
     options.renderer = renderer;
     HeadlessApp app(760, 420, 1, options);
     app.interface_state().hint_wanted = false;
@@ -205,7 +206,7 @@ TEST_CASE("frames: the program over EGL without a surface shows what it shows ov
   if (software) return check_golden("sample", picture);
   // A GPU rounds lines and text in its own way, and draws the splats itself.
   const PictureDifference d =
-      picture_difference(read_png_rgb(SPLATCUT_SOURCE_DIR "/tests/goldens/sample.png"), picture);
+      picture_difference(read_png_rgb(project_folder() + "/tests/goldens/sample.png"), picture);
   MESSAGE("on a GPU: PSNR " << d.psnr_db << " dB");
   CHECK(d.ssim > 0.95);
 }

@@ -31,7 +31,7 @@ void toggle(Studio& studio, bool ViewState::*what) {
 TEST_CASE("overlays: rings are drawn over the picture of either renderer, and follow what is shown") {
   for (const RendererChoice renderer : {RendererChoice::kCpu, RendererChoice::kGl}) {
     CAPTURE(static_cast<int>(renderer));
-    ApplicationOptions options;
+    ApplicationOptions options = with_kept_scenes();
     options.renderer = renderer;
     Hands hands(true, options);
     hands.app.key('F');  // from afar splats are dots

@@ -7,11 +7,13 @@
 #include "app/ui/window_place.h"
 #include "core/error.h"
 #include "headless_app.h"
+#include "quick.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
 
-TEST_CASE("settings: written and read back the same, and what cannot be read is as good as none") {
+QUICK_CASE("settings",
+           "settings: written and read back the same, and what cannot be read is as good as none") {
   const ScratchFolder place("settings");
   const std::filesystem::path file = place / "deeper/settings.json";
   CHECK(load_settings(file).width == Settings{}.width);
@@ -43,7 +45,7 @@ TEST_CASE("settings: written and read back the same, and what cannot be read is 
   }
 }
 
-TEST_CASE("settings: kept as they change, and tried again where they could not be written") {
+QUICK_CASE("settings", "settings: kept as they change, and tried again where they could not be written") {
   const ScratchFolder place("settings_kept");
   const std::filesystem::path file = place / "settings.json";
   SettingsKeeper keeper(file);
@@ -64,7 +66,7 @@ TEST_CASE("settings: kept as they change, and tried again where they could not b
   CHECK_FALSE(load_settings(file).dark);
 }
 
-TEST_CASE("settings: as in web viewers is the low-pass of what is drawn") {
+QUICK_CASE("settings", "settings: as in web viewers is the low-pass of what is drawn") {
   HeadlessApp app;
   CHECK(app.studio().viewport().draw_limits().low_pass_px2 == kLowPassPx2);
   ViewState view = app.studio().view();

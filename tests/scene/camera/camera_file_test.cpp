@@ -1,39 +1,25 @@
 #include "scene/camera/camera_file.h"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
 
 #include "core/error.h"
+#include "places.h"
+#include "quick.h"
+#include "scene_file_helpers.h"
 
 using namespace splatcut;
-namespace fs = std::filesystem;
+using namespace splatcut::testing;
 
 namespace {
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("splatcut_camera_file_test_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  fs::path operator/(const std::string& name) const { return path / name; }
-};
-
-void write(const fs::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
-
-template <class T>
-std::string bytes_of(const T& value) {
-  return {reinterpret_cast<const char*>(&value), sizeof value};
-}
 
 bool near(const glm::vec3& a, const glm::vec3& b) {
   return glm::length(a - b) < 1e-5f;
 }
 
-std::string refusal(const fs::path& path) {
+std::string camera_refusal(const fs::path& path) {
   try {
     load_cameras(path);
   } catch (const Error& error) {
@@ -63,7 +49,7 @@ const char* const kColmapPose = "0.5 -0.5 -0.5 -0.5 -2 -3 -1";
 
 }  // namespace
 
-TEST_CASE("Inria cameras.json: read, written, read again") {
+QUICK_CASE("Inria cameras", "Inria cameras.json: read, written, read again") {
   const Folder folder;
   write(folder / "cameras.json",
         R"([{"id": 0, "img_name": "a", "width": 640, "height": 480, "position": [1, 2, 3],
@@ -83,7 +69,7 @@ TEST_CASE("Inria cameras.json: read, written, read again") {
   CHECK(again[1].cx_px == 300);
 }
 
-TEST_CASE("COLMAP text: comments, an image without points, the folder or one of its files") {
+QUICK_CASE("COLMAP", "COLMAP text: comments, an image without points, the folder or one of its files") {
   const Folder folder;
   write(folder / "cameras.txt",
         "# lenses\n1 PINHOLE 640 480 500 510 320 240\n2 SIMPLE_RADIAL 640 480 500 320 240 0.1\n");
@@ -99,7 +85,7 @@ TEST_CASE("COLMAP text: comments, an image without points, the folder or one of 
   }
 }
 
-TEST_CASE("COLMAP binary, below sparse/0, and cut short") {
+QUICK_CASE("COLMAP", "COLMAP binary, below sparse/0, and cut short") {
   const Folder folder;
   fs::create_directories(folder / "sparse/0");
   std::string lenses = bytes_of(std::uint64_t{1}) + bytes_of(4u) + bytes_of(1) +
@@ -116,11 +102,11 @@ TEST_CASE("COLMAP binary, below sparse/0, and cut short") {
   check_camera(cameras[0]);
   for (const std::size_t size : {4, 50, 75, 90}) {
     write(folder / "sparse/0/images.bin", images.substr(0, size));
-    CHECK(refusal(folder.path).find("truncated") != std::string::npos);
+    CHECK(camera_refusal(folder.path).find("truncated") != std::string::npos);
   }
 }
 
-TEST_CASE("transforms.json: OpenGL axes, lens by frame, by file or by angle") {
+QUICK_CASE("transforms", "transforms.json: OpenGL axes, lens by frame, by file or by angle") {
   const Folder folder;
   // columns: x right = (0, 1, 0), y up = (0, 0, -1), z back = (-1, 0, 0)
   const std::string matrix =
@@ -161,16 +147,16 @@ TEST_CASE("lens distortion is left out with a warning that says how much it is")
   }
 }
 
-TEST_CASE("bad cameras are refused with file and entry") {
+QUICK_CASE("Inria cameras", "bad cameras are refused with file and entry") {
   const Folder folder;
   const auto check = [&](const std::string& name, const std::string& text, const char* part) {
     write(folder / name, text);
-    const std::string message = refusal(folder / name);
+    const std::string message = camera_refusal(folder / name);
     CHECK_MESSAGE(message.find(part) != message.npos, message);
     CHECK(message.find(name) != message.npos);
   };
-  CHECK(refusal(folder / "none.json").find("no such file") != std::string::npos);
-  CHECK(refusal(folder.path).find("no cameras") != std::string::npos);
+  CHECK(camera_refusal(folder / "none.json").find("no such file") != std::string::npos);
+  CHECK(camera_refusal(folder.path).find("no cameras") != std::string::npos);
   const std::string pose = R"("position": [0, 0, 0], "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]])";
   check("empty.json", "", "empty");
   check("cut.json", "[{\"id\": 0", "not valid JSON at byte");
@@ -192,14 +178,9 @@ TEST_CASE("bad cameras are refused with file and entry") {
   check("cameras.txt", "1 OPENCV_FISHEYE 640 480 500 510 320 240 0 0 0 0\n", "pinhole");
 }
 
-TEST_CASE("real cameras look at the scene they belong to") {
-  const fs::path cup = fs::path(SPLATCUT_SOURCE_DIR) / ".." / "shared" / "scenes" / "cup";
-  if (!fs::exists(cup)) {
-    MESSAGE("skipped: no scenes");
-    return;
-  }
-  const std::vector<Camera> cameras = load_cameras(cup / "cameras.json");
+TEST_CASE("the sample's cameras look at the sample") {
+  const std::vector<Camera> cameras = load_cameras(project_folder() + "/assets/sample/cameras.json");
   REQUIRE(cameras.size() > 5);
-  CHECK(cameras[0].name == "1");
-  CHECK(cameras[0].fx_px == doctest::Approx(353.416274));
+  CHECK(cameras[0].name == "view_00");
+  CHECK(cameras[0].fx_px == doctest::Approx(1004.243164));
 }

@@ -1,11 +1,12 @@
 // .spz and compressed .ply, written by hand and by our own writers.
+#include "quick.h"
 #include "scene_file_helpers.h"
 #include "synthetic_cloud.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
 
-TEST_CASE("compressed ply: values within the steps of a chunk") {
+QUICK_CASE("compressed.ply", "compressed ply: values within the steps of a chunk") {
   const Folder folder;
   for (int degree = 0; degree <= 3; ++degree) {
     Scene scene;
@@ -19,7 +20,7 @@ TEST_CASE("compressed ply: values within the steps of a chunk") {
   }
 }
 
-TEST_CASE("spz: versions 1 and 2 by hand, axes turned to x right, y down, z forward") {
+QUICK_CASE("spz", "spz: versions 1 and 2 by hand, axes turned to x right, y down, z forward") {
   const Folder folder;
   const auto file = [](std::uint32_t version, const std::string& position, const std::string& rotation) {
     std::string text =
@@ -46,7 +47,9 @@ TEST_CASE("spz: versions 1 and 2 by hand, axes turned to x right, y down, z forw
   CHECK(load_scene(folder / "2.spz").cloud.rotation[0].y == doctest::Approx(-1).epsilon(0.01));
 }
 
-TEST_CASE("spz: of version 4 with spherical harmonics of degree 4, those up to 3 are read and that is said") {
+QUICK_CASE(
+    "spz",
+    "spz: of version 4 with spherical harmonics of degree 4, those up to 3 are read and that is said") {
   const Folder folder;
   constexpr std::size_t kPoints = 3, kCoefficients = 3 * 24;  // a row
   std::string sh;
@@ -73,7 +76,8 @@ TEST_CASE("spz: of version 4 with spherical harmonics of degree 4, those up to 3
   CHECK(load_scene(folder / "b.spz").left_out.empty());
 }
 
-TEST_CASE("spz: small scenes keep their shape, what 24 bits cannot hold is refused, sizes beyond are said") {
+QUICK_CASE("spz",
+           "spz: small scenes keep their shape, what 24 bits cannot hold is refused, sizes beyond are said") {
   const Folder folder;
   const auto saved = [&](float unit) {
     Scene scene;
@@ -97,7 +101,8 @@ TEST_CASE("spz: small scenes keep their shape, what 24 bits cannot hold is refus
     CHECK_THROWS_WITH_AS(saved(unit), doctest::Contains("24 bits"), Error);
 }
 
-TEST_CASE("spz: version 4, zstd streams, holds what version 3 of the same cloud holds, at every degree") {
+QUICK_CASE("spz",
+           "spz: version 4, zstd streams, holds what version 3 of the same cloud holds, at every degree") {
   const Folder folder;
   for (int degree = 0; degree <= 3; ++degree) {
     CAPTURE(degree);

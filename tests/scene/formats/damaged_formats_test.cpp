@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ksplat_by_hand.h"
+#include "quick.h"
 #include "scene/formats/webp.h"
 #include "scene/formats/zip_file.h"
 
@@ -35,7 +36,7 @@ ZipEntry entry(const std::string& name, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("sog: as a folder, inside another folder of the archive, and what is wrong with others") {
+QUICK_CASE("sog", "sog: as a folder, inside another folder of the archive, and what is wrong with others") {
   const Folder folder;
   Scene scene;
   scene.cloud = varied_cloud(500, 1);
@@ -96,7 +97,8 @@ TEST_CASE("sog: as a folder, inside another folder of the archive, and what is w
   CHECK(mentions(refusal(folder / "open/meta.json"), {"another folder"}));
 }
 
-TEST_CASE("packed files that promise a thousand times their size are refused before they are unpacked") {
+QUICK_CASE("spz",
+           "packed files that promise a thousand times their size are refused before they are unpacked") {
   const Folder folder;
   const std::uint32_t points = 20'000'000;
   const std::string head = "NGSP" + bytes_of(3u) + bytes_of(points) + std::string("\x00\x0c\x00\x00", 4);
@@ -149,7 +151,7 @@ TEST_CASE("damage: every format, cut anywhere or with bytes changed, gives an Er
   }
 }
 
-TEST_CASE("files of other kinds are refused with what to do") {
+QUICK_CASE("splat", "files of other kinds are refused with what to do") {
   const Folder folder;
   const auto check = [&](const char* name, const std::string& bytes,
                          std::initializer_list<const char*> parts) {
@@ -167,7 +169,8 @@ TEST_CASE("files of other kinds are refused with what to do") {
   check("scene.xyzzy", "what", {"extension", ".splat", ".sog"});
 }
 
-TEST_CASE("text in glTF and .sog that is no JSON, or another, is refused without the words of a library") {
+QUICK_CASE("JSON",
+           "text in glTF and .sog that is no JSON, or another, is refused without the words of a library") {
   const Folder folder;
   const auto said = [&](const char* name, const std::string& text) {
     write(folder / name, text);

@@ -5,11 +5,13 @@
 
 #include "format_limits.h"
 #include "ksplat_by_hand.h"
+#include "places.h"
+#include "quick.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
 
-TEST_CASE("ksplat by hand: three levels, buckets full and not, sections of different degree") {
+QUICK_CASE("ksplat", "ksplat by hand: three levels, buckets full and not, sections of different degree") {
   const Folder folder;
   for (int level = 0; level <= 2; ++level) {
     CAPTURE(level);
@@ -44,7 +46,7 @@ TEST_CASE("ksplat by hand: three levels, buckets full and not, sections of diffe
   CHECK(mentions(refusal(folder / "a.ksplat"), {"truncated"}));
 }
 
-TEST_CASE("ply: text has the values of its binary twin, and colours stand for f_dc") {
+QUICK_CASE("ply", "ply: text has the values of its binary twin, and colours stand for f_dc") {
   const Folder folder;
   const std::vector<std::string> names = splat_names(9);
   const std::string binary = numbered_ply(names, 50);
@@ -117,7 +119,7 @@ TEST_CASE("ply: text has the values of its binary twin, and colours stand for f_
   CHECK(text_of(folder / "copy.ply") == packed);
 }
 
-TEST_CASE("glb by hand: nodes place their Gaussians, normalised bytes, drafts with logarithms") {
+QUICK_CASE("glb", "glb by hand: nodes place their Gaussians, normalised bytes, drafts with logarithms") {
   const Folder folder;
   // One Gaussian: position, rotation (bytes), scale, opacity (byte), f_dc.
   const auto glb = [&](const std::string& nodes, const glm::vec3& scale, const std::string& extension = "{}",
@@ -222,36 +224,14 @@ TEST_CASE("glb by hand: nodes place their Gaussians, normalised bytes, drafts wi
   CHECK(mentions(refusal(folder / "b.gltf"), {"another folder", ".glb"}));
 }
 
-TEST_CASE("real files: .sog of three writers, .ksplat, text and colours, against what is known of them") {
-  const fs::path fixtures =
-      fs::path(SPLATCUT_SOURCE_DIR) / ".." / "shared" / "scenes" / "formats" / "fixtures";
-  if (!fs::exists(fixtures)) {
-    MESSAGE("skipped: no scenes");
-    return;
-  }
-  struct Known {
-    const char* path;
-    std::size_t gaussians;
-    int degree;
-  };
-  for (const Known& known :
-       {Known{"sog_v1", 174724, 0}, Known{"sog_v2/monkey_0001.sog", 31658, 0},
-        Known{"sog_v2/jfigbor_scene.sog", 360196, 0}, Known{"sog_v2_unbundled", 87271, 3},
-        Known{"supersplat-engine/test.ply", 64, 3}}) {
-    CAPTURE(known.path);
-    const Scene scene = load_scene(fixtures / known.path);
-    CHECK(scene.file_rows == known.gaussians);
-    CHECK(scene.dropped == 0);
-    CHECK(scene.cloud.sh_degree == known.degree);
-  }
-  // The ranges of its meta.json bound the positions, and are reached: sign(v) (exp |v| - 1) of mins and maxs.
-  const Scene v1 = load_scene(fixtures / "sog_v1");
-  glm::vec3 least(1e9f), most(-1e9f);
-  for (const glm::vec3& p : v1.cloud.position) least = glm::min(least, p), most = glm::max(most, p);
-  CHECK(least.x == doctest::Approx(-std::expm1(0.12333658)));
-  CHECK(most.z == doctest::Approx(std::expm1(0.09539295)));
+QUICK_CASE("ksplat", "files of others: .ksplat and .ply of PlayCanvas, against what is known of them") {
+  const fs::path fixtures = fs::path(project_folder()) / "tests" / "data" / "formats";
+  const Scene ply = load_scene(fixtures / "supersplat.ply");
+  CHECK(ply.file_rows == 64);
+  CHECK(ply.dropped == 0);
+  CHECK(ply.cloud.sh_degree == 3);
 
-  const Scene grid = load_scene(fixtures / "splat-transform" / "minimal.ksplat");
+  const Scene grid = load_scene(fixtures / "minimal.ksplat");
   REQUIRE(grid.cloud.size() == 4);
   for (std::size_t g = 0; g < 4; ++g) {
     const std::uint32_t row = grid.cloud.file_row[g];
@@ -260,17 +240,4 @@ TEST_CASE("real files: .sog of three writers, .ksplat, text and colours, against
     CHECK(grid.cloud.scale[g].y == doctest::Approx(0.1));
     CHECK(grid.cloud.f_dc[g].x == doctest::Approx((std::round((x + 1) / 3 * 255) / 255 - 0.5) / 0.28209479));
   }
-  const Scene text = load_scene(fixtures / "gsplat-rs" / "minimal_ascii.ply"),
-              binary = load_scene(fixtures / "gsplat-rs" / "minimal_binary.ply");
-  CHECK(text.cloud.position == binary.cloud.position);
-  CHECK(text.cloud.f_dc == binary.cloud.f_dc);
-  CHECK(text.cloud.opacity == binary.cloud.opacity);
-  const Scene colours = load_scene(fixtures / "misc" / "ref_splats_binary.ply");
-  REQUIRE(colours.cloud.size() == 3);
-  for (std::size_t g = 0; g < 3; ++g)
-    for (int c = 0; c < 3; ++c)
-      CHECK(0.5f + kShC0Rounded * colours.cloud.f_dc[g][c] ==
-            doctest::Approx(static_cast<int>(colours.cloud.file_row[g]) == c ? 1 : 0).epsilon(1e-6));
-  for (const char* name : {"beetle.ascii.ply", "beetle.binary.ply"})
-    CHECK(mentions(refusal(fixtures / "metalsplatter" / name), {"ordinary point cloud"}));
 }

@@ -4,13 +4,14 @@
 
 #include <numeric>
 
+#include "quick.h"
 #include "scene/cloud/morton.h"
 #include "scene_file_helpers.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
 
-TEST_CASE("ply: known values, properties in any order and of any type, with and without normals") {
+QUICK_CASE("ply", "ply: known values, properties in any order and of any type, with and without normals") {
   const Folder folder;
   // rot before x, a double position, uchar and double properties nobody asked for.
   std::string text =
@@ -42,7 +43,8 @@ TEST_CASE("ply: known values, properties in any order and of any type, with and 
   CHECK(text_of(folder / "copy.ply") == text);
 }
 
-TEST_CASE("ply: infinite opacity and flat scale are legal, NaN and zero rotations are dropped and counted") {
+QUICK_CASE("ply",
+           "ply: infinite opacity and flat scale are legal, NaN and zero rotations are dropped and counted") {
   const Folder folder;
   const std::vector<std::string> names = splat_names(9);
   std::string text = header(names, 5);
@@ -68,7 +70,7 @@ TEST_CASE("ply: infinite opacity and flat scale are legal, NaN and zero rotation
   CHECK(scene.cloud.scale[first] == glm::vec3(1, 0, 1));
 }
 
-TEST_CASE("ply: a subset has the rows of the file, byte for byte and in its order, for all degrees") {
+QUICK_CASE("ply", "ply: a subset has the rows of the file, byte for byte and in its order, for all degrees") {
   const Folder folder;
   for (const int rest : {0, 9, 24, 45}) {
     const std::vector<std::string> names = splat_names(rest);
@@ -97,7 +99,7 @@ TEST_CASE("ply: a subset has the rows of the file, byte for byte and in its orde
   }
 }
 
-TEST_CASE("round trip through every format and degree") {
+QUICK_CASE("ply", "round trip through every format and degree") {
   const Folder folder;
   for (int degree = 0; degree <= 3; ++degree) {
     Scene scene;
@@ -119,7 +121,7 @@ TEST_CASE("round trip through every format and degree") {
   }
 }
 
-TEST_CASE("bad files are refused with a clear sentence") {
+QUICK_CASE("ply", "bad files are refused with a clear sentence") {
   const Folder folder;
   const std::vector<std::string> names = splat_names(0);
   const std::string good = numbered_ply(names, 10);
@@ -176,7 +178,7 @@ TEST_CASE("bad files are refused with a clear sentence") {
   }
 }
 
-TEST_CASE("bad files: scenes beyond all lengths are refused, single Gaussians there are left out") {
+QUICK_CASE("ply", "bad files: scenes beyond all lengths are refused, single Gaussians there are left out") {
   const Folder folder;
   const auto row = [](float x, float size) {
     return bytes_of(glm::vec3(x, 0, 0)) + bytes_of(glm::vec3(size)) + "\x80\x80\x80\xff\xff\x80\x80\x80";
@@ -233,7 +235,8 @@ TEST_CASE("loading stops at every stage when asked to, without an error and with
   }
 }
 
-TEST_CASE("Morton order: sorted by interleaved bits, ties by index, the same on any number of threads") {
+QUICK_CASE("loops",
+           "Morton order: sorted by interleaved bits, ties by index, the same on any number of threads") {
   std::vector<glm::vec3> points;
   std::mt19937 random(3);
   for (int i = 0; i < 200000; ++i) {
@@ -258,7 +261,7 @@ TEST_CASE("Morton order: sorted by interleaved bits, ties by index, the same on 
   CHECK(morton_order({}).empty());
 }
 
-TEST_CASE("saving: an empty selection and a changed source are refused, nothing is left behind") {
+QUICK_CASE("ply", "saving: an empty selection and a changed source are refused, nothing is left behind") {
   const Folder folder;
   write(folder / "a.ply", numbered_ply(splat_names(0), 10));
   const Scene scene = load_scene(folder / "a.ply");
@@ -289,22 +292,4 @@ TEST_CASE(
     CHECK_NOTHROW(save_scene(folder / "b.splat", scene, {}, format_from_name("b.splat")));  // from memory
     CHECK(!fs::exists(folder / "old.ply.splatcut.part"));
   }
-}
-
-TEST_CASE("real files: the same object as compressed .ply and as .spz version 4") {
-  const fs::path scenes = fs::path(SPLATCUT_SOURCE_DIR) / ".." / "shared" / "scenes";
-  if (!fs::exists(scenes / "formats")) {
-    MESSAGE("skipped: no scenes");
-    return;
-  }
-  const Scene ply = load_scene(scenes / "formats" / "biker.compressed.ply");
-  const Scene spz = load_scene(scenes / "formats" / "biker.spz");
-  REQUIRE(ply.cloud.size() == 152746);
-  REQUIRE(spz.cloud.size() == 152746);
-  CHECK(spz.dropped == 0);
-  const Box a = robust_bounds(ply.cloud.position), b = robust_bounds(spz.cloud.position);
-  CHECK(glm::length(a.min - b.min) < 0.01f * glm::length(a.extent()));
-  CHECK(glm::length(a.max - b.max) < 0.01f * glm::length(a.extent()));
-  CHECK(load_scene(scenes / "formats" / "plant.splat").cloud.size() == 14007);
-  CHECK(load_scene(scenes / "flowers.ply").cloud.sh_degree == 2);
 }

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "places.h"
 #include "scene_file_helpers.h"
 
 using namespace splatcut;
@@ -37,6 +38,12 @@ TEST_CASE("formats: names differ, every extension finds its row, lists follow fr
   CHECK(format_from_name("a/lod-meta.json") == SceneFormat::kStreamedSog);
   for (const char* read_only : {"b.gltf", "meta.json", "lod-meta.json", "b.ksplat", "b.png"})
     CHECK_THROWS_AS(output_format_from_name(read_only), Error);
+}
+
+TEST_CASE("formats: every reader has a case that runs under the sanitizers") {
+  const std::string labels = text_of(project_folder() + "/tests/quick_tests.cmake");
+  for (const SceneFormat& format : scene_formats())
+    CHECK_MESSAGE(labels.find('"' + std::string(format.name) + '"') != std::string::npos, format.name);
 }
 
 TEST_CASE("losses: the share of Gaussians beyond the range of bytes is said, rounding alone is not") {

@@ -1,4 +1,6 @@
 // The axes of .spz: said by the file, by the cameras, by the user, or the format's own.
+#include "places.h"
+#include "quick.h"
 #include "scene/formats/axes.h"
 #include "scene_file_helpers.h"
 
@@ -190,16 +192,11 @@ TEST_CASE("spz axes: cameras that see clearly more of the scene one way decide, 
   CHECK(load_scene(folder / "a.spz", options).taken_axes == SpzAxes::kRub);
 }
 
-TEST_CASE("real files: .spz of both kinds beside the .ply or the numbers they were made from") {
-  const fs::path fixtures =
-      fs::path(SPLATCUT_SOURCE_DIR) / ".." / "shared" / "scenes" / "formats" / "fixtures";
-  if (!fs::exists(fixtures)) {
-    MESSAGE("skipped: no scenes");
-    return;
-  }
+QUICK_CASE("spz", "files of others: .spz of both kinds beside the .ply or the numbers they were made from") {
+  const fs::path fixtures = fs::path(project_folder()) / "tests" / "data" / "formats";
   // Three Gaussians of a training, written by the format's own library.
-  const Scene train = load_scene(fixtures / "metalsplatter" / "test-splat.3-points-from-train.ply");
-  const Scene spz = load_scene(fixtures / "metalsplatter" / "test-splat.3-points-from-train.spz");
+  const Scene train = load_scene(fixtures / "three_points.ply");
+  const Scene spz = load_scene(fixtures / "three_points.spz");
   REQUIRE(train.cloud.sh_degree == 3);
   std::vector<std::uint32_t> order(3);
   GaussianCloud in_file_order = train.cloud;
@@ -211,7 +208,7 @@ TEST_CASE("real files: .spz of both kinds beside the .ply or the numbers they we
 
   // A grid at y = 0, x and z in {-1, 0}: as (x, z) in the rows of a 2 x 2 square.
   const auto check_grid = [&](const char* name, const LoadOptions& options) {
-    const Scene grid = load_scene(fixtures / "splat-transform" / name, options);
+    const Scene grid = load_scene(fixtures / name, options);
     REQUIRE(grid.cloud.size() == 4);
     for (std::size_t g = 0; g < 4; ++g) {
       const std::uint32_t row = grid.cloud.file_row[g];
@@ -225,5 +222,4 @@ TEST_CASE("real files: .spz of both kinds beside the .ply or the numbers they we
   check_grid("minimal-v4.spz", {});
   check_grid("minimal-v2.spz", asked(SpzAxes::kPly));  // raw numbers
   check_grid("minimal-raw.spz", asked(SpzAxes::kPly));
-  CHECK(load_scene(fixtures / "gsplat-rs" / "minimal_v4_degree0.spz").cloud.size() == 8);
 }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "quick.h"
 #include "scene/formats/webp.h"
 #include "scene/formats/zip_file.h"
 #include "scene_file_helpers.h"
@@ -192,7 +193,8 @@ TEST_CASE(
   CHECK(unpacked == std::vector<double>{0, 0.25, 0.5});
 }
 
-TEST_CASE("streamed sog: ranges, numbers and trees that cannot be are refused with a sentence") {
+QUICK_CASE("streamed sog",
+           "streamed sog: ranges, numbers and trees that cannot be are refused with a sentence") {
   const Streamed made;
   const auto with_range = [&](const json& range) { return made.refused_tree(leaf({{"0", range}})); };
   CHECK(
@@ -233,7 +235,9 @@ TEST_CASE("streamed sog: ranges, numbers and trees that cannot be are refused wi
   CHECK(mentions(refusal(made.path), {"nested deeper than 4000"}));
 }
 
-TEST_CASE("streamed sog: names that leave the folder, files that are missing or others, and other versions") {
+QUICK_CASE(
+    "streamed sog",
+    "streamed sog: names that leave the folder, files that are missing or others, and other versions") {
   const Streamed made;
   const auto with = [&](const char* key, const json& value) {
     json changed = made.index;

@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "flow_problems.h"
+#include "quick.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -122,7 +123,7 @@ TEST_CASE("a change of everything at once is exact, warm or by the cold start th
   }
 }
 
-TEST_CASE("small ranges, where ties and zeros are common: 1000 changes against brute force") {
+QUICK_CASE("max flow", "small ranges, where ties and zeros are common: 1000 changes against brute force") {
   std::mt19937 random(32);
   for (int graph = 0; graph < 50; ++graph) {
     FlowProblem p = random_problem(random, 8, random() % 20, 1 + graph % 4);
@@ -219,7 +220,7 @@ TEST_CASE("a warm solve that works far beyond what a cold one did gives up for a
   CHECK(max_flow.cold_starts() == 2);  // what counts from now on is that cold start's work
 }
 
-TEST_CASE("restart forgets the flow, not the problem, a cancelled solve can be taken up again") {
+QUICK_CASE("max flow", "restart forgets the flow, not the problem, a cancelled solve can be taken up again") {
   std::mt19937 random(35);
   const FlowProblem p = grid_problem(random, 200, 200, 10);
   MaxFlow max_flow = cold(p);

@@ -16,14 +16,14 @@ using namespace splatcut;
 
 namespace {
 
-struct Table {
+struct SmallTable {
   LabelledScene scene;
   std::shared_ptr<const GaussianCloud> cloud;
 };
 
-const Table& table() {
-  static const Table made = [] {
-    Table t;
+const SmallTable& small_table() {
+  static const SmallTable made = [] {
+    SmallTable t;
     StillLifeOptions options;
     options.gaussians = 25000;
     t.scene = make_still_life(options);
@@ -34,7 +34,7 @@ const Table& table() {
 }
 
 Session fresh_session() {
-  return Session({.cloud = table().cloud, .photographs = table().scene.cameras});
+  return Session({.cloud = small_table().cloud, .photographs = small_table().scene.cameras});
 }
 
 CutSettings with_views_around() {
@@ -50,7 +50,7 @@ struct Asked {
 };
 
 Asked click_on(const std::string& object) {
-  const LabelledScene& scene = table().scene;
+  const LabelledScene& scene = small_table().scene;
   const auto seed = std::ranges::find(scene.seeds, object, &LabelledScene::SeedClick::object);
   REQUIRE(seed != scene.seeds.end());
   Asked asked;
@@ -61,7 +61,7 @@ Asked click_on(const std::string& object) {
 
 // A stroke on the object from the other side of the table.
 StrokedView stroke_from_behind(const std::string& object, SeedLabel label) {
-  const LabelledScene& scene = table().scene;
+  const LabelledScene& scene = small_table().scene;
   const auto number = std::ranges::find(scene.label_name, object) - scene.label_name.begin();
   glm::vec3 middle(0);
   float count = 0;
@@ -173,7 +173,7 @@ TEST_CASE("session: a view is left out by its camera, one that is not looked at 
   Session session = fresh_session();
   const CutResult all = session.cut(request, settings);
   REQUIRE(all.views.size() > 3);
-  request.left_out = {table().scene.cameras[3]};  // none of the orbit's
+  request.left_out = {small_table().scene.cameras[3]};  // none of the orbit's
   CHECK(session.cut(request, settings).labels == all.labels);
   request.left_out.push_back(all.views[2].camera);
   const CutResult without = session.cut(request, settings);
@@ -185,7 +185,7 @@ TEST_CASE("session: a view is left out by its camera, one that is not looked at 
 
 // Half of the mug is no part of the scene, nothing stands out at its border: masks alone say it.
 TEST_CASE("session: given masks of several views mean what they show, whatever parts there are") {
-  const Table& t = table();
+  const SmallTable& t = small_table();
   const auto mug = std::ranges::find(t.scene.label_name, "mug") - t.scene.label_name.begin();
   glm::vec3 middle(0);
   float count_of_mug = 0;
@@ -227,11 +227,11 @@ TEST_CASE("session: what marks nothing is an outcome, from parts and from pixels
       return result.reason;
     };
     CHECK(nothing().starts_with("no stroke marks the object"));
-    request.strokes = {{table().scene.cameras[0], {click({5, 5}, SeedLabel::kRest)}}};
+    request.strokes = {{small_table().scene.cameras[0], {click({5, 5}, SeedLabel::kRest)}}};
     CHECK(nothing().starts_with("no stroke marks the object"));
-    request.strokes = {{table().scene.cameras[0], {click({-500, -500}, SeedLabel::kObject)}}};
+    request.strokes = {{small_table().scene.cameras[0], {click({-500, -500}, SeedLabel::kObject)}}};
     CHECK(nothing().starts_with("the strokes mark nothing"));
-    const Camera& camera = table().scene.cameras[0];
+    const Camera& camera = small_table().scene.cameras[0];
     request.first_mask = {camera, Mask(camera.width_px, camera.height_px)};
     CHECK(nothing() == "the mask covers nothing of the scene");
   }
@@ -239,7 +239,7 @@ TEST_CASE("session: what marks nothing is an outcome, from parts and from pixels
 
 TEST_CASE("session: keys of two requests differ where anything that is said does") {
   const CutRequest base = click_on("mug").request;
-  const Camera& camera = table().scene.cameras[2];
+  const Camera& camera = small_table().scene.cameras[2];
   std::vector<CutRequest> requests(8, base);
   requests[1].strokes.push_back(requests[1].strokes.front());
   requests[2].strokes.push_back({requests[2].strokes.front().camera, {}});
@@ -325,7 +325,7 @@ TEST_CASE("session: views to look from show the labels, and have no say") {
   for (const GivenView& view : around) {
     CHECK_FALSE(same_view(view.camera, result.views.front().camera));
     CHECK(count(view.mask) > 0);
-    CHECK(iou(view.mask, thresholded(render_labels(*table().cloud, view.camera, result.labels), 0.5f)) == 1);
+    CHECK(iou(view.mask, thresholded(render_labels(*small_table().cloud, view.camera, result.labels), 0.5f)) == 1);
   }
   CutRequest more = request;
   more.strokes.push_back(stroke_from_behind("apple", SeedLabel::kRest));

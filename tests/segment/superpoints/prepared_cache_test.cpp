@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/byte_hash.h"
+#include "quick.h"
 #include "synthetic_cloud.h"
 
 using namespace splatcut;
@@ -71,7 +72,8 @@ TEST_CASE("what was written is read again, every array of it") {
   CHECK_FALSE(read_prepared(folder.path, e.key, e.cloud.size()));
 }
 
-TEST_CASE("a file cut short, with a byte changed anywhere, or with bytes to spare is as good as none") {
+QUICK_CASE("prepared cache",
+           "a file cut short, with a byte changed anywhere, or with bytes to spare is as good as none") {
   const Folder folder;
   const Example e;
   const auto file = prepared_file(folder.path, e.key);
@@ -98,7 +100,7 @@ TEST_CASE("a file cut short, with a byte changed anywhere, or with bytes to spar
   CHECK(read_prepared(file, e.key, e.cloud.size()));
 }
 
-TEST_CASE("indices that lead outside are refused even with a right checksum") {
+QUICK_CASE("prepared cache", "indices that lead outside are refused even with a right checksum") {
   const Folder folder;
   const Example e;
   const auto file = prepared_file(folder.path, e.key);
@@ -146,7 +148,8 @@ TEST_CASE("the key changes with all that the preparation depends on") {
   CHECK(key(e.cloud, e.reference, {}, options) != e.key);
 }
 
-TEST_CASE("prepare_scene fills the cache and reads from it, a cancelled run leaves nothing") {
+QUICK_CASE("prepared cache",
+           "prepare_scene fills the cache and reads from it, a cancelled run leaves nothing") {
   const Folder folder;
   const Example e;
   PrepareOptions options;
