@@ -11,7 +11,7 @@
 
 #include "app/cli/work_cut.h"
 #include "app/console/camera_options.h"
-#include "app/studio/work_file.h"
+#include "app/work/work_file.h"
 #include "headless_app.h"
 #include "segment/masks/mask_tools.h"
 

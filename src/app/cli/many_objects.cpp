@@ -7,7 +7,7 @@
 
 #include "app/cli/cutout_files.h"
 #include "app/console/seeds_file.h"
-#include "app/studio/export_plan.h"
+#include "app/document/export_plan.h"
 #include "core/error.h"
 
 namespace splatcut {

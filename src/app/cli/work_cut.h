@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "app/studio/document.h"
-#include "app/studio/opened_scene.h"
+#include "app/document/document.h"
+#include "app/document/opened_scene.h"
 
 namespace splatcut {
 

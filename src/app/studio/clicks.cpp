@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/studio/edit_titles.h"
+#include "app/document/edit_titles.h"
 #include "core/error.h"
 #include "scene/raster/rasterizer.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "app/document/words.h"
 #include "app/studio/cut_pictures.h"
-#include "app/studio/words.h"
 #include "core/error.h"
 #include "segment/session/doubts.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/studio/document.h"
+#include "app/document/document.h"
 #include "core/image.h"
 #include "core/stage_clock.h"
 #include "segment/session/cut_result.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/studio/edit_titles.h"
+#include "app/document/edit_titles.h"
 #include "core/error.h"
 
 namespace splatcut {

@@ -8,7 +8,7 @@
 #include <deque>
 #include <functional>
 
-#include "app/studio/command.h"
+#include "app/document/command.h"
 #include "app/studio/cut_jobs.h"
 #include "app/studio/viewport.h"
 #include "app/studio/workspace.h"

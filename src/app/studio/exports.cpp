@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "app/console/kept_inputs.h"
-#include "app/studio/capture.h"
-#include "app/studio/turntable.h"
-#include "app/studio/words.h"
-#include "app/studio/work_file.h"
+#include "app/document/words.h"
+#include "app/picture/capture.h"
+#include "app/picture/turntable.h"
+#include "app/work/work_file.h"
 #include "core/error.h"
 #include "core/png_file.h"
 

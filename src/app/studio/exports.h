@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "app/studio/command.h"
+#include "app/document/command.h"
 #include "app/studio/viewport.h"
 #include "app/studio/workspace.h"
 

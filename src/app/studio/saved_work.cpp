@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "app/console/kept_inputs.h"
-#include "app/studio/work_history.h"
+#include "app/work/work_history.h"
 #include "core/error.h"
 
 namespace splatcut {

@@ -8,11 +8,11 @@
 #include <optional>
 #include <string>
 
-#include "app/studio/autosaves.h"
-#include "app/studio/command.h"
+#include "app/document/command.h"
 #include "app/studio/viewport.h"
-#include "app/studio/work_file.h"
 #include "app/studio/workspace.h"
+#include "app/work/autosaves.h"
+#include "app/work/work_file.h"
 
 namespace splatcut {
 

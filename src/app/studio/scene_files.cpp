@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "app/studio/carried_document.h"
-#include "app/studio/words.h"
+#include "app/document/carried_document.h"
+#include "app/document/words.h"
 #include "core/error.h"
 
 namespace splatcut {

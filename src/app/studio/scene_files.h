@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "app/studio/command.h"
+#include "app/document/command.h"
 #include "app/studio/cut_jobs.h"
 #include "app/studio/saved_work.h"
 #include "app/studio/viewport.h"

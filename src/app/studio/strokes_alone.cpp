@@ -1,7 +1,7 @@
 // Alt of the stroke tools, Ctrl and Alt of the box: what strokes alone would cut out, combined with the
 // object.
+#include "app/document/edit_titles.h"
 #include "app/studio/clicks.h"
-#include "app/studio/edit_titles.h"
 #include "core/error.h"
 
 namespace splatcut {

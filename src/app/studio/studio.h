@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "app/studio/actions.h"
 #include "app/studio/clicks.h"
 #include "app/studio/cut_jobs.h"
 #include "app/studio/edits.h"
@@ -20,6 +19,7 @@
 #include "app/studio/scene_files.h"
 #include "app/studio/viewport.h"
 #include "app/studio/workspace.h"
+#include "app/tools/actions.h"
 
 namespace splatcut {
 

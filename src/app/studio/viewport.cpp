@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/studio/words.h"
+#include "app/document/words.h"
 #include "scene/raster/rasterizer.h"
 
 namespace splatcut {

@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/studio/camera_controller.h"
+#include "app/picture/camera_controller.h"
+#include "app/picture/frame_thread.h"
+#include "app/picture/styles.h"
 #include "app/studio/cut_jobs.h"
-#include "app/studio/frame_thread.h"
-#include "app/studio/styles.h"
 #include "app/studio/workspace.h"
 
 namespace splatcut {

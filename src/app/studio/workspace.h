@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "app/studio/document_edits.h"
-#include "app/studio/history.h"
-#include "app/studio/label_cache.h"
+#include "app/document/document_edits.h"
+#include "app/document/history.h"
+#include "app/document/label_cache.h"
+#include "app/document/opened_scene.h"
 #include "app/studio/messages.h"
-#include "app/studio/opened_scene.h"
-#include "app/studio/pointer_tools.h"
 #include "app/studio/task_thread.h"
+#include "app/tools/pointer_tools.h"
 #include "scene/cloud/coarse_cloud.h"
 
 namespace splatcut {

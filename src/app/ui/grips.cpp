@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/studio/actions.h"
-#include "app/studio/words.h"
+#include "app/document/words.h"
+#include "app/tools/actions.h"
 #include "app/ui/theme.h"
 
 namespace splatcut {

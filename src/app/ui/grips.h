@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/studio/placing_handles.h"
+#include "app/document/placing_handles.h"
 
 namespace splatcut {
 

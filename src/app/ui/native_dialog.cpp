@@ -8,7 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "app/studio/capture.h"
+#include "app/picture/capture.h"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX asks for it
 

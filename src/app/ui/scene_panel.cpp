@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
 
-#include "app/studio/document_edits.h"
+#include "app/document/document_edits.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 

@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 
-#include "app/studio/view_state.h"
+#include "app/document/view_state.h"
 
 namespace splatcut {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "app/studio/export_placement.h"
+#include "app/document/export_placement.h"
 #include "app/ui/panels.h"
 
 namespace splatcut {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/studio/ground_grid.h"
-#include "app/studio/splat_rings.h"
+#include "app/picture/ground_grid.h"
+#include "app/picture/splat_rings.h"
 #include "app/studio/studio.h"
 #include "app/ui/file_browser.h"
 #include "app/ui/grips.h"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <variant>
 
-#include "app/studio/actions.h"
-#include "app/studio/pointer_tools.h"
+#include "app/tools/actions.h"
+#include "app/tools/pointer_tools.h"
 
 namespace splatcut {
 

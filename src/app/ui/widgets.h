@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/studio/words.h"
+#include "app/document/words.h"
 #include "app/ui/ui_context.h"
 
 namespace splatcut {

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/studio/work_file.h"
-#include "app/studio/work_history.h"
+#include "app/work/work_file.h"
+#include "app/work/work_history.h"
 #include "core/error.h"
 #include "opened_sample.h"
 

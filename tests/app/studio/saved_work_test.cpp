@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/work_cut.h"
-#include "app/studio/work_file.h"
+#include "app/work/work_file.h"
 #include "core/error.h"
 #include "opened_sample.h"
 

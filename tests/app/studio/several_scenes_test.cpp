@@ -5,8 +5,8 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/cli/work_cut.h"
-#include "app/studio/carried_document.h"
-#include "app/studio/work_file.h"
+#include "app/document/carried_document.h"
+#include "app/work/work_file.h"
 #include "hands.h"
 #include "opened_sample.h"
 #include "scene/formats/merged_scene.h"

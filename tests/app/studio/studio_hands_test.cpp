@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/studio/words.h"
+#include "app/document/words.h"
 #include "hands.h"
 
 using namespace splatcut;

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "app/studio/document_edits.h"
+#include "app/document/document_edits.h"
 #include "hands.h"
 
 using namespace splatcut;

@@ -3,7 +3,7 @@
 
 #include <webp/demux.h>
 
-#include "app/studio/animated_webp.h"
+#include "app/picture/animated_webp.h"
 #include "core/error.h"
 #include "core/png_file.h"
 #include "headless_app.h"

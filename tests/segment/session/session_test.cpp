@@ -325,7 +325,8 @@ TEST_CASE("session: views to look from show the labels, and have no say") {
   for (const GivenView& view : around) {
     CHECK_FALSE(same_view(view.camera, result.views.front().camera));
     CHECK(count(view.mask) > 0);
-    CHECK(iou(view.mask, thresholded(render_labels(*small_table().cloud, view.camera, result.labels), 0.5f)) == 1);
+    CHECK(iou(view.mask,
+              thresholded(render_labels(*small_table().cloud, view.camera, result.labels), 0.5f)) == 1);
   }
   CutRequest more = request;
   more.strokes.push_back(stroke_from_behind("apple", SeedLabel::kRest));

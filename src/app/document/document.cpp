@@ -1,0 +1,148 @@
+#include "app/document/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <tuple>
+
+#include "core/error.h"
+
+namespace splatcut {
+
+namespace {
+
+// Warm and cool in turn, apart for people who see fewer colours (after Okabe and Ito, 2008, brightened).
+constexpr std::array<Rgb8, 8> kObjectColours = {Rgb8{255, 145, 40},  Rgb8{70, 180, 255}, Rgb8{40, 205, 145},
+                                                Rgb8{240, 110, 190}, Rgb8{250, 225, 70}, Rgb8{150, 130, 255},
+                                                Rgb8{255, 95, 80},   Rgb8{120, 220, 235}};
+
+bool none_set(const Flags& flags) {
+  return !flags || std::ranges::all_of(*flags, [](std::uint8_t f) { return f == 0; });
+}
+
+bool same_flags(const Flags& a, const Flags& b) {
+  if (a == b) return true;
+  return a && b ? *a == *b : none_set(a) && none_set(b);
+}
+
+bool same_but_strokes(const ObjectItem& a, const ObjectItem& b) {
+  const auto plain = [](const ObjectItem& o) {
+    return std::tie(o.id, o.name, o.colour, o.visible, o.locked, o.within, o.cut_key, o.cut_kept);
+  };
+  return plain(a) == plain(b) && same_flags(a.cut, b.cut) && same_flags(a.hand, b.hand);
+}
+
+}  // namespace
+
+Flags make_flags(std::vector<std::uint8_t> values) {
+  return std::make_shared<const std::vector<std::uint8_t>>(std::move(values));
+}
+
+const ObjectItem* Document::find(ObjectId id) const {
+  const auto found = std::ranges::find(objects, id, &ObjectItem::id);
+  return id != 0 && found != objects.end() ? &*found : nullptr;
+}
+
+ObjectItem* Document::find(ObjectId id) {
+  return const_cast<ObjectItem*>(std::as_const(*this).find(id));
+}
+
+CutRequest cut_request(const Document& document, const ObjectItem& object) {
+  CutRequest request;
+  request.strokes = object.views;
+  request.left_out = object.left_out;
+  request.choice = object.choice;
+  request.part_step = object.part_step;
+  request.up_world = object.up_world.value_or(document.up_world);
+  return request;
+}
+
+CutSettings cut_settings(const Document& document, const ObjectItem& object) {
+  CutSettings settings = preset(document.preset);
+  settings.smoothness = object.smoothness;
+  return settings;
+}
+
+Camera known_camera(const ObjectItem& object, const Camera& camera) {
+  const auto known = std::ranges::find_if(
+      object.views, [&](const StrokedView& view) { return same_view(view.camera, camera); });
+  return known == object.views.end() ? camera : known->camera;
+}
+
+std::string cut_key(const Document& document, const ObjectItem& object) {
+  const std::string smoothness = object.smoothness ? fmt::format("{}", *object.smoothness) : "its own";
+  return fmt::format("{};{};", document.preset, smoothness) + key_of(cut_request(document, object));
+}
+
+bool is_stale(const Document& document, const ObjectItem& object) {
+  return is_stale(object, cut_key(document, object));
+}
+
+bool is_stale(const ObjectItem& object, const std::string& key) {
+  const bool marks =
+      std::ranges::any_of(object.views, [](const StrokedView& v) { return !v.strokes.empty(); });
+  if (!marks) return object.cut != nullptr && !object.cut_key.empty();
+  return object.cut_key != key;
+}
+
+std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& object,
+                                    std::size_t gaussians) {
+  std::vector<std::uint8_t> labels(gaussians, 0);
+  if (object.cut) labels = *object.cut;
+  assert(labels.size() == gaussians);
+  if (object.hand)
+    for (std::size_t g = 0; g < gaussians; ++g)
+      if ((*object.hand)[g] != kFollowCut) labels[g] = (*object.hand)[g] == kHandObject;
+  if (document.deleted)
+    for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && !(*document.deleted)[g];
+  if (const ObjectItem* whole = document.find(object.within); whole && whole->id != object.id) {
+    const std::vector<std::uint8_t> limit = labels_of(document, *whole, gaussians);
+    for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && limit[g];
+  }
+  return labels;
+}
+
+void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels) {
+  const std::vector<std::uint8_t> before = labels_of(*document, *object, labels.size());
+  std::vector<std::uint8_t> hand(labels.size(), kFollowCut);
+  if (object->hand) hand = *object->hand;
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    if ((labels[g] != 0) != (before[g] != 0)) hand[g] = labels[g] ? kHandObject : kHandRest;
+  object->hand = make_flags(std::move(hand));
+}
+
+ObjectItem& add_object(Document* document, std::string name) {
+  if (document->objects.size() >= kMostObjects)
+    throw Error("objects", fmt::format("there are {} already, more cannot be shown", kMostObjects),
+                "Merge or remove some");
+  ObjectItem object;
+  object.id = document->next_id++;
+  object.name = name.empty() ? fmt::format("Object {}", object.id) : std::move(name);
+  object.colour = kObjectColours[(object.id - 1) % kObjectColours.size()];
+  document->active = object.id;
+  return document->objects.emplace_back(std::move(object));
+}
+
+std::size_t count_flags(std::span<const std::uint8_t> flags) {
+  return static_cast<std::size_t>(std::ranges::count_if(flags, [](std::uint8_t f) { return f != 0; }));
+}
+
+bool same_but_strokes(const Document& a, const Document& b) {
+  const auto settings = [](const Document& d) {
+    return std::tie(d.active, d.next_id, d.preset, d.up_world, d.background);
+  };
+  const auto same_object = [](const ObjectItem& x, const ObjectItem& y) { return same_but_strokes(x, y); };
+  return settings(a) == settings(b) && same_flags(a.deleted, b.deleted) &&
+         std::ranges::equal(a.objects, b.objects, same_object);
+}
+
+bool same(const Document& a, const Document& b) {
+  const auto same_cut = [&](const ObjectItem& x, const ObjectItem& y) {
+    return cut_key(a, x) == cut_key(b, y);
+  };
+  return same_but_strokes(a, b) && std::ranges::equal(a.objects, b.objects, same_cut);
+}
+
+}  // namespace splatcut

@@ -1,0 +1,398 @@
+#include "app/document/document_edits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/document/words.h"
+#include "app/picture/frame_thread.h"
+#include "core/error.h"
+#include "segment/selection/click_selection.h"
+
+namespace splatcut {
+
+namespace {
+
+ObjectItem& required(Document* document, ObjectId id) {
+  ObjectItem* object = document->find(id);
+  if (!object) throw Error("objects", "that object is gone");
+  return *object;
+}
+
+ObjectItem& unlocked(Document* document, ObjectId id) {
+  ObjectItem& object = required(document, id);
+  if (object.locked) throw Error(object.name, "is locked", "Unlock it in the objects panel");
+  return object;
+}
+
+// The object that strokes and selections go to.
+ObjectItem& target(Document* document) {
+  return document->active_object() ? unlocked(document, document->active) : add_object(document);
+}
+
+// The same for strokes. The first settles for the object which way is up: views around it depend on it, and
+// turning the scene later is no reason to compute it again.
+ObjectItem& stroked(Document* document) {
+  ObjectItem& object = target(document);
+  if (object.views.empty()) object.up_world = document->up_world;
+  return object;
+}
+
+const FlowGraph& required_graph(const EditContext& context) {
+  assert(context.graph);
+  return context.graph->get(context.job);
+}
+
+std::vector<std::uint8_t> labels(const Document& document, const ObjectItem& object,
+                                 const EditContext& context) {
+  return labels_of(document, object, context.cloud.size());
+}
+
+std::string counted(const Document& document, const ObjectItem& object, const EditContext& context) {
+  return fmt::format("{}: {} of {} Gaussians", object.name,
+                     grouped(count_flags(labels(document, object, context))), grouped(context.cloud.size()));
+}
+
+// Where the next stroke goes: strokes stay in order, so another view in between starts a new entry.
+StrokedView& view_for(ObjectItem* object, const Camera& camera, const Flags& seen) {
+  std::vector<StrokedView>& views = object->views;
+  const Camera known = known_camera(*object, camera);
+  if (views.empty() || !same_camera(views.back().camera, known) || !same_set(views.back().seen, seen))
+    views.push_back({known, {}, seen});
+  return views.back();
+}
+
+std::string free_name(const Document& document, const std::string& base) {
+  const auto taken = [&](const std::string& name) {
+    return std::ranges::find(document.objects, name, &ObjectItem::name) != document.objects.end();
+  };
+  std::string name = base;
+  for (int i = 2; taken(name); ++i) name = fmt::format("{} {}", base, i);
+  return name;
+}
+
+// Adds an object that holds exactly `labels`, by manual marks and without strokes.
+ObjectItem& add_by_hand(Document* document, const std::string& name,
+                        const std::vector<std::uint8_t>& labels) {
+  ObjectItem& object = add_object(document, free_name(*document, name));
+  std::vector<std::uint8_t> hand(labels.size());
+  std::ranges::transform(labels, hand.begin(), [](std::uint8_t l) { return l ? kHandObject : kFollowCut; });
+  object.hand = make_flags(std::move(hand));
+  return object;
+}
+
+}  // namespace
+
+std::span<const Backdrop> backdrops() {
+  static constexpr Backdrop kBackdrops[] = {{"Dark", {0.11f, 0.115f, 0.125f}},
+                                            {"Grey", {0.5f, 0.5f, 0.5f}},
+                                            {"White", {1, 1, 1}},
+                                            {"Checker", {0.5f, 0.5f, 0.5f}, true},
+                                            {"Magenta", {1, 0, 1}}};
+  return kBackdrops;
+}
+
+bool shows(const Backdrop& backdrop, const Document& document, const ViewState& view) {
+  constexpr float kSame = 1e-3f;
+  if (backdrop.checker || view.checker) return backdrop.checker && view.checker;
+  const glm::vec3 d = glm::abs(backdrop.colour - document.background);
+  return std::max({d.r, d.g, d.b}) < kSame;
+}
+
+std::string edit(Document* document, const AddStroke& command, const EditContext&) {
+  if (command.stroke.points_px.empty()) throw Error("stroke", "it has no points");
+  ObjectItem& object = stroked(document);
+  view_for(&object, command.camera, command.seen).strokes.push_back(command.stroke);
+  const bool dot = command.stroke.points_px.size() == 1;
+  const bool rest = command.stroke.label == SeedLabel::kRest;
+  return fmt::format("{} {} {}", dot ? "Click:" : "Scribble:", rest ? "not part of" : "part of", object.name);
+}
+
+Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px, const glm::vec2& picture_px,
+                    bool all_around) {
+  const glm::vec2 low = glm::min(a_px, b_px), high = glm::max(a_px, b_px),
+                  low_inside = glm::clamp(low, glm::vec2(0), picture_px),
+                  high_inside = glm::clamp(high, glm::vec2(0), picture_px),
+                  middle = 0.5f * (low_inside + high_inside), size = high_inside - low_inside;
+  constexpr float kBorderPx = 2, kMiddleShare = 0.12f;
+  const float radius = std::max(2.0f, kMiddleShare * std::min(size.x, size.y));
+  const auto frame = [&](float outwards, float radius_px) {
+    const glm::vec2 from = low - outwards, to = high + outwards;
+    return Stroke{SeedLabel::kRest, radius_px, {from, {to.x, from.y}, to, {from.x, to.y}, from}};
+  };
+  Strokes strokes{frame(0, kBorderPx)};
+  // Broad background strokes around the box, up to the edge of the picture: nothing outside is meant, unless
+  // it was marked before.
+  constexpr float kFrameShare = 0.04f;
+  const float broad = std::max(4.0f, kFrameShare * std::max(picture_px.x, picture_px.y));
+  const float farthest = std::max({low.x, low.y, picture_px.x - high.x, picture_px.y - high.y}) + broad;
+  for (float outwards = kBorderPx + broad; all_around && outwards < farthest; outwards += 2 * broad)
+    strokes.push_back(frame(outwards, broad));
+  strokes.push_back({SeedLabel::kObject, radius, {middle}});
+  return strokes;
+}
+
+Strokes strokes_of(const AddBox& command, bool all_around) {
+  const glm::vec2 picture(command.camera.width_px, command.camera.height_px);
+  const glm::vec2 size = glm::abs(glm::clamp(command.a_px, glm::vec2(0), picture) -
+                                  glm::clamp(command.b_px, glm::vec2(0), picture));
+  constexpr float kSmallestPx = 6;  // of what the picture shows of it
+  if (!(std::min(size.x, size.y) >= kSmallestPx))
+    throw Error("box", "it is too small", "Drag from one corner to the other");
+  return box_strokes(command.a_px, command.b_px, picture, all_around);
+}
+
+std::string edit(Document* document, const AddBox& command, const EditContext&) {
+  const bool first_stroke =
+      !document->active_object() || std::ranges::none_of(document->active_object()->views, marks_object);
+  const Strokes strokes = strokes_of(command, first_stroke);
+  ObjectItem& object = stroked(document);
+  StrokedView& view = view_for(&object, command.camera, command.seen);
+  view.strokes.insert(view.strokes.end(), strokes.begin(), strokes.end());
+  return "Box around " + object.name;
+}
+
+std::string edit(Document* document, const ClearStrokes&, const EditContext&) {
+  if (!document->active_object()) throw Error("strokes", "no object is chosen");
+  ObjectItem& object = unlocked(document, document->active);
+  if (object.views.empty()) throw Error(object.name, "has no strokes");
+  object.views.clear();
+  object.left_out.clear();
+  object.choice = object.part_step = 0;
+  object.cut = nullptr;
+  object.cut_key.clear();
+  return "Strokes of " + object.name + " cleared";
+}
+
+std::string edit_selection(Document* document, const Selection& region, SetOperation operation,
+                           const EditContext& context) {
+  ObjectItem& object = target(document);
+  const std::vector<std::uint8_t> before = labels(*document, object, context);
+  const Selection after = combined(before, region, operation);
+  std::size_t changed = 0;
+  for (std::size_t g = 0; g < after.size(); ++g) changed += (before[g] != 0) != (after[g] != 0);
+  set_labels(document, &object, after);
+  const char* what = operation == SetOperation::kAdd      ? "added"
+                     : operation == SetOperation::kRemove ? "removed"
+                                                          : "changed";
+  return fmt::format("{} {}. {}", gaussians_text(changed), what, counted(*document, object, context));
+}
+
+std::string edit(Document* document, const EditSelection& command, const EditContext& context) {
+  const std::size_t n = context.cloud.size();
+  ObjectItem& object = target(document);
+  const Selection before = labels(*document, object, context);
+  Selection after(n, 0);
+  switch (command.edit) {
+    case SelectionEdit::kAll:
+      after.assign(n, 1);
+      break;
+    case SelectionEdit::kNone:
+      break;
+    case SelectionEdit::kInvert:
+      std::ranges::transform(before, after.begin(), [](std::uint8_t l) { return l ? 0 : 1; });
+      break;
+    case SelectionEdit::kGrow:
+      after = grown(required_graph(context), before);
+      break;
+    case SelectionEdit::kShrink:
+      after = shrunk(required_graph(context), before);
+      break;
+    case SelectionEdit::kLargestPart:
+      after = largest_part(context.cloud, required_graph(context), before);
+      break;
+    case SelectionEdit::kRemoveFloaters:
+      after =
+          combined(before, floaters(context.cloud, required_graph(context), before), SetOperation::kRemove);
+      break;
+  }
+  set_labels(document, &object, after);
+  return counted(*document, object, context);
+}
+
+std::string edit(Document* document, const NewObject& command, const EditContext&) {
+  const ObjectItem* whole = document->find(command.within);
+  const std::string name = whole ? free_name(*document, "Part of " + whole->name) : std::string();
+  ObjectItem& object = add_object(document, name);
+  object.within = command.within;
+  return object.name + " added. Click what belongs to it.";
+}
+
+std::string edit(Document* document, const RemoveObject& command, const EditContext&) {
+  const std::string name = unlocked(document, command.object).name;
+  std::erase_if(document->objects, [&](const ObjectItem& o) { return o.id == command.object; });
+  for (ObjectItem& o : document->objects)
+    if (o.within == command.object) o.within = 0;
+  if (document->active == command.object)
+    document->active = document->objects.empty() ? 0 : document->objects.back().id;
+  return name + " removed from the list; its Gaussians stay in the scene";
+}
+
+std::string edit(Document* document, const RenameObject& command, const EditContext&) {
+  if (command.name.empty()) throw Error("name", "it is empty");
+  required(document, command.object).name = command.name;
+  return "Renamed to " + command.name;
+}
+
+std::string edit(Document* document, const RecolourObject& command, const EditContext&) {
+  ObjectItem& object = required(document, command.object);
+  object.colour = command.colour;
+  return "Colour of " + object.name;
+}
+
+std::string edit(Document* document, const ShowObject& command, const EditContext&) {
+  ObjectItem& object = required(document, command.object);
+  object.visible = command.visible;
+  return object.name + (command.visible ? " shown" : " hidden");
+}
+
+std::string edit(Document* document, const LockObject& command, const EditContext&) {
+  ObjectItem& object = required(document, command.object);
+  object.locked = command.locked;
+  return object.name + (command.locked ? " locked" : " unlocked");
+}
+
+std::string edit(Document* document, const ActivateObject& command, const EditContext&) {
+  document->active = required(document, command.object).id;
+  return required(document, command.object).name + " is active";
+}
+
+std::string edit(Document* document, const MergeObjects& command, const EditContext& context) {
+  if (command.into == command.from) throw Error("merge", "an object cannot be merged with itself");
+  const std::vector<std::uint8_t> from = labels(*document, unlocked(document, command.from), context);
+  ObjectItem& into = unlocked(document, command.into);
+  const Selection both = combined(labels(*document, into, context), from, SetOperation::kAdd);
+  into.within = 0;
+  set_labels(document, &into, both);
+  const std::string name = into.name;
+  edit(document, RemoveObject{command.from}, context);
+  document->active = command.into;
+  return counted(*document, *document->find(command.into), context);
+}
+
+std::string edit(Document* document, const SplitObject& command, const EditContext& context) {
+  const ObjectItem object = unlocked(document, command.object);
+  const Selection whole = labels(*document, object, context);
+  const Parts parts = connected_parts(context.cloud, required_graph(context), whole);
+  // Tiny pieces are no objects: they stay with the largest part.
+  constexpr double kSmallestShare = 0.01;
+  const auto least =
+      static_cast<std::size_t>(std::ceil(kSmallestShare * static_cast<double>(count_flags(whole))));
+  std::int32_t pieces = 0;
+  while (pieces < static_cast<std::int32_t>(parts.size.size()) &&
+         parts.size[static_cast<std::size_t>(pieces)] >= std::max<std::size_t>(1, least))
+    ++pieces;
+  if (pieces < 2) throw Error(object.name, "is one connected piece: there is nothing to split");
+  Selection rest = whole;
+  for (std::int32_t p = 1; p < pieces; ++p) {
+    Selection piece(whole.size());
+    for (std::size_t g = 0; g < whole.size(); ++g)
+      if (parts.part[g] == p) {
+        piece[g] = 1;
+        rest[g] = 0;
+      }
+    add_by_hand(document, fmt::format("{} part {}", object.name, p + 1), piece);
+  }
+  set_labels(document, document->find(command.object), rest);
+  document->active = command.object;
+  return fmt::format("{} split into {} objects", object.name, pieces);
+}
+
+std::string edit(Document* document, const DuplicateObject& command, const EditContext&) {
+  ObjectItem copy = required(document, command.object);
+  const std::string name = free_name(*document, copy.name + " copy");
+  ObjectItem& made = add_object(document, name);
+  copy.id = made.id;
+  copy.name = made.name;
+  copy.colour = made.colour;
+  copy.locked = false;
+  made = std::move(copy);
+  return made.name + " added";
+}
+
+std::string edit(Document* document, const SeparateObject& command, const EditContext& context) {
+  const ObjectItem& object = required(document, command.object);
+  const std::string name = object.name;
+  const Selection own = labels(*document, object, context);
+  std::size_t taken = 0;
+  for (ObjectItem& other : document->objects) {
+    if (other.id == command.object || other.locked || other.id == object.within) continue;
+    const Selection before = labels(*document, other, context);
+    const Selection after = combined(before, own, SetOperation::kRemove);
+    taken += count_flags(before) - count_flags(after);
+    set_labels(document, &other, after);
+  }
+  return fmt::format("{} Gaussians now belong to {} alone", grouped(taken), name);
+}
+
+std::string edit(Document* document, const DeleteSelected&, const EditContext& context) {
+  if (!document->active_object()) throw Error("delete", "no object is chosen");
+  const ObjectItem& object = unlocked(document, document->active);
+  const Selection selected = labels(*document, object, context);
+  const std::size_t count = count_flags(selected);
+  if (count == 0) throw Error(object.name, "holds no Gaussians: there is nothing to delete");
+  Selection deleted(context.cloud.size(), 0);
+  if (document->deleted) deleted = *document->deleted;
+  document->deleted = make_flags(combined(deleted, selected, SetOperation::kAdd));
+  return fmt::format("{} Gaussians of {} deleted from the scene (the file stays as it is)", grouped(count),
+                     object.name);
+}
+
+std::string edit(Document* document, const RestoreDeleted&, const EditContext&) {
+  if (!document->deleted) throw Error("restore", "nothing is deleted");
+  document->deleted = nullptr;
+  return "Deleted Gaussians restored";
+}
+
+std::string edit(Document* document, const StepScale& command, const EditContext&) {
+  if (!document->active_object()) throw Error("parts", "no object is chosen", "Click an object first");
+  ObjectItem& object = unlocked(document, document->active);
+  if (object.views.empty()) throw Error("parts", object.name + " has no clicks", "Click on it first");
+  constexpr int kMostSteps = 40;
+  object.part_step = std::clamp(object.part_step + command.steps, -kMostSteps, kMostSteps);
+  return fmt::format("A {} part", command.steps > 0 ? "larger" : "smaller");
+}
+
+std::string edit(Document* document, const ChooseMeaning& command, const EditContext&) {
+  if (!document->active_object()) throw Error("click", "no object is chosen", "Click an object first");
+  ObjectItem& object = unlocked(document, document->active);
+  if (object.views.empty()) throw Error(object.name, "has no clicks", "Click on it first");
+  object.choice = std::clamp(command.choice, 0, kMostMeanings - 1);
+  object.part_step = 0;
+  return fmt::format("{}: meaning {} of the click", object.name, object.choice + 1);
+}
+
+std::string edit(Document* document, const LeaveOutView& command, const EditContext&) {
+  ObjectItem& object = unlocked(document, command.object);
+  std::erase_if(object.left_out, [&](const Camera& c) { return same_view(c, command.view); });
+  if (command.left_out) object.left_out.push_back(command.view);
+  return fmt::format("A view of {} {}", object.name, command.left_out ? "left out" : "counts again");
+}
+
+std::string edit(Document* document, const SetSmoothness& command, const EditContext&) {
+  ObjectItem& object = unlocked(document, command.object);
+  constexpr float kMost = 500;
+  object.smoothness = std::clamp(command.smoothness, 0.0f, kMost);
+  return fmt::format("Smoothness {:.2f}", *object.smoothness);
+}
+
+std::string edit(Document* document, const SetPreset& command, const EditContext&) {
+  preset(command.preset);  // throws for an unknown one
+  document->preset = command.preset;
+  return "Quality: " + command.preset;
+}
+
+std::string edit(Document* document, const SetBackground& command, const EditContext&) {
+  document->background = glm::clamp(command.colour, 0.0f, 1.0f);
+  return "Background colour";
+}
+
+std::string edit(Document* document, const SetUp& command, const EditContext&) {
+  if (!(glm::length(command.up_world) > 1e-6f))
+    throw Error("up", "the three points lie on one line", "Pick three corners of the ground");
+  document->up_world = glm::normalize(command.up_world);
+  return "Up direction set";
+}
+
+}  // namespace splatcut

@@ -1,0 +1,175 @@
+#include "app/document/export_placement.h"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "scene/raster/splat_math.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr int kMostInBand = 7;
+using BandMatrix = std::array<std::array<double, kMostInBand>, kMostInBand>;
+
+glm::vec3 file_up(ExportUp up, const glm::vec3& up_world) {
+  switch (up) {
+    case ExportUp::kPlusY:
+      return {0, 1, 0};
+    case ExportUp::kMinusY:
+      return {0, -1, 0};
+    case ExportUp::kPlusZ:
+      return {0, 0, 1};
+    case ExportUp::kScene:
+      break;
+  }
+  return glm::normalize(up_world);
+}
+
+// Spread over the sphere without symmetry, so that no band is blind to them.
+glm::vec3 direction(int i) {
+  const float z = 0.93f - 0.27f * static_cast<float>(i), angle = 2.3999632f * static_cast<float>(i) + 0.4f;
+  const float ring = std::sqrt(1 - z * z);
+  return {ring * std::cos(angle), ring * std::sin(angle), z};
+}
+
+// Gauss with pivots: the columns of `right` become matrix^-1 right.
+void solve(BandMatrix* matrix, BandMatrix* right, std::size_t n) {
+  for (std::size_t c = 0; c < n; ++c) {
+    std::size_t pivot = c;
+    for (std::size_t r = c; r < n; ++r)
+      if (std::abs((*matrix)[r][c]) > std::abs((*matrix)[pivot][c])) pivot = r;
+    std::swap((*matrix)[c], (*matrix)[pivot]);
+    std::swap((*right)[c], (*right)[pivot]);
+    for (std::size_t r = 0; r < n; ++r) {
+      if (r == c) continue;
+      const double factor = (*matrix)[r][c] / (*matrix)[c][c];
+      for (std::size_t k = 0; k < n; ++k) {
+        (*matrix)[r][k] -= factor * (*matrix)[c][k];
+        (*right)[r][k] -= factor * (*right)[c][k];
+      }
+    }
+  }
+  for (std::size_t r = 0; r < n; ++r)
+    for (std::size_t k = 0; k < n; ++k) (*right)[r][k] /= (*matrix)[r][r];
+}
+
+// Coefficients of a band before the turn to those after it.
+BandMatrix band_turn(int band, const glm::mat3& rotation) {
+  const std::size_t first = static_cast<std::size_t>(band * band - 1),
+                    n = static_cast<std::size_t>(2 * band + 1);
+  BandMatrix after{}, before{};
+  for (std::size_t row = 0; row < n; ++row) {
+    const glm::vec3 d = direction(static_cast<int>(row));
+    float now[15], then[15];
+    sh_rest_basis(band, d, now);
+    sh_rest_basis(band, glm::transpose(rotation) * d, then);
+    for (std::size_t k = 0; k < n; ++k) {
+      after[row][k] = static_cast<double>(now[first + k]);
+      before[row][k] = static_cast<double>(then[first + k]);
+    }
+  }
+  solve(&after, &before, n);
+  return before;
+}
+
+void turn_harmonics(std::span<float> rest, int degree, const std::array<BandMatrix, 3>& turns) {
+  const std::size_t per_channel = rest.size() / 3;
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    for (int band = 1; band <= degree; ++band) {
+      const std::size_t n = static_cast<std::size_t>(2 * band + 1);
+      const std::span<float> own =
+          rest.subspan(channel * per_channel + static_cast<std::size_t>(band * band - 1), n);
+      std::array<double, kMostInBand> turned{};
+      const BandMatrix& turn = turns[static_cast<std::size_t>(band - 1)];
+      for (std::size_t r = 0; r < n; ++r)
+        for (std::size_t k = 0; k < n; ++k) turned[r] += turn[r][k] * static_cast<double>(own[k]);
+      for (std::size_t r = 0; r < n; ++r) own[r] = static_cast<float>(turned[r]);
+    }
+}
+
+}  // namespace
+
+glm::quat turn_between(const glm::vec3& from, const glm::vec3& to) {
+  const glm::vec3 a = glm::normalize(from), b = glm::normalize(to);
+  const float cosine = glm::dot(a, b);
+  constexpr float kOpposite = -0.999999f;
+  if (cosine < kOpposite) {  // any axis across
+    const glm::vec3 across = std::abs(a.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    return glm::angleAxis(3.14159265f, glm::normalize(glm::cross(a, across)));
+  }
+  const glm::vec3 axis = glm::cross(a, b);
+  return glm::normalize(glm::quat(1 + cosine, axis.x, axis.y, axis.z));
+}
+
+ExportFrame export_frame(const ExportPlacement& placement, const GaussianCloud& cloud,
+                         std::span<const std::uint8_t> keep, const glm::vec3& up_world) {
+  ExportFrame frame;
+  frame.up_file = file_up(placement.up, up_world);
+  frame.upright = turn_between(up_world, frame.up_file);
+  std::vector<glm::vec3> positions;
+  for (std::size_t g = 0; g < cloud.size(); ++g)
+    if (keep.empty() || keep[g]) positions.push_back(frame.upright * cloud.position[g]);
+  const Box box = robust_bounds(positions);
+  glm::vec3 origin = box.centre();
+  if (placement.origin == ExportOrigin::kFoot)
+    origin -= glm::dot(glm::abs(frame.up_file), 0.5f * box.extent()) * frame.up_file;
+  frame.middle_world = glm::conjugate(frame.upright) * box.centre();
+  if (placement.origin != ExportOrigin::kScene) frame.origin_world = glm::conjugate(frame.upright) * origin;
+  return frame;
+}
+
+Similarity similarity_of(const ExportPlacement& placement, const ExportFrame& frame) {
+  const glm::quat turn = glm::angleAxis(glm::radians(placement.turn_deg), frame.up_file);
+  return {glm::normalize(turn * frame.upright), placement.scale, frame.origin_world, placement.move};
+}
+
+Similarity similarity_of(const ExportPlacement& placement, const GaussianCloud& cloud,
+                         std::span<const std::uint8_t> keep, const glm::vec3& up_world) {
+  return similarity_of(placement, export_frame(placement, cloud, keep, up_world));
+}
+
+glm::vec3 moved(const glm::vec3& point, const Similarity& to) {
+  return to.scale * (to.rotation * (point - to.origin)) + to.move;
+}
+
+glm::vec3 pivot_of(const ExportPlacement& placement, const ExportFrame& frame) {
+  if (placement.origin != ExportOrigin::kScene) return placement.move;
+  return moved(frame.middle_world, similarity_of(placement, frame));
+}
+
+ExportPlacement changed(ExportPlacement placement, const glm::vec3& pivot_file, const PlacingChange& change) {
+  constexpr float kLeastScale = 1e-3f, kMostScale = 1e3f;
+  const float scale = glm::clamp(placement.scale * change.scale, kLeastScale, kMostScale);
+  const float factor = scale / placement.scale;
+  placement.turn_deg = std::remainder(placement.turn_deg + glm::degrees(change.angle_rad), 360.0f);
+  placement.move = factor * (change.turn * (placement.move - pivot_file)) + pivot_file + change.move_world;
+  placement.scale = scale;
+  return placement;
+}
+
+GaussianCloud placed(const GaussianCloud& cloud, std::span<const std::uint8_t> keep, const Similarity& to) {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t g = 0; g < cloud.size(); ++g)
+    if (keep.empty() || keep[g]) order.push_back(g);
+  GaussianCloud out = permuted(cloud, order);
+  const glm::mat3 rotation = glm::mat3_cast(to.rotation);
+  std::array<BandMatrix, 3> turns{};
+  for (int band = 1; band <= out.sh_degree; ++band)
+    turns[static_cast<std::size_t>(band - 1)] = band_turn(band, rotation);
+  tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t g) {
+    out.position[g] = to.scale * (rotation * (out.position[g] - to.origin)) + to.move;
+    out.scale[g] *= to.scale;
+    out.rotation[g] = glm::normalize(to.rotation * out.rotation[g]);
+    turn_harmonics(std::span(out.sh_rest).subspan(g * out.sh_stride(), out.sh_stride()), out.sh_degree,
+                   turns);
+  });
+  out.near_plane *= to.scale;
+  return out;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,139 @@
+#include "app/document/export_plan.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "app/console/kept_inputs.h"
+#include "app/console/output_folder.h"
+#include "core/error.h"
+
+namespace splatcut {
+
+namespace {
+
+// Encoded anew: rows copied from the source would keep their old places.
+SaveReport save_placed(const std::filesystem::path& path, const Scene& scene,
+                       const std::vector<std::uint8_t>& keep, const SceneFormat& format,
+                       const Similarity& to) {
+  Scene moved;
+  moved.path = scene.path;
+  moved.format = scene.format;
+  moved.file_rows = scene.file_rows;
+  moved.other_properties = scene.other_properties;
+  moved.antialiased = scene.antialiased;
+  moved.cloud = placed(scene.cloud, keep, to);
+  return save_scene(path, moved, {}, format);
+}
+
+void save(const std::filesystem::path& path, const Scene& scene, const std::vector<std::uint8_t>& keep,
+          const ExportRequest& request, const std::optional<Similarity>& to, ExportReport* report) {
+  if (count_flags(keep) == 0)
+    throw Error(path.filename().string(), "would hold no Gaussians", "Select something first");
+  refuse_written_inputs(path, scene.files);
+  check_output_file(path, request.overwrite);
+  const SaveReport saved = to ? save_placed(path, scene, keep, request.format, *to)
+                              : save_scene(path, scene, keep, request.format);
+  report->gaussians += saved.gaussians;
+  report->bytes += saved.bytes;
+  report->loss = saved.loss;
+  ++report->files;
+}
+
+std::vector<std::uint8_t> labels_of_all(const Document& document, std::size_t gaussians) {
+  std::vector<std::uint8_t> all(gaussians, 0);
+  for (const ObjectItem& item : document.objects) {
+    const std::vector<std::uint8_t> labels = labels_of(document, item, gaussians);
+    for (std::size_t g = 0; g < gaussians; ++g) all[g] |= labels[g];
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> exported(const Document& document, ObjectId object, ExportWhat what,
+                                   std::size_t gaussians) {
+  if (what == ExportWhat::kAllObjects) return labels_of_all(document, gaussians);
+  const ObjectItem* item = document.find(object);
+  if (what == ExportWhat::kObject)
+    return item ? labels_of(document, *item, gaussians) : std::vector<std::uint8_t>(gaussians, 0);
+  std::vector<std::uint8_t> keep(gaussians, 1);
+  if (what == ExportWhat::kRest && item) keep = labels_of(document, *item, gaussians);
+  for (std::size_t g = 0; g < gaussians; ++g) {
+    if (what == ExportWhat::kRest && item) keep[g] = !keep[g];
+    if (document.deleted && (*document.deleted)[g]) keep[g] = 0;
+  }
+  return keep;
+}
+
+std::string file_name_of(const std::string& object_name) {
+  std::string name;
+  for (const char c : object_name) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
+  return name.empty() ? "object" : name;
+}
+
+std::string free_file_name(const std::string& object_name, std::set<std::string>* taken) {
+  const std::string name = file_name_of(object_name);
+  std::string free = name;
+  for (int number = 2; !taken->insert(free).second; ++number) free = fmt::format("{}_{}", name, number);
+  return free;
+}
+
+ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
+                        const ExportRequest& request) {
+  const std::size_t n = scene.cloud.size();
+  if (!(request.placement.scale > 0) || !std::isfinite(request.placement.scale))
+    throw Error("export", "the scale must be larger than 0");
+  const glm::vec3& move = request.placement.move;
+  if (!std::isfinite(request.placement.turn_deg) || !std::isfinite(move.x) || !std::isfinite(move.y) ||
+      !std::isfinite(move.z))
+    throw Error("export", "the turn and the move must be ordinary numbers");
+  const auto place = [&](const std::vector<std::uint8_t>& kept) -> std::optional<Similarity> {
+    if (request.placement == ExportPlacement{}) return {};
+    return similarity_of(request.placement, scene.cloud, kept, document.up_world);
+  };
+  ExportReport report;
+  if (request.what == ExportWhat::kAllObjects) {
+    std::filesystem::create_directories(request.path);
+    std::set<std::string> taken;
+    const auto to = place(exported(document, object, request.what, n));  // objects stay beside each other
+    for (const ObjectItem& item : document.objects) {
+      const std::vector<std::uint8_t> labels = labels_of(document, item, n);
+      if (count_flags(labels) == 0) continue;
+      const std::string name = free_file_name(item.name, &taken);
+      save(request.path / (name + request.format.extension), scene, labels, request, to, &report);
+    }
+    if (report.files == 0) throw Error("export", "no object holds any Gaussians", "Select something first");
+    return report;
+  }
+  if (!request.path.string().ends_with(request.format.extension))
+    throw Error(request.path.string(), fmt::format("does not end with {}", request.format.extension),
+                "It could not be opened again");
+  if (request.what != ExportWhat::kScene && !document.find(object))
+    throw Error("export", "no object is chosen", "Click an object first");
+  const std::vector<std::uint8_t> keep = exported(document, object, request.what, n);
+  save(request.path, scene, keep, request, place(keep), &report);
+  return report;
+}
+
+std::filesystem::path free_path(const std::filesystem::path& path, const std::string& extension) {
+  std::error_code ignored;
+  const std::string name = path.filename().string();
+  const bool ends = !extension.empty() && name.ends_with(extension);
+  const std::string stem = ends ? name.substr(0, name.size() - extension.size()) : name;
+  std::filesystem::path free = path;
+  for (int number = 2; std::filesystem::exists(free, ignored); ++number)
+    free = path.parent_path() / fmt::format("{}_{}{}", stem, number, ends ? extension : "");
+  return free;
+}
+
+std::string human_bytes(std::uint64_t bytes) {
+  const auto value = static_cast<double>(bytes);
+  if (value < 1e3) return fmt::format("{} bytes", bytes);
+  if (value < 1e6) return fmt::format("{:.0f} kB", value / 1e3);
+  if (value < 1e9) return fmt::format("{:.1f} MB", value / 1e6);
+  return fmt::format("{:.2f} GB", value / 1e9);
+}
+
+}  // namespace splatcut

@@ -1,0 +1,179 @@
+#include "app/document/history.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <unordered_set>
+
+namespace splatcut {
+
+namespace {
+
+// Oldest steps are forgotten when the arrays that only the history holds would take more than this.
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+
+// Never the same twice, in whatever history: one that is kept and gone back to has its own numbers for
+// itself.
+std::uint64_t next_serial() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
+std::size_t distinct_bytes(const std::vector<History::Entry>& entries) {
+  std::unordered_set<const void*> seen;
+  std::size_t bytes = 0;
+  const auto add = [&](const Flags& flags) {
+    if (flags && seen.insert(flags.get()).second) bytes += flags->size();
+  };
+  for (const History::Entry& entry : entries) {
+    add(entry.document.deleted);
+    for (const ObjectItem& object : entry.document.objects) {
+      add(object.cut);
+      add(object.hand);
+      for (const StrokedView& view : object.views) add(view.seen);
+    }
+  }
+  return bytes;
+}
+
+// Shares those of the entry before that are the same, place by place.
+std::vector<std::shared_ptr<const ObjectKeys>> keys_of(const Document& document,
+                                                       const History::Entry& before) {
+  std::vector<std::shared_ptr<const ObjectKeys>> keys;
+  for (const ObjectItem& object : document.objects) {
+    ObjectKeys made{cut_key(document, object), key_of_first_stroke(cut_request(document, object))};
+    const std::size_t place = keys.size();
+    const bool known = place < before.keys.size() && *before.keys[place] == made;
+    keys.push_back(known ? before.keys[place] : std::make_shared<const ObjectKeys>(std::move(made)));
+  }
+  return keys;
+}
+
+}  // namespace
+
+void History::reset(Document document, std::string title) {
+  entries_.clear();
+  auto keys = keys_of(document, {});
+  entries_.push_back({std::move(title), {}, std::move(document), std::move(keys), 0});
+  cursor_ = 0;
+  serial_ = next_serial();
+  merging_ = false;
+}
+
+void History::reset(const SavedSteps& saved) {
+  assert(saved.cursor < saved.steps.size());
+  entries_.clear();
+  const Entry none;
+  for (const SavedSteps::Step& step : saved.steps) {
+    auto keys = keys_of(step.document, entries_.empty() ? none : entries_.back());
+    entries_.push_back({step.title, {}, step.document, std::move(keys), 0});
+  }
+  cursor_ = saved.cursor;
+  merging_ = false;
+  serial_ = next_serial();
+  const std::vector<ObjectItem> known = now().objects;
+  for (const ObjectItem& object : known)
+    if (object.cut && !object.cut_kept && !object.cut_key.empty())
+      set_cut(object.id, object.cut_key, object.cut);
+}
+
+const ObjectKeys& History::keys(const ObjectItem& object) const {
+  const std::vector<ObjectItem>& objects = now().objects;
+  const auto found = std::ranges::find(objects, object.id, &ObjectItem::id);
+  assert(found != objects.end());
+  return *entries_[cursor_].keys[static_cast<std::size_t>(found - objects.begin())];
+}
+
+bool History::merges(std::string_view merge_key) const {
+  return merging_ && !merge_key.empty() && entries_[cursor_].merge_key == merge_key && cursor_ > 0;
+}
+
+bool History::push(std::string title, Document after, std::string merge_key) {
+  const Entry& before = entries_[cursor_];
+  Entry entry{std::move(title), std::move(merge_key), std::move(after), {}, 0};
+  entry.keys = keys_of(entry.document, before);
+  // The same keys are the same objects, see keys_of().
+  if (entry.keys == before.keys && same_but_strokes(entry.document, before.document)) return false;
+  entries_.resize(cursor_ + 1);
+  if (merges(entry.merge_key)) {
+    entries_.back() = std::move(entry);
+  } else {
+    entries_.push_back(std::move(entry));
+    ++cursor_;
+  }
+  merging_ = true;
+  serial_ = next_serial();
+  constexpr std::size_t kCheckEvery = 64;  // counting walks the whole history
+  if (entries_.size() % kCheckEvery == 0) forget_oldest();
+  return true;
+}
+
+void History::push_other_files(std::string title, std::uint64_t number) {
+  forget_redo();
+  Entry entry = entries_[cursor_];
+  entry.title = std::move(title);
+  entry.merge_key.clear();
+  entry.other_files = number;
+  entries_.push_back(std::move(entry));
+  ++cursor_;
+  merging_ = false;
+  serial_ = next_serial();
+}
+
+void History::forget_redo() {
+  entries_.resize(cursor_ + 1);
+}
+
+void History::forget_oldest() {
+  while (cursor_ > 1 && distinct_bytes(entries_) > kMostBytes) {
+    entries_.erase(entries_.begin());
+    --cursor_;
+  }
+}
+
+void History::undo() {
+  assert(can_undo());
+  --cursor_;
+  merging_ = false;
+  serial_ = next_serial();
+}
+
+void History::redo() {
+  assert(can_redo());
+  ++cursor_;
+  merging_ = false;
+  serial_ = next_serial();
+}
+
+void History::jump(std::size_t entry) {
+  assert(entry < entries_.size());
+  cursor_ = entry;
+  merging_ = false;
+  serial_ = next_serial();
+}
+
+void History::set_cut(ObjectId object, const std::string& cut_key, const Flags& cut) {
+  for (Entry& entry : entries_)
+    for (std::size_t i = 0; i < entry.keys.size(); ++i) {
+      ObjectItem& item = entry.document.objects[i];
+      if (item.id != object || entry.keys[i]->cut != cut_key) continue;
+      item.cut = cut;
+      item.cut_key = cut_key;
+      item.cut_kept = false;
+    }
+  serial_ = next_serial();
+}
+
+void History::carry(const std::function<Document(const Document&)>& carried) {
+  const Entry none;
+  const Entry* before = &none;
+  for (Entry& entry : entries_) {
+    entry.document = carried(entry.document);
+    entry.keys = keys_of(entry.document, *before);
+    before = &entry;
+  }
+  merging_ = false;
+  serial_ = next_serial();
+}
+
+}  // namespace splatcut

@@ -1,0 +1,30 @@
+#include "app/document/label_cache.h"
+
+namespace splatcut {
+
+const LabelCache::Kept& LabelCache::kept(const Document& document, const ObjectItem& object,
+                                         std::size_t gaussians) {
+  constexpr std::size_t kMostGone = 16;  // objects that undo may bring back
+  if (kept_.size() > document.objects.size() + kMostGone)
+    std::erase_if(kept_, [&](const auto& entry) { return !document.find(entry.first); });
+  const ObjectItem* whole = document.find(object.within);
+  const Flags limit = whole && whole->id != object.id ? labels(document, *whole, gaussians) : nullptr;
+  Kept& kept = kept_[object.id];
+  const bool current = kept.labels && kept.labels->size() == gaussians && kept.cut == object.cut &&
+                       kept.hand == object.hand && kept.deleted == document.deleted && kept.whole == limit;
+  if (current) return kept;
+  Flags fresh = make_flags(labels_of(document, object, gaussians));
+  const std::size_t count = count_flags(*fresh);
+  kept = {object.cut, object.hand, document.deleted, limit, std::move(fresh), count};
+  return kept;
+}
+
+const Flags& LabelCache::labels(const Document& document, const ObjectItem& object, std::size_t gaussians) {
+  return kept(document, object, gaussians).labels;
+}
+
+std::size_t LabelCache::count(const Document& document, const ObjectItem& object, std::size_t gaussians) {
+  return kept(document, object, gaussians).count;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,142 @@
+#include "app/document/opened_scene.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "app/console/camera_options.h"
+#include "app/picture/camera_controller.h"
+#include "core/byte_hash.h"
+#include "core/error.h"
+#include "scene/camera/camera_file.h"
+#include "scene/formats/merged_scene.h"
+#include "scene/raster/first_view.h"
+#include "scene/raster/guessed_up.h"
+
+namespace splatcut {
+
+namespace {
+
+Camera view_of_all(const Box& bounds, const glm::vec3& up_world) {
+  constexpr int kWidth = 640, kHeight = 480;
+  return view_of_all(bounds, up_world, CameraPose{}.fov_y_rad, kWidth, kHeight);
+}
+
+// Without cameras, up and first view are guessed from the splats.
+FileViews views_of(const Scene& scene, const Box& bounds, std::vector<Camera> cameras, const Job& job) {
+  FileViews views;
+  views.cameras = std::move(cameras);
+  if (!views.cameras.empty()) {
+    views.up_world = common_up(views.cameras);
+    views.reference = views.cameras.front();
+    return views;
+  }
+  views.up_world = guessed_up(scene.cloud);
+  views.reference = view_of_all(bounds, views.up_world);
+  views.first_view = better_first_view(scene.cloud, bounds, views.up_world, views.reference, job);
+  if (views.first_view) views.reference = *views.first_view;
+  return views;
+}
+
+Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::vector<std::string>* remarks) {
+  std::vector<Camera> cameras = cameras_near(file->path);
+  Scene scene = load_scene(file->path, {file->spz_axes, cameras}, job);
+  if (job.cancelled()) return scene;
+  const SceneSource* known = before ? before->file(file->id) : nullptr;
+  const std::uint64_t hash = hash_of_file(scene.path);
+  if (known && known->hash != hash)
+    throw Error(scene.path.string(), "was changed by another program since it was opened", "Open it again");
+  const bool asked = file->spz_axes.has_value();
+  for (const std::string& remark : {scene.left_out, scene.oddity, asked ? std::string() : scene.axes_note})
+    if (!known && !remark.empty()) remarks->push_back(remark);
+  file->path = scene.path;
+  file->spz_axes = scene.taken_axes;
+  file->hash = hash;
+  file->file_rows = scene.file_rows;
+  file->gaussians = scene.cloud.size();
+  file->bounds = framed_bounds(scene.cloud);
+  file->views =
+      known ? known->views
+            : std::make_shared<const FileViews>(views_of(scene, file->bounds, std::move(cameras), job));
+  return scene;
+}
+
+Scene one_of(std::vector<Scene> scenes, const Job& job) {
+  return scenes.size() == 1 ? std::move(scenes.front()) : merged(std::move(scenes), job).scene;
+}
+
+}  // namespace
+
+const SceneSource* OpenedScene::file(std::uint32_t id) const {
+  const auto found = std::ranges::find(files, id, &SceneSource::id);
+  return found == files.end() ? nullptr : &*found;
+}
+
+std::vector<std::uint8_t> gaussians_of(const OpenedScene& scene, std::uint32_t file) {
+  std::vector<std::uint8_t> own(scene.cloud->size(), 0);
+  std::size_t first = 0;
+  for (const SceneSource& source : scene.files) {
+    if (source.id != file) {
+      first += source.file_rows;
+      continue;
+    }
+    for (std::size_t g = 0; g < own.size(); ++g) {
+      const std::size_t row = scene.cloud->file_row[g];
+      own[g] = row >= first && row < first + source.file_rows;
+    }
+    break;
+  }
+  return own;
+}
+
+std::vector<Camera> cameras_near(const std::filesystem::path& scene) {
+  std::filesystem::path folder = std::filesystem::absolute(scene).parent_path();
+  for (int level = 0; level < 3; ++level) {
+    for (const char* name : {"cameras.json", "transforms.json", "sparse/0"}) {
+      if (!std::filesystem::exists(folder / name)) continue;
+      try {
+        return load_cameras(folder / name);
+      } catch (const Error&) {
+        // A file of that name with other content must not keep the scene from opening.
+      }
+    }
+    if (!folder.has_parent_path() || folder == folder.parent_path()) break;
+    folder = folder.parent_path();
+  }
+  return {};
+}
+
+std::shared_ptr<OpenedScene> open_scene(std::vector<SceneSource> files, const Job& job,
+                                        const OpenedScene* before) {
+  assert(!files.empty());
+  auto opened = std::make_shared<OpenedScene>();
+  std::vector<Scene> scenes;
+  for (SceneSource& file : files) {
+    scenes.push_back(load(&file, before, job, &opened->remarks));
+    if (job.cancelled()) return opened;
+    if (file.place != ScenePlace{})
+      scenes.back().cloud = placed(scenes.back().cloud, {}, similarity_of(file));
+  }
+  auto scene = std::make_shared<Scene>(one_of(std::move(scenes), job));
+  if (job.cancelled()) return opened;
+  opened->cloud = std::shared_ptr<const GaussianCloud>(scene, &scene->cloud);
+  opened->bounds = framed_bounds(scene->cloud);
+  opened->blocks = std::make_shared<const CloudBlocks>(scene->cloud);
+  opened->files = std::move(files);
+  opened->scene = std::move(scene);
+  return opened;
+}
+
+std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const Job& job) {
+  return open_scene(std::vector{SceneSource{.path = file}}, job);
+}
+
+Session session_on(const OpenedScene& scene, const PreparedCache& cache) {
+  const FileViews& views = scene.views();
+  return Session({.cloud = scene.cloud,
+                  .blocks = scene.blocks,
+                  .up_world = views.up_world,
+                  .photographs = views.cameras,
+                  .prepare = {.observing = {}, .model = {}, .cache = cache}});
+}
+
+}  // namespace splatcut

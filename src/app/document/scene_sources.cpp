@@ -1,0 +1,79 @@
+#include "app/document/scene_sources.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.h"
+
+namespace splatcut {
+
+namespace {
+
+glm::quat rotation_of(const ScenePlace& place) {
+  const glm::vec3 angles = glm::radians(place.turn_deg);
+  return glm::angleAxis(angles.z, glm::vec3(0, 0, 1)) * glm::angleAxis(angles.y, glm::vec3(0, 1, 0)) *
+         glm::angleAxis(angles.x, glm::vec3(1, 0, 0));
+}
+
+bool finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
+
+void check(const ScenePlace& place, const std::filesystem::path& file) {
+  constexpr float kLeastScale = 1e-6f, kMostScale = 1e6f, kFarthest = 1e9f;
+  if (!(place.scale >= kLeastScale && place.scale <= kMostScale))
+    throw Error(file.filename().string(), fmt::format("it cannot be placed {:g} times as large: {:g} to {:g}",
+                                                      place.scale, kLeastScale, kMostScale));
+  if (!finite(place.turn_deg)) throw Error(file.filename().string(), "the turn must be ordinary numbers");
+  if (!finite(place.move) || !(glm::length(place.move) < kFarthest))
+    throw Error(file.filename().string(), fmt::format("it cannot be moved by more than {:g}", kFarthest));
+}
+
+Similarity similarity_of(const SceneSource& file) {
+  const glm::vec3 middle = file.bounds.centre();
+  return {rotation_of(file.place), file.place.scale, middle, middle + file.place.move};
+}
+
+Similarity similarity_between(const SceneSource& before, const SceneSource& after) {
+  const Similarity from = similarity_of(before), to = similarity_of(after);
+  return {to.rotation * glm::conjugate(from.rotation), to.scale / from.scale, from.move, to.move};
+}
+
+ScenePlace changed(ScenePlace place, const PlacingChange& change) {
+  constexpr float kLeastScale = 1e-3f, kMostScale = 1e3f;
+  place.move += change.move_world;
+  if (change.angle_rad != 0)  // angles that say the same would be others
+    place.turn_deg = glm::degrees(glm::eulerAngles(change.turn * rotation_of(place)));
+  place.scale = glm::clamp(place.scale * change.scale, kLeastScale, kMostScale);
+  return place;
+}
+
+ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::vec3& up_world) {
+  place.turn_deg = glm::degrees(glm::eulerAngles(turn_between(file.views->up_world, up_world)));
+  return place;
+}
+
+ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& point_world,
+                    const glm::vec3& up_world) {
+  file.place = place;
+  const Similarity to = similarity_of(file);
+  const glm::vec3 up = glm::normalize(up_world), up_in_file = glm::conjugate(to.rotation) * up;
+  const float half = 0.5f * to.scale * glm::dot(glm::abs(up_in_file), file.bounds.extent());
+  file.place.move = point_world + half * up - file.bounds.centre();
+  return file.place;
+}
+
+// The centre moves along; the picture stays the same as all depths grow by the scale.
+Camera moved(const Camera& camera, const Similarity& to) {
+  Camera out = camera;
+  out.name.clear();
+  out.camera_from_world_rotation =
+      camera.camera_from_world_rotation * glm::transpose(glm::mat3_cast(to.rotation));
+  out.camera_from_world_translation = -(out.camera_from_world_rotation * moved(camera.centre_world(), to));
+  return out;
+}
+
+}  // namespace splatcut

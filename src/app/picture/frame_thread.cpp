@@ -1,0 +1,159 @@
+#include "app/picture/frame_thread.h"
+
+#include <chrono>
+
+#include "scene/raster/rasterizer.h"
+
+namespace splatcut {
+
+namespace {
+
+double drawn_ms(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool same_views(const FrameRequest& a, const FrameRequest& b) {
+  if (a.scene != b.scene || a.panes.size() != b.panes.size() || a.limits != b.limits) return false;
+  for (std::size_t i = 0; i < a.panes.size(); ++i)
+    if (!same_camera(a.panes[i].camera, b.panes[i].camera) || a.panes[i].shown != b.panes[i].shown)
+      return false;
+  return true;
+}
+
+}  // namespace
+
+Flags within_far_plane(const GaussianCloud& cloud, const Camera& camera, const Flags& shown,
+                       float far_plane) {
+  if (far_plane >= DrawLimits{}.far_plane) return shown;
+  std::vector<std::uint8_t> set(cloud.size());
+  for (std::size_t g = 0; g < set.size(); ++g)
+    set[g] = (!shown || (*shown)[g]) && camera.camera_from_world(cloud.position[g]).z <= far_plane;
+  return make_flags(std::move(set));
+}
+
+namespace {
+
+std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera, const Flags& visible,
+                                const DrawLimits& limits, const Job& job) {
+  const auto start = std::chrono::steady_clock::now();
+  RasterOptions options;
+  options.depth = true;
+  options.near_plane = limits.near_plane;
+  options.low_pass_px2 = limits.low_pass_px2;
+  const Flags shown = within_far_plane(cloud, camera, visible, limits.far_plane);
+  if (shown) options.shown = *shown;
+  RasterOutput out = rasterize(cloud, camera, options, job);
+  auto frame = std::make_shared<Frame>();
+  frame->camera = camera;
+  frame->colour = std::move(out.colour);
+  frame->alpha = std::move(out.alpha);
+  frame->depth = std::move(out.median_depth);
+  frame->first_hit = std::move(out.first_hit);
+  frame->raster_ms = drawn_ms(start);
+  return frame;
+}
+
+}  // namespace
+
+std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
+                                          const Flags& shown, const DrawLimits& limits, const Job& job) {
+  return frame_of(cloud, camera, shown, limits, job);
+}
+
+std::shared_ptr<const Frame> coarse_frame(const CoarseCloud& coarse, const Camera& camera, const Flags& shown,
+                                          const DrawLimits& limits, const Job& job) {
+  Flags coarse_shown;
+  if (shown) {
+    std::vector<std::uint8_t> set;
+    for (const std::uint32_t g : coarse.stands_for) set.push_back((*shown)[g]);
+    coarse_shown = make_flags(std::move(set));
+  }
+  auto frame = frame_of(coarse.cloud, camera, coarse_shown, limits, job);
+  for (std::int32_t& hit : frame->first_hit.pixels())
+    if (hit >= 0) hit = static_cast<std::int32_t>(coarse.stands_for[static_cast<std::size_t>(hit)]);
+  return frame;
+}
+
+FrameThread::FrameThread(std::function<void()> wake)
+    : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+FrameThread::~FrameThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    wanted_.reset();
+    drawing_stop_.request_stop();
+  }
+  thread_.request_stop();
+  thread_.join();
+}
+
+void FrameThread::request(FrameRequest request) {
+  {
+    const std::lock_guard lock(mutex_);
+    const bool superseded = drawing_ && drawing_->full && !same_views(*drawing_, request);
+    if (superseded) drawing_stop_.request_stop();
+    wanted_ = std::move(request);
+  }
+  changed_.notify_one();
+}
+
+std::optional<FrameResult> FrameThread::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(done_, std::nullopt);
+}
+
+bool FrameThread::idle() const {
+  const std::lock_guard lock(mutex_);
+  return !wanted_ && !drawing_ && !done_;
+}
+
+std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const std::stop_token& stop) {
+  const auto start = std::chrono::steady_clock::now();
+  Job job;
+  job.stop = stop;
+  kept_.resize(request.panes.size());
+  FrameResult result{request.scene, {}, {}, request.full, 0, request.limits};
+  for (std::size_t i = 0; i < request.panes.size(); ++i) {
+    const PaneRequest& pane = request.panes[i];
+    Kept& kept = kept_[i];
+    const bool reusable = kept.frame && (kept.full || !request.full) && kept.scene == request.scene &&
+                          kept.shown == pane.shown && kept.limits == request.limits &&
+                          same_camera(kept.frame->camera, pane.camera);
+    if (!reusable) {
+      const bool coarse = request.coarse && !request.full;
+      auto frame = coarse ? coarse_frame(*request.coarse, pane.camera, pane.shown, request.limits, job)
+                          : raster_frame(*request.cloud, pane.camera, pane.shown, request.limits, job);
+      if (job.cancelled()) return std::nullopt;
+      kept = {request.scene, pane.shown, request.limits, request.full, std::move(frame)};
+    }
+    result.frames.push_back(kept.frame);
+    result.pictures.push_back(shaded(*kept.frame, pane.style));
+  }
+  result.ms = drawn_ms(start);
+  return result;
+}
+
+void FrameThread::run(const std::stop_token& stop) {
+  while (true) {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait(lock, stop, [&] { return wanted_.has_value(); })) return;
+    const FrameRequest request = *std::exchange(wanted_, std::nullopt);
+    drawing_ = request;
+    drawing_stop_ = std::stop_source();
+    const std::stop_token token = drawing_stop_.get_token();
+    lock.unlock();
+    std::optional<FrameResult> result;
+    try {
+      result = arena_.execute([&] { return draw(request, token); });
+    } catch (const std::exception&) {
+      kept_.clear();  // out of memory: the picture before it stays, the next request tries again
+    }
+    lock.lock();
+    drawing_.reset();
+    if (result) done_ = std::move(result);
+    lock.unlock();
+    if (wake_) wake_();
+  }
+}
+
+}  // namespace splatcut

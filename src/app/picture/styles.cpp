@@ -1,0 +1,88 @@
+#include "app/picture/styles.h"
+
+#include <cmath>
+
+#include "app/document/selection.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr float kCheckerPoints = 12;
+
+Flags shown_in(DisplayMode mode, const Document& document, const Flags& active) {
+  if (mode == DisplayMode::kWhole && !document.deleted) return nullptr;
+  std::vector<std::uint8_t> set(active->size(), 1);
+  for (std::size_t g = 0; g < set.size(); ++g) {
+    if (mode == DisplayMode::kIsolate) set[g] = (*active)[g];
+    if (mode == DisplayMode::kHide) set[g] = !(*active)[g];
+    if (document.deleted && (*document.deleted)[g]) set[g] = 0;
+  }
+  return make_flags(std::move(set));
+}
+
+// With marks by hand and all else that labels come from.
+Flags with_cut(const Document& document, ObjectItem object, const Flags& cut) {
+  object.cut = cut;
+  return make_flags(labels_of(document, object, cut->size()));
+}
+
+Flags kept_if_equal(const Flags& before, const Flags& fresh) {
+  const bool equal = before && fresh ? *before == *fresh : before == fresh;
+  return equal ? before : fresh;
+}
+
+}  // namespace
+
+Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels) {
+  const std::size_t n = order.cloud->size();
+  const Document& document = order.document;
+  FrameStyle style;
+  style.background = document.background;
+  style.checker_px = order.view.checker ? std::round(kCheckerPoints * order.pixels_per_point) : 0;
+  style.tint = order.view.tint;
+  style.outline = order.view.outline;
+  std::vector<std::uint8_t> owner(n, 0);
+  Flags active;
+  bool any = false;
+  for (std::size_t i = 0; i < document.objects.size(); ++i) {
+    const ObjectItem& object = document.objects[i];
+    const auto preview = order.previews.find(object.id);
+    const Flags own = preview != order.previews.end() ? with_cut(document, object, preview->second)
+                                                      : labels->labels(document, object, n);
+    const auto number = static_cast<std::uint8_t>(i + 1);
+    style.owner_colour[number] = object.colour;
+    for (std::size_t g = 0; object.visible && g < n; ++g)
+      if ((*own)[g]) owner[g] = number;
+    any |= object.visible;
+    if (object.id == document.active) active = own;
+  }
+  if (any) style.owner = make_flags(std::move(owner));
+  if (!active) active = make_flags(std::vector<std::uint8_t>(n, 0));
+  if (order.view.heat) style.heat = order.likelihood;
+  Styles out;
+  out.active_labels = active;
+  if (order.floaters) {
+    Selection found = floaters(*order.cloud, order.graph->get(), *active);
+    out.floaters = count_flags(found);
+    style.highlight = make_flags(std::move(found));
+  }
+  const bool two = order.view.display == DisplayMode::kSideBySide;
+  const bool alone = order.view.display == DisplayMode::kIsolate;
+  FrameStyle plain = style;
+  plain.owner = nullptr;
+  const auto shown = [&](std::size_t pane, DisplayMode mode) {
+    out.shown[pane] = kept_if_equal(before.shown[pane], shown_in(mode, document, active));
+  };
+  out.panes = two ? 2 : 1;
+  shown(0, two ? DisplayMode::kWhole : order.view.display);
+  out.style[0] = alone && !style.highlight ? plain : style;
+  if (two) {
+    shown(1, DisplayMode::kIsolate);
+    out.style[1] = plain;
+    out.style[1].heat = nullptr;
+  }
+  return out;
+}
+
+}  // namespace splatcut

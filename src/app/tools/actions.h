@@ -1,0 +1,113 @@
+// The keys: one table that the keyboard, the menus, the tooltips and the F1 page all read.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "app/tools/tool.h"
+
+namespace splatcut {
+
+// Key codes as GLFW numbers them; letters and digits are their ASCII capitals.
+namespace key {
+inline constexpr int kEscape = 256, kEnter = 257, kTab = 258, kBackspace = 259, kInsert = 260, kDelete = 261;
+inline constexpr int kRight = 262, kLeft = 263, kDown = 264, kUp = 265, kPageUp = 266, kPageDown = 267,
+                     kHome = 268, kEnd = 269;
+inline constexpr int kF1 = 290, kF12 = 301;
+inline constexpr int kKeypad1 = 321, kKeypad3 = 323, kKeypad7 = 327;
+inline constexpr int kKeypadSubtract = 333, kKeypadAdd = 334, kKeypadEnter = 335;
+inline constexpr int kLeftShift = 340, kLeftControl = 341, kLeftAlt = 342, kRightShift = 344,
+                     kRightControl = 345, kRightAlt = 346;
+inline constexpr int kCount = 512;
+}  // namespace key
+
+struct Modifiers {
+  bool shift = false, ctrl = false, alt = false;
+  bool operator==(const Modifiers&) const = default;
+};
+
+enum class Action {
+  kNone,
+  kOpen,
+  kAddScene,
+  kSave,
+  kExport,
+  kSnapshot,
+  kQuit,
+  kUndo,
+  kRedo,
+  kCancel,
+  kConfirm,
+  kRecompute,
+  kHelp,
+  kTheme,
+  kHistory,
+  kSelectAll,
+  kSelectNone,
+  kInvert,
+  kGrow,
+  kShrink,
+  kLargestPart,
+  kFloaters,
+  kSeeThrough,
+  kDelete,
+  kNewObject,
+#define SPLATCUT_TOOL_ACTION(tool) kTool##tool,
+  SPLATCUT_TOOLS(SPLATCUT_TOOL_ACTION)
+#undef SPLATCUT_TOOL_ACTION
+      kBrushSmaller,
+  kBrushLarger,
+  kPartLarger,
+  kPartSmaller,
+  kIsolate,
+  kHide,
+  kShowAll,
+  kSideBySide,
+  kTint,
+  kOutline,
+  kHeat,
+  kBackdrop,
+  kCentres,
+  kRings,
+  kGrid,
+  kFrameObject,
+  kFrameScene,
+  kNextCamera,
+  kPreviousCamera,
+  kViewFront,
+  kViewRight,
+  kViewTop,
+  kFlyForward,
+  kFlyBack,
+  kFlyLeft,
+  kFlyRight,
+  kFlyUp,
+  kFlyDown,
+};
+
+struct Binding {
+  Action action;
+  int key;
+  Modifiers modifiers;
+  const char* group;  // heading on the F1 page
+  const char* what;   // "Undo"
+};
+
+std::span<const Binding> key_bindings();
+
+// The action that selects a tool.
+Action action_of(const Tool& tool);
+const Tool* tool_of(Action action);  // null for other actions
+
+// kNone where nothing is bound. Flight keys answer with any of Shift and Alt held.
+Action action_for(int key, const Modifiers& modifiers);
+
+std::string key_name(int key, const Modifiers& modifiers);  // "Ctrl+Shift+Z"
+std::string keys_of(Action action);  // all of them: "I, Tab"; empty where there is none
+const char* name_of(Action action);  // Binding::what
+
+constexpr bool is_flight(Action action) {
+  return action >= Action::kFlyForward && action <= Action::kFlyDown;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,82 @@
+#include "app/work/autosaves.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace splatcut {
+
+namespace {
+
+constexpr const char *kFirst = "autosave", *kLast = ".splatcut.json";
+
+// -1 where another program holds it. Children do not inherit it.
+int lock_of(const std::filesystem::path& file) {
+  std::string path = file.string();
+  path.replace(path.size() - std::string(kLast).size(), std::string::npos, ".lock");
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  if (descriptor < 0) return -1;
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  ::close(descriptor);
+  return -1;
+}
+
+}  // namespace
+
+Autosaves::Autosaves(const std::filesystem::path& folder) : folder_(folder) {
+  if (folder.empty()) return;
+  std::error_code trouble;
+  std::filesystem::create_directories(folder, trouble);
+  if (!trouble) hold_left_behind(folder);
+  if (!trouble) hold_own(folder);
+}
+
+Autosaves::~Autosaves() {
+  left_.push_back(own_);
+  for (const Held& held : left_)
+    if (held.lock >= 0) ::close(held.lock);
+}
+
+void Autosaves::hold_left_behind(const std::filesystem::path& folder) {
+  std::error_code trouble;
+  for (auto entry = std::filesystem::directory_iterator(folder, trouble);
+       !trouble && entry != std::filesystem::directory_iterator(); entry.increment(trouble)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(kFirst) || !name.ends_with(kLast)) continue;
+    std::error_code unreadable;
+    const auto written = entry->last_write_time(unreadable);
+    const int lock = unreadable ? -1 : lock_of(entry->path());
+    if (lock >= 0) left_.push_back({entry->path(), lock, written});
+  }
+  std::ranges::sort(left_, {}, &Held::written);
+}
+
+void Autosaves::hold_own(const std::filesystem::path& folder) {
+  constexpr int kMostPrograms = 100;
+  for (int number = 1; number <= kMostPrograms && own_.lock < 0; ++number) {
+    const std::string middle = number == 1 ? "" : fmt::format(".{}", number);
+    const std::filesystem::path file = folder / (kFirst + middle + kLast);
+    std::error_code unreadable;
+    if (std::filesystem::exists(file, unreadable) || unreadable) continue;
+    const int lock = lock_of(file);
+    if (lock >= 0) own_ = {file, lock, {}};
+  }
+}
+
+std::filesystem::path Autosaves::left_behind() const {
+  return left_.empty() ? std::filesystem::path() : left_.back().file;
+}
+
+void Autosaves::remove(const std::filesystem::path& file) {
+  const auto held = std::ranges::find(left_, file, &Held::file);
+  if (held == left_.end()) return;
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+  ::close(held->lock);
+  left_.erase(held);
+}
+
+}  // namespace splatcut

@@ -1,0 +1,151 @@
+#include "app/work/work_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "app/work/work_document.h"
+#include "app/work/work_history.h"
+#include "app/work/work_values.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/json_file.h"
+
+namespace splatcut {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int kVersion = 5;
+
+json parse(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw Error(path.string(), "is no file, or is not there");
+  json work = json_of_file(path);
+  if (!work.is_object() || !work.contains("splatcut_work"))
+    throw Error(path.string(), "is no work file of splatcut");
+  const json& version = work["splatcut_work"];
+  if (version != kVersion)
+    throw Error(path.string(),
+                fmt::format("is of version {}, this splatcut reads version {}", json_text(version), kVersion),
+                "Open the scene itself to start anew");
+  return work;
+}
+
+// A file beside or below the work file moves with it.
+json source_json(const SceneSource& file, const std::filesystem::path& work) {
+  const std::filesystem::path absolute = std::filesystem::absolute(file.path).lexically_normal();
+  const std::filesystem::path relative =
+      absolute.lexically_relative(std::filesystem::absolute(work).parent_path().lexically_normal());
+  const bool beside = !relative.empty() && !relative.string().starts_with("..");
+  const std::string place = (beside ? relative : absolute).string();
+  json source = {{"path", place}, {"hash", fmt::format("{:016x}", file.hash)}, {"gaussians", file.gaussians}};
+  if (!is_utf8(place)) source["path_bytes"] = std::vector<std::uint8_t>(place.begin(), place.end());
+  if (file.spz_axes) source["spz_axes"] = name_of(*file.spz_axes);
+  if (file.place != ScenePlace{})
+    source["place"] = {{"move", list(file.place.move)},
+                       {"turn_deg", list(file.place.turn_deg)},
+                       {"scale", file.place.scale}};
+  return source;
+}
+
+SceneSource source_from(const json& said, const std::filesystem::path& work) {
+  SceneSource file;
+  file.path = said.at("path").get<std::string>();
+  if (said.contains("path_bytes")) {
+    const auto bytes = said.at("path_bytes").get<std::vector<std::uint8_t>>();
+    file.path = std::string(bytes.begin(), bytes.end());
+  }
+  if (!file.path.is_absolute()) file.path = std::filesystem::absolute(work).parent_path() / file.path;
+  const std::string hash = said.at("hash");
+  if (std::from_chars(hash.data(), hash.data() + hash.size(), file.hash, 16).ec != std::errc())
+    throw Error(work.string(), "does not say which scene it belongs to: its \"hash\" is no number");
+  file.spz_axes = spz_axes_from_name(said.value("spz_axes", ""));
+  if (!said.contains("place")) return file;
+  const json& place = said["place"];
+  file.place = {vec3_from(place.at("move")), vec3_from(place.at("turn_deg")), place.at("scale").get<float>()};
+  check(file.place, file.path);
+  return file;
+}
+
+// The work is what counts: steps that cannot be read are left out, and that is said.
+void read_history(const json& said, const Scene& scene, RestoredWork* work) {
+  if (said.is_null()) return;
+  std::string fault;
+  try {
+    work->history = history_from(said, scene, work->document);
+    return;
+  } catch (const Error& error) {
+    fault = error.unstopped();
+  } catch (const json::exception& error) {
+    fault = fault_of(error);
+  }
+  work->warning = "the steps before it cannot be undone (" + fault + ")";
+}
+
+}  // namespace
+
+bool is_work_file(const std::filesystem::path& path) {
+  return path.string().ends_with(".splatcut.json");
+}
+
+WorkFile read_work_file(const std::filesystem::path& path) {
+  try {
+    json work = parse(path);
+    WorkFile out;
+    out.path = path;
+    out.files.push_back(source_from(work.at("scene"), path));
+    for (const json& added : work.value("added", json::array()))
+      out.files.push_back(source_from(added, path));
+    out.content = std::make_shared<const json>(std::move(work));
+    return out;
+  } catch (const json::exception& error) {
+    throw Error(path.string(), "does not have the expected form (" + fault_of(error) + ")");
+  }
+}
+
+RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
+  if (file.files.size() != opened.files.size())
+    throw Error(file.path.string(), "belongs to a scene of other files");
+  for (std::size_t i = 0; i < file.files.size(); ++i)
+    if (file.files[i].hash != opened.files[i].hash)
+      throw Error(file.path.string(),
+                  fmt::format("belongs to another version of {}", file.files[i].path.filename().string()),
+                  "Its labels would be wrong; open the scene itself to start anew");
+  const Scene& scene = *opened.scene;
+  try {
+    const json& work = *file.content;
+    std::vector<const json*> objects;
+    for (const json& o : work.at("objects")) objects.push_back(&o);
+    Document document = document_from(work, objects, [&scene](const json& runs, std::uint8_t most) {
+      return flags_from(runs, scene, most);
+    });
+    RestoredWork out{std::move(document), {}, {}, {}};
+    if (work.contains("view")) out.view = pose_from(work.at("view"));
+    if (work.contains("history")) read_history(work["history"], scene, &out);
+    return out;
+  } catch (const Error& error) {
+    throw Error(file.path.string(), error.unstopped());
+  } catch (const json::exception& error) {
+    throw Error(file.path.string(), "does not have the expected form (" + fault_of(error) + ")");
+  }
+}
+
+void write_work_file(const std::filesystem::path& path, const OpenedScene& opened, const Document& document,
+                     const std::optional<CameraPose>& view, const SavedSteps& history) {
+  const Scene& scene = *opened.scene;
+  const std::span<const SceneSource> files = opened.files;
+  json work = document_json(document, [&scene](const Flags& flags) { return runs_json(flags, scene); });
+  work["splatcut_work"] = kVersion;
+  work["scene"] = source_json(files.front(), path);
+  for (const SceneSource& file : files.subspan(1)) work["added"].push_back(source_json(file, path));
+  if (view) work["view"] = pose_json(*view);
+  if (history.steps.size() > 1) work["history"] = history_json(history, scene);
+  write_text_file(path, json_text(work) + "\n");
+}
+
+}  // namespace splatcut

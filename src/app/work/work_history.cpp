@@ -1,0 +1,162 @@
+#include "app/work/work_history.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <unordered_map>
+#include <utility>
+
+#include "app/work/work_document.h"
+#include "app/work/work_values.h"
+#include "core/error.h"
+
+namespace splatcut {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kMostArrayBytes = std::size_t{64} << 20, kMostNumbers = 4'000'000;
+
+// The labels that a cut computes again are not kept.
+Document without_cuts(Document document) {
+  for (ObjectItem& o : document.objects)
+    if (!o.cut_kept) {
+      o.cut = nullptr;
+      o.cut_key.clear();
+    }
+  return document;
+}
+
+// Each array once, by number; whether there is room is said before it is needed.
+class ArrayTable {
+ public:
+  explicit ArrayTable(const Scene& scene) : scene_(scene) {}
+
+  bool has_room_for(const Document& document) const {
+    std::size_t added = 0;
+    const auto count = [&](const Flags& flags) { added += flags && !numbers_.contains(flags.get()); };
+    count(document.deleted);
+    for (const ObjectItem& o : document.objects) {
+      count(o.cut);
+      count(o.hand);
+      for (const StrokedView& view : o.views) count(view.seen);
+    }
+    return length_ < kMostNumbers &&
+           (numbers_.size() + added) * std::max<std::size_t>(scene_.file_rows, 1) <= kMostArrayBytes;
+  }
+  json number_of(const Flags& flags) {
+    if (!flags) return nullptr;
+    const auto [at, fresh] = numbers_.emplace(flags.get(), numbers_.size());
+    if (fresh) {
+      arrays_.push_back(runs_json(flags, scene_));
+      length_ += arrays_.back().size();
+    }
+    return at->second;
+  }
+  json take() { return std::exchange(arrays_, json::array()); }
+
+ private:
+  const Scene& scene_;
+  std::unordered_map<const void*, std::size_t> numbers_;
+  json arrays_ = json::array();
+  std::size_t length_ = 0;
+};
+
+// An object that is as it was in the step next to it stands there once.
+class ObjectTable {
+ public:
+  json number_of(json object) {
+    const auto id = object.at("id").get<ObjectId>();
+    const auto known = last_.find(id);
+    if (known != last_.end() && objects_[known->second] == object) return known->second;
+    last_[id] = objects_.size();
+    objects_.push_back(std::move(object));
+    return objects_.size() - 1;
+  }
+  json take() { return std::exchange(objects_, json::array()); }
+
+ private:
+  std::unordered_map<ObjectId, std::size_t> last_;
+  json objects_ = json::array();
+};
+
+}  // namespace
+
+SavedSteps saved_steps(const History& history) {
+  const std::vector<History::Entry>& entries = history.entries();
+  std::size_t begin = history.cursor(), end = history.cursor() + 1;
+  while (begin > 0 && entries[begin].other_files == 0 && end - begin <= kMostSavedSteps / 2) --begin;
+  while (end < entries.size() && entries[end].other_files == 0 && end - begin < kMostSavedSteps) ++end;
+  SavedSteps out;
+  out.cursor = history.cursor() - begin;
+  for (std::size_t i = begin; i < end; ++i) out.steps.push_back({entries[i].title, entries[i].document});
+  return out;
+}
+
+json history_json(const SavedSteps& history, const Scene& scene) {
+  ArrayTable arrays(scene);
+  ObjectTable objects;
+  const auto step_json = [&](const SavedSteps::Step& step) {
+    json out = document_json(without_cuts(step.document),
+                             [&](const Flags& flags) { return arrays.number_of(flags); });
+    for (json& object : out["objects"]) object = objects.number_of(std::move(object));
+    out["title"] = step.title;
+    return out;
+  };
+  const auto fits = [&](std::size_t i) {
+    return arrays.has_room_for(without_cuts(history.steps[i].document));
+  };
+  std::vector<json> back, on;  // from the cursor
+  for (std::size_t i = history.cursor + 1; i-- > 0 && fits(i);) back.push_back(step_json(history.steps[i]));
+  if (back.empty()) return nullptr;
+  for (std::size_t i = history.cursor + 1; i < history.steps.size() && fits(i); ++i)
+    on.push_back(step_json(history.steps[i]));
+  json steps = json::array();
+  for (auto step = back.rbegin(); step != back.rend(); ++step) steps.push_back(std::move(*step));
+  for (json& step : on) steps.push_back(std::move(step));
+  return {{"cursor", back.size() - 1},
+          {"arrays", arrays.take()},
+          {"objects", objects.take()},
+          {"steps", std::move(steps)}};
+}
+
+SavedSteps history_from(const json& j, const Scene& scene, const Document& document) {
+  const json &arrays = j.at("arrays"), &objects = j.at("objects"), &steps = j.at("steps");
+  SavedSteps out;
+  out.cursor = j.at("cursor");
+  if (out.cursor >= steps.size() || steps.size() > kMostSavedSteps)
+    throw Error("history", fmt::format("step {} of {}", out.cursor, steps.size()));
+  if (arrays.size() * std::max<std::size_t>(scene.file_rows, 1) > kMostArrayBytes)
+    throw Error("history", fmt::format("{} arrays of {} rows are too many", arrays.size(), scene.file_rows));
+  struct ReadArray {
+    Flags flags;
+    std::uint8_t largest = 0;
+  };
+  std::vector<ReadArray> read(arrays.size());  // each once, however many steps name it
+  const ReadFlags flags = [&](const json& number, std::uint8_t most) -> Flags {
+    if (number.is_null()) return nullptr;
+    const json& runs = arrays.at(number.get<std::size_t>());
+    ReadArray& known = read[number.get<std::size_t>()];
+    if (!known.flags) {
+      known.flags = flags_from(runs, scene, kHandRest);
+      for (const std::uint8_t value : *known.flags) known.largest = std::max(known.largest, value);
+    }
+    if (known.largest > most)
+      throw Error("history", fmt::format("array {} holds more than {}", number.get<std::size_t>(), most));
+    return known.flags;
+  };
+  for (const json& step : steps) {
+    if (out.steps.size() == out.cursor) {
+      out.steps.push_back({step.at("title"), document});
+      continue;
+    }
+    std::vector<const json*> own;
+    for (const json& number : step.at("objects")) own.push_back(&objects.at(number.get<std::size_t>()));
+    out.steps.push_back({step.at("title"), document_from(step, own, flags)});
+  }
+  return out;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,203 @@
+// The history, the labels kept for it, and the edits that are made one after the other, by themselves.
+#include <doctest/doctest.h>
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "app/document/label_cache.h"
+#include "app/studio/studio.h"
+#include "headless_app.h"
+#include "random_scene.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+constexpr std::size_t kFewGaussians = 50;
+
+Camera small_camera() {
+  return look_at({0, 0, -3}, {0, 0, 0}, {0, -1, 0}, 1, 64, 48);
+}
+
+Flags random_flags(std::mt19937& random, int values) {
+  std::vector<std::uint8_t> flags(kFewGaussians);
+  for (std::uint8_t& flag : flags) flag = static_cast<std::uint8_t>(random() % static_cast<unsigned>(values));
+  return make_flags(std::move(flags));
+}
+
+Document with_click(Document document, const glm::vec2& pixel) {
+  if (!document.active_object()) add_object(&document);
+  document.find(document.active)
+      ->views.push_back({small_camera(), {click(pixel, SeedLabel::kObject)}, nullptr});
+  return document;
+}
+
+}  // namespace
+
+TEST_CASE("history: a step that changes nothing is none, every other counts once") {
+  History history;
+  const std::uint64_t start = history.serial();
+  CHECK_FALSE(history.push("nothing", history.now()));
+  CHECK(history.serial() == start);
+  CHECK(history.push("click", with_click(history.now(), {3, 4})));
+  CHECK(history.serial() != start);
+  // Zeros are what no marks are.
+  Document marked = history.now();
+  marked.objects.front().hand = make_flags(std::vector<std::uint8_t>(kFewGaussians, 0));
+  CHECK_FALSE(history.push("zeros", marked));
+  CHECK(history.entries().size() == 2);
+  history.undo();
+  CHECK(history.now().objects.empty());
+  history.redo();
+  CHECK(history.now().objects.size() == 1);
+}
+
+TEST_CASE("history: steps with one key become one until something else is done") {
+  History history;
+  history.push("click", with_click(history.now(), {3, 4}));
+  const auto smooth = [&](float value) {
+    Document after = history.now();
+    after.objects.front().smoothness = value;
+    history.push("smoothness", after, "smoothness");
+  };
+  smooth(1);
+  smooth(2);
+  CHECK(history.entries().size() == 3);
+  CHECK(history.merges("smoothness"));
+  history.undo();
+  CHECK_FALSE(history.now().objects.front().smoothness);
+  CHECK_FALSE(history.merges("smoothness"));
+  history.redo();
+  smooth(3);
+  CHECK(history.entries().size() == 4);
+}
+
+TEST_CASE("history: a cut reaches every state with its inputs, and no other") {
+  History history;
+  history.push("click", with_click(history.now(), {3, 4}));
+  const std::string key = history.keys(history.now().objects.front()).cut;
+  CHECK(key == cut_key(history.now(), history.now().objects.front()));
+  Document renamed = history.now();
+  renamed.objects.front().name = "mug";
+  history.push("rename", renamed);
+  history.push("click", with_click(history.now(), {9, 9}));
+  const Flags cut = make_flags(std::vector<std::uint8_t>(kFewGaussians, 1));
+  history.set_cut(history.now().active, key, cut);
+  CHECK(history.now().objects.front().cut == nullptr);
+  CHECK(is_stale(history.now(), history.now().objects.front()));
+  for (int i = 0; i < 2; ++i) {
+    history.undo();
+    CHECK(history.now().objects.front().cut == cut);
+    CHECK_FALSE(is_stale(history.now(), history.now().objects.front()));
+  }
+}
+
+TEST_CASE("history: keys are those of the document wherever it stands") {
+  std::mt19937 random(5);
+  History history;
+  for (int i = 0; i < 60; ++i) {
+    Document after = history.now();
+    if (random() % 4 == 0) add_object(&after);
+    if (random() % 5 == 0 && !after.objects.empty()) after.objects.erase(after.objects.begin());
+    if (!after.find(after.active)) after.active = after.objects.empty() ? 0 : after.objects.back().id;
+    if (random() % 3 == 0) after.preset = random() % 2 ? "fast" : "default";
+    after = with_click(after, {random() % 60, random() % 40});
+    history.push("step", after);
+    if (random() % 3 == 0 && history.can_undo()) history.undo();
+    for (const ObjectItem& object : history.now().objects) {
+      CHECK(history.keys(object).cut == cut_key(history.now(), object));
+      CHECK(history.keys(object).first_click == key_of_first_stroke(cut_request(history.now(), object)));
+    }
+  }
+}
+
+TEST_CASE("kept labels are those of the document, whatever of it changes") {
+  std::mt19937 random(7);
+  LabelCache cache;
+  Document document;
+  for (int i = 0; i < 4; ++i) add_object(&document);
+  document.objects[2].within = document.objects[1].id;
+  document.objects[3].within = document.objects[2].id;
+  for (int i = 0; i < 200; ++i) {
+    ObjectItem& object = document.objects[random() % document.objects.size()];
+    switch (random() % 5) {
+      case 0:
+        object.cut = random_flags(random, 2);
+        break;
+      case 1:
+        object.hand = random_flags(random, 3);
+        break;
+      case 2:
+        document.deleted = random() % 2 ? random_flags(random, 2) : nullptr;
+        break;
+      case 3:
+        object.within = document.objects.front().id;
+        break;
+      default:
+        object.cut = nullptr;
+    }
+    for (const ObjectItem& o : document.objects) {
+      const std::vector<std::uint8_t> labels = labels_of(document, o, kFewGaussians);
+      CHECK(*cache.labels(document, o, kFewGaussians) == labels);
+      CHECK(cache.count(document, o, kFewGaussians) == count_flags(labels));
+    }
+  }
+}
+
+TEST_CASE("edits asked for at once are made in order, as if each had been waited for") {
+  const ScratchFolder folder("haste");
+  write_random_scene(folder / "random.ply");
+  const auto work_after = [&](bool haste, std::vector<std::string>* titles) {
+    Studio studio({});
+    studio.set_viewport(64, 48, 1);
+    studio.apply(OpenScene{folder / "random.ply"});
+    REQUIRE(studio.settle(300));
+    const auto then = [&](const Command& command) {
+      studio.apply(command);
+      if (!haste) REQUIRE(studio.settle(60));
+    };
+    const float reach = 0.1f * studio.camera().scene_size();
+    const glm::vec3 middle = studio.scene()->cloud->position.front();
+    const glm::vec3 colour = base_colour(*studio.scene()->cloud, 0);
+    then(NewObject{});
+    then(SelectVolume{Volume{true, middle, glm::vec3(reach)}, SetOperation::kAdd, false});
+    then(EditSelection{SelectionEdit::kGrow});
+    then(RenameObject{1, "grown"});
+    then(EditSelection{SelectionEdit::kInvert});
+    then(Undo{});
+    then(SelectColour{colour, 0.02f, SetOperation::kRemove});
+    then(EditSelection{SelectionEdit::kLargestPart});
+    then(DuplicateObject{1});
+    then(RecolourObject{1, {1, 2, 3}});
+    REQUIRE(studio.settle(60));
+    for (const History::Entry& entry : studio.history().entries()) titles->push_back(entry.title);
+    CHECK(studio.gaussians_of(1) > 0);
+    return Document(studio.document());
+  };
+  std::vector<std::string> in_haste, waited_for;
+  CHECK(same(work_after(true, &in_haste), work_after(false, &waited_for)));
+  CHECK(in_haste == waited_for);
+}
+
+TEST_CASE("edits that were asked for and cancelled leave the document as it was") {
+  const ScratchFolder folder("cancelled");
+  write_random_scene(folder / "random.ply");
+  Studio studio({});
+  studio.set_viewport(64, 48, 1);
+  studio.apply(OpenScene{folder / "random.ply"});
+  REQUIRE(studio.settle(300));
+  studio.apply(NewObject{});
+  const Document before = studio.document();
+  studio.apply(EditSelection{SelectionEdit::kAll});
+  studio.apply(EditSelection{SelectionEdit::kInvert});
+  studio.apply(RenameObject{1, "never"});
+  studio.apply(SaveWork{folder / "kept.splatcut.json"});
+  studio.apply(Cancel{});
+  REQUIRE(studio.settle(60));
+  CHECK(std::filesystem::exists(folder / "kept.splatcut.json"));  // a file that was asked for is no edit
+  CHECK(same(studio.document(), before));
+  studio.apply(RenameObject{1, "afterwards"});
+  CHECK(studio.document().objects.front().name == "afterwards");
+}
