@@ -1,5 +1,6 @@
 // splatcut compare: two pictures, as a test.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <optional>

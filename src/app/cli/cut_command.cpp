@@ -1,5 +1,6 @@
 // splatcut cut: strokes in, cutout out.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>

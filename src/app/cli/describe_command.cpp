@@ -1,6 +1,7 @@
 // splatcut describe man|bash: the manual page and the completion of bash, from the same table of options that
 // is parsed, so that neither can be behind. The build runs it.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>

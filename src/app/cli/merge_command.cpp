@@ -1,5 +1,6 @@
 // splatcut merge: the Gaussians of several scenes in one file.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 

@@ -1,5 +1,7 @@
 #include "app/cli/object_options.h"
 
+#include <CLI/CLI.hpp>
+
 #include "app/console/mask_folder.h"
 #include "app/console/seeds_file.h"
 #include "core/error.h"

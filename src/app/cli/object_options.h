@@ -2,7 +2,6 @@
 // words.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,6 +12,10 @@
 #include "app/console/camera_options.h"
 #include "segment/masks/seeds.h"
 #include "segment/session/cut_request.h"
+
+namespace CLI {
+class App;
+}
 
 namespace splatcut {
 

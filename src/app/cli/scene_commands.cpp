@@ -1,5 +1,6 @@
 // splatcut info, render, convert.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <functional>

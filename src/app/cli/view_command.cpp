@@ -1,4 +1,5 @@
 // splatcut view: the window.
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 

@@ -1,6 +1,7 @@
 #include "app/console/camera_options.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -66,19 +67,6 @@ glm::vec3 parse_vec3(const std::string& text, const std::string& where) {
       !std::isfinite(v.x + v.y + v.z))
     throw Error(where + " " + text, "is not a point", "Write it as x,y,z");
   return v;
-}
-
-glm::vec3 common_up(const std::vector<Camera>& cameras) {
-  // Photographs may all lie on their side: the direction their horizontal axes and view axes avoid is up.
-  // A circle of level cameras has all right vectors in the ground plane; so has a rolled one its down
-  // vectors.
-  glm::vec3 down(0), right(0);
-  for (const Camera& c : cameras) {
-    down += c.down_world();
-    right += glm::transpose(c.camera_from_world_rotation)[0];
-  }
-  const glm::vec3 up = glm::length(down) >= glm::length(right) ? -down : right;
-  return glm::length(up) > 1e-6f ? glm::normalize(up) : glm::vec3(0, -1, 0);
 }
 
 const Camera& find_camera(const std::vector<Camera>& cameras, const std::string& name,

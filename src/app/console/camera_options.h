@@ -2,7 +2,6 @@
 // a scene without cameras.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <string>
@@ -10,6 +9,10 @@
 
 #include "scene/camera/camera.h"
 #include "scene/cloud/gaussian_cloud.h"
+
+namespace CLI {
+class App;
+}
 
 namespace splatcut {
 
@@ -32,9 +35,6 @@ struct ChosenCamera {
 
 // Throws Error for a camera that cannot be made.
 ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cloud);
-
-// The mean up direction of cameras held by a person; where they are rolled, what they agree on most.
-glm::vec3 common_up(const std::vector<Camera>& cameras);
 
 const Camera& find_camera(const std::vector<Camera>& cameras, const std::string& name,
                           const std::string& where);

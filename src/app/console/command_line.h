@@ -1,13 +1,16 @@
 // What both programs share: the options of every subcommand, exit codes, and errors as sentences.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "app/console/user_folders.h"
 #include "segment/superpoints/prepared_scene.h"
+
+namespace CLI {
+class App;
+}
 
 namespace splatcut {
 

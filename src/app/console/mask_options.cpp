@@ -1,5 +1,6 @@
 #include "app/console/mask_options.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "core/error.h"

@@ -1,11 +1,14 @@
 // The part of the command line about where masks come from, of `cut` and `eval`.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
 #include "segment/session/cut_settings.h"
+
+namespace CLI {
+class App;
+}
 
 namespace splatcut {
 

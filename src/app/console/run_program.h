@@ -19,4 +19,6 @@ struct ProgramEnd {
 // goes to stderr.
 ProgramEnd run_program(const std::vector<std::string>& words, const Job& job);
 
+bool on_path(const std::string& program);  // whether it can be started by that name
+
 }  // namespace splatcut

@@ -1,6 +1,7 @@
 #include "app/console/scene_options.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/console/console.h"
 #include "scene/camera/camera_file.h"

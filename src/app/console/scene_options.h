@@ -1,13 +1,16 @@
 // The scene part of the command line: how a file is read that does not say all of itself.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "scene/formats/scene_file.h"
+
+namespace CLI {
+class App;
+}
 
 namespace splatcut {
 

@@ -9,7 +9,6 @@
 #include "app/document/export_plan.h"
 #include "app/document/scene_sources.h"
 #include "app/document/view_state.h"
-#include "app/picture/capture.h"
 
 namespace splatcut {
 

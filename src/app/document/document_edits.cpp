@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "app/document/words.h"
-#include "app/picture/frame_thread.h"
 #include "core/error.h"
 #include "segment/selection/click_selection.h"
 

@@ -16,6 +16,8 @@ namespace splatcut {
 // kAllObjects: one file each, named after the object. kScene: all that was not deleted.
 enum class ExportWhat { kObject, kRest, kScene, kAllObjects };
 
+enum class TurntableAs { kPictures, kWebp, kVideo };  // a folder of PNGs, an animation, a .mp4 made by ffmpeg
+
 struct ExportRequest {
   ExportWhat what = ExportWhat::kObject;
   SceneFormat format = SceneFormat::kPly;

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "app/console/camera_options.h"
-#include "app/picture/camera_controller.h"
+#include "app/document/camera_pose.h"
 #include "core/byte_hash.h"
 #include "core/error.h"
 #include "scene/camera/camera_file.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/document/selection.h"
-#include "app/tools/tool.h"
+#include "app/document/tool_id.h"
 
 namespace splatcut {
 
@@ -12,7 +12,7 @@ inline constexpr float kLeastBrushPx = 1, kMostBrushPx = 120, kMostKeptBrushPx =
 enum class DisplayMode { kWhole, kIsolate, kHide, kSideBySide };
 
 struct ViewState {
-  Tool tool = Tool::kClick;
+  ToolId tool = ToolId::kClick;
   SetOperation operation = SetOperation::kAdd;  // of the region tools, where no modifier key says otherwise
   float brush_px = 14;                          // radius, logical pixels
   bool see_through = false;                     // region tools take what is hidden behind, too

@@ -1,5 +1,6 @@
 // splatcut-lab eval: the measures of a suite, as a table and as JSON.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <functional>

@@ -2,6 +2,7 @@
 // capture left out.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>

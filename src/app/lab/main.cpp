@@ -1,5 +1,7 @@
 #include "app/lab/lab_commands.h"
 
+#include <CLI/CLI.hpp>
+
 int main(int argc, char** argv) {
   const splatcut::CommandLine line{
       "splatcut-lab", "Measure splatcut: scenes with known labels, simulated users, scores and charts",

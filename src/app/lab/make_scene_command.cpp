@@ -1,5 +1,6 @@
 // splatcut-lab make-scene: the labelled still life, with the switches for what makes real scenes hard.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 

@@ -10,19 +10,11 @@
 #include <optional>
 #include <span>
 
+#include "app/document/camera_pose.h"
 #include "scene/camera/camera.h"
 #include "scene/cloud/gaussian_cloud.h"
 
 namespace splatcut {
-
-struct CameraPose {
-  glm::quat camera_from_world{1, 0, 0, 0};
-  glm::vec3 position_world{0};
-  float distance = 4;             // to the pivot, scene units
-  float fov_y_rad = 0.87266463f;  // 50 degrees, as on the command line
-
-  bool operator==(const CameraPose&) const = default;
-};
 
 // Steps of a flight: each -1, 0 or 1 along the camera's axes.
 struct Flight {

@@ -1,11 +1,9 @@
 #include "app/picture/capture.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
 
 #include "app/console/output_folder.h"
 #include "app/console/run_program.h"
@@ -132,14 +130,6 @@ bool save_turntable(const GaussianCloud& cloud, const std::vector<Camera>& camer
       break;
   }
   return write_video(options, cameras.size(), draw, job);
-}
-
-bool on_path(const std::string& program) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
-  return false;
 }
 
 }  // namespace splatcut

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "app/document/export_plan.h"
 #include "app/picture/frame_thread.h"
 
 namespace splatcut {
@@ -10,8 +11,6 @@ namespace splatcut {
 // With straight alpha and no background, or opaque over the background. visible: null for all.
 Image<Rgba8> capture(const GaussianCloud& cloud, const Camera& camera, const Flags& visible,
                      const DrawLimits& limits, const glm::vec3& background, bool transparent, const Job& job);
-
-enum class TurntableAs { kPictures, kWebp, kVideo };  // a folder of PNGs, an animation, a .mp4 made by ffmpeg
 
 struct TurntableOptions {
   TurntableAs as = TurntableAs::kPictures;
@@ -24,7 +23,5 @@ struct TurntableOptions {
 // full, ffmpeg is missing or fails.
 bool save_turntable(const GaussianCloud& cloud, const std::vector<Camera>& cameras, const Flags& visible,
                     const DrawLimits& limits, const TurntableOptions& options, const Job& job);
-
-bool on_path(const std::string& program);  // whether it can be started by that name
 
 }  // namespace splatcut

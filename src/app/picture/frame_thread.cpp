@@ -1,5 +1,7 @@
 #include "app/picture/frame_thread.h"
 
+#include <tbb/task_arena.h>
+
 #include <chrono>
 
 #include "scene/raster/rasterizer.h"
@@ -74,8 +76,14 @@ std::shared_ptr<const Frame> coarse_frame(const CoarseCloud& coarse, const Camer
   return frame;
 }
 
+struct FrameThread::Arena {
+  tbb::task_arena tasks{tbb::task_arena::automatic, 1, tbb::task_arena::priority::high};
+};
+
 FrameThread::FrameThread(std::function<void()> wake)
-    : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+    : wake_(std::move(wake)),
+      arena_(std::make_unique<Arena>()),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 FrameThread::~FrameThread() {
   {
@@ -144,7 +152,7 @@ void FrameThread::run(const std::stop_token& stop) {
     lock.unlock();
     std::optional<FrameResult> result;
     try {
-      result = arena_.execute([&] { return draw(request, token); });
+      result = arena_->tasks.execute([&] { return draw(request, token); });
     } catch (const std::exception&) {
       kept_.clear();  // out of memory: the picture before it stays, the next request tries again
     }

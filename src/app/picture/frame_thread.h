@@ -6,8 +6,6 @@
 // threads; reduced ones use the coarse cloud if there is one.
 #pragma once
 
-#include <tbb/task_arena.h>
-
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -88,7 +86,8 @@ class FrameThread {
     std::shared_ptr<const Frame> frame;
   };
   std::vector<Kept> kept_;
-  tbb::task_arena arena_{tbb::task_arena::automatic, 1, tbb::task_arena::priority::high};
+  struct Arena;  // of a higher priority than other work
+  std::unique_ptr<Arena> arena_;
   std::jthread thread_;  // last: ends before the rest goes
 };
 

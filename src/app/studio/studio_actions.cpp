@@ -71,7 +71,7 @@ std::string without_cameras(const Studio& s) {
 
 std::string without_polygon(const Studio& s) {
   if (!s.scene()) return without_scene(s);
-  return s.view().tool.confirm && s.tools().at_work() ? "" : "There is no polygon to close";
+  return tool_of(s.view().tool).confirm && s.tools().at_work() ? "" : "There is no polygon to close";
 }
 
 template <int kSteps>

@@ -27,7 +27,7 @@ std::vector<Command> PointerTools::press(const glm::vec2& pixel, PointerButton b
   state_.modifiers = modifiers;
   state_.pressed_px = state_.pointer_px = pixel;
   pressed_depth_ = context.depth(pixel);
-  const Tool& tool = context.view.tool;
+  const Tool& tool = tool_of(context.view.tool);
   if (button == PointerButton::kMiddle) {
     drag_ = modifiers.shift ? Drag::kPan : Drag::kOrbit;
   } else if (tool.drag != Tool::Drag::kNavigates && (button == PointerButton::kLeft || tool.right_drags)) {
@@ -56,7 +56,7 @@ std::vector<Command> PointerTools::move(const glm::vec2& pixel, const Modifiers&
                        2 * context.pane_camera.fy_px * std::tan(0.5f * context.camera.pose().fov_y_rad),
                        pressed_depth_);
   if (drag_ != Drag::kShape) return {};
-  const Tool& tool = context.view.tool;
+  const Tool& tool = tool_of(context.view.tool);
   std::vector<glm::vec2>& path = state_.path_px;
   if (tool.drag == Tool::Drag::kCorners)
     path.resize(1);
@@ -72,16 +72,16 @@ std::vector<Command> PointerTools::release(const glm::vec2& pixel, PointerButton
   std::vector<Command> commands = move(pixel, modifiers, context);
   const Drag drag = std::exchange(drag_, Drag::kNone);
   if (drag == Drag::kShape) {
-    commands = use(context.view.tool.release, pixel, context);
+    commands = use(tool_of(context.view.tool).release, pixel, context);
     state_.path_px.clear();
   }
-  if (drag == Drag::kMaybeClick) commands = use(context.view.tool.click, state_.pressed_px, context);
+  if (drag == Drag::kMaybeClick) commands = use(tool_of(context.view.tool).click, state_.pressed_px, context);
   state_.button.reset();
   return commands;
 }
 
 std::vector<Command> PointerTools::confirm(const ToolContext& context) {
-  return use(context.view.tool.confirm, state_.pointer_px, context);
+  return use(tool_of(context.view.tool).confirm, state_.pointer_px, context);
 }
 
 bool PointerTools::abandon() {
@@ -99,7 +99,7 @@ bool PointerTools::abandon() {
 }
 
 std::vector<Command> PointerTools::double_click(const glm::vec2& pixel, const ToolContext& context) {
-  return use(context.view.tool.double_click, pixel, context);
+  return use(tool_of(context.view.tool).double_click, pixel, context);
 }
 
 std::vector<Command> PointerTools::wheel(float steps, const Modifiers& modifiers,
@@ -123,13 +123,13 @@ void PointerTools::hold(const Modifiers& modifiers) {
 
 ToolOverlay PointerTools::overlay(const ViewState& view, const Camera& camera, float pixels_per_point) const {
   ToolOverlay out;
-  out.radius_px = view.tool.brush * view.brush_px * pixels_per_point;
+  out.radius_px = tool_of(view.tool).brush * view.brush_px * pixels_per_point;
   out.operation = state_.operation(view);
   out.rest = state_.rest();
-  out.cuts = view.tool.strokes;
-  out.shape = view.tool.shape;
+  out.cuts = tool_of(view.tool).strokes;
+  out.shape = tool_of(view.tool).shape;
   out.points_px = state_.path_px;
-  if (view.tool.show) view.tool.show(state_, camera, &out);
+  if (tool_of(view.tool).show) tool_of(view.tool).show(state_, camera, &out);
   if (out.points_px.empty()) out.shape = ToolOverlay::Shape::kNone;
   return out;
 }

@@ -1,7 +1,9 @@
 // The list of tools, and what their files share.
 #include "app/tools/tool.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 
 #include "app/tools/tool_hand.h"
 
@@ -19,6 +21,16 @@ constexpr std::array kAllTools = {
 
 std::span<const Tool* const> tools() {
   return kAllTools;
+}
+
+const Tool& tool_of(ToolId id) {
+  return *kAllTools[static_cast<std::size_t>(id)];
+}
+
+Tool::operator ToolId() const {
+  const auto row = std::ranges::find_if(kAllTools, [&](const Tool* tool) { return *tool == *this; });
+  assert(row != kAllTools.end());
+  return static_cast<ToolId>(row - kAllTools.begin());
 }
 
 SetOperation ToolState::held_operation() const {

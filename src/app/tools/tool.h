@@ -1,5 +1,6 @@
 // The table of tools. Keys, tooltips, the column, what the pointer does and what is drawn over the picture
-// follow from it. A tool is one file in src/app/tools that defines its row, and one line here.
+// follow from it. A tool is one file in src/app/tools that defines its row, and one line in
+// app/document/tool_id.h.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -7,24 +8,7 @@
 #include <string_view>
 #include <vector>
 
-// In the order of the column.
-// clang-format off
-#define SPLATCUT_TOOLS(tool) \
-  tool(Navigate)             \
-  tool(Click)                \
-  tool(Scribble)             \
-  tool(Box)                  \
-  tool(Brush)                \
-  tool(Lasso)                \
-  tool(Rectangle)            \
-  tool(Polygon)              \
-  tool(Sphere)               \
-  tool(Volume)               \
-  tool(Colour)               \
-  tool(Flood)                \
-  tool(Ground)               \
-  tool(Measure)
-// clang-format on
+#include "app/document/tool_id.h"
 
 namespace splatcut {
 
@@ -77,12 +61,14 @@ struct Tool {
   void (*show)(const ToolState& state, const Camera& camera, ToolOverlay* out) = nullptr;
 
   friend bool operator==(const Tool& a, const Tool& b) { return std::string_view(a.name) == b.name; }
+  operator ToolId() const;
 
 #define SPLATCUT_DECLARE_TOOL(tool) static const Tool k##tool;
   SPLATCUT_TOOLS(SPLATCUT_DECLARE_TOOL)
 #undef SPLATCUT_DECLARE_TOOL
 };
 
-std::span<const Tool* const> tools();
+std::span<const Tool* const> tools();  // by their ids
+const Tool& tool_of(ToolId id);
 
 }  // namespace splatcut

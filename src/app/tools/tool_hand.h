@@ -82,7 +82,7 @@ struct ToolHand {
   void ask_region(Mask region);    // of the pane
   SetOperation operation() const { return state.operation(context.view); }
   float brush_px() const {
-    return context.view.tool.brush * context.view.brush_px * context.pixels_per_point;
+    return tool_of(context.view.tool).brush * context.view.brush_px * context.pixels_per_point;
   }
 };
 

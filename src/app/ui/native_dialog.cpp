@@ -8,7 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "app/picture/capture.h"
+#include "app/console/run_program.h"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX asks for it
 

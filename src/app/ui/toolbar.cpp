@@ -23,7 +23,7 @@ void set_view(UiContext& ui, const ViewState& view) {
 
 void brush_size(UiContext& ui) {
   ViewState view = ui.studio.view();
-  const float share = view.tool.brush;
+  const float share = tool_of(view.tool).brush;
   ImGui::AlignTextToFramePadding();
   muted_text(ui, "Size");
   ImGui::SameLine();
@@ -46,7 +46,7 @@ float options_end(const UiContext& ui) {
 // Where there is room for it.
 void tool_hint(UiContext& ui) {
   const std::string words =
-      fmt::format(fmt::runtime(ui.studio.view().tool.hint), ui.studio.tools().points_set());
+      fmt::format(fmt::runtime(tool_of(ui.studio.view().tool).hint), ui.studio.tools().points_set());
   const char* text = words.c_str();
   ImGui::AlignTextToFramePadding();
   if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x <= options_end(ui)) muted_text(ui, text);
@@ -80,8 +80,8 @@ void region_options(UiContext& ui) {
     }
   }
   gap();
-  if (view.tool.selects == Tool::Selects::kSpace) return tool_hint(ui);
-  if (view.tool.selects == Tool::Selects::kColours) return tolerance(ui);
+  if (tool_of(view.tool).selects == Tool::Selects::kSpace) return tool_hint(ui);
+  if (tool_of(view.tool).selects == Tool::Selects::kColours) return tolerance(ui);
   const bool visible = button(ui, narrow ? "Visible" : "Visible only", "Takes the surface that you see  (V)",
                               {}, !view.see_through);
   ImGui::SameLine(0, 2);
@@ -106,8 +106,8 @@ float options_width(const UiContext& ui) {
   constexpr float kBrush = 185, kRegion = 225, kDepth = 135, kColour = 245, kSpace = 85;
   if (!ui.studio.scene()) return 0;
   const ViewState& view = ui.studio.view();
-  const float brush = view.tool.brush > 0 ? kBrush : 0;
-  switch (view.tool.selects) {
+  const float brush = tool_of(view.tool).brush > 0 ? kBrush : 0;
+  switch (tool_of(view.tool).selects) {
     case Tool::Selects::kNothing:
       return brush;
     case Tool::Selects::kSpace:
@@ -122,7 +122,7 @@ float options_width(const UiContext& ui) {
 }  // namespace
 
 void tool_options(UiContext& ui) {
-  const Tool& tool = ui.studio.view().tool;
+  const Tool& tool = tool_of(ui.studio.view().tool);
   if (tool.brush > 0) {
     brush_size(ui);
     gap();

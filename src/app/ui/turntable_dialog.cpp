@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/console/run_program.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 

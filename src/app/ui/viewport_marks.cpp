@@ -40,7 +40,7 @@ std::array<Axis, 6> axes_seen_by(const Camera& camera) {
 }
 
 const char* sign_of(const UiContext& ui) {
-  const Tool& tool = ui.studio.view().tool;
+  const Tool& tool = tool_of(ui.studio.view().tool);
   const Modifiers& held = ui.studio.held();
   const ToolOverlay overlay = ui.studio.overlay();
   if (tool.shows_keys) return held.alt ? "x" : held.ctrl ? "-" : held.shift ? "+" : nullptr;

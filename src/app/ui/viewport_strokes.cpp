@@ -71,7 +71,7 @@ void draw_click(ImDrawList& list, const ImVec2& at, bool object) {
 
 // An isolated object is not painted over, unless it is being repaired.
 bool strokes_wanted(const ViewState& view) {
-  return view.tool.strokes || (view.display == DisplayMode::kWhole && !view.heat);
+  return tool_of(view.tool).strokes || (view.display == DisplayMode::kWhole && !view.heat);
 }
 
 constexpr float kThinPx = 2;
@@ -263,7 +263,7 @@ void draw_tool_shape(const UiContext& ui, const UiRect& area) {
 // The brush as a ring under the pointer.
 void draw_brush_ring(const UiContext& ui, const UiRect& area) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  if (ui.studio.view().tool.brush == 0) return;
+  if (tool_of(ui.studio.view().tool).brush == 0) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (!area.contains({mouse.x, mouse.y}) || ImGui::IsAnyItemHovered() ||
       ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))

@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
+#include "app/document/camera_pose.h"
 #include "app/document/document.h"
 #include "app/document/history.h"
 #include "app/document/opened_scene.h"
-#include "app/picture/camera_controller.h"
 
 namespace splatcut {
 

@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
 
+#include "app/document/camera_pose.h"
 #include "app/document/document.h"
-#include "app/picture/camera_controller.h"
 #include "scene/formats/scene_file.h"
 
 namespace splatcut {

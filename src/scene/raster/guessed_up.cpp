@@ -116,4 +116,17 @@ glm::vec3 guessed_up(const GaussianCloud& cloud) {
   return best;
 }
 
+glm::vec3 common_up(std::span<const Camera> cameras) {
+  // Photographs may all lie on their side: the direction their horizontal axes and view axes avoid is up.
+  // A circle of level cameras has all right vectors in the ground plane; so has a rolled one its down
+  // vectors.
+  glm::vec3 down(0), right(0);
+  for (const Camera& c : cameras) {
+    down += c.down_world();
+    right += glm::transpose(c.camera_from_world_rotation)[0];
+  }
+  const glm::vec3 up = glm::length(down) >= glm::length(right) ? -down : right;
+  return glm::length(up) > 1e-6f ? glm::normalize(up) : glm::vec3(0, -1, 0);
+}
+
 }  // namespace splatcut

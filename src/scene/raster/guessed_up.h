@@ -1,4 +1,4 @@
-// Which way is up in a scene that comes without cameras.
+// Which way is up in a scene, above all in one that comes without cameras.
 //
 // Among +-x, +-y, +-z. Each direction u is scored by the level u-slab that could be the ground:
 //   score(u) = prior(u) + flat(u) max over slabs of (level area in the slab) (standing area just above it -
@@ -13,11 +13,18 @@
 // oblique.
 #pragma once
 
+#include <span>
+
+#include "scene/camera/camera.h"
 #include "scene/cloud/gaussian_cloud.h"
 
 namespace splatcut {
 
 // Unit vector. (0, -1, 0) where nothing speaks for another.
 glm::vec3 guessed_up(const GaussianCloud& cloud);
+
+// Of a scene that comes with cameras: the mean up direction of cameras held by a person; where they are
+// rolled, what they agree on most.
+glm::vec3 common_up(std::span<const Camera> cameras);
 
 }  // namespace splatcut

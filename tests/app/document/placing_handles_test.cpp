@@ -240,7 +240,7 @@ TEST_CASE("placing: Esc ends a drag with everything where it was") {
   hands.app.move(at + glm::vec2(40, 0));
   hands.app.frames(1);
   CHECK(choice.place.move != glm::vec3(0));
-  const Tool tool = studio.view().tool;
+  const ToolId tool = studio.view().tool;
   hands.app.key(key::kEscape);
   CHECK(studio.view().tool == tool);  // Esc was for the drag
   hands.app.release(PointerButton::kLeft);

@@ -1,6 +1,7 @@
 // splatcut-lab study: speed against accuracy, stability, and how little is enough, as measurements, charts
 // and one page.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
