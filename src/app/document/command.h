@@ -1,22 +1,72 @@
 // Everything the user can ask for. Keys, menus, buttons, the pointer, files and tests send the same commands
 // to Studio::apply(), so they cannot disagree.
+//
+// A command that changes the document says here how: title() in the history, merge_key() if it replaces a
+// step of the same key (a slider's), edit() from a document to the next one, which document_edits.cpp
+// defines. edit() returns what the message strip says. Expected refusals (a locked object, nothing selected)
+// are Errors worded for the user; the document is then unchanged, because the caller drops its copy. Traits,
+// where they hold:
+//   passes       edit() passes over the Gaussians, so it runs on a worker
+//   at_once      the edits before it need not be done
+//   writes_file  cancelling the edits before it does not take it back
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <variant>
 
 #include "app/document/document.h"
 #include "app/document/export_plan.h"
 #include "app/document/scene_sources.h"
 #include "app/document/view_state.h"
+#include "core/job.h"
 
 namespace splatcut {
+
+class SceneGraph;
+struct GaussianCloud;
+
+// What edits may read.
+struct EditContext {
+  const GaussianCloud& cloud;
+  SceneGraph* graph = nullptr;  // of the cloud; null if no edit asks for neighbours
+  Job job{};
+};
+
+template <class C>
+constexpr bool kPasses = requires {
+  requires C::passes;
+};
+template <class C>
+constexpr bool kAtOnce = requires {
+  requires C::at_once;
+};
+template <class C>
+constexpr bool kWritesFile = requires {
+  requires C::writes_file;
+};
+
+template <class C>
+std::string merge_key_of(const C& command) {
+  if constexpr (requires { command.merge_key(); }) return command.merge_key();
+  return {};  // a step of its own
+}
+
+inline const char* title_of(SetOperation operation) {
+  constexpr const char* kTitles[] = {"Add", "Remove", "Intersect"};
+  return kTitles[static_cast<int>(operation)];
+}
 
 // Strokes and selections; they make an object where none is active.
 struct AddStroke {
   Camera camera;
   Stroke stroke;  // in the camera's pixels
   Flags seen{};   // Gaussians on the screen; null: all
+  std::string title() const {
+    return std::string(stroke.points_px.size() == 1 ? "Click" : "Scribble") +
+           (stroke.label == SeedLabel::kRest ? ": rest" : ": object");
+  }
+  friend std::string edit(Document* document, const AddStroke& command, const EditContext& context);
 };
 struct IntersectStroke {  // keeps of the object what this stroke alone would take
   Camera camera;
@@ -29,6 +79,8 @@ struct AddBox {
   Flags seen{};
   // Otherwise than kAdd: removes from the object, or keeps of it, what the box alone would cut out.
   SetOperation operation = SetOperation::kAdd;
+  std::string title() const { return "Box"; }
+  friend std::string edit(Document* document, const AddBox& command, const EditContext& context);
 };
 struct SelectRegion {
   Camera camera;
@@ -65,78 +117,136 @@ struct SelectRange {
 enum class SelectionEdit { kAll, kNone, kInvert, kGrow, kShrink, kLargestPart, kRemoveFloaters };
 struct EditSelection {
   SelectionEdit edit;
+  std::string title() const;
+  static constexpr bool passes = true;
+  friend std::string edit(Document* document, const EditSelection& command, const EditContext& context);
 };
 struct ShowFloaters {
   bool shown;  // a preview; EditSelection{kRemoveFloaters} removes them
+  static constexpr bool at_once = true;
 };
 struct StepScale {
   int steps;  // of the active object's first click: to larger (+) or smaller (-) parts
+  std::string title() const { return steps > 0 ? "Larger part" : "Smaller part"; }
+  friend std::string edit(Document* document, const StepScale& command, const EditContext& context);
 };
 struct ChooseMeaning {
   int choice;  // of what the active object's first click can mean, 0 the likeliest
+  std::string title() const { return "Meaning " + std::to_string(choice + 1) + " of the click"; }
+  friend std::string edit(Document* document, const ChooseMeaning& command, const EditContext& context);
 };
-struct ClearStrokes {};
+struct ClearStrokes {
+  std::string title() const { return "Clear strokes"; }
+  friend std::string edit(Document* document, const ClearStrokes& command, const EditContext& context);
+};
 struct ComeNearer {};  // to where the active object was clicked
 
 // Objects.
 struct NewObject {
   ObjectId within = 0;
+  std::string title() const { return "New object"; }
+  friend std::string edit(Document* document, const NewObject& command, const EditContext& context);
 };
 struct RemoveObject {
   ObjectId object;
+  std::string title() const { return "Remove object"; }
+  friend std::string edit(Document* document, const RemoveObject& command, const EditContext& context);
 };
 struct RenameObject {
   ObjectId object;
   std::string name;
+  std::string title() const { return "Rename to " + name; }
+  friend std::string edit(Document* document, const RenameObject& command, const EditContext& context);
 };
 struct RecolourObject {
   ObjectId object;
   Rgb8 colour;
+  std::string title() const { return "Colour"; }
+  std::string merge_key() const { return "colour " + std::to_string(object); }
+  friend std::string edit(Document* document, const RecolourObject& command, const EditContext& context);
 };
 struct ShowObject {
   ObjectId object;
   bool visible;
+  std::string title() const { return visible ? "Show object" : "Hide object"; }
+  friend std::string edit(Document* document, const ShowObject& command, const EditContext& context);
 };
 struct LockObject {
   ObjectId object;
   bool locked;
+  std::string title() const { return locked ? "Lock object" : "Unlock object"; }
+  friend std::string edit(Document* document, const LockObject& command, const EditContext& context);
 };
 struct ActivateObject {
   ObjectId object;
+  std::string title() const { return "Choose object"; }
+  friend std::string edit(Document* document, const ActivateObject& command, const EditContext& context);
 };
 struct MergeObjects {
   ObjectId into, from;
+  std::string title() const { return "Merge objects"; }
+  static constexpr bool passes = true;
+  friend std::string edit(Document* document, const MergeObjects& command, const EditContext& context);
 };
 struct SplitObject {
   ObjectId object;
+  std::string title() const { return "Split object"; }
+  static constexpr bool passes = true;
+  friend std::string edit(Document* document, const SplitObject& command, const EditContext& context);
 };
 struct DuplicateObject {
   ObjectId object;
+  std::string title() const { return "Duplicate object"; }
+  static constexpr bool passes = true;
+  friend std::string edit(Document* document, const DuplicateObject& command, const EditContext& context);
 };
 struct SeparateObject {
   ObjectId object;
+  std::string title() const { return "Separate object"; }
+  static constexpr bool passes = true;
+  friend std::string edit(Document* document, const SeparateObject& command, const EditContext& context);
 };
-struct DeleteSelected {};
-struct RestoreDeleted {};
+struct DeleteSelected {
+  std::string title() const { return "Delete from the scene"; }
+  static constexpr bool passes = true;
+  friend std::string edit(Document* document, const DeleteSelected& command, const EditContext& context);
+};
+struct RestoreDeleted {
+  std::string title() const { return "Restore deleted"; }
+  static constexpr bool passes = true;
+  friend std::string edit(Document* document, const RestoreDeleted& command, const EditContext& context);
+};
 struct LeaveOutView {
   ObjectId object;
   Camera view;
   bool left_out;
+  std::string title() const { return left_out ? "Leave out a view" : "Use a view"; }
+  friend std::string edit(Document* document, const LeaveOutView& command, const EditContext& context);
 };
 
 // Settings that change the result.
 struct SetSmoothness {
   ObjectId object;
   float smoothness;
+  std::string title() const { return "Smoothness"; }
+  std::string merge_key() const { return "smoothness " + std::to_string(object); }
+  friend std::string edit(Document* document, const SetSmoothness& command, const EditContext& context);
 };
 struct SetPreset {
   std::string preset;
+  std::string title() const { return "Quality: " + preset; }
+  friend std::string edit(Document* document, const SetPreset& command, const EditContext& context);
 };
 struct SetBackground {
   glm::vec3 colour;
+  std::string title() const { return "Background"; }
+  std::string merge_key() const { return "background"; }
+  friend std::string edit(Document* document, const SetBackground& command, const EditContext& context);
 };
 struct SetUp {
   glm::vec3 up_world;
+  std::string title() const { return "Set up direction"; }
+  friend std::string edit(Document* document, const SetUp& command, const EditContext& context);
 };
 
 // Work.
@@ -145,25 +255,34 @@ struct Redo {};
 struct JumpHistory {
   std::size_t entry;
 };
-struct Cancel {};
+struct Cancel {
+  static constexpr bool at_once = true;
+};
 struct Recompute {};
 
 // Looking: never undone.
 struct SetView {
   ViewState view;
+  static constexpr bool at_once = true;
 };
 struct GoToCamera {
   Camera camera;
+  static constexpr bool at_once = true;
 };
 struct LookAlong {
   glm::vec3 direction_world;  // of the view, any length but 0
+  static constexpr bool at_once = true;
 };
-struct NextBackdrop {};
+struct NextBackdrop {
+  static constexpr bool at_once = true;
+};
 struct SetBackdrop {
   std::size_t number;  // in backdrops()
+  static constexpr bool at_once = true;
 };
 struct SetFieldOfView {
   float fov_y_rad;
+  static constexpr bool at_once = true;
 };
 
 // Files.
@@ -171,6 +290,7 @@ struct OpenScene {
   std::filesystem::path path;                     // a scene or a work file
   std::optional<SpzAxes> spz_axes = {};           // as LoadOptions has it; a work file says its own
   std::vector<std::filesystem::path> added = {};  // further scenes, see AddScene
+  static constexpr bool at_once = true;
 };
 struct AddScene {
   std::filesystem::path path;  // a scene, put where its own coordinates say
@@ -185,14 +305,19 @@ struct RemoveScene {
 };
 struct SaveWork {
   std::filesystem::path path;
+  static constexpr bool writes_file = true;
 };
-struct DropAutosave {};
+struct DropAutosave {
+  static constexpr bool at_once = true;
+};
 struct Export {
   ExportRequest request;
+  static constexpr bool writes_file = true;
 };
 struct SaveSnapshot {
   std::filesystem::path path;
   bool transparent = true;
+  static constexpr bool writes_file = true;
 };
 struct SaveTurntable {
   std::filesystem::path path;  // a folder, or a file of animation or video
@@ -200,6 +325,7 @@ struct SaveTurntable {
   int width_px = 0, height_px = 0;  // 0: as large as the view
   TurntableAs as = TurntableAs::kPictures;
   float turn_s = 3;  // of animation and video
+  static constexpr bool writes_file = true;
 };
 
 using Command =

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/document/scene_graph.h"
 #include "app/document/words.h"
 #include "core/error.h"
+#include "scene/cloud/gaussian_cloud.h"
 #include "segment/selection/click_selection.h"
 
 namespace splatcut {
@@ -176,6 +178,26 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
                      : operation == SetOperation::kRemove ? "removed"
                                                           : "changed";
   return fmt::format("{} {}. {}", gaussians_text(changed), what, counted(*document, object, context));
+}
+
+std::string EditSelection::title() const {
+  switch (edit) {
+    case SelectionEdit::kAll:
+      return "Select all";
+    case SelectionEdit::kNone:
+      return "Select none";
+    case SelectionEdit::kInvert:
+      return "Invert";
+    case SelectionEdit::kGrow:
+      return "Grow";
+    case SelectionEdit::kShrink:
+      return "Shrink";
+    case SelectionEdit::kLargestPart:
+      return "Largest part";
+    case SelectionEdit::kRemoveFloaters:
+      return "Remove floaters";
+  }
+  return "";
 }
 
 std::string edit(Document* document, const EditSelection& command, const EditContext& context) {

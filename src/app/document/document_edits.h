@@ -1,47 +1,11 @@
-// The commands that change objects, as functions from a document to the next one. No threads, no window.
-// Each returns what the message strip says. Expected refusals (a locked object, nothing selected) are Errors
-// worded for the user; the document is then unchanged because the caller drops its copy.
+// What edits of documents share with what calls them; the edits themselves are declared by their commands.
 #pragma once
 
 #include <string>
 
 #include "app/document/command.h"
-#include "app/document/scene_graph.h"
-#include "scene/cloud/gaussian_cloud.h"
 
 namespace splatcut {
-
-// What edits may read.
-struct EditContext {
-  const GaussianCloud& cloud;
-  SceneGraph* graph = nullptr;  // of the cloud; null if no edit asks for neighbours
-  Job job{};
-};
-
-std::string edit(Document* document, const AddStroke& command, const EditContext& context);
-std::string edit(Document* document, const AddBox& command, const EditContext& context);
-std::string edit(Document* document, const EditSelection& command, const EditContext& context);
-std::string edit(Document* document, const ClearStrokes& command, const EditContext& context);
-std::string edit(Document* document, const NewObject& command, const EditContext& context);
-std::string edit(Document* document, const RemoveObject& command, const EditContext& context);
-std::string edit(Document* document, const RenameObject& command, const EditContext& context);
-std::string edit(Document* document, const RecolourObject& command, const EditContext& context);
-std::string edit(Document* document, const ShowObject& command, const EditContext& context);
-std::string edit(Document* document, const LockObject& command, const EditContext& context);
-std::string edit(Document* document, const ActivateObject& command, const EditContext& context);
-std::string edit(Document* document, const MergeObjects& command, const EditContext& context);
-std::string edit(Document* document, const SplitObject& command, const EditContext& context);
-std::string edit(Document* document, const DuplicateObject& command, const EditContext& context);
-std::string edit(Document* document, const SeparateObject& command, const EditContext& context);
-std::string edit(Document* document, const DeleteSelected& command, const EditContext& context);
-std::string edit(Document* document, const RestoreDeleted& command, const EditContext& context);
-std::string edit(Document* document, const StepScale& command, const EditContext& context);
-std::string edit(Document* document, const ChooseMeaning& command, const EditContext& context);
-std::string edit(Document* document, const LeaveOutView& command, const EditContext& context);
-std::string edit(Document* document, const SetSmoothness& command, const EditContext& context);
-std::string edit(Document* document, const SetPreset& command, const EditContext& context);
-std::string edit(Document* document, const SetBackground& command, const EditContext& context);
-std::string edit(Document* document, const SetUp& command, const EditContext& context);
 
 // What can stand behind the scene.
 struct Backdrop {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/document/edit_titles.h"
 #include "core/error.h"
 #include "scene/raster/rasterizer.h"
 
@@ -90,7 +89,7 @@ void Clicks::perform(const AddStroke& c) {
       same_camera(c.camera, viewport_.pane_camera()))
     if (const auto hit = viewport_.pick(c.stroke.points_px.front()))
       viewport_.camera().set_orbit_centre(hit->position_world);
-  edits_.push(title_of(c), std::move(after), {}, held.empty() ? message : held);
+  edits_.push(c.title(), std::move(after), {}, held.empty() ? message : held);
 }
 
 bool Clicks::found_nothing() const {
@@ -161,7 +160,7 @@ void Clicks::perform(const StepScale& c) {
   const std::string message = edit(&after, c, ws_.context());
   if (known) limit();
   stepped_s_ = ws_.clock_s;
-  edits_.push(title_of(c), std::move(after), {}, message);
+  edits_.push(c.title(), std::move(after), {}, message);
 }
 
 // Nothing without a click tool, a still picture or a hit under the pointer, and while a cut runs.

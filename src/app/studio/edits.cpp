@@ -4,19 +4,11 @@
 
 #include <algorithm>
 
-#include "app/document/edit_titles.h"
 #include "core/error.h"
 
 namespace splatcut {
 
 namespace {
-
-// Edits that pass over the Gaussians.
-template <class C>
-constexpr bool kPasses =
-    std::is_same_v<C, EditSelection> || std::is_same_v<C, MergeObjects> || std::is_same_v<C, SplitObject> ||
-    std::is_same_v<C, SeparateObject> || std::is_same_v<C, DuplicateObject> ||
-    std::is_same_v<C, DeleteSelected> || std::is_same_v<C, RestoreDeleted>;
 
 std::span<const std::uint8_t> all_of(const Flags& flags) {
   return flags ? std::span(*flags) : std::span<const std::uint8_t>();
@@ -116,13 +108,13 @@ void Edits::perform_plain(const Command& command) {
         if constexpr (kKnows<std::decay_t<decltype(c)>>) {
           ws_.require_scene();
           if constexpr (kPasses<std::decay_t<decltype(c)>>) {
-            push_later(
-                {title_of(c), merge_key_of(c),
-                 [c](Document* d, const EditContext& context, const Job&) { return edit(d, c, context); }});
+            push_later({c.title(), merge_key_of(c), [c](Document* d, const EditContext& context, const Job&) {
+                          return edit(d, c, context);
+                        }});
           } else {
             Document after = ws_.document();
             const std::string message = edit(&after, c, ws_.context());
-            push(title_of(c), std::move(after), merge_key_of(c), message);
+            push(c.title(), std::move(after), merge_key_of(c), message);
           }
         }
       },

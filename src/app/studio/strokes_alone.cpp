@@ -1,6 +1,5 @@
 // Alt of the stroke tools, Ctrl and Alt of the box: what strokes alone would cut out, combined with the
 // object.
-#include "app/document/edit_titles.h"
 #include "app/studio/clicks.h"
 #include "core/error.h"
 
@@ -49,7 +48,7 @@ void Clicks::perform(const AddBox& c) {
   }
   Document after = ws_.document();
   const std::string message = edit(&after, c, ws_.context());
-  edits_.push(title_of(c), std::move(after), {}, message);
+  edits_.push(c.title(), std::move(after), {}, message);
 }
 
 }  // namespace splatcut

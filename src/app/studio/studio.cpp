@@ -8,23 +8,6 @@
 
 namespace splatcut {
 
-namespace {
-
-// Commands that do not need the edits before them to be done.
-template <class C>
-constexpr bool kAtOnce =
-    std::is_same_v<C, SetView> || std::is_same_v<C, GoToCamera> || std::is_same_v<C, LookAlong> ||
-    std::is_same_v<C, SetFieldOfView> || std::is_same_v<C, NextBackdrop> || std::is_same_v<C, SetBackdrop> ||
-    std::is_same_v<C, ShowFloaters> || std::is_same_v<C, Cancel> || std::is_same_v<C, OpenScene> ||
-    std::is_same_v<C, DropAutosave>;
-
-// Files that were asked for: cancelling the edits before them does not take them back.
-template <class C>
-constexpr bool kWritesFile = std::is_same_v<C, SaveWork> || std::is_same_v<C, Export> ||
-                             std::is_same_v<C, SaveSnapshot> || std::is_same_v<C, SaveTurntable>;
-
-}  // namespace
-
 Studio::Studio(const StudioOptions& options)
     : ws_{.options = options, .tasks = tasks_, .quick = quick_},
       cuts_(ws_),
