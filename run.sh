@@ -4,7 +4,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "$0")" && pwd)
 source "$root/third_party/setup.sh"
-install_missing_packages apt-packages.txt
+install_missing_packages apt-packages.txt apt-packages-window.txt
 build_preset user splatcut
 program="$root/build/release/splatcut"
 sample="$root/assets/sample"

@@ -3,7 +3,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "$0")" && pwd)
 source "$root/third_party/setup.sh"
-install_missing_packages apt-packages.txt apt-packages-tests.txt
+install_missing_packages apt-packages.txt apt-packages-window.txt apt-packages-tests.txt
 build_preset release
 which=(-LE slow)
 [ "${1:-}" != --slow ] || which=()

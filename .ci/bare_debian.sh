@@ -8,6 +8,12 @@ source .ci/bare_root.sh
 
 make_root
 git archive HEAD | tar -x -C "$bare/splatcut"
+# Without a window first: nothing of OpenGL, GLFW, ImGui, X11 is there yet.
+inside "root=\$PWD; source third_party/setup.sh; install_missing_packages apt-packages.txt"
+inside "cmake --preset user -B build/no-window -DSPLATCUT_WINDOW=OFF && cmake --build build/no-window --target splatcut"
+inside "build/no-window/splatcut cut assets/sample/sample.compressed.ply --cameras assets/sample/cameras.json --camera 0 --click 670,490 -o cut"
+[ -s "$bare/splatcut/cut/object.ply" ] || stop "the splatcut without a window cut nothing out."
+inside "rm -r build cut"
 inside ./run.sh
 [ -s "$bare/splatcut/cutout/object.ply" ] || stop "./run.sh cut nothing out."
 inside ./test.sh

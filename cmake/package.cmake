@@ -15,8 +15,11 @@ install(FILES ${written}/copyright CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCD
 
 # The licences of what is compiled in or embedded, as Debian words them; libraries bring their own.
 file(READ LICENSE text)
-foreach(package libcli11-dev libglm-dev libhwy-dev libimgui-dev libnanoflann-dev nlohmann-json3-dev khronos-api python3-glad
-        fonts-font-awesome fonts-roboto-unhinted)
+set(held libcli11-dev libglm-dev libhwy-dev libnanoflann-dev nlohmann-json3-dev)
+if(SPLATCUT_WINDOW)
+  list(APPEND held libimgui-dev khronos-api python3-glad fonts-font-awesome fonts-roboto-unhinted)
+endif()
+foreach(package IN LISTS held)
   set(licence /usr/share/doc/${package}/copyright)
   if(EXISTS ${licence})
     file(READ ${licence} its_text)
