@@ -1,6 +1,8 @@
 // The manual page and the completion of bash, as the build has the program write them.
 #include <doctest/doctest.h>
 
+#include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -105,4 +107,28 @@ TEST_CASE("describe is not among the commands that --help shows") {
   const Workplace place;
   CHECK(place.run("--help").out.find("describe") == std::string::npos);
   CHECK(place.run("describe html").code == 2);
+}
+
+TEST_CASE("docs/manual.md has every option of every command, and no other") {
+  const Workplace place;
+  std::map<std::string, std::set<std::string>> in_manual;
+  std::ifstream in(project_folder() + "/docs/manual.md");
+  std::string command;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("#")) command = line.starts_with("### ") ? line.substr(4) : "";
+    if (command.starts_with("splatcut ") || command == "Every command")
+      if (line.starts_with("| `-")) {
+        const std::size_t start = line.find("--");
+        in_manual[command].insert(line.substr(start, line.find_first_of(" `", start) - start));
+      }
+  }
+  const std::set<std::string> of_all = options_in_help(place.run("--help").out);
+  CHECK(in_manual["Every command"] == of_all);
+  for (const std::string name : kCommands) {
+    CAPTURE(name);
+    std::set<std::string> options = options_in_help(place.run(name + " --help").out);
+    options.erase("--help");
+    CHECK(in_manual["splatcut " + name] == options);
+  }
+  CHECK(in_manual.size() == std::size(kCommands) + 1);
 }

@@ -1,0 +1,48 @@
+// docs/manual.md has every key and every tool of the program, by the program's own words, and no other.
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <set>
+#include <string>
+
+#include "app/tools/actions.h"
+#include "places.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+// The first two cells of each row of the tables below a heading, up to the next heading of its level.
+std::set<std::string> rows_below(const std::string& heading) {
+  std::ifstream in(project_folder() + "/docs/manual.md");
+  std::set<std::string> rows;
+  bool inside = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("## ")) inside = line == heading;
+    if (!inside || !line.starts_with("| `")) continue;
+    const std::size_t second = line.find('|', line.find("` |") + 3);
+    rows.insert(line.substr(0, second + 1));
+  }
+  return rows;
+}
+
+std::string row_of(const std::string& keys, const std::string& what) {
+  return "| `" + keys + "` | " + what + " |";
+}
+
+}  // namespace
+
+TEST_CASE("manual: every key, and no other") {
+  std::set<std::string> expected;
+  for (const Binding& b : key_bindings())
+    if (!tool_of(b.action)) expected.insert(row_of(keys_of(b.action), name_of(b.action)));
+  CHECK(expected.size() > 40);
+  CHECK(rows_below("## Keys") == expected);
+}
+
+TEST_CASE("manual: every tool, and no other") {
+  std::set<std::string> expected;
+  for (const Tool* tool : tools()) expected.insert(row_of(keys_of(action_of(*tool)), tool->name));
+  CHECK(rows_below("## Tools") == expected);
+}
