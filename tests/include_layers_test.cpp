@@ -156,6 +156,17 @@ TEST_CASE("the table of rooms has no cycle and knows no room that is not there")
     }
 }
 
+TEST_CASE("no test depends on what lies beside the project") {
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(splatcut::testing::project_folder()) / "tests")) {
+    if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+    std::ifstream in(entry.path());
+    for (std::string line; std::getline(in, line);)
+      if (line.find("project_folder()") != std::string::npos)
+        CHECK_MESSAGE(line.find("..") == std::string::npos, entry.path().string(), ": ", line);
+  }
+}
+
 // CMake takes a semicolon for the end of a list's item: such a case would be found by doctest and run by
 // nobody.
 TEST_CASE("no test case has a semicolon in its name") {

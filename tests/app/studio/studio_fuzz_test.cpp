@@ -149,6 +149,14 @@ QUICK_CASE("task thread", "threads: random commands while they work, and an end 
       studio.update(1.0 / 10);
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
+    REQUIRE(studio.settle(120));
+    const Document end = studio.document();
+    const std::size_t cursor = studio.history().cursor();
+    while (studio.history().can_undo()) studio.apply(Undo{});
+    CHECK(studio.document().objects.empty());
+    for (std::size_t i = 0; i < cursor; ++i) studio.apply(Redo{});
+    REQUIRE(studio.settle(120));
+    CHECK(same(studio.document(), end));
     studio.apply(AddStroke{front_camera(64, 48), click({32, 24}, SeedLabel::kObject)});
     studio.update(1.0 / 60);  // a cut and a picture run as the studio ends
   }

@@ -183,6 +183,8 @@ TEST_CASE("parts: the true mask of one view selects the whole object of the stil
 TEST_CASE("parts: cancelled before, or at any step that reports progress, without harm") {
   const GaussianCloud cloud = random_cloud(3000, 8);
   const Camera camera = look_at({0, 0, -4}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120);
+  const PreparedScene whole = prepare_scene(cloud, observing_views(cloud, camera, {0, -1, 0}, {}));
+  REQUIRE_FALSE(whole.parts.trees.empty());
   int stopped_on_the_way = 0;
   for (int step = 0; step < 12; ++step) {
     std::stop_source stop;
@@ -192,8 +194,10 @@ TEST_CASE("parts: cancelled before, or at any step that reports progress, withou
     job.on_progress = [&](std::string_view, double) {
       if (seen++ == step) stop.request_stop();
     };
-    prepare_scene(cloud, observing_views(cloud, camera, {0, -1, 0}, {}, {}, job), {}, job);
+    const PreparedScene made =
+        prepare_scene(cloud, observing_views(cloud, camera, {0, -1, 0}, {}, {}, job), {}, job);
     stopped_on_the_way += stop.stop_requested();
+    CHECK((made.parts.trees.empty() || made.parts.trees.size() == whole.parts.trees.size()));  // no half
   }
   CHECK(stopped_on_the_way > 0);
   std::stop_source stopped;
