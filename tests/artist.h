@@ -27,20 +27,20 @@ inline std::filesystem::path capture_folder() {
 }
 
 // One scene, with a click on a thing in it and the view that it is made in.
-struct Place {
+struct ClickedPlace {
   std::string name;
   std::filesystem::path scene;
   Camera camera;
   glm::vec2 pixel;
 };
 
-inline Place on_sample(const std::string& name, const glm::vec2& pixel) {
+inline ClickedPlace on_sample(const std::string& name, const glm::vec2& pixel) {
   return {name, kSample, load_cameras(kSampleFolder / "cameras.json").front(), pixel};
 }
 
 // Those of them that are in capture_folder().
-inline std::vector<Place> captures(const std::vector<std::string>& names) {
-  std::vector<Place> places;
+inline std::vector<ClickedPlace> captures(const std::vector<std::string>& names) {
+  std::vector<ClickedPlace> places;
   const std::filesystem::path folder = capture_folder();
   if (folder.empty()) return places;
   const auto add = [&](const char* name, const char* scene, const char* cameras, const char* camera, float x,
@@ -55,16 +55,17 @@ inline std::vector<Place> captures(const std::vector<std::string>& names) {
   return places;
 }
 
-inline std::vector<Place> with_captures(std::vector<Place> places,
-                                        const std::vector<std::string>& names = {"fox", "cup", "sign"}) {
-  for (Place& place : captures(names)) places.push_back(std::move(place));
+inline std::vector<ClickedPlace> with_captures(std::vector<ClickedPlace> places,
+                                               const std::vector<std::string>& names = {"fox", "cup",
+                                                                                        "sign"}) {
+  for (ClickedPlace& place : captures(names)) places.push_back(std::move(place));
   return places;
 }
 
 // The program, standing where the place is clicked.
 class Artist {
  public:
-  explicit Artist(const Place& place, const char* preset = "fast")
+  explicit Artist(const ClickedPlace& place, const char* preset = "fast")
       : app(kArtistWidth, kArtistHeight), place_(place) {
     app.interface_state().hint_wanted = false;
     app.open(place.scene);
@@ -142,7 +143,7 @@ class Artist {
   HeadlessApp app;
 
  private:
-  Place place_;
+  ClickedPlace place_;
 };
 
 inline std::size_t lost(const Labels& before, const Labels& after) {

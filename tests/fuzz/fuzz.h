@@ -16,16 +16,16 @@
 namespace splatcut {
 
 // A folder in memory, of this process; its files are written anew for each input.
-class Place {
+class InputFolder {
  public:
-  Place() {
+  InputFolder() {
     std::string name = "/dev/shm/splatcut_fuzz_XXXXXX";
     if (!::mkdtemp(name.data())) std::abort();
     folder_ = name;
   }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
-  ~Place() { std::filesystem::remove_all(folder_); }
+  InputFolder(const InputFolder&) = delete;
+  InputFolder& operator=(const InputFolder&) = delete;
+  ~InputFolder() { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path write(const char* name, std::string_view bytes) const {
     const std::filesystem::path file = folder_ / name;
@@ -40,8 +40,8 @@ class Place {
   std::filesystem::path folder_;
 };
 
-inline const Place& place() {
-  static const Place made;
+inline const InputFolder& place() {
+  static const InputFolder made;
   return made;
 }
 

@@ -112,6 +112,12 @@ void write_labels(const std::filesystem::path& path, const Scene& scene,
   file.commit();
 }
 
+void write_object_files(const OutputFolder& folder, const Scene& scene, const std::string& name,
+                        const std::vector<std::uint8_t>& labels) {
+  save_scene(folder.file(name + ".ply"), scene, labels, SceneFormat::kPly);
+  write_labels(folder.file(name + ".labels.u8"), scene, labels);
+}
+
 void write_cutout_scenes(const OutputFolder& folder, const Scene& scene,
                          const std::vector<std::uint8_t>& labels) {
   save_scene(folder.file("object.ply"), scene, labels, SceneFormat::kPly);

@@ -32,6 +32,10 @@ void write_cutout_picture(const std::filesystem::path& path, const GaussianCloud
 void write_labels(const std::filesystem::path& path, const Scene& scene,
                   const std::vector<std::uint8_t>& labels);
 
+// NAME.ply and NAME.labels.u8.
+void write_object_files(const OutputFolder& folder, const Scene& scene, const std::string& name,
+                        const std::vector<std::uint8_t>& labels);
+
 // object.ply, rest.ply (for .ply sources rows unchanged), labels.u8 in file order.
 void write_cutout_scenes(const OutputFolder& folder, const Scene& scene,
                          const std::vector<std::uint8_t>& labels);

@@ -99,8 +99,7 @@ json entry_of(const CutObject& object, std::size_t index) {
 
 void write_object(const OutputFolder& folder, const Scene& scene, const CutObject& object) {
   const std::string file = file_name_of(object.seeds->name);
-  save_scene(folder.file(file + ".ply"), scene, object.result.labels, SceneFormat::kPly);
-  write_labels(folder.file(file + ".labels.u8"), scene, object.result.labels);
+  write_object_files(folder, scene, file, object.result.labels);
   write_object_pictures(folder, scene.cloud, object.camera, object.result,
                         {file + ".png", file + ".tint.png", file + ".masks.png"});
 }

@@ -27,8 +27,7 @@ nlohmann::json write_objects(const Document& document, const Scene& scene, const
     const std::size_t gaussians = count_flags(labels);
     if (gaussians == 0) continue;
     const std::string name = free_file_name(object.name, &taken);
-    save_scene(folder.file(name + ".ply"), scene, labels, SceneFormat::kPly);
-    write_labels(folder.file(name + ".labels.u8"), scene, labels);
+    write_object_files(folder, scene, name, labels);
     objects.push_back({{"name", object.name},
                        {"file", name + ".ply"},
                        {"labels", name + ".labels.u8"},

@@ -15,7 +15,7 @@ constexpr glm::vec2 kOnBook{337, 296};  // means a book, or the pile
 }  // namespace
 
 TEST_CASE("clicks: the wheel takes sizes that differ, and says where there is none left without computing") {
-  for (const Place& place : with_captures({on_sample("mug", kOnMug)}, {"fox"})) {
+  for (const ClickedPlace& place : with_captures({on_sample("mug", kOnMug)}, {"fox"})) {
     CAPTURE(place.name);
     Artist artist(place);
     artist.click_on_it();

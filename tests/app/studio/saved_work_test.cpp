@@ -392,7 +392,7 @@ TEST_CASE("a scene that cannot be opened leaves the cut and the preparing that i
   while (!app.studio().scene()) app.frames(1);
   app.studio().apply(OpenScene{folder / "nowhere.ply"});  // while it is prepared
   REQUIRE(app.settle());
-  CHECK(app.studio().prepared());
+  CHECK(app.studio().scene());
   app.studio().apply(SetPreset{"fast"});
   app.click(app.screen_of(kOnApple));
   app.studio().apply(OpenScene{folder / "nowhere.ply"});  // while it is cut

@@ -309,7 +309,6 @@ TEST_CASE(
   go(Action::kUndo);  // the file
   CHECK(studio.scene()->files.size() == 1);
   CHECK(active_by_row(studio) == apple);
-  CHECK(studio.prepared());
   go(Action::kRedo);
   CHECK(studio.scene()->files.size() == 2);
   CHECK(active_by_row(studio) == longer(apple, kAdded));

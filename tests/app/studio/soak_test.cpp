@@ -125,7 +125,7 @@ TEST_CASE("soak: edits, cuts, undo, exports leave no file open and no thread beh
   Studio studio(options);
   studio.set_viewport(160, 120, 1);
   studio.apply(OpenScene{folder / "balls.ply"});
-  REQUIRE(studio.prepared());
+  REQUIRE(studio.scene());
   studio.apply(SetPreset{"fast"});
   std::mt19937 random(5);
   const Log log("edits");

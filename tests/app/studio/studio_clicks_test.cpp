@@ -20,7 +20,7 @@ Labels either(const Labels& a, const Labels& b) {
 }  // namespace
 
 TEST_CASE("clicks: a right click beside the object in a turned view takes nothing that was right") {
-  for (const Place& place : with_captures({on_sample("mug", kOnMug)})) {
+  for (const ClickedPlace& place : with_captures({on_sample("mug", kOnMug)})) {
     CAPTURE(place.name);
     Artist artist(place);
     artist.click_on_it();
@@ -35,7 +35,7 @@ TEST_CASE("clicks: a right click beside the object in a turned view takes nothin
 }
 
 TEST_CASE("clicks: the first view reached again by its thumbnail is the first view, marks and all") {
-  for (const Place& place : with_captures({on_sample("mug", kOnMug)})) {
+  for (const ClickedPlace& place : with_captures({on_sample("mug", kOnMug)})) {
     CAPTURE(place.name);
     Artist artist(place);
     artist.click_on_it();
@@ -79,7 +79,7 @@ TEST_CASE("clicks: an object click adds, to one thing another, and to both a thi
 }
 
 TEST_CASE("clicks: everything under a scribble obeys it") {
-  for (const Place& place : with_captures({on_sample("mug", kOnMug)})) {
+  for (const ClickedPlace& place : with_captures({on_sample("mug", kOnMug)})) {
     CAPTURE(place.name);
     Artist artist(place);
     artist.click_on_it();
@@ -108,7 +108,7 @@ TEST_CASE("clicks: everything under a scribble obeys it") {
 }
 
 TEST_CASE("clicks: with the object hidden, hover and click hit what is seen") {
-  for (const Place& place : with_captures({on_sample("apple", kOnApple)})) {
+  for (const ClickedPlace& place : with_captures({on_sample("apple", kOnApple)})) {
     CAPTURE(place.name);
     Artist artist(place);
     artist.click_on_it();
@@ -160,7 +160,7 @@ TEST_CASE("clicks: where nothing is, a click is refused with a word and is no st
 }
 
 TEST_CASE("clicks: hovering outlines what the click then changes, corrections included") {
-  for (const Place& place : with_captures({on_sample("apple", kOnApple)})) {
+  for (const ClickedPlace& place : with_captures({on_sample("apple", kOnApple)})) {
     CAPTURE(place.name);
     Artist artist(place);
     artist.click_on_it();
