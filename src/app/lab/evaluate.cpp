@@ -153,6 +153,7 @@ RobotSession robot_session(const EvaluationCase& scene, Session* session, const 
       const Strokes scaled_click = scaled({*next}, to_reference);
       robot.strokes.push_back(scaled_click.front());
       const Mask found = session->first_mask(request_of(scene, robot.strokes), settings, job);
+      if (job.cancelled()) break;  // there is no mask
       mask = resized_mask(found, work.width_px, work.height_px);
     }
     robot.iou_after.push_back(iou(truth, mask));

@@ -53,6 +53,7 @@ StrokeHits stroke_hits(const Drawer& scene, const CameraStroke& stroke, const Jo
   options.roi = region;
   if (stroke.seen) options.shown = *stroke.seen;
   const RasterOutput drawn = scene.draw(camera, options, job);
+  if (job.cancelled()) return hits;  // there is no picture
   for (std::size_t i = 0; i < points.size(); ++i) {
     const glm::vec2 pixel = scale * points[i];
     hits[i] = nearest_hit(camera, pixel, drawn, region, around(camera, pixel, reach_px));

@@ -101,12 +101,12 @@ TEST_CASE("options may stand before any command, and a scene after it does not m
   const Workplace place;
   place.write("scene.ply", "");
   const std::string help = place.run("--help").out;
-  for (const std::string command : {"info", "render", "cut", "convert", "merge", "compare", "view"}) {
+  for (const std::string command : {"info", "render", "cut", "convert", "compare", "view"}) {
     CAPTURE(command);
     CHECK(help.find("\n  " + command + " ") != std::string::npos);
     const std::string its_own = place.run(command + " --help").out;
     CHECK(its_own.find("Usage: splatcut " + command) != std::string::npos);
-    CHECK(place.run("--quiet " + command + " scene.ply --help").out == its_own);
+    CHECK(place.run("--quiet " + command + " --help scene.ply").out == its_own);
   }
   CHECK(place.run_program(lab_program(), "cut").code == 2);
 }
@@ -217,10 +217,10 @@ TEST_CASE(
   CHECK_FALSE(place.exists("cache"));
   REQUIRE(place.run(cut + " -o first").code == 0);
   REQUIRE(place.files_in("cache/splatcut").size() == 1);
-  CHECK(stages("first").contains("graph"));
+  CHECK(stages("first").contains("parts"));
   REQUIRE(place.run(cut + " -o second").code == 0);
   CHECK(stages("second").contains("cache"));
-  CHECK_FALSE(stages("second").contains("graph"));
+  CHECK_FALSE(stages("second").contains("parts"));
   for (const char* file :
        {"object.ply", "rest.ply", "labels.u8", "object.png", "rest.png", "tint.png", "masks.png"}) {
     CAPTURE(file);
@@ -233,7 +233,7 @@ TEST_CASE(
   const std::string bytes = place.text(kept);
   place.write(kept, bytes.substr(0, bytes.size() / 2));
   REQUIRE(place.run(cut + " -o third").code == 0);
-  CHECK(stages("third").contains("graph"));
+  CHECK(stages("third").contains("parts"));
   CHECK(place.text("third/labels.u8") == place.text("without/labels.u8"));
   CHECK(place.text(kept) == bytes);
   // A folder that cannot be made is no reason to stop.
