@@ -66,6 +66,15 @@ std::vector<nlohmann::json> references_json(const nlohmann::json& entry) {
   return all;
 }
 
+// The scene without its cameras: they say where the truth is seen, and nothing else. A view where it is
+// opened says which way is up; nothing else of a cut depends on where one came from.
+void open_elsewhere(const nlohmann::json& opened, EvaluationCase* test) {
+  if (opened.is_string() && opened != "guessed")
+    throw Error(test->name, "\"opened\" is neither \"guessed\" nor a view");
+  test->scene_cameras.clear();
+  test->up_world = opened.is_string() ? guessed_up(*test->cloud) : vec3_of(opened.at("up"));
+}
+
 // Clicks, "robot" for the robot's, and scribbles: one of them at least.
 void fill_strokes(const nlohmann::json& entry, EvaluationCase* test) {
   const nlohmann::json none = nlohmann::json::array();
@@ -110,6 +119,7 @@ void fill_case(const nlohmann::json& entry, const std::filesystem::path& folder,
     load_mask_truth(folder / truth.at("masks").get<std::string>(), cameras, &test);
   }
   fill_strokes(entry, &test);
+  if (entry.contains("opened")) open_elsewhere(entry.at("opened"), &test);
 }
 
 }  // namespace

@@ -36,10 +36,12 @@ Flags within_far_plane(const GaussianCloud& cloud, const Camera& camera, const F
 namespace {
 
 std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera, const Flags& visible,
-                                const DrawLimits& limits, const Job& job) {
+                                const DrawLimits& limits, const Job& job,
+                                const CloudBlocks* blocks = nullptr) {
   const auto start = std::chrono::steady_clock::now();
   RasterOptions options;
   options.depth = true;
+  options.blocks = blocks;
   options.near_plane = limits.near_plane;
   options.low_pass_px2 = limits.low_pass_px2;
   const Flags shown = within_far_plane(cloud, camera, visible, limits.far_plane);
@@ -58,8 +60,9 @@ std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera
 }  // namespace
 
 std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
-                                          const Flags& shown, const DrawLimits& limits, const Job& job) {
-  return frame_of(cloud, camera, shown, limits, job);
+                                          const Flags& shown, const DrawLimits& limits, const Job& job,
+                                          const CloudBlocks* blocks) {
+  return frame_of(cloud, camera, shown, limits, job, blocks);
 }
 
 std::shared_ptr<const Frame> coarse_frame(const CoarseCloud& coarse, const Camera& camera, const Flags& shown,
@@ -130,7 +133,8 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
     if (!reusable) {
       const bool coarse = request.coarse && !request.full;
       auto frame = coarse ? coarse_frame(*request.coarse, pane.camera, pane.shown, request.limits, job)
-                          : raster_frame(*request.cloud, pane.camera, pane.shown, request.limits, job);
+                          : raster_frame(*request.cloud, pane.camera, pane.shown, request.limits, job,
+                                         request.blocks.get());
       if (job.cancelled()) return std::nullopt;
       kept = {request.scene, pane.shown, request.limits, request.full, std::move(frame)};
     }

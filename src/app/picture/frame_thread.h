@@ -42,6 +42,7 @@ struct PaneRequest {
 struct FrameRequest {
   std::uint64_t scene = 0;  // changes with the cloud
   std::shared_ptr<const GaussianCloud> cloud;
+  std::shared_ptr<const CloudBlocks> blocks;  // of the cloud
   std::shared_ptr<const CoarseCloud> coarse;  // may be null: what reduced pictures are drawn of
   std::vector<PaneRequest> panes;             // 1 or 2, left to right
   DrawLimits limits;
@@ -93,7 +94,8 @@ class FrameThread {
 
 // The same on the calling thread, without reuse: for captures and tests.
 std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
-                                          const Flags& shown, const DrawLimits& limits, const Job& job = {});
+                                          const Flags& shown, const DrawLimits& limits, const Job& job = {},
+                                          const CloudBlocks* blocks = nullptr);
 std::shared_ptr<const Frame> coarse_frame(const CoarseCloud& coarse, const Camera& camera, const Flags& shown,
                                           const DrawLimits& limits, const Job& job = {});
 

@@ -49,6 +49,7 @@ bool Clicks::hits_anything(const AddStroke& c) const {
     options.near_plane = limits.near_plane;
     options.low_pass_px2 = limits.low_pass_px2;
     options.roi = around;
+    options.blocks = ws_.scene->blocks.get();
     if (c.seen) options.shown = *c.seen;
     drawn = rasterize(*ws_.scene->cloud, c.camera, options).alpha;
   }

@@ -194,7 +194,8 @@ void Viewport::request_picture() {
   requested_camera_ = camera;
   requested_full_ = still;
   requested_style_ = style_serial_;
-  FrameRequest request{ws_.scene->serial, ws_.scene->cloud, ws_.coarse, {}, draw_limits(), still};
+  FrameRequest request{
+      ws_.scene->serial, ws_.scene->cloud, ws_.scene->blocks, ws_.coarse, {}, draw_limits(), still};
   for (int pane = 0; pane < panes(); ++pane) {
     request.panes.push_back({camera, shown(pane), style(pane)});
     request.panes.back().style.checker_px *= scale;  // on the screen it stays as large
@@ -249,6 +250,7 @@ std::optional<PickedPoint> Viewport::hit_in(const Camera& camera, const glm::vec
   options.near_plane = limits.near_plane;
   options.low_pass_px2 = limits.low_pass_px2;
   options.roi = PixelRect{x, y, x + 1, y + 1};
+  options.blocks = ws_.scene->blocks.get();
   const Flags visible = within_far_plane(*ws_.scene->cloud, camera, visible_set, limits.far_plane);
   if (visible) options.shown = *visible;
   const RasterOutput out = rasterize(*ws_.scene->cloud, camera, options);
