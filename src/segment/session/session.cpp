@@ -98,40 +98,35 @@ bool Session::is_whole(const Cell& cell) const {
          kMostOfScene * static_cast<double>(scene_.cloud->size());
 }
 
-Place Session::first_place(const Camera& camera, const glm::vec3& hit_world) const {
-  const glm::vec3 towards_eye = camera.centre_world() - hit_world;
-  Place place;
-  place.from = direction_of(towards_eye, scene_.up_world);
-  const float distance = glm::length(towards_eye);
-  const auto gaussians = [&](int level) {
-    return whole_.blocks->count_in(*scene_.cloud, cell_around(hit_world, level).box_world());
-  };
-  int level = level_above(distance);
-  for (int i = 0; i < kMostHalvings && gaussians(level) > scene_.most_gaussians; ++i) --level;
-  place.cell = cell_around(hit_world, level);
-  place.looked_at = cell_around(hit_world, std::min(level, nearest_level(distance)));
+Place Session::seen_from(const Camera& eye, const glm::vec3& point_world) {
+  const float distance = glm::distance(eye.centre_world(), point_world);
+  return {.cell = cell_around(point_world, level_above(distance)),
+          .looked_at = cell_around(point_world, nearest_level(distance)),
+          .eye = eye};
+}
+
+Place Session::first_place(const Camera& eye, const glm::vec3& hit_world) const {
+  Place place = seen_from(eye, hit_world);
+  const auto gaussians = [&] { return whole_.blocks->count_in(*scene_.cloud, place.cell.box_world()); };
+  for (int i = 0; i < kMostHalvings && gaussians() > scene_.most_gaussians; ++i)
+    place.cell = cell_around(hit_world, place.cell.level - 1);
   place.whole = is_whole(place.cell);
   return place;
 }
 
-// The next larger cell that holds the box. eye_level: beyond it, views come no farther away.
-Place Session::grown(const Place& place, const Box& must_hold, int eye_level) const {
+// The next larger cell that holds the box.
+Place Session::grown(const Place& place, const Box& must_hold) const {
   Place next = place;
   do {
     next.cell = cell_around(must_hold.centre(), next.cell.level + 1);
   } while (!contains(next.cell.box_world(), must_hold.min) ||
            !contains(next.cell.box_world(), must_hold.max));
-  if (next.cell.level <= eye_level) next.looked_at = next.cell;
   next.whole = is_whole(next.cell);
   return next;
 }
 
-Place Session::place_of_all(const Camera& reference) const {
-  const Box box = robust_bounds(scene_.cloud->position);
-  Place place;
-  const glm::vec3 towards_eye = reference.centre_world() - box.centre();
-  place.from = direction_of(towards_eye, scene_.up_world);
-  place.cell = place.looked_at = cell_around(box.centre(), nearest_level(glm::length(towards_eye)));
+Place Session::place_of_all(const Camera& eye) const {
+  Place place = seen_from(eye, robust_bounds(scene_.cloud->position).centre());
   place.whole = true;
   return place;
 }
@@ -153,10 +148,8 @@ Place Session::place_of_masks(const CutRequest& request, const CutSettings& sett
   const Box box = bounds_of(*scene_.cloud, shown);
   const float extent = std::max({box.extent().x, box.extent().y, box.extent().z});
   if (!(extent > 0)) return place_of_all(request.first_mask->camera);
-  Place place;
-  place.from = direction_of(request.first_mask->camera.centre_world() - box.centre(), scene_.up_world);
+  Place place = seen_from(request.first_mask->camera, box.centre());
   place.cell = cell_around(box.centre(), level_above(kSides * extent));
-  place.looked_at = place.cell;
   place.whole = is_whole(place.cell);
   return place;
 }
@@ -174,18 +167,14 @@ std::optional<Place> Session::place_of_strokes(const CutRequest& request, const 
   std::optional<Place> place;
   if (known > 0) place = places_.at(key(known));
   std::optional<Box> must_hold;
-  int eye_level = 0;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     if (strokes[i].stroke.label == SeedLabel::kObject)
       for (const auto& hit : hits(strokes[i], job))
         if (hit) must_hold = must_hold ? joined(*must_hold, {*hit, *hit}) : Box{*hit, *hit};
     if (job.cancelled() || !must_hold) return {};
-    if (i == 0) {
-      eye_level = nearest_level(glm::distance(strokes[0].camera.centre_world(), must_hold->centre()));
-      if (!place) place = first_place(strokes[0].camera, must_hold->centre());
-    }
+    if (!place) place = first_place(strokes[0].camera, must_hold->centre());
     if (i + 1 <= known) continue;
-    place = place_after(first(i + 1), request, settings, *place, *must_hold, eye_level, job);
+    place = place_after(first(i + 1), request, settings, *place, *must_hold, job);
     if (job.cancelled()) return {};
     if (places_.size() >= kMostPlaces) places_.clear();
     places_[key(i + 1)] = *place;
@@ -194,11 +183,9 @@ std::optional<Place> Session::place_of_strokes(const CutRequest& request, const 
 }
 
 Place Session::place_after(std::span<const CameraStroke> strokes, const CutRequest& like,
-                           const CutSettings& settings, Place place, const Box& must_hold, int eye_level,
-                           const Job& job) {
+                           const CutSettings& settings, Place place, const Box& must_hold, const Job& job) {
   const auto holds = [&](const glm::vec3& p) { return contains(place.cell.box_world(), p); };
-  if (!place.whole && !(holds(must_hold.min) && holds(must_hold.max)))
-    place = grown(place, must_hold, eye_level);
+  if (!place.whole && !(holds(must_hold.min) && holds(must_hold.max))) place = grown(place, must_hold);
   const CutRequest request = request_of(strokes, like);
   while (!job.cancelled()) {
     Local* there = local(place, settings, job);
@@ -206,7 +193,7 @@ Place Session::place_after(std::span<const CameraStroke> strokes, const CutReque
     const std::vector<std::uint8_t> meant =
         there->session.meant(in_place(request, there, job), settings, job);
     if (job.cancelled() || !touches_side(whole_, there->near, meant)) break;
-    place = grown(place, joined(must_hold, bounds_of(*there->near.cloud, meant)), eye_level);
+    place = grown(place, joined(must_hold, bounds_of(*there->near.cloud, meant)));
   }
   return place;
 }
@@ -287,8 +274,7 @@ Session::Local* Session::settled(const CutRequest& request, const CutSettings& s
       };
     *result = there->session.cut(in_place(request, there, job), settings, job, in_whole);
     if (result->outcome != Outcome::kDone || !touches_side(whole_, there->near, result->labels)) return there;
-    place = grown(*place, joined(place->cell.box_world(), bounds_of(*there->near.cloud, result->labels)),
-                  place->looked_at.level);
+    place = grown(*place, joined(place->cell.box_world(), bounds_of(*there->near.cloud, result->labels)));
   }
   return nullptr;
 }

@@ -37,7 +37,7 @@ struct SessionScene {
   glm::vec3 up_world{0, -1, 0};                 // for orbits; a request may know better
   std::vector<Camera> photographs{};            // cameras of the capture, where known
   PrepareOptions prepare{};
-  std::size_t most_gaussians = 100'000;             // in the first cell
+  std::size_t most_gaussians = 250'000;             // in the first cell
   std::size_t most_bytes = std::size_t{768} << 20;  // of neighbourhoods kept; the one in use may be larger
 };
 
@@ -85,15 +85,15 @@ class Session {
 
   const StrokeHits& hits(const CameraStroke& stroke, const Job& job);
   bool is_whole(const Cell& cell) const;
-  Place first_place(const Camera& camera, const glm::vec3& hit_world) const;
-  Place place_of_all(const Camera& reference) const;
+  static Place seen_from(const Camera& eye, const glm::vec3& point_world);
+  Place first_place(const Camera& eye, const glm::vec3& hit_world) const;
+  Place place_of_all(const Camera& eye) const;
   Place place_of_masks(const CutRequest& request, const CutSettings& settings, const Job& job) const;
-  Place grown(const Place& place, const Box& must_hold, int eye_level) const;
+  Place grown(const Place& place, const Box& must_hold) const;
   std::optional<Place> place_of_strokes(const CutRequest& request, const CutSettings& settings,
                                         const Job& job);
   Place place_after(std::span<const CameraStroke> strokes, const CutRequest& like,
-                    const CutSettings& settings, Place place, const Box& must_hold, int eye_level,
-                    const Job& job);
+                    const CutSettings& settings, Place place, const Box& must_hold, const Job& job);
   std::optional<Place> place_of(const CutRequest& request, const CutSettings& settings, const Job& job);
   Local* local(const Place& place, const CutSettings& settings, const Job& job);
   CutRequest in_place(const CutRequest& request, Local* there, const Job& job);

@@ -3,34 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
-#include <limits>
 
 #include "segment/superpoints/orbit.h"
 
 namespace splatcut {
 
 namespace {
-
-constexpr float kAzimuthStep = glm::pi<float>() / 4, kElevationStep = glm::pi<float>() / 8;
-constexpr int kMostElevation = 3;
-
-// Two level axes, at right angles.
-std::array<glm::vec3, 2> level_axes(const glm::vec3& up) {
-  const glm::vec3 size = glm::abs(up);
-  glm::vec3 axis(0);
-  axis[size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2] = 1;
-  const glm::vec3 first = glm::normalize(axis - glm::dot(axis, up) * up);
-  return {first, glm::cross(up, first)};
-}
-
-// The camera from which a place is looked at first, far enough for the whole cell to show.
-Camera own_view(const WholeScene& scene, const Place& place, int width_px) {
-  constexpr float kFieldOfView = glm::radians(60.0f);
-  const glm::vec3 centre = place.looked_at.centre_world();
-  return look_at(centre + place.looked_at.side() * unit_vector(place.from, scene.up_world), centre,
-                 scene.up_world, kFieldOfView, width_px, width_px * 3 / 4);
-}
 
 bool shows(const Camera& camera, const glm::vec3& point_world) {
   const glm::vec3 at = camera.camera_from_world(point_world);
@@ -75,24 +53,9 @@ int level_above(float length) {
   return static_cast<int>(std::ceil(std::log2(length)));
 }
 
-Direction direction_of(const glm::vec3& towards_world, const glm::vec3& up_world) {
-  const glm::vec3 up = glm::normalize(up_world);
-  const auto [first, second] = level_axes(up);
-  const float along = glm::dot(towards_world, first), across = glm::dot(towards_world, second);
-  const float azimuth = std::atan2(across, along);
-  const float elevation = std::atan2(glm::dot(towards_world, up), std::hypot(along, across));
-  return {
-      static_cast<int>(std::lround(azimuth / kAzimuthStep) + 8) % 8,
-      std::clamp(static_cast<int>(std::lround(elevation / kElevationStep)), -kMostElevation, kMostElevation)};
-}
-
-glm::vec3 unit_vector(const Direction& direction, const glm::vec3& up_world) {
-  const glm::vec3 up = glm::normalize(up_world);
-  const auto [first, second] = level_axes(up);
-  const float azimuth = kAzimuthStep * static_cast<float>(direction.azimuth),
-              elevation = kElevationStep * static_cast<float>(direction.elevation);
-  return std::cos(elevation) * (std::cos(azimuth) * first + std::sin(azimuth) * second) +
-         std::sin(elevation) * up;
+bool Place::operator==(const Place& other) const {
+  return cell == other.cell && looked_at == other.looked_at && whole == other.whole &&
+         same_camera(eye, other.eye);
 }
 
 std::size_t Neighbourhood::bytes() const {
@@ -103,7 +66,7 @@ std::size_t Neighbourhood::bytes() const {
 std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
                                  const ObservingOptions& options) {
   constexpr std::ptrdiff_t kEnoughGiven = 3;
-  std::vector<Camera> views{own_view(scene, place, options.width_px)}, given;
+  std::vector<Camera> views{limited_to_width(place.eye, options.width_px)}, given;
   const glm::vec3 centre = place.looked_at.centre_world();
   std::ranges::copy_if(scene.photographs, std::back_inserter(given),
                        [&](const Camera& camera) { return shows(camera, centre); });
@@ -114,7 +77,8 @@ std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
   OrbitOptions orbit;
   orbit.views = options.ring;
   orbit.elevation_swing_rad = options.elevation_swing_rad;
-  const ObjectExtent extent{centre, place.looked_at.side() / (2 * orbit.distance_sizes)};
+  const float distance = glm::distance(place.eye.centre_world(), centre);
+  const ObjectExtent extent{centre, distance / (2 * orbit.distance_sizes)};
   std::ranges::copy(orbit_cameras(views.front(), scene.up_world, extent, orbit), std::back_inserter(views));
   return views;
 }

@@ -39,21 +39,12 @@ Cell cell_around(const glm::vec3& point_world, int level);
 int nearest_level(float length);
 int level_above(float length);
 
-// A direction from a place, in steps of 45 degrees about the scene's up and of 22.5 degrees above the level.
-struct Direction {
-  int azimuth = 0;    // 0..7
-  int elevation = 0;  // -3..3
-  auto operator<=>(const Direction&) const = default;
-};
-Direction direction_of(const glm::vec3& towards_world, const glm::vec3& up_world);
-glm::vec3 unit_vector(const Direction& direction, const glm::vec3& up_world);
-
 struct Place {
   Cell cell;           // whose Gaussians are prepared
   Cell looked_at;      // what observing views look at
-  Direction from;      // where the first of them stands
+  Camera eye;          // the first of them: from where the place was clicked
   bool whole = false;  // all Gaussians of the scene, whatever the cell
-  auto operator<=>(const Place&) const = default;
+  bool operator==(const Place& other) const;
 };
 
 // What neighbourhoods are made from. All of it outlives them but the photographs.
