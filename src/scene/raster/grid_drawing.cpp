@@ -20,12 +20,26 @@ void add_sums(const TileGrid& grid, const LargeArray<PairSums>& pair_sums, Maske
   });
 }
 
+void add_planes(const TileGrid& grid, const LargeArray<std::int32_t>& plane_sums, PlaneSums* sums) {
+  const std::size_t planes = sums->planes();
+  tbb::parallel_for(std::size_t{0}, grid.runs.size(), [&](std::size_t run) {
+    for (const SplatTile& pair : grid.runs[run])
+      for (std::size_t k = 0; k < planes; ++k)
+        sums->sum[pair.gaussian * planes + k] += plane_sums[pair.entry * planes + k];
+  });
+}
+
 void check_sizes([[maybe_unused]] const GaussianCloud& cloud, [[maybe_unused]] const Camera& camera,
                  [[maybe_unused]] const RasterOptions& options) {
   [[maybe_unused]] const auto fits = [&](std::size_t size) { return size == 0 || size == cloud.size(); };
   assert(fits(options.colour_override.size()) && fits(options.labels.size()) && fits(options.shown.size()));
   assert(!options.blocks || options.blocks->gaussians() == cloud.size());
   assert(options.labels.empty() || !options.colour);
+  assert(!options.plane_sums ||
+         (options.sum_planes.size() == options.plane_sums->planes() &&
+          options.sum_planes.size() <= PlaneSums::kMost &&
+          options.plane_sums->sum.size() == cloud.size() * options.plane_sums->planes() && !options.sums &&
+          !options.colour && !options.depth && options.labels.empty() && options.groups.empty()));
   assert(!options.sums ||
          (options.sum_mask && options.sums->total.size() == cloud.size() &&
           options.sum_mask->width() == camera.width_px && options.sum_mask->height() == camera.height_px));
@@ -40,7 +54,14 @@ void draw(TileBlend what, bool partly, const Job& job, RasterOutput* out) {
     if (partly) std::fill_n(pair_sums.data(), pair_sums.size(), PairSums{0, 0});
     what.pair_sums = pair_sums.data();
   }
+  LargeArray<std::int32_t> plane_sums;
+  if (options.plane_sums) {
+    plane_sums = LargeArray<std::int32_t>(what.grid.entries.size() * options.plane_sums->planes());
+    std::fill_n(plane_sums.data(), plane_sums.size(), 0);
+    what.plane_sums = plane_sums.data();
+  }
   blend_tiles(what, job, out);
+  if (options.plane_sums && !job.cancelled()) add_planes(what.grid, plane_sums, options.plane_sums);
   if (options.sums && !job.cancelled()) add_sums(what.grid, pair_sums, options.sums);
 }
 

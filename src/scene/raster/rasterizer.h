@@ -35,6 +35,22 @@ struct MaskedSums {
   explicit MaskedSums(std::size_t gaussians = 0) : total(gaussians, 0), inside(gaussians, 0) {}
 };
 
+// Sums of weight times the pixel's value on each of a few planes, in units of 2^-16: for moments and means of
+// what a Gaussian shows. By Gaussian, then by plane.
+struct PlaneSums {
+  static constexpr std::size_t kMost = 8;  // planes
+  std::vector<std::int64_t> sum;
+
+  PlaneSums(std::size_t gaussians, std::size_t planes) : sum(gaussians * planes, 0), planes_(planes) {}
+  double at(std::size_t gaussian, std::size_t plane) const {
+    return static_cast<double>(sum[gaussian * planes_ + plane]) / MaskedSums::kUnitsPerPixel;
+  }
+  std::size_t planes() const { return planes_; }
+
+ private:
+  std::size_t planes_;
+};
+
 // What a pixel gets from one group of Gaussians: sum of alpha T over them.
 struct GroupWeight {
   std::uint32_t group = 0;
@@ -59,6 +75,9 @@ struct RasterOptions {
   const Mask* sum_mask = nullptr;              // with `sums`: size of the camera's picture, non-zero = object
   MaskedSums* sums = nullptr;                  // added to; arrays of the cloud's size
   bool sum_whole_pixels = false;               // a pixel counts 1, not by its weight, where alpha >= 1/255
+  std::span<const Image<float>> sum_planes;    // with `plane_sums`, without colour, depth, labels, groups and
+                                               // sums: of the size drawn, values in [-1, 1]
+  PlaneSums* plane_sums = nullptr;             // added to
   std::size_t most_pairs =
       std::size_t{1}
       << 26;  // listed at once, 24 bytes each; more are drawn region by region, to the same bits

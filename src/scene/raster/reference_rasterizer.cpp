@@ -74,6 +74,9 @@ RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camer
           options.sums->total[s.gaussian] += units;
           if (options.sum_mask->at(x, y)) options.sums->inside[s.gaussian] += units;
         }
+        for (std::size_t k = 0; options.plane_sums && k < options.sum_planes.size(); ++k)
+          options.plane_sums->sum[s.gaussian * options.sum_planes.size() + k] +=
+              std::llrint(weight * options.sum_planes[k].at(ox, oy) * MaskedSums::kUnitsPerPixel);
         const float before = transmittance;
         transmittance -= weight;
         if (options.depth && before >= 0.5f && transmittance < 0.5f) {

@@ -53,17 +53,20 @@ glm::vec3 shortest_axis(const glm::vec3& scale, const glm::quat& rotation) {
   return world_from_local[axis];
 }
 
-Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, const glm::mat3& sigma_world,
-                          float low_pass_px2) {
+PixelJacobian pixel_jacobian(const Camera& camera, const glm::vec3& point_camera) {
   const float z = point_camera.z;
   const float limit_x = kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px;
   const float limit_y = kFrustumSlack * 0.5f * static_cast<float>(camera.height_px) / camera.fy_px;
   const float x = std::clamp(point_camera.x / z, -limit_x, limit_x) * z;
   const float y = std::clamp(point_camera.y / z, -limit_y, limit_y) * z;
-  const glm::vec3 jacobian_u(camera.fx_px / z, 0, -camera.fx_px * x / (z * z));
-  const glm::vec3 jacobian_v(0, camera.fy_px / z, -camera.fy_px * y / (z * z));
   const glm::mat3 world_from_camera = glm::transpose(camera.camera_from_world_rotation);
-  const glm::vec3 u = world_from_camera * jacobian_u, v = world_from_camera * jacobian_v;
+  return {world_from_camera * glm::vec3(camera.fx_px / z, 0, -camera.fx_px * x / (z * z)),
+          world_from_camera * glm::vec3(0, camera.fy_px / z, -camera.fy_px * y / (z * z))};
+}
+
+Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, const glm::mat3& sigma_world,
+                          float low_pass_px2) {
+  const auto [u, v] = pixel_jacobian(camera, point_camera);
   const glm::vec3 sigma_u = sigma_world * u, sigma_v = sigma_world * v;
   return {glm::dot(u, sigma_u) + low_pass_px2, glm::dot(u, sigma_v), glm::dot(v, sigma_v) + low_pass_px2};
 }

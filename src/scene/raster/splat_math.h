@@ -38,6 +38,13 @@ glm::mat3 covariance_world(const glm::vec3& scale, const glm::quat& rotation);
 // The unit axis along which the Gaussian is thinnest: its surface's normal, of either sign.
 glm::vec3 shortest_axis(const glm::vec3& scale, const glm::quat& rotation);
 
+// How pixels move with a point in the world, px per scene unit: rows of J W. Slopes are clamped as
+// kFrustumSlack says.
+struct PixelJacobian {
+  glm::vec3 x, y;
+};
+PixelJacobian pixel_jacobian(const Camera& camera, const glm::vec3& point_camera);
+
 // Sigma2 of a Gaussian whose mean is at point_camera.
 Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, const glm::mat3& sigma_world,
                           float low_pass_px2 = kLowPassPx2);

@@ -31,14 +31,31 @@ struct Workspace {
   TileLists found;  // on their way into TileBlend::lists
 };
 
+// Rounded to 2^-16.
+HWY_INLINE hn::Vec<IntLanes> units_of(V v) {
+  const V shifted =
+      fma(v, hn::Set(kF, static_cast<float>(MaskedSums::kUnitsPerPixel)), hn::Set(kF, kRoundShift));
+  return hn::Sub(hn::BitCast(kI, shifted), hn::Set(kI, kRoundShiftBits));
+}
+
+// Adds what splat i of the chunk has in the vector of pixels at `at`, times their values.
+HWY_INLINE void add_planes(V weight, int at, int i, std::size_t planes, const TilePixels& pixels,
+                           Chunk* chunk) {
+  for (std::size_t k = 0; k < planes; ++k) {
+    std::int32_t* sum = &chunk->plane[k][static_cast<std::size_t>(i * kWidth)];
+    const V value = hn::Load(kF, &pixels.plane[k][static_cast<std::size_t>(at)]);
+    hn::Store(hn::Add(hn::Load(kI, sum), units_of(hn::Mul(weight, value))), kI, sum);
+  }
+}
+
 // Blends the listed splats of a chunk into the block with the corner (x0, y0). True when no pixel of it can
 // change any more.
-template <Paint kPaint, bool kDepth, bool kSums>
+template <Paint kPaint, bool kDepth, Sums kSums>
 bool blend_block(float x0, float y0, int block, const std::int32_t* list, int count, TilePixels* pixels,
-                 Chunk* chunk, TileGroups* groups) {
+                 Chunk* chunk, TileGroups* groups, std::size_t planes) {
   const int begin = block * kBlockPixels;
-  const bool some_object = kSums && pixels->object_pixels[block] != 0,
-             whole_pixels = kSums && pixels->whole_pixels;
+  const bool some_object = kSums == Sums::kMask && pixels->object_pixels[block] != 0,
+             whole_pixels = kSums == Sums::kMask && pixels->whole_pixels;
   V px[kVectors], py[kVectors], transmittance[kVectors], red[kVectors], green[kVectors], blue[kVectors],
       depth[kVectors], median[kVectors];
   hn::Vec<IntLanes> hit[kVectors], object[kVectors];
@@ -58,7 +75,7 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
       median[v] = hn::Load(kF, &pixels->median[at]);
       hit[v] = hn::Load(kI, &pixels->hit[at]);
     }
-    if constexpr (kSums) object[v] = hn::Load(kI, &pixels->object[at]);
+    if constexpr (kSums == Sums::kMask) object[v] = hn::Load(kI, &pixels->object[at]);
   }
   const V stop = hn::Set(kF, kTransmittanceStop), alpha_min = hn::Set(kF, kAlphaMin),
           alpha_max = hn::Set(kF, kAlphaMax);
@@ -104,16 +121,15 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
         hit[v] = hn::IfThenElse(hn::RebindMask(kI, crosses), hn::Set(kI, static_cast<std::int32_t>(gaussian)),
                                 hit[v]);
       }
-      if constexpr (kSums) {
+      if constexpr (kSums == Sums::kPlanes) add_planes(weight, begin + v * kWidth, i, planes, *pixels, chunk);
+      if constexpr (kSums == Sums::kMask) {
         const V share = whole_pixels ? hn::IfThenElseZero(counts, hn::Set(kF, 1.0f)) : weight;
-        const V shifted =
-            fma(share, hn::Set(kF, static_cast<float>(MaskedSums::kUnitsPerPixel)), hn::Set(kF, kRoundShift));
-        const auto u = hn::Sub(hn::BitCast(kI, shifted), hn::Set(kI, kRoundShiftBits));
+        const auto u = units_of(share);
         units = hn::Add(units, u);
         if (some_object) units_inside = hn::Add(units_inside, hn::And(u, object[v]));
       }
     }
-    if constexpr (kSums) {
+    if constexpr (kSums == Sums::kMask) {
       const auto add = [&](std::int32_t* sum, hn::Vec<IntLanes> more) {
         hn::Store(hn::Add(hn::Load(kI, sum), more), kI, sum);
       };
@@ -142,8 +158,9 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
 
 // Blends the chunk into every block that still lets light through. known: null, or its lists of an earlier
 // drawing.
-template <Paint kPaint, bool kDepth, bool kSums>
-void blend_chunk(int tile_x, int tile_y, ListReader* known, bool keep_lists, Workspace* work) {
+template <Paint kPaint, bool kDepth, Sums kSums>
+void blend_chunk(int tile_x, int tile_y, ListReader* known, bool keep_lists, std::size_t planes,
+                 Workspace* work) {
   constexpr std::uint32_t kRowOfBlocks = (1u << kBlocksAcross) - 1;
   TilePixels& pixels = work->pixels;
   for (int row = 0; row < kBlocksAcross; ++row) {
@@ -161,7 +178,7 @@ void blend_chunk(int tile_x, int tile_y, ListReader* known, bool keep_lists, Wor
       const int block = row * kBlocksAcross + b;
       if (blend_block<kPaint, kDepth, kSums>(x0 + static_cast<float>(b * kBlockPx), y0, block,
                                              work->lists.splat[b].data(), work->lists.count[b], &pixels,
-                                             &work->chunk, &work->groups))
+                                             &work->chunk, &work->groups, planes))
         pixels.alive &= ~(1u << block);
     }
   }
@@ -175,13 +192,21 @@ void store_sums(const Chunk& chunk, const std::uint32_t* order, PairSums* sums) 
     sums[order[i]] = {sum(&chunk.total[i * kWidth]), sum(&chunk.inside[i * kWidth])};
 }
 
+void store_planes(const TileBlend& what, std::size_t first, const std::uint32_t* order, const Chunk& chunk) {
+  const std::size_t planes = what.options.sum_planes.size();
+  for (int i = 0; i < chunk.size; ++i)
+    for (std::size_t k = 0; k < planes; ++k)
+      what.plane_sums[(first + order[i]) * planes + k] = hn::GetLane(
+          hn::SumOfLanes(kI, hn::Load(kI, &chunk.plane[k][static_cast<std::size_t>(i * kWidth)])));
+}
+
 // One per thread, on the heap: thread-local storage is taken from every thread's stack.
 Workspace& workspace() {
   thread_local const auto work = std::make_unique<Workspace>();
   return *work;
 }
 
-template <Paint kPaint, bool kDepth, bool kSums>
+template <Paint kPaint, bool kDepth, Sums kSums>
 void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   Workspace& work = workspace();
   const TileGrid& grid = what.grid;
@@ -207,11 +232,13 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   while (done < order.size() && work.pixels.alive != 0) {
     const std::size_t size = std::min<std::size_t>(kChunk, order.size() - done);
     gather(what, entries, order.subspan(done, size), !known, &work.chunk);
-    blend_chunk<kPaint, kDepth, kSums>(tile_x, tile_y, known ? &*known : nullptr, keep_lists, &work);
-    if constexpr (kSums) store_sums(work.chunk, order.data() + done, what.pair_sums + first);
+    blend_chunk<kPaint, kDepth, kSums>(tile_x, tile_y, known ? &*known : nullptr, keep_lists,
+                                       what.options.sum_planes.size(), &work);
+    if constexpr (kSums == Sums::kMask) store_sums(work.chunk, order.data() + done, what.pair_sums + first);
+    if constexpr (kSums == Sums::kPlanes) store_planes(what, first, order.data() + done, work.chunk);
     done += size;
   }
-  if constexpr (kSums)
+  if constexpr (kSums == Sums::kMask)
     for (; done < order.size(); ++done) what.pair_sums[first + order[done]] = {0, 0};
   store_pixels<kPaint, kDepth>(what, tile_x, tile_y, work.pixels, work.groups, out);
   if (keep_lists) *lists = {work.found.splat, work.found.count, true};
@@ -221,16 +248,17 @@ using DrawTile = void (*)(const TileBlend&, int, RasterOutput*);
 
 template <Paint kPaint>
 DrawTile draw_tile_with(bool depth, bool sums) {
-  if (depth) return sums ? draw_tile<kPaint, true, true> : draw_tile<kPaint, true, false>;
-  return sums ? draw_tile<kPaint, false, true> : draw_tile<kPaint, false, false>;
+  if (depth) return sums ? draw_tile<kPaint, true, Sums::kMask> : draw_tile<kPaint, true, Sums::kNone>;
+  return sums ? draw_tile<kPaint, false, Sums::kMask> : draw_tile<kPaint, false, Sums::kNone>;
 }
 
 void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
-  const DrawTile draw = (what.options.colour            ? draw_tile_with<Paint::kColour>
-                         : !what.options.groups.empty() ? draw_tile_with<Paint::kGroups>
-                         : !what.options.labels.empty()
-                             ? draw_tile_with<Paint::kLabel>
-                             : draw_tile_with<Paint::kNone>)(what.options.depth, what.pair_sums != nullptr);
+  const DrawTile masked = (what.options.colour            ? draw_tile_with<Paint::kColour>
+                           : !what.options.groups.empty() ? draw_tile_with<Paint::kGroups>
+                           : !what.options.labels.empty()
+                               ? draw_tile_with<Paint::kLabel>
+                               : draw_tile_with<Paint::kNone>)(what.options.depth, what.pair_sums != nullptr);
+  const DrawTile draw = what.plane_sums ? draw_tile<Paint::kNone, false, Sums::kPlanes> : masked;
   const TileGrid& grid = what.grid;
   const PixelRect& roi = what.roi;
   const int left = std::max(0, roi.x0 / kTilePx - grid.first_tile_x),

@@ -30,7 +30,8 @@ struct TileBlend {
       shown;  // empty, or per Gaussian whether it is drawn, where the grid holds more
   std::vector<TileLists>* lists = nullptr;  // per tile, where shown is empty: used once complete
   PixelRect picture{};  // all that the grid holds: lists of tiles that roi shows whole are completed
-  PairSums* pair_sums = nullptr;  // null, or one per entry of the grid; those drawn are set
+  PairSums* pair_sums = nullptr;       // null, or one per entry of the grid; those drawn are set
+  std::int32_t* plane_sums = nullptr;  // null, or by entry of the grid and plane, zero: those drawn are set
 };
 
 // Draws those tiles of the grid that touch roi, which may reach beyond the grid, into `out`, whose images

@@ -21,12 +21,16 @@ namespace HWY_NAMESPACE {
 // What is summed up per pixel beside the transmittance.
 enum class Paint { kNone, kLabel, kColour, kGroups };
 
+// What is summed up per splat.
+enum class Sums { kNone, kMask, kPlanes };
+
 // The pixels of a tile, block by block, row by row within a block.
 struct TilePixels {
   alignas(64) std::array<float, kTilePixels> transmittance, red, green, blue, depth, median;
   alignas(64) std::array<std::int32_t, kTilePixels> hit;
   alignas(64) std::array<std::int32_t, kTilePixels> object;  // -1 inside the mask, else 0
   std::array<int, kBlocks> object_pixels;
+  alignas(64) std::array<std::array<float, kTilePixels>, PlaneSums::kMost> plane;
   bool whole_pixels = false;  // sums count pixels, not weights
   std::uint32_t alive = 0;    // bit b: some pixel of block b can still change
 };
@@ -69,6 +73,9 @@ inline void start_pixels(const TileBlend& what, int tile_x, int tile_y, TilePixe
     pixels->transmittance[i] =
         drawn ? 1.0f : 0.0f;  // pixels outside are opaque from the start: they do not count
     if (drawn) pixels->alive |= 1u << block;
+    for (std::size_t k = 0; what.plane_sums && k < what.options.sum_planes.size(); ++k)
+      pixels->plane[k][static_cast<std::size_t>(i)] =
+          drawn ? what.options.sum_planes[k].at(x - what.roi.x0, y - what.roi.y0) : 0;
     if (!what.pair_sums) continue;
     const bool object = drawn && what.options.sum_mask->at(x, y);
     pixels->object[i] = object ? -1 : 0;

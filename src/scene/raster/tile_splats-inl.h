@@ -39,6 +39,7 @@ struct Chunk {
   std::array<std::uint32_t, kCapacity> group;
   // Sums of the tile so far, lane by lane, 2^-16 pixel.
   alignas(64) std::array<std::int32_t, kCapacity * kWidth> total, inside;
+  alignas(64) std::array<std::array<std::int32_t, kCapacity * kWidth>, PlaneSums::kMost> plane;
 };
 
 // Indices into a chunk, front to back, for each block of a row of blocks.
@@ -127,6 +128,8 @@ inline void gather(const TileBlend& what, const TileEntry* entries, std::span<co
     std::fill_n(chunk->total.begin(), count * kWidth, 0);
     std::fill_n(chunk->inside.begin(), count * kWidth, 0);
   }
+  for (std::size_t k = 0; what.plane_sums && k < what.options.sum_planes.size(); ++k)
+    std::fill_n(chunk->plane[k].begin(), count * kWidth, 0);
 }
 
 // Lists, for each block of the row of blocks whose corner is (x0, y0), the splats of the chunk that may reach

@@ -341,3 +341,37 @@ TEST_CASE("an empty cloud, and Gaussians behind the camera, draw the background"
   GaussianCloud behind = single_splat(-2, 0.1f, 1, glm::vec3(1));
   CHECK(rasterize(behind, axis_camera(), options).colour.at(16, 16) == options.background);
 }
+
+TEST_CASE("sums over planes: those of the slow rasteriser, and of a mask where a plane is one") {
+  const GaussianCloud cloud = random_cloud(3000, 8);
+  const Camera camera = front_camera();
+  RasterOptions options;
+  options.colour = false;
+  options.roi = PixelRect{20, 10, 110, 70};  // planes are of the region's size, the mask of the picture's
+  const Mask mask = left_half(camera);
+  std::vector<Image<float>> planes(3, Image<float>(options.roi->width(), options.roi->height(), 1.0f));
+  for (int y = 0; y < planes[0].height(); ++y)
+    for (int x = 0; x < planes[0].width(); ++x) {
+      planes[1].at(x, y) = mask.at(x + options.roi->x0, y + options.roi->y0) ? 1.0f : 0.0f;
+      planes[2].at(x, y) = std::sin(0.1f * static_cast<float>(x * y));
+    }
+  PlaneSums sums(cloud.size(), 3), slow(cloud.size(), 3);
+  RasterOptions by_planes = options;
+  by_planes.sum_planes = planes;
+  by_planes.plane_sums = &sums;
+  rasterize(cloud, camera, by_planes);
+  by_planes.plane_sums = &slow;
+  rasterize_reference(cloud, camera, by_planes);
+  MaskedSums masked(cloud.size());
+  options.sum_mask = &mask;
+  options.sums = &masked;
+  rasterize(cloud, camera, options);
+  double seen = 0;
+  for (std::size_t g = 0; g < cloud.size(); ++g) {
+    CHECK(sums.sum[g * 3] == masked.total[g]);
+    CHECK(sums.sum[g * 3 + 1] == masked.inside[g]);
+    for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(sums.at(g, k) - slow.at(g, k)) < 0.02);
+    seen += std::abs(sums.at(g, 2));
+  }
+  CHECK(seen > 10);
+}
