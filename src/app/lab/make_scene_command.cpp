@@ -31,8 +31,8 @@ void run_make_scene(const MakeSceneArguments& args, const CommonOptions& common)
   if (job.cancelled()) throw Error("splatcut-lab make-scene", "cancelled, nothing was written");
   folder.commit();
   if (!common.quiet)
-    fmt::print("{}: {} Gaussians in {}, labels, cameras.json, seeds.json, suite.json\n", args.output.string(),
-               made.cloud.size(), args.name + "." + args.format);
+    fmt::print("{}: {} Gaussians in {}, labels, own, cameras.json, seeds.json, suite.json\n",
+               args.output.string(), made.cloud.size(), args.name + "." + args.format);
 }
 
 }  // namespace
@@ -52,6 +52,7 @@ void add_make_scene_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--thin-width-scale", options.thin_width_scale, "Width of leaves, handle and cable")
       ->check(CLI::Range(0.01f, 10.0f));
   command.add_flag("--straddling", options.straddling, "Splats across object borders");
+  command.add_flag("--skirts", options.skirts, "Splats of objects under what they stand on");
   command.add_flag("--floaters", options.floaters, "Faint blobs in the air");
   command.add_flag("--unseen-interior", options.unseen_interior, "Splats inside the objects");
   command.add_flag("--twins", options.twins, "An identical second apple");

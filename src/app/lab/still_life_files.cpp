@@ -14,6 +14,12 @@ namespace splatcut {
 
 namespace {
 
+void write_bytes(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes) {
+  AtomicFile file(path);
+  file.write(std::as_bytes(std::span(bytes)));
+  file.commit();
+}
+
 nlohmann::json seeds_json(const LabelledScene& made) {
   nlohmann::json objects = nlohmann::json::array();
   for (const auto& seed : made.seeds)
@@ -24,8 +30,8 @@ nlohmann::json seeds_json(const LabelledScene& made) {
 }
 
 // One entry per object, as `splatcut-lab eval` takes them: clicks by the robot, every camera a test view.
-nlohmann::json suite_json(const LabelledScene& made, const std::string& file,
-                          const std::string& labels_file) {
+nlohmann::json suite_json(const LabelledScene& made, const std::string& file, const std::string& labels_file,
+                          const std::string& own_file) {
   nlohmann::json views = nlohmann::json::array(), scenes = nlohmann::json::array();
   for (const Camera& camera : made.cameras) views.push_back({{"camera", camera.name}});
   for (const auto& seed : made.seeds) {
@@ -33,7 +39,7 @@ nlohmann::json suite_json(const LabelledScene& made, const std::string& file,
     scenes.push_back({{"name", seed.object},
                       {"scene", file},
                       {"cameras", "cameras.json"},
-                      {"truth", {{"labels", labels_file}, {"label", label}}},
+                      {"truth", {{"labels", labels_file}, {"label", label}, {"own", own_file}}},
                       {"reference", {{"camera", made.cameras[static_cast<std::size_t>(seed.camera)].name}}},
                       {"clicks", "robot"},
                       {"test_views", views}});
@@ -51,20 +57,21 @@ void write_still_life(const OutputFolder& folder, const LabelledScene& made, con
   // Rows along a Morton curve: compressed .ply wants neighbours together, and the labels follow.
   const std::vector<std::uint32_t> order = morton_order(made.cloud.position);
   scene.cloud = permuted(made.cloud, order);
-  std::vector<std::uint8_t> label(order.size());
+  std::vector<std::uint8_t> label(order.size()), own(order.size());
   for (std::uint32_t row = 0; row < order.size(); ++row) {
     scene.cloud.file_row[row] = row;
     label[row] = made.label[order[row]];
+    own[row] = made.own[order[row]];
   }
   const std::string file = name + "." + format;
   save_scene(folder.file(file), scene, {}, output_format_from_name(file));
-  const std::string labels_file = name + ".labels.u8";
-  AtomicFile labels(folder.file(labels_file));
-  labels.write(std::as_bytes(std::span(label)));
-  labels.commit();
+  const std::string labels_file = name + ".labels.u8", own_file = name + ".own.u8";
+  write_bytes(folder.file(labels_file), label);
+  write_bytes(folder.file(own_file), own);
   save_inria_cameras(folder.file("cameras.json"), made.cameras);
   write_text_file(folder.file("seeds.json"), json_text(seeds_json(made), 1) + "\n");
-  write_text_file(folder.file("suite.json"), json_text(suite_json(made, file, labels_file), 1) + "\n");
+  write_text_file(folder.file("suite.json"),
+                  json_text(suite_json(made, file, labels_file, own_file), 1) + "\n");
 }
 
 }  // namespace splatcut

@@ -17,7 +17,7 @@ using namespace still_life;
 
 constexpr float kThinness = 0.10f;  // normal axis of a disc, as a part of its smaller tangent axis
 // Parts of the count that the options take from the surfaces.
-constexpr double kFloaterPart = 0.003, kStraddlingPart = 0.006, kInteriorPart = 0.05;
+constexpr double kFloaterPart = 0.003, kStraddlingPart = 0.006, kInteriorPart = 0.05, kSkirtPart = 0.006;
 // Streams of random numbers beyond the patches' own, which start at 0.
 constexpr std::uint64_t kAppearanceStream = 1ull << 32, kExtraStream = 2ull << 32,
                         kShuffleStream = 3ull << 32;
@@ -112,6 +112,21 @@ void put_straddling(Writer& out, const Model& model, std::size_t n, std::uint64_
   }
 }
 
+// The margin of an object that training left under what it stands on: seen once that is gone.
+void put_skirts(Writer& out, const Model& model, std::size_t n, std::uint64_t seed) {
+  CounterRng rng(seed, kExtraStream + 3);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Contact& contact = model.contacts[rng.below(model.contacts.size())];
+    const float angle = rng.between(0, kTau);
+    const glm::vec3 out_dir{std::cos(angle), 0, std::sin(angle)};
+    const glm::vec3 position = contact.centre + rng.between(0.95f, 1.12f) * contact.radius * out_dir -
+                               at(0, rng.between(0.012f, 0.03f), 0);
+    const glm::vec3 scale{rng.between(0.02f, 0.04f), 0.003f, rng.between(0.01f, 0.02f)};
+    out.put(position, scale, glm::angleAxis(-angle, glm::vec3(0, 1, 0)), rng.between(0.3f, 0.8f),
+            0.5f * contact.colour, contact.label);
+  }
+}
+
 // No camera constrains what is inside: any colour, any opacity.
 void put_interior(Writer& out, const Model& model, std::size_t n, std::uint64_t seed) {
   CounterRng rng(seed, kExtraStream + 2);
@@ -169,9 +184,11 @@ void shuffle_rows(LabelledScene& scene, std::uint64_t seed) {
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[rng.below(i)]);
   scene.cloud = permuted(scene.cloud, order);
   scene.cloud.near_plane = natural_near_plane(scene.cloud.position);
-  std::vector<std::uint8_t> label(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) label[i] = scene.label[order[i]];
-  scene.label = std::move(label);
+  for (std::vector<std::uint8_t>* values : {&scene.label, &scene.own}) {
+    std::vector<std::uint8_t> shuffled(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) shuffled[i] = (*values)[order[i]];
+    *values = std::move(shuffled);
+  }
   std::iota(scene.cloud.file_row.begin(), scene.cloud.file_row.end(), 0u);
 }
 
@@ -209,13 +226,17 @@ LabelledScene make_still_life(const StillLifeOptions& options) {
   const std::size_t floaters = part(options.floaters, kFloaterPart, options.gaussians);
   const std::size_t straddling = part(options.straddling, kStraddlingPart, options.gaussians);
   const std::size_t interior = part(options.unseen_interior, kInteriorPart, options.gaussians);
+  const std::size_t skirts = part(options.skirts, kSkirtPart, options.gaussians);
   const std::vector<std::size_t> counts =
-      patch_counts(model, options.gaussians - floaters - straddling - interior);
+      patch_counts(model, options.gaussians - floaters - straddling - interior - skirts);
   Writer out{scene};
   for (std::size_t i = 0; i < counts.size(); ++i) put_patch(out, model, i, counts[i], options.seed);
+  scene.own.assign(options.gaussians, 0);
+  std::fill_n(scene.own.begin(), out.next, 1);
   put_floaters(out, floaters, options.seed);
   put_straddling(out, model, straddling, options.seed);
   put_interior(out, model, interior, options.seed);
+  put_skirts(out, model, skirts, options.seed);
   shuffle_rows(scene, options.seed);
   scene.cameras = circle_of_cameras();
   scene.seeds = seed_clicks(scene);

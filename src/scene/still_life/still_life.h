@@ -25,6 +25,7 @@ struct StillLifeOptions {
   std::size_t gaussians = 200000;  // exact count, everything included
   std::uint64_t seed = 1;          // sampling, variation and row order
   bool straddling = false;         // adds large splats across the lines where objects meet
+  bool skirts = false;             // adds splats of each object just under what it stands on, hidden by it
   bool floaters = false;           // adds faint blobs in the air, labelled background
   bool unseen_interior = false;    // adds splats of arbitrary colour inside mug, fruit, pot and books
   bool twins = false;              // adds an identical apple with a label of its own, "apple twin"
@@ -37,7 +38,8 @@ struct StillLifeOptions {
 
 struct LabelledScene {
   GaussianCloud cloud;
-  std::vector<std::uint8_t> label;      // per Gaussian, index into label_name; 0 is table, wall and floor
+  std::vector<std::uint8_t> label;  // per Gaussian, index into label_name; 0 is table, wall and floor
+  std::vector<std::uint8_t> own;    // per Gaussian, 1 = on a surface of its object; 0 = one of the additions
   std::vector<std::string> label_name;  // background, mug, apple, orange, plant, pot, books, lamp, ...
   std::vector<Camera> cameras;
   struct SeedClick {
