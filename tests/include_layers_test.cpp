@@ -21,8 +21,8 @@ Names both(Names a, const Names& b) {
 }
 
 const Names kScene = {"scene/cloud", "scene/camera", "scene/raster", "scene/formats"};
-const Names kSegment = {"segment/graphcut", "segment/masks", "segment/superpoints", "segment/selection",
-                        "segment/session"};
+const Names kSegment = {"segment/graphcut", "segment/masks",     "segment/superpoints",
+                        "segment/finish",   "segment/selection", "segment/session"};
 
 // What a room may include beside itself and core/: other rooms, and libraries that not everyone may know. No
 // room knows one that stands below it here. The product never knows still lifes or the laboratory, the
@@ -43,6 +43,8 @@ const std::vector<Room> kRooms = {
     {"segment/graphcut", {"scene/cloud", "scene/camera", "scene/raster"}, {"nanoflann"}},
     {"segment/masks", {"scene/cloud", "scene/camera", "scene/raster", "segment/graphcut"}, {"opencv2/"}},
     {"segment/superpoints", {"scene/cloud", "scene/camera", "scene/raster", "segment/graphcut"}},
+    {"segment/finish",
+     {"scene/cloud", "scene/camera", "scene/raster", "segment/masks", "segment/superpoints"}},
     {"segment/selection", both(kScene, {"segment/graphcut", "segment/masks", "segment/superpoints"})},
     {"segment/session",
      both(kScene, {"segment/graphcut", "segment/masks", "segment/superpoints", "segment/selection"})},

@@ -19,12 +19,11 @@ cv::Mat disc(int radius_px) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius_px + 1, 2 * radius_px + 1});
 }
 
-Mask border_band(const Mask& mask) {
-  const double diagonal = std::hypot(mask.width(), mask.height());
+Mask border_band(const Mask& mask, double band_px) {
   const Image<float> depth = distance_inside(mask);
   Mask band(mask.width(), mask.height());
   for (std::size_t i = 0; i < mask.size(); ++i)
-    band.pixels()[i] = mask.pixels()[i] && depth.pixels()[i] <= 0.02 * diagonal ? kMaskObject : 0;
+    band.pixels()[i] = mask.pixels()[i] && depth.pixels()[i] <= band_px ? kMaskObject : 0;
   return band;
 }
 
@@ -52,7 +51,11 @@ double pixel_accuracy(const Mask& a, const Mask& b) {
 }
 
 double boundary_iou(const Mask& a, const Mask& b) {
-  return iou(border_band(a), border_band(b));
+  return boundary_iou(a, b, 0.02 * std::hypot(a.width(), a.height()));
+}
+
+double boundary_iou(const Mask& a, const Mask& b, double band_px) {
+  return iou(border_band(a, band_px), border_band(b, band_px));
 }
 
 Mask dilated(const Mask& mask, int radius_px) {

@@ -19,6 +19,7 @@ double iou(const Mask& a, const Mask& b);             // 1 where both are empty
 double pixel_accuracy(const Mask& a, const Mask& b);  // share of equal pixels
 // IoU of the bands within 2 % of the diagonal of each mask's border (Cheng et al., Boundary IoU, 2021).
 double boundary_iou(const Mask& a, const Mask& b);
+double boundary_iou(const Mask& a, const Mask& b, double band_px);  // of bands that wide
 
 Mask dilated(const Mask& mask, int radius_px);
 Mask eroded(const Mask& mask, int radius_px);

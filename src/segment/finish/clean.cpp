@@ -1,0 +1,88 @@
+#include "segment/finish/clean.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "segment/finish/carve.h"
+#include "segment/finish/recolour.h"
+#include "segment/finish/solid.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr double kAgrees = 0.95;
+constexpr int kLeastViews = 6;
+constexpr std::size_t kLeastShownPx = 64;
+
+// Those that count; the report says how many there were.
+std::vector<OwnView> agreed_views(const CleanInput& input, const GaussianCloud& object,
+                                  const OwnViewOptions& options, CleanReport* report, const Job& job) {
+  std::vector<OwnView> views;
+  const std::vector<Camera> cameras =
+      own_cameras(input.cloud, input.labels, input.up_world, input.cameras, options);
+  for (std::size_t v = 0; v < cameras.size() && !job.cancelled(); ++v) {
+    job.progress("own views", static_cast<double>(v) / static_cast<double>(cameras.size()));
+    OwnView view = own_view(input.cloud, object, input.labels, cameras[v], job);
+    if (view.shown_px < kLeastShownPx) continue;
+    ++report->views;
+    if (view.agreement >= kAgrees) views.push_back(std::move(view));
+  }
+  report->agreed = static_cast<int>(views.size());
+  return views;
+}
+
+std::string why_not(const CleanReport& report) {
+  if (report.views < kLeastViews)
+    return fmt::format("it is seen from {} sides of the {} that it takes", report.views, kLeastViews);
+  return fmt::format(
+      "alone, it looks as it does within the scene from {} of {} sides: its labels are not right yet",
+      report.agreed, report.views);
+}
+
+void drop_gone(const std::vector<std::uint8_t>& kept, CleanObject* object) {
+  std::vector<std::uint32_t> stays;
+  for (std::uint32_t i = 0; i < kept.size(); ++i)
+    if (kept[i]) stays.push_back(i);
+  for (std::size_t i = 0; i < stays.size(); ++i) object->gaussian[i] = object->gaussian[stays[i]];
+  object->gaussian.resize(stays.size());
+  object->cloud = permuted(object->cloud, stays);
+}
+
+}  // namespace
+
+CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options, const Job& job) {
+  CleanObject object;
+  for (std::uint32_t g = 0; g < input.cloud.size(); ++g)
+    if (input.labels[g]) object.gaussian.push_back(g);
+  object.cloud = permuted(input.cloud, object.gaussian);
+  CleanReport& report = object.report;
+  constexpr std::size_t kLeastGaussians = 8;
+  if (object.gaussian.size() < kLeastGaussians) {
+    report.reason = fmt::format("{} Gaussians have no edges", object.gaussian.size());
+    return object;
+  }
+  const std::vector<OwnView> views = agreed_views(input, object.cloud, options, &report, job);
+  if (report.agreed < kLeastViews || 2 * report.agreed < report.views) {
+    report.reason = why_not(report);
+    return object;
+  }
+  std::vector<std::uint8_t> kept(object.cloud.size(), 1);
+  job.progress("clean edges", 0);
+  const CarveReport carved = carve(views, &object.cloud, &kept, job);
+  if (std::ranges::count(kept, 1) == 0) {
+    object.cloud = permuted(input.cloud, object.gaussian);
+    report.reason = "its own pictures show none of it";
+    return object;
+  }
+  report.left = carved.left;
+  report.split = carved.split;
+  report.made_solid = make_solid(views, kept, &object.cloud, job);
+  report.recoloured = recolour(views, kept, &object.cloud, job);
+  report.cleaned = !job.cancelled();
+  drop_gone(kept, &object);
+  return object;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,245 @@
+// Clean edges: the cut Gaussian by quadrature, the guard, thin things, and a still life whose true objects
+// are known.
+#include "segment/finish/clean.h"
+
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "app/lab/evaluate_alone.h"
+#include "scene/raster/splat_math.h"
+#include "scene/still_life/still_life.h"
+#include "segment/finish/half_gaussian.h"
+#include "synthetic_cloud.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+glm::dmat3 covariance(const SolidGaussian& g) {
+  return glm::dmat3(covariance_world(g.scale, g.rotation));
+}
+
+// Mean and covariance of the part of a Gaussian beyond the plane that leaves `share`, summed up over a grid
+// in the frame in which the Gaussian is a unit ball.
+struct Moments {
+  double mass = 0;
+  glm::dvec3 mean{0};
+  glm::dmat3 covariance{0};
+};
+Moments by_quadrature(const SolidGaussian& g, const glm::dvec3& normal, double tau) {
+  glm::dmat3 world_from_ball = glm::mat3_cast(glm::dquat(g.rotation));
+  for (int axis = 0; axis < 3; ++axis) world_from_ball[axis] *= static_cast<double>(g.scale[axis]);
+  const glm::dvec3 u = glm::normalize(glm::transpose(world_from_ball) * normal);
+  const glm::dvec3 v =
+      glm::normalize(glm::cross(u, std::abs(u.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+  const glm::dvec3 w = glm::cross(u, v);
+  constexpr int kCells = 90;
+  constexpr double kReach = 7;
+  Moments m;
+  glm::dmat3 squares(0);
+  const double across = (kReach - tau) / kCells, along = 2 * kReach / kCells;
+  for (int i = 0; i < kCells; ++i)
+    for (int j = 0; j < kCells; ++j)
+      for (int k = 0; k < kCells; ++k) {
+        const double a = tau + (i + 0.5) * across, b = -kReach + (j + 0.5) * along,
+                     c = -kReach + (k + 0.5) * along;
+        const double p =
+            std::exp(-0.5 * (a * a + b * b + c * c)) * across * along * along / std::pow(2 * M_PI, 1.5);
+        const glm::dvec3 x = world_from_ball * (a * u + b * v + c * w);
+        m.mass += p;
+        m.mean += p * x;
+        squares += p * glm::outerProduct(x, x);
+      }
+  m.mean /= m.mass;
+  m.covariance = squares / m.mass - glm::outerProduct(m.mean, m.mean);
+  return m;
+}
+
+double largest(const glm::dmat3& m) {
+  double most = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) most = std::max(most, std::abs(m[i][j]));
+  return most;
+}
+
+// A scene of the generator, one of its things as the object.
+struct Thing {
+  LabelledScene scene;
+  EvaluationCase test;
+
+  Thing(const StillLifeOptions& options, const std::string& name) : scene(make_still_life(options)) {
+    const auto label = std::ranges::find(scene.label_name, name) - scene.label_name.begin();
+    test.name = name;
+    test.cloud = &scene.cloud;
+    for (std::size_t g = 0; g < scene.label.size(); ++g) {
+      test.truth_labels.push_back(scene.label[g] == label);
+      test.own_labels.push_back(test.truth_labels[g] & scene.own[g]);
+    }
+    for (std::size_t c = 1; c < scene.cameras.size(); c += 6)
+      test.test_views.push_back(limited_to_width(scene.cameras[c], 320));
+    test.reference = test.test_views.front();
+    render_truth(&test);
+  }
+
+  CleanObject clean(const std::vector<std::uint8_t>& labels, const Job& job = {}) const {
+    return clean_object({scene.cloud, labels, {0, -1, 0}, scene.cameras}, {}, job);
+  }
+  CleanObject clean() const { return clean(test.truth_labels); }
+
+  GaussianCloud as_labelled() const {
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t g = 0; g < scene.cloud.size(); ++g)
+      if (test.truth_labels[g]) order.push_back(g);
+    return permuted(scene.cloud, order);
+  }
+};
+
+StillLifeOptions hard_edges(bool skirts = true) {
+  StillLifeOptions options;
+  options.gaussians = 20000;
+  options.straddling = true;
+  options.skirts = skirts;
+  return options;
+}
+
+bool same_rows(const GaussianCloud& a, const GaussianCloud& b) {
+  return a.position == b.position && a.scale == b.scale && a.rotation == b.rotation &&
+         a.opacity == b.opacity && a.f_dc == b.f_dc && a.sh_rest == b.sh_rest && a.file_row == b.file_row;
+}
+
+}  // namespace
+
+TEST_CASE("probit: tabled quantiles of the standard normal distribution") {
+  CHECK(probit(0.5) == doctest::Approx(0).epsilon(1e-8));
+  CHECK(probit(0.975) == doctest::Approx(1.959963984540).epsilon(1e-8));
+  CHECK(probit(0.01) == doctest::Approx(-2.326347874041).epsilon(1e-8));
+}
+
+TEST_CASE("a covariance goes into scale and rotation and comes back") {
+  const GaussianCloud cloud = random_cloud(200, 5);
+  for (std::size_t g = 0; g < cloud.size(); ++g) {
+    const glm::mat3 sigma = covariance_world(cloud.scale[g], cloud.rotation[g]);
+    glm::vec3 scale(0);
+    glm::quat rotation(1, 0, 0, 0);
+    scale_and_rotation(glm::dmat3(sigma), &scale, &rotation);
+    CHECK(largest(glm::dmat3(covariance_world(scale, rotation) - sigma)) < 2e-6 * largest(glm::dmat3(sigma)));
+    CHECK(glm::length(rotation) == doctest::Approx(1).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("half a Gaussian: moments are those of the part beyond the plane, by quadrature") {
+  std::mt19937 random(3);
+  const auto uniform = [&] { return static_cast<float>(random() >> 8) / 16777216.0f; };
+  for (const double share : {0.1, 0.5, 0.8}) {
+    const SolidGaussian whole{{0.3f, -0.2f, 1},
+                              {0.1f + uniform(), 0.1f + uniform(), 0.1f + uniform()},
+                              glm::normalize(glm::quat(uniform(), uniform(), uniform(), uniform())),
+                              0.6f};
+    const glm::vec3 normal(uniform() - 0.5f, uniform() - 0.5f, uniform() + 0.1f);
+    const Moments m = by_quadrature(whole, glm::dvec3(normal), probit(1 - share));
+    const SolidGaussian half = half_gaussian(whole, normal, share);
+    CAPTURE(share);
+    CHECK(m.mass == doctest::Approx(share).epsilon(1e-3));
+    CHECK(glm::length(glm::dvec3(half.mean - whole.mean) - m.mean) < 2e-3);
+    CHECK(largest(covariance(half) - m.covariance) < 3e-3 * largest(covariance(whole)));
+    // What shows: opacity times extent across the plane is the share of what it was.
+    const glm::dvec3 n(normal);
+    const double before = std::sqrt(glm::dot(n, covariance(whole) * n)),
+                 after = std::sqrt(glm::dot(n, covariance(half) * n));
+    CHECK(static_cast<double>(half.opacity) * after == doctest::Approx(share * 0.6 * before).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("half a Gaussian: no extent across the plane, or nothing beyond it, changes nothing") {
+  const SolidGaussian disc{{0, 0, 1}, {1, 1, 0}, {1, 0, 0, 0}, 0.5f};
+  for (const SolidGaussian& half : {half_gaussian(disc, {0, 0, 1}, 0.5), half_gaussian(disc, {1, 0, 0}, 0),
+                                    half_gaussian(disc, {1, 0, 0}, 1)}) {
+    CHECK(half.mean == disc.mean);
+    CHECK(half.scale == disc.scale);
+    CHECK(half.opacity == disc.opacity);
+  }
+}
+
+TEST_CASE("edges that straddle and hide: the clean object is nearer to the true one, for each thing") {
+  struct Case {
+    const char* name;
+    bool skirts;
+  };
+  for (const auto& [name, skirts] : {Case{"mug", true}, Case{"orange", true}, Case{"apple", false}}) {
+    const Thing thing(hard_edges(skirts), name);
+    const AloneScore kept = score_alone(thing.test, thing.as_labelled());
+    const CleanObject object = thing.clean();
+    CAPTURE(name);
+    CAPTURE(object.report.reason);
+    REQUIRE(object.report.cleaned);
+    const AloneScore clean = score_alone(thing.test, object.cloud);
+    CHECK(kept.alpha_error > 0.01);
+    CHECK(clean.alpha_error < 0.7 * kept.alpha_error);
+    CHECK(clean.halo < 0.6 * kept.halo);
+    CHECK(clean.iou > kept.iou);
+    CHECK(clean.psnr_magenta_db > kept.psnr_magenta_db);
+    CHECK(object.report.left > 0);
+    CHECK(object.cloud.size() == object.gaussian.size());
+    CHECK(object.report.left + object.cloud.size() == thing.as_labelled().size());
+  }
+}
+
+TEST_CASE("thin things whose labels are perfect lose next to nothing") {
+  StillLifeOptions options;
+  options.gaussians = 20000;
+  for (const char* name : {"lamp", "plant"}) {
+    const Thing thing(options, name);
+    const CleanObject object = thing.clean();
+    CAPTURE(name);
+    const AloneScore clean = score_alone(thing.test, object.cloud);
+    CHECK(clean.iou > 0.99);
+    CHECK(clean.missing < 0.01);
+  }
+}
+
+TEST_CASE("the guard: labels that are not right yet leave the object as it is, and say so") {
+  const Thing thing(hard_edges(), "mug");
+  std::vector<std::uint8_t> labels = thing.test.truth_labels;
+  std::mt19937 random(1);
+  for (std::uint8_t& label : labels) label = label && random() % 2 == 0;  // every second of its Gaussians
+  const CleanObject object = thing.clean(labels);
+  CHECK_FALSE(object.report.cleaned);
+  CHECK(object.report.reason.find("labels are not right yet") != std::string::npos);
+  CHECK(object.report.left + object.report.split + object.report.made_solid + object.report.recoloured == 0);
+  CHECK(same_rows(object.cloud, permuted(thing.scene.cloud, object.gaussian)));
+  CHECK(static_cast<std::ptrdiff_t>(object.gaussian.size()) == std::ranges::count(labels, 1));
+}
+
+TEST_CASE("clean edges: the same bits on one thread and on four") {
+  const Thing thing(hard_edges(), "orange");
+  CleanObject one, four;
+  tbb::task_arena(1).execute([&] { one = thing.clean(); });
+  tbb::task_arena(4).execute([&] { four = thing.clean(); });
+  REQUIRE(one.report.cleaned);
+  CHECK(same_rows(one.cloud, four.cloud));
+  CHECK(one.gaussian == four.gaussian);
+}
+
+TEST_CASE("clean edges: a cancelled job cleans nothing") {
+  const Thing thing(hard_edges(), "orange");
+  std::stop_source stop;
+  stop.request_stop();
+  CHECK_FALSE(thing.clean(thing.test.truth_labels, {stop.get_token(), {}}).report.cleaned);
+}
+
+TEST_CASE("clean edges: one Gaussian, and none, are left as they are") {
+  const GaussianCloud cloud = random_cloud(50, 2);
+  for (const int count : {0, 1}) {
+    std::vector<std::uint8_t> labels(cloud.size(), 0);
+    std::fill_n(labels.begin(), count, 1);
+    const CleanObject object = clean_object({cloud, labels, {0, -1, 0}, {}});
+    CHECK_FALSE(object.report.cleaned);
+    CHECK_FALSE(object.report.reason.empty());
+    CHECK(object.cloud.size() == static_cast<std::size_t>(count));
+  }
+}
