@@ -14,6 +14,7 @@
 #include "app/console/output_folder.h"
 #include "app/console/setting_options.h"
 #include "app/console/version.h"
+#include "app/lab/alone_report.h"
 #include "app/lab/any_view_report.h"
 #include "app/lab/benchmark_folders.h"
 #include "app/lab/click_draws.h"
@@ -62,6 +63,7 @@ nlohmann::json score_json(const SceneScore& s) {
   for (const auto& [n, value] : s.image_iou_after_clicks)
     j["image_iou_after_clicks"][std::to_string(n)] = value;
   for (const StageTime& stage : s.stages) j["ms"][stage.name] = stage.ms;
+  if (s.alone) j.update(cutout_json(*s.alone));
   j["doubts"] = s.doubts;
   j["enough"] = {{"views", s.enough.views},
                  {"pixels", s.enough.pixels},
@@ -194,6 +196,7 @@ EvaluationOptions evaluation_options(const EvalArguments& args) {
   options.truth_masks = args.masks == "truth";
   options.masks_of_others = args.masks == "others";
   options.click_curve = args.curve && args.nvos.empty();
+  options.alone = true;
   if (!args.nvos.empty()) options.clicks = std::numeric_limits<int>::max();  // all scribbles at once
   args.mask.apply(&options.settings);
   for (const std::string& assignment : args.set) set_setting(assignment, &options.settings);
@@ -318,6 +321,7 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
     print_any_view(result);
   else if (args.draws > 0)
     print_draws(result, args.draws);
+  print_alone(result);
   if (common.quiet) return;
   for (const PublishedScore& p : published_scores())
     if (p.benchmark == benchmark)

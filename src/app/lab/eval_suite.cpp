@@ -114,6 +114,10 @@ void fill_case(const nlohmann::json& entry, const std::filesystem::path& folder,
     for (const auto& view : entry.at("test_views")) test.test_views.push_back(camera_of(view));
     test.truth_labels =
         truth_labels(folder / truth.at("labels").get<std::string>(), loaded->scene, truth.value("label", 1));
+    if (truth.contains("own")) {
+      test.own_labels = truth_labels(folder / truth.at("own").get<std::string>(), loaded->scene, 1);
+      for (std::size_t g = 0; g < test.own_labels.size(); ++g) test.own_labels[g] &= test.truth_labels[g];
+    }
     render_truth(&test);
   } else {
     load_mask_truth(folder / truth.at("masks").get<std::string>(), cameras, &test);

@@ -5,6 +5,7 @@
 // {"position","target","up","fov_y_deg","size"} | {"camera": NAME}, "clicks": "robot" | [...],
 // "scribbles": [...], "test_views": [as reference]}]}, paths relative to the suite's folder. Clicks are told
 // one after the other, scribbles are an answer of their own; one of both is needed.
+// "own" beside "labels": a byte a row, 0 for what a perfect capture would not hold.
 // "opened": "guessed" (without cameras, as the window opens a scene) or a view as "reference": where the
 // scene is opened, when the clicks are made elsewhere. "references": further views in which the object may be
 // clicked, each as reference and with "clicks" of its own where the truth of that view is unknown; without

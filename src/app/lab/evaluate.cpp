@@ -4,6 +4,7 @@
 #include <chrono>
 #include <numeric>
 
+#include "app/lab/evaluate_alone.h"
 #include "app/lab/evaluate_picture.h"
 #include "app/lab/robot_user.h"
 #include "core/error.h"
@@ -56,8 +57,10 @@ CutRequest leave_out(std::size_t left_out, EvaluationCase* scene) {
 }
 
 // Means over the views left out; what it looked at is the last one's. No stages, no doubts.
-SceneScore evaluate_left_out(const EvaluationCase& scene, const CutSettings& settings, const Job& job) {
+SceneScore evaluate_left_out(const EvaluationCase& scene, const EvaluationOptions& options, const Job& job) {
+  const CutSettings& settings = options.settings;
   SceneScore mean;
+  if (options.alone) mean.alone.emplace();
   mean.name = scene.name;
   const auto views = std::ranges::count_if(scene.truth_masks, counts);
   const auto share = 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, views));
@@ -78,6 +81,7 @@ SceneScore evaluate_left_out(const EvaluationCase& scene, const CutSettings& set
     const PictureScore pictures = score_pictures(left_out, result.labels);
     mean.psnr_db += share * pictures.psnr_db;
     mean.ssim += share * pictures.ssim;
+    if (options.alone) add_share(score_cutout(left_out, result.labels, job), share, &*mean.alone);
     mean.enough = looked_at(result.views);
     mean.nodes_touched = result.cut.touched;
     mean.why_enough = result.why_enough;
@@ -169,7 +173,7 @@ void render_truth(EvaluationCase* scene) {
 }
 
 SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& options, const Job& job) {
-  if (options.masks_of_others) return evaluate_left_out(scene, options.settings, job);
+  if (options.masks_of_others) return evaluate_left_out(scene, options, job);
   SceneScore score;
   score.name = scene.name;
   const bool scribbles_alone = scene.scribbles_alone && !options.truth_first_mask;
@@ -213,6 +217,7 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
   const PictureScore pictures = score_pictures(scene, result.labels);
   score.psnr_db = pictures.psnr_db;
   score.ssim = pictures.ssim;
+  if (options.alone) score.alone = score_cutout(scene, result.labels, job);
   if (scribbles_alone) score.image_iou_by_scribbles = score.image_iou;
   if (!scribbles_alone && !scene.scribbles.empty() && !options.truth_first_mask) {
     const CutResult by_scribbles =

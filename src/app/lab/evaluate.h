@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/lab/alone_score.h"
 #include "segment/session/session.h"
 
 namespace splatcut {
@@ -29,6 +30,7 @@ struct EvaluationCase {
   const GaussianCloud* cloud = nullptr;
   PrepareOptions prepare;                  // of its sessions
   std::vector<std::uint8_t> truth_labels;  // per Gaussian of the cloud, or empty
+  std::vector<std::uint8_t> own_labels;    // of them, what a perfect capture would hold; or empty: all
   std::vector<Camera> test_views;
   std::vector<Mask> truth_masks;  // per test view
   Camera reference;
@@ -56,6 +58,7 @@ struct EvaluationOptions {
   // No click at all: each test view that counts is left out in turn, the true masks of the others are given,
   // and the cutout is scored in the one left out. Needs two that count.
   bool masks_of_others = false;
+  bool alone = false;       // the object by itself, too, as it is and with clean edges
   bool click_curve = true;  // mask IoU after 1..8 clicks, image IoU after 1, 3, 5
 };
 
@@ -63,6 +66,7 @@ struct SceneScore {
   std::string name;
   double image_iou = 0, accuracy = 0, boundary_iou = 0;
   double psnr_db = 0, ssim = 0;  // of the object on black, see evaluate_picture.h
+  std::optional<CutoutScore> alone;
   std::optional<double> gaussian_iou;
   std::vector<double> mask_iou_after_clicks;     // 1..8, robot only
   std::map<int, double> image_iou_after_clicks;  // 1, 3, 5

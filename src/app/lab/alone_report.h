@@ -1,0 +1,16 @@
+// The measures of alone_score.h in reports and tables.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/lab/alone_score.h"
+
+namespace splatcut {
+
+// {"alone": as its Gaussians are, "clean": with clean edges, "rest"}.
+nlohmann::json cutout_json(const CutoutScore& score);
+
+// Two rows a scene of eval.json, and the mean's.
+void print_alone(const nlohmann::json& result);
+
+}  // namespace splatcut

@@ -1,0 +1,21 @@
+// Measures an object by itself and what is left of the scene without it: see alone_score.h.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "app/lab/evaluate.h"
+
+namespace splatcut {
+
+// object: its Gaussians and no others. Throws Error where the truth shows in none of the test views.
+AloneScore score_alone(const EvaluationCase& scene, const GaussianCloud& object);
+
+// shown: per Gaussian of the scene, 1 = in the rest. Throws as above.
+RestScore score_rest(const EvaluationCase& scene, const std::vector<std::uint8_t>& shown);
+
+// labels: per Gaussian of the scene, 1 = object. Throws as above. Cancelled: unspecified.
+CutoutScore score_cutout(const EvaluationCase& scene, const std::vector<std::uint8_t>& labels,
+                         const Job& job = {});
+
+}  // namespace splatcut
