@@ -32,6 +32,7 @@ namespace {
 struct CutArguments {
   std::filesystem::path scene, work, output;
   ObjectOptions object;
+  EdgeOptions edges;
   std::vector<std::string> set;
   std::string preset = "default";
   SceneOptions how;
@@ -64,6 +65,8 @@ void print_summary(const CutArguments& args, const Scene& scene, const nlohmann:
   }
   fmt::print("{} of {} Gaussians cut out in {:.0f} ms\n", report["object"]["gaussians"].get<std::size_t>(),
              scene.cloud.size(), report["total_ms"].get<double>());
+  if (report["edges"].contains("why_kept"))
+    fmt::print("edges are kept: {}\n", report["edges"]["why_kept"].get<std::string>());
   for (const auto& stage : report["stages"])
     fmt::print("  {:<16} {:8.0f} ms\n", stage["name"].get<std::string>(), stage["ms"].get<double>());
   fmt::print("{}: object.ply rest.ply labels.u8 object.png rest.png tint.png masks.png report.json\n",
@@ -113,7 +116,7 @@ CutResult cut_one_object(Session* session, const CutRequest& request, const CutS
 void refuse_beside_work(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->count() > 0; })) {
     const std::string name = option->get_name();
-    constexpr std::array kMayStand = {"--work", "--output", "--json", "--overwrite"};
+    constexpr std::array kMayStand = {"--work", "--output", "--edges", "--json", "--overwrite"};
     if (std::ranges::find(kMayStand, name) == kMayStand.end())
       throw Error("--work", fmt::format("cannot go with {}: the work file says that", name),
                   "Change the work in the window, or leave the option out");
@@ -122,8 +125,8 @@ void refuse_beside_work(const CLI::App& command) {
 
 void run_cut(const CutArguments& args, const CommonOptions& common) {
   if (!args.work.empty())
-    return run_work_cut(
-        {args.work, args.output, args.overwrite, args.json, common.quiet, prepared_cache(common)});
+    return run_work_cut({args.work, args.output, args.edges, args.overwrite, args.json, common.quiet,
+                         prepared_cache(common)});
   if (args.scene.empty()) throw CLI::RequiredError("scene, or --work FILE.splatcut.json,");
   refuse_written_inputs(args.output, {args.scene, args.camera.cameras, args.object.seeds, args.object.mask,
                                       args.object.masks_folder});
@@ -150,7 +153,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   warn(warning, common.quiet);
   stop_if_cancelled(job, "splatcut cut");
   for (const StrokedView& view : request.strokes) check_inside(view.strokes, view.camera);
-  const ManyObjects many{*scene, chosen, args.camera, settings, args.scale, input.objects};
+  const ManyObjects many{*scene, chosen, args.camera, settings, args.scale, input.objects, args.edges};
   check_objects(many);
   const nlohmann::json said = settings_json(args, input, chosen, settings);
   Session session = session_of(scene, chosen, prepared_cache(common));
@@ -160,9 +163,14 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
     for (const std::string& sentence : doubts(result)) warn(sentence, common.quiet);
     if (result.ambiguous && !common.quiet) to_stderr("--scale takes a smaller or a larger one\n");
     result.stages.insert(result.stages.begin(), {"load", load_ms});
+    const CutoutObject object(*scene, result.labels, args.edges, {chosen.up_world, chosen.given}, job);
+    end_progress();
+    stop_if_cancelled(job, "splatcut cut");
+    result.stages.push_back({"edges", object.ms()});
     json = report_json(*scene, result, said, ms_since_start());
-    write_cutout_scenes(folder, *scene, result.labels);
-    write_cutout_pictures(folder, scene->cloud, chosen.camera, result);
+    json["edges"] = object.report();
+    write_cutout_scenes(folder, *scene, result.labels, object);
+    write_cutout_pictures(folder, scene->cloud, chosen.camera, result, object);
   } else {
     json = cut_many_objects(many, &session, folder, job);
     end_progress();
@@ -203,6 +211,7 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
                   "Work saved by the window (.splatcut.json): computes all its objects again")
       ->check(CLI::ExistingFile);
   command.add_option("-o,--output", args->output, "Folder to write")->required();
+  args->edges.add_to(command);
   args->masks.add_to(command, false);
   command.get_option("--parts-only")->excludes("--masks");
   command.add_option("--smoothness", args->smoothness,

@@ -90,16 +90,16 @@ void write_cutout_picture(const std::filesystem::path& path, const GaussianCloud
 }
 
 void write_object_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
-                           const CutResult& report, const PictureNames& names) {
-  write_cutout_picture(folder.file(names.object), cloud, camera, report.labels);
+                           const CutResult& report, const CutoutObject& object, const PictureNames& names) {
+  object.draw(folder.file(names.object), camera);
   const Mask seen = thresholded(render_labels(cloud, camera, report.labels), 0.5f);
   write_png(folder.file(names.tint), tinted_view(cloud, camera, seen));
   write_png(folder.file(names.masks), contact_sheet(cloud, report.views));
 }
 
 void write_cutout_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
-                           const CutResult& report) {
-  write_object_pictures(folder, cloud, camera, report);
+                           const CutResult& report, const CutoutObject& object) {
+  write_object_pictures(folder, cloud, camera, report, object);
   write_cutout_picture(folder.file("rest.png"), cloud, camera, inverted(report.labels));
 }
 
@@ -113,14 +113,14 @@ void write_labels(const std::filesystem::path& path, const Scene& scene,
 }
 
 void write_object_files(const OutputFolder& folder, const Scene& scene, const std::string& name,
-                        const std::vector<std::uint8_t>& labels) {
-  save_scene(folder.file(name + ".ply"), scene, labels, SceneFormat::kPly);
+                        const CutoutObject& object, const std::vector<std::uint8_t>& labels) {
+  object.save(folder.file(name + ".ply"));
   write_labels(folder.file(name + ".labels.u8"), scene, labels);
 }
 
 void write_cutout_scenes(const OutputFolder& folder, const Scene& scene,
-                         const std::vector<std::uint8_t>& labels) {
-  save_scene(folder.file("object.ply"), scene, labels, SceneFormat::kPly);
+                         const std::vector<std::uint8_t>& labels, const CutoutObject& object) {
+  object.save(folder.file("object.ply"));
   save_scene(folder.file("rest.ply"), scene, inverted(labels), SceneFormat::kPly);
   write_labels(folder.file("labels.u8"), scene, labels);
 }

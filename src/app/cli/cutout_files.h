@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/cutout_object.h"
 #include "app/console/output_folder.h"
 #include "scene/formats/scene_file.h"
 #include "segment/session/cut_result.h"
@@ -15,16 +16,17 @@ namespace splatcut {
 
 // object.png, rest.png, tint.png from `camera`, masks.png of the views.
 void write_cutout_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
-                           const CutResult& report);
+                           const CutResult& report, const CutoutObject& object);
 
 struct PictureNames {
   std::string object = "object.png", tint = "tint.png", masks = "masks.png";
 };
 // The same without rest.png.
 void write_object_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
-                           const CutResult& report, const PictureNames& names = {});
+                           const CutResult& report, const CutoutObject& object,
+                           const PictureNames& names = {});
 
-// The Gaussians whose flag in `shown` is 1, on nothing.
+// The Gaussians whose flag in `shown` is 1, all where it is empty, on nothing.
 void write_cutout_picture(const std::filesystem::path& path, const GaussianCloud& cloud, const Camera& camera,
                           std::span<const std::uint8_t> shown);
 
@@ -34,11 +36,11 @@ void write_labels(const std::filesystem::path& path, const Scene& scene,
 
 // NAME.ply and NAME.labels.u8.
 void write_object_files(const OutputFolder& folder, const Scene& scene, const std::string& name,
-                        const std::vector<std::uint8_t>& labels);
+                        const CutoutObject& object, const std::vector<std::uint8_t>& labels);
 
 // object.ply, rest.ply (for .ply sources rows unchanged), labels.u8 in file order.
 void write_cutout_scenes(const OutputFolder& folder, const Scene& scene,
-                         const std::vector<std::uint8_t>& labels);
+                         const std::vector<std::uint8_t>& labels, const CutoutObject& object);
 
 // The report's entries for the whole run: version, settings, scene, time, memory.
 nlohmann::json run_json(const Scene& scene, const nlohmann::json& settings, double total_ms);

@@ -81,7 +81,7 @@ std::vector<std::uint8_t> settle_claims(std::vector<CutObject>* objects, std::si
   return owner;
 }
 
-json entry_of(const CutObject& object, std::size_t index) {
+json entry_of(const CutObject& object, const CutoutObject& written, std::size_t index) {
   const std::string file = file_name_of(object.seeds->name);
   json entry = object_json(object.result);
   const auto gaussians = entry["object"]["gaussians"].get<std::size_t>();
@@ -93,14 +93,16 @@ json entry_of(const CutObject& object, std::size_t index) {
                 {"camera", object.camera.name},
                 {"gaussians", gaussians},
                 {"left_to_later", object.found - gaussians},
+                {"edges", written.report()},
                 {"ambiguous", object.result.ambiguous}});
   return entry;
 }
 
-void write_object(const OutputFolder& folder, const Scene& scene, const CutObject& object) {
+void write_object(const OutputFolder& folder, const Scene& scene, const CutObject& object,
+                  const CutoutObject& written) {
   const std::string file = file_name_of(object.seeds->name);
-  write_object_files(folder, scene, file, object.result.labels);
-  write_object_pictures(folder, scene.cloud, object.camera, object.result,
+  write_object_files(folder, scene, file, written, object.result.labels);
+  write_object_pictures(folder, scene.cloud, object.camera, object.result, written,
                         {file + ".png", file + ".tint.png", file + ".masks.png"});
 }
 
@@ -155,8 +157,11 @@ json cut_many_objects(const ManyObjects& in, Session* session, const OutputFolde
   json entries = json::array();
   for (const CutObject& object : objects) {
     if (job.cancelled()) return {};
-    write_object(folder, scene, object);
-    entries.push_back(entry_of(object, entries.size() + 1));
+    const CutoutObject written(scene, object.result.labels, in.edges, {in.chosen.up_world, in.chosen.given},
+                               job);
+    if (job.cancelled()) return {};
+    write_object(folder, scene, object, written);
+    entries.push_back(entry_of(object, written, entries.size() + 1));
   }
   std::vector<std::uint8_t> rest(owner.size());
   std::ranges::transform(owner, rest.begin(),

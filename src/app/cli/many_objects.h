@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/cutout_object.h"
 #include "app/console/camera_options.h"
 #include "app/console/output_folder.h"
 #include "core/job.h"
@@ -40,6 +41,7 @@ struct ManyObjects {
   const CutSettings& settings;
   int part_step;  // of each object, see CutRequest
   const std::vector<NamedSeeds>& objects;
+  const EdgeOptions& edges;
 };
 
 // Throws Error where an object's camera is not known or its strokes lie outside of the picture.

@@ -17,8 +17,9 @@ namespace splatcut {
 namespace {
 
 // Of every object with Gaussians; what report.json says of them.
-nlohmann::json write_objects(const Document& document, const Scene& scene, const OutputFolder& folder,
-                             const Job& job) {
+nlohmann::json write_objects(const Document& document, const OpenedScene& opened, const EdgeOptions& edges,
+                             const OutputFolder& folder, const Job& job) {
+  const Scene& scene = *opened.scene;
   nlohmann::json objects = nlohmann::json::array();
   std::set<std::string> taken;
   for (const ObjectItem& object : document.objects) {
@@ -27,11 +28,14 @@ nlohmann::json write_objects(const Document& document, const Scene& scene, const
     const std::size_t gaussians = count_flags(labels);
     if (gaussians == 0) continue;
     const std::string name = free_file_name(object.name, &taken);
-    write_object_files(folder, scene, name, labels);
+    const CutoutObject written(scene, labels, edges, {document.up_world, opened.views().cameras}, job);
+    stop_if_cancelled(job, "splatcut cut");
+    write_object_files(folder, scene, name, written, labels);
     objects.push_back({{"name", object.name},
                        {"file", name + ".ply"},
                        {"labels", name + ".labels.u8"},
-                       {"gaussians", gaussians}});
+                       {"gaussians", gaussians},
+                       {"edges", written.report()}});
   }
   return objects;
 }
@@ -66,7 +70,7 @@ void run_work_cut(const WorkCutOptions& options) {
   const Document document = computed_again(*scene, std::move(work.document), job, options.cache);
   end_progress();
   stop_if_cancelled(job, "splatcut cut");
-  const nlohmann::json objects = write_objects(document, *scene->scene, folder, job);
+  const nlohmann::json objects = write_objects(document, *scene, options.edges, folder, job);
   if (objects.empty()) throw Error(options.work.string(), "holds no object with any Gaussians");
   const nlohmann::json report = {{"work", options.work.string()},
                                  {"scene", scene->scene->path.string()},

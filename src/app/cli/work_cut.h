@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "app/cli/cutout_object.h"
 #include "app/document/document.h"
 #include "app/document/opened_scene.h"
 
@@ -16,6 +17,7 @@ Document computed_again(const OpenedScene& scene, Document document, const Job& 
 
 struct WorkCutOptions {
   std::filesystem::path work, output;
+  EdgeOptions edges;
   bool overwrite = false, json = false, quiet = false;
   PreparedCache cache;
 };

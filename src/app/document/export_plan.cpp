@@ -13,28 +13,15 @@ namespace splatcut {
 
 namespace {
 
-// Encoded anew: rows copied from the source would keep their old places.
-SaveReport save_placed(const std::filesystem::path& path, const Scene& scene,
-                       const std::vector<std::uint8_t>& keep, const SceneFormat& format,
-                       const Similarity& to) {
-  Scene moved;
-  moved.path = scene.path;
-  moved.format = scene.format;
-  moved.file_rows = scene.file_rows;
-  moved.other_properties = scene.other_properties;
-  moved.antialiased = scene.antialiased;
-  moved.cloud = placed(scene.cloud, keep, to);
-  return save_scene(path, moved, {}, format);
-}
-
 void save(const std::filesystem::path& path, const Scene& scene, const std::vector<std::uint8_t>& keep,
           const ExportRequest& request, const std::optional<Similarity>& to, ExportReport* report) {
   if (count_flags(keep) == 0)
     throw Error(path.filename().string(), "would hold no Gaussians", "Select something first");
   refuse_written_inputs(path, scene.files);
   check_output_file(path, request.overwrite);
-  const SaveReport saved = to ? save_placed(path, scene, keep, request.format, *to)
-                              : save_scene(path, scene, keep, request.format);
+  const SaveReport saved =
+      to ? save_scene(path, with_cloud(scene, placed(scene.cloud, keep, *to)), {}, request.format)
+         : save_scene(path, scene, keep, request.format);
   report->gaussians += saved.gaussians;
   report->bytes += saved.bytes;
   report->loss = saved.loss;

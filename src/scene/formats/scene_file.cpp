@@ -93,6 +93,17 @@ std::optional<SpzAxes> spz_axes_from_name(std::string_view name) {
   return {};
 }
 
+Scene with_cloud(const Scene& scene, GaussianCloud cloud) {
+  Scene other;
+  other.path = scene.path;
+  other.format = scene.format;
+  other.file_rows = scene.file_rows;
+  other.other_properties = scene.other_properties;
+  other.antialiased = scene.antialiased;
+  other.cloud = std::move(cloud);
+  return other;
+}
+
 Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, const Job& job) {
   const MappedFile file(in_folder(path));
   Scene scene;

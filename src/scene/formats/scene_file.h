@@ -45,6 +45,9 @@ struct Scene {
   std::string axes_note;
 };
 
+// The scene with other Gaussians in place of its own: rows are then written anew, none is copied.
+Scene with_cloud(const Scene& scene, GaussianCloud cloud);
+
 struct LoadOptions {
   std::optional<SpzAxes> spz_axes;  // none: as the file says, else as the cameras see more, else kRub
   std::vector<Camera> cameras;      // of the capture, if any are known

@@ -114,7 +114,7 @@ TEST_CASE("options may stand before any command, and a scene after it does not m
 TEST_CASE("cut writes every file of a cutout, by click, by seeds and by mask, and a complete report") {
   StillLife& life = still_life();
   Workplace& place = life.place;
-  REQUIRE(place.run(life.cut("--click " + life.click + " -o by_click")).code == 0);
+  REQUIRE(place.run(life.cut("--click " + life.click + " --edges keep -o by_click")).code == 0);
   const std::set<std::string> files = {"labels.u8",   "masks.png", "object.ply", "object.png",
                                        "report.json", "rest.ply",  "rest.png",   "tint.png"};
   CHECK(place.files_in("by_click") == files);

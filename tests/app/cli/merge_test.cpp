@@ -72,7 +72,7 @@ TEST_CASE("merge writes the Gaussians of all files in their order, says what is 
 TEST_CASE("merge puts together what a cut took apart: the same picture") {
   const StillLife& life = still_life();
   const Workplace& place = life.place;
-  REQUIRE(place.run(life.cut("--click " + life.click + " -o apart")).code == 0);
+  REQUIRE(place.run(life.cut("--click " + life.click + " --edges keep -o apart")).code == 0);
   REQUIRE(place.run("merge apart/rest.ply apart/object.ply -o together.ply").code == 0);
   CHECK(load_scene(place / "together.ply").cloud.size() == load_scene(place / life.scene).cloud.size());
   for (const auto& [scene, picture] :

@@ -24,9 +24,10 @@ TEST_CASE(
     "file") {
   const Workplace& place = still_life().place;
   for (const char* thing : {"apple", "mug"})
-    REQUIRE(
-        place.run(still_life().cut("--click " + still_life().click_on(thing) + " -o alone_" + thing)).code ==
-        0);
+    REQUIRE(place
+                .run(still_life().cut("--click " + still_life().click_on(thing) + " --edges keep -o alone_" +
+                                      thing))
+                .code == 0);
   const std::string apple = place.text("alone_apple/labels.u8"), mug = place.text("alone_mug/labels.u8");
   // The second claims what the first does; the third has a camera of its own.
   place.write("three.json", json{{"objects",
@@ -40,7 +41,7 @@ TEST_CASE(
                                  {{"object", "mug"}, {"camera", "view_00"}, {"clicks", one_click("mug")}}}}}
                               .dump());
   const Result result = place.run("cut " + still_life().scene + " " + still_life().cameras +
-                                  " --preset fast --seeds two.json --json -o both");
+                                  " --preset fast --seeds two.json --edges keep --json -o both");
   REQUIRE_MESSAGE(result.code == 0, result.err);
   CHECK(place.files_in("both") ==
         std::set<std::string>{"labels.u8", "mug.labels.u8", "mug.masks.png", "mug.ply", "mug.png",

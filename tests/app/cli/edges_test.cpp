@@ -1,0 +1,65 @@
+// cut --edges: what is written of an object.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "small_still_life.h"
+
+using namespace splatcut::testing;
+using nlohmann::json;
+
+namespace {
+
+// The rows of a binary .ply, one after the other.
+std::string rows_of(const std::string& ply) {
+  const std::string end = "end_header\n";
+  return ply.substr(ply.find(end) + end.size());
+}
+
+}  // namespace
+
+TEST_CASE("cut --edges keep writes the object's rows byte for byte") {
+  const StillLife& life = still_life();
+  const Workplace& place = life.place;
+  REQUIRE(place.run(life.cut("--click " + life.click + " --edges keep -o edges_kept")).code == 0);
+  const std::string labels = place.text("edges_kept/labels.u8"), rows = rows_of(place.text("made/small.ply"));
+  const std::size_t row_bytes = rows.size() / labels.size();
+  std::string expected;
+  for (std::size_t row = 0; row < labels.size(); ++row)
+    if (labels[row]) expected += rows.substr(row * row_bytes, row_bytes);
+  CHECK(rows_of(place.text("edges_kept/object.ply")) == expected);
+  const json edges = json::parse(place.text("edges_kept/report.json"))["edges"];
+  CHECK(edges["edges"] == "keep");
+  CHECK_FALSE(edges.contains("why_kept"));
+}
+
+TEST_CASE("cut makes edges clean, says what it did, and changes neither labels nor rest") {
+  const StillLife& life = still_life();
+  const Workplace& place = life.place;
+  const std::string click = "--click " + life.click_on("mug");
+  REQUIRE(place.run(life.cut(click + " -o edges_clean")).code == 0);
+  REQUIRE(place.run(life.cut(click + " --edges keep -o edges_as_they_are")).code == 0);
+  const json report = json::parse(place.text("edges_clean/report.json")), edges = report["edges"];
+  REQUIRE(edges["edges"] == "clean");
+  CHECK(has_keys(edges, {"views", "agreed", "ms", "left", "split", "made_solid", "recoloured"}));
+  const std::size_t written = json::parse(place.run("info edges_clean/object.ply --json").out)["gaussians"];
+  CHECK(edges["gaussians"] == written);
+  CHECK(report["object"]["gaussians"] == written + edges["left"].get<std::size_t>());
+  CHECK(edges["recoloured"] > 0);
+  for (const char* same : {"labels.u8", "rest.ply", "rest.png", "tint.png", "masks.png"})
+    CHECK(place.text(std::string("edges_clean/") + same) ==
+          place.text(std::string("edges_as_they_are/") + same));
+  CHECK(place.text("edges_clean/object.ply") != place.text("edges_as_they_are/object.ply"));
+}
+
+TEST_CASE("cut --edges: the same bytes on one thread and on three, and a wrong word is refused") {
+  const StillLife& life = still_life();
+  const Workplace& place = life.place;
+  const std::string click = "--click " + life.click_on("mug");
+  for (const char* threads : {"1", "3"})
+    REQUIRE(place.run(life.cut(click + " --threads " + threads + " -o edges_on_" + threads)).code == 0);
+  CHECK(place.text("edges_on_1/object.ply") == place.text("edges_on_3/object.ply"));
+  CHECK(place.text("edges_on_1/object.png") == place.text("edges_on_3/object.png"));
+  CHECK(place.run(life.cut(click + " --edges sharp -o edges_wrong")).code == 2);
+}
