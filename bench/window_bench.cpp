@@ -183,19 +183,9 @@ int main(int argc, char** argv) {
   app.open(argv[1]);
   while (!s.viewport().picture() && ms_since(start) < 100000) app.frames(1);
   print("open to first picture", ms_since(start));
-  until(
-      app, [&] { return s.prepared() != nullptr; }, &longest);
-  print("open to prepared", ms_since(start));
   const Camera camera = s.viewport().pane_camera();
   fmt::print("{} Gaussians, picture {}x{}\n", s.scene()->cloud->size(), camera.width_px, camera.height_px);
-  print("still picture, while preparing", s.viewport().still_ms());
-  s.camera().orbit({1, 0});
-  until(
-      app, [] { return true; }, &longest);
-  print("still picture, prepared", s.viewport().still_ms());
-  s.camera().orbit({-1, 0});
-  until(
-      app, [] { return true; }, &longest);
+  print("still picture", s.viewport().still_ms());
   moving_pictures(app);
   s.camera().go_to(s.scene()->views().cameras.empty() ? camera : s.scene()->views().cameras.front());
   s.camera().finish_transition();

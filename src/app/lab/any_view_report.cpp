@@ -93,6 +93,7 @@ EvaluationCase on_copy(const EvaluationCase& test, const SceneCopy& copy) {
   EvaluationCase there = test;
   there.cloud = &copy.scene.cloud;
   there.kept_views = nullptr;
+  there.prepare.cache = {};    // nobody opens a copy again
   there.truth_labels.clear();  // the truth is the original's pictures
   return there;
 }
@@ -102,8 +103,8 @@ using CopiesIou = std::map<int, std::vector<std::vector<double>>>;
 
 // The sessions' clicks on one copy of the scene; adds a value to each list.
 void replay_on_copy(const LoadedCase& loaded, int number, const std::vector<TruthView>& views,
-                    const std::vector<AnyViewSession>& sessions, const std::string& preset,
-                    const PrepareOptions& prepare, Steps* steps, const Job& job, CopiesIou* iou) {
+                    const std::vector<AnyViewSession>& sessions, const std::string& preset, Steps* steps,
+                    const Job& job, CopiesIou* iou) {
   const SceneCopy copy = scene_copy(loaded.scene, number, job);
   if (job.cancelled()) return;
   const EvaluationCase& test = loaded.test;
@@ -142,13 +143,12 @@ nlohmann::json spread_json(const std::vector<std::vector<double>>& of_sessions,
 
 nlohmann::json perturb_json(const LoadedCase& loaded, const std::vector<TruthView>& views,
                             const std::vector<AnyViewSession>& sessions, const AnyViewOptions& options,
-                            PrepareOptions prepare, Steps* steps, const Job& job) {
-  prepare.cache = {};  // nobody opens a copy again
+                            Steps* steps, const Job& job) {
   CopiesIou iou;
   for (const int clicks : kReplayed)
     if (clicks <= options.clicks) iou[clicks].resize(sessions.size());
   for (int c = 0; c < options.copies && !job.cancelled(); ++c)
-    replay_on_copy(loaded, c, views, sessions, options.preset, prepare, steps, job, &iou);
+    replay_on_copy(loaded, c, views, sessions, options.preset, steps, job, &iou);
   if (job.cancelled()) return {};
   nlohmann::json perturb = {{"copies", options.copies}};
   for (const auto& [clicks, of_sessions] : iou) {
@@ -254,8 +254,7 @@ nlohmann::json sessions_json(const std::vector<AnyViewSession>& sessions, int cl
   return j;
 }
 
-nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& options,
-                             const PrepareOptions& prepare, const Job& job) {
+nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& options, const Job& job) {
   EvaluationCase scene = loaded.test;
   KeptViews kept(*scene.cloud, kMostKeptBytes);
   scene.kept_views = &kept;
@@ -289,8 +288,7 @@ nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& opt
   result["any_view"]["views"] = views.size();
   if (options.zoom) result["zoom"] = zoom_json(*scene.cloud, world, steady, &steps, silent);
   sessions.resize(steady.size());  // of the steady hand
-  if (options.copies > 0)
-    result["perturb"] = perturb_json(loaded, views, sessions, options, prepare, &steps, job);
+  if (options.copies > 0) result["perturb"] = perturb_json(loaded, views, sessions, options, &steps, job);
   return result;
 }
 

@@ -34,8 +34,7 @@ struct AnyViewOptions {
 };
 
 // {"any_view": ..., and "zoom", "perturb" where asked}. Cancelled: incomplete.
-nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& options,
-                             const PrepareOptions& prepare, const Job& job);
+nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& options, const Job& job);
 
 // "any_view" of these sessions.
 nlohmann::json sessions_json(const std::vector<AnyViewSession>& sessions, int clicks);

@@ -241,7 +241,7 @@ std::vector<nlohmann::json> measure(const EvalArguments& args, const EvaluationO
         robot.on_sheet = [&folder](const std::string& name, const Image<Rgb8>& sheet) {
           write_png(folder.file(name + ".png"), sheet);
         };
-      scores.back().update(any_view_json(*loaded, robot, prepare, job));
+      scores.back().update(any_view_json(*loaded, robot, job));
       stop_if_cancelled(job);
     } else if (args.draws > 0) {
       const ClickDraws draws = draw_clicks(loaded->test, options.settings, kRobotClicks, args.draws, job);

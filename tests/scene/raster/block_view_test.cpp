@@ -14,7 +14,7 @@ using namespace splatcut::testing;
 
 namespace {
 
-GaussianCloud sorted_cloud(std::size_t n, std::uint64_t seed) {
+GaussianCloud sorted_cloud(std::size_t n, unsigned seed) {
   const GaussianCloud cloud = random_cloud(n, seed, 0, 0.02f);
   return permuted(cloud, morton_order(cloud.position));
 }

@@ -122,7 +122,7 @@ double looked_at_megapixels(const CutResult& report) {
 StudyRunner::StudyRunner(nlohmann::json entry, std::filesystem::path folder, PreparedCache cache)
     : entry_(std::move(entry)), folder_(std::move(folder)), cache_(std::move(cache)) {}
 
-void StudyRunner::load(const CutSettings& settings, const Job& job) {
+void StudyRunner::load(const Job& job) {
   if (loaded_) return;
   loaded_ = load_case(entry_, folder_, {.observing = {}, .model = {}, .cache = cache_}, job);
   constexpr std::size_t kMostBytes = std::size_t{768} << 20;  // the test views of a scene, at their own size
@@ -130,8 +130,7 @@ void StudyRunner::load(const CutSettings& settings, const Job& job) {
   loaded_->test.kept_views = &*measured_views_;
 }
 
-void StudyRunner::change_scene(const StudyCell& cell, const CutSettings& settings, const Job& job,
-                               EvaluationCase* test) {
+void StudyRunner::change_scene(const StudyCell& cell, EvaluationCase* test) {
   if (cell.scene_scale == 1 && cell.hidden == 0) return;
   if (variant_.scale != cell.scene_scale || variant_.hidden != cell.hidden) {
     variant_ = {cell.scene_scale, cell.hidden, with_board(loaded_->test, cell.hidden),
@@ -182,12 +181,10 @@ std::unique_ptr<StudyRunner::Setup> StudyRunner::set_up(const StudyCell& cell, c
   setup->settings = preset(cell.preset);
   for (const std::string& assignment : cell.set) set_setting(assignment, &setup->settings);
   setup->settings.parts_only = cell.parts_only;
-  CutSettings with_parts = setup->settings;  // one prepared scene for all cells
-  with_parts.first_mask_from = FirstMaskFrom::kParts;
-  load(with_parts, job);
+  load(job);
   EvaluationCase& test = setup->test = loaded_->test;
   if (job.cancelled() || !can_run(cell, test)) return nullptr;
-  change_scene(cell, with_parts, job, &test);
+  change_scene(cell, &test);
   if (cell.step_back != 1) step_back(&test, static_cast<float>(cell.step_back));
   if (cell.object_share > 0) fill_picture(&test, cell.object_share);
   if (cell.score_scale != 1) resize_tests(&test, cell.score_scale);

@@ -45,11 +45,11 @@ class StudyRunner {
     double ms = 0;  // from the strokes to the labels
   };
   Timed cut(const Setup& setup, const Job& job) const;
-  void load(const CutSettings& settings, const Job& job);
+  void load(const Job& job);
   // Null where the scene cannot be asked this, or the job was cancelled. The cell must outlive it.
   std::unique_ptr<Setup> set_up(const StudyCell& cell, const Job& job);
   void say(const StudyCell& cell, const Job& job, Setup* setup) const;
-  void change_scene(const StudyCell& cell, const CutSettings& settings, const Job& job, EvaluationCase* test);
+  void change_scene(const StudyCell& cell, EvaluationCase* test);
 
   nlohmann::json entry_;
   std::filesystem::path folder_;
