@@ -26,7 +26,7 @@ class Fuzz {
       return d.objects.empty() || chance(20) ? static_cast<ObjectId>(whole(6))
                                              : d.objects[whole(d.objects.size())].id;
     };
-    const auto set = [&] { return static_cast<SetOperation>(whole(4)); };
+    const auto set = [&] { return static_cast<SetOperation>(whole(3)); };
     switch (whole(36)) {
       case 0:
       case 1:
