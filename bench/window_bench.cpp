@@ -9,6 +9,11 @@
 
 #include "../tests/headless_app.h"
 
+// Where the sample lies, as the tests' headers ask.
+std::string splatcut::testing::project_folder() {
+  return SPLATCUT_SOURCE_DIR;
+}
+
 using namespace splatcut;
 using namespace splatcut::testing;
 
