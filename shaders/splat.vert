@@ -16,6 +16,7 @@ uniform vec2 size_px;
 uniform float near_plane;
 uniform float far_plane;
 uniform float low_pass_px2;
+uniform bool antialiased;
 
 const float kAlphaMin = 1.0 / 255.0;
 const float kFrustumSlack = 1.3;
@@ -69,7 +70,13 @@ vec3 covariance_px2(vec3 point_camera, mat3 sigma_world) {
   mat3 world_from_camera = transpose(camera_from_world_rotation);
   vec3 u = world_from_camera * jacobian_u, v = world_from_camera * jacobian_v;
   vec3 sigma_u = sigma_world * u, sigma_v = sigma_world * v;
-  return vec3(dot(u, sigma_u) + low_pass_px2, dot(u, sigma_v), dot(v, sigma_v) + low_pass_px2);
+  return vec3(dot(u, sigma_u), dot(u, sigma_v), dot(v, sigma_v));
+}
+
+float antialiased_share(vec3 sharp, vec3 blurred) {
+  float det_sharp = sharp.x * sharp.z - sharp.y * sharp.y;
+  float det_blurred = blurred.x * blurred.z - blurred.y * blurred.y;
+  return sqrt(max(det_sharp, 0.0) / det_blurred);
 }
 
 void main() {
@@ -85,12 +92,14 @@ void main() {
   vec3 point_camera = camera_from_world_rotation * point.xyz + camera_from_world_translation;
   if (style.a == 0.0 || point.w < kAlphaMin || !(point_camera.z >= near_plane) || point_camera.z > far_plane) return;
   mat3 sigma_world = mat3(sigma0.x, sigma0.y, sigma0.z, sigma0.y, sigma0.w, sigma1.x, sigma0.z, sigma1.x, sigma1.y);
-  vec3 s = covariance_px2(point_camera, sigma_world);
+  vec3 sharp = covariance_px2(point_camera, sigma_world);
+  vec3 s = sharp + vec3(low_pass_px2, 0.0, low_pass_px2);
   float det = s.x * s.z - s.y * s.y;
   if (!(det > 0.0) || isinf(det)) return;
+  opacity = antialiased ? point.w * antialiased_share(sharp, s) : point.w;
+  if (opacity < kAlphaMin) return;
   mean_px = focal_px * point_camera.xy / point_camera.z + principal_px;
   conic = vec3(s.z, -s.y, s.x) / det;
-  opacity = point.w;
   vec2 extent_px = sqrt(2.0 * log(opacity / kAlphaMin) * s.xz);
   if (any(lessThan(mean_px + extent_px, vec2(0.0))) || any(greaterThan(mean_px - extent_px, size_px))) return;
   selection = style.rgb;

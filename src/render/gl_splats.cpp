@@ -69,6 +69,7 @@ void GlSplats::upload(const GaussianCloud& cloud) {
   gaussians_ = cloud.size();
   ordered_ = 0;
   sh_degree_ = cloud.sh_degree;
+  antialiased_ = cloud.antialiased;
   sh_texels_ = (3 * (1 + sh_rest_coefficients(cloud.sh_degree)) + 3) / 4;
   check_texels(gaussians_ * static_cast<std::size_t>(std::max(3, sh_texels_)), gaussians_);
   const std::vector<glm::vec4> geometry = geometry_of(cloud);
@@ -123,6 +124,7 @@ void GlSplats::draw(const Camera& camera, const SplatDrawOptions& options) {
   p.set("near_plane", options.near_plane);
   p.set("far_plane", options.far_plane);
   p.set("low_pass_px2", options.low_pass_px2);
+  p.set("antialiased", antialiased_ ? 1 : 0);
   glBindVertexArray(vertex_array_.id());
   for (std::size_t first = 0; first < ordered_; first += kBatch) {
     const auto count = static_cast<GLsizei>(6 * std::min<std::size_t>(kBatch, ordered_ - first));

@@ -65,6 +65,7 @@ class GlSplats {
   RenderTarget float_target_, resolved_;
   std::size_t gaussians_ = 0, ordered_ = 0;
   int sh_degree_ = 0, sh_texels_ = 1;
+  bool antialiased_ = false;  // of the cloud
 };
 
 }  // namespace splatcut

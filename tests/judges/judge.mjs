@@ -63,7 +63,7 @@ async function judged(degree, what, judge) {
 }
 function convert(from, to, options = []) {
   const end = spawnSync(program, ['convert', from, '-o', to, '--overwrite', '--quiet', ...options], {encoding: 'utf8'});
-  if (end.status !== 0) throw new Error(end.stderr);
+  if (end.status !== 0) throw new Error(end.stderr || String(end.error));
 }
 
 for (let degree = 0; degree <= 3; ++degree) {
@@ -88,6 +88,22 @@ for (let degree = 0; degree <= 3; ++degree) {
       return differences(written, readingOfColumns(columnsOfPly(readFileSync(`${path}.ours.ply`))), same(STEPS[format]));
     });
   }
+}
+// The mark of antialiased training, there and back.
+const MARK = 'SplatRenderMode: mip', marked = `${folder}/marked.ply`;
+writeFileSync(marked, plyOf(knownRows(0), [MARK]));
+for (const ending of ['ply', 'compressed.ply', '3.spz', 'sog']) {
+  const ours = `${folder}/marked_ours.${ending}`, theirs = `${folder}/marked_theirs.${ending}`;
+  await judged(0, `the mark in our .${ending} read by splat-transform`, async () => {
+    convert(marked, ours);
+    readers.splatTransform(ours, `${ours}.ply`);
+    return readFileSync(`${ours}.ply`).includes(MARK) ? [] : ['it is lost'];
+  });
+  await judged(0, `the mark in .${ending} of splat-transform read by us`, async () => {
+    readers.splatTransform(marked, theirs, ending === '3.spz' ? ['--spz-version', '3'] : []);
+    const said = spawnSync(program, ['info', '--json', '--quiet', theirs], {encoding: 'utf8'});
+    return JSON.parse(said.stdout).antialiased ? [] : ['it is lost'];
+  });
 }
 console.log(faults ? `${faults} differences` : 'all the same');
 process.exit(faults ? 1 : 0);

@@ -90,6 +90,13 @@ TEST_CASE("OSMesa: random clouds of every SH degree look as on the CPU") {
   }
 }
 
+TEST_CASE("OSMesa: an antialiased cloud looks as on the CPU") {
+  const auto context = make_osmesa_context();
+  GaussianCloud cloud = random_cloud(2000, 7, 1, 0.02f);
+  cloud.antialiased = true;
+  compare(cloud, front_camera());
+}
+
 TEST_CASE("OSMesa: the sample looks as on the CPU, near edges and all") {
   const auto context = make_osmesa_context();
   const std::string sample = project_folder() + "/assets/sample/";

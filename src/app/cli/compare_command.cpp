@@ -75,9 +75,9 @@ void add_compare_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--max-diff", args->max_diff, "Levels of 255 that a channel may differ by")
       ->check(CLI::Range(0, 255));
   command.add_option("--pixels", args->pixels_percent, "Percent of the pixels that may differ by more")
-      ->check(CLI::Range(0.0, 100.0));
-  command.add_option("--psnr", args->psnr_db, "Least PSNR, dB");
-  command.add_option("--ssim", args->ssim, "Least SSIM")->check(CLI::Range(-1.0, 1.0));
+      ->check(within(0, 100));
+  command.add_option("--psnr", args->psnr_db, "Least PSNR, dB")->check(within(0, 1000));
+  command.add_option("--ssim", args->ssim, "Least SSIM")->check(within(-1, 1));
   command.add_option("--diff", args->diff, "Writes eight times the difference as PNG");
   command.add_flag("--json", args->json, "Print JSON");
   command.add_flag("--overwrite", args->overwrite, "Replace an existing --diff file");

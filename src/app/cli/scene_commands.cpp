@@ -36,12 +36,15 @@ struct SceneArguments {
 nlohmann::json info_json(const Scene& scene) {
   const Box box = robust_bounds(scene.cloud.position);
   const auto list = [](const glm::vec3& v) { return nlohmann::json{v.x, v.y, v.z}; };
-  nlohmann::json info = {
-      {"file", scene.path.string()},        {"format", scene.format.name},
-      {"file_bytes", scene.file_bytes},     {"file_rows", scene.file_rows},
-      {"gaussians", scene.cloud.size()},    {"dropped", scene.dropped},
-      {"sh_degree", scene.cloud.sh_degree}, {"bounds_98", {{"min", list(box.min)}, {"max", list(box.max)}}},
-      {"antialiased", scene.antialiased}};
+  nlohmann::json info = {{"file", scene.path.string()},
+                         {"format", scene.format.name},
+                         {"file_bytes", scene.file_bytes},
+                         {"file_rows", scene.file_rows},
+                         {"gaussians", scene.cloud.size()},
+                         {"dropped", scene.dropped},
+                         {"sh_degree", scene.cloud.sh_degree},
+                         {"bounds_98", {{"min", list(box.min)}, {"max", list(box.max)}}},
+                         {"antialiased", scene.cloud.antialiased}};
   if (scene.taken_axes) info["spz_axes"] = name_of(*scene.taken_axes);
   return info;
 }
@@ -204,13 +207,20 @@ void add_render_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--what", args->what, "colour, depth, alpha or labels")
       ->check(CLI::IsMember({"colour", "depth", "alpha", "labels"}));
   command.add_option("--labels", args->labels, "labels.u8 of a cut, for --what labels");
-  command.add_option("--background", args->background, "r,g,b from 0 to 1");
+  command.add_option("--background", args->background, "r,g,b from 0 to 1")
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            const glm::vec3 colour = parse_vec3(text, "--background");
+            const bool good = glm::clamp(colour, 0.0f, 1.0f) == colour;
+            return good ? "" : fmt::format("{} is not within 0 to 1: 255 is 1", text);
+          },
+          "TEXT"));
   command
       .add_option("--lowpass", args->low_pass_px2,
                   fmt::format("px^2 added to the variance of every splat: {} as in training, {} as in web "
                               "viewers",
                               kLowPassPx2, kWebLowPassPx2))
-      ->check(CLI::Range(0.0f, 100.0f));
+      ->check(within(0, 100));
   command.add_option("-o,--output", args->output, "PNG to write")->required();
   command.add_flag("--overwrite", args->overwrite, "Replace an existing file");
   command.callback([args, &common] { run_render(*args, common); });

@@ -51,13 +51,13 @@ void add_view_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("scene", args->window.open, "Scene file or .splatcut.json");
   command.add_option("more", args->window.added,
                      "Further scenes in the same window, each in its own coordinates");
-  args->how.add_to(command);
+  args->how.add_to(command, false);
   command
       .add_option("--renderer", args->renderer,
                   "auto, gl or cpu: auto takes the CPU where OpenGL is software")
       ->check(CLI::IsMember({"auto", "gl", "cpu"}));
   command.add_option("--ui-scale", args->window.ui_scale, "Size of the interface, 1 is usual")
-      ->check(CLI::Range(0.5, 4.0));
+      ->check(within(0.5, 4));
   command.add_option("--width", args->window.width, "Width of the window")->check(CLI::Range(640, 8192));
   command.add_option("--height", args->window.height, "Height of the window")->check(CLI::Range(480, 8192));
   command.add_flag("--check", args->check, "Only say whether a window can open here (exit code 0 or 1)");

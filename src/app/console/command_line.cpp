@@ -25,7 +25,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr int kCouldNot = 1, kWrongUsage = 2;
+constexpr int kCouldNot = 1, kWrongUsage = 2, kMostThreads = 4096;
 
 // An exception that cannot travel on: memory ran out while another was on its way, or within a library that
 // lets none pass. Nothing can be cleaned then; the next run does it.
@@ -57,7 +57,7 @@ int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
   CommonOptions common;
   program
       .add_option("--threads", common.threads, "Worker threads (0: all cores); results do not depend on it")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, kMostThreads));
   program.add_flag("--quiet", common.quiet, "Print errors only");
   program.add_flag("!--no-cache", common.cache,
                    "Keep nothing of scenes that were prepared, and use nothing that was kept");
@@ -78,6 +78,16 @@ int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
 }
 
 }  // namespace
+
+CLI::Validator within(double least, double most) {
+  const auto check = [least, most](std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    const bool good = !text.empty() && !*end && value >= least && value <= most;
+    return good ? std::string() : fmt::format("Value {} not in range {} to {}", text, least, most);
+  };
+  return {check, fmt::format("FLOAT in [{} - {}]", least, most)};
+}
 
 int run_command_line(const CommandLine& line, std::vector<std::string> words) {
   g_terminate_before = std::set_terminate(on_terminate);

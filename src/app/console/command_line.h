@@ -32,6 +32,9 @@ struct CommandLine {
   std::function<void(CLI::App&, const CommonOptions&)> add_commands;
 };
 
+// As CLI::Range, but that NaN is not within.
+CLI::Validator within(double least, double most);
+
 // words: what follows the program's name. Returns the exit code: 0 done, 1 could not (a sentence on stderr
 // says why), 2 wrong usage.
 int run_command_line(const CommandLine& line, std::vector<std::string> words);

@@ -16,7 +16,12 @@ void say(std::string_view called, const std::string& sentence, bool quiet) {
 
 }  // namespace
 
-void SceneOptions::add_to(CLI::App& command) {
+void SceneOptions::add_to(CLI::App& command, bool with_lod) {
+  if (with_lod)
+    command
+        .add_option("--lod", lod,
+                    "Level of detail of a streamed .sog, 0 the finest: less memory, fewer Gaussians")
+        ->check(CLI::Range(0, 100));
   command
       .add_option("--spz-axes", spz_axes,
                   "Axes of a .spz: rub (x right, y up, z back, as the format's text says) or ply (as in a "
@@ -26,7 +31,7 @@ void SceneOptions::add_to(CLI::App& command) {
 
 Scene SceneOptions::load(const std::filesystem::path& scene, const std::filesystem::path& cameras, bool quiet,
                          const Job& job, std::string_view called) const {
-  LoadOptions options{axes(), {}};
+  LoadOptions options{axes(), {}, lod};
   if (!cameras.empty()) options.cameras = load_cameras(cameras);
   Scene loaded = load_scene(scene, options, job);
   if (!options.spz_axes && !loaded.axes_note.empty()) {

@@ -7,7 +7,8 @@ namespace splatcut {
 namespace {
 
 std::filesystem::path xdg(const char* variable, const char* in_home) {
-  if (const char* folder = std::getenv(variable); folder && *folder)
+  // The specification has relative ones ignored.
+  if (const char* folder = std::getenv(variable); folder && std::filesystem::path(folder).is_absolute())
     return std::filesystem::path(folder) / "splatcut";
   const char* home = std::getenv("HOME");
   return std::filesystem::path(home && *home ? home : "/tmp") / in_home / "splatcut";

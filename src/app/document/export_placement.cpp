@@ -2,19 +2,14 @@
 
 #include <tbb/parallel_for.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
-#include "scene/raster/splat_math.h"
+#include "scene/cloud/spherical_harmonics.h"
 
 namespace splatcut {
 
 namespace {
-
-constexpr int kMostInBand = 7;
-using BandMatrix = std::array<std::array<double, kMostInBand>, kMostInBand>;
 
 glm::vec3 file_up(ExportUp up, const glm::vec3& up_world) {
   switch (up) {
@@ -28,68 +23,6 @@ glm::vec3 file_up(ExportUp up, const glm::vec3& up_world) {
       break;
   }
   return glm::normalize(up_world);
-}
-
-// Spread over the sphere without symmetry, so that no band is blind to them.
-glm::vec3 direction(int i) {
-  const float z = 0.93f - 0.27f * static_cast<float>(i), angle = 2.3999632f * static_cast<float>(i) + 0.4f;
-  const float ring = std::sqrt(1 - z * z);
-  return {ring * std::cos(angle), ring * std::sin(angle), z};
-}
-
-// Gauss with pivots: the columns of `right` become matrix^-1 right.
-void solve(BandMatrix* matrix, BandMatrix* right, std::size_t n) {
-  for (std::size_t c = 0; c < n; ++c) {
-    std::size_t pivot = c;
-    for (std::size_t r = c; r < n; ++r)
-      if (std::abs((*matrix)[r][c]) > std::abs((*matrix)[pivot][c])) pivot = r;
-    std::swap((*matrix)[c], (*matrix)[pivot]);
-    std::swap((*right)[c], (*right)[pivot]);
-    for (std::size_t r = 0; r < n; ++r) {
-      if (r == c) continue;
-      const double factor = (*matrix)[r][c] / (*matrix)[c][c];
-      for (std::size_t k = 0; k < n; ++k) {
-        (*matrix)[r][k] -= factor * (*matrix)[c][k];
-        (*right)[r][k] -= factor * (*right)[c][k];
-      }
-    }
-  }
-  for (std::size_t r = 0; r < n; ++r)
-    for (std::size_t k = 0; k < n; ++k) (*right)[r][k] /= (*matrix)[r][r];
-}
-
-// Coefficients of a band before the turn to those after it.
-BandMatrix band_turn(int band, const glm::mat3& rotation) {
-  const std::size_t first = static_cast<std::size_t>(band * band - 1),
-                    n = static_cast<std::size_t>(2 * band + 1);
-  BandMatrix after{}, before{};
-  for (std::size_t row = 0; row < n; ++row) {
-    const glm::vec3 d = direction(static_cast<int>(row));
-    float now[15], then[15];
-    sh_rest_basis(band, d, now);
-    sh_rest_basis(band, glm::transpose(rotation) * d, then);
-    for (std::size_t k = 0; k < n; ++k) {
-      after[row][k] = static_cast<double>(now[first + k]);
-      before[row][k] = static_cast<double>(then[first + k]);
-    }
-  }
-  solve(&after, &before, n);
-  return before;
-}
-
-void turn_harmonics(std::span<float> rest, int degree, const std::array<BandMatrix, 3>& turns) {
-  const std::size_t per_channel = rest.size() / 3;
-  for (std::size_t channel = 0; channel < 3; ++channel)
-    for (int band = 1; band <= degree; ++band) {
-      const std::size_t n = static_cast<std::size_t>(2 * band + 1);
-      const std::span<float> own =
-          rest.subspan(channel * per_channel + static_cast<std::size_t>(band * band - 1), n);
-      std::array<double, kMostInBand> turned{};
-      const BandMatrix& turn = turns[static_cast<std::size_t>(band - 1)];
-      for (std::size_t r = 0; r < n; ++r)
-        for (std::size_t k = 0; k < n; ++k) turned[r] += turn[r][k] * static_cast<double>(own[k]);
-      for (std::size_t r = 0; r < n; ++r) own[r] = static_cast<float>(turned[r]);
-    }
 }
 
 }  // namespace
@@ -158,15 +91,12 @@ GaussianCloud placed(const GaussianCloud& cloud, std::span<const std::uint8_t> k
     if (keep.empty() || keep[g]) order.push_back(g);
   GaussianCloud out = permuted(cloud, order);
   const glm::mat3 rotation = glm::mat3_cast(to.rotation);
-  std::array<BandMatrix, 3> turns{};
-  for (int band = 1; band <= out.sh_degree; ++band)
-    turns[static_cast<std::size_t>(band - 1)] = band_turn(band, rotation);
+  const ShTurn harmonics(rotation);
   tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t g) {
     out.position[g] = to.scale * (rotation * (out.position[g] - to.origin)) + to.move;
     out.scale[g] *= to.scale;
     out.rotation[g] = glm::normalize(to.rotation * out.rotation[g]);
-    turn_harmonics(std::span(out.sh_rest).subspan(g * out.sh_stride(), out.sh_stride()), out.sh_degree,
-                   turns);
+    harmonics.apply(std::span(out.sh_rest).subspan(g * out.sh_stride(), out.sh_stride()), out.sh_degree);
   });
   out.near_plane *= to.scale;
   return out;

@@ -365,7 +365,7 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
       "view whose truth is known; each such view is a start in turn. --draws then are its own");
   command.add_option("--robot-clicks", args->robot.clicks, "Its clicks a session")->check(CLI::Range(1, 50));
   command.add_option("--starts", args->robot.starts, "Its first so many starts; 0: all")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, 1000));
   command.add_flag("--zoom", args->robot.zoom,
                    "Its first click again with the camera at .4, .6, 1, 2 and 4 times the distance");
   command.add_flag(

@@ -332,7 +332,7 @@ void add_fit_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--views", args->scenes.most_views, "At most so many views with truth of each scene")
       ->check(CLI::Range(1, 1000));
   command.add_option("--shrink", args->fit.shrink, "How much small weights are preferred")
-      ->check(CLI::NonNegativeNumber);
+      ->check(within(0, 1e6));
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
   command.callback([args, &common] { run_fit(*args, common); });
 }

@@ -50,7 +50,7 @@ void add_make_scene_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--format", args->format, "What the scene is written as")
       ->check(CLI::IsMember(names_of(written_formats())));
   command.add_option("--thin-width-scale", options.thin_width_scale, "Width of leaves, handle and cable")
-      ->check(CLI::Range(0.01f, 10.0f));
+      ->check(within(0.01, 10));
   command.add_flag("--straddling", options.straddling, "Splats across object borders");
   command.add_flag("--skirts", options.skirts, "Splats of objects under what they stand on");
   command.add_flag("--floaters", options.floaters, "Faint blobs in the air");

@@ -105,6 +105,7 @@ CoarseCloud coarse_cloud(const GaussianCloud& fine) {
   for (std::size_t i = 0; i < groups; ++i) first[i + 1] = first[i] + left[i].count;
   CoarseCloud out;
   out.cloud.resize(first.back(), fine.sh_degree);
+  out.cloud.antialiased = fine.antialiased;
   out.stands_for.resize(first.back());
   tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t i) { store(fine, left[i], first[i], &out); });
   return out;

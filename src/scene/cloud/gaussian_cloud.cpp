@@ -22,6 +22,7 @@ GaussianCloud permuted(const GaussianCloud& cloud, std::span<const std::uint32_t
   GaussianCloud out;
   out.resize(order.size(), cloud.sh_degree);
   out.near_plane = cloud.near_plane;
+  out.antialiased = cloud.antialiased;
   const std::size_t stride = cloud.sh_stride();
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::uint32_t g = order[i];

@@ -25,6 +25,9 @@ struct GaussianCloud {
                                     // all of red, then green, then blue
   int sh_degree = 0;                // 0..3
   std::vector<std::uint32_t> file_row;  // row of each Gaussian in the file it came from
+  // Trained with the filter of Mip-Splatting: a picture takes off a Gaussian's opacity what the low-pass adds
+  // to its area.
+  bool antialiased = false;
   float near_plane = 0.2f;  // scene units: pictures leave out what is nearer; see natural_near_plane()
 
   std::size_t size() const { return position.size(); }

@@ -38,6 +38,7 @@ GaussianCloud joined(std::vector<GaussianCloud> clouds) {
   }
   whole.resize(size, degree);
   whole.near_plane = clouds.front().near_plane;
+  whole.antialiased = std::ranges::all_of(clouds, &GaussianCloud::antialiased);
   std::size_t begin = 0;
   for (GaussianCloud& cloud : clouds) {
     copy(cloud, begin, &whole);

@@ -178,8 +178,10 @@ std::array<std::uint32_t, 4> pack(const GaussianCloud& cloud, std::uint32_t g, c
               to_steps(cloud.opacity[g], 8)};
 }
 
-std::string chunked_header(std::size_t gaussians, std::size_t chunks, std::size_t sh) {
-  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement chunk {}\n", chunks);
+std::string chunked_header(std::size_t gaussians, std::size_t chunks, const GaussianCloud& cloud) {
+  const std::size_t sh = cloud.sh_stride();
+  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\n{}element chunk {}\n",
+                                   antialiasing_comment(cloud.antialiased), chunks);
   for (const char* name : kBounds) header += fmt::format("property float {}\n", name);
   header += fmt::format("element vertex {}\n", gaussians);
   for (const char* name : kPacked) header += fmt::format("property uint {}\n", name);
@@ -215,6 +217,7 @@ void read_compressed_ply(const MappedFile& file, const LoadOptions&, Scene& scen
                 fmt::format("{} chunks cannot hold {} Gaussians", chunk->count, vertex->count));
   const PlyElement* sh = header.find("sh");
   const int degree = sh ? bind_sh(file, *sh, vertex->count, rows) : 0;
+  scene.cloud.antialiased = header.antialiased();
   decode_rows(rows, vertex->count, degree, scene, job);
 }
 
@@ -227,7 +230,6 @@ Losses compressed_ply_losses(const Scene& scene, std::span<const std::uint32_t> 
       "values to 8 to 11 bits");
   losses.add(clamped_sh(scene.cloud, gaussians, kShBytes));
   losses.add(properties_left_out(scene));
-  losses.add(antialiasing_left_out(scene));
   return losses;
 }
 
@@ -241,7 +243,7 @@ std::string write_compressed_ply(AtomicFile& out, const Scene& scene,
   for (std::size_t begin = 0; begin < order.size(); begin += kChunkRows)
     chunks.push_back(
         chunk_of(cloud, std::span(order).subspan(begin, std::min(kChunkRows, order.size() - begin))));
-  const std::string header = chunked_header(order.size(), chunks.size(), cloud.sh_stride());
+  const std::string header = chunked_header(order.size(), chunks.size(), cloud);
   out.write(std::as_bytes(std::span(header)));
   static_assert(sizeof(Chunk) ==
                 sizeof(float) * kBounds.size());  // its members stand in the order of kBounds

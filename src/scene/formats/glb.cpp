@@ -1,6 +1,6 @@
 // Reader of glTF with KHR_gaussian_splatting: .glb, and .gltf with its .bin beside it. The nodes' places
-// count. Not read: compressed attributes, buffers inside the text, linear colours, kernels other than the
-// ellipse, and a turned node over SH, which would have to turn too.
+// count, spherical harmonics turn with them. Buffers may stand in the text (data: base64). Not read:
+// extensions that are required and not known, linear colours, kernels other than the ellipse.
 #include "scene/formats/glb.h"
 
 #include <fmt/format.h>
@@ -10,13 +10,15 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 #include <map>
-#include <memory>
+#include <optional>
 
 #include "core/error.h"
 #include "core/json_file.h"
 #include "scene/cloud/quantise.h"
+#include "scene/cloud/spherical_harmonics.h"
 #include "scene/formats/axes.h"
 #include "scene/formats/decode.h"
+#include "scene/formats/gltf_file.h"
 
 namespace splatcut {
 
@@ -24,70 +26,6 @@ namespace {
 
 using nlohmann::json;
 using namespace gltf;
-
-// The text and the buffers of a file.
-struct Gltf {
-  json text;
-  std::vector<std::span<const std::byte>> buffers;
-  std::vector<std::unique_ptr<MappedFile>> beside;  // holds buffers of other files
-
-  explicit Gltf(const MappedFile& file);
-  Gltf(const Gltf&) = delete;
-  Gltf& operator=(const Gltf&) = delete;
-};
-
-std::span<const std::byte> chunk_at(const MappedFile& file, std::size_t* at, std::uint32_t* type) {
-  const std::span<const std::byte> all = file.bytes();
-  if (all.size() - *at < sizeof(ChunkHeader)) return {};
-  const auto header = load<ChunkHeader>(all.data() + *at);
-  *at += sizeof header;
-  if (header.bytes > all.size() - *at)
-    throw Error(file.path().string(), fmt::format("truncated: a part of {} bytes begins at byte {} of {}",
-                                                  header.bytes, *at, all.size()));
-  const auto chunk = all.subspan(*at, header.bytes);
-  *at += header.bytes;
-  *type = header.type;
-  return chunk;
-}
-
-json parsed(const MappedFile& file, std::span<const std::byte> text) {
-  return parse_json(file.path(), {reinterpret_cast<const char*>(text.data()), text.size()});
-}
-
-void open_buffers(const MappedFile& file, std::span<const std::byte> binary, Gltf* gltf) {
-  for (const json& buffer : gltf->text.value("buffers", json::array())) {
-    if (!buffer.contains("uri")) {
-      gltf->buffers.push_back(binary);
-      continue;
-    }
-    const auto uri = buffer.at("uri").get<std::string>();
-    if (uri.starts_with("data:") || std::filesystem::path(uri).filename() != uri)
-      throw Error(file.path().string(), "its numbers are inside the text or in another folder",
-                  "Save it as .glb, which holds all in one file");
-    gltf->beside.push_back(std::make_unique<MappedFile>(file.path().parent_path() / uri));
-    gltf->buffers.push_back(gltf->beside.back()->bytes());
-  }
-}
-
-Gltf::Gltf(const MappedFile& file) {
-  std::span<const std::byte> binary;
-  if (begins_with(file, kGlbMark)) {
-    std::size_t at = sizeof(GlbHeader);
-    std::uint32_t type = 0;
-    if (file.bytes().size() < at) throw Error(file.path().string(), "truncated: the header is cut");
-    const auto version = load<GlbHeader>(file.bytes().data()).version;
-    if (version != 2)
-      throw Error(file.path().string(), fmt::format("version {} of .glb is not supported", version));
-    const auto chunk = chunk_at(file, &at, &type);
-    if (type != kJsonChunk) throw Error(file.path().string(), "truncated: it has no text");
-    text = parsed(file, chunk);
-    binary = chunk_at(file, &at, &type);
-    if (type != kBinaryChunk) binary = {};
-  } else {
-    text = parsed(file, file.bytes());
-  }
-  open_buffers(file, binary, this);
-}
 
 std::size_t bytes_of_component(int type) {
   return type == kInt8 || type == kUint8 ? 1 : type == kInt16 || type == kUint16 ? 2 : 4;
@@ -129,6 +67,7 @@ struct Primitive {
   bool log_scale = false;
   glm::mat4 scene_from_local{1};
   glm::quat turn{1, 0, 0, 0};
+  std::optional<ShTurn> sh_turn;  // in our axes; none where no node turns it
   float size = 1;
   int degree = 0;
 };
@@ -234,13 +173,11 @@ void place(const MappedFile& file, const glm::mat4& scene_from_local, Primitive*
   if (!even)
     throw Error(file.path().string(), "a node stretches or mirrors its Gaussians",
                 "Apply the transform in the program that wrote it");
-  if (turned && p->degree > 0)
-    throw Error(file.path().string(),
-                "a node turns Gaussians with view-dependent colour, which is not supported",
-                "Apply the transform in the program that wrote it, or leave out spherical harmonics");
   p->scene_from_local = scene_from_local;
   p->size = size;
-  if (turned) p->turn = glm::normalize(glm::quat_cast(linear));
+  if (!turned) return;
+  p->turn = glm::normalize(glm::quat_cast(linear));
+  p->sh_turn.emplace(glm::mat3_cast(kLeftUpForward.rotation(p->turn)));
 }
 
 struct GltfRows {
@@ -283,6 +220,7 @@ struct GltfRows {
     float* rest = cloud.sh_rest.data() + g * cloud.sh_stride();
     for (std::size_t k = 0; k < p.sh.size(); ++k)
       for (std::size_t c = 0; c < 3; ++c) rest[c * coefficients + k] = p.sh[k].value(index, c) * sh_signs[k];
+    if (p.sh_turn) p.sh_turn->apply({rest, cloud.sh_stride()}, degree);
   }
 };
 
@@ -332,7 +270,18 @@ class Collector {
   std::size_t file_bytes_;
 };
 
+// Without scenes, the nodes that hang below none.
 std::vector<std::size_t> roots_of(const json& text) {
+  if (!text.contains("scenes") || text.at("scenes").empty()) {
+    std::vector<bool> below(text.at("nodes").size(), false);
+    for (const json& node : text.at("nodes"))
+      for (const json& child : node.value("children", json::array()))
+        below.at(child.get<std::size_t>()) = true;
+    std::vector<std::size_t> roots;
+    for (std::size_t i = 0; i < below.size(); ++i)
+      if (!below[i]) roots.push_back(i);
+    return roots;
+  }
   const json& scenes = text.at("scenes");
   return scenes.at(text.value("scene", std::size_t{0})).value("nodes", std::vector<std::size_t>());
 }

@@ -70,7 +70,7 @@ std::string properties_left_out(const Scene& scene) {
 }
 
 std::string antialiasing_left_out(const Scene& scene) {
-  return scene.antialiased ? "the mark that the scene was trained with antialiasing is left out" : "";
+  return scene.cloud.antialiased ? "the mark that the scene was trained with antialiasing is left out" : "";
 }
 
 std::vector<std::uint32_t> all_gaussians(const GaussianCloud& cloud) {

@@ -24,8 +24,9 @@ void refuse_too_many(const std::vector<Scene>& scenes) {
 
 // A file of several scenes has one mark: it says so of all, or of none.
 std::string mark_of_some(const std::vector<Scene>& scenes) {
-  const auto marked = std::ranges::find_if(scenes, &Scene::antialiased);
-  if (marked == scenes.end() || std::ranges::all_of(scenes, &Scene::antialiased)) return {};
+  const auto is_marked = [](const Scene& scene) { return scene.cloud.antialiased; };
+  const auto marked = std::ranges::find_if(scenes, is_marked);
+  if (marked == scenes.end() || std::ranges::all_of(scenes, is_marked)) return {};
   return fmt::format("the mark that {} was trained with antialiasing is left out, as not all have it",
                      marked->path.string());
 }
@@ -40,7 +41,6 @@ Scene described(const std::vector<Scene>& scenes) {
   Scene whole;
   whole.path = scenes.front().path;
   whole.format = scenes.front().format;
-  whole.antialiased = std::ranges::all_of(scenes, &Scene::antialiased);
   for (const Scene& scene : scenes) {
     whole.file_rows += scene.file_rows;
     whole.dropped += scene.dropped;

@@ -1,6 +1,10 @@
 // 3DGS .ply as Kerbl et al. (2023) write it: properties by name, in any order; opacity as logit, scale as
 // logarithm, rotation w,x,y,z, f_rest channel-major. Also as text, and with red, green, blue (bytes, or 0 to
 // 1) in place of f_dc.
+//   scale_2 missing (2D Gaussian Splatting)  a third axis of size 0
+//   filter_3D (Mip-Splatting, GOF) = f       scale = sqrt(s^2 + f^2), opacity times the share of the volume
+//   72 f_rest (degree 4)                     those of degree 1 to 3
+//   element color_space = 1 (ml-sharp)       colours are linear and become sRGB
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +18,7 @@
 #include "scene/formats/losses.h"
 #include "scene/formats/ply_header.h"
 #include "scene/formats/ply_text.h"
+#include "scene/formats/ply_values.h"
 #include "scene/formats/ply_writer.h"
 
 namespace splatcut {
@@ -28,36 +33,12 @@ constexpr std::array<const char*, 14> kNames{"x",      "y",       "z",       "f_
 enum Field : std::size_t { kX = 0, kDc = 3, kOpacity = 6, kScale = 7, kRotation = 10, kRest = 14 };
 constexpr std::size_t kMaxFields = kRest + 45;
 constexpr std::array<const char*, 3> kColourNames{"red", "green", "blue"};
+constexpr const char* kFilterName = "filter_3D";
+constexpr std::size_t kRestOfDegree4 = 72;
 constexpr std::array<const char*, 3> kNormalNames{"nx", "ny", "nz"};  // written by all, read by nobody
 
-template <class T>
-float load_as_float(const std::byte* at) {
-  T value;
-  std::memcpy(&value, at, sizeof value);
-  return static_cast<float>(value);
-}
-
-float load_as_float(const std::byte* at, PlyType type) {
-  switch (type) {
-    case PlyType::kInt8:
-      return load_as_float<std::int8_t>(at);
-    case PlyType::kUint8:
-      return load_as_float<std::uint8_t>(at);
-    case PlyType::kInt16:
-      return load_as_float<std::int16_t>(at);
-    case PlyType::kUint16:
-      return load_as_float<std::uint16_t>(at);
-    case PlyType::kInt32:
-      return load_as_float<std::int32_t>(at);
-    case PlyType::kUint32:
-      return load_as_float<std::uint32_t>(at);
-    case PlyType::kFloat32:
-      return load_as_float<float>(at);
-    case PlyType::kFloat64:
-      return load_as_float<double>(at);
-  }
-  return 0;
-}
+constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();  // an offset
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 // Rows of a file whose fields may have any type and order; kFloats: all are float.
 template <bool kFloats>
@@ -69,6 +50,8 @@ struct PlyRows {
   std::array<PlyType, kMaxFields> type{};
   bool rest_in_sequence = false;  // f_rest_0, f_rest_1, ... stand side by side as floats
   float colour_scale = 0;         // not 0: the file has colours instead of f_dc; times this they are 0 to 1
+  bool linear_colours = false;
+  const PlyProperty* filter = nullptr;  // of the 3D filter, scene units
 
   float value(const std::byte* row, std::size_t field) const {
     if constexpr (kFloats) return load_as_float<float>(row + offset[field]);
@@ -83,7 +66,16 @@ struct PlyRows {
   }
   glm::vec3 f_dc(const std::byte* row) const {
     const glm::vec3 v = vec3(row, kDc);
+    if (linear_colours)
+      return f_dc_from_colour(srgb_from_linear(colour_scale == 0 ? colour_from_f_dc(v) : v * colour_scale));
     return colour_scale == 0 ? v : f_dc_from_colour(v * colour_scale);
+  }
+  glm::vec3 log_scale(const std::byte* row) const {
+    if (offset[kScale + 2] == kAbsent) return {value(row, kScale), value(row, kScale + 1), -kInfinite};
+    return vec3(row, kScale);
+  }
+  float filter_size(const std::byte* row) const {
+    return filter ? load_as_float(row + filter->offset, filter->type) : 0.0f;
   }
   bool rest_is_finite(const std::byte* row) const {
     // A sum of zeros: 0 * v is NaN for NaN and for infinite v, and the loop has no branch.
@@ -97,17 +89,18 @@ struct PlyRows {
     constexpr float kMaxLogScale = 80.0f;  // exp() beyond it overflows a variance
     const glm::quat q = rotation(row);
     const float norm_squared = glm::dot(q, q);
-    const glm::vec3 log_scale = vec3(row, kScale);
+    const glm::vec3 logs = log_scale(row);
     const bool good = norm_squared > 0 && std::isfinite(norm_squared) && !std::isnan(value(row, kOpacity)) &&
-                      log_scale.x < kMaxLogScale && log_scale.y < kMaxLogScale &&
-                      log_scale.z < kMaxLogScale && is_finite(vec3(row, kDc)) && rest_is_finite(row);
+                      logs.x < kMaxLogScale && logs.y < kMaxLogScale && logs.z < kMaxLogScale &&
+                      is_finite(vec3(row, kDc)) && std::isfinite(filter_size(row)) && rest_is_finite(row);
     return good ? vec3(row, kX) : kDroppedRow;
   }
   void decode(std::size_t index, GaussianCloud& cloud, std::size_t g) const {
     const std::byte* row = data + index * row_bytes;
     cloud.f_dc[g] = f_dc(row);
     cloud.opacity[g] = sigmoid(value(row, kOpacity));
-    cloud.scale[g] = glm::exp(vec3(row, kScale));
+    cloud.scale[g] = glm::exp(log_scale(row));
+    if (filter) fuse_filter(filter_size(row), &cloud.scale[g], &cloud.opacity[g]);
     cloud.rotation[g] = glm::normalize(rotation(row));
     float* rest = cloud.sh_rest.data() + g * (fields - kRest);
     if (fields > kRest && rest_in_sequence) {
@@ -118,10 +111,17 @@ struct PlyRows {
   }
 };
 
+// What has no column.
+std::size_t rest_of(const PlyElement& vertex) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      vertex.properties, [](const PlyProperty& p) { return p.name.starts_with("f_rest_"); }));
+}
+
 int degree_from_rest(const std::filesystem::path& path, std::size_t count) {
   for (int degree = 0; degree <= 3; ++degree)
     if (count == 3 * static_cast<std::size_t>(sh_rest_coefficients(degree))) return degree;
-  throw Error(path.string(), fmt::format("{} f_rest properties found; 0, 9, 24 or 45 are possible", count));
+  throw Error(path.string(),
+              fmt::format("{} f_rest properties found; 0, 9, 24, 45 or 72 are possible", count));
 }
 
 // Ends with an Error for what is a .ply but not a 3DGS scene, in the words a user can act on.
@@ -132,9 +132,11 @@ void refuse_other_ply(const std::filesystem::path& path, const PlyElement& verte
         path.string(),
         "is an ordinary point cloud or mesh: it has points but no opacity, scale or rotation of Gaussians",
         "Give the trained scene, often point_cloud/iteration_30000/point_cloud.ply");
-  if (vertex.find("scale_1") && !vertex.find("scale_2"))
-    throw Error(path.string(), "is a 2D Gaussian Splatting file: the property \"scale_2\" is missing",
-                "Only 3D Gaussians are supported");
+}
+
+// A 2D Gaussian has two axes; one that lacks more is damaged.
+bool is_flat(const PlyElement& vertex) {
+  return vertex.find(kNames[kScale + 1]) && !vertex.find(kNames[kScale + 2]);
 }
 
 bool has_colours_only(const PlyElement& vertex) {
@@ -163,17 +165,22 @@ PlyRows<kFloats> bind(const std::filesystem::path& path, const PlyElement& verte
     rows.type[field] = property.type;
   };
   for (std::size_t f = 0; f < kRest; ++f) {
+    if (f == kScale + 2 && is_flat(vertex)) {
+      rows.offset[f] = kAbsent;
+      continue;
+    }
     const bool colour = f >= kDc && f < kDc + 3 && has_colours_only(vertex);
     add(f, colour ? kColourNames[f - kDc] : kNames[f]);
   }
   if (has_colours_only(vertex)) rows.colour_scale = colour_scale_of(rows.type[kDc]);
-  std::size_t rest = 0;
-  for (const PlyProperty& property : vertex.properties) rest += property.name.starts_with("f_rest_");
+  rows.filter = vertex.find(kFilterName);
+  const bool cut = rest_of(vertex) == kRestOfDegree4;
+  const std::size_t rest = cut ? kMaxFields - kRest : rest_of(vertex);
   degree_from_rest(path, rest);
   rows.fields = kRest + rest;
   rows.rest_in_sequence = true;
   for (std::size_t i = 0; i < rest; ++i) {
-    add(kRest + i, fmt::format("f_rest_{}", i));
+    add(kRest + i, fmt::format("f_rest_{}", cut ? i / 15 * (kRestOfDegree4 / 3) + i % 15 : i));
     rows.rest_in_sequence = rows.rest_in_sequence && rows.type[kRest + i] == PlyType::kFloat32 &&
                             rows.offset[kRest + i] == rows.offset[kRest] + i * sizeof(float);
   }
@@ -189,8 +196,8 @@ std::vector<std::string> other_properties(const PlyElement& vertex) {
   std::vector<std::string> others;
   for (const PlyProperty& p : vertex.properties) {
     const auto is = [&](const char* name) { return p.name == name; };
-    const bool known = std::ranges::any_of(kNames, is) || std::ranges::any_of(kNormalNames, is) ||
-                       p.name.starts_with("f_rest_") ||
+    const bool known = std::ranges::any_of(kNames, is) || is(kFilterName) ||
+                       std::ranges::any_of(kNormalNames, is) || p.name.starts_with("f_rest_") ||
                        (has_colours_only(vertex) && std::ranges::any_of(kColourNames, is));
     if (!known) others.push_back(p.name);
   }
@@ -198,9 +205,10 @@ std::vector<std::string> other_properties(const PlyElement& vertex) {
 }
 
 template <bool kFloats>
-void read_rows(const MappedFile& file, const PlyElement& vertex, const std::byte* data, Scene& scene,
-               const Job& job) {
+void read_rows(const MappedFile& file, const PlyElement& vertex, const std::byte* data, bool linear_colours,
+               Scene& scene, const Job& job) {
   PlyRows<kFloats> rows = bind<kFloats>(file.path(), vertex);
+  rows.linear_colours = linear_colours;
   rows.data = data;
   if (vertex.count > std::numeric_limits<std::uint32_t>::max())
     throw Error(file.path().string(), fmt::format("{} Gaussians are more than can be handled", vertex.count));
@@ -215,6 +223,10 @@ bool is_ply(const MappedFile& file) {
 void read_text(const MappedFile& file, const PlyHeader& header, const PlyElement& vertex, Scene& scene,
                const Job& job) {
   bind<false>(file.path(), vertex);  // refuses what lacks a property before the long part
+  if (header.find("color_space"))
+    throw Error(file.path().string(),
+                "is text and names a space of colours, which is only read from a binary .ply",
+                "Convert the file to binary_little_endian");
   job.progress("reading text", 0.0);
   PlyTextRows rows = read_text_rows(file, header, vertex, job);
   if (job.cancelled()) return;
@@ -226,17 +238,32 @@ void read_text(const MappedFile& file, const PlyHeader& header, const PlyElement
         rows.values[row * vertex.properties.size() + column] *= scale;
     }
   }
-  read_rows<true>(file, rows.element, std::as_bytes(std::span(rows.values)).data(), scene, job);
+  read_rows<true>(file, rows.element, std::as_bytes(std::span(rows.values)).data(), false, scene, job);
 }
 
-void read_binary(const MappedFile& file, const PlyElement& vertex, Scene& scene, const Job& job) {
+// The element of ml-sharp: a number, 1 for linear.
+bool has_linear_colours(const MappedFile& file, const PlyHeader& header, const PlyElement& vertex) {
+  const PlyElement* space = header.find("color_space");
+  if (!space || space->properties.empty() || space->count == 0) return false;
+  const std::span<const std::byte> bytes = element_bytes(file.path(), file.bytes(), *space);
+  const bool linear = load_as_float(bytes.data(), space->properties[0].type) == 1;
+  if (linear && rest_of(vertex) > 0)
+    throw Error(file.path().string(), "its colours are linear and depend on the view: such are not converted",
+                "Export it with sRGB colours");
+  return linear;
+}
+
+void read_binary(const MappedFile& file, const PlyHeader& header, const PlyElement& vertex, Scene& scene,
+                 const Job& job) {
   const bool floats = std::ranges::all_of(vertex.properties,
                                           [](const PlyProperty& p) { return p.type == PlyType::kFloat32; });
   const std::byte* data = element_bytes(file.path(), file.bytes(), vertex).data();
+  const bool linear = has_linear_colours(file, header, vertex);
   if (floats)
-    read_rows<true>(file, vertex, data, scene, job);
+    read_rows<true>(file, vertex, data, linear, scene, job);
   else
-    read_rows<false>(file, vertex, data, scene, job);
+    read_rows<false>(file, vertex, data, linear, scene, job);
+  if (!job.cancelled()) scene.oddity = rounded_positions(vertex, scene.cloud);
 }
 
 void read_ply(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
@@ -245,16 +272,18 @@ void read_ply(const MappedFile& file, const LoadOptions&, Scene& scene, const Jo
   refuse_other_ply(file.path(), vertex);
   scene.rows_can_be_copied = !header.ascii;
   scene.other_properties = other_properties(vertex);
+  scene.cloud.antialiased = header.antialiased();
+  if (rest_of(vertex) == kRestOfDegree4)
+    scene.left_out = "Spherical harmonics of degree 4 are left out, those up to degree 3 are read";
   if (header.ascii)
     read_text(file, header, vertex, scene, job);
   else
-    read_binary(file, vertex, scene, job);
+    read_binary(file, header, vertex, scene, job);
 }
 
 Losses ply_losses(const Scene& scene, bool rows_copied) {
   Losses losses;
   if (!rows_copied) losses.add(properties_left_out(scene));
-  losses.add(antialiasing_left_out(scene));
   return losses;
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/lower_case.h"
 #include "scene/formats/decode.h"
 
 namespace splatcut {
@@ -70,6 +71,7 @@ void place_elements(PlyHeader& header) {
     element.data_begin = begin;
     const bool fits = element.row_bytes == 0 ||
                       element.count <= (std::numeric_limits<std::size_t>::max() - begin) / element.row_bytes;
+    if (element.count == 0) continue;  // takes no bytes, whatever its rows would be
     if (element.has_list || !fits) return;
     begin += element.count * element.row_bytes;
   }
@@ -105,6 +107,22 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
   return it == elements.end() ? nullptr : &*it;
 }
 
+bool PlyHeader::antialiased() const {
+  return std::ranges::any_of(comments, [](const std::string& comment) {
+    std::string said = lower_case(comment);
+    std::ranges::replace(said, ':', ' ');
+    std::ranges::replace(said, '=', ' ');
+    const std::vector<std::string_view> words = words_of(said);
+    if (words.size() < 2) return false;
+    if (words[0] == "splatrendermode") return words[1] == "mip" || words[1] == "antialiased";
+    return words[0] == "antialiased" && (words[1] == "1" || words[1] == "true");
+  });
+}
+
+std::string antialiasing_comment(bool antialiased) {
+  return antialiased ? "comment SplatRenderMode: mip\n" : "";
+}
+
 bool has_ply_mark(const MappedFile& file) {
   return begins_with(file, "ply\n") || begins_with(file, "ply\r\n");
 }
@@ -125,7 +143,11 @@ PlyHeader parse_ply_header(const std::filesystem::path& path, std::span<const st
     if (line.ends_with('\r')) line.remove_suffix(1);
     begin = end + 1;
     const std::vector<std::string_view> words = words_of(line);
-    if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+    if (words.empty() || words[0] == "obj_info") continue;
+    if (words[0] == "comment") {
+      header.comments.push_back(words.size() > 1 ? std::string(line.substr(line.find(words[1]))) : "");
+      continue;
+    }
     if (words[0] == "end_header") {
       header.bytes = begin;
       break;

@@ -39,9 +39,16 @@ struct PlyHeader {
   std::size_t bytes = 0;  // up to and including the line end after end_header
   bool ascii = false;     // rows are text: offsets and data_begin are then meaningless
   std::vector<PlyElement> elements;
+  std::vector<std::string> comments;  // without the word and what stands around them
 
   const PlyElement* find(std::string_view element) const;
+  // Whether a comment says that the scene was trained with the filter of Mip-Splatting: "SplatRenderMode:
+  // mip" (Brush, gsplat, splat-transform) or "antialiased 1" (Postshot).
+  bool antialiased() const;
 };
+
+// The line of a header that says so; empty for others.
+std::string antialiasing_comment(bool antialiased);
 
 // Whether the file begins as every .ply does.
 bool has_ply_mark(const MappedFile& file);

@@ -31,6 +31,7 @@ std::string_view next_word(std::string_view* text) {
 }
 
 bool parse_number(std::string_view word, float* value) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   const char* last = word.data() + word.size();
   const auto [end, failure] = std::from_chars(word.data(), last, *value);
   if (failure != std::errc::result_out_of_range) return failure == std::errc() && end == last;

@@ -44,11 +44,12 @@ float log_scale(float scale) {
   return std::log(std::max(scale, kSmallest));
 }
 
-std::string header_for(std::size_t count, std::size_t rest) {
-  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", count);
+std::string header_for(std::size_t count, const GaussianCloud& cloud) {
+  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\n{}element vertex {}\n",
+                                   antialiasing_comment(cloud.antialiased), count);
   const auto add = [&](const std::string& name) { header += "property float " + name + "\n"; };
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"}) add(name);
-  for (std::size_t i = 0; i < rest; ++i) add(fmt::format("f_rest_{}", i));
+  for (std::size_t i = 0; i < cloud.sh_stride(); ++i) add(fmt::format("f_rest_{}", i));
   for (const char* name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
     add(name);
   return header + "end_header\n";
@@ -88,7 +89,7 @@ void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::
 }
 
 void write_ply_rows(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
-  const std::string header = header_for(gaussians.size(), cloud.sh_stride());
+  const std::string header = header_for(gaussians.size(), cloud);
   out.write(std::as_bytes(std::span(header)));
   std::vector<float> buffer;
   buffer.reserve(kBufferBytes / sizeof(float) + 17 + cloud.sh_stride());

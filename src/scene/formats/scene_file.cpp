@@ -112,7 +112,10 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
   scene.format = format_of(file);
   scene.file_bytes = file.bytes().size();
   scene.modified_ns = file.modified_ns();
+  if (options.lod > 0 && scene.format != SceneFormat::kStreamedSog)
+    throw Error(path.string(), "has no levels of detail", "--lod is for streamed scenes (lod-meta.json)");
   scene.format.read(file, options, scene, job);
+  if (!job.cancelled() && scene.file_rows == 0) throw Error(path.string(), "holds no Gaussians");
   if (!job.cancelled() && scene.cloud.empty())
     throw Error(
         path.string(),
@@ -121,7 +124,8 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
   if (job.cancelled()) return scene;
   scene.cloud.near_plane = near_plane_of(scene.cloud);
   check_size(scene);
-  scene.oddity = oddity_of(scene.cloud);
+  if (const std::string odd = oddity_of(scene.cloud); !odd.empty())
+    scene.oddity += (scene.oddity.empty() ? "" : ". ") + odd;
   return scene;
 }
 
@@ -136,7 +140,7 @@ SaveReport save_scene(const std::filesystem::path& path, const Scene& scene,
     throw Error(path.string(), fmt::format("{} is only read, not written", format.extension),
                 "Choose " + spoken_extensions(written_formats(), "or"));
   const std::vector<std::uint32_t> kept = kept_in_file_order(scene.cloud, keep);
-  if (kept.empty())
+  if (kept.empty() && !options.may_be_empty)
     throw Error(path.string(), "nothing is selected: a scene without Gaussians is not written");
   AtomicFile out(path);
   SaveReport report;

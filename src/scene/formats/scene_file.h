@@ -38,7 +38,6 @@ struct Scene {
   std::vector<std::string> other_properties;  // columns of a .ply that say nothing of Gaussians
   std::string left_out;                       // a sentence on what was not read of it, or empty
   std::string oddity;                         // a sentence on values that no training produces, or empty
-  bool antialiased = false;                   // it says: trained with the filter of Mip-Splatting
 
   // Of a .spz that does not say its axes, or was overruled: those taken, and a sentence on why.
   std::optional<SpzAxes> taken_axes;
@@ -51,13 +50,15 @@ Scene with_cloud(const Scene& scene, GaussianCloud cloud);
 struct LoadOptions {
   std::optional<SpzAxes> spz_axes;  // none: as the file says, else as the cameras see more, else kRub
   std::vector<Camera> cameras;      // of the capture, if any are known
+  unsigned lod = 0;  // of a streamed .sog: of each part the finest level from this one on, else the coarsest
 };
 
 Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, const Job& job = {});
 Scene load_scene(const std::filesystem::path& path, const Job& job = {});
 
 struct SaveOptions {
-  int spz_version = 3;  // 3, which every reader of .spz knows, or 4, which is smaller
+  int spz_version = 3;        // 3, which every reader of .spz knows, or 4, which is smaller
+  bool may_be_empty = false;  // a .ply without Gaussians is written rather than refused
 };
 
 struct SaveReport {

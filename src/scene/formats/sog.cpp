@@ -179,7 +179,7 @@ SogRows rows_of(const MappedFile& file, const Job& job) {
   const json meta = files.meta();
   SogRows rows;
   rows.count = count_of(file, meta);
-  rows.antialiased = meta.value("antialias", false);
+  rows.antialiased = meta.value("antialias", false) || meta.value("model", "") == "antialiased";
   rows.logits = !meta.contains("version");
   rows.least = vec3_of(meta.at("means").at("mins"));
   rows.most = vec3_of(meta.at("means").at("maxs"));
@@ -204,7 +204,7 @@ SogRows rows_of(const MappedFile& file, const Job& job) {
 void read_sog(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
   job.progress("unpacking pictures", 0.0);
   const SogRows rows = read_sog_rows(file, job);
-  scene.antialiased = rows.antialiased;
+  scene.cloud.antialiased = rows.antialiased;
   rows.add_files(&scene);
   if (!job.cancelled()) decode_rows(rows, rows.count, rows.degree, scene, job);
 }

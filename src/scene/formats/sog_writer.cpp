@@ -162,7 +162,10 @@ json add_shn(const SogInput& in, SogPictures* pictures) {
 
 json add_all(const SogInput& in, bool antialiased, SogPictures* pictures) {
   json meta = {{"version", 2}, {"asset", {{"generator", "splatcut"}}}, {"count", in.size()}};
-  if (antialiased) meta["antialias"] = true;
+  if (antialiased) {  // in the words of the format's text, and of its own converter
+    meta["antialias"] = true;
+    meta["model"] = "antialiased";
+  }
   meta["means"] = add_means(in, pictures);
   meta["scales"] = add_scales(in, pictures);
   meta["quats"] = add_quats(in, pictures);
@@ -195,7 +198,7 @@ std::string write_sog(AtomicFile& out, const Scene& scene, std::span<const std::
   SogInput in{scene.cloud, {gaussians.begin(), gaussians.end()}};
   std::ranges::sort(in.gaussians);
   SogPictures pictures;
-  const json meta = add_all(in, scene.antialiased, &pictures);
+  const json meta = add_all(in, scene.cloud.antialiased, &pictures);
   std::vector<ZipEntry> entries(pictures.names.size());
   tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) {
     entries[i] = {pictures.names[i], write_webp(pictures.images[i])};

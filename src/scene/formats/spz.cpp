@@ -163,7 +163,7 @@ SpzRows rows_for(const spz::Header& header) {
 // rows: complete but for the axes. records: the extension block, if there is one.
 void decode(const MappedFile& file, std::span<const std::byte> records, const LoadOptions& options,
             SpzRows rows, Scene& scene, const Job& job) {
-  scene.antialiased = rows.header.flags & spz::kFlagAntialiased;
+  scene.cloud.antialiased = rows.header.flags & spz::kFlagAntialiased;
   if (rows.header.sh_degree > rows.degree)
     scene.left_out =
         fmt::format("Spherical harmonics of degree {} are left out, those up to degree {} are read",
@@ -201,6 +201,9 @@ void read_gzip(const MappedFile& file, const LoadOptions& options, Scene& scene,
   const Bytes begin_of_data = reader.read(sizeof(spz::Header), job);
   if (job.cancelled()) return;
   const auto header = load<spz::Header>(begin_of_data.data());
+  if (header.magic != spz::kMagic)
+    throw Error(file.path().string(), "is packed by gzip, and what is inside is no .spz",
+                "Unpack it (gunzip) and give the scene inside");
   check_header(file, header);
   if (header.version > 3)
     throw Error(file.path().string(), fmt::format("version {} inside gzip data", header.version));

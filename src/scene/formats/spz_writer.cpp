@@ -11,6 +11,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/median.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/spz_layout.h"
 
@@ -38,6 +39,16 @@ std::uint8_t fractional_bits_for(const GaussianCloud& cloud, std::span<const std
   if (std::ldexp(farthest, bits) > kFixedLimit || (farthest > 0 && std::ldexp(farthest, bits) < kFewestSteps))
     throw Error("spz", fmt::format("coordinates up to {:g} cannot be written in 24 bits", farthest),
                 "Choose another format, or scale the scene");
+  std::vector<float> sizes;
+  for (const std::uint32_t g : gaussians)
+    sizes.push_back(std::max({cloud.scale[g].x, cloud.scale[g].y, cloud.scale[g].z}));
+  const float size = median(std::move(sizes)), step = std::ldexp(1.0f, -bits);
+  if (farthest > 0 && step > size)
+    throw Error("spz",
+                fmt::format("24 bits for coordinates up to {:g} are steps of {:g}, larger than half of the "
+                            "Gaussians ({:g})",
+                            farthest, step, size),
+                "Choose another format, or move the scene near the origin");
   return static_cast<std::uint8_t>(bits);
 }
 
@@ -76,7 +87,7 @@ spz::Header header_of(const Scene& scene, std::span<const std::uint32_t> gaussia
   header.points = static_cast<std::uint32_t>(gaussians.size());
   header.sh_degree = static_cast<std::uint8_t>(scene.cloud.sh_degree);
   header.fractional_bits = fractional_bits_for(scene.cloud, gaussians);
-  if (scene.antialiased) header.flags |= spz::kFlagAntialiased;
+  if (scene.cloud.antialiased) header.flags |= spz::kFlagAntialiased;
   return header;
 }
 

@@ -63,12 +63,12 @@ unsigned level_of(const MappedFile& file, const std::string& key) {
 // What lod-meta.json says, as far as it is taken.
 class LodIndex {
  public:
-  explicit LodIndex(const MappedFile& file);
+  LodIndex(const MappedFile& file, unsigned lod);
 
   std::vector<fs::path> pieces;  // in the folder of the index, each once
   std::vector<LodRange> ranges;  // in the order of leaves
   std::optional<fs::path> environment;
-  bool coarser = false;  // there are levels that are not taken
+  bool others = false;  // there are levels that are not taken
 
  private:
   void collect(const json& node, const json& names, int depth);
@@ -77,10 +77,11 @@ class LodIndex {
   void check_overlaps() const;
 
   const MappedFile& file_;
+  unsigned lod_;
   std::map<fs::path, std::size_t> numbers_;  // of pieces
 };
 
-LodIndex::LodIndex(const MappedFile& file) : file_(file) {
+LodIndex::LodIndex(const MappedFile& file, unsigned lod) : file_(file), lod_(lod) {
   const json index =
       parse_json(file.path(), {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()});
   if (const json version = index.value("version", json(1)); version != 1)
@@ -109,21 +110,24 @@ void LodIndex::collect(const json& node, const json& names, int depth) {
 }
 
 void LodIndex::add_leaf(const json& lods, const json& names) {
-  const json* finest = nullptr;
-  unsigned finest_level = 0;
+  const json* taken = nullptr;
+  unsigned taken_level = 0;
   std::size_t levels = 0;
   for (const auto& [key, lod] : lods.items()) {
     const unsigned level = level_of(file_, key);
     if (whole_number(file_, lod, "count") == 0) continue;
     ++levels;
-    if (finest && level > finest_level) continue;
-    finest = &lod;
-    finest_level = level;
+    // The finest of those that are no finer than wanted, else the coarsest.
+    const bool better = !taken || (level >= lod_ ? taken_level < lod_ || level < taken_level
+                                                 : taken_level < lod_ && level > taken_level);
+    if (!better) continue;
+    taken = &lod;
+    taken_level = level;
   }
-  if (!finest) return;
-  coarser = coarser || levels > 1;
-  ranges.push_back({piece_of(names, whole_number(file_, *finest, "file")),
-                    whole_number(file_, *finest, "offset"), whole_number(file_, *finest, "count")});
+  if (!taken) return;
+  others = others || levels > 1;
+  ranges.push_back({piece_of(names, whole_number(file_, *taken, "file")),
+                    whole_number(file_, *taken, "offset"), whole_number(file_, *taken, "count")});
 }
 
 std::size_t LodIndex::piece_of(const json& names, std::size_t index) {
@@ -236,16 +240,21 @@ StreamedRows rows_of_pieces(const MappedFile& file, LodIndex index, const Job& j
   return rows;
 }
 
-void read_streamed_sog(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
+void read_streamed_sog(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
   try {
-    LodIndex index(file);
+    LodIndex index(file, options.lod);
     if (index.pieces.empty() && !index.environment) refuse_index(file, "its tree holds no Gaussians");
-    if (index.coarser)
-      scene.left_out = "Coarser levels of detail are left out: of each part of the scene the finest is read";
+    if (index.others)
+      scene.left_out =
+          options.lod == 0
+              ? "Coarser levels of detail are left out: of each part of the scene the finest is read"
+              : fmt::format(
+                    "Of each part of the scene the level of detail {} is read, or the coarsest that it has",
+                    options.lod);
     const StreamedRows rows = rows_of_pieces(file, std::move(index), job);
     if (job.cancelled()) return;
     for (const SogRows& piece : rows.pieces) piece.add_files(&scene);
-    scene.antialiased = std::ranges::all_of(rows.pieces, &SogRows::antialiased);
+    scene.cloud.antialiased = std::ranges::all_of(rows.pieces, &SogRows::antialiased);
     decode_rows(rows, rows.count, rows.degree, scene, job);
   } catch (const json::exception& error) {
     refuse_index(file, fmt::format("is not the index of a streamed scene ({})", fault_of(error)));

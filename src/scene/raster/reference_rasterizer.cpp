@@ -35,10 +35,10 @@ std::vector<DepthSplat> front_to_back(const GaussianCloud& cloud, const Camera& 
   return splats;
 }
 
-float alpha_at(const Splat& splat, float opacity, const glm::vec2& pixel) {
+float alpha_at(const Splat& splat, const glm::vec2& pixel) {
   const glm::vec2 d = pixel - splat.mean_px;
   const float q = splat.conic.a * d.x * d.x + 2 * splat.conic.b * d.x * d.y + splat.conic.c * d.y * d.y;
-  return std::min(kAlphaMax, opacity * std::exp(-0.5f * q));
+  return std::min(kAlphaMax, splat.opacity * std::exp(-0.5f * q));
 }
 
 }  // namespace
@@ -61,8 +61,7 @@ RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camer
       float transmittance = 1, weighted_depth = 0;
       glm::vec3 colour(0);
       for (const DepthSplat& s : splats) {
-        const float alpha = alpha_at(s.splat, cloud.opacity[s.gaussian],
-                                     {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+        const float alpha = alpha_at(s.splat, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
         if (!(alpha >= kAlphaMin)) continue;
         const float weight = alpha * transmittance;
         colour += weight * s.colour;

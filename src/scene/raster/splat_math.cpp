@@ -5,42 +5,6 @@
 
 namespace splatcut {
 
-namespace {
-
-// Real spherical harmonics constants in the sign convention of 3DGS files.
-constexpr float kShC1 = 0.4886025119029199f;
-constexpr float kShC2[] = {1.0925484305920792f, -1.0925484305920792f, 0.31539156525252005f,
-                           -1.0925484305920792f, 0.5462742152960396f};
-constexpr float kShC3[] = {-0.5900435899266435f, 2.890611442640554f,   -0.4570457994644658f,
-                           0.3731763325901154f,  -0.4570457994644658f, 1.445305721320277f,
-                           -0.5900435899266435f};
-
-}  // namespace
-
-int sh_rest_basis(int degree, const glm::vec3& d, float basis[15]) {
-  if (degree < 1) return 0;
-  const float x = d.x, y = d.y, z = d.z;
-  basis[0] = -kShC1 * y;
-  basis[1] = kShC1 * z;
-  basis[2] = -kShC1 * x;
-  if (degree < 2) return 3;
-  const float xx = x * x, yy = y * y, zz = z * z;
-  basis[3] = kShC2[0] * x * y;
-  basis[4] = kShC2[1] * y * z;
-  basis[5] = kShC2[2] * (2 * zz - xx - yy);
-  basis[6] = kShC2[3] * x * z;
-  basis[7] = kShC2[4] * (xx - yy);
-  if (degree < 3) return 8;
-  basis[8] = kShC3[0] * y * (3 * xx - yy);
-  basis[9] = kShC3[1] * x * y * z;
-  basis[10] = kShC3[2] * y * (4 * zz - xx - yy);
-  basis[11] = kShC3[3] * z * (2 * zz - 3 * xx - 3 * yy);
-  basis[12] = kShC3[4] * x * (4 * zz - xx - yy);
-  basis[13] = kShC3[5] * z * (xx - yy);
-  basis[14] = kShC3[6] * x * (xx - 3 * yy);
-  return 15;
-}
-
 glm::mat3 covariance_world(const glm::vec3& scale, const glm::quat& rotation) {
   glm::mat3 m = glm::mat3_cast(rotation);
   for (int axis = 0; axis < 3; ++axis) m[axis] *= scale[axis];
@@ -71,6 +35,12 @@ Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, c
   return {glm::dot(u, sigma_u) + low_pass_px2, glm::dot(u, sigma_v), glm::dot(v, sigma_v) + low_pass_px2};
 }
 
+float antialiased_share(const Symmetric2& sharp, const Symmetric2& blurred) {
+  const float det_sharp = sharp.a * sharp.c - sharp.b * sharp.b;
+  const float det_blurred = blurred.a * blurred.c - blurred.b * blurred.b;
+  return std::sqrt(std::max(det_sharp, 0.0f) / det_blurred);
+}
+
 bool project(const GaussianCloud& cloud, std::size_t g, const Camera& camera, float near_plane, Splat* splat,
              float low_pass_px2) {
   const float opacity = cloud.opacity[g];
@@ -78,14 +48,17 @@ bool project(const GaussianCloud& cloud, std::size_t g, const Camera& camera, fl
   const glm::vec3 point_camera = camera.camera_from_world(cloud.position[g]);
   if (!(point_camera.z >= near_plane)) return false;
   const glm::mat3 sigma = covariance_world(cloud.scale[g], cloud.rotation[g]);
-  const Symmetric2 s = covariance_px2(camera, point_camera, sigma, low_pass_px2);
+  const Symmetric2 sharp = covariance_px2(camera, point_camera, sigma, 0);
+  const Symmetric2 s{sharp.a + low_pass_px2, sharp.b, sharp.c + low_pass_px2};
   const float det = s.a * s.c - s.b * s.b;
   if (!(det > 0) || !std::isfinite(det)) return false;
+  splat->opacity = cloud.antialiased ? opacity * antialiased_share(sharp, s) : opacity;
+  if (splat->opacity < kAlphaMin) return false;
   splat->mean_px = camera.pixel_from_camera(point_camera);
   splat->covariance_px2 = s;
   splat->conic = {s.c / det, -s.b / det, s.a / det};
   splat->depth = point_camera.z;
-  const float mahalanobis2 = 2.0f * std::log(opacity / kAlphaMin);
+  const float mahalanobis2 = 2.0f * std::log(splat->opacity / kAlphaMin);
   splat->extent_px = {std::sqrt(mahalanobis2 * s.a), std::sqrt(mahalanobis2 * s.c)};
   return true;
 }

@@ -7,6 +7,7 @@
 
 #include "scene/camera/camera.h"
 #include "scene/cloud/gaussian_cloud.h"
+#include "scene/cloud/spherical_harmonics.h"
 
 namespace splatcut {
 
@@ -28,6 +29,7 @@ struct Splat {
   glm::vec2 mean_px{0};
   Symmetric2 covariance_px2;  // Sigma2, low-pass included
   Symmetric2 conic;           // Sigma2^-1
+  float opacity = 0;          // of the Gaussian; of an antialiased cloud times antialiased_share()
   float depth = 0;            // camera z, scene units
   glm::vec2 extent_px{0};     // half size of the box in which alpha >= kAlphaMin
 };
@@ -49,13 +51,13 @@ PixelJacobian pixel_jacobian(const Camera& camera, const glm::vec3& point_camera
 Symmetric2 covariance_px2(const Camera& camera, const glm::vec3& point_camera, const glm::mat3& sigma_world,
                           float low_pass_px2 = kLowPassPx2);
 
+// What stays of the opacity where the low-pass makes a splat larger, so that its sum over the picture is that
+// of the Gaussian: sqrt(det sharp / det blurred). Source: Yu et al., Mip-Splatting, 2024, eq. 10.
+float antialiased_share(const Symmetric2& sharp_px2, const Symmetric2& blurred_px2);
+
 // False where the Gaussian is before the near plane, too faint (opacity < 1/255) or degenerate.
 bool project(const GaussianCloud& cloud, std::size_t g, const Camera& camera, float near_plane, Splat* splat,
              float low_pass_px2 = kLowPassPx2);
-
-// The SH basis functions beyond the constant one in a unit direction, with the signs of 3DGS files: the first
-// sh_rest_coefficients(degree) of `basis` are written. Returns that number.
-int sh_rest_basis(int degree, const glm::vec3& direction_world, float basis[15]);
 
 // Colour in [0, inf) of SH coefficients seen along `direction_world` (unit, from camera to Gaussian).
 glm::vec3 sh_colour(const glm::vec3& f_dc, std::span<const float> rest, int degree,

@@ -119,10 +119,12 @@ struct Frame {
   float reach_x, reach_y;  // at most so many times focal length / z and the longest axis from the mean
   float low_pass_px2, low_pass_reach_px;
   float near_plane;
+  bool antialiased;
   PixelRect region;
 };
 
-Frame frame_of(const Camera& camera, float near_plane, float low_pass_px2, const PixelRect& region) {
+Frame frame_of(const Camera& camera, float near_plane, bool antialiased, float low_pass_px2,
+               const PixelRect& region) {
   const glm::mat3 world_from_camera = glm::transpose(camera.camera_from_world_rotation);
   const float limit_x = kFrustumSlack * 0.5f * static_cast<float>(camera.width_px) / camera.fx_px;
   const float limit_y = kFrustumSlack * 0.5f * static_cast<float>(camera.height_px) / camera.fy_px;
@@ -138,7 +140,14 @@ Frame frame_of(const Camera& camera, float near_plane, float low_pass_px2, const
           low_pass_px2,
           kCutoffSigmas * std::sqrt(low_pass_px2),
           near_plane,
+          antialiased,
           region};
+}
+
+// sqrt(det sharp / det blurred), as splat_math.h has it for one.
+HWY_INLINE V antialiased_share(V sharp_xx, V sharp_xy, V sharp_yy, V det_blurred) {
+  const V det_sharp = hn::Sub(hn::Mul(sharp_xx, sharp_yy), hn::Mul(sharp_xy, sharp_xy));
+  return hn::Sqrt(hn::Div(hn::Max(det_sharp, hn::Zero(kF)), det_blurred));
 }
 
 HWY_INLINE M overlaps(V centre, V half, int low, int high) {
@@ -183,12 +192,17 @@ HWY_INLINE void project_vector(const Attributes& a, M wanted, std::uint32_t firs
   };
   const V3 u = scaled_to_local(a, row(pixels_x, right, bend_x)),
            v = scaled_to_local(a, row(pixels_y, down, bend_y));
-  const V sigma_xx = hn::Add(dot(u, u), set(frame.low_pass_px2)),
-          sigma_yy = hn::Add(dot(v, v), set(frame.low_pass_px2));
-  const V sigma_xy = dot(u, v);
+  const V sharp_xx = dot(u, u), sharp_yy = dot(v, v), sigma_xy = dot(u, v);
+  const V sigma_xx = hn::Add(sharp_xx, set(frame.low_pass_px2)),
+          sigma_yy = hn::Add(sharp_yy, set(frame.low_pass_px2));
   const V det = hn::Sub(hn::Mul(sigma_xx, sigma_yy), hn::Mul(sigma_xy, sigma_xy));
 
-  const V log2_opacity = log2_of(a.opacity);
+  // Below 1/255 nothing is drawn: the least keeps the logarithm of numbers that are.
+  const V opacity =
+      frame.antialiased
+          ? hn::Max(hn::Mul(a.opacity, antialiased_share(sharp_xx, sigma_xy, sharp_yy, det)), set(1e-6f))
+          : a.opacity;
+  const V log2_opacity = log2_of(opacity);
   const V mahalanobis2 =
       hn::Mul(set(2 * kLn2), hn::Max(hn::Add(log2_opacity, set(kLog2Of255)), hn::Zero(kF)));
   const V half_width = hn::Sqrt(hn::Mul(mahalanobis2, sigma_xx)),
@@ -197,7 +211,8 @@ HWY_INLINE void project_vector(const Attributes& a, M wanted, std::uint32_t firs
       hn::And(hn::Gt(det, hn::Zero(kF)), hn::Lt(det, set(std::numeric_limits<float>::infinity())));
   const M inside = hn::And(overlaps(x, half_width, frame.region.x0, frame.region.x1),
                            overlaps(y, half_height, frame.region.y0, frame.region.y1));
-  const M drawn = hn::And(before, hn::And(regular, inside));
+  const M bright = hn::Ge(opacity, set(kAlphaMin));
+  const M drawn = hn::And(hn::And(before, bright), hn::And(regular, inside));
 
   const V scale = hn::Div(set(kLog2E), det);
   const V3 ray = {hn::Sub(a.position.x, set(frame.eye_world.x)),
@@ -278,8 +293,8 @@ HWY_INLINE M shown_lanes(const RasterOptions& options, std::uint32_t g, std::siz
 
 void project_batch(const GaussianCloud& cloud, std::uint32_t begin, std::uint32_t end, const Camera& camera,
                    const RasterOptions& options, const PixelRect& region, SplatBatch* batch) {
-  const Frame frame =
-      frame_of(camera, options.near_plane.value_or(cloud.near_plane), options.low_pass_px2, region);
+  const Frame frame = frame_of(camera, options.near_plane.value_or(cloud.near_plane), cloud.antialiased,
+                               options.low_pass_px2, region);
   batch->size = 0;
   for (std::uint32_t g = begin; g < end; g += static_cast<std::uint32_t>(kWidth)) {
     const std::size_t count = std::min<std::size_t>(kWidth, end - g);

@@ -156,6 +156,7 @@ std::uint64_t prepared_key(const GaussianCloud& cloud, std::span<const Camera> o
   hash.number(cloud.size());
   hash.number(cloud.sh_degree);
   hash.number(cloud.near_plane);  // what the observing views show
+  if (cloud.antialiased) hash.number(1);
   hash.add(std::as_bytes(std::span(cloud.position)));
   hash.add(std::as_bytes(std::span(cloud.scale)));
   hash.add(std::as_bytes(std::span(cloud.rotation)));

@@ -82,8 +82,8 @@ TEST_CASE(
   save_scene(folder / "c.sog", once, {}, SceneFormat::kSog);
   const Scene twice = load_scene(folder / "c.sog");
   check_same(as_written(once, true), twice, {2e-6f, 1e-6f, limits().at("sog").limit.rotation, 0, 0, 0});
-  scene.antialiased = true;
+  scene.cloud.antialiased = true;
   CHECK(save_scene(folder / "d.sog", scene, {}, SceneFormat::kSog).loss.find("antialiasing") ==
         std::string::npos);
-  CHECK(load_scene(folder / "d.sog").antialiased);
+  CHECK(load_scene(folder / "d.sog").cloud.antialiased);
 }

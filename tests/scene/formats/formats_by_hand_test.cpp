@@ -185,11 +185,21 @@ QUICK_CASE("glb", "glb by hand: nodes place their Gaussians, normalised bytes, d
   CHECK(scene.cloud.sh_rest_of(0)[1] == 0.5f);   // z
   CHECK(scene.cloud.sh_rest_of(0)[5] == -0.6f);  // x of green
 
+  // Turned by a quarter from x to y: y takes the coefficient of x, x that of y with another sign.
+  write(path, glb(R"([{"mesh":0,"rotation":)" + quarter + "}]", sizes, "{}", true));
+  scene = load_scene(path);
+  for (const auto& [at, expected] : {std::pair(0, 0.5f), {1, 0.5f}, {2, 0.5f}, {3, 0.6f}, {8, 0.7f}}) {
+    CAPTURE(at);
+    CHECK(std::abs(scene.cloud.sh_rest_of(0)[static_cast<std::size_t>(at)]) == doctest::Approx(expected));
+  }
+  CHECK(scene.cloud.sh_rest_of(0)[0] ==
+        doctest::Approx(-0.5f));  // of y: -x before, whose sign axes changed, too
+  CHECK(scene.cloud.sh_rest_of(0)[2] == doctest::Approx(0.5f));
+
   const auto refused = [&](const std::string& bytes, std::initializer_list<const char*> parts) {
     write(path, bytes);
     CHECK(mentions(refusal(path), parts));
   };
-  refused(glb(R"([{"mesh":0,"rotation":)" + quarter + "}]", sizes, "{}", true), {"turns", "Apply"});
   refused(glb(R"([{"mesh":0,"scale":[1,2,1]}])", sizes), {"stretches", "Apply"});
   refused(glb(R"([{"mesh":0,"scale":[-1,1,1]}])", sizes), {"mirrors"});
   refused(glb(R"([{"children":[0]}])", sizes), {"no tree"});

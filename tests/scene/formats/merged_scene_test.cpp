@@ -117,13 +117,13 @@ TEST_CASE("merge: rows that were dropped leave no gap in the file and do not shi
 
 TEST_CASE("merge: the mark of antialiasing stays where all have it, else a sentence says whose is lost") {
   Scene marked = scene_of(varied_cloud(10, 0)), plain = marked;
-  marked.antialiased = true;
+  marked.cloud.antialiased = true;
   marked.path = "marked.spz";
-  CHECK(merged({marked, marked}).scene.antialiased);
+  CHECK(merged({marked, marked}).scene.cloud.antialiased);
   CHECK(merged({marked, marked}).loss.empty());
   CHECK(merged({plain, plain}).loss.empty());
   const MergedScene mixed = merged({plain, marked});
-  CHECK_FALSE(mixed.scene.antialiased);
+  CHECK_FALSE(mixed.scene.cloud.antialiased);
   CHECK(mentions(mixed.loss, {"marked.spz", "antialiasing is left out"}));
 }
 

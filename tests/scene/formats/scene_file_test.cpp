@@ -158,7 +158,7 @@ QUICK_CASE("ply", "bad files are refused with a clear sentence") {
   check("minus.ply", with_count("-5"), {"bad count"});
   check("zero.ply", with_count("0"), {"vertex", "empty"});
   check("no_opacity.ply", without("opacity"), {"opacity", "missing", "f_dc_0"});
-  check("2dgs.ply", without("scale_2"), {"2D Gaussian", "scale_2"});
+  check("1dgs.ply", without("scale_1"), {"scale_1", "missing"});
   check("odd_rest.ply", numbered_ply(splat_names(12), 10), {"12 f_rest", "45"});
   check("points.ply", numbered_ply({"x", "y", "z", "red", "green", "blue"}, 10), {"ordinary point cloud"});
   check("cut.splat", std::string(70, 'a'), {"truncated", "row 2", "byte 70"});

@@ -76,10 +76,10 @@ TEST_CASE("losses: the share of Gaussians beyond the range of bytes is said, rou
   CHECK(spz.find("antialiasing") == spz.npos);
   CHECK(lost("a.compressed.ply").find("clamped") == std::string::npos);
   CHECK(lost("a.ply").empty());
-  scene.antialiased = true;
-  for (const char* name : {"a.ply", "a.compressed.ply", "a.splat"})
-    CHECK(mentions(lost(name), {"antialiasing is left out"}));
-  CHECK(lost("a.spz").find("antialiasing") == std::string::npos);
+  scene.cloud.antialiased = true;
+  for (const char* name : {"a.splat", "a.glb"}) CHECK(mentions(lost(name), {"antialiasing is left out"}));
+  for (const char* name : {"a.ply", "a.compressed.ply", "a.spz", "a.sog"})
+    CHECK(lost(name).find("antialiasing") == std::string::npos);
   std::vector<std::uint8_t> keep(1000, 0);
   keep[400] = keep[401] = 1;  // of those written only
   CHECK(save_scene(folder / "b.splat", scene, keep, SceneFormat::kSplat).loss.find("clamped") ==
@@ -90,7 +90,7 @@ TEST_CASE("plans: nothing is said to be kept in full beside what is lost") {
   Scene scene;
   scene.cloud = varied_cloud(10, 1);
   scene.other_properties = {"mask"};
-  scene.antialiased = true;
+  scene.cloud.antialiased = true;
   for (const SceneFormat& format : written_formats()) {
     const FormatPlan plan = format.plan(scene, 10, false);
     CAPTURE(format.name);

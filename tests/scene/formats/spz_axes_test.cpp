@@ -134,7 +134,7 @@ TEST_CASE(
         CAPTURE(degree);
         Scene scene;
         scene.cloud = varied_cloud(800, degree);
-        scene.antialiased = antialiased;
+        scene.cloud.antialiased = antialiased;
         save_scene(folder / "a.spz", scene, {}, SceneFormat::kSpz, {version});
         const std::string bytes = text_of(folder / "a.spz");
         CHECK(bytes.starts_with(version == 4 ? "NGSP" : "\x1f\x8b"));
@@ -145,7 +145,7 @@ TEST_CASE(
         if (version == 3) CHECK(plain.size() == 16 + 800 * (20 + sh_bytes));
         const Scene got = load_scene(folder / "a.spz");
         CHECK(got.taken_axes.has_value() == (version == 3));
-        CHECK(got.antialiased == antialiased);
+        CHECK(got.cloud.antialiased == antialiased);
         check_same(scene.cloud, got,
                    {1.0f / 8192, 1.01f / 32, 1e-5f, 0.51f / 255, 0.51f / 255 / 0.15f, 0.51f / 128});
       }

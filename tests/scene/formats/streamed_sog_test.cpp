@@ -56,12 +56,12 @@ struct Streamed {
     fs::create_directories(path);
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       Scene scene = scene_at(20.0f * static_cast<float>(i), sizes[i].first, sizes[i].second);
-      scene.antialiased = marked || i == 1;
+      scene.cloud.antialiased = marked || i == 1;
       save_scene(path / "d.sog", scene, {}, SceneFormat::kSog);
       if (i != 3) unzip(path / "d.sog", path / (i == 4 ? "env" : fs::path(names[i]).parent_path()));
     }
     Scene last = scene_at(60, 120, 2);
-    last.antialiased = marked;
+    last.cloud.antialiased = marked;
     save_scene(path / "d.sog", last, {}, SceneFormat::kSog);
     index = {{"version", 1},
              {"count", 1},
@@ -140,10 +140,30 @@ TEST_CASE(
   CHECK(scene.path == made.path / "lod-meta.json");
   CHECK(scene.cloud.sh_degree == 2);
   CHECK(scene.dropped == 0);
-  CHECK_FALSE(scene.antialiased);
+  CHECK_FALSE(scene.cloud.antialiased);
   CHECK(mentions(scene.left_out, {"Coarser levels", "finest"}));
   check_taken(scene, made.path, kTaken);
   tbb::task_arena(1).execute([&] { check_equal(load_scene(made.path).cloud, scene.cloud); });
+}
+
+TEST_CASE("streamed sog: a coarser level where a leaf has one, else the coarsest that it has") {
+  const Streamed made;
+  LoadOptions options;
+  options.lod = 2;
+  const Scene scene = load_scene(made.write_index(made.index), options);
+  check_taken(scene, made.path,
+              {{"1_0/meta.json", 0, 40},
+               {"0_1/meta.json", 0, 300},
+               {"0_0/meta.json", 450, 100},
+               {"1_0/meta.json", 40, 60},
+               {"env/meta.json", 0, 50}});
+  CHECK(mentions(scene.left_out, {"level of detail 2"}));
+  options.lod = 1;
+  CHECK(load_scene(made.path, options).cloud.size() == 40 + 300 + 100 + 100 + 50);
+  options.lod = 100;
+  CHECK(load_scene(made.path, options).cloud.size() == 40 + 300 + 50 + 60 + 50);
+  CHECK_THROWS_WITH_AS(load_scene(made.path / "d.sog", options), doctest::Contains("no levels of detail"),
+                       Error);
 }
 
 TEST_CASE(
@@ -155,7 +175,7 @@ TEST_CASE(
   write(made.path / "renamed.json", old.dump(2));
   const Scene scene = load_scene(made.path / "renamed.json");
   check_taken(scene, made.path, {kTaken.begin(), kTaken.end() - 1});
-  CHECK(scene.antialiased);
+  CHECK(scene.cloud.antialiased);
 
   json one = made.index;
   one["tree"] = leaf({{"0", level(2, 7, 90)}});

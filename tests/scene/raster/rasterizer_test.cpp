@@ -71,6 +71,22 @@ TEST_CASE("the low-pass is what the options say, by hand: a point's variance is 
   }
 }
 
+TEST_CASE("antialiased: what the low-pass adds to the area is taken off the opacity, by hand") {
+  GaussianCloud cloud =
+      single_splat(2, 0.01f, 0.8f, glm::vec3(1));  // 0.5 px: Sigma2 0.25, with the low-pass 0.55
+  cloud.antialiased = true;
+  const RasterOutput out = rasterize(cloud, axis_camera(), everything());
+  const RasterOutput slow = rasterize_reference(cloud, axis_camera(), everything());
+  for (const int off : {0, 1}) {
+    const double seen = 0.8 * 0.25 / 0.55 * std::exp(-0.5 * off * off / 0.55);
+    CHECK(out.alpha.at(16 + off, 16) == doctest::Approx(seen).epsilon(1e-4));
+    CHECK(slow.alpha.at(16 + off, 16) == doctest::Approx(seen).epsilon(1e-4));
+  }
+  cloud.scale[0] = glm::vec3(1e-6f);  // a point would take an opacity below 1/255
+  CHECK(rasterize(cloud, axis_camera(), everything()).alpha.at(16, 16) == 0);
+  CHECK(rasterize_reference(cloud, axis_camera(), everything()).alpha.at(16, 16) == 0);
+}
+
 TEST_CASE("a wide low-pass reaches into the picture from beside it") {
   RasterOptions options = everything();
   options.low_pass_px2 = 16;
@@ -103,9 +119,10 @@ TEST_CASE("two splats: the nearer one hides the other, alpha clamps at 0.99") {
 }
 
 TEST_CASE("tile rasteriser agrees with the scalar reference") {
-  for (const int degree : {0, 1, 2, 3}) {
+  for (const int degree : {0, 1, 2, 3, 4}) {  // 4: of degree 0, antialiased
     CAPTURE(degree);
-    const GaussianCloud cloud = random_cloud(3000, 7, degree, 0.15f);
+    GaussianCloud cloud = random_cloud(3000, 7, degree % 4, 0.15f);
+    cloud.antialiased = degree == 4;
     const Camera camera = front_camera();
     const Mask mask = left_half(camera);
     MaskedSums fast(cloud.size()), slow(cloud.size());
