@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "app/cli/work_cut.h"
-#include "app/console/camera_options.h"
 #include "app/work/work_file.h"
 #include "headless_app.h"
+#include "scene/camera/camera_names.h"
 #include "segment/masks/mask_tools.h"
 
 namespace splatcut::testing {

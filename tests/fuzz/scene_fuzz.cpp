@@ -1,4 +1,5 @@
 // Readers of the layer `scene`: scenes, cameras, pictures.
+#include "core/picture_file.h"
 #include "core/png_file.h"
 #include "fuzz.h"
 #include "scene/camera/camera_file.h"
@@ -123,6 +124,12 @@ void write_picture(const char* name, int width) {
   const fs::path file = place().write("a.png", bytes);
   read_png_rgb(file);
   read_png_grey(file);
+}
+
+[[maybe_unused]] void fuzz_picture(std::string_view bytes) {
+  const fs::path file = place().write("a", bytes);
+  picture_size(file);
+  read_picture(file);
 }
 
 }  // namespace

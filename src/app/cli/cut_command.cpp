@@ -147,10 +147,14 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   warn(chosen.warning, common.quiet);
   const CutSettings settings = settings_of(args);
   if (input.segmenter) end_progress();  // the program prints to the same place
-  std::string warning;
-  CutRequest request = request_of(input, args.camera, scene->cloud, job, &chosen, &warning);
+  RequestRemarks remarks;
+  CutRequest request = request_of(input, args.camera, scene->cloud, job, &chosen, &remarks);
   request.part_step = args.scale;
-  warn(warning, common.quiet);
+  if (!remarks.understood.empty() && !common.quiet) {
+    end_progress();
+    to_stderr(remarks.understood + "\n");
+  }
+  for (const std::string& remark : remarks.warnings) warn(remark, common.quiet);
   stop_if_cancelled(job, "splatcut cut");
   for (const StrokedView& view : request.strokes) check_inside(view.strokes, view.camera);
   const ManyObjects many{*scene, chosen, args.camera, settings, args.scale, input.objects, args.edges};
@@ -167,6 +171,8 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
     end_progress();
     stop_if_cancelled(job, "splatcut cut");
     result.stages.push_back({"edges", object.ms()});
+    if (std::ranges::all_of(result.labels, [](std::uint8_t l) { return l != 0; }))
+      warn("the cut takes the whole scene: rest.ply holds no Gaussians", common.quiet);
     json = report_json(*scene, result, said, ms_since_start());
     json["edges"] = object.report();
     write_cutout_scenes(folder, *scene, result.labels, object);

@@ -121,7 +121,9 @@ void write_object_files(const OutputFolder& folder, const Scene& scene, const st
 void write_cutout_scenes(const OutputFolder& folder, const Scene& scene,
                          const std::vector<std::uint8_t>& labels, const CutoutObject& object) {
   object.save(folder.file("object.ply"));
-  save_scene(folder.file("rest.ply"), scene, inverted(labels), SceneFormat::kPly);
+  SaveOptions rest;
+  rest.may_be_empty = true;
+  save_scene(folder.file("rest.ply"), scene, inverted(labels), SceneFormat::kPly, rest);
   write_labels(folder.file("labels.u8"), scene, labels);
 }
 

@@ -38,7 +38,8 @@ void write_labels(const std::filesystem::path& path, const Scene& scene,
 void write_object_files(const OutputFolder& folder, const Scene& scene, const std::string& name,
                         const CutoutObject& object, const std::vector<std::uint8_t>& labels);
 
-// object.ply, rest.ply (for .ply sources rows unchanged), labels.u8 in file order.
+// object.ply, rest.ply (for .ply sources rows unchanged; without Gaussians where all are the object's),
+// labels.u8 in file order.
 void write_cutout_scenes(const OutputFolder& folder, const Scene& scene,
                          const std::vector<std::uint8_t>& labels, const CutoutObject& object);
 

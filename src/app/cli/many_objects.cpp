@@ -9,6 +9,7 @@
 #include "app/console/seeds_file.h"
 #include "app/document/export_plan.h"
 #include "core/error.h"
+#include "scene/camera/camera_names.h"
 
 namespace splatcut {
 
@@ -166,7 +167,9 @@ json cut_many_objects(const ManyObjects& in, Session* session, const OutputFolde
   std::vector<std::uint8_t> rest(owner.size());
   std::ranges::transform(owner, rest.begin(),
                          [](std::uint8_t o) { return static_cast<std::uint8_t>(o == 0); });
-  save_scene(folder.file("rest.ply"), scene, rest, SceneFormat::kPly);
+  SaveOptions of_rest;
+  of_rest.may_be_empty = true;
+  save_scene(folder.file("rest.ply"), scene, rest, SceneFormat::kPly, of_rest);
   write_cutout_picture(folder.file("rest.png"), scene.cloud, in.chosen.camera, rest);
   write_labels(folder.file("labels.u8"), scene, owner);
   return {{"objects", entries},

@@ -1,6 +1,9 @@
 #include "app/cli/object_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "app/console/mask_folder.h"
 #include "app/console/seeds_file.h"
@@ -22,6 +25,19 @@ void read_seeds(const std::filesystem::path& file, ObjectInput* input) {
   input->choice = choice_from_json(seeds, where);
 }
 
+// A pixel that is said to be both; empty for none.
+std::string contradiction(const Strokes& strokes) {
+  for (std::size_t i = 0; i < strokes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Stroke &a = strokes[i], &b = strokes[j];
+      if (a.label == b.label || a.points_px.size() != 1 || b.points_px.size() != 1) continue;
+      if (glm::floor(a.points_px[0]) != glm::floor(b.points_px[0])) continue;
+      return fmt::format("the pixel {:.0f},{:.0f} is said to be both object and rest",
+                         std::floor(a.points_px[0].x), std::floor(a.points_px[0].y));
+    }
+  return {};
+}
+
 }  // namespace
 
 void ObjectOptions::add_to(CLI::App& command) {
@@ -30,9 +46,10 @@ void ObjectOptions::add_to(CLI::App& command) {
   CLI::Option* by_seeds = command.add_option("--seeds", seeds,
                                              "JSON file with clicks and scribbles, or with several objects "
                                              "of them: what two claim is the later one's");
-  CLI::Option* by_mask = command.add_option("--mask", mask, "PNG mask of the reference view, white = object");
+  CLI::Option* by_mask = command.add_option(
+      "--mask", mask, "Mask of the reference view: white, alpha, any colour on black, ids (PNG, JPEG, WebP)");
   CLI::Option* by_masks = command.add_option(
-      "--masks", masks_folder, "Folder with a PNG mask per camera of --cameras, NAME.png or NAME.jpg.png");
+      "--masks", masks_folder, "Folder with a mask per camera of --cameras, NAME.png or NAME.jpg.png");
   CLI::Option* by_words = command.add_option_function<std::string>(
       "--text",
       [this](const std::string& words) {
@@ -73,10 +90,12 @@ ObjectInput ObjectOptions::read(const CameraOptions& camera) const {
 }
 
 CutRequest request_of(const ObjectInput& input, const CameraOptions& camera, const GaussianCloud& cloud,
-                      const Job& job, ChosenCamera* chosen, std::string* warning) {
+                      const Job& job, ChosenCamera* chosen, RequestRemarks* remarks) {
   CutRequest request;
   request.choice = input.choice;
   if (!input.strokes.empty()) request.strokes = {{chosen->camera, input.strokes}};
+  if (std::string both = contradiction(input.strokes); !both.empty())
+    remarks->warnings.push_back(std::move(both));
   if (!input.mask.empty()) request.first_mask = {chosen->camera, read_given_mask(input.mask, chosen->camera)};
   if (input.segmenter)
     request.first_mask = {chosen->camera, mask_from_text(*input.segmenter, cloud, chosen->camera, job)};
@@ -88,7 +107,8 @@ CutRequest request_of(const ObjectInput& input, const CameraOptions& camera, con
   chosen->camera = found.reference.camera;
   request.first_mask = std::move(found.reference);
   request.masks = std::move(found.others);
-  *warning = found.warning;
+  remarks->understood = found.how;
+  remarks->warnings.insert(remarks->warnings.end(), found.warnings.begin(), found.warnings.end());
   return request;
 }
 

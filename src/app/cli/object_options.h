@@ -40,9 +40,15 @@ struct ObjectOptions {
   ObjectInput read(const CameraOptions& camera) const;
 };
 
-// The request for one object. With a folder of masks the reference may become another camera; `warning` is
-// then a sentence about that. Throws Error for masks that cannot be used. Cancelled: incomplete.
+// Sentences on a request.
+struct RequestRemarks {
+  std::string understood;             // how the masks of a folder were, or empty
+  std::vector<std::string> warnings;  // on what was left out or contradicts itself
+};
+
+// The request for one object. With a folder of masks the reference may become another camera. Throws Error
+// for masks that cannot be used. Cancelled: incomplete.
 CutRequest request_of(const ObjectInput& input, const CameraOptions& camera, const GaussianCloud& cloud,
-                      const Job& job, ChosenCamera* chosen, std::string* warning);
+                      const Job& job, ChosenCamera* chosen, RequestRemarks* remarks);
 
 }  // namespace splatcut

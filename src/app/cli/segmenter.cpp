@@ -138,15 +138,15 @@ void check_end(const ProgramEnd& end, const std::string& program) {
                 "What it printed says why; try its command by hand");
 }
 
-Image<std::uint8_t> read_answer(const fs::path& mask, const std::string& program) {
+ReadMask read_answer(const fs::path& mask, const std::string& program) {
   std::error_code ignored;
   if (!fs::exists(mask, ignored))
     throw Error(program, "the segmenter wrote no mask",
                 "It must write a PNG to the path it is given as {mask}");
   try {
-    return read_png_grey(mask);
+    return read_mask(mask);
   } catch (const Error&) {
-    throw Error(program, "the segmenter's mask is not a whole PNG",
+    throw Error(program, "the segmenter's mask is not a whole picture",
                 "It must write a PNG to the path it is given as {mask}");
   }
 }
@@ -183,7 +183,11 @@ Mask mask_from_text(const Segmenter& segmenter, const GaussianCloud& cloud, cons
   if (job.cancelled()) return {};
   const std::string& program = words.front();
   check_end(end, program);
-  return checked_mask(read_answer(mask, program), camera, program);
+  ReadMask answer = read_answer(mask, program);
+  if (answer.how.empty())
+    throw Error(program, "the segmenter found nothing: its mask is black",
+                "Try other words, or another view");
+  return checked_mask(std::move(answer), camera, program);
 }
 
 }  // namespace splatcut

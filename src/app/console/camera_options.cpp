@@ -4,12 +4,13 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
+#include "app/console/command_line.h"
 #include "core/error.h"
 #include "scene/camera/camera_file.h"
+#include "scene/camera/camera_names.h"
 #include "scene/raster/first_view.h"
 #include "scene/raster/guessed_up.h"
 
@@ -37,6 +38,27 @@ Camera first_view(const GaussianCloud& cloud, const glm::vec3& up, float fov_y_r
   return resized(better_first_view(cloud, bounds, up, all).value_or(all), width, height);
 }
 
+// Over a sample of both.
+bool any_sees(const std::vector<Camera>& cameras, const GaussianCloud& cloud) {
+  constexpr std::size_t kCameras = 64, kGaussians = 1000;
+  const std::size_t camera_step = (cameras.size() + kCameras - 1) / kCameras,
+                    step = (cloud.size() + kGaussians - 1) / kGaussians;
+  for (std::size_t c = 0; c < cameras.size(); c += camera_step)
+    for (std::size_t g = 0; g < cloud.size(); g += step) {
+      const glm::vec3 at = cameras[c].camera_from_world(cloud.position[g]);
+      if (!(at.z > 0)) continue;
+      const glm::vec2 px = cameras[c].pixel_from_camera(at);
+      if (px.x >= 0 && px.y >= 0 && px.x < static_cast<float>(cameras[c].width_px) &&
+          px.y < static_cast<float>(cameras[c].height_px))
+        return true;
+    }
+  return false;
+}
+
+void add_sentence(const std::string& sentence, std::string* text) {
+  if (!sentence.empty()) *text += (text->empty() ? "" : ". ") + sentence;
+}
+
 // A guess is no reason to refuse a view straight down.
 glm::vec3 up_for(const CameraOptions& options, const glm::vec3& forward, const glm::vec3& up) {
   constexpr float kParallel = 1e-3f;
@@ -55,8 +77,7 @@ void CameraOptions::add_to(CLI::App& command) {
   command.add_option("--camera-target", target, "Point in the middle of the picture x,y,z");
   command.add_option("--camera-up", up,
                      "Up direction x,y,z (without it: that of the cameras, or as the scene seems to stand)");
-  command.add_option("--camera-fov", fov_y_deg, "Vertical field of view, degrees")
-      ->check(CLI::Range(1.0, 170.0));
+  command.add_option("--camera-fov", fov_y_deg, "Vertical field of view, degrees")->check(within(1, 170));
   command.add_option("--size", size, "Picture size WxH");
 }
 
@@ -69,25 +90,20 @@ glm::vec3 parse_vec3(const std::string& text, const std::string& where) {
   return v;
 }
 
-const Camera& find_camera(const std::vector<Camera>& cameras, const std::string& name,
-                          const std::string& where) {
-  const auto named = std::ranges::find(cameras, name, &Camera::name);
-  if (named != cameras.end()) return *named;
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
-  if (error == std::errc{} && end == name.data() + name.size() && index < cameras.size())
-    return cameras[index];
-  if (cameras.empty()) throw Error(where, fmt::format("names the camera \"{}\", but has no cameras", name));
-  throw Error(where, fmt::format("has no camera \"{}\"", name),
-              fmt::format("It has {}, the first is \"{}\"", cameras.size(), cameras.front().name));
-}
-
 ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cloud) {
   ChosenCamera chosen;
+  if (!options.camera.empty() && options.cameras.empty())
+    throw Error("--camera " + options.camera, "names a camera, but none are given",
+                "Give them with --cameras");
   if (!options.cameras.empty()) {
     chosen.given = load_cameras(options.cameras, &chosen.warning);
     if (chosen.given.empty()) throw Error(options.cameras.string(), "holds no camera");
     chosen.up_world = common_up(chosen.given);
+    if (!any_sees(chosen.given, cloud))
+      add_sentence(
+          options.cameras.string() +
+              ": its cameras see nothing of the scene: they may be of another run, or the scene was moved",
+          &chosen.warning);
   }
   if (!options.up.empty())
     chosen.up_world = parse_vec3(options.up, "--camera-up");

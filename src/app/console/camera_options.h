@@ -36,9 +36,6 @@ struct ChosenCamera {
 // Throws Error for a camera that cannot be made.
 ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cloud);
 
-const Camera& find_camera(const std::vector<Camera>& cameras, const std::string& name,
-                          const std::string& where);
-
 glm::vec3 parse_vec3(const std::string& text, const std::string& where);
 
 }  // namespace splatcut

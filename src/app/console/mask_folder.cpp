@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
+#include "app/console/mask_file.h"
 #include "core/error.h"
 #include "core/lower_case.h"
-#include "core/png_file.h"
+#include "scene/camera/camera_names.h"
 #include "segment/masks/mask_tools.h"
 
 namespace splatcut {
@@ -17,68 +19,64 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string file_part(const std::string& name) {
-  return fs::path(name).filename().string();
+bool is_hidden(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name.starts_with('.') || name == "__MACOSX";
 }
-
-}  // namespace
-
-std::string without_picture_ending(const std::filesystem::path& name) {
-  constexpr std::array kEndings = {".png",  ".jpg", ".jpeg", ".tif", ".tiff",
-                                   ".webp", ".bmp", ".exr",  ".heic"};
-  if (std::ranges::find(kEndings, lower_case(name.extension().string())) == kEndings.end())
-    return name.string();
-  return (name.parent_path() / name.stem()).string();
-}
-
-std::vector<std::size_t> cameras_named(const std::vector<Camera>& cameras, const std::string& name) {
-  std::vector<std::size_t> whole, file_only;
-  for (std::size_t c = 0; c < cameras.size(); ++c) {
-    const std::string camera = without_picture_ending(cameras[c].name);
-    if (camera.empty()) continue;
-    if (camera == name) whole.push_back(c);
-    if (file_part(camera) == file_part(name)) file_only.push_back(c);
-  }
-  return whole.empty() ? file_only : whole;
-}
-
-namespace {
 
 std::vector<fs::path> masks_in(const fs::path& folder) {
+  constexpr std::array kEndings = {".png", ".jpg", ".jpeg", ".webp"};
   std::error_code failure;
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator at(folder, failure), end; !failure && at != end;
-       at.increment(failure))
-    if (lower_case(at->path().extension().string()) == ".png" && at->is_regular_file(failure))
+       at.increment(failure)) {
+    const bool folder_here = at->is_directory(failure);
+    if (is_hidden(at->path())) {
+      if (folder_here) at.disable_recursion_pending();
+    } else if (std::ranges::find(kEndings, lower_case(at->path().extension().string())) != kEndings.end() &&
+               at->is_regular_file(failure)) {
       files.push_back(at->path());
+    }
+  }
   if (failure) throw Error(folder.string(), "cannot be read as a folder (" + failure.message() + ")");
   if (files.empty())
-    throw Error(folder.string(), "holds no masks", "Put one PNG per camera there, named after it: NAME.png");
+    throw Error(folder.string(), "holds no masks",
+                "Put one PNG, JPEG or WebP per camera there, named after it: NAME.png");
   std::ranges::sort(files);
   return files;
 }
 
-// The mask of each camera that has one.
-std::map<std::size_t, fs::path> matched(const std::vector<Camera>& cameras, const fs::path& folder) {
+// The mask of each camera that has one, and the masks that have no camera.
+struct Matches {
   std::map<std::size_t, fs::path> mask_of;
+  std::vector<fs::path> others;
+};
+
+Matches matched(const std::vector<Camera>& cameras, const fs::path& folder) {
+  Matches matches;
   for (const fs::path& file : masks_in(folder)) {
     const fs::path relative = file.lexically_relative(folder);
     const std::string name = without_picture_ending(relative.parent_path() / relative.stem());
-    const std::vector<std::size_t> found = cameras_named(cameras, name);
-    if (found.empty())
-      throw Error(file.string(), fmt::format("no camera is called \"{}\"", name),
-                  fmt::format("There are {}, the first is \"{}\"", cameras.size(), cameras.front().name));
+    const std::vector<std::size_t> found = cameras_of_mask(cameras, name);
+    if (found.empty()) {
+      matches.others.push_back(relative);
+      continue;
+    }
     if (found.size() > 1)
       throw Error(file.string(), fmt::format("{} cameras are called \"{}\"", found.size(), name),
                   "Give the pictures names that differ");
-    const auto [at, first] = mask_of.emplace(found.front(), file);
+    const auto [at, first] = matches.mask_of.emplace(found.front(), file);
     if (!first)
       throw Error(file.string(),
                   fmt::format("the camera \"{}\" has another mask, {}", cameras[found.front()].name,
                               at->second.string()),
                   "Leave one of them");
   }
-  return mask_of;
+  if (matches.mask_of.empty())
+    throw Error((folder / matches.others.front()).string(),
+                fmt::format("no camera is called \"{}\"", matches.others.front().stem().string()),
+                fmt::format("There are {}, the first is \"{}\"", cameras.size(), cameras.front().name));
+  return matches;
 }
 
 // Hundreds of masks of large photographs are not kept whole: views are looked at much smaller.
@@ -90,48 +88,97 @@ Mask reduced(Mask mask) {
       std::max(1, static_cast<int>(static_cast<long>(mask.height()) * kKeptWidth / mask.width())));
 }
 
+bool same_aspect(const Mask& mask, const Camera& camera) {
+  const std::int64_t across = std::int64_t{mask.width()} * camera.height_px,
+                     down = std::int64_t{mask.height()} * camera.width_px;
+  return std::abs(across - down) <=
+         std::max({mask.width(), mask.height(), camera.width_px, camera.height_px});  // a pixel of rounding
+}
+
+Mask in_size_of(Mask mask, const Camera& camera, const std::string& where) {
+  if (mask.width() == camera.width_px && mask.height() == camera.height_px) return mask;
+  if (!same_aspect(mask, camera))
+    throw Error(where,
+                fmt::format("the mask is {}x{} pixels, the camera's picture {}x{}", mask.width(),
+                            mask.height(), camera.width_px, camera.height_px),
+                "Give --size, or another mask");
+  return resized_mask(mask, camera.width_px, camera.height_px);
+}
+
+// How the masks of a folder were understood, one sentence for all.
+class Understood {
+ public:
+  void add(const ReadMask& mask, const Camera& camera) {
+    if (mask.how.empty())
+      ++black_;
+    else
+      how_.insert(mask.how);
+    if (mask.mask.width() != camera.width_px)
+      scales_.insert(
+          fmt::format("scaled by {:.3g}", static_cast<double>(camera.width_px) / mask.mask.width()));
+  }
+  std::string sentence(const Matches& matches) const {
+    std::string text = fmt::format("{} of {} masks have a camera: {}", matches.mask_of.size(),
+                                   matches.mask_of.size() + matches.others.size(), fmt::join(how_, " or "));
+    for (const std::string& scale : scales_) text += ", " + scale;
+    if (black_ > 0) text += fmt::format(", {} black: there all is rest", black_);
+    return text;
+  }
+
+ private:
+  std::set<std::string> how_, scales_;
+  std::size_t black_ = 0;
+};
+
+std::string without_camera(const Matches& matches) {
+  if (matches.others.empty()) return {};
+  return fmt::format("{} of the masks have no camera and are left out, \"{}\" among them",
+                     matches.others.size(), matches.others.front().string());
+}
+
 }  // namespace
 
-Mask checked_mask(Image<std::uint8_t> grey, const Camera& camera, const std::string& where) {
-  if (grey.width() != camera.width_px || grey.height() != camera.height_px)
-    throw Error(where,
-                fmt::format("the mask is {}x{} pixels, the camera's picture {}x{}", grey.width(),
-                            grey.height(), camera.width_px, camera.height_px),
-                "Give --size, or another mask");
-  constexpr int kBright = 128;
-  const int brightest = *std::ranges::max_element(grey.pixels());
-  if (brightest < kBright)
-    throw Error(where,
-                fmt::format("the mask is empty: white is the object, and its brightest pixel is {} of 255",
-                            brightest),
-                "Give a mask with white in it, or none for this camera");
-  for (auto& m : grey.pixels()) m = m >= kBright ? kMaskObject : 0;
-  return grey;
+Mask checked_mask(ReadMask read, const Camera& camera, const std::string& where) {
+  if (read.how.empty())
+    throw Error(where, "the mask is empty: all of it is black",
+                "Give a mask in which the object is white, or none for this camera");
+  return in_size_of(std::move(read.mask), camera, where);
 }
 
 Mask read_given_mask(const fs::path& path, const Camera& camera) {
-  return checked_mask(read_png_grey(path), camera, path.string());
+  return checked_mask(read_mask(path), camera, path.string());
 }
 
 MaskFolder load_mask_folder(const std::vector<Camera>& cameras, const MaskFolderOptions& options) {
-  const std::map<std::size_t, fs::path> mask_of = matched(cameras, options.folder);
-  const auto wanted = std::ranges::find_if(mask_of, [&](const auto& entry) {
-    return options.reference && cameras[entry.first].name == *options.reference;
-  });
-  const std::size_t reference = wanted != mask_of.end() ? wanted->first : mask_of.begin()->first;
+  const Matches matches = matched(cameras, options.folder);
   MaskFolder found;
-  if (options.reference && wanted == mask_of.end())
-    found.warning = fmt::format("the camera \"{}\" has no mask, \"{}\" is the reference", *options.reference,
-                                cameras[reference].name);
-  for (const auto& [index, file] : mask_of) {
+  Understood understood;
+  std::vector<GivenView> views;
+  std::optional<std::size_t> reference;
+  for (const auto& [index, file] : matches.mask_of) {
     const Camera camera =
         options.size_px ? resized(cameras[index], options.size_px->x, options.size_px->y) : cameras[index];
-    Mask mask = read_given_mask(file, camera);
-    if (index == reference)
-      found.reference = {camera, std::move(mask)};
-    else
-      found.others.push_back({camera, reduced(std::move(mask))});
+    ReadMask read = read_mask(file);
+    understood.add(read, camera);
+    const bool wanted = options.reference && cameras[index].name == *options.reference;
+    if (!read.how.empty() && (!reference || wanted)) reference = views.size();
+    views.push_back({camera, in_size_of(std::move(read.mask), camera, file.string())});
+    const bool kept_whole = reference == views.size() - 1;
+    if (!kept_whole) views.back().mask = reduced(std::move(views.back().mask));
   }
+  if (!reference)
+    throw Error(options.folder.string(), "all masks are black",
+                "Give at least one mask in which the object is white");
+  found.reference = std::move(views[*reference]);
+  views.erase(views.begin() + static_cast<std::ptrdiff_t>(*reference));
+  for (GivenView& view : views) view.mask = reduced(std::move(view.mask));
+  found.others = std::move(views);
+  found.how = understood.sentence(matches);
+  if (std::string left_out = without_camera(matches); !left_out.empty())
+    found.warnings.push_back(std::move(left_out));
+  if (options.reference && found.reference.camera.name != *options.reference)
+    found.warnings.push_back(fmt::format("the camera \"{}\" has no mask, \"{}\" is the reference",
+                                         *options.reference, found.reference.camera.name));
   return found;
 }
 

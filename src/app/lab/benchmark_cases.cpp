@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/png_file.h"
 #include "scene/camera/camera_file.h"
+#include "scene/camera/camera_names.h"
 #include "scene/raster/guessed_up.h"
 
 namespace splatcut {

@@ -8,6 +8,7 @@
 #include "app/console/mask_folder.h"
 #include "core/error.h"
 #include "core/lower_case.h"
+#include "scene/camera/camera_names.h"
 #include "scene/formats/scene_formats.h"
 
 namespace splatcut {

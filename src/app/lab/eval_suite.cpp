@@ -11,6 +11,7 @@
 #include "core/mapped_file.h"
 #include "core/png_file.h"
 #include "scene/camera/camera_file.h"
+#include "scene/camera/camera_names.h"
 #include "scene/raster/guessed_up.h"
 
 namespace splatcut {

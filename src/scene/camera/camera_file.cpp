@@ -4,14 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <fstream>
+#include <cstdlib>
+#include <optional>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/json_file.h"
+#include "core/lower_case.h"
 #include "core/mapped_file.h"
+#include "core/picture_file.h"
 #include "scene/camera/camera_formats.h"
+#include "scene/camera/camera_names.h"
 
 namespace splatcut {
 
@@ -49,34 +54,61 @@ Camera inria_camera(const json& entry) {
   return camera;
 }
 
-// Width and height in the first chunk of a PNG; zeros when there is none.
-glm::ivec2 png_size(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  unsigned char b[24] = {};
-  if (!file.read(reinterpret_cast<char*>(b), sizeof b) || b[1] != 'P' || b[2] != 'N' || b[3] != 'G')
-    return {0, 0};
-  const auto number = [&](int at) { return b[at] << 24 | b[at + 1] << 16 | b[at + 2] << 8 | b[at + 3]; };
-  return {number(16), number(20)};
+// A value of the frame, or else of the whole file. Some tools write numbers as text, and null for none.
+std::optional<double> lens_number(const json& frame, const json& file, const char* name) {
+  for (const json* part : {&frame, &file}) {
+    const auto found = part->find(name);
+    if (found == part->end() || found->is_null()) continue;
+    if (!found->is_string()) return found->get<double>();
+    const auto& text = found->get_ref<const std::string&>();
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end) throw std::domain_error(fmt::format("\"{}\" is no number: {}", name, text));
+    return number;
+  }
+  return {};
+}
+float lens_value(const json& frame, const json& file, const char* name, float otherwise) {
+  return static_cast<float>(lens_number(frame, file, name).value_or(otherwise));
 }
 
-// A value of the frame, or else of the whole file.
-float lens_value(const json& frame, const json& file, const char* name, float otherwise) {
-  return frame.value(name, file.value(name, otherwise));
+// Throws what each_entry() says of the frame where its lens is far from a pinhole.
+void check_model(const json& frame, const json& file) {
+  const json named = frame.value("camera_model", file.value("camera_model", json()));
+  const std::string model = named.is_string() ? lower_case(named.get<std::string>()) : "";
+  const json fisheye = frame.value("is_fisheye", file.value("is_fisheye", json()));
+  const bool known_far =
+      std::ranges::any_of(std::array{"fisheye", "equirect", "ortho", "spher", "pano", "cylind", "omni"},
+                          [&](const char* part) { return model.find(part) != model.npos; });
+  if (known_far || (fisheye.is_boolean() && fisheye.get<bool>()))
+    throw std::domain_error(
+        fmt::format("the model {} is not close to a pinhole: undistort the pictures first",
+                    model.empty() ? "\"is_fisheye\"" : named.get<std::string>()));
+}
+
+// The size of the frame's picture, beside the file.
+glm::ivec2 size_of_picture(const fs::path& beside, const fs::path& picture) {
+  std::error_code ignored;
+  for (const char* ending : {"", ".png", ".jpg", ".jpeg", ".JPG"}) {
+    const fs::path path = beside / (picture.string() + ending);
+    if (!fs::is_regular_file(path, ignored)) continue;
+    if (const auto size = picture_size(path)) return *size;
+  }
+  throw std::domain_error("\"w\" and \"h\" are missing and " + (beside / picture).string() +
+                          " is no PNG or JPEG");
 }
 
 Camera transforms_camera(const fs::path& path, const json& file, const json& frame) {
   Camera camera;
-  const fs::path picture = frame.value("file_path", std::string());
-  camera.name = picture.stem().string();
+  check_model(frame, file);
+  std::string picture = frame.value("file_path", std::string());
+  std::ranges::replace(picture, '\\', '/');
+  camera.name = picture;
   camera.width_px = static_cast<int>(lens_value(frame, file, "w", 0));
   camera.height_px = static_cast<int>(lens_value(frame, file, "h", 0));
   if (camera.width_px == 0 ||
       camera.height_px == 0) {  // NeRF's synthetic scenes leave the size to the pictures
-    fs::path png = path.parent_path() / picture;
-    if (!png.has_extension()) png += ".png";
-    const glm::ivec2 size = png_size(png);
-    if (size.x <= 0)
-      throw std::domain_error("\"w\" and \"h\" are missing and " + png.string() + " is no PNG");
+    const glm::ivec2 size = size_of_picture(path.parent_path(), picture);
     camera.width_px = size.x;
     camera.height_px = size.y;
   }
@@ -99,41 +131,49 @@ Camera transforms_camera(const fs::path& path, const json& file, const json& fra
   return camera;
 }
 
-// One camera per entry of the list; what is wrong with an entry is said with its number.
+// One camera per entry of the list. What is wrong with an entry is said with its number; it is thrown where
+// no entry is right.
 template <class Read>
-std::vector<Camera> each_entry(const fs::path& path, const json& list, const char* kind, Read read) {
+std::vector<Camera> each_entry(const fs::path& path, const json& list, const char* kind, Read read,
+                               CameraRemarks* remarks) {
   std::vector<Camera> cameras;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string entry = fmt::format("{} {}", kind, i);
     try {
       cameras.push_back(read(list[i]));
+      check_lens(path, entry, cameras.back());
+      continue;
     } catch (const json::exception& error) {
-      throw Error(path.string(), fmt::format("{}: {}", entry, fault_of(error)));
+      remarks->leave_out(Error(path.string(), fmt::format("{}: {}", entry, fault_of(error))));
     } catch (const std::domain_error& error) {
-      throw Error(path.string(), fmt::format("{}: {}", entry, error.what()));
+      remarks->leave_out(Error(path.string(), fmt::format("{}: {}", entry, error.what())));
+    } catch (const Error& error) {
+      remarks->leave_out(error);
+      cameras.pop_back();
     }
-    check_lens(path, entry, cameras.back());
   }
-  if (cameras.empty()) throw Error(path.string(), "holds no cameras");
+  if (cameras.empty()) remarks->refuse(path);
+  name_after_pictures(&cameras);
   return cameras;
 }
 
 // The frame's or the file's k1 k2 p1 p2 k3.
 Distortion distortion_of(const json& frame, const json& file) {
-  const auto value = [&](const char* name) { return frame.value(name, file.value(name, 0.0)); };
+  const auto value = [&](const char* name) { return lens_number(frame, file, name).value_or(0); };
   return {value("k1"), value("k2"), value("p1"), value("p2"), value("k3")};
 }
 
-std::vector<Camera> load_json_cameras(const fs::path& path, double& largest_shift_px) {
+std::vector<Camera> load_json_cameras(const fs::path& path, CameraRemarks* remarks) {
   const json file = json_of_regular_file(path);
-  if (file.is_array()) return each_entry(path, file, "camera", inria_camera);
-  if (file.is_object() && file.contains("frames") && file["frames"].is_array())
-    return each_entry(path, file["frames"], "frame", [&](const json& frame) {
+  if (file.is_array()) return each_entry(path, file, "camera", inria_camera, remarks);
+  if (file.is_object() && file.contains("frames") && file["frames"].is_array()) {
+    const auto read = [&](const json& frame) {
       const Camera camera = transforms_camera(path, file, frame);
-      const double shift_px = corner_shift_px(camera, distortion_of(frame, file));
-      largest_shift_px = std::max(largest_shift_px, shift_px);
+      remarks->add_shift(corner_shift_px(camera, distortion_of(frame, file)));
       return camera;
-    });
+    };
+    return each_entry(path, file["frames"], "frame", read, remarks);
+  }
   throw Error(path.string(), "is neither a list of cameras (Inria) nor an object with \"frames\" (NeRF)");
 }
 
@@ -181,40 +221,83 @@ double corner_shift_px(const Camera& camera, const Distortion& d) {
 
 namespace {
 
-std::vector<Camera> load_any_cameras(const fs::path& path, double& largest_shift_px) {
+// Where COLMAP's model lies in the folders of a capture, as COLMAP, nerfstudio and Inria's scripts lay it
+// out.
+constexpr std::array kColmapFolders = {"",
+                                       "sparse/0",
+                                       "sparse",
+                                       "colmap/sparse/0",
+                                       "colmap/sparse",
+                                       "dense/sparse",
+                                       "dense/0/sparse",
+                                       "undistorted/sparse",
+                                       "distorted/sparse/0"};
+
+// What artists have, whose programs write what is read as well.
+void refuse_other_programs(const fs::path& path) {
+  const std::string ending = lower_case(path.extension().string());
+  if (ending == ".csv")
+    throw Error(path.string(), "is a list of cameras (RealityCapture), which is not read",
+                "Export COLMAP there: \"Internal/External camera parameters\" for COLMAP, as text");
+  if (ending == ".xml")
+    throw Error(path.string(), "holds cameras of Metashape, which are not read",
+                "Export COLMAP there: File > Export > Export Cameras, type Colmap");
+}
+
+std::vector<Camera> load_any_cameras(const fs::path& path, CameraRemarks* remarks) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) throw Error(path.string(), "there is no such file or folder");
   if (fs::is_directory(path, ignored)) {
-    for (const fs::path& folder : {path, path / "sparse" / "0", path / "sparse"})
-      if (has_colmap_cameras(folder)) return load_colmap_cameras(folder, largest_shift_px);
+    for (const char* folder : kColmapFolders)
+      if (has_colmap_cameras(path / folder)) return load_colmap_cameras(path / folder, remarks);
     for (const char* name : {"cameras.json", "transforms.json"})
-      if (fs::exists(path / name, ignored)) return load_json_cameras(path / name, largest_shift_px);
-    throw Error(path.string(),
-                "the folder has no cameras: cameras.bin, cameras.txt, cameras.json and transforms.json "
-                "are looked for");
+      if (fs::exists(path / name, ignored)) return load_json_cameras(path / name, remarks);
+    throw Error(
+        path.string(),
+        "the folder has no cameras: cameras.json, transforms.json and COLMAP's cameras and images are "
+        "looked for, those also in " +
+            fmt::format("{}", fmt::join(kColmapFolders.begin() + 1, kColmapFolders.end(), ", ")));
   }
+  refuse_other_programs(path);
   const bool colmap = path.extension() == ".bin" || path.extension() == ".txt";
-  if (!colmap) return load_json_cameras(path, largest_shift_px);
+  if (!colmap) return load_json_cameras(path, remarks);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!has_colmap_cameras(folder))
     throw Error(path.string(),
                 "cameras and images of COLMAP are wanted beside each other, both .bin or both .txt");
-  return load_colmap_cameras(folder, largest_shift_px);
+  return load_colmap_cameras(folder, remarks);
 }
 
 }  // namespace
 
-std::vector<Camera> load_cameras(const fs::path& path, std::string* warning) {
-  double largest_shift_px = 0;
-  std::vector<Camera> cameras = load_any_cameras(path, largest_shift_px);
-  if (!warning) return cameras;
-  warning->clear();
+void CameraRemarks::leave_out(const Error& error) {
+  if (left_out_++ == 0) first_ = error.unstopped();
+}
+
+void CameraRemarks::refuse(const fs::path& path) const {
+  if (left_out_ > 0) throw Error(first_, "and no camera is left");
+  throw Error(path.string(), "holds no cameras");
+}
+
+std::string CameraRemarks::sentence(const fs::path& path) const {
+  std::string text;
+  if (left_out_ > 0)
+    text = fmt::format(
+        "{}. {} left out; numbers count the others", first_,
+        left_out_ == 1 ? "This camera is" : fmt::format("This camera and {} more are", left_out_ - 1));
   constexpr double kVisiblePx = 0.1;
-  if (largest_shift_px >= kVisiblePx)
-    *warning = fmt::format(
-        "{}: the lens distortion, up to {:.1f} pixels in the corners, is left out; masks and clicks on the "
+  if (largest_shift_px_ >= kVisiblePx)
+    text += fmt::format(
+        "{}{}: the lens distortion, up to {:.1f} pixels in the corners, is left out; masks and clicks on the "
         "photographs themselves are off by as much (colmap image_undistorter makes pictures without it)",
-        path.string(), largest_shift_px);
+        text.empty() ? "" : ". ", path.string(), largest_shift_px_);
+  return text;
+}
+
+std::vector<Camera> load_cameras(const fs::path& path, std::string* warning) {
+  CameraRemarks remarks;
+  std::vector<Camera> cameras = load_any_cameras(path, &remarks);
+  if (warning) *warning = remarks.sentence(path);
   return cameras;
 }
 

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "core/error.h"
 #include "core/mapped_file.h"
 #include "scene/camera/camera_formats.h"
+#include "scene/camera/camera_names.h"
 #include "scene/cloud/quantise.h"
 
 namespace splatcut {
@@ -82,7 +85,8 @@ Distortion distortion_from(const LensModel& model, std::span<const double> param
 // A camera per image, by name: the order in the file is that of a hash table.
 class Cameras {
  public:
-  Cameras(fs::path path, Lenses lenses) : path_(std::move(path)), lenses_(std::move(lenses)) {}
+  Cameras(fs::path path, Lenses lenses, CameraRemarks* remarks)
+      : path_(std::move(path)), lenses_(std::move(lenses)), remarks_(remarks) {}
 
   void add(const Pose& pose) {
     const auto lens = lenses_.find(pose.lens);
@@ -90,16 +94,18 @@ class Cameras {
       throw Error(path_.string(),
                   fmt::format("image \"{}\" names camera {}, which is missing", pose.name, pose.lens));
     Camera camera = lens->second;
-    camera.name = fs::path(pose.name).stem().string();
+    camera.name = pose.name;
     const glm::dmat3 world_from_camera =
         glm::transpose(glm::mat3_cast(glm::normalize(pose.camera_from_world)));
     if (!(glm::length(pose.camera_from_world) > 0) ||
         !set_pose(camera, world_from_camera, -(world_from_camera * pose.translation)))
-      throw Error(path_.string(), fmt::format("image \"{}\" has no usable pose", pose.name));
+      return remarks_->leave_out(
+          Error(path_.string(), fmt::format("image \"{}\" has no usable pose", pose.name)));
     cameras_.push_back(std::move(camera));
   }
   std::vector<Camera> take() {
-    if (cameras_.empty()) throw Error(path_.string(), "holds no images");
+    if (cameras_.empty()) remarks_->refuse(path_);
+    name_after_pictures(&cameras_);
     std::ranges::stable_sort(cameras_, {}, &Camera::name);
     return std::move(cameras_);
   }
@@ -107,6 +113,7 @@ class Cameras {
  private:
   fs::path path_;
   Lenses lenses_;
+  CameraRemarks* remarks_;
   std::vector<Camera> cameras_;
 };
 
@@ -139,7 +146,7 @@ class BinaryReader {
   std::span<const std::byte> left_;
 };
 
-Lenses read_lenses_bin(const fs::path& path, double& largest_shift_px) {
+Lenses read_lenses_bin(const fs::path& path, CameraRemarks* remarks) {
   BinaryReader in(path);
   Lenses lenses;
   const auto count = in.read<std::uint64_t>();
@@ -153,16 +160,15 @@ Lenses read_lenses_bin(const fs::path& path, double& largest_shift_px) {
     std::vector<double> params;
     for (std::size_t p = 0; p < model.params; ++p) params.push_back(in.read<double>());
     lenses[id] = lens_from(path, id, model, width, height, params);
-    largest_shift_px =
-        std::max(largest_shift_px, corner_shift_px(lenses[id], distortion_from(model, params)));
+    remarks->add_shift(corner_shift_px(lenses[id], distortion_from(model, params)));
   }
   return lenses;
 }
 
-std::vector<Camera> read_images_bin(const fs::path& path, Lenses lenses) {
+std::vector<Camera> read_images_bin(const fs::path& path, Lenses lenses, CameraRemarks* remarks) {
   constexpr std::uint64_t kPointBytes = 24;
   BinaryReader in(path);
-  Cameras cameras(path, std::move(lenses));
+  Cameras cameras(path, std::move(lenses), remarks);
   const auto count = in.read<std::uint64_t>();
   for (std::uint64_t i = 0; i < count; ++i) {
     Pose pose;
@@ -190,7 +196,7 @@ bool is_blank_or_comment(const std::string& line) {
   return first == line.npos || line[first] == '#';
 }
 
-Lenses read_lenses_txt(const fs::path& path, double& largest_shift_px) {
+Lenses read_lenses_txt(const fs::path& path, CameraRemarks* remarks) {
   std::istringstream in(text_of(path));
   Lenses lenses;
   std::string line;
@@ -212,17 +218,31 @@ Lenses read_lenses_txt(const fs::path& path, double& largest_shift_px) {
       throw Error(path.string(),
                   fmt::format("line {}: the model {} has {} parameters", number, name, model.params));
     lenses[id] = lens_from(path, id, model, width, height, params);
-    largest_shift_px =
-        std::max(largest_shift_px, corner_shift_px(lenses[id], distortion_from(model, params)));
+    remarks->add_shift(corner_shift_px(lenses[id], distortion_from(model, params)));
   }
   return lenses;
 }
 
-std::vector<Camera> read_images_txt(const fs::path& path, Lenses lenses) {
+// Triples x y id, or nothing.
+bool is_line_of_points(const std::string& line) {
+  std::istringstream words(line);
+  std::size_t count = 0;
+  for (std::string word; words >> word; ++count) {
+    char* end = nullptr;
+    std::strtod(word.c_str(), &end);
+    if (*end) return false;
+  }
+  return count % 3 == 0;
+}
+
+// An image's points follow in a line of their own, which may be empty; scripts leave that line out.
+std::vector<Camera> read_images_txt(const fs::path& path, Lenses lenses, CameraRemarks* remarks) {
   std::istringstream in(text_of(path));
-  Cameras cameras(path, std::move(lenses));
+  Cameras cameras(path, std::move(lenses), remarks);
   std::string line;
+  bool points = false;  // may follow
   for (int number = 1; std::getline(in, line); ++number) {
+    if (std::exchange(points, false) && is_line_of_points(line)) continue;
     if (is_blank_or_comment(line)) continue;
     std::istringstream words(line);
     Pose pose;
@@ -236,8 +256,7 @@ std::vector<Camera> read_images_txt(const fs::path& path, Lenses lenses) {
       throw Error(path.string(),
                   fmt::format("line {} is not \"id qw qx qy qz tx ty tz camera name\"", number));
     cameras.add(pose);
-    std::getline(in, line);  // the image's points, which may be none: an empty line
-    ++number;
+    points = true;
   }
   return cameras.take();
 }
@@ -254,10 +273,10 @@ bool has_colmap_cameras(const fs::path& folder) {
   return has_pair(folder, ".bin") || has_pair(folder, ".txt");
 }
 
-std::vector<Camera> load_colmap_cameras(const fs::path& folder, double& largest_shift_px) {
+std::vector<Camera> load_colmap_cameras(const fs::path& folder, CameraRemarks* remarks) {
   if (has_pair(folder, ".bin"))
-    return read_images_bin(folder / "images.bin", read_lenses_bin(folder / "cameras.bin", largest_shift_px));
-  return read_images_txt(folder / "images.txt", read_lenses_txt(folder / "cameras.txt", largest_shift_px));
+    return read_images_bin(folder / "images.bin", read_lenses_bin(folder / "cameras.bin", remarks), remarks);
+  return read_images_txt(folder / "images.txt", read_lenses_txt(folder / "cameras.txt", remarks), remarks);
 }
 
 }  // namespace splatcut

@@ -21,8 +21,8 @@ float load_as_float(const std::byte* at, PlyType type);
 
 glm::vec3 srgb_from_linear(const glm::vec3& linear);
 
-// filter_3D of Mip-Splatting (Yu et al. 2024), scene units: the Gaussian is blurred by what its training could
-// resolve, and as much fainter as it is larger.
+// filter_3D of Mip-Splatting (Yu et al. 2024), scene units: the Gaussian is blurred by what its training
+// could resolve, and as much fainter as it is larger.
 void fuse_filter(float filter, glm::vec3* scale, float* opacity);
 
 // A sentence where positions in double are rounded, in 32 bits, by more than a tenth of the middle Gaussian's

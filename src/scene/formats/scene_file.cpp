@@ -99,7 +99,6 @@ Scene with_cloud(const Scene& scene, GaussianCloud cloud) {
   other.format = scene.format;
   other.file_rows = scene.file_rows;
   other.other_properties = scene.other_properties;
-  other.antialiased = scene.antialiased;
   other.cloud = std::move(cloud);
   return other;
 }

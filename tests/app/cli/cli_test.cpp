@@ -6,7 +6,9 @@
 
 #include "app/console/mask_options.h"
 #include "program_runner.h"
+#include "scene/formats/scene_file.h"
 #include "small_still_life.h"
+#include "synthetic_cloud.h"
 
 using namespace splatcut::testing;
 using nlohmann::json;
@@ -38,6 +40,17 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   for (const char* usage : {"fly", "cut", "info", "render a.ply", "cut a.ply -o b --no-such-option",
                             "info a.ply --threads -1", "render a.ply -o a.png --lowpass -1"})
     CHECK_MESSAGE(place.run(usage).code == 2, usage);
+  // NaN is no number, 255 no share of 1; what is out of range is said as it was given.
+  const std::string view = "render " + life.scene + " --size 8x8 -o a.png ";
+  for (const char* option : {"--camera-fov nan", "--lowpass nan", "--lowpass inf", "--background 255,255,255",
+                             "--background -1,0,0"})
+    CHECK_MESSAGE(place.run(view + option).code == 2, option);
+  for (const char* option : {"--psnr nan", "--pixels nan", "--ssim nan"})
+    CHECK_MESSAGE(place.run(std::string("compare a.png a.png ") + option).code == 2, option);
+  const Result threads = place.run("info " + life.scene + " --threads -1");
+  CHECK(threads.code == 2);
+  CHECK_MESSAGE(threads.err.find("--threads: Value -1 not in range") != std::string::npos, threads.err);
+  CHECK(threads.err.find("e+") == std::string::npos);
   place.write("points.ply",
               "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float "
               "y\nproperty float z\nend_header\n" +
@@ -66,6 +79,7 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused("render " + life.scene + " -o a.png --cameras bad.json", {"bad.json", "JSON"});
   refused("render " + life.scene + " -o a.png --cameras made/cameras.json --camera 99", {"camera \"99\""});
   refused("render " + life.scene + " -o nowhere/a.png", {"nowhere/a.png"});
+  refused(view + "--camera 1", {"--camera 1", "--cameras"});
   refused(life.cut("-o cut"), {"--click"});
   refused(life.cut("-o cut --click 1"), {"--click 1", "x,y"});
   refused(life.cut("-o cut --click 1,2:sky"), {"sky", "object or rest"});
@@ -95,6 +109,62 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   CHECK_FALSE(place.exists("cut"));
   CHECK_FALSE(place.exists("a.png"));
   CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("a cut of the whole scene gives it all, a rest without Gaussians and a sentence") {
+  const Workplace place;
+  Scene scene;
+  scene.cloud = random_cloud(300, 5, 0, 0.3f);
+  for (float& opacity : scene.cloud.opacity) opacity = 0.8f;
+  scene.file_rows = scene.cloud.size();
+  save_scene(place / "ball.ply", scene, {}, SceneFormat::kPly);
+  place.write("all.labels.u8", std::string(300, '\1'));
+  const std::string at = " --camera-pos 0,0,-5 --camera-target 0,0,0 --size 96x72";
+  REQUIRE(place
+              .run("render ball.ply" + at +
+                   " --what labels --labels all.labels.u8 --background 1,1,1 -o white.png")
+              .code == 0);
+  const Result result = place.run("cut ball.ply" + at + " --mask white.png --edges keep -o out");
+  REQUIRE_MESSAGE(result.code == 0, result.err);
+  CHECK(result.err.find("takes the whole scene") != std::string::npos);
+  CHECK(load_scene(place / "out/object.ply").cloud.size() == 300);
+  CHECK(place.text("out/rest.ply").find("element vertex 0\n") != std::string::npos);
+  CHECK(json::parse(place.text("out/report.json"))["object"]["gaussians"] == 300);
+}
+
+TEST_CASE("cameras that see nothing of the scene are said, those that see some of it are not") {
+  const Workplace place;
+  Scene scene;
+  scene.cloud = random_cloud(50, 5, 0, 0.3f);
+  scene.file_rows = scene.cloud.size();
+  save_scene(place / "ball.ply", scene, {}, SceneFormat::kPly);
+  const auto looking = [&](const std::string& rotation) {
+    place.write(
+        "cameras.json",
+        R"([{"img_name": "a", "width": 96, "height": 72, "fx": 90, "fy": 90, "position": [0, 0, -5], "rotation": )" +
+            rotation + "}]");
+    const Result result = place.run("render ball.ply --cameras cameras.json -o a.png --overwrite");
+    CHECK(result.code == 0);
+    return result.err;
+  };
+  CHECK(looking("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]").empty());
+  CHECK(looking("[[-1, 0, 0], [0, 1, 0], [0, 0, -1]]").find("see nothing of the scene") != std::string::npos);
+}
+
+TEST_CASE("a pixel that is said to be object and rest is said") {
+  StillLife& life = still_life();
+  const Result result =
+      life.place.run(life.cut("--click " + life.click + " --click " + life.click + ":rest -o contradicts"));
+  CHECK(result.err.find("is said to be both object and rest") != std::string::npos);
+}
+
+TEST_CASE("a relative cache folder is ignored") {
+  StillLife& life = still_life();
+  CHECK(life.place
+            .run_with({"XDG_CACHE_HOME=relative", "HOME=" + (life.place / "home").string()},
+                      life.cut("--click " + life.click + " -o cached"))
+            .code == 0);
+  CHECK_FALSE(life.place.exists("relative"));
 }
 
 TEST_CASE("options may stand before any command, and a scene after it does not make it another") {

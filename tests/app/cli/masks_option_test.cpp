@@ -49,6 +49,20 @@ TEST_CASE("--masks: masks of several cameras, found by name, are all used, the o
   CHECK(place.text("from_1/labels.u8") == place.text("by_masks/labels.u8"));
 }
 
+TEST_CASE(
+    "--masks: half the size, a black one and one without a camera, and a sentence on how all were "
+    "understood") {
+  const Workplace& place = still_life().place;
+  mask_folder("mixed", {{0, "view_00_mask.png"}, {3, "view_03.png"}, {7, "photo_7.png"}});
+  black_mask("mixed/view_05.png");
+  const Result result = place.run(cut_with(" --masks mixed -o by_mixed"));
+  REQUIRE_MESSAGE(result.code == 0, result.err);
+  CHECK(result.err.find("3 of 4 masks have a camera: white, scaled by 2, 1 black: there all is rest") !=
+        std::string::npos);
+  CHECK(result.err.find("1 of the masks have no camera") != std::string::npos);
+  CHECK(iou(place.text("by_mixed/labels.u8"), still_life().truth_of("apple")) > 0.8);
+}
+
 TEST_CASE("--masks: masks larger than any view is looked at serve as well") {
   const Workplace& place = still_life().place;
   const std::string large = " --size 2016x1512";
@@ -85,15 +99,17 @@ TEST_CASE("masks that cannot be used are refused, with the file and the reason, 
   refused(cut_with(" --masks nowhere"), {}, {"nowhere", "No such file"});
   place.make_folder("bad");
   refused(masks, {}, {"bad", "holds no masks", "NAME.png"});
-  mask_folder("bad", {{0, "view_00.png"}, {3, "photo_3.png"}});
+  mask_folder("bad", {{3, "photo_3.png"}});
   refused(masks, {}, {"photo_3.png", "no camera is called \"photo_3\"", "view_00"});
   mask_folder("bad", {{0, "view_00.png"}, {0, "view_00.jpg.png"}});
   refused(masks, {}, {"view_00", "another mask"});
   mask_folder("bad", {{0, "view_00.png"}});
-  refused(cut_with(" --masks bad"), {}, {"view_00.png", "504x378", "--size"});
+  refused(cut_with(" --size 400x400 --masks bad"), {}, {"view_00.png", "504x378", "--size"});
+  std::filesystem::remove(place / "bad/view_00.png");
   black_mask("bad/view_03.png");
-  refused(masks, {}, {"view_03.png", "empty"});
+  refused(masks, {}, {"bad", "all masks are black"});
   refused(cut_with(std::string(kSize) + " --camera 3 --mask bad/view_03.png"), {}, {"view_03.png", "empty"});
+  mask_folder("bad", {{0, "view_00.png"}});
   place.write("bad/view_03.png", place.text("bad/view_00.png").substr(0, 200));
   refused(masks, {}, {"view_03.png"});
   mask_folder("bad", {{0, "view_00.png"}});

@@ -144,16 +144,31 @@ TEST_CASE("--text that gets no mask is refused with what to do, and leaves no te
   script("idle.sh", "exit 0\n");
   refused(cut, with("./idle.sh {image} {text} {mask}"), {"wrote no mask", "{mask}"});
   script("text.sh", "echo hello > \"$3\"\n");
-  refused(cut, with("./text.sh {image} {text} {mask}"), {"not a whole PNG"});
+  refused(cut, with("./text.sh {image} {text} {mask}"), {"not a whole picture"});
   script("black.sh", "cp black.png \"$3\"\n");
-  refused(cut, with("./black.sh {image} {text} {mask}"), {"black.sh", "empty"});
-  script("large.sh", "cp truth_0_full.png \"$3\"\n");
-  refused(cut, with("./large.sh {image} {text} {mask}"), {"large.sh", "504x378"});
+  refused(cut, with("./black.sh {image} {text} {mask}"), {"black.sh", "found nothing", "other words"});
+  REQUIRE(place
+              .run("render " + still_life().scene + " " + still_life().camera +
+                   " --size 300x300 --what alpha --overwrite -o square.png")
+              .code == 0);
+  script("square.sh", "cp square.png \"$3\"\n");
+  refused(cut, with("./square.sh {image} {text} {mask}"), {"square.sh", "300x300", "504x378"});
   const std::string no_text = cut_with(std::string(kSize) + " --camera 0");
   refused(no_text, {"--text", "", "--segmenter", "run {image} {text} {mask}"}, {"--text", "empty"});
   refused(no_text + " --click 5,5", with("run {image} {text} {mask}"), {"--text"}, 2);
   refused(cut + " --click 5,5", with("run {image} {text} {mask}"), {"--text"}, 2);
   CHECK(place.files_in("tmp").empty());
+}
+
+TEST_CASE("--text: a mask of twice the size or of 0 and 1 serves as well") {
+  const Workplace& place = still_life().place;
+  apple_mask(0, "");
+  script("large.sh", "cp truth_0_full.png \"$3\"\n");
+  CHECK(place
+            .run(cut_with(std::string(kSize) + " --camera 0 -o by_large_text"),
+                 {"--text", "apple", "--segmenter", "./large.sh {image} {text} {mask}"})
+            .code == 0);
+  CHECK(iou(place.text("by_large_text/labels.u8"), still_life().truth_of("apple")) > 0.8);
 }
 
 TEST_CASE("a signal that ends the program ends the segmenter and what it started") {

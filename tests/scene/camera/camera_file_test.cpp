@@ -1,6 +1,7 @@
 #include "scene/camera/camera_file.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <fstream>
@@ -85,6 +86,60 @@ QUICK_CASE("COLMAP", "COLMAP text: comments, an image without points, the folder
   }
 }
 
+TEST_CASE("COLMAP text without lines of points: no image is taken for points") {
+  const Folder folder;
+  write(folder / "cameras.txt", "1 PINHOLE 640 480 500 510 320 240\n");
+  const auto names_of = [&](const std::string& images) {
+    write(folder / "images.txt", images);
+    std::string names;
+    for (const Camera& camera : load_cameras(folder.path)) names += camera.name + " ";
+    return names;
+  };
+  const std::string pose = std::string(kColmapPose) + " 1 ";
+  const std::string one = "1 " + pose, two = "2 " + pose, three = "3 " + pose;
+  CHECK(names_of(one + "a.jpg\n" + two + "b.jpg\n" + three + "c.jpg\n") == "a b c ");
+  CHECK(names_of(one + "a.jpg\n1 2 -1\n" + two + "b.jpg\n" + three + "c 1.jpg\n\n") == "a b c 1 ");
+  CHECK(names_of(one + "0001\n" + two + "0002\n") == "0001 0002 ");  // all of them numbers
+}
+
+TEST_CASE("folders of captures: COLMAP where nerfstudio and Inria's scripts put it") {
+  for (const char* below : {"colmap/sparse/0", "distorted/sparse/0", "dense/sparse", "sparse"}) {
+    CAPTURE(below);
+    const Folder folder;
+    fs::create_directories(folder / below);
+    write(folder / below / "cameras.txt", "1 PINHOLE 640 480 500 510 320 240\n");
+    write(folder / below / "images.txt",
+          std::string("1 ") + kColmapPose + " 1 cam0/a.jpg\n2 " + kColmapPose + " 1 cam1\\a.jpg\n");
+    const std::vector<Camera> cameras = load_cameras(folder.path);
+    REQUIRE(cameras.size() == 2);
+    CHECK(cameras[0].name == "cam0/a");
+    CHECK(cameras[1].name == "cam1/a");
+  }
+  const Folder folder;
+  CHECK(camera_refusal(folder.path).find("colmap/sparse/0") != std::string::npos);
+  write(folder / "a.csv", "#name,x,y,alt\n");
+  CHECK(camera_refusal(folder / "a.csv").find("RealityCapture") != std::string::npos);
+  write(folder / "a.xml", "<document/>");
+  CHECK(camera_refusal(folder / "a.xml").find("Metashape") != std::string::npos);
+}
+
+TEST_CASE("one bad camera of many is left out with a sentence, where all are bad that is the error") {
+  const Folder folder;
+  const std::string good = R"("width": 640, "height": 480, "position": [1, 2, 3],
+    "rotation": [[0, 0, 1], [1, 0, 0], [0, 1, 0]], "fy": 510, "fx": 500})";
+  const std::string zeros = R"({"img_name": "bad", "width": 640, "height": 480, "position": [1, 2, 3],
+    "rotation": [[0, 0, 0], [0, 0, 0], [0, 0, 0]], "fy": 510, "fx": 500})";
+  write(folder / "cameras.json", "[" + zeros + R"(, {"img_name": "good.JPG", )" + good + "]");
+  std::string warning;
+  const std::vector<Camera> cameras = load_cameras(folder / "cameras.json", &warning);
+  REQUIRE(cameras.size() == 1);
+  CHECK(cameras[0].name == "good");
+  CHECK(warning.find("camera 0") != std::string::npos);
+  CHECK(warning.find("left out") != std::string::npos);
+  write(folder / "cameras.json", "[" + zeros + "," + zeros + "]");
+  CHECK(camera_refusal(folder / "cameras.json").find("camera 0") != std::string::npos);
+}
+
 QUICK_CASE("COLMAP", "COLMAP binary, below sparse/0, and cut short") {
   const Folder folder;
   fs::create_directories(folder / "sparse/0");
@@ -122,6 +177,39 @@ QUICK_CASE("transforms", "transforms.json: OpenGL axes, lens by frame, by file o
   write(folder / "angle.json",
         R"({"camera_angle_x": 1.5707963267948966, "w": 640, "h": 480, "frames": [{)" + matrix + "}]}");
   CHECK(load_cameras(folder / "angle.json")[0].fy_px == doctest::Approx(320));
+}
+
+TEST_CASE("transforms.json: lenses far from a pinhole, numbers as text, null, sizes of JPEGs beside it") {
+  const Folder folder;
+  const std::string matrix =
+      R"("transform_matrix": [[0, 0, -1, 1], [1, 0, 0, 2], [0, -1, 0, 3], [0, 0, 0, 1]])";
+  const auto frames = [&](const std::string& head, const std::string& frame = "") {
+    write(folder / "t.json",
+          "{" + head + R"("frames": [{"file_path": "images/a", )" + frame + matrix + "}]}");
+  };
+  const std::string lens = R"("w": 640, "h": 480, "fl_x": 500, "fl_y": 510, )";
+  for (const char* model : {"OPENCV_FISHEYE", "EQUIRECTANGULAR", "orthographic"}) {
+    CAPTURE(model);
+    for (const bool by_frame : {false, true}) {
+      const std::string said = fmt::format(R"("camera_model": "{}", )", model);
+      frames(lens + (by_frame ? "" : said), by_frame ? said : "");
+      CHECK(camera_refusal(folder / "t.json").find("not close to a pinhole") != std::string::npos);
+    }
+  }
+  frames(lens + R"("is_fisheye": true, )");
+  CHECK(camera_refusal(folder / "t.json").find("pinhole") != std::string::npos);
+  frames(
+      R"("camera_model": "OPENCV", "w": "640", "h": "480", "fl_x": "500", "fl_y": 510, "cx": null, "k1": null, )");
+  check_camera(load_cameras(folder / "t.json")[0]);
+  frames(R"("w": "wide", "h": 480, "fl_x": 500, )");
+  CHECK(camera_refusal(folder / "t.json").find("\"w\" is no number") != std::string::npos);
+  // Markers of a JPEG as far as its size: 480 rows of 640.
+  fs::create_directories(folder / "images");
+  write(folder / "images/a.jpg",
+        std::string("\xff\xd8\xff\xe0\x00\x04zz\xff\xc0\x00\x11\x08\x01\xe0\x02\x80\x03", 18) +
+            std::string(20, '\0'));
+  frames(R"("fl_x": 500, "fl_y": 510, )");
+  check_camera(load_cameras(folder / "t.json")[0]);
 }
 
 TEST_CASE("lens distortion is left out with a warning that says how much it is") {

@@ -1,0 +1,81 @@
+#include "app/console/mask_file.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "segment/masks/seeds.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr int kHalf = 128;
+
+int brightest_of(const Rgba8& p) {
+  return std::max({p[0], p[1], p[2]});
+}
+bool is_grey(const Rgba8& p, int within) {
+  return brightest_of(p) - std::min({p[0], p[1], p[2]}) <= within;
+}
+
+template <class Pixel, class Test>
+Mask where(const Image<Pixel>& image, const Test& is_object) {
+  Mask mask(image.width(), image.height());
+  std::ranges::transform(image.pixels(), mask.pixels().begin(), [&](const Pixel& p) {
+    return static_cast<std::uint8_t>(is_object(p) ? kMaskObject : 0);
+  });
+  return mask;
+}
+
+bool alpha_varies(const Image<Rgba8>& pixels) {
+  const auto [least, most] = std::ranges::minmax(pixels.pixels(), {}, [](const Rgba8& p) { return p[3]; });
+  return least[3] != most[3];
+}
+
+// half: of what white would be.
+template <class Pixel>
+ReadMask mask_of_grey(const Image<Pixel>& grey, int half, int least) {
+  const int brightest = *std::ranges::max_element(grey.pixels());
+  if (brightest < least) return {Mask(grey.width(), grey.height()), ""};
+  if (brightest >= half) return {where(grey, [&](Pixel p) { return p >= half; }), "white"};
+  return {where(grey, [&](Pixel p) { return p >= least; }), "numbers, 0 is the rest"};
+}
+
+ReadMask mask_of_colours(const Image<Rgba8>& pixels, int least, const std::string& where_it_is) {
+  Mask mask = where(pixels, [&](const Rgba8& p) { return brightest_of(p) >= least; });
+  if (std::ranges::all_of(mask.pixels(), [](std::uint8_t m) { return m == kMaskObject; }))
+    throw Error(where_it_is, "is a photograph, not a mask: nothing in it is black",
+                "Give a picture that is black where the object is not");
+  return {std::move(mask), "any colour on black"};
+}
+
+}  // namespace
+
+ReadMask mask_of(const Picture& picture, const std::string& where_it_is) {
+  const Image<Rgba8>& pixels = picture.pixels;
+  if (alpha_varies(pixels)) return {where(pixels, [](const Rgba8& p) { return p[3] >= kHalf; }), "alpha"};
+  constexpr int kWide = 1 << 8, kWideHalf = 1 << 15;
+  if (!picture.grey16.pixels().empty()) {
+    const bool wide = *std::ranges::max_element(picture.grey16.pixels()) >= kWide;
+    return mask_of_grey(picture.grey16, wide ? kWideHalf : kHalf, 1);
+  }
+  // JPEG leaves traces of colour in grey, and of light in black.
+  constexpr int kTraces = 24, kLossyLeast = 64;
+  const int within = picture.lossy ? kTraces : 0;
+  const bool grey = std::ranges::all_of(pixels.pixels(), [&](const Rgba8& p) { return is_grey(p, within); });
+  if (!grey && !picture.indices.pixels().empty())
+    return {where(picture.indices, [](std::uint8_t index) { return index > 0; }), "palette, index > 0"};
+  constexpr int kDarkestColour = 32;  // the least of the usual palettes of ids
+  if (!grey) return mask_of_colours(pixels, picture.lossy ? kLossyLeast : kDarkestColour, where_it_is);
+  Image<std::uint8_t> level(pixels.width(), pixels.height());
+  std::ranges::transform(pixels.pixels(), level.pixels().begin(),
+                         [](const Rgba8& p) { return static_cast<std::uint8_t>(brightest_of(p)); });
+  return mask_of_grey(level, kHalf, picture.lossy ? kLossyLeast : 1);
+}
+
+ReadMask read_mask(const std::filesystem::path& path) {
+  return mask_of(read_picture(path), path.string());
+}
+
+}  // namespace splatcut

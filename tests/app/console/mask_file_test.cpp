@@ -1,0 +1,200 @@
+// Masks as other tools write them, and the names they give them.
+#include "app/console/mask_file.h"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "app/console/mask_folder.h"
+#include "core/error.h"
+#include "core/png_file.h"
+#include "program_runner.h"
+#include "scene/camera/camera_names.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string from_hex(std::string_view hex) {
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+    bytes += static_cast<char>(std::stoi(std::string(hex.substr(i, 2)), nullptr, 16));
+  return bytes;
+}
+
+// 4 x 2 pixels of a palette of black, (128, 0, 0) and (0, 40, 0), indices 0120 / 0011; made with zlib.
+const char* const kPalettePng =
+    "89504e470d0a1a0a0000000d494844520000000400000002080300000048768d5100000009504c5445000000800000002800"
+    "c08e53b20000001049444154789c636060646200024646000023000665c11eb40000000049454e44ae426082";
+// 16 x 8 pixels, grey, the right half white.
+const char* const kJpeg =
+    "ffd8ffe000104a46494600010100000100010000ffdb004300080606070605080707070909080a0c140d0c0b0b0c1912130f"
+    "141d1a1f1e1d1a1c1c20242e2720222c231c1c2837292c30313434341f27393d38323c2e333432ffc0000b08000800100101"
+    "1100ffc40014000100000000000000000000000000000008ffc40014100100000000000000000000000000000000ffda0008"
+    "010100003f003f9fefffd9";
+
+template <class Pixel>
+Image<Pixel> image_of(int width, const std::vector<Pixel>& pixels) {
+  Image<Pixel> image(width, static_cast<int>(pixels.size()) / width);
+  std::ranges::copy(pixels, image.pixels().begin());
+  return image;
+}
+
+// "#" for the object, row after row.
+std::string drawn(const Mask& mask) {
+  std::string text;
+  for (const std::uint8_t m : mask.pixels()) text += m == kMaskObject ? '#' : m == 0 ? '.' : '?';
+  return text;
+}
+
+std::string drawn(const std::vector<Rgba8>& pixels, bool lossy = false) {
+  Picture picture;
+  picture.pixels = image_of(static_cast<int>(pixels.size()), pixels);
+  picture.lossy = lossy;
+  const ReadMask read = mask_of(picture, "here");
+  return drawn(read.mask) + " " + read.how;
+}
+
+Rgba8 grey(int level) {
+  const auto v = static_cast<std::uint8_t>(level);
+  return {v, v, v, 255};
+}
+
+Camera camera_called(const std::string& name) {
+  Camera camera;
+  camera.name = name;
+  camera.width_px = 8;
+  camera.height_px = 6;
+  camera.fx_px = camera.fy_px = 8;
+  return camera;
+}
+std::vector<Camera> cameras_called(const std::vector<std::string>& names) {
+  std::vector<Camera> cameras;
+  for (const std::string& name : names) cameras.push_back(camera_called(name));
+  return cameras;
+}
+using Indices = std::vector<std::size_t>;
+
+}  // namespace
+
+TEST_CASE("mask file: grey, 0 and 1, ids, colours on black, alpha, each understood as it is meant") {
+  CHECK(drawn({grey(0), grey(127), grey(128), grey(255)}) == "..## white");
+  CHECK(drawn({grey(0), grey(1), grey(1), grey(0)}) == ".##. numbers, 0 is the rest");
+  CHECK(drawn({grey(0), grey(3), grey(70), grey(1)}) == ".### numbers, 0 is the rest");
+  CHECK(drawn({grey(0), grey(0)}) == ".. ");
+  CHECK(drawn({{0, 0, 0, 255}, {128, 0, 0, 255}, {0, 64, 0, 255}, {0, 0, 9, 255}}) ==
+        ".##. any colour on black");
+  // A dark thing cut out of its photograph: white is where nothing is.
+  CHECK(drawn({{255, 255, 255, 0}, {20, 10, 5, 255}, {0, 0, 0, 255}, {90, 80, 70, 127}}) == ".##. alpha");
+  CHECK(drawn({{9, 9, 9, 255}, {9, 9, 9, 255}}) == "## numbers, 0 is the rest");  // alpha does not vary
+  // JPEG: neither black nor grey are quite that.
+  CHECK(drawn({{3, 1, 6, 255}, {250, 255, 240, 255}}, true) == ".# white");
+  CHECK(drawn({{3, 1, 6, 255}, {9, 0, 2, 255}}, true) == ".. ");
+  CHECK_THROWS_WITH_AS(drawn({{200, 90, 60, 255}, {90, 120, 90, 255}}), doctest::Contains("photograph"),
+                       Error);
+}
+
+TEST_CASE("mask file: PNG of a palette by its indices, of 16 bits by its numbers, JPEG by what is bright") {
+  const Workplace place;
+  place.write("palette.png", from_hex(kPalettePng));
+  const ReadMask palette = read_mask(place / "palette.png");
+  CHECK(palette.mask.width() == 4);
+  CHECK(drawn(palette.mask) == ".##...##");
+  CHECK(palette.how == "palette, index > 0");
+  place.write("named.png", from_hex(kJpeg));  // a name is only a name
+  const ReadMask jpeg = read_mask(place / "named.png");
+  REQUIRE(jpeg.mask.width() == 16);
+  REQUIRE(jpeg.mask.height() == 8);
+  CHECK(drawn(jpeg.mask).substr(0, 16) == "........########");
+  CHECK(picture_size(place / "named.png") == glm::ivec2(16, 8));
+  CHECK(picture_size(place / "palette.png") == glm::ivec2(4, 2));
+  for (const auto& [numbers, expected] : std::vector<std::pair<std::vector<std::uint16_t>, std::string>>{
+           {{0, 1, 700, 0}, ".##."}, {{0, 30000, 40000, 65535}, "..##"}, {{0, 1, 1, 0}, ".##."}}) {
+    write_png(place / "wide.png", image_of(4, numbers));
+    CHECK(drawn(read_mask(place / "wide.png").mask) == expected);
+  }
+  for (const std::size_t size : {20, 150}) {
+    place.write("cut.jpg", from_hex(kJpeg).substr(0, size));
+    CHECK_THROWS_WITH_AS(read_mask(place / "cut.jpg"), doctest::Contains("damaged"), Error);
+  }
+  place.write("text.png", "no picture");
+  CHECK_THROWS_WITH_AS(read_mask(place / "text.png"), doctest::Contains("neither PNG"), Error);
+}
+
+TEST_CASE("names: with and without endings, by path below images, numbers only where they are written so") {
+  const std::vector<Camera> cameras = cameras_called({"0000", "0001", "0004", "view.001", "IMG_7.JPG"});
+  const auto found = [&](const std::string& name) { return find_camera(cameras, name, "cameras").name; };
+  CHECK(found("0001.jpg") == "0001");
+  CHECK(found("images/0001.png") == "0001");
+  CHECK(found("IMG_7") == "IMG_7.JPG");
+  CHECK(found("view.001") == "view.001");
+  CHECK(found("2") == "0004");
+  CHECK(found("0") == "0000");
+  for (const char* none : {"0003", "01", "5", "view", "-1", ""})
+    CHECK_THROWS_WITH_AS(found(none), doctest::Contains("has no camera"), Error);
+  const std::vector<Camera> rig = cameras_called({"cam0/0001", "cam1/0001", "cam1/0002"});
+  CHECK(find_camera(rig, "cam1/0001", "rig").name == "cam1/0001");
+  CHECK(find_camera(rig, "cam1\\0001.jpg", "rig").name == "cam1/0001");
+  CHECK(find_camera(rig, "0002", "rig").name == "cam1/0002");
+  CHECK_THROWS_WITH_AS(find_camera(rig, "0001", "rig"), doctest::Contains("2 cameras"), Error);
+
+  std::vector<Camera> named = cameras_called({"images/a.jpg", "x\\images\\b.c.png"});
+  name_after_pictures(&named);
+  CHECK(named[0].name == "a");
+  CHECK(named[1].name == "b.c");
+  named = cameras_called({"images/cam0/0.jpg", "./images/cam1/0.jpg", "images/cam1/1.jpg"});
+  name_after_pictures(&named);
+  CHECK(named[0].name == "cam0/0");
+  CHECK(named[2].name == "cam1/1");
+}
+
+TEST_CASE("names of masks: endings, zeros, accents as macOS writes them") {
+  const std::vector<Camera> cameras = cameras_called({"0001", "0010", "caf\xc3\xa9_01", "_mask", "a_mask"});
+  CHECK(cameras_of_mask(cameras, "0001_mask") == Indices{0});
+  CHECK(cameras_of_mask(cameras, "0001.mask") == Indices{0});
+  CHECK(cameras_of_mask(cameras, "00001-mask") == Indices{0});
+  CHECK(cameras_of_mask(cameras, "1") == Indices{0});
+  CHECK(cameras_of_mask(cameras, "10") == Indices{1});
+  CHECK(cameras_of_mask(cameras, "cafe\xcc\x81_01") == Indices{2});
+  CHECK(cameras_of_mask(cameras, "a_mask") == Indices{4});  // its own name, not that of "a"
+  CHECK(cameras_of_mask(cameras, "2").empty());
+}
+
+TEST_CASE(
+    "mask folder: hidden files are skipped, sizes scaled, black is rest, strangers left out with a warning") {
+  const Workplace place;
+  place.make_folder("masks/.hidden");
+  place.make_folder("masks/__MACOSX");
+  const std::vector<Camera> cameras = cameras_called({"0000", "0001", "0002", "0003"});
+  const auto half = [](int width, int height) {
+    Image<std::uint8_t> image(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = width / 2; x < width; ++x) image.at(x, y) = 255;
+    return image;
+  };
+  write_png(place / "masks/0000.png", Image<std::uint8_t>(8, 6));
+  write_png(place / "masks/1_mask.png", half(4, 3));
+  write_png(place / "masks/0002.png", half(8, 6));
+  write_png(place / "masks/0009.png", half(8, 6));
+  place.write("masks/._0003.png", "AppleDouble");
+  place.write("masks/.hidden/0003.png", "hidden");
+  place.write("masks/__MACOSX/0003.png", "hidden");
+  const MaskFolder found = load_mask_folder(cameras, {place / "masks", {}, {}});
+  CHECK(found.reference.camera.name == "0001");
+  CHECK(drawn(found.reference.mask).substr(0, 8) == "....####");
+  REQUIRE(found.others.size() == 2);
+  CHECK(found.others[0].camera.name == "0000");
+  CHECK(drawn(found.others[0].mask) == std::string(48, '.'));
+  CHECK(found.how == "3 of 4 masks have a camera: white, scaled by 2, 1 black: there all is rest");
+  REQUIRE(found.warnings.size() == 1);
+  CHECK(found.warnings[0].find("0009.png") != std::string::npos);
+  const MaskFolder wanted = load_mask_folder(cameras, {place / "masks", "0002", {}});
+  CHECK(wanted.reference.camera.name == "0002");
+  write_png(place / "masks/0002.png", half(8, 8));
+  CHECK_THROWS_WITH_AS(load_mask_folder(cameras, {place / "masks", {}, {}}), doctest::Contains("8x8"), Error);
+}
