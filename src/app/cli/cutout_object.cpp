@@ -1,5 +1,7 @@
 #include "app/cli/cutout_object.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>

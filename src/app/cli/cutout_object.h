@@ -2,7 +2,6 @@
 // else its rows as they are.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -12,6 +11,10 @@
 #include "core/job.h"
 #include "scene/formats/scene_file.h"
 #include "segment/finish/clean.h"
+
+namespace CLI {
+class App;
+}
 
 namespace splatcut {
 

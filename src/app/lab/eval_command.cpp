@@ -37,10 +37,8 @@ struct EvalArguments {
   MaskOptions mask;
   std::vector<std::string> set, only;
   int clicks = 3, draws = 0;
-  bool any_view = false;
   AnyViewOptions robot;
-  bool curve = true, json = false, overwrite = false, clicks_given = false;
-  bool sheets = false;
+  bool any_view = false, sheets = false, curve = true, json = false, overwrite = false, clicks_given = false;
   bool robot_asked = false;  // an option that only the any-view robot has
 };
 

@@ -290,8 +290,7 @@ void run_fit(FitArguments args, const CommonOptions& common) {
   const Job job = console_job(common.quiet);
   OutputFolder folder(args.output, args.overwrite);
   args.fit.without = bits_of(args);
-  PartModel model;
-  if (!args.model.empty()) model = load_part_model(args.model);
+  PartModel model = args.model.empty() ? PartModel() : load_part_model(args.model);
   PrepareOptions prepare;
   prepare.model = model;
   prepare.cache = prepared_cache(common);
