@@ -40,11 +40,17 @@ glm::dmat3 mat3_from(const json& rows) {
   return glm::transpose(glm::dmat3(vec3_from(rows.at(0)), vec3_from(rows.at(1)), vec3_from(rows.at(2))));
 }
 
+// A whole number of pixels; what is none, or beyond all pictures, is left to check_lens().
+int side_px(double said) {
+  constexpr double kBeyond = 1 << 20;
+  return said > 0 ? static_cast<int>(std::min(said, kBeyond)) : 0;
+}
+
 Camera inria_camera(const json& entry) {
   Camera camera;
   camera.name = entry.value("img_name", std::string());
-  camera.width_px = entry.at("width").get<int>();
-  camera.height_px = entry.at("height").get<int>();
+  camera.width_px = side_px(entry.at("width").get<double>());
+  camera.height_px = side_px(entry.at("height").get<double>());
   camera.fx_px = entry.at("fx").get<float>();
   camera.fy_px = entry.at("fy").get<float>();
   camera.cx_px = entry.value("cx", 0.5f * static_cast<float>(camera.width_px));
@@ -104,8 +110,8 @@ Camera transforms_camera(const fs::path& path, const json& file, const json& fra
   std::string picture = frame.value("file_path", std::string());
   std::ranges::replace(picture, '\\', '/');
   camera.name = picture;
-  camera.width_px = static_cast<int>(lens_value(frame, file, "w", 0));
-  camera.height_px = static_cast<int>(lens_value(frame, file, "h", 0));
+  camera.width_px = side_px(lens_value(frame, file, "w", 0));
+  camera.height_px = side_px(lens_value(frame, file, "h", 0));
   if (camera.width_px == 0 ||
       camera.height_px == 0) {  // NeRF's synthetic scenes leave the size to the pictures
     const glm::ivec2 size = size_of_picture(path.parent_path(), picture);

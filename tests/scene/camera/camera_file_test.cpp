@@ -203,6 +203,11 @@ TEST_CASE("transforms.json: lenses far from a pinhole, numbers as text, null, si
   check_camera(load_cameras(folder / "t.json")[0]);
   frames(R"("w": "wide", "h": 480, "fl_x": 500, )");
   CHECK(camera_refusal(folder / "t.json").find("\"w\" is no number") != std::string::npos);
+  for (const char* height : {"429496729630", "\"1e300\""}) {
+    CAPTURE(height);
+    frames(fmt::format(R"("w": 640, "h": {}, "fl_x": 500, )", height));
+    CHECK(camera_refusal(folder / "t.json").find("a picture of 640 x") != std::string::npos);
+  }
   // Markers of a JPEG as far as its size: 480 rows of 640.
   fs::create_directories(folder / "images");
   write(folder / "images/a.jpg",
