@@ -40,10 +40,10 @@ glm::dmat3 mat3_from(const json& rows) {
   return glm::transpose(glm::dmat3(vec3_from(rows.at(0)), vec3_from(rows.at(1)), vec3_from(rows.at(2))));
 }
 
-// A whole number of pixels; what is none, or beyond all pictures, is left to check_lens().
+// A side as an int; one beyond all pictures stays beyond them, for check_lens() to refuse.
 int side_px(double said) {
   constexpr double kBeyond = 1 << 20;
-  return said > 0 ? static_cast<int>(std::min(said, kBeyond)) : 0;
+  return std::isnan(said) ? 0 : static_cast<int>(std::clamp(said, -kBeyond, kBeyond));
 }
 
 Camera inria_camera(const json& entry) {
