@@ -259,7 +259,8 @@ QUICK_CASE("Inria cameras", "bad cameras are refused with file and entry") {
   check("width.json", "[{\"height\": 4, \"fx\": 1, \"fy\": 1, " + pose + "}]", "width");
   check("size.json", "[{\"width\": -4, \"height\": 4, \"fx\": 1, \"fy\": 1, " + pose + "}]", "-4 x 4");
   // 2^32 + 4 is no picture of 4 pixels.
-  check("vast.json", "[{\"width\": 4294967300, \"height\": 4, \"fx\": 1, \"fy\": 1, " + pose + "}]", "1048576 x 4");
+  check("vast.json", "[{\"width\": 4294967300, \"height\": 4, \"fx\": 1, \"fy\": 1, " + pose + "}]",
+        "1048576 x 4");
   check("focal.json", "[{\"width\": 4, \"height\": 4, \"fx\": 0, \"fy\": 1, " + pose + "}]", "focal");
   check("flat.json", R"([{"width": 4, "height": 4, "fx": 1, "fy": 1, "position": [0, 0, 0],
                          "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 0]]}])",
