@@ -77,7 +77,9 @@ std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
   OrbitOptions orbit;
   orbit.views = options.ring;
   orbit.elevation_swing_rad = options.elevation_swing_rad;
-  const float distance = glm::distance(place.eye.centre_world(), centre);
+  // What is clicked is the near side of a thing: at its own distance, views from behind would cut it off.
+  constexpr float kFarther = 1.5f;
+  const float distance = kFarther * glm::distance(place.eye.centre_world(), centre);
   const ObjectExtent extent{centre, distance / (2 * orbit.distance_sizes)};
   std::ranges::copy(orbit_cameras(views.front(), scene.up_world, extent, orbit), std::back_inserter(views));
   return views;

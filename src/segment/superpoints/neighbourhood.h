@@ -5,7 +5,7 @@
 // are cells: a cell of level l has a side of 2^l scene units and its centre on a grid of a quarter of a side,
 // so that what is clicked nearby shares one, and a thing half as large as the nearest cell keeps an eighth of
 // a side away from its faces. Views that observe the Gaussians stand around the place: given cameras that
-// show it, else a ring that starts on the side from which it was clicked, at a distance of one side. A
+// show it, else a ring that starts on the side from which it was clicked, half as far again as the click. A
 // neighbourhood depends on the scene and the place alone. Cost: some 8 us a Gaussian in the cell (graph,
 // parts and 12 to 25 small views), whatever the size of the scene; 600 bytes a Gaussian.
 #pragma once
