@@ -69,7 +69,7 @@ labels_of() { grep -o '"cut": *\[[^]]*\]' "$1" | tr -d ' '; }
 [ -n "$(labels_of "$work/apple.splatcut.json")" ] || fail "the saved work holds no labels"
 sed 's/"cut": *\[[^]]*\]/"cut":null/' "$work/apple.splatcut.json" >"$work/strokes.splatcut.json"
 [ -z "$(labels_of "$work/strokes.splatcut.json")" ] || fail "the labels were not taken out of the saved work"
-"$program" cut --work "$work/strokes.splatcut.json" -o "$work/again" --edges keep --quiet || fail "cut --work did not run"
+"$program" cut --work "$work/strokes.splatcut.json" -o "$work/again" --quiet || fail "cut --work did not run"
 cmp "$work"/sample_*.ply "$work"/again/*.ply || fail "cut --work gives another object than the window"
 rows=$("$program" info "$work/sample.compressed.ply" | awk '$1 == "gaussians" {print $2}')
 [ "$(stat -c %s "$work"/again/*.labels.u8)" -eq "$rows" ] || fail "the labels do not cover the file's $rows rows"

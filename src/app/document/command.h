@@ -325,6 +325,7 @@ struct SaveTurntable {
   int width_px = 0, height_px = 0;  // 0: as large as the view
   TurntableAs as = TurntableAs::kPictures;
   float turn_s = 3;  // of animation and video
+  bool clean_edges = false;
   static constexpr bool writes_file = true;
 };
 

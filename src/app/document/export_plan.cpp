@@ -13,15 +13,47 @@ namespace splatcut {
 
 namespace {
 
-void save(const std::filesystem::path& path, const Scene& scene, const std::vector<std::uint8_t>& keep,
-          const ExportRequest& request, const std::optional<Similarity>& to, ExportReport* report) {
+// What all files of an export share.
+struct Exporting {
+  const Scene& scene;
+  const ExportRequest& request;
+  const glm::vec3& up_world;
+  CleanObjects* clean;  // null: rows stay as they are
+  const Job& job;
+};
+
+// Null where the object's rows are written as they are, or where it was cancelled.
+std::shared_ptr<const CleanObject> clean_edges_of(const std::vector<std::uint8_t>& labels,
+                                                  const Exporting& what, ExportReport* report) {
+  if (!what.request.clean_edges) return nullptr;
+  auto object = what.clean->made(labels, what.up_world, what.job);
+  if (!object) return nullptr;
+  if (!object->report.cleaned) {
+    report->edges_kept = object->report.reason;
+    return nullptr;
+  }
+  ++report->clean;
+  return object;
+}
+
+// is_object: `keep` holds the labels of one.
+void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& keep, bool is_object,
+          const std::optional<Similarity>& to, const Exporting& what, ExportReport* report) {
+  const Scene& scene = what.scene;
+  const ExportRequest& request = what.request;
   if (count_flags(keep) == 0)
     throw Error(path.filename().string(), "would hold no Gaussians", "Select something first");
   refuse_written_inputs(path, scene.files);
   check_output_file(path, request.overwrite);
-  const SaveReport saved =
-      to ? save_scene(path, with_cloud(scene, placed(scene.cloud, keep, *to)), {}, request.format)
-         : save_scene(path, scene, keep, request.format);
+  const std::shared_ptr<const CleanObject> clean = is_object ? clean_edges_of(keep, what, report) : nullptr;
+  if (what.job.cancelled()) return;
+  const auto written = [&](GaussianCloud cloud) {
+    return save_scene(path, with_cloud(scene, std::move(cloud)), {}, request.format);
+  };
+  const SaveReport saved = clean && to ? written(placed(clean->cloud, {}, *to))
+                           : clean     ? written(clean->cloud)
+                           : to        ? written(placed(scene.cloud, keep, *to))
+                                       : save_scene(path, scene, keep, request.format);
   report->gaussians += saved.gaussians;
   report->bytes += saved.bytes;
   report->loss = saved.loss;
@@ -68,7 +100,7 @@ std::string free_file_name(const std::string& object_name, std::set<std::string>
 }
 
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
-                        const ExportRequest& request) {
+                        const ExportRequest& request, CleanObjects* clean, const Job& job) {
   const std::size_t n = scene.cloud.size();
   if (!(request.placement.scale > 0) || !std::isfinite(request.placement.scale))
     throw Error("export", "the scale must be larger than 0");
@@ -80,6 +112,7 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
     if (request.placement == ExportPlacement{}) return {};
     return similarity_of(request.placement, scene.cloud, kept, document.up_world);
   };
+  const Exporting what{scene, request, document.up_world, clean, job};
   ExportReport report;
   if (request.what == ExportWhat::kAllObjects) {
     std::filesystem::create_directories(request.path);
@@ -87,11 +120,12 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
     const auto to = place(exported(document, object, request.what, n));  // objects stay beside each other
     for (const ObjectItem& item : document.objects) {
       const std::vector<std::uint8_t> labels = labels_of(document, item, n);
-      if (count_flags(labels) == 0) continue;
+      if (count_flags(labels) == 0 || job.cancelled()) continue;
       const std::string name = free_file_name(item.name, &taken);
-      save(request.path / (name + request.format.extension), scene, labels, request, to, &report);
+      save(request.path / (name + request.format.extension), labels, true, to, what, &report);
     }
-    if (report.files == 0) throw Error("export", "no object holds any Gaussians", "Select something first");
+    if (report.files == 0 && !job.cancelled())
+      throw Error("export", "no object holds any Gaussians", "Select something first");
     return report;
   }
   if (!request.path.string().ends_with(request.format.extension))
@@ -100,7 +134,7 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
   if (request.what != ExportWhat::kScene && !document.find(object))
     throw Error("export", "no object is chosen", "Click an object first");
   const std::vector<std::uint8_t> keep = exported(document, object, request.what, n);
-  save(request.path, scene, keep, request, place(keep), &report);
+  save(request.path, keep, request.what == ExportWhat::kObject, place(keep), what, &report);
   return report;
 }
 

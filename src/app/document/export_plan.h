@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/document/clean_objects.h"
 #include "app/document/document.h"
 #include "app/document/export_placement.h"
 #include "scene/formats/scene_file.h"
@@ -24,12 +25,15 @@ struct ExportRequest {
   std::filesystem::path path;  // a file; for kAllObjects a folder
   bool overwrite = false;
   ExportPlacement placement = {};
+  bool clean_edges = false;  // of objects
 };
 
 struct ExportReport {
   std::size_t gaussians = 0, files = 0;
   std::uint64_t bytes = 0;
   std::string loss;
+  std::size_t clean = 0;   // files whose object has clean edges
+  std::string edges_kept;  // why an object has not, where that was asked for
 };
 
 // 1 for each of the scene's Gaussians that is written, of kAllObjects into any of the files.
@@ -37,9 +41,10 @@ std::vector<std::uint8_t> exported(const Document& document, ObjectId object, Ex
                                    std::size_t gaussians);
 
 // Throws Error: nothing to export, the file is one that the scene was read from, or exists and overwriting
-// was not asked for, the disk is full.
+// was not asked for, the disk is full. clean: of the same scene; null where no clean edges are asked for.
+// Cancelled: what is not yet written stays unwritten.
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
-                        const ExportRequest& request);
+                        const ExportRequest& request, CleanObjects* clean = nullptr, const Job& job = {});
 
 std::string file_name_of(const std::string& object_name);  // letters, digits, - and _
 

@@ -9,7 +9,8 @@ namespace splatcut {
 // Brush radii, logical pixels. A brush larger than kMostKeptBrushPx was meant for the scene it was used in.
 inline constexpr float kLeastBrushPx = 1, kMostBrushPx = 120, kMostKeptBrushPx = 40;
 
-enum class DisplayMode { kWhole, kIsolate, kHide, kSideBySide };
+// kSideBySide: scene and object. kBeforeAfter: the object as its rows are, and with clean edges.
+enum class DisplayMode { kWhole, kIsolate, kHide, kSideBySide, kBeforeAfter };
 
 struct ViewState {
   ToolId tool = ToolId::kClick;
@@ -18,6 +19,7 @@ struct ViewState {
   bool see_through = false;                     // region tools take what is hidden behind, too
   float depth_limit = 0;                        // of the scene's size behind the surface; 0: no limit
   DisplayMode display = DisplayMode::kWhole;
+  bool clean_edges = true;  // of the object where it is shown alone, and in what is exported
   bool tint = true;
   bool outline = true;
   bool heat = false;
@@ -33,5 +35,10 @@ struct ViewState {
 
   bool operator==(const ViewState&) const = default;
 };
+
+inline bool shows_clean_edges(const ViewState& view) {
+  const bool alone = view.display == DisplayMode::kIsolate || view.display == DisplayMode::kSideBySide;
+  return view.display == DisplayMode::kBeforeAfter || (alone && view.clean_edges);
+}
 
 }  // namespace splatcut

@@ -17,7 +17,8 @@ double drawn_ms(std::chrono::steady_clock::time_point start) {
 bool same_views(const FrameRequest& a, const FrameRequest& b) {
   if (a.scene != b.scene || a.panes.size() != b.panes.size() || a.limits != b.limits) return false;
   for (std::size_t i = 0; i < a.panes.size(); ++i)
-    if (!same_camera(a.panes[i].camera, b.panes[i].camera) || a.panes[i].shown != b.panes[i].shown)
+    if (!same_camera(a.panes[i].camera, b.panes[i].camera) || a.panes[i].shown != b.panes[i].shown ||
+        a.panes[i].clean != b.panes[i].clean)
       return false;
   return true;
 }
@@ -65,19 +66,33 @@ std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Came
   return frame_of(cloud, camera, shown, limits, job, blocks);
 }
 
-std::shared_ptr<const Frame> coarse_frame(const CoarseCloud& coarse, const Camera& camera, const Flags& shown,
-                                          const DrawLimits& limits, const Job& job) {
-  Flags coarse_shown;
+std::shared_ptr<const Frame> stand_in_frame(const GaussianCloud& cloud,
+                                            std::span<const std::uint32_t> stands_for, const Camera& camera,
+                                            const Flags& shown, const DrawLimits& limits, const Job& job) {
+  Flags own_shown;
   if (shown) {
     std::vector<std::uint8_t> set;
-    for (const std::uint32_t g : coarse.stands_for) set.push_back((*shown)[g]);
-    coarse_shown = make_flags(std::move(set));
+    for (const std::uint32_t g : stands_for) set.push_back((*shown)[g]);
+    own_shown = make_flags(std::move(set));
   }
-  auto frame = frame_of(coarse.cloud, camera, coarse_shown, limits, job);
+  auto frame = frame_of(cloud, camera, own_shown, limits, job);
   for (std::int32_t& hit : frame->first_hit.pixels())
-    if (hit >= 0) hit = static_cast<std::int32_t>(coarse.stands_for[static_cast<std::size_t>(hit)]);
+    if (hit >= 0) hit = static_cast<std::int32_t>(stands_for[static_cast<std::size_t>(hit)]);
   return frame;
 }
+
+namespace {
+
+std::shared_ptr<const Frame> rastered(const FrameRequest& request, const PaneRequest& pane, const Job& job) {
+  const auto stand_in = [&](const GaussianCloud& cloud, const std::vector<std::uint32_t>& stands_for) {
+    return stand_in_frame(cloud, stands_for, pane.camera, pane.shown, request.limits, job);
+  };
+  if (pane.clean) return stand_in(pane.clean->cloud, pane.clean->gaussian);
+  if (request.coarse && !request.full) return stand_in(request.coarse->cloud, request.coarse->stands_for);
+  return raster_frame(*request.cloud, pane.camera, pane.shown, request.limits, job, request.blocks.get());
+}
+
+}  // namespace
 
 struct FrameThread::Arena {
   tbb::task_arena tasks{tbb::task_arena::automatic, 1, tbb::task_arena::priority::high};
@@ -128,15 +143,12 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
     const PaneRequest& pane = request.panes[i];
     Kept& kept = kept_[i];
     const bool reusable = kept.frame && (kept.full || !request.full) && kept.scene == request.scene &&
-                          kept.shown == pane.shown && kept.limits == request.limits &&
-                          same_camera(kept.frame->camera, pane.camera);
+                          kept.shown == pane.shown && kept.clean == pane.clean &&
+                          kept.limits == request.limits && same_camera(kept.frame->camera, pane.camera);
     if (!reusable) {
-      const bool coarse = request.coarse && !request.full;
-      auto frame = coarse ? coarse_frame(*request.coarse, pane.camera, pane.shown, request.limits, job)
-                          : raster_frame(*request.cloud, pane.camera, pane.shown, request.limits, job,
-                                         request.blocks.get());
+      auto frame = rastered(request, pane, job);
       if (job.cancelled()) return std::nullopt;
-      kept = {request.scene, pane.shown, request.limits, request.full, std::move(frame)};
+      kept = {request.scene, pane.shown, pane.clean, request.limits, request.full, std::move(frame)};
     }
     result.frames.push_back(kept.frame);
     result.pictures.push_back(shaded(*kept.frame, pane.style));

@@ -12,12 +12,14 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <thread>
 
 #include "app/picture/frame_shading.h"
 #include "scene/cloud/coarse_cloud.h"
 #include "scene/cloud/gaussian_cloud.h"
 #include "scene/raster/splat_math.h"
+#include "segment/finish/clean.h"
 
 namespace splatcut {
 
@@ -37,6 +39,7 @@ struct PaneRequest {
   Camera camera;
   Flags shown;  // 0 leaves the Gaussian out; null: all
   FrameStyle style;
+  std::shared_ptr<const CleanObject> clean;  // drawn in place of the scene's rows; may be null
 };
 
 struct FrameRequest {
@@ -82,6 +85,7 @@ class FrameThread {
   struct Kept {
     std::uint64_t scene = 0;
     Flags shown;
+    std::shared_ptr<const CleanObject> clean;
     DrawLimits limits;
     bool full = true;
     std::shared_ptr<const Frame> frame;
@@ -96,7 +100,11 @@ class FrameThread {
 std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
                                           const Flags& shown, const DrawLimits& limits, const Job& job = {},
                                           const CloudBlocks* blocks = nullptr);
-std::shared_ptr<const Frame> coarse_frame(const CoarseCloud& coarse, const Camera& camera, const Flags& shown,
-                                          const DrawLimits& limits, const Job& job = {});
+// Of a cloud drawn in place of a scene. stands_for: per Gaussian of `cloud`, the scene's that `shown` and the
+// frame's hits mean.
+std::shared_ptr<const Frame> stand_in_frame(const GaussianCloud& cloud,
+                                            std::span<const std::uint32_t> stands_for, const Camera& camera,
+                                            const Flags& shown, const DrawLimits& limits,
+                                            const Job& job = {});
 
 }  // namespace splatcut

@@ -21,6 +21,13 @@ Flags shown_in(DisplayMode mode, const Document& document, const Flags& active) 
   return make_flags(std::move(set));
 }
 
+// Those that left the object are not shown.
+Flags shown_of(const CleanObject& object, std::size_t gaussians) {
+  std::vector<std::uint8_t> set(gaussians, 0);
+  for (const std::uint32_t g : object.gaussian) set[g] = 1;
+  return make_flags(std::move(set));
+}
+
 // With marks by hand and all else that labels come from.
 Flags with_cut(const Document& document, ObjectItem object, const Flags& cut) {
   object.cut = cut;
@@ -67,20 +74,27 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
     out.floaters = count_flags(found);
     style.highlight = make_flags(std::move(found));
   }
-  const bool two = order.view.display == DisplayMode::kSideBySide;
-  const bool alone = order.view.display == DisplayMode::kIsolate;
+  const bool compares = order.view.display == DisplayMode::kBeforeAfter;
+  const bool two = order.view.display == DisplayMode::kSideBySide || compares;
+  const bool alone = order.view.display == DisplayMode::kIsolate || compares;
   FrameStyle plain = style;
   plain.owner = nullptr;
   const auto shown = [&](std::size_t pane, DisplayMode mode) {
     out.shown[pane] = kept_if_equal(before.shown[pane], shown_in(mode, document, active));
   };
   out.panes = two ? 2 : 1;
-  shown(0, two ? DisplayMode::kWhole : order.view.display);
+  shown(0, compares ? DisplayMode::kIsolate : two ? DisplayMode::kWhole : order.view.display);
   out.style[0] = alone && !style.highlight ? plain : style;
   if (two) {
     shown(1, DisplayMode::kIsolate);
     out.style[1] = plain;
     out.style[1].heat = nullptr;
+  }
+  const auto clean = shows_clean_edges(order.view) ? order.clean->known(*active, document.up_world) : nullptr;
+  if (clean && clean->report.cleaned) {
+    const std::size_t pane = two ? 1 : 0;
+    out.clean[pane] = clean;
+    out.shown[pane] = kept_if_equal(before.shown[pane], shown_of(*clean, n));
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 
+#include "app/document/clean_objects.h"
 #include "app/document/label_cache.h"
 #include "app/document/scene_graph.h"
 #include "app/document/view_state.h"
@@ -20,6 +21,7 @@ struct StyleOrder {
   Document document;
   std::map<ObjectId, Flags> previews;                    // cuts shown in place of the object's own
   std::shared_ptr<const std::vector<float>> likelihood;  // of the active object, for the heat map
+  std::shared_ptr<const CleanObjects> clean;
   ViewState view;
   float pixels_per_point = 1;
   bool floaters = false;  // of the active object, outlined
@@ -29,6 +31,7 @@ struct Styles {
   int panes = 0;               // 1 or 2; 0: not made yet
   std::array<Flags, 2> shown;  // per pane: Gaussians that it draws; null: all
   std::array<FrameStyle, 2> style;
+  std::array<std::shared_ptr<const CleanObject>, 2> clean;  // per pane: drawn in place of the scene's rows
   Flags active_labels;  // of the active object, all 0 without one; null: none yet
   std::size_t floaters = 0;
 };

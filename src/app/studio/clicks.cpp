@@ -201,6 +201,7 @@ void Clicks::refresh_hover() {
                       viewport_.seen(0)};
   stroke.stroke.radius_px *= viewport_.pixels_per_point();
   if (object) stroke.camera = known_camera(*object, stroke.camera);
+  if (!shows_clean_edges(ws_.view)) ws_.tasks.cancel(TaskKind::kClean);  // nobody waits for it
   ws_.tasks.submit(TaskKind::kHover, [this, ask = *ask, stroke, session = ws_.session, scene = ws_.scene,
                                       request = cut_request(ws_.document(), object ? *object : none),
                                       settings = cut_settings(ws_.document(), object ? *object : none)](

@@ -187,6 +187,7 @@ void CutJobs::start(const ObjectItem& object) {
     if (runs(order)) end(order.key);
   };
   ws_.tasks.cancel(TaskKind::kHover);
+  ws_.tasks.cancel(TaskKind::kClean);
   ws_.tasks.submit({TaskKind::kCut, failed}, [this, order](const Job& job) { work(order, job); });
 }
 

@@ -20,18 +20,22 @@ void Exports::perform(const Export& c) {
   }
   const TaskThread::Order export_order(TaskKind::kExport,
                                        [this] { ws_.ui_requests.push_back(UiRequest::kExportFailed); });
-  ws_.tasks.submit(export_order, [this, request = c.request, document = ws_.document(),
-                                  object = ws_.document().active, scene = ws_.scene](const Job& job) {
-    job.progress("exporting", 0);
-    const ExportReport report = run_export(*scene->scene, document, object, request);
-    std::string text = fmt::format("{} Gaussians, {} saved to {}", grouped(report.gaussians),
-                                   human_bytes(report.bytes), request.path.string());
-    if (!report.loss.empty()) text += ". Lost: " + report.loss;
-    ws_.tasks.post([this, text, path = request.path] {
-      last_ = path;
-      ws_.say(Message::Kind::kDone, text);
-    });
-  });
+  ws_.tasks.submit(
+      export_order, [this, request = c.request, document = ws_.document(), object = ws_.document().active,
+                     scene = ws_.scene, clean = ws_.clean](const Job& job) {
+        job.progress("exporting", 0);
+        const ExportReport report = run_export(*scene->scene, document, object, request, clean.get(), job);
+        if (job.cancelled()) return;
+        std::string text = fmt::format("{} Gaussians, {} saved to {}", grouped(report.gaussians),
+                                       human_bytes(report.bytes), request.path.string());
+        if (report.clean > 0) text += report.edges_kept.empty() ? ", edges clean" : ", edges of some clean";
+        if (!report.edges_kept.empty()) text += ". Edges stay as they are: " + report.edges_kept;
+        if (!report.loss.empty()) text += ". Lost: " + report.loss;
+        ws_.tasks.post([this, text, path = request.path] {
+          last_ = path;
+          ws_.say(Message::Kind::kDone, text);
+        });
+      });
 }
 
 void Exports::perform(const SaveSnapshot& c) {
@@ -40,11 +44,12 @@ void Exports::perform(const SaveSnapshot& c) {
   refuse_written_inputs(c.path, ws_.scene->scene->files);
   ws_.tasks.submit(
       TaskKind::kExport, [this, c, camera = viewport_.pane_camera(), visible = viewport_.shown(0),
-                          limits = viewport_.draw_limits(), background = ws_.document().background,
-                          scene = ws_.scene](const Job& job) {
+                          clean = viewport_.clean(0), limits = viewport_.draw_limits(),
+                          background = ws_.document().background, scene = ws_.scene](const Job& job) {
         job.progress("drawing", 0);
         const Image<Rgba8> picture =
-            capture(*scene->cloud, camera, visible, limits, background, c.transparent, job);
+            capture(clean ? clean->cloud : *scene->cloud, camera, clean ? nullptr : visible, limits,
+                    background, c.transparent, job);
         if (job.cancelled()) return;
         write_png(c.path, picture);
         ws_.tasks.post([this, c] { ws_.say(Message::Kind::kDone, "Picture saved to " + c.path.string()); });
@@ -62,18 +67,22 @@ void Exports::perform(const SaveTurntable& c) {
   const Flags own = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
   DrawLimits limits = viewport_.draw_limits();
   limits.far_plane = DrawLimits{}.far_plane;  // that of another view
-  ws_.tasks.submit(TaskKind::kExport,
-                   [this, c, own, limits, front = viewport_.pane_camera(), up_world = ws_.document().up_world,
-                    background = ws_.document().background, scene = ws_.scene](const Job& job) {
-                     const std::vector<Camera> cameras =
-                         cameras_of_turn(object_extent(*scene->cloud, *own), front, up_world, c);
-                     const TurntableOptions options{c.as, c.path, c.turn_s, background};
-                     if (!save_turntable(*scene->cloud, cameras, own, limits, options, job)) return;
-                     ws_.tasks.post([this, c] {
-                       ws_.say(Message::Kind::kDone,
-                               fmt::format("{} frames saved to {}", c.frames, c.path.string()));
-                     });
-                   });
+  ws_.tasks.submit(
+      TaskKind::kExport,
+      [this, c, own, limits, front = viewport_.pane_camera(), up_world = ws_.document().up_world,
+       background = ws_.document().background, scene = ws_.scene, made = ws_.clean](const Job& job) {
+        const std::vector<Camera> cameras =
+            cameras_of_turn(object_extent(*scene->cloud, *own), front, up_world, c);
+        const TurntableOptions options{c.as, c.path, c.turn_s, background};
+        auto clean = c.clean_edges ? made->made(*own, up_world, job) : nullptr;
+        if (clean && !clean->report.cleaned) clean = nullptr;
+        if (!save_turntable(clean ? clean->cloud : *scene->cloud, cameras, clean ? nullptr : own, limits,
+                            options, job))
+          return;
+        ws_.tasks.post([this, c] {
+          ws_.say(Message::Kind::kDone, fmt::format("{} frames saved to {}", c.frames, c.path.string()));
+        });
+      });
 }
 
 }  // namespace splatcut

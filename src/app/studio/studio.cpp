@@ -20,6 +20,7 @@ Studio::Studio(const StudioOptions& options)
           {[this](bool same) { scene_opened(same); },
            [this](std::function<void()> next) { edits_.in_turn(std::move(next), Edits::OnCancel::kStays); }}),
       exports_(ws_, viewport_),
+      clean_edges_(ws_, viewport_, cuts_),
       tasks_(options.wake, options.inline_tasks),
       quick_(options.wake, options.inline_tasks) {
   tasks_.on_error =
@@ -114,6 +115,7 @@ bool Studio::update(double seconds) {
   follow_document();
   cuts_.update();
   const bool moves = viewport_.update(seconds, flight());
+  clean_edges_.update();
   clicks_.update();
   files_.update();
   work_.update(seconds);
@@ -154,7 +156,7 @@ bool Studio::cancel_task() {
     ws_.say(Message::Kind::kInfo, "Cancelled. The strokes stay; R computes the cutout again.");
     return true;
   }
-  bool cancelled = cuts_.cancel_likelihood() || edits_.cancel();
+  bool cancelled = cuts_.cancel_likelihood() || edits_.cancel() || clean_edges_.cancel();
   for (const TaskKind kind : {TaskKind::kSelect, TaskKind::kExport}) {
     if (cancelled || !tasks_.busy(kind)) continue;
     tasks_.cancel(kind);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studio/clean_edges.h"
 #include "app/studio/clicks.h"
 #include "app/studio/cut_jobs.h"
 #include "app/studio/edits.h"
@@ -107,6 +108,7 @@ class Studio {
   void close_shape();
   void turn_over(bool ViewState::*part);  // on or off
   void turn_over(DisplayMode mode);       // that display, or the whole again
+  void side_by_side();
   void scale_brush(float factor);
   void step_camera(int direction);
   void hold(const Modifiers& modifiers);
@@ -120,6 +122,7 @@ class Studio {
   SavedWork work_;
   SceneFiles files_;
   Exports exports_;
+  CleanEdges clean_edges_;
   std::set<int> held_keys_;
   double brush_repeated_s_ = -1e9;
   std::uint64_t followed_serial_ = 0;  // of the document that follow_document() saw last

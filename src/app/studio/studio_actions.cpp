@@ -128,7 +128,8 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kPartSmaller, without_size<-1>, [](S& s) { s.apply(StepScale{-1}); }},
       {Action::kIsolate, without_gaussians, [](S& s) { s.turn_over(DisplayMode::kIsolate); }, kWaits},
       {Action::kHide, without_gaussians, [](S& s) { s.turn_over(DisplayMode::kHide); }, kWaits},
-      {Action::kSideBySide, without_gaussians, [](S& s) { s.turn_over(DisplayMode::kSideBySide); }, kWaits},
+      {Action::kSideBySide, without_gaussians, [](S& s) { s.side_by_side(); }, kWaits},
+      {Action::kCleanEdges, without_scene, [](S& s) { s.turn_over(&ViewState::clean_edges); }},
       {Action::kShowAll, without_scene, [](S& s) { s.turn_over(s.ws_.view.display); }},
       {Action::kTint, without_scene, [](S& s) { s.turn_over(&ViewState::tint); }},
       {Action::kOutline, without_scene, [](S& s) { s.turn_over(&ViewState::outline); }},
@@ -187,6 +188,17 @@ void Studio::turn_over(bool ViewState::*part) {
 void Studio::turn_over(DisplayMode mode) {
   ViewState view = ws_.view;
   view.display = view.display == mode ? DisplayMode::kWhole : mode;
+  apply(SetView{view});
+}
+
+// Beside the scene; where the object is shown alone already, beside itself as its rows are.
+void Studio::side_by_side() {
+  ViewState view = ws_.view;
+  const DisplayMode before = view.display;
+  view.display = before == DisplayMode::kIsolate       ? DisplayMode::kBeforeAfter
+                 : before == DisplayMode::kBeforeAfter ? DisplayMode::kIsolate
+                 : before == DisplayMode::kSideBySide  ? DisplayMode::kWhole
+                                                       : DisplayMode::kSideBySide;
   apply(SetView{view});
 }
 

@@ -20,7 +20,7 @@
 
 namespace splatcut {
 
-enum class TaskKind { kLoad, kPrepare, kCut, kSelect, kStyle, kHover, kExport, kSave, kAutosave };
+enum class TaskKind { kLoad, kPrepare, kCut, kClean, kSelect, kStyle, kHover, kExport, kSave, kAutosave };
 
 class TaskThread {
  public:

@@ -156,8 +156,8 @@ void Viewport::request_styles() {
   styled_document_ = ws_.history.serial();
   styled_view_ = ws_.view_serial;
   styles_on_the_way_ = true;
-  StyleOrder order{ws_.scene->cloud, ws_.graph, ws_.document(),    {},
-                   nullptr,          ws_.view,  pixels_per_point_, floaters_shown_};
+  StyleOrder order{ws_.scene->cloud, ws_.graph,         ws_.document(), {}, nullptr, ws_.clean,
+                   ws_.view,         pixels_per_point_, floaters_shown_};
   for (const ObjectItem& object : order.document.objects)
     if (const CutRun* run = cuts_.run(object.id)) {
       if (run->preview) order.previews[object.id] = run->preview;
@@ -197,7 +197,7 @@ void Viewport::request_picture() {
   FrameRequest request{
       ws_.scene->serial, ws_.scene->cloud, ws_.scene->blocks, ws_.coarse, {}, draw_limits(), still};
   for (int pane = 0; pane < panes(); ++pane) {
-    request.panes.push_back({camera, shown(pane), style(pane)});
+    request.panes.push_back({camera, shown(pane), style(pane), clean(pane)});
     request.panes.back().style.checker_px *= scale;  // on the screen it stays as large
   }
   frames_.request(std::move(request));

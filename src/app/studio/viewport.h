@@ -48,6 +48,10 @@ class Viewport {
   DrawLimits draw_limits() const;
   const Flags& shown(int pane) const { return styles_.shown.at(static_cast<std::size_t>(pane)); }
   const FrameStyle& style(int pane) const { return styles_.style.at(static_cast<std::size_t>(pane)); }
+  // Drawn there in place of the scene's rows; null: those.
+  const std::shared_ptr<const CleanObject>& clean(int pane) const {
+    return styles_.clean.at(static_cast<std::size_t>(pane));
+  }
   std::uint64_t style_serial() const { return style_serial_; }  // changes with shown() and style()
   bool style_current() const;  // made of the document and the view as they are
   const Flags& active_labels() const { return styles_.active_labels; }  // as they are shown; null: none yet

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/document/clean_objects.h"
 #include "app/document/document_edits.h"
 #include "app/document/history.h"
 #include "app/document/label_cache.h"
@@ -40,6 +41,7 @@ struct Workspace {
   std::shared_ptr<const OpenedScene> scene{};   // null: none
   std::shared_ptr<Session> session{};           // of the scene, for `tasks`; null as long as it is
   std::shared_ptr<SceneGraph> graph{};          // of the scene, made at the first edit that asks for it
+  std::shared_ptr<CleanObjects> clean{};        // of the scene
   std::shared_ptr<const CoarseCloud> coarse{};  // of large scenes, for pictures while the view moves
   mutable LabelCache labels{};
   std::deque<Message> messages{};  // the last hundred

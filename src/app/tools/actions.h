@@ -63,6 +63,7 @@ enum class Action {
   kHide,
   kShowAll,
   kSideBySide,
+  kCleanEdges,
   kTint,
   kOutline,
   kHeat,

@@ -184,10 +184,15 @@ void placement_choices(UiContext& ui) {
   if (button(ui, icon::kUndo, "Back to where it stands in the scene")) p = {};
 }
 
+bool cleans_edges(const UiContext& ui) {
+  const ExportWhat what = ui.state.exporting.what;
+  return ui.studio.view().clean_edges && (what == ExportWhat::kObject || what == ExportWhat::kAllObjects);
+}
+
 // Made once for each choice: it looks at all Gaussians.
 const FormatPlan& export_plan(UiContext& ui, std::size_t gaussians) {
   ExportChoice& choice = ui.state.exporting;
-  const bool moved = choice.placement != ExportPlacement{};
+  const bool moved = choice.placement != ExportPlacement{} || cleans_edges(ui);
   std::string key =
       fmt::format("{} {} {} {}", ui.studio.scene()->serial, gaussians, choice.format.name, moved);
   if (choice.plan_key != key) {
@@ -251,7 +256,7 @@ void export_dialog(UiContext& ui) {
     if (ui.state.exporting.path.empty()) propose_path(ui);
     ImGui::OpenPopup(id);
   }
-  constexpr float kWidth = 640, kHeight = 452, kPreview = 330;
+  constexpr float kWidth = 640, kHeight = 478, kPreview = 330;
   const bool previews = ImGui::GetIO().DisplaySize.x >= kWidth + kPreview;
   centre_next_window({previews ? kWidth + kPreview : kWidth, kHeight});
   if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
@@ -263,6 +268,7 @@ void export_dialog(UiContext& ui) {
   }
   export_choices(ui);
   placement_choices(ui);
+  clean_edges_choice(ui);
   ExportChoice& choice = ui.state.exporting;
   const std::size_t gaussians = gaussians_to_export(ui.studio, choice.what);
   const FormatPlan& plan = export_plan(ui, gaussians);
@@ -298,7 +304,9 @@ void export_dialog(UiContext& ui) {
                                  : "";
   const bool pressed = button(ui, "Export", "Write the file  (Enter)", reason, reason.empty(), 110);
   const bool done = pressed || (reason.empty() && !typing && enter_pressed());
-  if (done) ui.ask(Export{{choice.what, choice.format, target, choice.overwrite, choice.placement}});
+  if (done)
+    ui.ask(
+        Export{{choice.what, choice.format, target, choice.overwrite, choice.placement, cleans_edges(ui)}});
   if (done || cancelled) {
     ui.state.export_open = false;
     choice.trouble.clear();

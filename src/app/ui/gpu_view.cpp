@@ -19,21 +19,36 @@ SplatStyle style_of(const FrameStyle& style, std::size_t g) {
 
 }  // namespace
 
-void GpuView::refresh(Pane* pane, const Studio& studio, int index) {
-  const GaussianCloud& cloud = *studio.scene()->cloud;
-  if (pane->scene != studio.scene()->serial) {
-    pane->splats.upload(cloud);
-    pane->scene = studio.scene()->serial;
-    pane->style = 0;
+void GpuView::Sorted::follow(const std::shared_ptr<const GaussianCloud>& wanted, const Camera& seen_by) {
+  if (cloud != wanted) order.reset();
+  if (cloud != wanted || !camera || !same_camera(*camera, seen_by)) {
+    sorter.request(wanted, seen_by);
+    cloud = wanted;
+    camera = seen_by;
+  }
+  if (auto fresh = sorter.take(); fresh && fresh->cloud == wanted) {
+    order = std::move(fresh);
+    ++serial;
+  }
+}
+
+void GpuView::refresh(Pane* pane, const std::shared_ptr<const GaussianCloud>& cloud, const Studio& studio,
+                      int index) {
+  if (pane->cloud != cloud) {
+    pane->splats.upload(*cloud);
+    pane->cloud = cloud;
+    pane->style = pane->order = 0;
   }
   if (pane->style == studio.viewport().style_serial()) return;
   pane->style = studio.viewport().style_serial();
   const FrameStyle style = studio.viewport().style(index);
   const Flags shown = studio.viewport().shown(index);
-  std::vector<SplatStyle> styles(cloud.size());
-  for (std::size_t g = 0; g < styles.size(); ++g) {
-    styles[g] = style_of(style, g);
-    if (shown && !(*shown)[g]) styles[g][3] = 0;
+  const auto clean = studio.viewport().clean(index);
+  std::vector<SplatStyle> styles(cloud->size());
+  for (std::size_t i = 0; i < styles.size(); ++i) {
+    const std::size_t g = clean ? clean->gaussian[i] : i;
+    styles[i] = style_of(style, g);
+    if (shown && !(*shown)[g]) styles[i][3] = 0;
   }
   pane->splats.upload_styles(styles);
 }
@@ -42,26 +57,21 @@ std::array<GLuint, 2> GpuView::draw(const Studio& studio) {
   std::array<GLuint, 2> textures{};
   if (!studio.scene()) return textures;
   const Camera camera = studio.viewport().pane_camera();
-  const bool other_scene = sorted_scene_ != studio.scene()->serial;
-  if (other_scene) order_.reset();
-  if (other_scene || !sorted_camera_ || !same_camera(*sorted_camera_, camera)) {
-    sorter_.request(studio.scene()->cloud, camera);
-    sorted_scene_ = studio.scene()->serial;
-    sorted_camera_ = camera;
-  }
-  if (auto order = sorter_.take(); order && order->cloud == studio.scene()->cloud) {
-    order_ = std::move(order);
-    ++order_serial_;
-  }
-  if (!order_) return textures;
   const DrawLimits limits = studio.viewport().draw_limits();
   for (int i = 0; i < studio.viewport().panes(); ++i) {
-    if (!panes_[i]) panes_[i] = std::make_unique<Pane>();
-    refresh(panes_[i].get(), studio, i);
-    GlSplats& splats = panes_[i]->splats;
-    if (uploaded_order_[i] != order_serial_) {
-      splats.upload_order(order_->back_to_front);
-      uploaded_order_[i] = order_serial_;
+    const auto& clean = studio.viewport().clean(i);
+    const std::shared_ptr<const GaussianCloud> cloud =
+        clean ? std::shared_ptr<const GaussianCloud>(clean, &clean->cloud) : studio.scene()->cloud;
+    Sorted& sorted = clean ? clean_order_ : scene_order_;
+    sorted.follow(cloud, camera);
+    if (!sorted.order) continue;
+    std::unique_ptr<Pane>& pane = clean ? clean_ : panes_[i];
+    if (!pane) pane = std::make_unique<Pane>();
+    refresh(pane.get(), cloud, studio, i);
+    GlSplats& splats = pane->splats;
+    if (pane->order != sorted.serial) {
+      splats.upload_order(sorted.order->back_to_front);
+      pane->order = sorted.serial;
     }
     splats.draw(camera, {limits.near_plane, limits.far_plane, limits.low_pass_px2});
     const FrameStyle style = studio.viewport().style(i);

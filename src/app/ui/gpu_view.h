@@ -13,7 +13,7 @@ namespace splatcut {
 
 class GpuView {
  public:
-  explicit GpuView(std::function<void()> wake) : sorter_(std::move(wake)) {}
+  explicit GpuView(const std::function<void()>& wake) : scene_order_(wake), clean_order_(wake) {}
 
   // Draws the studio's panes as they are now; a texture each, 0 where there is none yet.
   std::array<GLuint, 2> draw(const Studio& studio);
@@ -21,17 +21,26 @@ class GpuView {
  private:
   struct Pane {
     GlSplats splats;
-    std::uint64_t scene = 0, style = 0;
+    std::shared_ptr<const GaussianCloud> cloud;
+    std::uint64_t style = 0, order = 0;
   };
-  void refresh(Pane* pane, const Studio& studio, int index);
+  // Of one cloud, the latest that was asked for.
+  struct Sorted {
+    explicit Sorted(const std::function<void()>& wake) : sorter(wake) {}
+    void follow(const std::shared_ptr<const GaussianCloud>& wanted, const Camera& seen_by);
 
-  DepthSorter sorter_;
-  std::unique_ptr<Pane> panes_[2];  // the second for side by side
-  std::uint64_t sorted_scene_ = 0;
-  std::optional<Camera> sorted_camera_;
-  std::optional<DepthOrder> order_;
-  std::uint64_t order_serial_ = 0;
-  std::uint64_t uploaded_order_[2] = {0, 0};
+    DepthSorter sorter;
+    std::shared_ptr<const GaussianCloud> cloud;
+    std::optional<Camera> camera;
+    std::optional<DepthOrder> order;
+    std::uint64_t serial = 0;  // of the order
+  };
+  void refresh(Pane* pane, const std::shared_ptr<const GaussianCloud>& cloud, const Studio& studio,
+               int index);
+
+  std::unique_ptr<Pane> panes_[2];  // of the scene, the second for side by side
+  std::unique_ptr<Pane> clean_;     // the pane that shows an object with clean edges
+  Sorted scene_order_, clean_order_;
 };
 
 }  // namespace splatcut

@@ -11,7 +11,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kDisplayWidth = 400;  // of the buttons at the right end
+constexpr float kDisplayWidth = 452;  // of the buttons at the right end
 
 void gap() {
   ImGui::SameLine(0, 16);
@@ -163,9 +163,12 @@ void display_buttons(UiContext& ui) {
   ImGui::SameLine(0, 2);
   action_button(ui, Action::kIsolate, "Isolate", mode == DisplayMode::kIsolate);
   ImGui::SameLine(0, 2);
+  action_button(ui, Action::kCleanEdges, "Clean", view.clean_edges);
+  ImGui::SameLine(0, 2);
   action_button(ui, Action::kHide, "Hide", mode == DisplayMode::kHide);
   ImGui::SameLine(0, 2);
-  action_button(ui, Action::kSideBySide, icon::kColumns, mode == DisplayMode::kSideBySide);
+  action_button(ui, Action::kSideBySide, icon::kColumns,
+                mode == DisplayMode::kSideBySide || mode == DisplayMode::kBeforeAfter);
   gap();
   action_button(ui, Action::kTint, icon::kTint, view.tint);
   ImGui::SameLine(0, 2);

@@ -133,7 +133,7 @@ void turntable_dialog(UiContext& ui) {
   }
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({560, 268});
+  ImGui::SetNextWindowSize({560, 298});
   if (!ImGui::BeginPopupModal(id, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return;
   const bool typing = typing_beside("##folder");
   as_row(ui, choice);
@@ -144,6 +144,7 @@ void turntable_dialog(UiContext& ui) {
   ImGui::InputText("##folder", &choice.path);
   ImGui::SameLine(0, 4);
   const bool browse = button(ui, icon::kFolder, "Choose a folder and name");
+  clean_edges_choice(ui);
   wrapped_muted(ui, what_is_written(choice));
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
   const bool cancelled = ImGui::Button("Cancel", {110, 0}) || (!typing && escape_pressed());
@@ -154,7 +155,7 @@ void turntable_dialog(UiContext& ui) {
   const bool done = pressed || (reason.empty() && !cancelled && !browse && !typing && enter_pressed());
   if (done)
     ui.ask(SaveTurntable{choice.path, choice.frames, choice.width_px, choice.height_px, choice.as,
-                         choice.turn_s});
+                         choice.turn_s, ui.studio.view().clean_edges});
   if (done || cancelled || browse) {
     ui.state.turntable_open = false;
     ImGui::CloseCurrentPopup();

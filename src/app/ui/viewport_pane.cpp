@@ -63,7 +63,8 @@ void pane_label(const UiContext& ui, const ImVec2& at, const char* text) {
 const char* mode_label(const Studio& studio) {
   switch (studio.view().display) {
     case DisplayMode::kIsolate:
-      return "Only the object  (I: back)";
+      return studio.viewport().clean(0) ? "Only the object, edges clean  (I: back)"
+                                        : "Only the object  (I: back)";
     case DisplayMode::kHide:
       return "Without the object  (H: back)";
     default:
@@ -202,8 +203,10 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   if (panes == 2) {
     list.AddLine({area.min.x + pane_width, area.min.y}, {area.min.x + pane_width, area.max.y},
                  packed(ui.theme.colour.line), 2);
-    pane_label(ui, {area.min.x + pane_width + 12, top}, "Object");
-    pane_label(ui, {area.min.x + 12, top}, "Scene");
+    const bool compares = studio.view().display == DisplayMode::kBeforeAfter;
+    const char* clean = studio.viewport().clean(1) ? "Object, edges clean" : "Object";
+    pane_label(ui, {area.min.x + pane_width + 12, top}, clean);
+    pane_label(ui, {area.min.x + 12, top}, compares ? "Object as it is  (B: back)" : "Scene");
   } else if (const char* label = mode_label(studio)) {
     pane_label(ui, {area.min.x + 12, top}, label);
   }

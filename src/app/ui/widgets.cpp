@@ -81,6 +81,13 @@ void action_button(UiContext& ui, Action action, const char* label, bool on, flo
   ImGui::PopID();
 }
 
+void clean_edges_choice(UiContext& ui) {
+  ViewState view = ui.studio.view();
+  if (ImGui::Checkbox("Clean edges", &view.clean_edges)) ui.ask(SetView{view});
+  tooltip(
+      "Without what the scene around it had hidden, as the object looks alone; else its rows as they are");
+}
+
 void muted_text(UiContext& ui, const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.colour.muted);
   ImGui::TextUnformatted(text.c_str());

@@ -10,6 +10,8 @@ namespace splatcut {
 
 // A button for an action of the key table: greyed with its reason where it is not allowed, its keys in the
 // tooltip. label: what it shows, an icon or text. on: drawn as switched on. width 0: as wide as its label.
+// The view's switch, for what is written of an object.
+void clean_edges_choice(UiContext& ui);
 void action_button(UiContext& ui, Action action, const char* label, bool on = false, float width = 0);
 
 // A button that is greyed with `reason` unless that is empty. True when pressed.

@@ -8,6 +8,7 @@
 #include "hands.h"
 #include "scene/raster/rasterizer.h"
 #include "scene/raster/splat_math.h"
+#include "segment/finish/clean.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -74,6 +75,138 @@ TEST_CASE("hands: an export stands where it is asked to, and looks the same from
   MESSAGE("SH degree ", written.cloud.sh_degree, ", largest difference ", largest);
   CHECK(written.cloud.sh_degree > 0);
   CHECK(largest < 2e-3f);
+}
+
+namespace {
+
+// The apple with the table and the shadows that touch it.
+void take_what_touches_it(Hands& hands) {
+  hands.studio().apply(EditSelection{SelectionEdit::kGrow});
+  REQUIRE(hands.app.settle());
+}
+
+bool changed(const CleanReport& report) {
+  return report.cleaned && report.left + report.split + report.made_solid + report.recoloured > 0;
+}
+
+// The object that is active, as the command line cleans its edges.
+CleanObject cleaned_without_window(Hands& hands) {
+  const OpenedScene& scene = *hands.studio().scene();
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  return clean_object({*scene.cloud, labels, hands.studio().document().up_world, scene.views().cameras});
+}
+
+// Over all Gaussians: a file's stand in another order than those that it was written from.
+double sum_of_colours(const GaussianCloud& cloud) {
+  double sum = 0;
+  for (const glm::vec3& c : cloud.f_dc) sum += static_cast<double>(c.r + c.g + c.b);
+  return sum;
+}
+double sum_of_sides(const GaussianCloud& cloud) {
+  double sum = 0;
+  for (const glm::vec3& s : cloud.scale) sum += static_cast<double>(s.x + s.y + s.z);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("hands: an object is exported with clean edges, placed or not, or with its rows as they are") {
+  const ScratchFolder folder("edges");
+  Hands hands;
+  take_what_touches_it(hands);
+  const std::size_t labelled = hands.selected();
+  const CleanObject clean = cleaned_without_window(hands);
+  CAPTURE(clean.report.reason);
+  REQUIRE(changed(clean.report));
+  const ExportPlacement twice{ExportOrigin::kScene, ExportUp::kScene, 0, 2, {}};
+  const auto exported_as = [&](const char* name, const ExportPlacement& placement, bool edges) {
+    hands.studio().apply(
+        Export{{ExportWhat::kObject, SceneFormat::kPly, folder / name, false, placement, edges}});
+    REQUIRE(hands.app.settle());
+    return load_scene(folder / name).cloud;
+  };
+  const GaussianCloud written = exported_as("clean.ply", {}, true),
+                      larger = exported_as("twice.ply", twice, true);
+  REQUIRE(written.size() == clean.cloud.size());
+  REQUIRE(larger.size() == clean.cloud.size());
+  const GaussianCloud kept = exported_as("kept.ply", {}, false);
+  REQUIRE(kept.size() == labelled);
+  CHECK(sum_of_sides(written) == doctest::Approx(sum_of_sides(clean.cloud)).epsilon(1e-6));
+  CHECK(sum_of_sides(larger) == doctest::Approx(2 * sum_of_sides(clean.cloud)).epsilon(1e-6));
+  CHECK(sum_of_colours(written) == doctest::Approx(sum_of_colours(clean.cloud)).epsilon(1e-6));
+  CHECK(sum_of_colours(larger) == doctest::Approx(sum_of_colours(clean.cloud)).epsilon(1e-6));
+  const double apart = std::abs(sum_of_colours(kept) - sum_of_colours(clean.cloud)) +
+                       std::abs(sum_of_sides(kept) - sum_of_sides(clean.cloud));
+  CHECK(apart > 1e-5 * std::abs(sum_of_colours(clean.cloud)));
+  CHECK(hands.said().find("edges clean") == std::string::npos);  // of the last one, whose rows were kept
+}
+
+TEST_CASE("hands: alone, the object is drawn with clean edges, beside itself as it is, or as it is") {
+  Hands hands;
+  take_what_touches_it(hands);
+  const CleanObject clean = cleaned_without_window(hands);
+  CAPTURE(clean.report.reason);
+  REQUIRE(changed(clean.report));
+  const ObjectId object = hands.studio().document().active;
+  const std::uint64_t document = hands.studio().history().serial();
+  const auto drawn = [&](Action action) {
+    hands.studio().run(action);
+    REQUIRE(hands.app.settle());
+    REQUIRE(hands.studio().viewport().picture());
+    return hands.studio().viewport().picture()->frames;
+  };
+  const auto shows = [&](const Frame& frame, const GaussianCloud& cloud, const Flags& shown) {
+    const Camera camera = hands.studio().viewport().pane_camera();
+    const auto own = raster_frame(cloud, camera, shown, hands.studio().viewport().draw_limits());
+    return std::ranges::equal(frame.colour.pixels(), own->colour.pixels());
+  };
+  const Flags labels = make_flags(hands.studio().labels(object));
+  const GaussianCloud& scene = *hands.studio().scene()->cloud;
+
+  auto frames = drawn(Action::kIsolate);
+  CHECK(shows(*frames[0], clean.cloud, nullptr));
+  CHECK_FALSE(shows(*frames[0], scene, labels));
+  const auto& hits = frames[0]->first_hit.pixels();  // of the scene: a click on the picture means these
+  CHECK(std::ranges::all_of(
+      hits, [&](std::int32_t g) { return g < 0 || std::ranges::binary_search(clean.gaussian, g); }));
+  CHECK(std::ranges::any_of(hits, [](std::int32_t g) { return g >= 0; }));
+
+  frames = drawn(Action::kSideBySide);
+  REQUIRE(frames.size() == 2);
+  CHECK(shows(*frames[0], scene, labels));
+  CHECK(shows(*frames[1], clean.cloud, nullptr));
+
+  drawn(Action::kSideBySide);
+  CHECK(hands.studio().view().display == DisplayMode::kIsolate);
+  frames = drawn(Action::kCleanEdges);
+  CHECK(shows(*frames[0], scene, labels));
+  CHECK(hands.studio().labels(object) == *labels);
+  CHECK(hands.studio().history().serial() == document);
+}
+
+TEST_CASE("hands: edges are made clean beforehand while nothing else is to do, and again for other labels") {
+  Hands hands;
+  const auto wait = [&] { hands.app.frames(120); };  // two seconds
+  const auto isolated = [&] {
+    hands.studio().run(Action::kIsolate);
+    REQUIRE(hands.app.settle());
+    return hands.studio().viewport().clean(0);
+  };
+  wait();
+  REQUIRE(hands.app.settle());
+  const auto first = isolated();
+  REQUIRE(first);
+  CHECK(first->gaussian == cleaned_without_window(hands).gaussian);
+  CHECK(hands.studio().progress().busy == false);
+  hands.studio().apply(EditSelection{SelectionEdit::kShrink});
+  REQUIRE(hands.app.settle());
+  const auto second = hands.studio().viewport().clean(0);
+  const CleanObject again = cleaned_without_window(hands);
+  REQUIRE((second != nullptr) == again.report.cleaned);
+  if (second) CHECK(second->gaussian == again.gaussian);
+  hands.studio().apply(Undo{});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().viewport().clean(0) == first);
 }
 
 TEST_CASE("hands: harmonics of every degree turn with the object") {

@@ -101,6 +101,7 @@ TEST_CASE("frames: the OpenGL renderer shows what the CPU renderer shows") {
 }
 
 TEST_CASE("frames: OpenGL draws the checker as the CPU does, moving or still, on one pane or two") {
+  constexpr int kTop = 84;  // of the picture: below the tool's options and the label
   const auto checker_frame = [](RendererChoice renderer, bool two, bool moving) {
     ApplicationOptions options = with_kept_scenes();
     options.renderer = renderer;
@@ -139,11 +140,11 @@ TEST_CASE("frames: OpenGL draws the checker as the CPU does, moving or still, on
     Image<Rgb8> cut(static_cast<int>(area.size().x) - 120, 40);
     for (int y = 0; y < cut.height(); ++y)
       for (int x = 0; x < cut.width(); ++x)
-        cut.at(x, y) = frame.at(x + static_cast<int>(area.min.x), y + static_cast<int>(area.min.y) + 48);
+        cut.at(x, y) = frame.at(x + static_cast<int>(area.min.x), y + static_cast<int>(area.min.y) + kTop);
     return cut;
   };
   const Image<Rgb8> expected = checker_frame(RendererChoice::kCpu, false, false);
-  constexpr int kSide = 12, kTop = 48;
+  constexpr int kSide = 12;
   for (const auto& [x, y] : {std::pair(1, 0), {11, 11}, {12, 0}, {1, 12}, {12, 12}, {150, 5}}) {
     CAPTURE(x);
     CAPTURE(y);

@@ -320,6 +320,11 @@ TEST_CASE("dialogs: what an export keeps and loses is told as it is written, mov
   UiState& state = app.interface_state();
   app.key('E', {.ctrl = true});
   app.frames(3);
+  CHECK(state.exporting.plan.kept.find("byte for byte") == std::string::npos);  // with clean edges
+  ViewState view = app.studio().view();
+  view.clean_edges = false;
+  app.studio().apply(SetView{view});
+  app.frames(3);
   CHECK(state.exporting.plan.kept.find("byte for byte") != std::string::npos);
   state.exporting.placement.turn_deg = 30;
   app.frames(2);

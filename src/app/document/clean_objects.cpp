@@ -1,0 +1,28 @@
+#include "app/document/clean_objects.h"
+
+#include <algorithm>
+
+namespace splatcut {
+
+std::shared_ptr<const CleanObject> CleanObjects::known(const std::vector<std::uint8_t>& labels,
+                                                       const glm::vec3& up_world) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::ranges::find_if(
+      kept_, [&](const Kept& k) { return k.up_world == up_world && k.labels == labels; });
+  return found == kept_.end() ? nullptr : found->object;
+}
+
+std::shared_ptr<const CleanObject> CleanObjects::made(const std::vector<std::uint8_t>& labels,
+                                                      const glm::vec3& up_world, const Job& job) {
+  if (auto object = known(labels, up_world)) return object;
+  auto object = std::make_shared<const CleanObject>(
+      clean_object({*scene_->cloud, labels, up_world, scene_->views().cameras}, {}, job));
+  if (job.cancelled()) return nullptr;
+  constexpr std::size_t kMost = 4;
+  const std::lock_guard lock(mutex_);
+  kept_.push_back({labels, up_world, object});
+  if (kept_.size() > kMost) kept_.pop_front();
+  return object;
+}
+
+}  // namespace splatcut
