@@ -16,7 +16,7 @@ class CleanEdges {
       : ws_(workspace), viewport_(viewport), cuts_(cuts) {}
 
   void update();  // once a frame
-  // What is made for a view that waits for it is not tried again for these labels. False where nothing is.
+  // Stops what a view waits for; it is not made again for the same labels. False where no view waits.
   bool cancel();
 
  private:
