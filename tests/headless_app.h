@@ -72,9 +72,10 @@ class HeadlessApp {
   void frames(int count) {
     for (int i = 0; i < count; ++i) app_.frame(1.0 / 60);
   }
-  // The message on the screen goes.
+  // The message on the screen goes; what is made while nothing is done (clean edges) is made.
   void wait_for_message_to_go() {
     app_.frame(10);
+    settle();
     frames(2);
   }
 
