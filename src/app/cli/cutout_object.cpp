@@ -56,6 +56,7 @@ nlohmann::json CutoutObject::report() const {
     json["why_kept"] = report.reason;
     return json;
   }
+  if (report.uncut) json["uncut"] = true;
   json.update({{"left", report.left},
                {"split", report.split},
                {"made_solid", report.made_solid},

@@ -13,6 +13,7 @@ namespace splatcut {
 namespace {
 
 constexpr double kAgrees = 0.95;
+constexpr double kMostLost = 1.26;  // 1 dB
 constexpr int kLeastViews = 6;
 constexpr std::size_t kLeastShownPx = 64;
 
@@ -39,6 +40,17 @@ std::string why_not(const CleanReport& report) {
   return fmt::format(
       "alone, it looks as it does within the scene from {} of {} sides: its labels are not right yet",
       report.agreed, report.views);
+}
+
+// Steps 1 to 3, or the last two alone; `kept` says what left.
+void finish(std::span<const OwnView> views, bool cuts, std::vector<std::uint8_t>* kept, CleanObject* object,
+            const Job& job) {
+  CleanReport& report = object->report;
+  const CarveReport carved = cuts ? carve(views, &object->cloud, kept, job) : CarveReport{};
+  report.left = carved.left;
+  report.split = carved.split;
+  report.made_solid = make_solid(views, *kept, &object->cloud, job);
+  report.recoloured = recolour(views, *kept, &object->cloud, job);
 }
 
 void drop_gone(const std::vector<std::uint8_t>& kept, CleanObject* object) {
@@ -70,16 +82,15 @@ CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options,
   }
   std::vector<std::uint8_t> kept(object.cloud.size(), 1);
   job.progress("clean edges", 0);
-  const CarveReport carved = carve(views, &object.cloud, &kept, job);
-  if (std::ranges::count(kept, 1) == 0) {
+  const double as_it_is = own_picture_error(views, object.cloud, kept, job);
+  finish(views, true, &kept, &object, job);
+  report.uncut = std::ranges::count(kept, 1) == 0 ||
+                 own_picture_error(views, object.cloud, kept, job) > kMostLost * as_it_is;
+  if (report.uncut) {
     object.cloud = permuted(input.cloud, object.gaussian);
-    report.reason = "its own pictures show none of it";
-    return object;
+    std::ranges::fill(kept, 1);
+    finish(views, false, &kept, &object, job);
   }
-  report.left = carved.left;
-  report.split = carved.split;
-  report.made_solid = make_solid(views, kept, &object.cloud, job);
-  report.recoloured = recolour(views, kept, &object.cloud, job);
   report.cleaned = !job.cancelled();
   drop_gone(kept, &object);
   return object;

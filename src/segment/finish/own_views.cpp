@@ -111,6 +111,25 @@ OwnView own_view(const GaussianCloud& cloud, const GaussianCloud& object,
   return view;
 }
 
+double own_picture_error(std::span<const OwnView> views, const GaussianCloud& object,
+                         std::span<const std::uint8_t> kept, const Job& job) {
+  double squares = 0, inside_px = 0;
+  for (const OwnView& view : views) {
+    RasterOptions raster;
+    raster.roi = view.rect;
+    raster.shown = kept;
+    const Image<glm::vec3> alone = rasterize(object, view.camera, raster, job).colour;
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      if (!view.valid.pixels()[i]) continue;
+      const bool inside = view.inside.pixels()[i] != 0;
+      const glm::vec3 d = alone.pixels()[i] - (inside ? view.colour.pixels()[i] : glm::vec3(0));
+      squares += static_cast<double>(glm::dot(d, d)) / 3;
+      inside_px += inside;
+    }
+  }
+  return inside_px > 0 ? squares / inside_px : 0;
+}
+
 std::vector<Camera> own_cameras(const GaussianCloud& cloud, std::span<const std::uint8_t> labels,
                                 const glm::vec3& up_world, std::span<const Camera> given,
                                 const OwnViewOptions& options) {

@@ -35,6 +35,11 @@ struct OwnView {
 OwnView own_view(const GaussianCloud& cloud, const GaussianCloud& object,
                  std::span<const std::uint8_t> labels, const Camera& camera, const Job& job);
 
+// Mean squared error of the object drawn alone on black, per channel and pixel inside: against the scene's
+// picture inside, against black outside. kept: per Gaussian of the object, 0 = not drawn.
+double own_picture_error(std::span<const OwnView> views, const GaussianCloud& object,
+                         std::span<const std::uint8_t> kept, const Job& job);
+
 struct OwnViewOptions {
   int views = 12;
   int picture_px = 320;  // width, at least, of capture cameras no more than their own; of others height, too

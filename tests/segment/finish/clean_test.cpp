@@ -177,6 +177,7 @@ TEST_CASE("edges that straddle and hide: the clean object is nearer to the true 
     CAPTURE(name);
     CAPTURE(object.report.reason);
     REQUIRE(object.report.cleaned);
+    CHECK_FALSE(object.report.uncut);
     const AloneScore clean = score_alone(thing.test, object.cloud);
     CHECK(kept.alpha_error > 0.01);
     CHECK(clean.alpha_error < 0.7 * kept.alpha_error);
@@ -213,6 +214,19 @@ TEST_CASE("the guard: labels that are not right yet leave the object as it is, a
   CHECK(object.report.left + object.report.split + object.report.made_solid + object.report.recoloured == 0);
   CHECK(same_rows(object.cloud, permuted(thing.scene.cloud, object.gaussian)));
   CHECK(static_cast<std::ptrdiff_t>(object.gaussian.size()) == std::ranges::count(labels, 1));
+}
+
+TEST_CASE("the second guard: what an object's own pictures show is not cut off") {
+  StillLifeOptions options;
+  options.gaussians = 20000;
+  const Thing thing(options, "background");  // touched by every thing, and hidden by it
+  const CleanObject object = thing.clean();
+  REQUIRE(object.report.cleaned);
+  CHECK(object.report.uncut);
+  CHECK(object.report.left + object.report.split == 0);
+  const GaussianCloud as_it_is = thing.as_labelled();
+  CHECK(object.cloud.position == as_it_is.position);
+  CHECK(object.cloud.scale == as_it_is.scale);
 }
 
 TEST_CASE("clean edges: the same bits on one thread and on four") {
