@@ -110,12 +110,19 @@ void write_object(const OutputFolder& folder, const Scene& scene, const CutObjec
 }  // namespace
 
 void check_inside(const Strokes& strokes, const Camera& camera) {
-  for (const Stroke& stroke : strokes)
+  for (const Stroke& stroke : strokes) {
+    if (stroke.is_box()) {
+      if (box_is_too_small(stroke, camera.width_px, camera.height_px))
+        throw Error("box", fmt::format("less than 6 pixels of a side lie in the {}x{} picture",
+                                       camera.width_px, camera.height_px));
+      continue;
+    }
     for (const glm::vec2& p : stroke.points_px)
       if (!(p.x >= 0 && p.y >= 0 && p.x < static_cast<float>(camera.width_px) &&
             p.y < static_cast<float>(camera.height_px)))
         throw Error("strokes", fmt::format("the point {},{} lies outside of the {}x{} picture", p.x, p.y,
                                            camera.width_px, camera.height_px));
+  }
 }
 
 std::vector<NamedSeeds> named_seeds_from_json(const json& seeds, const std::string& where) {

@@ -21,7 +21,7 @@ void read_seeds(const std::filesystem::path& file, ObjectInput* input) {
   input->objects = named_seeds_from_json(seeds, where);
   if (!input->objects.empty()) return;
   input->strokes = strokes_from_json(seeds, where);
-  if (input->strokes.empty()) throw Error(where, "holds neither clicks nor scribbles");
+  if (input->strokes.empty()) throw Error(where, "holds neither clicks nor boxes nor scribbles");
   input->choice = choice_from_json(seeds, where);
 }
 
@@ -30,7 +30,7 @@ std::string contradiction(const Strokes& strokes) {
   for (std::size_t i = 0; i < strokes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const Stroke &a = strokes[i], &b = strokes[j];
-      if (a.label == b.label || a.points_px.size() != 1 || b.points_px.size() != 1) continue;
+      if (a.label == b.label || !a.is_click() || !b.is_click()) continue;
       if (glm::floor(a.points_px[0]) != glm::floor(b.points_px[0])) continue;
       return fmt::format("the pixel {:.0f},{:.0f} is said to be both object and rest",
                          std::floor(a.points_px[0].x), std::floor(a.points_px[0].y));
@@ -43,9 +43,14 @@ std::string contradiction(const Strokes& strokes) {
 void ObjectOptions::add_to(CLI::App& command) {
   CLI::Option* by_clicks = command.add_option(
       "--click", clicks, "Pixel x,y[:object|:rest] of the reference view; may be repeated");
-  CLI::Option* by_seeds = command.add_option("--seeds", seeds,
-                                             "JSON file with clicks and scribbles, or with several objects "
-                                             "of them: what two claim is the later one's");
+  CLI::Option* by_boxes = command.add_option(
+      "--box", boxes,
+      "Box x0,y0,x1,y1[:object|:rest] around what is meant, in pixels of the reference view; "
+      "may be repeated; clicks correct it");
+  CLI::Option* by_seeds =
+      command.add_option("--seeds", seeds,
+                         "JSON file with clicks, boxes and scribbles, or with several objects "
+                         "of them: what two claim is the later one's");
   CLI::Option* by_mask = command.add_option(
       "--mask", mask, "Mask of the reference view: white, alpha, any colour on black, ids (PNG, JPEG, WebP)");
   CLI::Option* by_masks = command.add_option(
@@ -63,7 +68,7 @@ void ObjectOptions::add_to(CLI::App& command) {
                   "SPLATCUT_SEGMENTER)")
       ->needs(by_words);
   for (CLI::Option* alone : {by_mask, by_masks, by_words})
-    for (CLI::Option* other : {by_clicks, by_seeds, by_mask, by_masks, by_words})
+    for (CLI::Option* other : {by_clicks, by_boxes, by_seeds, by_mask, by_masks, by_words})
       if (alone != other) alone->excludes(other);
 }
 
@@ -73,9 +78,10 @@ ObjectInput ObjectOptions::read(const CameraOptions& camera) const {
   input.masks_folder = masks_folder;
   if (by_text) input.segmenter = make_segmenter({text, segmenter});
   if (!seeds.empty()) read_seeds(seeds, &input);
+  for (const std::string& corners : boxes) input.strokes.push_back(parse_box(corners));
   for (const std::string& pixel : clicks) input.strokes.push_back(parse_click(pixel));
   if (!input.objects.empty() && !input.strokes.empty())
-    throw Error("--click", "belongs to no object, as --seeds holds several",
+    throw Error(clicks.empty() ? "--box" : "--click", "belongs to no object, as --seeds holds several",
                 "Add it to one of them in the file");
   if (!masks_folder.empty() && camera.cameras.empty())
     throw Error("--masks", "needs the cameras of the masks", "Give them with --cameras");
@@ -84,8 +90,9 @@ ObjectInput ObjectOptions::read(const CameraOptions& camera) const {
                 "Choose the reference with --camera");
   const bool masked = !mask.empty() || !masks_folder.empty() || by_text;
   if (input.strokes.empty() && input.objects.empty() && !masked)
-    throw Error("splatcut cut", "nothing says which object is meant",
-                "Give --click x,y, --seeds FILE, --mask FILE, --masks FOLDER or --text WORDS");
+    throw Error(
+        "splatcut cut", "nothing says which object is meant",
+        "Give --click x,y, --box x0,y0,x1,y1, --seeds FILE, --mask FILE, --masks FOLDER or --text WORDS");
   return input;
 }
 

@@ -1,5 +1,5 @@
-// The part of the command line that says which object is meant: clicks, a file of them, masks of other tools,
-// words.
+// The part of the command line that says which object is meant: clicks, boxes, a file of them, masks of other
+// tools, words.
 #pragma once
 
 #include <filesystem>
@@ -30,11 +30,11 @@ struct ObjectInput {
 
 struct ObjectOptions {
   std::filesystem::path seeds, mask, masks_folder;
-  std::vector<std::string> clicks;
+  std::vector<std::string> clicks, boxes;
   std::string text, segmenter;
   bool by_text = false;
 
-  // Clicks and a file of them add up, the others stand alone. The command must not outlive this.
+  // Clicks, boxes and a file of them add up, the others stand alone. The command must not outlive this.
   void add_to(CLI::App& command);
   // Throws Error if the request names no object or is incomplete.
   ObjectInput read(const CameraOptions& camera) const;

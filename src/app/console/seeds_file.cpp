@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
-#include <cstdio>
+#include <cstdlib>
 
 #include "core/error.h"
 #include "core/json_file.h"
@@ -19,12 +20,40 @@ SeedLabel label_from(const std::string& text, const std::string& where) {
   throw Error(where, "the label \"" + text + "\" is unknown", "Use object or rest");
 }
 
+// Numbers of an option, and what is meant by them.
+template <std::size_t N>
+struct Marked {
+  std::array<float, N> number{};
+  SeedLabel label = SeedLabel::kObject;
+};
+
+template <std::size_t N>
+Marked<N> parse_marked(const std::string& option, const std::string& text, const std::string& what,
+                       const std::string& form) {
+  const std::string where = option + " " + text;
+  const Error fault(where, "is not " + what, "Write it as " + form + " or " + form + ":rest");
+  Marked<N> marked;
+  const char* at = text.c_str();
+  for (std::size_t i = 0; i < N; ++i) {
+    if (i > 0 && *at++ != ',') throw fault;
+    char* end = nullptr;
+    marked.number[i] = std::strtof(at, &end);
+    if (end == at) throw fault;
+    at = end;
+  }
+  if (*at == '\0') return marked;
+  if (*at != ':') throw fault;
+  marked.label = label_from(at + 1, where);
+  return marked;
+}
+
 }  // namespace
 
 void check_stroke(const Stroke& stroke, const std::string& where) {
   constexpr float kFarthestPx = 1e6f;
   if (!(stroke.radius_px > 0 && stroke.radius_px < kFarthestPx))
     throw Error(where, "\"radius_px\" is no radius", "Give pixels, 3 for one");
+  if (stroke.is_box() && stroke.points_px.size() != 2) throw Error(where, "a box has two opposite corners");
   for (const glm::vec2& p : stroke.points_px)
     if (!(std::abs(p.x) < kFarthestPx && std::abs(p.y) < kFarthestPx))
       throw Error(where, "a point lies outside of any picture");
@@ -33,6 +62,14 @@ void check_stroke(const Stroke& stroke, const std::string& where) {
 Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where) {
   Strokes strokes;
   try {
+    if (seeds.contains("boxes"))
+      for (const auto& b : seeds.at("boxes")) {
+        const auto corner = [&](std::size_t i) {
+          const auto& p = b.at("corners").at(i);
+          return glm::vec2(p.at(0).get<float>(), p.at(1).get<float>());
+        };
+        strokes.push_back(box_around(corner(0), corner(1), label_from(b.value("label", "object"), where)));
+      }
     if (seeds.contains("clicks") && seeds.at("clicks").is_array())
       for (const auto& c : seeds.at("clicks"))
         strokes.push_back(click({c.at("x").get<float>(), c.at("y").get<float>()},
@@ -61,15 +98,13 @@ int choice_from_json(const nlohmann::json& seeds, const std::string& where) {
 }
 
 Stroke parse_click(const std::string& text) {
-  float x = 0, y = 0;
-  int used = 0;
-  const std::string where = "--click " + text;
-  if (std::sscanf(text.c_str(), "%f,%f%n", &x, &y, &used) != 2)
-    throw Error(where, "is not a pixel", "Write it as x,y or x,y:rest");
-  const std::string tail = text.substr(static_cast<std::size_t>(used));
-  if (tail.empty()) return click({x, y}, SeedLabel::kObject);
-  if (tail[0] != ':') throw Error(where, "is not a pixel", "Write it as x,y or x,y:rest");
-  return click({x, y}, label_from(tail.substr(1), where));
+  const Marked<2> pixel = parse_marked<2>("--click", text, "a pixel", "x,y");
+  return click({pixel.number[0], pixel.number[1]}, pixel.label);
+}
+
+Stroke parse_box(const std::string& text) {
+  const Marked<4> box = parse_marked<4>("--box", text, "a box", "x0,y0,x1,y1");
+  return box_around({box.number[0], box.number[1]}, {box.number[2], box.number[3]}, box.label);
 }
 
 }  // namespace splatcut

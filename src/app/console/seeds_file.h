@@ -1,4 +1,4 @@
-// Clicks and scribbles from a file or from the command line.
+// Clicks, boxes and scribbles from a file or from the command line.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,10 +9,11 @@
 
 namespace splatcut {
 
-// {"clicks": [{"x","y","label":"object"|"rest"}], "scribbles": [{"label","radius_px","points":[[x,y],...]}]}
+// {"clicks": [{"x","y","label":"object"|"rest"}], "boxes": [{"label","corners":[[x,y],[x,y]]}],
+//  "scribbles": [{"label","radius_px","points":[[x,y],...]}]}. Boxes come first, as clicks correct them.
 Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where);
 
-// Throws Error where the radius or a point cannot be one of a picture.
+// Throws Error where the radius or a point cannot be one of a picture, and where a box is none.
 void check_stroke(const Stroke& stroke, const std::string& where);
 
 // Beside them an optional "choice": from 1 to kMostMeanings, which of its meanings the first click has, by
@@ -21,5 +22,8 @@ int choice_from_json(const nlohmann::json& seeds, const std::string& where);
 
 // "x,y", "x,y:object" or "x,y:rest".
 Stroke parse_click(const std::string& text);
+
+// The same of a box, "x0,y0,x1,y1": any two opposite corners.
+Stroke parse_box(const std::string& text);
 
 }  // namespace splatcut

@@ -63,7 +63,7 @@ struct AddStroke {
   Stroke stroke;  // in the camera's pixels
   Flags seen{};   // Gaussians on the screen; null: all
   std::string title() const {
-    return std::string(stroke.points_px.size() == 1 ? "Click" : "Scribble") +
+    return std::string(stroke.is_click() ? "Click" : "Scribble") +
            (stroke.label == SeedLabel::kRest ? ": rest" : ": object");
   }
   friend std::string edit(Document* document, const AddStroke& command, const EditContext& context);

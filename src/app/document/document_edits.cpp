@@ -105,52 +105,22 @@ std::string edit(Document* document, const AddStroke& command, const EditContext
   if (command.stroke.points_px.empty()) throw Error("stroke", "it has no points");
   ObjectItem& object = stroked(document);
   view_for(&object, command.camera, command.seen).strokes.push_back(command.stroke);
-  const bool dot = command.stroke.points_px.size() == 1;
+  const bool dot = command.stroke.is_click();
   const bool rest = command.stroke.label == SeedLabel::kRest;
   return fmt::format("{} {} {}", dot ? "Click:" : "Scribble:", rest ? "not part of" : "part of", object.name);
 }
 
-Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px, const glm::vec2& picture_px,
-                    bool all_around) {
-  const glm::vec2 low = glm::min(a_px, b_px), high = glm::max(a_px, b_px),
-                  low_inside = glm::clamp(low, glm::vec2(0), picture_px),
-                  high_inside = glm::clamp(high, glm::vec2(0), picture_px),
-                  middle = 0.5f * (low_inside + high_inside), size = high_inside - low_inside;
-  constexpr float kBorderPx = 2, kMiddleShare = 0.12f;
-  const float radius = std::max(2.0f, kMiddleShare * std::min(size.x, size.y));
-  const auto frame = [&](float outwards, float radius_px) {
-    const glm::vec2 from = low - outwards, to = high + outwards;
-    return Stroke{SeedLabel::kRest, radius_px, {from, {to.x, from.y}, to, {from.x, to.y}, from}};
-  };
-  Strokes strokes{frame(0, kBorderPx)};
-  // Broad background strokes around the box, up to the edge of the picture: nothing outside is meant, unless
-  // it was marked before.
-  constexpr float kFrameShare = 0.04f;
-  const float broad = std::max(4.0f, kFrameShare * std::max(picture_px.x, picture_px.y));
-  const float farthest = std::max({low.x, low.y, picture_px.x - high.x, picture_px.y - high.y}) + broad;
-  for (float outwards = kBorderPx + broad; all_around && outwards < farthest; outwards += 2 * broad)
-    strokes.push_back(frame(outwards, broad));
-  strokes.push_back({SeedLabel::kObject, radius, {middle}});
-  return strokes;
-}
-
-Strokes strokes_of(const AddBox& command, bool all_around) {
-  const glm::vec2 picture(command.camera.width_px, command.camera.height_px);
-  const glm::vec2 size = glm::abs(glm::clamp(command.a_px, glm::vec2(0), picture) -
-                                  glm::clamp(command.b_px, glm::vec2(0), picture));
-  constexpr float kSmallestPx = 6;  // of what the picture shows of it
-  if (!(std::min(size.x, size.y) >= kSmallestPx))
+Stroke stroke_of(const AddBox& command, SeedLabel label) {
+  Stroke box = box_around(command.a_px, command.b_px, label);
+  if (box_is_too_small(box, command.camera.width_px, command.camera.height_px))
     throw Error("box", "it is too small", "Drag from one corner to the other");
-  return box_strokes(command.a_px, command.b_px, picture, all_around);
+  return box;
 }
 
 std::string edit(Document* document, const AddBox& command, const EditContext&) {
-  const bool first_stroke =
-      !document->active_object() || std::ranges::none_of(document->active_object()->views, marks_object);
-  const Strokes strokes = strokes_of(command, first_stroke);
+  const Stroke box = stroke_of(command, SeedLabel::kObject);
   ObjectItem& object = stroked(document);
-  StrokedView& view = view_for(&object, command.camera, command.seen);
-  view.strokes.insert(view.strokes.end(), strokes.begin(), strokes.end());
+  view_for(&object, command.camera, command.seen).strokes.push_back(box);
   return "Box around " + object.name;
 }
 

@@ -20,10 +20,6 @@ bool shows(const Backdrop& backdrop, const Document& document, const ViewState& 
 std::string edit_selection(Document* document, const Selection& region, SetOperation operation,
                            const EditContext& context);
 
-// Strokes of a box in a picture of that size: its border is rest, and all around it where that is said; the
-// middle of what is inside of the picture is object.
-Strokes box_strokes(const glm::vec2& a_px, const glm::vec2& b_px, const glm::vec2& picture_px,
-                    bool all_around);
-Strokes strokes_of(const AddBox& command, bool all_around);  // throws Error where the box is too small
+Stroke stroke_of(const AddBox& command, SeedLabel label);  // throws Error where the box is too small
 
 }  // namespace splatcut

@@ -50,8 +50,18 @@ std::optional<ViewClick> next_click(const AnyViewWorld& world, const std::vector
   return ViewClick{where->camera, *click_in(largest, draw)};
 }
 
+// Whether most of the mask lies in the box.
+bool fills(const Mask& mask, const Stroke& stroke) {
+  const BoxPx box = box_in_picture(stroke, mask.width(), mask.height());
+  std::size_t inside = 0;
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x) inside += mask.at(x, y) && box.contains(glm::vec2(x, y) + 0.5f);
+  return 2 * inside > count(mask);
+}
+
 // Whether the mask shows the stroke's label at a pixel within that distance of it.
 bool shows(const Mask& mask, const Stroke& stroke, float within_px) {
+  if (stroke.is_box()) return fills(mask, stroke);
   const glm::vec2 at = stroke.points_px.front();
   const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y)),
             r = static_cast<int>(within_px);
@@ -188,21 +198,23 @@ std::vector<TruthView> truth_views(const EvaluationCase& scene) {
 }
 
 std::vector<AnyViewStart> any_view_starts(const EvaluationCase& scene, std::span<const TruthView> views,
-                                          std::uint64_t draw) {
+                                          const FirstStrokes& how) {
   std::vector<AnyViewStart> starts;
-  const auto middle = [&](const TruthView& view) {
-    return *robot_click(view.truth, Mask(view.truth.width(), view.truth.height()), draw_of(draw, 0));
+  const std::uint64_t draw = draw_of(how.draw, 0);
+  const auto first = [&](const TruthView& view) {
+    return how.box_margin ? *robot_box(view.truth, *how.box_margin, draw)
+                          : *robot_click(view.truth, Mask(view.truth.width(), view.truth.height()), draw);
   };
   const std::vector<GivenReference> references = references_of(scene);
   for (const GivenReference& reference : references)
-    if (!holds(views, reference.camera) && !reference.clicks.empty())
+    if (!holds(views, reference.camera) && !reference.clicks.empty() && !how.box_margin)
       starts.push_back({"reference " + reference.camera.name, reference.camera, reference.clicks.front()});
   for (const TruthView& view : views) {
     const bool named = std::ranges::any_of(
         references, [&](const GivenReference& r) { return same_camera(r.camera, view.camera); });
     const std::string name =
         view.camera.name.empty() ? std::to_string(&view - views.data()) : view.camera.name;
-    starts.push_back({(named ? "reference " : "view ") + name, view.camera, middle(view)});
+    starts.push_back({(named ? "reference " : "view ") + name, view.camera, first(view)});
   }
   return starts;
 }

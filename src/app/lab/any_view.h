@@ -1,16 +1,16 @@
 // The any-view robot: a simulated user who corrects the largest error of any view whose truth is known, again
-// and again, on the cut that the window runs.
+// and again, on the cut that the window runs. It begins with a click or with a box, which counts as one.
 //
 // In: views with their true masks, a start, a cut (all clicks so far, in order, to labels) and a picture of
 // labels. First click: the middle of the truth in the start's view, or the click that the scene gives where
-// no truth of that view is known. Every further one: the middle (largest distance to its border; ties: the
-// lowest pixel) of the largest wrong region over all views (pixels; ties: the lowest view, missing before
-// extra). All clicks stay. After each the mean image IoU over all views is taken; where nothing is wrong any
-// more it stays as it is. Source: the protocol of Xu et al., Deep Interactive Object Selection, 2016, over
-// several views. Cost: one cut and one picture a view each click. Cancelled: incomplete, must not be used.
-// With choices: where the program offers other meanings of the first click, the robot looks at them as a
-// person does, in the clicked view alone, and takes the one whose IoU with that view's truth is the highest
-// and at least .05 above the likeliest's. That costs a click.
+// no truth of that view is known; first box: around that truth. Every further one: the middle (largest
+// distance to its border; ties: the lowest pixel) of the largest wrong region over all views (pixels; ties:
+// the lowest view, missing before extra). All clicks stay. After each the mean image IoU over all views is
+// taken; where nothing is wrong any more it stays as it is. Source: the protocol of Xu et al., Deep
+// Interactive Object Selection, 2016, over several views. Cost: one cut and one picture a view each click.
+// Cancelled: incomplete, must not be used. With choices: where the program offers other meanings of the first
+// click, the robot looks at them as a person does, in the clicked view alone, and takes the one whose IoU
+// with that view's truth is the highest and at least .05 above the likeliest's. That costs a click.
 #pragma once
 
 #include <cstdint>
@@ -58,12 +58,14 @@ struct AnyViewStart {
 
 struct AnyViewSession {
   std::string start;
-  std::uint64_t draw = 0;          // 0: a steady hand
-  ViewClicks clicks;               // fewer than asked where nothing was wrong any more
-  int choice = 0;                  // of the first click's meanings; above 0 it took the second click
-  std::vector<double> iou_after;   // mean over the views after 1, 2, ... clicks
-  std::vector<bool> obeyed;        // per click: its label shows within 2 px of it, at the end of its own cut
-  std::vector<bool> obeyed_pixel;  // the same of the clicked pixel itself
+  std::uint64_t draw = 0;         // 0: a steady hand
+  ViewClicks clicks;              // fewer than asked where nothing was wrong any more
+  int choice = 0;                 // of the first click's meanings; above 0 it took the second click
+  std::vector<double> iou_after;  // mean over the views after 1, 2, ... clicks
+  // Per click: its label shows within 2 px of it, at the end of its own cut. Of a box: most of what shows is
+  // in it.
+  std::vector<bool> obeyed;
+  std::vector<bool> obeyed_pixel;                // the same of the clicked pixel itself
   std::vector<std::vector<std::string>> doubts;  // per click
   double ms_per_click = 0;                       // of the cuts, mean
 
@@ -101,10 +103,16 @@ AnyViewWorld window_world(const EvaluationCase& scene, std::vector<TruthView> vi
 // there is none.
 std::vector<TruthView> truth_views(const EvaluationCase& scene);
 
-// The references, then the truth views, each camera once; with an unsteady hand other first clicks. A
-// reference without truth starts with the first click that is given there; without that, it is none.
+// How the robot begins.
+struct FirstStrokes {
+  std::optional<float> box_margin;  // with a box, larger by this share of each extent (robot_user.h); a click
+  std::uint64_t draw = 0;           // 0: a steady hand
+};
+
+// The references, then the truth views, each camera once. A reference without truth starts with the first
+// click that is given there; without that, or where boxes are asked for, it is none.
 std::vector<AnyViewStart> any_view_starts(const EvaluationCase& scene, std::span<const TruthView> views,
-                                          std::uint64_t draw = 0);
+                                          const FirstStrokes& how = {});
 
 // The start's first click with the camera at `factor` of its distance from what the click hits, along the
 // same ray: the same pixel. None where the click hits nothing, or from there something else, as a wall that

@@ -42,12 +42,14 @@ std::string sheet_name(const std::string& scene, const AnyViewSession& session) 
 nlohmann::json session_json(const AnyViewSession& s) {
   nlohmann::json clicks = nlohmann::json::array();
   for (std::size_t i = 0; i < s.clicks.size(); ++i) {
-    const glm::vec2 at = s.clicks[i].stroke.points_px.front();
+    const Stroke& stroke = s.clicks[i].stroke;
+    const glm::vec2 at = stroke.points_px.front();
     clicks.push_back({{"view", s.clicks[i].camera.name},
                       {"x", at.x},
                       {"y", at.y},
-                      {"label", s.clicks[i].stroke.label == SeedLabel::kObject ? "object" : "rest"},
+                      {"label", stroke.label == SeedLabel::kObject ? "object" : "rest"},
                       {"obeyed", s.obeyed[i] ? true : false}});
+    if (stroke.is_box()) clicks.back()["to"] = {stroke.points_px[1].x, stroke.points_px[1].y};
   }
   return {{"start", s.start},           {"draw", s.draw},
           {"choice", s.choice},         {"iou_after", s.iou_after},
@@ -262,7 +264,8 @@ nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& opt
   const std::vector<TruthView> views = truth_views(scene);
   const AnyViewWorld world = window_world(scene, views, std::make_shared<WindowCut>(scene, options.preset));
   const auto starts_of_draw = [&](int draw) {
-    std::vector<AnyViewStart> starts = any_view_starts(scene, views, static_cast<std::uint64_t>(draw));
+    std::vector<AnyViewStart> starts = any_view_starts(
+        scene, views, {.box_margin = options.box_margin, .draw = static_cast<std::uint64_t>(draw)});
     if (options.starts > 0 && std::ssize(starts) > options.starts)
       starts.resize(static_cast<std::size_t>(options.starts));
     return starts;

@@ -3,7 +3,8 @@
 // "any_view": {"iou_after_clicks": {"1", "2", "3", "5", "8", "10"}, "noc85", "noc90", "obeyed",
 // "obeyed_pixel", "worst_fall", "ms_per_click"}: means over sessions (starts times draws); "least" and "p10":
 // of iou_after_clicks over sessions, the least and the 10th percentile; "most_fall": the largest worst_fall;
-// "views", "clicks", "sessions": [{"start", "draw", "choice", "iou_after", "obeyed", "clicks", "doubts"}].
+// "views", "clicks", "sessions": [{"start", "draw", "choice", "iou_after", "obeyed", "clicks", "doubts"}]; a
+// box among the clicks has its other corner as "to".
 // NoC: 20 where the IoU is never reached. "zoom": {"0.4", "0.6", "1", "2", "4"}: image IoU of the first click
 // alone with the camera at so many times the distance, mean over starts. "perturb": {"copies", "1" | "3" |
 // "5" | "10": {"median", "least", "spread", "difference", "most_difference"}}: the same clicks on copies of
@@ -13,6 +14,7 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +29,9 @@ struct AnyViewOptions {
   int draws = 1;   // sessions a start; the first with a steady hand
   int starts = 0;  // the first so many; 0: all
   bool zoom = false;
-  bool choices = false;  // the robot takes what is offered for the first click
-  int copies = 0;        // of the scene, for "perturb"
+  bool choices = false;               // the robot takes what is offered for the first click
+  std::optional<float> box_margin{};  // it begins with a box, see FirstStrokes
+  int copies = 0;                     // of the scene, for "perturb"
   // Where set, each session's click_sheet(), with a name that serves as a file's.
   std::function<void(const std::string& name, const Image<Rgb8>& sheet)> on_sheet{};
 };

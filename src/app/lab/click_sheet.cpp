@@ -44,6 +44,20 @@ void mark(const glm::vec2& at_px, SeedLabel label, Image<Rgb8>* picture) {
     }
 }
 
+void frame(const BoxPx& box, Image<Rgb8>* picture) {
+  const BoxPx inner{box.low_px + kRimPx, box.high_px - kRimPx};
+  for (int y = 0; y < picture->height(); ++y)
+    for (int x = 0; x < picture->width(); ++x) {
+      const glm::vec2 at = glm::vec2(x, y) + 0.5f;
+      if (box.contains(at) && !inner.contains(at)) picture->at(x, y) = kRim;
+    }
+}
+
+void mark(const Stroke& stroke, Image<Rgb8>* picture) {
+  if (stroke.is_box()) return frame(box_in_picture(stroke, picture->width(), picture->height()), picture);
+  mark(stroke.points_px.front(), stroke.label, picture);
+}
+
 void paste(const Image<Rgb8>& from, int x0, int y0, Image<Rgb8>* into) {
   for (int y = 0; y < from.height(); ++y)
     std::ranges::copy(from.row(y), into->row(y0 + y).subspan(static_cast<std::size_t>(x0)).begin());
@@ -80,7 +94,7 @@ Image<Rgb8> click_sheet(const GaussianCloud& cloud, const AnyViewWorld& world, c
     const SheetView view(cloud, world, click.camera);
     Image<Rgb8> before = view.with(world, labels);
     const float scale = static_cast<float>(before.width()) / static_cast<float>(click.camera.width_px);
-    mark(click.stroke.points_px.front() * scale, click.stroke.label, &before);
+    mark(scaled({click.stroke}, scale).front(), &before);
     labels = world.cut(std::span(session.clicks).first(i + 1), session.choice, job).labels;
     if (job.cancelled()) break;
     columns.emplace_back(std::move(before), view.with(world, labels));

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "segment/masks/mask_tools.h"
+#include "segment/selection/box_meanings.h"
 #include "segment/selection/click_selection.h"
+#include "segment/selection/part_terms.h"
 
 namespace splatcut {
 
@@ -92,6 +94,34 @@ std::vector<Meaning> worth(const PartsScene& scene, const ClickSelection& after_
   return meanings;
 }
 
+// The parts that a box can mean, worth the IoU of their soft pixels with the truth's, mean over the views.
+std::vector<Meaning> worth_of_boxed(const PartsScene& scene, const LeafView& view, const Stroke& stroke,
+                                    const SelectionModel& model) {
+  const PartHierarchy& parts = scene.parts;
+  const std::vector<PartMeaning> found = box_meanings(
+      parts, view, box_in_picture(stroke, view.camera.width_px, view.camera.height_px), model.box);
+  std::vector<Meaning> meanings;
+  for (const PartMeaning& m : found) meanings.push_back({m.terms, 0});
+  for (std::size_t v = 0; v < scene.truths.size(); ++v) {
+    const Mask& truth = scene.truths[v].truth;
+    std::vector<float> right(parts.leaves, 0);
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      if (truth.pixels()[i])
+        for (const GroupWeight& w : scene.views[v].leaves.at(i)) right[w.group] += w.weight;
+    std::vector<std::vector<float>> right_of, all_of;
+    for (const PartTree& tree : parts.trees) {
+      right_of.push_back(summed(tree, right));
+      all_of.push_back(summed(tree, scene.views[v].leaf_px));
+    }
+    const auto truth_px = static_cast<float>(count(truth)), views = static_cast<float>(scene.truths.size());
+    for (std::size_t m = 0; m < found.size(); ++m) {
+      const float both = right_of[found[m].tree][found[m].node];
+      meanings[m].iou += both / (truth_px + all_of[found[m].tree][found[m].node] - both) / views;
+    }
+  }
+  return meanings;
+}
+
 SelectionModel disc_alone(SelectionModel model) {
   weight(&model.later, Term::kDisc) = -1e6f;
   return model;
@@ -108,7 +138,12 @@ std::vector<Decision> decisions_of(const PartsScene& scene, const SelectionModel
   for (const ViewClick& click : played.clicks) {
     const LeafView& view = view_of(scene, click.camera);
     const glm::vec2 pixel = click.stroke.points_px.front();
-    const bool object = click.stroke.label == SeedLabel::kObject, first = decisions.empty();
+    const bool object = click.stroke.label == SeedLabel::kObject, first = &click == &played.clicks.front();
+    if (click.stroke.is_box()) {
+      decisions.push_back({0, DecisionOf::kBox, worth_of_boxed(scene, view, click.stroke, model)});
+      selection.apply(view, click.stroke);
+      continue;
+    }
     if (const auto answers =
             selection.considered(view, pixel, object, {.all_terms = true, .least_growth = 1.05f})) {
       ClickSelection after_disc = selection;
@@ -116,7 +151,8 @@ std::vector<Decision> decisions_of(const PartsScene& scene, const SelectionModel
         after_disc.set_model(disc_alone(model));
         after_disc.apply(view, click.stroke);
       }
-      decisions.push_back({0, first, worth(scene, after_disc, *answers, object)});
+      decisions.push_back({0, first ? DecisionOf::kFirstClick : DecisionOf::kCorrection,
+                           worth(scene, after_disc, *answers, object)});
     }
     selection.apply(view, click.stroke);
   }
@@ -192,12 +228,12 @@ void add_slope(const Decision& decision, const Vector& weight, const Vector& uni
 
 }  // namespace
 
-TermValues fitted_terms(std::span<const Decision> decisions, bool first, const std::vector<bool>& in_scene,
-                        const TermFitOptions& options) {
+TermValues fitted_terms(std::span<const Decision> decisions, DecisionOf which,
+                        const std::vector<bool>& in_scene, const TermFitOptions& options) {
   std::vector<const Decision*> of;
   std::vector<double> of_scene(in_scene.size(), 0);
   for (const Decision& d : decisions)
-    if (d.first == first && in_scene[d.scene] && !d.meanings.empty()) {
+    if (d.of == which && in_scene[d.scene] && !d.meanings.empty()) {
       of.push_back(&d);
       ++of_scene[d.scene];
     }

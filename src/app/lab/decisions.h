@@ -19,9 +19,11 @@ struct Meaning {
   float iou = 0;  // mean over the views with truth, after it
 };
 
+enum class DecisionOf { kFirstClick, kCorrection, kBox };
+
 struct Decision {
   std::size_t scene = 0;  // which of several, filled by whoever has them
-  bool first = false;     // of the session
+  DecisionOf of = DecisionOf::kFirstClick;
   std::vector<Meaning> meanings;
 };
 
@@ -39,7 +41,7 @@ struct TermFitOptions {
 // Weights with the best expected IoU where a candidate is chosen with a probability ~ exp(-cost): ascent from
 // zero by Adam (Kingma and Ba, 2015). Every scene counts alike, however many decisions it has. in_scene: per
 // scene, whether it counts. The same data, the same weights.
-TermValues fitted_terms(std::span<const Decision> decisions, bool first, const std::vector<bool>& in_scene,
+TermValues fitted_terms(std::span<const Decision> decisions, DecisionOf of, const std::vector<bool>& in_scene,
                         const TermFitOptions& options = {});
 
 }  // namespace splatcut

@@ -280,7 +280,8 @@ void check_any_view(const EvalArguments& args) {
   if (!args.any_view) {
     if (args.robot_asked)
       throw CLI::ValidationError(
-          "--robot-clicks, --starts, --zoom, --choices, --sheets and --perturb go with --any-view");
+          "--robot-clicks, --starts, --from-box, --zoom, --choices, --sheets and --perturb go with "
+          "--any-view");
     return;
   }
   const MaskOptions& mask = args.mask;
@@ -329,6 +330,16 @@ void run_eval(const EvalArguments& args, const CommonOptions& common) {
 
 }  // namespace
 
+CLI::Option* add_box_option(CLI::App& command, std::optional<float>* margin) {
+  constexpr double kPercent = 0.01;
+  return command
+      .add_option_function<double>(
+          "--from-box", [margin](const double& percent) { *margin = static_cast<float>(kPercent * percent); },
+          "It begins with a box around the truth, so many percent of its extent larger on each side; below 0 "
+          "the box cuts into it; with an unsteady hand each side by another share, up to twice as much")
+      ->check(CLI::Range(-30.0, 100.0));
+}
+
 void add_eval_command(CLI::App& program, const CommonOptions& common) {
   auto args = std::make_shared<EvalArguments>();
   CLI::App& command = *program.add_subcommand("eval", "Measure cutouts against truth on a suite of scenes");
@@ -364,6 +375,7 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--robot-clicks", args->robot.clicks, "Its clicks a session")->check(CLI::Range(1, 50));
   command.add_option("--starts", args->robot.starts, "Its first so many starts; 0: all")
       ->check(CLI::Range(0, 1000));
+  add_box_option(command, &args->robot.box_margin);
   command.add_flag("--zoom", args->robot.zoom,
                    "Its first click again with the camera at .4, .6, 1, 2 and 4 times the distance");
   command.add_flag(
@@ -395,7 +407,8 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
   command.callback([args, &command, &common] {
     args->clicks_given = command.count("--clicks") > 0;
-    for (const char* option : {"--robot-clicks", "--starts", "--zoom", "--choices", "--sheets", "--perturb"})
+    for (const char* option :
+         {"--robot-clicks", "--starts", "--from-box", "--zoom", "--choices", "--sheets", "--perturb"})
       args->robot_asked |= command.count(option) > 0;
     run_eval(*args, common);
   });

@@ -170,13 +170,18 @@ struct FitTable {
 
 FitTable fit_table(const Bank& bank, const FitArguments& args, const SelectionModel& shipped,
                    const Job& job) {
-  const bool first = args.of == "first";
+  constexpr std::pair<DecisionOf, TermValues SelectionModel::*> kFitted[] = {
+      {DecisionOf::kFirstClick, &SelectionModel::first},
+      {DecisionOf::kCorrection, &SelectionModel::later},
+      {DecisionOf::kBox, &SelectionModel::box}};
+  const auto [which, terms] = kFitted[args.of == "first" ? 0 : args.of == "later" ? 1 : 2];
   job.progress("sessions as shipped", 0.1);
-  const std::vector<Decision> decisions = all_decisions(bank, shipped, first ? 1 : args.clicks, job);
+  const std::vector<Decision> decisions =
+      all_decisions(bank, shipped, args.of == "later" ? args.clicks : 1, job);
   stop_if_fit_cancelled(job);
   const auto fitted = [&](const std::vector<bool>& in_scene) {
     SelectionModel model = shipped;
-    (first ? model.first : model.later) = fitted_terms(decisions, first, in_scene, args.fit);
+    model.*terms = fitted_terms(decisions, which, in_scene, args.fit);
     return model;
   };
   FitTable table{.shipped = shipped,
@@ -289,6 +294,8 @@ void run_fit(FitArguments args, const CommonOptions& common) {
   refuse_written_inputs(args.output, {args.model});
   const Job job = console_job(common.quiet);
   OutputFolder folder(args.output, args.overwrite);
+  if ((args.of == "box") != args.scenes.first.box_margin.has_value() && args.of != "later")
+    throw Error("splatcut-lab fit", "--of box goes with --from-box, --of first without");
   args.fit.without = bits_of(args);
   PartModel model = args.model.empty() ? PartModel() : load_part_model(args.model);
   PrepareOptions prepare;
@@ -316,8 +323,10 @@ void add_fit_command(CLI::App& program, const CommonOptions& common) {
       "capture) and model.json (all weights).\nAll scenes stay in memory.");
   command.add_option("suites", args->suites, "suite.json files")->required()->check(CLI::ExistingFile);
   command.add_option("-o,--output", args->output, "Folder for fit.json and model.json")->required();
-  command.add_option("--of", args->of, "first: what a first click means; later: what corrections mean")
-      ->check(CLI::IsMember({"first", "later"}));
+  command
+      .add_option("--of", args->of,
+                  "first: what a first click means; later: what corrections mean; box: what boxes mean")
+      ->check(CLI::IsMember({"first", "later", "box"}));
   command.add_option("--without", args->without,
                      "Terms whose weight stays 0, as " + fmt::format("{}", fmt::join(term_names(), " ")));
   command.add_option("--model", args->model, "Start from this model.json")->check(CLI::ExistingFile);
@@ -326,6 +335,7 @@ void add_fit_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--together", args->together,
                      "Scenes of several files that show one capture: they are left out together");
   command.add_flag("--zoom", args->zoom, "Fit to first clicks from .4, .6, 2 and 4 times the distance, too");
+  add_box_option(command, &args->scenes.first.box_margin)->excludes("--zoom");
   command.add_option("--starts", args->scenes.most_starts, "The first so many starts of each scene")
       ->check(CLI::Range(1, 1000));
   command.add_option("--views", args->scenes.most_views, "At most so many views with truth of each scene")

@@ -78,7 +78,7 @@ PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const P
     made.views.push_back(leaf_view(drawer, made.parts, camera, job));
     made.truths.push_back({camera, resized_mask(full.truth, camera.width_px, camera.height_px)});
   }
-  std::vector<AnyViewStart> starts = any_view_starts(scene, truths);
+  std::vector<AnyViewStart> starts = any_view_starts(scene, truths, options.first);
   if (starts.size() > options.most_starts) starts.resize(options.most_starts);
   for (const AnyViewStart& start : starts) {
     const auto known =

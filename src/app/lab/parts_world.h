@@ -29,6 +29,7 @@ struct PartsSceneOptions {
   std::size_t most_starts = 4;  // the first so many,
   std::size_t most_views = 12;  // and so many views with truth, evenly chosen
   std::vector<float> zooms{1};  // each start at so many times the distance
+  FirstStrokes first;
 };
 
 // One of its views. The camera must be one of theirs.

@@ -46,4 +46,21 @@ std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask, std::uint
   return click_in(wrong_region(truth, mask), draw);
 }
 
+std::optional<Stroke> robot_box(const Mask& truth, float margin, std::uint64_t draw) {
+  glm::ivec2 low(truth.width(), truth.height()), high(0);
+  for (int y = 0; y < truth.height(); ++y)
+    for (int x = 0; x < truth.width(); ++x)
+      if (truth.at(x, y)) {
+        low = glm::min(low, glm::ivec2(x, y));
+        high = glm::max(high, glm::ivec2(x, y) + 1);
+      }
+  if (low.x >= high.x) return std::nullopt;
+  CounterRng random(draw, 0);
+  const auto side = [&] { return margin * (draw ? 2 * random.unit() : 1.0f); };
+  const glm::vec2 extent(high - low);
+  const float left = side(), top = side(), right = side(), bottom = side();
+  return box_around(glm::vec2(low) - extent * glm::vec2(left, top),
+                    glm::vec2(high) + extent * glm::vec2(right, bottom), SeedLabel::kObject);
+}
+
 }  // namespace splatcut

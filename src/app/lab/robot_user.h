@@ -31,4 +31,9 @@ std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask);
 // middle, by chance. draw: which chance; 0 is the steady robot.
 std::optional<Stroke> robot_click(const Mask& truth, const Mask& mask, std::uint64_t draw);
 
+// The box that just holds the mask, each of its sides moved outwards by `margin` of the box's extent that way
+// (below 0: into it); with an unsteady hand (draw != 0) each by another share of it, by chance between 0 and
+// 2 margin. It may leave the picture. None for an empty mask.
+std::optional<Stroke> robot_box(const Mask& truth, float margin, std::uint64_t draw = 0);
+
 }  // namespace splatcut

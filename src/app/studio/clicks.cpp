@@ -68,7 +68,7 @@ bool Clicks::hits_anything(const AddStroke& c) const {
 // A message if the click changes nothing, as the screen shows it so already; else empty.
 std::string Clicks::already_so(const AddStroke& c) const {
   const ObjectItem* object = ws_.document().active_object();
-  if (!object || !any_mark(*object) || c.stroke.points_px.size() != 1 || viewport_.panes() == 2 ||
+  if (!object || !any_mark(*object) || !c.stroke.is_click() || viewport_.panes() == 2 ||
       !viewport_.active_labels() || !same_camera(c.camera, viewport_.pane_camera()))
     return {};
   const auto hit = viewport_.pick(c.stroke.points_px.front());
@@ -86,7 +86,7 @@ void Clicks::perform(const AddStroke& c) {
   Document after = ws_.document();
   const std::string message = edit(&after, c, ws_.context());
   // The view turns around what was clicked.
-  if (c.stroke.points_px.size() == 1 && c.stroke.label == SeedLabel::kObject && viewport_.panes() == 1 &&
+  if (c.stroke.is_click() && c.stroke.label == SeedLabel::kObject && viewport_.panes() == 1 &&
       same_camera(c.camera, viewport_.pane_camera()))
     if (const auto hit = viewport_.pick(c.stroke.points_px.front()))
       viewport_.camera().set_orbit_centre(hit->position_world);
@@ -106,9 +106,11 @@ void Clicks::perform(const ComeNearer&) {
   if (!object || !any_mark(*object))
     throw Error("come nearer", "nothing is clicked yet", "Click an object first");
   const auto clicked = std::ranges::find_if(object->views, marks_object);
-  const auto stroke = std::ranges::find(clicked->strokes, SeedLabel::kObject, &Stroke::label);
+  const Stroke& stroke = *std::ranges::find(clicked->strokes, SeedLabel::kObject, &Stroke::label);
+  std::vector<glm::vec2> points = stroke.points_px;
+  if (stroke.is_box()) points = {0.5f * (points[0] + points[1])};
   std::optional<PickedPoint> hit;
-  for (const glm::vec2& p : stroke->points_px)
+  for (const glm::vec2& p : points)
     if ((hit = viewport_.hit_in(clicked->camera, p, nullptr))) break;
   if (!hit) throw Error("come nearer", "there is nothing in that place");
   viewport_.camera().approach(hit->position_world, kDistanceLeft);

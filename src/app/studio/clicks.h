@@ -58,7 +58,7 @@ class Clicks {
   std::optional<HoverAsk> hover_wanted() const;
   void refresh_hover();
   void show_hover(const Flags& change, bool rest);
-  void combine_with(const StrokedView& strokes, SetOperation operation, const std::string& title);
+  void combine_with(const CameraStroke& stroke, SetOperation operation, const std::string& title);
   void note_sizes();
 
   Workspace& ws_;

@@ -1,22 +1,19 @@
-// Alt of the stroke tools, Ctrl and Alt of the box: what strokes alone would cut out, combined with the
+// Alt of the stroke tools, Ctrl and Alt of the box: what a stroke alone would cut out, combined with the
 // object.
 #include "app/studio/clicks.h"
 #include "core/error.h"
 
 namespace splatcut {
 
-void Clicks::combine_with(const StrokedView& strokes, SetOperation operation, const std::string& title) {
+void Clicks::combine_with(const CameraStroke& stroke, SetOperation operation, const std::string& title) {
   const std::string doing = operation == SetOperation::kRemove ? "remove" : "intersect";
   const ObjectItem* object = ws_.document().active_object();
   if (!object || ws_.gaussians_of(object->id) == 0)
     throw Error(doing, "there is no object yet", "Click one first");
-  ws_.tasks.submit(TaskKind::kSelect, [this, strokes, operation, title, doing, id = object->id,
+  ws_.tasks.submit(TaskKind::kSelect, [this, stroke, operation, title, doing, id = object->id,
                                        session = ws_.session, scene = ws_.scene,
                                        settings = cut_settings(ws_.document(), *object)](const Job& job) {
-    CutRequest before;
-    before.strokes = {{strokes.camera, {strokes.strokes.begin(), strokes.strokes.end() - 1}, strokes.seen}};
-    const Session::Preview preview = session->preview(
-        before, {strokes.camera, strokes.strokes.back(), strokes.seen}, settings, {job.stop, {}});
+    const Session::Preview preview = session->preview({}, stroke, settings, {job.stop, {}});
     if (job.cancelled()) return;
     ws_.tasks.post([this, id, scene, operation, title, doing, meant = preview.after] {
       if (scene != ws_.scene || ws_.document().active != id) return;
@@ -36,14 +33,14 @@ void Clicks::perform(const IntersectStroke& c) {
   if (c.stroke.points_px.empty()) throw Error("stroke", "it has no points");
   if (!hits_anything({c.camera, c.stroke, c.seen}))
     throw Error("click", "there is nothing in that place", "Click on something that can be seen");
-  combine_with({c.camera, {c.stroke}, c.seen}, SetOperation::kIntersect, "Intersect (click)");
+  combine_with({c.camera, c.stroke, c.seen}, SetOperation::kIntersect, "Intersect (click)");
 }
 
 void Clicks::perform(const AddBox& c) {
   ws_.require_scene();
   if (c.operation != SetOperation::kAdd) {
     const bool removes = c.operation == SetOperation::kRemove;
-    return combine_with({c.camera, strokes_of(c, true), c.seen}, c.operation,
+    return combine_with({c.camera, stroke_of(c, SeedLabel::kObject), c.seen}, c.operation,
                         removes ? "Remove (box)" : "Intersect (box)");
   }
   Document after = ws_.document();

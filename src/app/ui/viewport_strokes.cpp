@@ -74,15 +74,6 @@ bool strokes_wanted(const ViewState& view) {
   return tool_of(view.tool).strokes || (view.display == DisplayMode::kWhole && !view.heat);
 }
 
-constexpr float kThinPx = 2;
-
-// As box_strokes() makes them: rest, closed, four corners.
-bool is_frame(const Stroke& stroke) {
-  const std::vector<glm::vec2>& p = stroke.points_px;
-  return stroke.label == SeedLabel::kRest && p.size() == 5 && p[0] == p[4] && p[0].y == p[1].y &&
-         p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x;
-}
-
 // A point of the border that is far from everything in `apart`; nothing of it may be in `area`.
 std::optional<ImVec2> label_place(const std::vector<ImVec2>& border, const std::vector<ImVec2>& apart,
                                   const UiRect& area) {
@@ -145,14 +136,13 @@ void draw_strokes(const UiContext& ui, const UiRect& area) {
     const OnScreen there = placement_of(view.camera, now, place);
     for (const Stroke& stroke : view.strokes) {
       const bool is_object = stroke.label == SeedLabel::kObject;
-      if (stroke.points_px.size() == 1) {
+      if (stroke.is_click()) {
         draw_click(list, there(stroke.points_px.front()), is_object);
         continue;
       }
       const ImU32 ink = is_object ? kObjectInk : kRestInk;
-      if (is_frame(stroke)) {  // of a box: its border is enough
-        if (stroke.radius_px <= kThinPx)
-          list.AddRect(there(stroke.points_px[0]), there(stroke.points_px[2]), ink, 0, 0, 2);
+      if (stroke.is_box()) {
+        list.AddRect(there(stroke.points_px[0]), there(stroke.points_px[1]), ink, 0, 0, 2);
         continue;
       }
       smooth_path(list, placed(stroke.points_px, there), (ink & 0x00ffffffu) | 0x90000000u,

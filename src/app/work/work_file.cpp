@@ -19,7 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kVersion = 5;
+// Version 6: a stroke may be a box (its "kind"). Files of version 5 hold none, and are read as they are.
+constexpr int kVersion = 6, kOldestRead = 5;
 
 json parse(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -29,7 +30,7 @@ json parse(const std::filesystem::path& path) {
   if (!work.is_object() || !work.contains("splatcut_work"))
     throw Error(path.string(), "is no work file of splatcut");
   const json& version = work["splatcut_work"];
-  if (version != kVersion)
+  if (!version.is_number_integer() || version < kOldestRead || version > kVersion)
     throw Error(path.string(),
                 fmt::format("is of version {}, this splatcut reads version {}", json_text(version), kVersion),
                 "Open the scene itself to start anew");

@@ -95,7 +95,8 @@ json strokes_json(const Strokes& strokes) {
   for (const Stroke& s : strokes) {
     json points = json::array();
     for (const glm::vec2& p : s.points_px) points.push_back({p.x, p.y});
-    out.push_back({{"label", s.label == SeedLabel::kObject ? "object" : "rest"},
+    out.push_back({{"kind", s.is_box() ? "box" : "path"},
+                   {"label", s.label == SeedLabel::kObject ? "object" : "rest"},
                    {"radius_px", s.radius_px},
                    {"points", points}});
   }
@@ -109,6 +110,10 @@ Strokes strokes_from(const json& j) {
     if (label != "object" && label != "rest")
       throw Error("stroke", "the label \"" + label + "\" is unknown", "Use object or rest");
     Stroke stroke{label == "object" ? SeedLabel::kObject : SeedLabel::kRest, s.at("radius_px"), {}};
+    const std::string kind = s.value("kind", "path");
+    if (kind != "path" && kind != "box")
+      throw Error("stroke", "the kind \"" + kind + "\" is unknown", "Use path or box");
+    if (kind == "box") stroke.kind = StrokeKind::kBox;
     for (const json& p : s.at("points"))
       stroke.points_px.emplace_back(p.at(0).get<float>(), p.at(1).get<float>());
     check_stroke(stroke, "stroke");

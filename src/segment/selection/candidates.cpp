@@ -8,6 +8,7 @@
 #include "core/pixel_steps.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/click_reach.h"
+#include "segment/selection/part_terms.h"
 
 namespace splatcut {
 
@@ -15,12 +16,11 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 // Where each term begins to cost: logarithms of ratios, or shares.
-constexpr float kCentral = 0.7f, kSmallShare = 0.01f, kLargeShare = 0.35f;
+constexpr float kCentral = 0.7f;
 constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f, kHiddenFolds = 2,
                 kTakesFolds = 0.4f;
 constexpr float kBorderPx = 2;
-constexpr float kLeastFirstCut = -12, kLeastCut = -16;  // of a part that touches nothing
-constexpr float kUnseenNoEdge = 0.5f;                   // of a part no border of which is seen
+constexpr float kLeastCut = -16;  // of a part that touches nothing
 
 float& term(Candidate* candidate, Term which) {
   return weight(&candidate->terms, which);
@@ -28,15 +28,6 @@ float& term(Candidate* candidate, Term which) {
 
 float at_least_0(float value) {
   return std::max(0.0f, value);
-}
-
-// Sums over each node's leaves.
-std::vector<float> summed(const PartTree& tree, std::span<const float> of_leaves) {
-  std::vector<float> sum(tree.nodes(), 0);
-  std::ranges::copy(of_leaves, sum.begin());
-  for (std::size_t node = 0; node < tree.nodes(); ++node)  // children come before their parents
-    if (tree.parent[node] != kNoPart) sum[tree.parent[node]] += sum[node];
-  return sum;
 }
 
 std::vector<float> at_nodes(const std::vector<float>& all, std::span<const std::uint32_t> nodes) {
@@ -53,11 +44,6 @@ std::vector<std::uint32_t> levels(const PartTree& tree, std::size_t leaves,
     if (level[node] == kNoLevel && tree.parent[node] != kNoPart) level[node] = level[tree.parent[node]];
   level.resize(leaves);
   return level;
-}
-
-float log_cut(const PartTree& tree, std::uint32_t node, float least) {
-  const float size = std::sqrt(std::max(tree.area[node], 1e-30f));
-  return std::max(std::log(std::max(tree.cut[node], 1e-30f) / size), least);
 }
 
 float jump(const PartTree& tree, std::uint32_t node) {
@@ -127,7 +113,6 @@ class Asking {
   std::vector<float> compared_areas() const;
   void measure_stability();
   void add_candidates(std::size_t chain, const AnswerOptions& options);
-  void add_look_terms(const Chain& chain, Candidate* candidate) const;
   void add_size_terms(const Chain& chain, Candidate* candidate) const;
   float folds(float px) const {
     return std::log(std::max(px, 1.0f) / (kPi * click_.radius_px * click_.radius_px));
@@ -138,7 +123,6 @@ class Asking {
   void add_apart_terms();
   void measure_off_centre(bool all);
   const Image<std::uint32_t>& level_image(std::size_t chain);
-  float cost(const Candidate& candidate) const;
   void sort();
 
   const PartHierarchy& parts_;
@@ -153,14 +137,8 @@ class Asking {
   Answers out_;
 };
 
-float Asking::cost(const Candidate& candidate) const {
-  float sum = 0;
-  for (std::size_t t = 0; t < kTerms; ++t) sum += weights_[t] * candidate.terms[t];
-  return sum;
-}
-
 void Asking::sort() {
-  for (Candidate& c : out_.candidates) c.cost = cost(c);
+  for (Candidate& c : out_.candidates) c.cost = cost_of(c.terms, weights_);
   std::ranges::stable_sort(out_.candidates, {}, &Candidate::cost);
 }
 
@@ -279,17 +257,6 @@ const Image<std::uint32_t>& Asking::level_image(std::size_t c) {
   return image;
 }
 
-void Asking::add_look_terms(const Chain& chain, Candidate* candidate) const {
-  constexpr float kTiny = 1e-9f;
-  const PartLooks& looks = chain.looks[candidate->index];
-  term(candidate, Term::kNoEdge) = looks.border > 0 ? looks.plain_border / looks.border : kUnseenNoEdge;
-  term(candidate, Term::kCropped) = looks.cropped_side / std::max(looks.side, kTiny);
-  const float share = looks.area_squared / std::max(looks.area, kTiny);
-  term(candidate, Term::kSmall) = at_least_0(std::log(kSmallShare / std::max(share, kTiny)));
-  term(candidate, Term::kLarge) = at_least_0(std::log(share / kLargeShare));
-  term(candidate, Term::kFrame) = looks.frame / std::max(looks.side, kTiny);
-}
-
 void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
   const float changed_px = chain.changed_px[candidate->index];
   const float f = folds(changed_px);
@@ -324,7 +291,7 @@ void Asking::add_candidates(std::size_t c, const AnswerOptions& options) {
     term(&candidate, Term::kShadeBlind) = chain.shade_blind;
     term(&candidate, Term::kOpposed) = chain.opposed[i];
     if (click_.first) {
-      add_look_terms(chain, &candidate);
+      set_look_terms(chain.looks[i], &candidate.terms);
     } else {
       term(&candidate, Term::kFrame) = chain.frame_px[i] / std::sqrt(std::max(chain.view_px[i], 1.0f));
       add_size_terms(chain, &candidate);

@@ -136,24 +136,16 @@ std::span<const Mask> ClickSelection::meanings() const {
 
 // Offers the likeliest meaning, then those that are nearly as likely and look clearly different.
 void ClickSelection::note_offers(const LeafView& view, const Answers& found) {
-  constexpr float kClearly = 0.8f;  // IoU below which a person sees two things
   Offers offers;
   std::vector<std::vector<std::uint8_t>> taken;  // leaves of each
-  const auto alike = [&](const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
-    float both = 0, either = 0;  // pixels
-    for (std::uint32_t l = 0; l < parts_.leaves; ++l) {
-      both += a[l] && b[l] ? view.leaf_px[l] : 0;
-      either += a[l] || b[l] ? view.leaf_px[l] : 0;
-    }
-    return both >= kClearly * either;
-  };
   for (const Candidate& candidate : found.candidates) {
     if (std::ssize(offers.meant) == kMostMeanings ||
         candidate.cost > found.candidates.front().cost + model_.doubt)
       break;
     std::vector<std::uint8_t> leaves(parts_.leaves);
     for (std::uint32_t l = 0; l < parts_.leaves; ++l) leaves[l] = found.changes(candidate, l);
-    if (std::ranges::any_of(taken, [&](const auto& other) { return alike(other, leaves); })) continue;
+    if (std::ranges::any_of(taken, [&](const auto& other) { return look_alike(view, other, leaves); }))
+      continue;
     offers.meant.push_back(candidate);
     offers.masks.push_back(shown(view.leaves, view.camera, leaves));
     taken.push_back(std::move(leaves));
@@ -371,6 +363,7 @@ void ClickSelection::label() {
 bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
   const bool object = stroke.label == SeedLabel::kObject;
   if (!any_ && !object) return false;
+  if (stroke.is_box()) return take_box(view, stroke);
   const auto anything = [](std::uint32_t) { return true; };
   bool hit = false;
   spot_alone_ = false;

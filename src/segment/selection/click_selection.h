@@ -10,6 +10,9 @@
 // only where, in most trees, it meets no click of the other sign below its common ancestor with this click.
 // After one object click, a click on the rest may also say that another part of that click was meant: the
 // likeliest that holds none of the clicks on the rest. Where no candidate is likely the disc alone changes.
+// A box says what is meant as a whole (box_meanings.h): the likeliest part of each tree votes for its leaves
+// (part_votes.h), and those of more than half of the votes change side, unless a click has decided them. It
+// decides no Gaussian by itself: clicks correct it anywhere.
 // Cost: some 10 ms a click once its view is known. The result depends on the strokes in their order alone.
 #pragma once
 
@@ -60,7 +63,8 @@ class ClickSelection {
   bool ambiguous() const { return ambiguous_; }
 
   // A mask for each meaning of the first click that is nearly as likely as the best and looks clearly
-  // different in its view, the likeliest first; at most kMostMeanings. Empty before the first click.
+  // different in its view, the likeliest first; at most kMostMeanings. Empty before the first click. Those of
+  // a box are what the trees agree on, then single parts.
   std::span<const Mask> meanings() const;
   std::size_t choice() const { return choice_taken_; }
 
@@ -71,6 +75,7 @@ class ClickSelection {
   struct Asked;
   Asked asked(const LeafView& view, const glm::vec2& pixel, bool object) const;
   bool take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
+  bool take_box(const LeafView& view, const Stroke& box);
   void confirm(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
   std::vector<std::uint8_t> certain_leaves(const LeafView& view, std::span<const std::uint32_t> disc) const;
   float displayed_radius(const LeafView& view, const Mask& displayed, const glm::ivec2& at, bool object,

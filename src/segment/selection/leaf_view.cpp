@@ -140,6 +140,16 @@ Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint3
   return from;
 }
 
+bool look_alike(const LeafView& view, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+  constexpr float kClearly = 0.8f;  // IoU below which a person sees two things
+  float both = 0, either = 0;       // pixels
+  for (std::size_t l = 0; l < view.leaf_px.size(); ++l) {
+    both += a[l] && b[l] ? view.leaf_px[l] : 0;
+    either += a[l] || b[l] ? view.leaf_px[l] : 0;
+  }
+  return both >= kClearly * either;
+}
+
 Mask shown(const PixelWeights& weights, const Camera& camera, std::span<const std::uint8_t> labels) {
   Mask mask(camera.width_px, camera.height_px);
   for_each_index(mask.size(), [&](std::size_t i) {

@@ -53,6 +53,9 @@ inline constexpr std::uint32_t kNoLevel = 0xffffffffu;
 // which the pixel shows the set; kNoLevel if it never does. level: per leaf, when it joins, or kNoLevel.
 Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint32_t> level);
 
+// Whether a person would take two sets of leaves for the same thing: IoU of their pixels, 0.8 at least.
+bool look_alike(const LeafView& view, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
+
 // The mask of a labelling, one label per group.
 Mask shown(const PixelWeights& weights, const Camera& camera, std::span<const std::uint8_t> labels);
 

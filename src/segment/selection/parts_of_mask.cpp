@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <utility>
 
+#include "segment/selection/part_terms.h"
 #include "segment/superpoints/part_view.h"
 
 namespace splatcut {
@@ -14,23 +16,15 @@ std::vector<float> inside_pixels(const PartHierarchy& parts, const PartView& vie
   return inside;
 }
 
-// Sums over the subtree of each node.
-std::vector<float> summed_up(const PartTree& tree, std::vector<float> of_leaves) {
-  of_leaves.resize(tree.nodes(), 0);
-  for (std::size_t node = 0; node < tree.nodes(); ++node)
-    if (tree.parent[node] != kNoPart) of_leaves[tree.parent[node]] += of_leaves[node];
-  return of_leaves;
-}
-
 // Per node: 1 where it or an ancestor is chosen whole.
 std::vector<std::uint8_t> chosen_nodes(const PartTree& tree, std::size_t leaves,
                                        const std::vector<float>& pixels,
                                        const std::vector<float>& inside_of_leaves,
                                        const MaskToPartsOptions& options) {
-  const std::vector<float> inside = summed_up(tree, inside_of_leaves);
+  const std::vector<float> inside = summed(tree, inside_of_leaves);
   std::vector<float> shown_area(leaves, 0);
   for (std::size_t leaf = 0; leaf < leaves; ++leaf) shown_area[leaf] = pixels[leaf] > 0 ? tree.area[leaf] : 0;
-  shown_area = summed_up(tree, std::move(shown_area));
+  shown_area = summed(tree, std::move(shown_area));
   std::vector<float> best(tree.nodes(), 0);  // most pixels right minus wrong
   std::vector<std::uint8_t> whole(tree.nodes(), 0);
   for (std::size_t node = 0; node < tree.nodes(); ++node) {
@@ -41,9 +35,7 @@ std::vector<std::uint8_t> chosen_nodes(const PartTree& tree, std::size_t leaves,
                   shown_area[node] >= options.least_visible * tree.area[node];
     best[node] = whole[node] ? std::max(together, apart) : apart;
   }
-  for (std::size_t node = tree.nodes(); node-- > 0;)
-    if (tree.parent[node] != kNoPart) whole[node] |= whole[tree.parent[node]];
-  return whole;
+  return below(tree, std::move(whole));
 }
 
 }  // namespace

@@ -13,8 +13,9 @@ constexpr std::size_t kMostViews = 12;  // kept, some 10 MB each at 320 pixels a
 constexpr std::size_t kMostKept = 6;    // selections, for undo: 2 bytes a Gaussian each
 
 bool same_stroke(const CameraStroke& a, const CameraStroke& b) {
-  return same_camera(a.camera, b.camera) && same_set(a.seen, b.seen) && a.stroke.label == b.stroke.label &&
-         a.stroke.radius_px == b.stroke.radius_px && a.stroke.points_px == b.stroke.points_px;
+  return same_camera(a.camera, b.camera) && same_set(a.seen, b.seen) && a.stroke.kind == b.stroke.kind &&
+         a.stroke.label == b.stroke.label && a.stroke.radius_px == b.stroke.radius_px &&
+         a.stroke.points_px == b.stroke.points_px;
 }
 
 }  // namespace

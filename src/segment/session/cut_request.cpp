@@ -38,6 +38,7 @@ class Key {
   }
   void strokes(const Strokes& strokes) {
     list(strokes, [this](const Stroke& stroke) {
+      number(stroke.kind);
       number(stroke.label);
       number(stroke.radius_px);
       list(stroke.points_px, [this](const glm::vec2& p) { numbers({&p.x, 2}); });

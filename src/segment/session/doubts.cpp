@@ -40,8 +40,9 @@ void add_doubts_of_first(const ViewReport& view, std::vector<std::string>* sente
 std::vector<std::string> doubts(const CutResult& result, double view_agreement) {
   std::vector<std::string> sentences = doubts_of(result, view_agreement);
   if (result.meanings.size() > 1)
-    sentences.insert(sentences.begin(), fmt::format("the first click could mean one of {} things: this is {}",
-                                                    result.meanings.size(), result.choice + 1));
+    sentences.insert(sentences.begin(),
+                     fmt::format("what was said first could mean one of {} things: this is {}",
+                                 result.meanings.size(), result.choice + 1));
   if (result.ambiguous)
     sentences.insert(sentences.begin(),
                      fmt::format("the first click could mean a part of another size: this is size {} of {}",

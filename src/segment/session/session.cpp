@@ -22,6 +22,10 @@ Box joined(const Box& a, const Box& b) {
   return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
 }
 
+bool holds(const Cell& cell, const Box& box) {
+  return contains(cell.box_world(), box.min) && contains(cell.box_world(), box.max);
+}
+
 // Where nearly all of what is labelled lies.
 Box bounds_of(const GaussianCloud& cloud, std::span<const std::uint8_t> labels) {
   constexpr double kInside = 0.96;
@@ -105,11 +109,14 @@ Place Session::seen_from(const Camera& eye, const glm::vec3& point_world) {
           .eye = eye};
 }
 
-Place Session::first_place(const Camera& eye, const glm::vec3& hit_world) const {
-  Place place = seen_from(eye, hit_world);
+Place Session::first_place(const Camera& eye, const Box& must_hold) const {
+  Place place = seen_from(eye, must_hold.centre());
   const auto gaussians = [&] { return whole_.blocks->count_in(*scene_.cloud, place.cell.box_world()); };
-  for (int i = 0; i < kMostHalvings && gaussians() > scene_.most_gaussians; ++i)
-    place.cell = cell_around(hit_world, place.cell.level - 1);
+  for (int i = 0; i < kMostHalvings && gaussians() > scene_.most_gaussians; ++i) {
+    const Cell half = cell_around(must_hold.centre(), place.cell.level - 1);
+    if (!holds(half, must_hold)) break;
+    place.cell = half;
+  }
   place.whole = is_whole(place.cell);
   return place;
 }
@@ -119,8 +126,7 @@ Place Session::grown(const Place& place, const Box& must_hold) const {
   Place next = place;
   do {
     next.cell = cell_around(must_hold.centre(), next.cell.level + 1);
-  } while (!contains(next.cell.box_world(), must_hold.min) ||
-           !contains(next.cell.box_world(), must_hold.max));
+  } while (!holds(next.cell, must_hold));
   next.whole = is_whole(next.cell);
   return next;
 }
@@ -172,7 +178,7 @@ std::optional<Place> Session::place_of_strokes(const CutRequest& request, const 
       for (const auto& hit : hits(strokes[i], job))
         if (hit) must_hold = must_hold ? joined(*must_hold, {*hit, *hit}) : Box{*hit, *hit};
     if (job.cancelled() || !must_hold) return {};
-    if (!place) place = first_place(strokes[0].camera, must_hold->centre());
+    if (!place) place = first_place(strokes[0].camera, *must_hold);
     if (i + 1 <= known) continue;
     place = place_after(first(i + 1), request, settings, *place, *must_hold, job);
     if (job.cancelled()) return {};
@@ -184,8 +190,7 @@ std::optional<Place> Session::place_of_strokes(const CutRequest& request, const 
 
 Place Session::place_after(std::span<const CameraStroke> strokes, const CutRequest& like,
                            const CutSettings& settings, Place place, const Box& must_hold, const Job& job) {
-  const auto holds = [&](const glm::vec3& p) { return contains(place.cell.box_world(), p); };
-  if (!place.whole && !(holds(must_hold.min) && holds(must_hold.max))) place = grown(place, must_hold);
+  if (!place.whole && !holds(place.cell, must_hold)) place = grown(place, must_hold);
   const CutRequest request = request_of(strokes, like);
   while (!job.cancelled()) {
     Local* there = local(place, settings, job);
@@ -238,9 +243,11 @@ CutRequest Session::in_place(const CutRequest& request, Local* there, const Job&
     for (Stroke stroke : view.strokes) {
       if (stroke.label == SeedLabel::kRest) {
         const StrokeHits& at = hits({view.camera, stroke, view.seen}, job);
+        const auto lies_here = [&](const auto& hit) { return hit && contains(box, *hit); };
         std::vector<glm::vec2> inside;
-        for (std::size_t i = 0; i < at.size(); ++i)
-          if (at[i] && contains(box, *at[i])) inside.push_back(stroke.points_px[i]);
+        for (std::size_t i = 0; i < stroke.points_px.size(); ++i)
+          if (stroke.is_box() ? std::ranges::any_of(at, lies_here) : lies_here(at[i]))
+            inside.push_back(stroke.points_px[i]);
         stroke.points_px = std::move(inside);
       }
       if (!stroke.points_px.empty()) here.strokes.push_back(std::move(stroke));

@@ -3,7 +3,8 @@
 // Command line, window, eval and study cut through it, so that the same strokes give the same labels. What is
 // prepared is a neighbourhood of what was clicked (superpoints/neighbourhood.h), never the scene:
 //   1. The first stroke on the object says where: what it hits, the camera's distance, rounded up to a power
-//      of two, as the cell's side; half of it again and again while the cell holds more than most_gaussians.
+//      of two, as the cell's side; half of it again and again while the cell holds more than most_gaussians
+//      and the half still holds all that was hit.
 //      With masks, the box of what they show, twice as large.
 //   2. After each stroke, and again after the cut: while what is labelled touches the cell's side, or a
 //      stroke on the object hits what lies outside, the next cell is twice as large, about both. A cell
@@ -85,7 +86,7 @@ class Session {
   const StrokeHits& hits(const CameraStroke& stroke, const Job& job);
   bool is_whole(const Cell& cell) const;
   static Place seen_from(const Camera& eye, const glm::vec3& point_world);
-  Place first_place(const Camera& eye, const glm::vec3& hit_world) const;
+  Place first_place(const Camera& eye, const Box& must_hold) const;
   Place place_of_all(const Camera& eye) const;
   Place place_of_masks(const CutRequest& request, const CutSettings& settings, const Job& job) const;
   Place grown(const Place& place, const Box& must_hold) const;

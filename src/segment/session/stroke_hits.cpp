@@ -8,7 +8,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr int kScribbleWidthPx = 320;
+constexpr int kWidthPx = 320;             // of the picture for scribbles and boxes
 constexpr float kReachShare = 1.0f / 80;  // of the picture's width: as far as a selection reaches
 
 PixelRect around(const Camera& camera, const glm::vec2& pixel, int reach_px) {
@@ -35,30 +35,67 @@ std::optional<glm::vec3> nearest_hit(const Camera& camera, const glm::vec2& pixe
   return hit;
 }
 
-}  // namespace
+RasterOptions depth_of(const CameraStroke& stroke, const PixelRect& region) {
+  RasterOptions options;
+  options.colour = false;
+  options.depth = true;
+  options.roi = region;
+  if (stroke.seen) options.shown = *stroke.seen;
+  return options;
+}
 
-StrokeHits stroke_hits(const Drawer& scene, const CameraStroke& stroke, const Job& job) {
+StrokeHits hits_of_path(const Drawer& scene, const CameraStroke& stroke, const Job& job) {
   const std::vector<glm::vec2>& points = stroke.stroke.points_px;
-  const Camera camera =
-      points.size() == 1 ? stroke.camera : limited_to_width(stroke.camera, kScribbleWidthPx);
+  const Camera camera = points.size() == 1 ? stroke.camera : limited_to_width(stroke.camera, kWidthPx);
   const float scale = static_cast<float>(camera.width_px) / static_cast<float>(stroke.camera.width_px);
   const int reach_px = static_cast<int>(std::ceil(kReachShare * static_cast<float>(camera.width_px)));
   StrokeHits hits(points.size());
   PixelRect region{0, 0, camera.width_px, camera.height_px};
   if (points.size() == 1) region = around(camera, points.front(), reach_px);
   if (points.empty() || region.empty()) return hits;
-  RasterOptions options;
-  options.colour = false;
-  options.depth = true;
-  options.roi = region;
-  if (stroke.seen) options.shown = *stroke.seen;
-  const RasterOutput drawn = scene.draw(camera, options, job);
+  const RasterOutput drawn = scene.draw(camera, depth_of(stroke, region), job);
   if (job.cancelled()) return hits;  // there is no picture
   for (std::size_t i = 0; i < points.size(); ++i) {
     const glm::vec2 pixel = scale * points[i];
     hits[i] = nearest_hit(camera, pixel, drawn, region, around(camera, pixel, reach_px));
   }
   return hits;
+}
+
+StrokeHits hits_of_box(const Drawer& scene, const CameraStroke& stroke, const Job& job) {
+  constexpr int kGrid = 16;               // places a side
+  constexpr std::size_t kNearerThan = 4;  // of them one is as near as what is meant
+  const Camera camera = limited_to_width(stroke.camera, kWidthPx);
+  const float scale = static_cast<float>(camera.width_px) / static_cast<float>(stroke.camera.width_px);
+  const BoxPx box = box_in_picture(scaled({stroke.stroke}, scale).front(), camera.width_px, camera.height_px);
+  const PixelRect region{static_cast<int>(box.low_px.x), static_cast<int>(box.low_px.y),
+                         static_cast<int>(std::ceil(box.high_px.x)),
+                         static_cast<int>(std::ceil(box.high_px.y))};
+  if (region.empty()) return {};
+  const RasterOutput drawn = scene.draw(camera, depth_of(stroke, region), job);
+  if (job.cancelled()) return {};
+  std::vector<glm::vec3> seen;  // pixel, camera z
+  const glm::vec2 step = box.size_px() / static_cast<float>(kGrid);
+  for (int row = 0; row < kGrid; ++row)
+    for (int column = 0; column < kGrid; ++column) {
+      const glm::vec2 at = box.low_px + step * (glm::vec2(column, row) + 0.5f);
+      const int x = static_cast<int>(at.x) - region.x0, y = static_cast<int>(at.y) - region.y0;
+      if (drawn.first_hit.at(x, y) >= 0) seen.emplace_back(at, drawn.median_depth.at(x, y));
+    }
+  if (seen.empty()) return {};
+  std::ranges::sort(seen, {}, &glm::vec3::z);
+  const float depth = seen[seen.size() / kNearerThan].z;
+  const float extent = depth * std::max(box.size_px().x / camera.fx_px, box.size_px().y / camera.fy_px);
+  StrokeHits hits;
+  for (const glm::vec3& pixel : seen)
+    if (std::abs(pixel.z - depth) <= extent) hits.emplace_back(camera.world_from_pixel(pixel, pixel.z));
+  return hits;
+}
+
+}  // namespace
+
+StrokeHits stroke_hits(const Drawer& scene, const CameraStroke& stroke, const Job& job) {
+  return stroke.stroke.is_box() ? hits_of_box(scene, stroke, job) : hits_of_path(scene, stroke, job);
 }
 
 }  // namespace splatcut

@@ -1,9 +1,11 @@
 // What strokes hit of a whole scene.
 //
-// In: a stroke and its camera. Out: per point of it the place on the surface that its pixel shows, or that of
-// the nearest pixel within a eightieth of the picture's width that shows anything. A click is looked up in
-// the camera's own pixels, a scribble in a picture of at most 320 pixels. Cost: one drawing of the blocks
-// that these pixels show.
+// In: a stroke and its camera. Out: per point of a path the place on the surface that its pixel shows, or
+// that of the nearest pixel within a eightieth of the picture's width that shows anything. A click is looked
+// up in the camera's own pixels, a scribble in a picture of at most 320 pixels. Of a box: places on a grid of
+// such a picture's pixels in it, without those that lie nearer or farther than what it is around by more than
+// the box is large there; that lies as far away as a quarter of what the box shows or nearer. Cost: one
+// drawing of the blocks that these pixels show.
 #pragma once
 
 #include <optional>
@@ -14,7 +16,7 @@
 
 namespace splatcut {
 
-using StrokeHits = std::vector<std::optional<glm::vec3>>;  // world, per point
+using StrokeHits = std::vector<std::optional<glm::vec3>>;  // world, per point of a path
 
 StrokeHits stroke_hits(const Drawer& scene, const CameraStroke& stroke, const Job& job = {});
 

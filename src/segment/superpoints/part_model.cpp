@@ -92,6 +92,7 @@ std::vector<PartWeight> make_table() {
   };
   std::ranges::move(term_weights("first", &SelectionModel::first), std::back_inserter(table));
   std::ranges::move(term_weights("later", &SelectionModel::later), std::back_inserter(table));
+  std::ranges::move(term_weights("box", &SelectionModel::box), std::back_inserter(table));
   return table;
 }
 
@@ -125,13 +126,22 @@ SelectionModel::SelectionModel()
                      {Term::kOpposed, 5},
                      {Term::kBack, 1},
                      {Term::kDisc, 1},
-                     {Term::kRepick, -0.5f}})) {}
+                     {Term::kRepick, -0.5f}})),
+      box(weights({{Term::kCut, 0.1f},
+                   {Term::kFrame, 0.2f},
+                   {Term::kNoEdge, 1.5f},
+                   {Term::kCropped, 0.6f},
+                   {Term::kSmall, 0.2f},
+                   {Term::kLarge, 0.5f},
+                   {Term::kShort, 3},
+                   {Term::kSpill, 4},
+                   {Term::kFills, 0.7f}})) {}
 
 std::span<const std::string> term_names() {
   static const std::array<std::string, kTerms> names = {
-      "cut",     "jump",   "rare",  "frame",   "shade_blind", "off_centre", "no_edge",
-      "cropped", "small",  "large", "scrap",   "apart",       "fold",       "giant",
-      "border",  "hidden", "takes", "opposed", "back",        "disc",       "repick"};
+      "cut",   "jump",    "rare",  "frame", "shade_blind", "off_centre", "no_edge", "cropped",
+      "small", "large",   "scrap", "apart", "fold",        "giant",      "border",  "hidden",
+      "takes", "opposed", "back",  "disc",  "repick",      "short",      "spill",   "fills"};
   return names;
 }
 

@@ -62,7 +62,7 @@ struct PartOptions {
   int votes = 10;             // neighbours that vote where a Gaussian outside of the core belongs
 };
 
-// Terms of the cost of what a click can mean: see selection/candidates.h.
+// Terms of the cost of what a click or a box can mean: see selection/candidates.h, selection/box_meanings.h.
 enum class Term {
   kCut,
   kJump,
@@ -84,9 +84,12 @@ enum class Term {
   kOpposed,
   kBack,
   kDisc,
-  kRepick
+  kRepick,
+  kShort,  // this and the next two: of boxes alone
+  kSpill,
+  kFills
 };
-inline constexpr std::size_t kTerms = 21;
+inline constexpr std::size_t kTerms = 24;
 using TermValues = std::array<float, kTerms>;  // by Term
 inline float& weight(TermValues* of, Term term) {
   return (*of)[static_cast<std::size_t>(term)];
@@ -101,7 +104,7 @@ std::span<const std::string> term_names();
 
 // What a click means.
 struct SelectionModel {
-  TermValues first, later;       // weights of the terms, of first clicks and of corrections
+  TermValues first, later, box;  // weights of the terms: of first clicks, of corrections, of boxes
   float disc_share = 0.5f;       // of the distance to where the clicked region may end that is certain
   float disc_majority = 0.5f;    // of a leaf's or Gaussian's pixels that must lie in the disc
   float least_visible = 0.3f;    // share of a leaf that the view must show for the disc to decide it
@@ -120,10 +123,11 @@ struct MaskToPartsOptions {
 
 struct PartModel {
   // Whoever changes a value raises the version and says here what was searched on what.
+  // Version 10: what boxes mean is set by hand, on the scenes of docs/clicks.md and eleven more.
   // Version 9: what a first click means is fitted by `splatcut-lab fit` on the scenes of docs/clicks.md,
   // which shows the fit without each of the captures; what corrections mean is set by hand on the same
   // scenes, last the cost of a click on the rest that takes nearly all of the object (Term::kTakes).
-  static constexpr int kVersion = 9;
+  static constexpr int kVersion = 10;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;

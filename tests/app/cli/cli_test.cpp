@@ -158,6 +158,37 @@ TEST_CASE("a pixel that is said to be object and rest is said") {
   CHECK(result.err.find("is said to be both object and rest") != std::string::npos);
 }
 
+TEST_CASE("a box on the command line is the box of a file of seeds, and cuts what fills it") {
+  StillLife& life = still_life();
+  const Workplace& place = life.place;
+  const auto refused = [&](const std::string& box, const std::string& word) {
+    CAPTURE(box);
+    const Result result = place.run(life.cut("--box " + box + " -o refused"));
+    CHECK(result.code == 1);
+    CHECK(result.err.find(word) != std::string::npos);
+    CHECK_FALSE(place.exists("refused"));
+  };
+  refused("1,2,3", "x0,y0,x1,y1");
+  refused("1,2,3,4,5", "x0,y0,x1,y1");
+  refused("1,2,3,4:sky", "object or rest");
+  refused("5,5,7,90", "less than 6 pixels");
+  refused("-50,-50,-5,-5", "less than 6 pixels");
+  refused("nan,5,90,90", "less than 6 pixels");
+  const Result help = place.run("cut --help");
+  CHECK(help.out.find("--box") != std::string::npos);
+  int x = 0, y = 0;
+  REQUIRE(std::sscanf(life.click.c_str(), "%d,%d", &x, &y) == 2);
+  const auto corner = [&](int by) { return std::to_string(x + by) + "," + std::to_string(y + by); };
+  const std::string box = corner(-30) + "," + corner(30);
+  place.write("box.json",
+              R"({"clicks": [], "boxes": [{"corners": [[)" + corner(-30) + "], [" + corner(30) + "]]}]}");
+  REQUIRE(place.run(life.cut("--box " + box + " -o by_box")).code == 0);
+  REQUIRE(place.run(life.cut("--seeds box.json -o by_box_file")).code == 0);
+  CHECK(place.text("by_box/labels.u8") == place.text("by_box_file/labels.u8"));
+  REQUIRE(place.run(life.cut("--box " + box + " --click " + life.click + ":rest -o corrected")).code == 0);
+  CHECK(place.text("corrected/labels.u8") != place.text("by_box/labels.u8"));
+}
+
 TEST_CASE("a relative cache folder is ignored") {
   StillLife& life = still_life();
   CHECK(life.place

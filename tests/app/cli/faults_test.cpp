@@ -99,14 +99,26 @@ TEST_CASE("faults: a suite that lacks its cameras, its names or its form is refu
 TEST_CASE("faults: seeds, cameras and labels of any form are refused with a sentence") {
   const StillLife& life = still_life();
   const Workplace& place = life.place;
-  for (const char* text :
-       {"", "{", "[1e999]", "[]", "7", "\"\xff\"", R"({"clicks": 5})", R"({"clicks": [5]})",
-        R"({"clicks": [{"x": "a"}]})", R"({"scribbles": [{"label": 5, "points": []}]})",
-        R"({"scribbles": {"label": "object"}})", R"({"scribbles": [{"label": "object", "points": [[1]]}]})",
-        R"({"objects": [{"name": 1}]})",
-        R"({"scribbles": [{"label": "object", "radius_px": 1e30, "points": [[1, 2]]}]})",
-        R"({"scribbles": [{"label": "object", "radius_px": -1, "points": [[1, 2]]}]})",
-        R"({"clicks": [{"x": 1e30, "y": 1}]})"}) {
+  for (const char* text : {"",
+                           "{",
+                           "[1e999]",
+                           "[]",
+                           "7",
+                           "\"\xff\"",
+                           R"({"clicks": 5})",
+                           R"({"clicks": [5]})",
+                           R"({"clicks": [{"x": "a"}]})",
+                           R"({"scribbles": [{"label": 5, "points": []}]})",
+                           R"({"scribbles": {"label": "object"}})",
+                           R"({"scribbles": [{"label": "object", "points": [[1]]}]})",
+                           R"({"objects": [{"name": 1}]})",
+                           R"({"scribbles": [{"label": "object", "radius_px": 1e30, "points": [[1, 2]]}]})",
+                           R"({"scribbles": [{"label": "object", "radius_px": -1, "points": [[1, 2]]}]})",
+                           R"({"boxes": 5})",
+                           R"({"boxes": [{"corners": [[1, 2]]}]})",
+                           R"({"boxes": [{"corners": [[1, 2], [3]]}]})",
+                           R"({"boxes": [{"corners": [[1, 2], [1e30, 4]]}]})",
+                           R"({"clicks": [{"x": 1e30, "y": 1}]})"}) {
     CAPTURE(text);
     place.write("odd.json", text);
     refused(place.run(life.cut("--seeds odd.json -o odd")), {"odd.json"});

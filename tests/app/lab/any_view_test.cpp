@@ -7,6 +7,7 @@
 
 #include "app/lab/any_view_report.h"
 #include "app/lab/click_sheet.h"
+#include "app/lab/robot_user.h"
 #include "app/lab/scene_copies.h"
 #include "core/error.h"
 #include "program_runner.h"
@@ -239,14 +240,40 @@ TEST_CASE("any view: starts are the references and the views whose truth counts,
   // An unsteady hand clicks elsewhere, on the same things.
   int others = 0;
   for (std::uint64_t draw = 1; draw < 6; ++draw) {
-    const AnyViewStart other = any_view_starts(scene, views, draw)[2];
+    const AnyViewStart other = any_view_starts(scene, views, {.box_margin = {}, .draw = draw})[2];
     others += other.first.points_px != starts[2].first.points_px;
     CHECK(large.at(static_cast<int>(other.first.points_px.front().x),
                    static_cast<int>(other.first.points_px.front().y)) != 0);
   }
   CHECK(others > 0);
+  // With boxes it begins where the truth is known: around it.
+  const std::vector<AnyViewStart> boxed = any_view_starts(scene, views, {.box_margin = 0.0f});
+  REQUIRE(boxed.size() == 2);
+  CHECK(boxed[0].first.is_box());
+  CHECK(boxed[0].first.points_px == robot_box(large, 0)->points_px);
   scene.truth_masks = {speck, speck, speck};
   CHECK_THROWS_AS(truth_views(scene), Error);
+}
+
+TEST_CASE("any view: the robot's box stands around the truth, by a margin, into it, and unevenly by chance") {
+  Mask truth(20, 10);
+  for (int y = 2; y < 7; ++y)
+    for (int x = 4; x < 8; ++x) truth.at(x, y) = kMaskObject;
+  using Corners = std::vector<glm::vec2>;
+  CHECK(robot_box(truth, 0)->points_px == Corners{{4, 2}, {8, 7}});
+  CHECK(robot_box(truth, 0.25f)->points_px == Corners{{3, 0.75f}, {9, 8.25f}});
+  CHECK(robot_box(truth, -0.25f)->points_px == Corners{{5, 3.25f}, {7, 5.75f}});
+  const Corners by_chance = robot_box(truth, 0.25f, 7)->points_px;
+  CHECK(by_chance == robot_box(truth, 0.25f, 7)->points_px);
+  CHECK(by_chance != robot_box(truth, 0.25f, 8)->points_px);
+  CHECK(4 - by_chance[0].x != by_chance[1].x - 8);
+  for (const auto& [out, extent] : {std::pair{glm::vec2(4, 2) - by_chance[0], glm::vec2(4, 5)},
+                                    {by_chance[1] - glm::vec2(8, 7), glm::vec2(4, 5)}})
+    for (const int axis : {0, 1}) {
+      CHECK(out[axis] >= 0);
+      CHECK(out[axis] <= 0.5f * extent[axis]);
+    }
+  CHECK_FALSE(robot_box(Mask(20, 10), 0));
 }
 
 TEST_CASE(

@@ -20,7 +20,7 @@ std::vector<Decision> rare_is_worse(std::size_t scenes, std::size_t odd) {
   CounterRng random(5, 0);
   for (std::size_t scene = 0; scene < scenes; ++scene)
     for (int d = 0; d < 5; ++d) {
-      Decision decision{.scene = scene, .first = true, .meanings = {}};
+      Decision decision{.scene = scene, .of = DecisionOf::kFirstClick, .meanings = {}};
       for (int m = 0; m < 6; ++m) {
         Meaning meaning;
         const float rare = random.between(0, 1);
@@ -38,29 +38,29 @@ std::vector<Decision> rare_is_worse(std::size_t scenes, std::size_t odd) {
 
 TEST_CASE("fit: weights follow what candidates are worth, terms that say nothing stay small") {
   const std::vector<Decision> decisions = rare_is_worse(4, 4);
-  TermValues fitted = fitted_terms(decisions, true, std::vector<bool>(4, true));
+  TermValues fitted = fitted_terms(decisions, DecisionOf::kFirstClick, std::vector<bool>(4, true));
   CHECK(weight(&fitted, Term::kRare) > 3);
   CHECK(std::abs(weight(&fitted, Term::kFrame)) < 0.3f * weight(&fitted, Term::kRare));
   CHECK(weight(&fitted, Term::kOpposed) == 0);  // no candidate has it
-  CHECK(fitted_terms(decisions, false, std::vector<bool>(4, true)) ==
+  CHECK(fitted_terms(decisions, DecisionOf::kCorrection, std::vector<bool>(4, true)) ==
         TermValues{});  // no correction is known
-  CHECK(fitted_terms(decisions, true, std::vector<bool>(4, true)) == fitted);
-  TermValues without = fitted_terms(decisions, true, std::vector<bool>(4, true),
+  CHECK(fitted_terms(decisions, DecisionOf::kFirstClick, std::vector<bool>(4, true)) == fitted);
+  TermValues without = fitted_terms(decisions, DecisionOf::kFirstClick, std::vector<bool>(4, true),
                                     {.without = 1u << static_cast<unsigned>(Term::kRare)});
   CHECK(weight(&without, Term::kRare) == 0);
 }
 
 TEST_CASE("fit: a scene counts by being in, not by how many decisions it has") {
   std::vector<Decision> decisions = rare_is_worse(2, 1);
-  TermValues with = fitted_terms(decisions, true, {true, false});
+  TermValues with = fitted_terms(decisions, DecisionOf::kFirstClick, {true, false});
   CHECK(weight(&with, Term::kRare) > 3);
-  TermValues odd = fitted_terms(decisions, true, {false, true});
+  TermValues odd = fitted_terms(decisions, DecisionOf::kFirstClick, {false, true});
   CHECK(weight(&odd, Term::kRare) < -3);
-  const TermValues both = fitted_terms(decisions, true, {true, true});
+  const TermValues both = fitted_terms(decisions, DecisionOf::kFirstClick, {true, true});
   std::vector<Decision> twice = decisions;
   for (const Decision& d : decisions)
     if (d.scene == 1) twice.push_back(d);
-  const TermValues again = fitted_terms(twice, true, {true, true});
+  const TermValues again = fitted_terms(twice, DecisionOf::kFirstClick, {true, true});
   for (std::size_t t = 0; t < kTerms; ++t) CHECK(again[t] == doctest::Approx(both[t]).epsilon(0.1));
 }
 

@@ -377,9 +377,12 @@ TEST_CASE("hands: a box that reaches out of the picture is around what of it is 
   hands.studio().apply(AddBox{camera, {width - 40, 60}, {width + 300, 200}});
   const ObjectItem* object = hands.studio().document().active_object();
   REQUIRE(object);
-  const Stroke& middle = object->views.front().strokes.back();
-  CHECK(middle.label == SeedLabel::kObject);
-  CHECK(middle.points_px.front() == glm::vec2(width - 20, 130));
+  REQUIRE(object->views.front().strokes.size() == 1);
+  const Stroke& box = object->views.front().strokes.front();
+  CHECK(box.is_box());
+  CHECK(box.label == SeedLabel::kObject);
+  CHECK(box_in_picture(box, camera.width_px, camera.height_px).low_px == glm::vec2(width - 40, 60));
+  CHECK(box_in_picture(box, camera.width_px, camera.height_px).high_px == glm::vec2(width, 200));
 }
 
 TEST_CASE("hands: a box around a thing takes nothing that stands outside of it") {

@@ -237,6 +237,27 @@ TEST_CASE("session: what marks nothing is an outcome, from parts and from pixels
   }
 }
 
+TEST_CASE("session: a box around each thing of the table means the thing, in a neighbourhood of it") {
+  const LabelledScene& scene = small_table().scene;
+  Session session({.cloud = small_table().cloud, .photographs = scene.cameras, .most_gaussians = 12000});
+  CutSettings settings = preset("fast");
+  for (const char* name : {"mug", "apple", "orange", "plant", "pot", "books"}) {
+    CAPTURE(name);
+    const auto number = std::ranges::find(scene.label_name, name) - scene.label_name.begin();
+    std::vector<std::uint8_t> truth(scene.label.size());
+    for (std::size_t g = 0; g < truth.size(); ++g) truth[g] = scene.label[g] == number;
+    const auto seen = [&](const std::vector<std::uint8_t>& labels) {
+      return thresholded(render_labels({scene.cloud}, scene.cameras[0], labels, {}), 0.5f);
+    };
+    CutRequest request;
+    request.strokes = {{scene.cameras[0], {*robot_box(seen(truth), 0.05f)}}};
+    const CutResult result = session.cut(request, settings);
+    REQUIRE(result.outcome == Outcome::kDone);
+    CHECK(result.looked_at_gaussians < scene.cloud.size());
+    CHECK(iou(seen(truth), seen(result.labels)) > 0.9);
+  }
+}
+
 TEST_CASE("session: keys of two requests differ where anything that is said does") {
   const CutRequest base = click_on("mug").request;
   const Camera& camera = small_table().scene.cameras[2];
@@ -250,6 +271,11 @@ TEST_CASE("session: keys of two requests differ where anything that is said does
   requests[7].up_world = glm::vec3(0, -1, 0);
   requests.push_back(base);
   requests.back().part_step = 1;
+  const StrokedView& clicked = base.strokes.front();
+  requests.push_back(base);
+  requests.back().strokes = {{clicked.camera, {{SeedLabel::kObject, 2, {{5, 5}, {90, 70}}}}}};
+  requests.push_back(base);
+  requests.back().strokes = {{clicked.camera, {box_around({5, 5}, {90, 70}, SeedLabel::kObject)}}};
   std::set<std::string> keys;
   for (const CutRequest& request : requests) keys.insert(key_of(request));
   CHECK(keys.size() == requests.size());

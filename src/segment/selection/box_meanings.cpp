@@ -1,0 +1,133 @@
+#include "segment/selection/box_meanings.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "segment/selection/part_terms.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr int kBins = 20;  // of the box's extent
+using Profile = std::array<float, kBins>;
+
+// Of a leaf or of a node: its pixels outside of the box, and inside by column and by row of it.
+struct InBox {
+  float outside = 0;
+  Profile across{}, down{};
+
+  float inside() const {
+    float sum = 0;
+    for (const float px : across) sum += px;
+    return sum;
+  }
+  InBox& operator+=(const InBox& other) {
+    outside += other.outside;
+    for (std::size_t b = 0; b < kBins; ++b) {
+      across[b] += other.across[b];
+      down[b] += other.down[b];
+    }
+    return *this;
+  }
+};
+
+std::size_t bin_of(float at, float low, float extent) {
+  return static_cast<std::size_t>(std::clamp(kBins * (at - low) / extent, 0.0f, kBins - 1.0f));
+}
+
+std::vector<InBox> of_leaves(const PartHierarchy& parts, const LeafView& view, const BoxPx& box) {
+  std::vector<InBox> sums(parts.leaves);
+  const glm::vec2 size = box.size_px();
+  for (int y = 0; y < view.camera.height_px; ++y)
+    for (int x = 0; x < view.camera.width_px; ++x) {
+      const glm::vec2 at = glm::vec2(x, y) + 0.5f;
+      const bool inside = box.contains(at);
+      const std::size_t column = bin_of(at.x, box.low_px.x, size.x), row = bin_of(at.y, box.low_px.y, size.y);
+      for (const GroupWeight& w : view.leaves.at(static_cast<std::size_t>(y) * view.camera.width_px + x)) {
+        InBox& leaf = sums[w.group];
+        if (inside) {
+          leaf.across[column] += w.weight;
+          leaf.down[row] += w.weight;
+        } else {
+          leaf.outside += w.weight;
+        }
+      }
+    }
+  return sums;
+}
+
+// The share of the extent that comes before the first hundredth of the sum.
+float margin(auto begin, auto end, float sum) {
+  constexpr float kOutermost = 0.01f;
+  float before = 0, bins = 0;
+  for (auto bin = begin; bin != end; ++bin, ++bins) {
+    if (before + *bin >= kOutermost * sum && *bin > 0)
+      return (bins + std::max(0.0f, kOutermost * sum - before) / *bin) / kBins;
+    before += *bin;
+  }
+  return 1;
+}
+
+float short_of_sides(const InBox& of, float inside) {
+  constexpr float kTouches = 0.1f;
+  float sum = 0;
+  for (const Profile* profile : {&of.across, &of.down})
+    sum += std::max(0.0f, margin(profile->begin(), profile->end(), inside) - kTouches) +
+           std::max(0.0f, margin(profile->rbegin(), profile->rend(), inside) - kTouches);
+  return sum;
+}
+
+std::vector<PartMeaning> meanings_in_tree(const PartHierarchy& parts, std::uint32_t t,
+                                          std::vector<InBox> sums, const std::vector<PartLooks>& here,
+                                          float box_area_px, float all_px, const TermValues& weights) {
+  constexpr float kLeastShown = 0.02f;  // of the box's area
+  constexpr float kMostSpill = 3;
+  const PartTree& tree = parts.trees[t];
+  sums.resize(tree.nodes());
+  std::vector<PartMeaning> found;
+  for (std::uint32_t node = 0; node < tree.nodes(); ++node) {  // children come before their parents
+    const InBox& of = sums[node];
+    if (tree.parent[node] != kNoPart) sums[tree.parent[node]] += of;
+    const float inside = of.inside();
+    if (inside < kLeastShown * box_area_px) continue;
+    PartMeaning meaning{.tree = t, .node = node};
+    PartLooks looks = here[node];
+    if (!tree.looks.empty()) looks += tree.looks[node];
+    set_look_terms(looks, &meaning.terms);
+    weight(&meaning.terms, Term::kCut) = log_cut(tree, node, kLeastFirstCut);
+    weight(&meaning.terms, Term::kShort) = short_of_sides(of, inside);
+    weight(&meaning.terms, Term::kSpill) = std::min(of.outside / inside, kMostSpill);
+    weight(&meaning.terms, Term::kFills) = -std::log(inside / all_px);
+    meaning.cost = cost_of(meaning.terms, weights);
+    found.push_back(meaning);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<PartMeaning> box_meanings(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
+                                      const TermValues& weights) {
+  const float area_px = box.size_px().x * box.size_px().y;
+  if (!(area_px > 0)) return {};
+  const std::vector<InBox> leaves = of_leaves(parts, view, box);
+  float all_px = 0;
+  for (const InBox& leaf : leaves) all_px += leaf.inside();
+  const std::vector<std::vector<PartLooks>> here = looks_in(parts, picture_of(view));
+  std::vector<std::vector<PartMeaning>> of_tree(parts.trees.size());
+  tbb::parallel_for(std::size_t{0}, of_tree.size(), [&](std::size_t t) {
+    of_tree[t] =
+        meanings_in_tree(parts, static_cast<std::uint32_t>(t), leaves, here[t], area_px, all_px, weights);
+  });
+  std::vector<PartMeaning> all;
+  for (const std::vector<PartMeaning>& some : of_tree) all.insert(all.end(), some.begin(), some.end());
+  std::ranges::stable_sort(all, {}, &PartMeaning::cost);
+  return all;
+}
+
+}  // namespace splatcut

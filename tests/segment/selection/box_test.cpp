@@ -1,0 +1,157 @@
+// Boxes: terms, votes and what they change, by hand on four stripes.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "four_stripes.h"
+#include "segment/masks/seeds.h"
+#include "segment/selection/box_meanings.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+constexpr SeedLabel kObject = SeedLabel::kObject, kRest = SeedLabel::kRest;
+
+// Around columns from..to of the picture of 40 x 10 pixels.
+Stroke columns(float from, float to, SeedLabel label = kObject) {
+  return box_around({to, 0}, {from, 10}, label);
+}
+
+// The shipped costs of a box, and borders alone of clicks.
+SelectionModel boxes_and_borders() {
+  SelectionModel model = borders_alone();
+  model.box = SelectionModel().box;
+  return model;
+}
+
+Labels boxed(const Strokes& strokes) {
+  return selected(strokes, 0, boxes_and_borders());
+}
+
+const PartMeaning& of_node(const std::vector<PartMeaning>& found, std::uint32_t node) {
+  const auto it = std::ranges::find(found, node, &PartMeaning::node);
+  REQUIRE(it != found.end());
+  return *it;
+}
+
+}  // namespace
+
+TEST_CASE("box: it means what fills it, of any size and wherever its middle is") {
+  CHECK(boxed({columns(0, 20)}) == Labels{1, 1, 0, 0});
+  CHECK(boxed({columns(20, 40)}) == Labels{0, 0, 1, 1});
+  CHECK(boxed({columns(0, 40)}) == Labels{1, 1, 1, 1});
+  for (int leaf = 0; leaf < 4; ++leaf) {
+    Labels alone(4, 0);
+    alone[static_cast<std::size_t>(leaf)] = 1;
+    const auto left = static_cast<float>(10 * leaf);
+    CHECK(boxed({columns(left, left + 10)}) == alone);
+    CHECK(boxed({columns(left - 1, left + 11)}) == alone);  // drawn loosely, beyond the picture, too
+    CHECK(boxed({columns(left + 0.5f, left + 10)}) == alone);
+  }
+}
+
+TEST_CASE("box: its terms, worked out by hand") {
+  const PartHierarchy parts = four_leaves();
+  TermValues fills_alone{};
+  weight(&fills_alone, Term::kFills) = 2;
+  const auto found = box_meanings(parts, stripes(parts), {{0, 0}, {20, 10}}, fills_alone);
+  // Leaves 2 and 3 and their pair do not show in the box.
+  CHECK(found.size() == 4);
+  // Twenty bins across are a column of ten pixels each. The first hundredth of leaf 0 is a tenth of a bin:
+  // the leaf ends that far inside of the tenth of the twenty.
+  const PartMeaning& leaf = of_node(found, 0);
+  CHECK(weight(leaf.terms, Term::kShort) == doctest::Approx((10 + 0.1) / 20 - 0.1));
+  CHECK(weight(leaf.terms, Term::kFills) == doctest::Approx(std::log(2.0)));
+  CHECK(weight(leaf.terms, Term::kSpill) == 0);
+  CHECK(weight(leaf.terms, Term::kCut) == 0);  // of length 1, around an area of 1
+  CHECK(leaf.cost == doctest::Approx(2 * std::log(2.0)));
+  const PartMeaning& pair = of_node(found, 4);
+  CHECK(weight(pair.terms, Term::kShort) == 0);
+  CHECK(weight(pair.terms, Term::kFills) == doctest::Approx(0));
+  const PartMeaning& all = of_node(found, 6);
+  CHECK(weight(all.terms, Term::kSpill) == doctest::Approx(1));  // as much outside as inside
+  CHECK(std::ranges::is_sorted(found, {}, &PartMeaning::cost));
+  CHECK(box_meanings(parts, stripes(parts), {{5, 5}, {5, 9}}, fills_alone).empty());
+}
+
+// Three trees: two hold leaves 0 and 1 as one part, one holds 0 and 2.
+TEST_CASE("box: trees vote, by how likely their parts are, and only those that hold what must be held") {
+  PartHierarchy parts = four_leaves();
+  parts.trees.assign(3, parts.trees.front());
+  parts.trees[2].parent = {4, 5, 4, 5, 6, 6, kNoPart};
+  const auto meaning = [](std::uint32_t tree, std::uint32_t node, float cost) {
+    return PartMeaning{.tree = tree, .node = node, .terms = {}, .cost = cost};
+  };
+  const std::vector<PartMeaning> found = {meaning(2, 4, 0), meaning(0, 4, 0.5f), meaning(1, 4, 0.5f),
+                                          meaning(0, 6, 3)};
+  const float vote = std::exp(-0.5f), all = 1 + 2 * vote;
+  const std::vector<float> shares = vote_shares(parts, found, {}, {});
+  REQUIRE(shares.size() == 4);
+  CHECK(shares[0] == doctest::Approx(1));
+  CHECK(shares[1] == doctest::Approx(2 * vote / all));
+  CHECK(shares[2] == doctest::Approx(1 / all));
+  CHECK(shares[3] == 0);
+  CHECK(majority(shares) == Labels{1, 1, 0, 0});
+  const std::vector<std::uint32_t> first{0}, second{1}, third{2}, fourth{3};
+  CHECK(majority(vote_shares(parts, found, third, second)) == Labels{1, 0, 1, 0});  // the third tree alone
+  CHECK(majority(vote_shares(parts, found, fourth, {})) == Labels{1, 1, 1, 1});
+  CHECK(vote_shares(parts, found, third, first).empty());
+}
+
+TEST_CASE("box: clicks correct it, and it leaves what clicks have decided") {
+  CHECK(boxed({columns(0, 20), object(5), rest(15)}) == Labels{1, 0, 0, 0});
+  CHECK(boxed({columns(0, 20), object(35)}) == Labels{1, 1, 1, 1});
+  CHECK(boxed({object(5), rest(15), columns(0, 20)}) == Labels{1, 0, 0, 0});
+  CHECK(boxed({object(5), columns(20, 40)}) == Labels{1, 1, 1, 1});
+  CHECK(boxed({object(5), columns(10, 20, kRest)}) == Labels{1, 0, 0, 0});
+  CHECK(boxed({columns(10, 20, kRest)}) == Labels{0, 0, 0, 0});  // there is no object yet
+}
+
+TEST_CASE("box: where nothing is, it is refused") {
+  const PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts, {0, -1, 2, 3});
+  ClickSelection selection(parts, boxes_and_borders());
+  CHECK_FALSE(selection.apply(view, columns(11, 19)));
+  CHECK_FALSE(selection.any());
+  CHECK(selection.apply(view, columns(0, 19)));
+  CHECK(selection.labels() == Labels{1, 1, 0, 0});  // leaf 1 is out of sight and belongs to it
+}
+
+TEST_CASE("box: what else it can mean looks clearly different, and is taken when chosen") {
+  const PartHierarchy parts = four_leaves();
+  SelectionModel model = boxes_and_borders();
+  model.doubt = 100;
+  const LeafView view = stripes(parts);
+  std::vector<Labels> meant;
+  for (int choice = 0; choice < kMostMeanings; ++choice) {
+    ClickSelection selection(parts, model, 0, choice);
+    REQUIRE(selection.apply(view, columns(0, 20)));
+    REQUIRE(selection.meanings().size() == kMostMeanings);
+    CHECK(selection.choice() == static_cast<std::size_t>(choice));
+    CHECK(selection.meanings()[static_cast<std::size_t>(choice)] ==
+          shown(view.gaussians, view.camera, selection.labels()));
+    meant.push_back(selection.labels());
+  }
+  CHECK(meant[0] == Labels{1, 1, 0, 0});
+  CHECK(meant[1] != meant[0]);
+  CHECK(meant[2] != meant[0]);
+  CHECK(meant[2] != meant[1]);
+}
+
+TEST_CASE("box: to pixels alone it says that what is outside is the rest, and its middle the object") {
+  const Image<std::uint8_t> seeds = draw_seeds({box_around({2, 1}, {12, 9}, kObject)}, 16, 10);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 16; ++x) {
+      CAPTURE(x);
+      CAPTURE(y);
+      const bool inside = x >= 2 && x < 12 && y >= 1 && y < 9;
+      const bool middle = std::hypot(x + 0.5 - 7, y + 0.5 - 5) <= 2;
+      CHECK(seeds.at(x, y) == (middle ? kObjectSeed : inside ? kNoSeed : kRestSeed));
+    }
+  const Image<std::uint8_t> out = draw_seeds({box_around({2, 1}, {12, 9}, kRest)}, 16, 10);
+  CHECK(out.at(7, 5) == kRestSeed);
+  CHECK(out.at(1, 5) == kNoSeed);
+}
