@@ -64,10 +64,10 @@ const std::vector<Room> kRooms = {
     {"app/cli",
      both(both(kScene, kSegment), {"app/console", "app/document", "app/work", "app/ui"}),
      {"CLI/", "nlohmann"}},
+    {"app/measure", both(both(kScene, kSegment), {"scene/still_life", "app/console"}), {"nlohmann"}},
     {"app/lab",
-     both(both(kScene, kSegment), {"scene/still_life", "app/console"}),
-     {"CLI/", "nlohmann"},
-     4200},
+     both(both(kScene, kSegment), {"scene/still_life", "app/console", "app/measure"}),
+     {"CLI/", "nlohmann"}},
     {"app", {"scene/formats", "app/console", "app/cli"}, {"CLI/"}},  // main()
 };
 // Libraries that not every room may know. TBB is everywhere, but in headers: it takes long to read.

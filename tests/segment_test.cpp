@@ -8,8 +8,8 @@
 #include <numbers>
 #include <set>
 
-#include "app/lab/evaluate.h"
-#include "app/lab/robot_user.h"
+#include "app/measure/evaluate.h"
+#include "app/measure/robot_user.h"
 #include "cut_in_view.h"
 #include "scene/raster/rasterizer.h"
 #include "segment/graphcut/energy.h"

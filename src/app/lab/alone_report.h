@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/lab/alone_score.h"
+#include "app/measure/alone_score.h"
 
 namespace splatcut {
 

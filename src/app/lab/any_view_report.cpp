@@ -9,9 +9,9 @@
 #include <map>
 #include <memory>
 
-#include "app/lab/click_sheet.h"
 #include "app/lab/scene_copies.h"
 #include "app/lab/study/study_tables.h"
+#include "app/measure/click_sheet.h"
 
 namespace splatcut {
 

@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/any_view.h"
 #include "app/lab/eval_suite.h"
+#include "app/measure/any_view.h"
 
 namespace splatcut {
 

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/evaluate.h"
+#include "app/measure/evaluate.h"
 #include "scene/formats/scene_file.h"
 
 namespace splatcut {

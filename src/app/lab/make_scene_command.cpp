@@ -7,7 +7,7 @@
 #include "app/console/console.h"
 #include "app/console/output_folder.h"
 #include "app/lab/lab_commands.h"
-#include "app/lab/still_life_files.h"
+#include "app/measure/still_life_files.h"
 #include "scene/still_life/still_life.h"
 
 namespace splatcut {

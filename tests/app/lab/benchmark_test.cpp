@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/lab/benchmark_folders.h"
-#include "app/lab/evaluate_picture.h"
 #include "app/lab/published_scores.h"
 #include "app/lab/scribble_picture.h"
+#include "app/measure/evaluate_picture.h"
 #include "core/error.h"
 #include "core/png_file.h"
 #include "program_runner.h"

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/lab/decisions.h"
+#include "app/measure/decisions.h"
 #include "core/counter_rng.h"
 #include "program_runner.h"
 

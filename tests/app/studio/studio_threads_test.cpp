@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/console/output_folder.h"
-#include "app/lab/still_life_files.h"
+#include "app/measure/still_life_files.h"
 #include "app/studio/task_thread.h"
 #include "core/error.h"
 #include "headless_app.h"

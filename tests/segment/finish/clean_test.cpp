@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-#include "app/lab/evaluate_alone.h"
+#include "app/measure/evaluate_alone.h"
 #include "scene/raster/splat_math.h"
 #include "scene/still_life/still_life.h"
 #include "segment/finish/half_gaussian.h"

@@ -8,8 +8,8 @@
 #include <random>
 #include <set>
 
-#include "app/lab/mask_disturbance.h"
-#include "app/lab/robot_user.h"
+#include "app/measure/mask_disturbance.h"
+#include "app/measure/robot_user.h"
 #include "core/error.h"
 #include "core/png_file.h"
 #include "scene/raster/rasterizer.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/lab/robot_user.h"
+#include "app/measure/robot_user.h"
 #include "core/counter_rng.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/click_selection.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-#include "app/lab/robot_user.h"
+#include "app/measure/robot_user.h"
 #include "scene/still_life/still_life.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/session/doubts.h"

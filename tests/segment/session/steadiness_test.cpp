@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "app/lab/click_draws.h"
-#include "app/lab/robot_user.h"
+#include "app/measure/click_draws.h"
+#include "app/measure/robot_user.h"
 #include "core/error.h"
 #include "cut_in_view.h"
 #include "still_life_table.h"

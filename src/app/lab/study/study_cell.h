@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/mask_disturbance.h"
+#include "app/measure/mask_disturbance.h"
 
 namespace splatcut {
 

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "app/lab/robot_user.h"
 #include "app/lab/study/study_variants.h"
+#include "app/measure/robot_user.h"
 #include "core/byte_hash.h"
 #include "core/counter_rng.h"
 #include "core/error.h"

@@ -6,7 +6,7 @@
 
 #include "app/console/output_folder.h"
 #include "app/lab/eval_suite.h"
-#include "app/lab/still_life_files.h"
+#include "app/measure/still_life_files.h"
 #include "core/error.h"
 
 namespace splatcut {

@@ -1,7 +1,7 @@
 // What the study does to a scene and to its first view before it asks.
 #pragma once
 
-#include "app/lab/evaluate.h"
+#include "app/measure/evaluate.h"
 #include "scene/cloud/gaussian_cloud.h"
 
 namespace splatcut {

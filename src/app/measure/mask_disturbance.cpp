@@ -1,4 +1,4 @@
-#include "app/lab/mask_disturbance.h"
+#include "app/measure/mask_disturbance.h"
 
 #include "core/counter_rng.h"
 #include "core/error.h"

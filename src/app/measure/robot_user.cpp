@@ -1,4 +1,4 @@
-#include "app/lab/robot_user.h"
+#include "app/measure/robot_user.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "app/lab/click_sheet.h"
+#include "app/measure/click_sheet.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "app/lab/evaluate_alone.h"
+#include "app/measure/evaluate_alone.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
-#include "app/lab/evaluate_picture.h"
+#include "app/measure/evaluate_picture.h"
 #include "core/error.h"
 #include "core/picture_difference.h"
 #include "core/png_file.h"

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/lab/evaluate.h"
+#include "app/measure/evaluate.h"
 #include "core/image.h"
 
 namespace splatcut {

@@ -1,4 +1,4 @@
-#include "app/lab/decisions.h"
+#include "app/measure/decisions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "app/lab/parts_world.h"
+#include "app/measure/parts_world.h"
 #include "segment/selection/candidates.h"
 
 namespace splatcut {

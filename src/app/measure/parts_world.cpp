@@ -1,4 +1,4 @@
-#include "app/lab/parts_world.h"
+#include "app/measure/parts_world.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
-#include "app/lab/evaluate.h"
+#include "app/measure/evaluate.h"
 
 #include <algorithm>
 #include <chrono>
 #include <numeric>
 
-#include "app/lab/evaluate_alone.h"
-#include "app/lab/evaluate_picture.h"
-#include "app/lab/robot_user.h"
+#include "app/measure/evaluate_alone.h"
+#include "app/measure/evaluate_picture.h"
+#include "app/measure/robot_user.h"
 #include "core/error.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/session/doubts.h"

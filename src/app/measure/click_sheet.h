@@ -6,7 +6,7 @@
 // The session is played again: one cut a click.
 #pragma once
 
-#include "app/lab/any_view.h"
+#include "app/measure/any_view.h"
 #include "core/image.h"
 
 namespace splatcut {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/any_view.h"
+#include "app/measure/any_view.h"
 #include "segment/selection/leaf_view.h"
 
 namespace splatcut {

@@ -1,4 +1,4 @@
-#include "app/lab/any_view.h"
+#include "app/measure/any_view.h"
 
 #include <algorithm>
 #include <chrono>
@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "app/lab/robot_user.h"
+#include "app/measure/robot_user.h"
 #include "core/error.h"
 #include "scene/raster/rasterizer.h"
 #include "segment/masks/mask_tools.h"

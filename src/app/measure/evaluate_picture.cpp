@@ -1,4 +1,4 @@
-#include "app/lab/evaluate_picture.h"
+#include "app/measure/evaluate_picture.h"
 
 #include <algorithm>
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/alone_score.h"
+#include "app/measure/alone_score.h"
 #include "segment/session/session.h"
 
 namespace splatcut {

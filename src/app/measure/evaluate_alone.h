@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/lab/evaluate.h"
+#include "app/measure/evaluate.h"
 
 namespace splatcut {
 

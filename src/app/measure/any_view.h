@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/evaluate.h"
+#include "app/measure/evaluate.h"
 #include "segment/session/session.h"
 
 namespace splatcut {

@@ -1,4 +1,4 @@
-#include "app/lab/click_draws.h"
+#include "app/measure/click_draws.h"
 
 #include <algorithm>
 

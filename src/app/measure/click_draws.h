@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "app/lab/evaluate.h"
+#include "app/measure/evaluate.h"
 
 namespace splatcut {
 

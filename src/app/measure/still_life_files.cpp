@@ -1,4 +1,4 @@
-#include "app/lab/still_life_files.h"
+#include "app/measure/still_life_files.h"
 
 #include <algorithm>
 #include <span>

@@ -1,14 +1,14 @@
 // The any-view robot: its clicks and its figures on pictures drawn by hand, and by the program on a still
 // life.
-#include "app/lab/any_view.h"
+#include "app/measure/any_view.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/lab/any_view_report.h"
-#include "app/lab/click_sheet.h"
-#include "app/lab/robot_user.h"
 #include "app/lab/scene_copies.h"
+#include "app/measure/click_sheet.h"
+#include "app/measure/robot_user.h"
 #include "core/error.h"
 #include "program_runner.h"
 #include "scene/raster/rasterizer.h"
