@@ -166,15 +166,21 @@ void Clicks::perform(const StepScale& c) {
   edits_.push(c.title(), std::move(after), {}, message);
 }
 
-// Nothing without a click tool, a still picture or a hit under the pointer, and while a cut runs.
-std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
+// Whether the next click is thought about: by a click tool, in a still picture, while no cut runs.
+bool Clicks::asks_ahead() const {
   const ObjectItem* active = ws_.document().active_object();
-  if (!pointer_inside_ || !ws_.session || ws_.view.tool != Tool::kClick || viewport_.panes() != 1 ||
-      ws_.view.heat || ws_.tools.dragging() || viewport_.floaters_shown() || cuts_.cutting() != 0 ||
+  if (!ws_.session || ws_.view.tool != Tool::kClick || viewport_.panes() != 1 || ws_.view.heat ||
+      ws_.tools.dragging() || viewport_.floaters_shown() || cuts_.cutting() != 0 ||
       (active && active->locked))
-    return {};
+    return false;
+  return viewport_.style_current() && viewport_.full_picture_of(viewport_.pane_camera());
+}
+
+// Nothing without a hit under the pointer.
+std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
+  if (!pointer_inside_ || !asks_ahead()) return {};
+  const ObjectItem* active = ws_.document().active_object();
   const Camera camera = viewport_.pane_camera();
-  if (!viewport_.style_current() || !viewport_.full_picture_of(camera)) return {};
   const auto hit = viewport_.pick(ws_.tools.pointer_px());
   if (!hit) return {};
   const bool on_object =
@@ -208,7 +214,7 @@ void Clicks::refresh_hover() {
                                       request = cut_request(ws_.document(), object ? *object : none),
                                       settings = cut_settings(ws_.document(), object ? *object : none)](
                                          const Job& job) {
-    const Session::Preview preview = session->preview(request, stroke, settings, {job.stop, {}});
+    const Session::Preview preview = session->preview(request, stroke, settings, job);
     if (preview.after.empty()) return;
     std::vector<std::uint8_t> change(preview.after.size());
     std::ranges::transform(preview.before, preview.after, change.begin(),
@@ -219,6 +225,23 @@ void Clicks::refresh_hover() {
   });
 }
 
+// Where nothing else is done and no object is begun, the neighbourhood of what the picture shows in its
+// middle is prepared.
+void Clicks::make_middle_ready() {
+  const ObjectItem* active = ws_.document().active_object();
+  if (!asks_ahead() || !ws_.tasks.idle() || (active && any_mark(*active))) return;
+  const Camera camera = viewport_.pane_camera();
+  if (ready_ && same_camera(*ready_, camera)) return;
+  ready_ = camera;
+  const glm::vec2 middle = 0.5f * glm::vec2(camera.width_px, camera.height_px);
+  if (!viewport_.pick(middle)) return;
+  CameraStroke stroke{camera, click(middle, SeedLabel::kObject), viewport_.seen(0)};
+  stroke.stroke.radius_px *= viewport_.pixels_per_point();
+  ws_.tasks.submit(TaskKind::kReady,
+                   [stroke, session = ws_.session, settings = cut_settings(ws_.document(), ObjectItem{})](
+                       const Job& job) { session->make_ready(stroke, settings, job); });
+}
+
 void Clicks::show_hover(const Flags& change, bool rest) {
   constexpr Rgb8 kAdds{255, 255, 255}, kRemoves{225, 25, 60};
   viewport_.highlight(change, rest ? kRemoves : kAdds);
@@ -227,10 +250,12 @@ void Clicks::show_hover(const Flags& change, bool rest) {
 void Clicks::update() {
   if (std::exchange(cuts_done_, cuts_.done()) != cuts_.done()) note_sizes();
   refresh_hover();
+  make_middle_ready();
 }
 
 void Clicks::reset() {
   hover_.reset();
+  ready_.reset();
   declined_offer_.clear();
 }
 

@@ -17,7 +17,7 @@ class Clicks {
       : ws_(workspace), viewport_(viewport), cuts_(cuts), edits_(edits) {}
 
   void reset();   // another scene
-  void update();  // once a frame: the outline under the pointer, the sizes of a new cut
+  void update();  // once a frame: the outline under the pointer, what a click needs, the sizes of a new cut
   void pointer_inside(bool inside) { pointer_inside_ = inside; }  // of the viewport
 
   // Other meanings of the active object's first click, offered until it gets another stroke; null: none.
@@ -56,7 +56,9 @@ class Clicks {
   std::string already_so(const AddStroke& c) const;
   const ClickMeanings* meanings(const ObjectItem& object) const;
   std::optional<HoverAsk> hover_wanted() const;
+  bool asks_ahead() const;
   void refresh_hover();
+  void make_middle_ready();
   void show_hover(const Flags& change, bool rest);
   void combine_with(const CameraStroke& stroke, SetOperation operation, const std::string& title);
   void note_sizes();
@@ -66,6 +68,7 @@ class Clicks {
   const CutJobs& cuts_;
   Edits& edits_;
   std::optional<HoverAsk> hover_;
+  std::optional<Camera> ready_;  // what its middle shows has been made ready for a click, or is being
   std::string declined_offer_;   // its key
   double stepped_s_ = -1e9;      // when a size was chosen last, or a click found some
   std::uint64_t cuts_done_ = 0;  // see CutJobs::done()

@@ -186,8 +186,7 @@ void CutJobs::start(const ObjectItem& object) {
   const auto failed = [this, order] {
     if (runs(order)) end(order.key);
   };
-  ws_.tasks.cancel(TaskKind::kHover);
-  ws_.tasks.cancel(TaskKind::kClean);
+  for (const TaskKind kind : {TaskKind::kHover, TaskKind::kReady, TaskKind::kClean}) ws_.tasks.cancel(kind);
   ws_.tasks.submit({TaskKind::kCut, failed}, [this, order](const Job& job) { work(order, job); });
 }
 

@@ -127,6 +127,10 @@ TaskThread::Progress Studio::progress() const {
   return quick.busy ? quick : tasks_.progress();
 }
 
+std::size_t Studio::neighbourhoods() const {
+  return ws_.session ? ws_.session->neighbourhoods() : 0;
+}
+
 bool Studio::idle() const {
   return tasks_.idle() && quick_.idle() && viewport_.idle();
 }

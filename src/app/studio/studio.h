@@ -77,6 +77,7 @@ class Studio {
   bool unsaved() const { return edits_.waiting() || work_.unsaved(); }
   bool loading() const { return tasks_.busy(TaskKind::kLoad); }
   bool cutting() const { return tasks_.busy(TaskKind::kCut); }
+  std::size_t neighbourhoods() const;  // prepared for clicks and kept; to be asked while idle()
   TaskThread::Progress progress() const;
   bool idle() const;  // no task, no picture on its way, the last picture is full and current
 

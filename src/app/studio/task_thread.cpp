@@ -48,6 +48,10 @@ void run_in_background(const std::function<void()>& work) {
 
 }  // namespace
 
+bool asked_for(TaskKind kind) {
+  return kind != TaskKind::kHover && kind != TaskKind::kReady && kind != TaskKind::kStyle;
+}
+
 TaskThread::TaskThread(std::function<void()> wake, bool inline_work)
     : wake_(std::move(wake)), inline_work_(inline_work) {
   if (!inline_work_) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -129,7 +133,7 @@ void TaskThread::perform(Task& task) {
   job.on_progress = [this, kind = task.order.kind](std::string_view stage, double fraction) {
     {
       const std::lock_guard lock(mutex_);
-      progress_ = {true, kind, std::string(stage), fraction};
+      progress_ = {asked_for(kind), kind, std::string(stage), fraction};
     }
     if (wake_) wake_();
   };
@@ -162,7 +166,7 @@ void TaskThread::run(const std::stop_token& stop) {
     running_kind_ = task.order.kind;
     running_stop_ = task.stop;
     const TaskKind kind = task.order.kind;
-    progress_ = {kind != TaskKind::kHover && kind != TaskKind::kStyle, kind, {}, 0};
+    progress_ = {asked_for(kind), kind, {}, 0};
     lock.unlock();
     perform(task);
     lock.lock();

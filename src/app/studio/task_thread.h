@@ -20,7 +20,22 @@
 
 namespace splatcut {
 
-enum class TaskKind { kLoad, kPrepare, kCut, kClean, kSelect, kStyle, kHover, kExport, kSave, kAutosave };
+enum class TaskKind {
+  kLoad,
+  kPrepare,
+  kCut,
+  kClean,
+  kSelect,
+  kStyle,
+  kHover,
+  kReady,  // ahead of a click
+  kExport,
+  kSave,
+  kAutosave
+};
+
+// False: the program does it by itself, nobody waits for its end.
+bool asked_for(TaskKind kind);
 
 class TaskThread {
  public:
@@ -36,7 +51,7 @@ class TaskThread {
   };
 
   struct Progress {
-    bool busy = false;  // with something that a person asked for: kHover and kStyle apart
+    bool busy = false;  // with something that is asked_for()
     TaskKind kind = TaskKind::kLoad;
     std::string stage;
     double fraction = 0;  // [0, 1]

@@ -13,6 +13,9 @@ std::string left_text(const Studio& studio) {
   if (!studio.scene()) return "No scene";
   const auto progress = studio.progress();
   if (progress.busy && progress.kind == TaskKind::kPrepare) return "Making a lighter copy to move by";
+  if (!progress.stage.empty() && progress.kind == TaskKind::kHover)
+    return "Looking at what is under the pointer";
+  if (!progress.stage.empty() && progress.kind == TaskKind::kReady) return "Looking at what is in the middle";
   if (progress.busy) return progress.stage.empty() ? "Working" : "Working: " + progress.stage;
   return "Ready";
 }
@@ -41,7 +44,7 @@ void status_bar(UiContext& ui) {
   const auto progress = ui.studio.progress();
   ImGui::AlignTextToFramePadding();
   muted_text(ui, left_text(ui.studio));
-  if (progress.busy && progress.fraction > 0) {
+  if (progress.fraction > 0) {
     ImGui::SameLine();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -196,6 +196,39 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
   }
 }
 
+TEST_CASE("clicks: what the middle of a still picture shows is prepared before the first click") {
+  HeadlessApp app(kArtistWidth, kArtistHeight);
+  Studio& studio = app.studio();
+  const auto take = [&](Tool tool) {
+    ViewState with = studio.view();
+    with.tool = tool;
+    studio.apply(SetView{with});
+  };
+  const auto turn = [&] {
+    studio.camera().orbit({200, 0});
+    REQUIRE(app.settle());
+  };
+  app.open(kSample);
+  REQUIRE(app.settle());
+  CHECK(studio.neighbourhoods() == 1);
+  take(Tool::kNavigate);
+  turn();
+  CHECK(studio.neighbourhoods() == 1);  // nobody is about to click
+  take(Tool::kClick);
+  REQUIRE(app.settle());
+  CHECK(studio.neighbourhoods() == 2);
+  const UiRect view = app->interface().viewport();
+  app.click(view.min + 0.5f * view.size());
+  REQUIRE(app.settle());
+  REQUIRE(studio.document().objects.size() == 1);
+  CHECK(studio.neighbourhoods() == 2);
+  turn();  // corrections come next
+  CHECK(studio.neighbourhoods() == 2);
+  studio.apply(NewObject{});
+  REQUIRE(app.settle());
+  CHECK(studio.neighbourhoods() == 3);
+}
+
 TEST_CASE("clicks: hovering is red while Ctrl is held, and no longer") {
   HeadlessApp app(kArtistWidth, kArtistHeight);
   REQUIRE(cut_out_apple(app));

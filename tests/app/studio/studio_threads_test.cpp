@@ -132,6 +132,27 @@ QUICK_CASE("task thread", "threads: exports wait for each other, of any other ki
 }
 
 QUICK_CASE("task thread",
+           "threads: what the program does by itself says what it does, and is nobody's business") {
+  for (const TaskKind kind : {TaskKind::kHover, TaskKind::kReady, TaskKind::kCut}) {
+    std::atomic<bool> reported = false, go = false;
+    TaskThread tasks;
+    tasks.submit(kind, [&](const Job& job) {
+      job.progress("superpoints", 0.5);
+      reported = true;
+      reported.notify_all();
+      go.wait(false);
+    });
+    reported.wait(false);
+    const TaskThread::Progress progress = tasks.progress();
+    CHECK(progress.busy == (kind == TaskKind::kCut));
+    CHECK(progress.kind == kind);
+    CHECK(progress.stage == "superpoints");
+    go = true;
+    go.notify_all();
+  }
+}
+
+QUICK_CASE("task thread",
            "threads: trouble is told to the task it befell, and to nobody where that was replaced") {
   std::atomic<bool> go = false;
   std::vector<std::string> told, shown;
