@@ -9,6 +9,8 @@
 //   passes       edit() passes over the Gaussians, so it runs on a worker
 //   at_once      the edits before it need not be done
 //   writes_file  cancelling the edits before it does not take it back
+//   no_work      it is no step: every state of the history takes the change, where edit() does not refuse; it
+//                refuses before it changes anything, and changes nothing that labels depend on
 #pragma once
 
 #include <filesystem>
@@ -44,6 +46,11 @@ constexpr bool kAtOnce = requires {
 template <class C>
 constexpr bool kWritesFile = requires {
   requires C::writes_file;
+};
+
+template <class C>
+constexpr bool kNoWork = requires {
+  requires C::no_work;
 };
 
 template <class C>
@@ -179,7 +186,7 @@ struct LockObject {
 };
 struct ActivateObject {
   ObjectId object;
-  std::string title() const { return "Choose object"; }
+  static constexpr bool no_work = true;
   friend std::string edit(Document* document, const ActivateObject& command, const EditContext& context);
 };
 struct MergeObjects {
@@ -239,8 +246,7 @@ struct SetPreset {
 };
 struct SetBackground {
   glm::vec3 colour;
-  std::string title() const { return "Background"; }
-  std::string merge_key() const { return "background"; }
+  static constexpr bool no_work = true;
   friend std::string edit(Document* document, const SetBackground& command, const EditContext& context);
 };
 struct SetUp {

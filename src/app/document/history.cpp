@@ -176,4 +176,10 @@ void History::carry(const std::function<Document(const Document&)>& carried) {
   serial_ = next_serial();
 }
 
+void History::change_all(const std::function<void(Document*)>& change) {
+  for (Entry& entry : entries_) change(&entry.document);
+  merging_ = false;
+  serial_ = next_serial();
+}
+
 }  // namespace splatcut

@@ -70,6 +70,8 @@ class History {
 
   // Every state becomes what `carried` makes of it: the scene has other Gaussians.
   void carry(const std::function<Document(const Document&)>& carried);
+  // In every state, what is no work and no object depends on.
+  void change_all(const std::function<void(Document*)>& change);
 
  private:
   void forget_oldest();

@@ -102,6 +102,19 @@ void Edits::select_later(Selection region, SetOperation operation, std::string t
               }});
 }
 
+template <class C>
+void Edits::change_all(const C& c) {
+  Document now = ws_.document();
+  const std::string message = edit(&now, c, ws_.context());
+  ws_.history.change_all([&](Document* state) {
+    try {
+      edit(state, c, ws_.context());
+    } catch (const Error&) {  // an older or newer state has nothing to change
+    }
+  });
+  ws_.say(Message::Kind::kInfo, message);
+}
+
 void Edits::perform_plain(const Command& command) {
   return std::visit(
       [this](const auto& c) {
@@ -111,6 +124,8 @@ void Edits::perform_plain(const Command& command) {
             push_later({c.title(), merge_key_of(c), [c](Document* d, const EditContext& context, const Job&) {
                           return edit(d, c, context);
                         }});
+          } else if constexpr (kNoWork<std::decay_t<decltype(c)>>) {
+            change_all(c);
           } else {
             Document after = ws_.document();
             const std::string message = edit(&after, c, ws_.context());

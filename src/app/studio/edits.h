@@ -60,6 +60,8 @@ class Edits {
  private:
   void start(const Step& step);
   void finish();
+  template <class C>
+  void change_all(const C& c);
   void require_gaussian(std::int32_t gaussian) const;
 
   Workspace& ws_;

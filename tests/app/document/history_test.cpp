@@ -74,6 +74,39 @@ TEST_CASE("history: steps with one key become one until something else is done")
   CHECK(history.entries().size() == 4);
 }
 
+TEST_CASE("history: the background and the choice of an object are no steps, and undo leaves them") {
+  const ScratchFolder folder("no_steps");
+  write_random_scene(folder / "random.ply");
+  StudioOptions options;
+  options.inline_tasks = true;
+  Studio studio(options);
+  studio.apply(OpenScene{folder / "random.ply"});
+  REQUIRE(studio.scene());
+  studio.apply(NewObject{});
+  const ObjectId first = studio.document().active;
+  studio.apply(NewObject{});
+  studio.apply(RenameObject{first, "mug"});
+  studio.apply(Undo{});
+  const std::size_t steps = studio.history().entries().size();
+  const glm::vec3 red(1, 0, 0);
+  studio.apply(SetBackground{red});
+  studio.apply(ActivateObject{first});
+  CHECK(studio.document().active == first);
+  CHECK(studio.history().entries().size() == steps);
+  REQUIRE(studio.history().can_redo());  // nothing that could be redone is lost
+  studio.apply(Redo{});
+  CHECK(studio.document().find(first)->name == "mug");
+  CHECK(studio.document().active == first);
+  CHECK(studio.document().background == red);
+  studio.apply(ActivateObject{first + 77});  // there is none
+  CHECK(studio.messages().back().kind == Message::Kind::kRefused);
+  CHECK(studio.document().active == first);
+  while (studio.history().can_undo()) studio.apply(Undo{});
+  CHECK(studio.document().objects.empty());
+  CHECK(studio.document().active_object() == nullptr);
+  CHECK(studio.document().background == red);
+}
+
 TEST_CASE("history: a cut reaches every state with its inputs, and no other") {
   History history;
   history.push("click", with_click(history.now(), {3, 4}));
