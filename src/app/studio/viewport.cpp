@@ -166,15 +166,18 @@ void Viewport::request_styles() {
   const auto failed = [this] { styles_on_the_way_ = false; };
   ws_.quick.submit({TaskKind::kStyle, failed}, [this, order = std::move(order), before = styles_,
                                                 labels = style_labels_, scene = ws_.scene](const Job&) {
-    ws_.quick.post([this, scene, styles = styled(order, before, labels.get())] {
+    ws_.quick.post([this, scene, sought = order.floaters, styles = styled(order, before, labels.get())] {
       if (scene != ws_.scene) return;
       styles_on_the_way_ = false;
       styles_ = styles;
       ++style_serial_;
-      if (!floaters_shown_ || !std::exchange(say_floaters_, false)) return;
-      ws_.say(Message::Kind::kInfo,
-              fmt::format("{} Gaussians float apart from the object{}", grouped(styles.floaters),
-                          styles.floaters ? ", shown in white" : ""));
+      if (!floaters_shown_ || !sought) return;
+      if (std::exchange(say_floaters_, false))
+        ws_.say(Message::Kind::kInfo,
+                styles.floaters ? fmt::format("{} Gaussians float apart from the object, shown in white",
+                                              grouped(styles.floaters))
+                                : "Nothing floats apart from the object");
+      if (styles.floaters == 0) show_floaters(false);
     });
   });
 }

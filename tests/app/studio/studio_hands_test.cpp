@@ -224,3 +224,29 @@ TEST_CASE("hands: two presses are a double-click by their own times, however slo
   two(0.2);
   CHECK(distance() != before);
 }
+
+TEST_CASE("hands: floaters are shown as long as there are any") {
+  HeadlessApp app;
+  REQUIRE(cut_out_apple(app));
+  Studio& studio = app.studio();
+  studio.apply(EditSelection{SelectionEdit::kRemoveFloaters});
+  REQUIRE(app.settle());
+  studio.apply(ShowFloaters{true});
+  REQUIRE(app.settle());
+  CHECK_FALSE(studio.viewport().floaters_shown());
+  CHECK(studio.messages().back().text == "Nothing floats apart from the object");
+  // A few Gaussians of the lamp's shade, far from the apple.
+  const std::vector<std::uint8_t> lamp = sample_truth(*studio.scene()->scene, 5);
+  const std::size_t of_lamp = static_cast<std::size_t>(std::ranges::find(lamp, 1) - lamp.begin());
+  REQUIRE(of_lamp < lamp.size());
+  const glm::vec3 there = studio.scene()->cloud->position[of_lamp];
+  studio.apply(SelectVolume{{true, there, glm::vec3(0.01f)}, SetOperation::kAdd, false});
+  REQUIRE(app.settle());
+  studio.apply(ShowFloaters{true});
+  REQUIRE(app.settle());
+  CHECK(studio.viewport().floaters_shown());
+  CHECK(studio.viewport().floater_count() > 0);
+  studio.apply(EditSelection{SelectionEdit::kRemoveFloaters});
+  REQUIRE(app.settle());
+  CHECK_FALSE(studio.viewport().floaters_shown());
+}
