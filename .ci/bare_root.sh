@@ -1,5 +1,6 @@
 # Sourced by .ci/bare_debian.sh and .ci/package: makes a bare Debian 12 root in $bare, from this machine's mirror, and runs
 # commands in it. As root. The root goes when all is well; `keep=--keep`: stays. What is said goes to $log.
+source .ci/steps.sh
 me=$(basename "$0")
 stop() { echo "$me: $1" >&2; exit 1; }
 [ "$(id -u)" -eq 0 ] || stop "a chroot needs root: run this as root."
@@ -40,10 +41,8 @@ make_root() {
 }
 
 # Runs a line of bash in the root's folder /splatcut; stops where it fails.
-inside() {
-  echo "== $*"
-  local start=$SECONDS
+inside() { step "$*" inside_quietly "$@"; }
+inside_quietly() {
   chroot "$bare" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
     bash -c "cd /splatcut && $*" >>"$log" 2>&1 || { tail -n 40 "$log"; stop "$* failed."; }
-  echo "== took $((SECONDS - start)) s"
 }

@@ -1,4 +1,4 @@
-# Sourced by .ci/run and .ci/everything: runs a step and says what it took.
+# Sourced by .ci/run, .ci/everything and .ci/bare_root.sh: runs a step and says what it took.
 step() {  # step NAME COMMAND...
   echo "== $1"
   shift
@@ -10,4 +10,6 @@ step() {  # step NAME COMMAND...
 }
 
 # Seconds of CPU, user and system, of all that this shell has waited for.
-children_cpu_s() { times | awk 'NR == 2 {gsub(/[ms]/, " "); printf "%d", 60 * $1 + $2 + 60 * $3 + $4}'; }
+children_cpu_s() {
+  awk -v ticks="$(getconf CLK_TCK)" '{sub(/^.*\) /, ""); printf "%d", ($14 + $15) / ticks}' "/proc/$$/stat"
+}
