@@ -20,7 +20,7 @@ Names both(Names a, const Names& b) {
   return a;
 }
 
-const Names kScene = {"scene/cloud", "scene/camera", "scene/raster", "scene/formats"};
+const Names kScene = {"scene/cloud", "scene/camera", "scene/raster", "scene/packing", "scene/formats"};
 const Names kSegment = {"segment/graphcut", "segment/masks",     "segment/superpoints",
                         "segment/finish",   "segment/selection", "segment/session"};
 
@@ -38,7 +38,8 @@ const std::vector<Room> kRooms = {
     {"scene/cloud", {}},
     {"scene/camera", {"scene/cloud"}},
     {"scene/raster", {"scene/cloud", "scene/camera"}},
-    {"scene/formats", {"scene/cloud", "scene/camera"}, {"nlohmann", "webp", "zip"}, 3600},
+    {"scene/packing", {}, {"webp", "zip"}},
+    {"scene/formats", {"scene/cloud", "scene/camera", "scene/packing"}, {"nlohmann"}, 3600},
     {"scene/still_life", {"scene/cloud", "scene/camera"}},
     {"segment/graphcut", {"scene/cloud", "scene/camera", "scene/raster"}, {"nanoflann"}},
     {"segment/masks", {"scene/cloud", "scene/camera", "scene/raster", "segment/graphcut"}, {"opencv2/"}},

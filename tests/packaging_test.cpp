@@ -30,7 +30,7 @@ std::set<std::string> all_between(const std::string& text, const std::string& be
 TEST_CASE("packaging: every ending that is ours alone is a file type") {
   std::set<std::string> ours = {".splatcut.json"};
   const std::set<std::string> others = {".ply", ".glb", ".gltf"};  // of programs that know no splats, too
-  for (const SceneFormat& format : scene_formats())
+  for (const SceneFormat& format : read_formats())
     for (const std::string ending : {format.extension, format.also})
       if (ending.starts_with('.') && !others.contains(ending)) ours.insert(ending);
   CHECK(all_between(text_of_file(kPackaging / "splatcut.xml"), "<glob pattern=\"*", "\"") == ours);

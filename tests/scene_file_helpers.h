@@ -34,6 +34,13 @@ struct Folder {
   fs::path operator/(const std::string& name) const { return path / name; }
 };
 
+// Formats that are written and read.
+inline std::vector<SceneFormat> both_ways() {
+  std::vector<SceneFormat> formats = written_formats();
+  std::erase_if(formats, [](const SceneFormat& format) { return !format.read; });
+  return formats;
+}
+
 // Every value, bit for bit.
 inline void check_equal(const GaussianCloud& a, const GaussianCloud& b) {
   CHECK(a.position == b.position);

@@ -4,7 +4,7 @@
 #include "fuzz.h"
 #include "scene/camera/camera_file.h"
 #include "scene/formats/scene_file.h"
-#include "scene/formats/webp.h"
+#include "scene/packing/webp.h"
 
 namespace splatcut {
 

@@ -36,6 +36,7 @@ const WRITTEN = [
   ['4.spz', ['--spz-version', '4'], 'spz', [['three', readers.threeSpz, RUB, inBytes], ['splat-transform', readers.converter, RUB, same]]],
   ['sog', [], 'sog', [['splat-transform', readers.converter, RDF, same]]],
   ['glb', [], 'glb', [['three', readers.threeGlb, LUF, inBytes]]],
+  ['usda', [], 'glb', [['three', readers.threeUsda, RUB, same], ['tinyusdz', readers.tinyUsda, RUB, same]]],
 ];
 // Theirs: [file, writes, format, highest degree, options of convert]. The converter stores the axes of a .ply in .spz.
 const splatTransform = (...options) => async (ply, path) => readers.splatTransform(ply, path, options);
@@ -72,7 +73,7 @@ for (let degree = 0; degree <= 3; ++degree) {
   for (const [ending, options, format, judges] of WRITTEN) {
     const path = `${folder}/ours_${degree}.${ending}`;
     convert(ply, path, options);
-    if (format === 'glb') await judged(degree, 'our .glb is valid', () => readers.glbFaults(path));
+    if (ending === 'glb') await judged(degree, 'our .glb is valid', () => readers.glbFaults(path));
     for (const [who, read, axes, rounding] of judges)
       await judged(degree, `our .${ending} read by ${who}`, async () =>
         differences(known, turned(await read(path), axes), rounding(STEPS[format])));

@@ -8,6 +8,7 @@ import {GLTFGaussianSplatLoaderExtension} from 'three/addons/loaders/GLTFGaussia
 import {GaussianSplatPLYLoader} from 'three/addons/loaders/GaussianSplatPLYLoader.js';
 import {KSPLATLoader} from 'three/addons/loaders/KSPLATLoader.js';
 import {SPLATLoader} from 'three/addons/loaders/SPLATLoader.js';
+import {USDAParser} from 'three/addons/loaders/usd/USDAParser.js';
 import {SPZLoader} from 'three/addons/loaders/SPZLoader.js';
 import {coefficients, columnsOfPly, covariance, readingOfColumns} from './gaussians.mjs';
 
@@ -43,6 +44,51 @@ export async function threeGlb(path) {
   let geometry;
   gltf.scene.traverse((node) => { geometry ??= node.splatGeometry; });
   return readingOfGeometry(geometry);
+}
+
+// A field of particles by the values of its attributes, each an array of plain numbers.
+function readingOfField({positions, orientations, scales, opacities, degree, coefficients: sh}, real) {
+  const count = positions.length / 3, each = 3 * (degree + 1) ** 2;
+  const reading = {count, degree, position: [...positions], covariance: [], rgb: [], alpha: [...opacities], sh: []};
+  for (let g = 0; g < count; ++g) {
+    const q = orientations.slice(4 * g, 4 * g + 4);
+    reading.covariance.push(...covariance(real === 'last' ? [q[3], q[0], q[1], q[2]] : q, scales.slice(3 * g, 3 * g + 3)));
+    reading.rgb.push(...sh.slice(each * g, each * g + 3).map((v) => 0.5 + SH_C0 * v));
+    reading.sh.push(...sh.slice(each * g + 3, each * (g + 1)));
+  }
+  return reading;
+}
+const FIELD = {positions: 'positions', orientations: 'orientations', scales: 'scales', opacities: 'opacities',
+  degree: 'radiance:sphericalHarmonicsDegree', coefficients: 'radiance:sphericalHarmonicsCoefficients'};
+
+export async function threeUsda(path) {
+  const specs = new USDAParser().parseData(readFileSync(path, 'utf8')).specsByPath, root = specs['/'].fields;
+  const prim = `/${root.defaultPrim}`;
+  if (specs[prim].fields.typeName !== 'ParticleField3DGaussianSplat' || root.upAxis !== 'Y' || root.metersPerUnit !== 1)
+    throw new Error(`${specs[prim].fields.typeName}, ${root.upAxis} up, ${root.metersPerUnit} m`);
+  return readingOfField(Object.fromEntries(Object.entries(FIELD).map(([key, name]) => [key, specs[`${prim}.${name}`].fields.default])), 'last');
+}
+
+// A USD library of its own, which reads the whole layer and writes it again; its types and values are taken from that.
+export async function tinyUsda(path) {
+  [process.type, globalThis.window, globalThis.self] = ['renderer', globalThis, globalThis];  // it only starts as in a browser
+  const wasm = readFileSync(new URL('node_modules/tinyusdz/tinyusdz.wasm', import.meta.url));
+  const {default: start} = await import('tinyusdz/tinyusdz.js');
+  const library = await start({instantiateWasm: (imports, done) => {
+    WebAssembly.instantiate(wasm, imports).then(({instance, module}) => done(instance, module));
+    return {};
+  }});
+  const loader = new library.TinyUSDZLoaderNative();
+  if (!loader.loadAsLayerFromBinary(readFileSync(path, 'utf8'), path)) throw new Error(loader.error());
+  const lines = loader.layerToString().split('\n');
+  if (!lines.some((line) => line.startsWith('def ParticleField3DGaussianSplat "Gaussians"'))) throw new Error('holds no field of particles');
+  const value = (name) => {
+    const line = lines.find((l) => l.includes(` ${name} = `));
+    if (!line) throw new Error(`has no ${name}`);
+    return line.slice(line.indexOf(' = ') + 3).match(/[-+]?[0-9][0-9.]*(e[-+]?[0-9]+)?/gi).map(Number);
+  };
+  const field = Object.fromEntries(Object.entries(FIELD).map(([key, name]) => [key, value(name)]));
+  return readingOfField({...field, degree: field.degree[0]}, 'first');
 }
 
 // Sentences on what is not as the standard has it. The validator does not know the extension: its names of attributes,

@@ -11,14 +11,14 @@ namespace splatcut {
 
 namespace {
 
-glm::vec3 file_up(ExportUp up, const glm::vec3& up_world) {
+glm::vec3 file_up(ExportUp up, const glm::vec3& up_world, const AxisSigns& axes) {
   switch (up) {
     case ExportUp::kPlusY:
-      return {0, 1, 0};
+      return axes.position({0, 1, 0});
     case ExportUp::kMinusY:
-      return {0, -1, 0};
+      return axes.position({0, -1, 0});
     case ExportUp::kPlusZ:
-      return {0, 0, 1};
+      return axes.position({0, 0, 1});
     case ExportUp::kScene:
       break;
   }
@@ -40,9 +40,10 @@ glm::quat turn_between(const glm::vec3& from, const glm::vec3& to) {
 }
 
 ExportFrame export_frame(const ExportPlacement& placement, const GaussianCloud& cloud,
-                         std::span<const std::uint8_t> keep, const glm::vec3& up_world) {
+                         std::span<const std::uint8_t> keep, const glm::vec3& up_world,
+                         const AxisSigns& axes) {
   ExportFrame frame;
-  frame.up_file = file_up(placement.up, up_world);
+  frame.up_file = file_up(placement.up, up_world, axes);
   frame.upright = turn_between(up_world, frame.up_file);
   std::vector<glm::vec3> positions;
   for (std::size_t g = 0; g < cloud.size(); ++g)
@@ -62,8 +63,9 @@ Similarity similarity_of(const ExportPlacement& placement, const ExportFrame& fr
 }
 
 Similarity similarity_of(const ExportPlacement& placement, const GaussianCloud& cloud,
-                         std::span<const std::uint8_t> keep, const glm::vec3& up_world) {
-  return similarity_of(placement, export_frame(placement, cloud, keep, up_world));
+                         std::span<const std::uint8_t> keep, const glm::vec3& up_world,
+                         const AxisSigns& axes) {
+  return similarity_of(placement, export_frame(placement, cloud, keep, up_world, axes));
 }
 
 glm::vec3 moved(const glm::vec3& point, const Similarity& to) {

@@ -11,6 +11,7 @@
 
 #include "app/document/placing_handles.h"
 #include "scene/cloud/gaussian_cloud.h"
+#include "scene/formats/axis_signs.h"
 
 namespace splatcut {
 
@@ -45,11 +46,14 @@ struct ExportFrame {
   glm::vec3 middle_world{0};      // of what is kept
 };
 // keep: 0 or 1 per Gaussian; outliers do not count for its middle and its foot. up_world: the document's.
+// axes: the file's, which `up` is of; all other numbers are of a .ply's.
 ExportFrame export_frame(const ExportPlacement& placement, const GaussianCloud& cloud,
-                         std::span<const std::uint8_t> keep, const glm::vec3& up_world);
+                         std::span<const std::uint8_t> keep, const glm::vec3& up_world,
+                         const AxisSigns& axes = {});
 Similarity similarity_of(const ExportPlacement& placement, const ExportFrame& frame);
 Similarity similarity_of(const ExportPlacement& placement, const GaussianCloud& cloud,
-                         std::span<const std::uint8_t> keep, const glm::vec3& up_world);
+                         std::span<const std::uint8_t> keep, const glm::vec3& up_world,
+                         const AxisSigns& axes = {});
 
 // In the file: what turns and scales with handles leave where it is. The origin, where it was chosen; the
 // middle of what is kept, where the scene's was.

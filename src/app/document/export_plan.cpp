@@ -47,8 +47,9 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   check_output_file(path, request.overwrite);
   const std::shared_ptr<const CleanObject> clean = is_object ? clean_edges_of(keep, what, report) : nullptr;
   if (what.job.cancelled()) return;
+  const SaveOptions how{.z_up = request.placement.up == ExportUp::kPlusZ};
   const auto written = [&](GaussianCloud cloud) {
-    return save_scene(path, with_cloud(scene, std::move(cloud)), {}, request.format);
+    return save_scene(path, with_cloud(scene, std::move(cloud)), {}, request.format, how);
   };
   const SaveReport saved = clean && to ? written(placed(clean->cloud, {}, *to))
                            : clean     ? written(clean->cloud)
@@ -110,7 +111,7 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
     throw Error("export", "the turn and the move must be ordinary numbers");
   const auto place = [&](const std::vector<std::uint8_t>& kept) -> std::optional<Similarity> {
     if (request.placement == ExportPlacement{}) return {};
-    return similarity_of(request.placement, scene.cloud, kept, document.up_world);
+    return similarity_of(request.placement, scene.cloud, kept, document.up_world, request.format.axes);
   };
   const Exporting what{scene, request, document.up_world, clean, job};
   ExportReport report;

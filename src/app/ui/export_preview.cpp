@@ -22,9 +22,9 @@ void refresh(UiContext& ui) {
   const ExportChoice& choice = ui.state.exporting;
   ExportPreview& preview = ui.state.export_preview;
   const Studio& studio = ui.studio;
-  std::string key = fmt::format("{} {} {} {} {}", studio.scene()->serial, studio.history().serial(),
+  std::string key = fmt::format("{} {} {} {} {} {}", studio.scene()->serial, studio.history().serial(),
                                 static_cast<int>(choice.what), static_cast<int>(choice.placement.origin),
-                                static_cast<int>(choice.placement.up));
+                                static_cast<int>(choice.placement.up), choice.format.name);
   if (preview.key == key) return;
   const GaussianCloud& cloud = *studio.scene()->cloud;
   const Document& document = studio.document();
@@ -32,7 +32,8 @@ void refresh(UiContext& ui) {
   preview.sample = some_of(keep, kMost);
   std::vector<std::uint8_t> some(cloud.size(), 0);
   for (const std::uint32_t g : some_of(keep, kMostForFrame)) some[g] = 1;
-  if (!preview.sample.empty()) preview.frame = export_frame(choice.placement, cloud, some, document.up_world);
+  if (!preview.sample.empty())
+    preview.frame = export_frame(choice.placement, cloud, some, document.up_world, choice.format.axes);
   preview.grips.drag.reset();
   preview.key = std::move(key);
 }
@@ -80,7 +81,7 @@ void segment(const Camera& camera, const glm::vec3& a, const glm::vec3& b, ImU32
 }
 
 // Ten lines each way through 0, 0, 0 at right angles to up, and the file's axes.
-void draw_ground(const glm::vec3& up, const Camera& camera, float reach) {
+void draw_ground(const glm::vec3& up, const AxisSigns& axes, const Camera& camera, float reach) {
   constexpr int kLines = 5;
   const glm::vec3 other = std::abs(up.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
   const glm::vec3 v = glm::normalize(glm::cross(up, other)), u = glm::cross(v, up);
@@ -92,7 +93,7 @@ void draw_ground(const glm::vec3& up, const Camera& camera, float reach) {
   for (int i = 0; i < 3; ++i) {
     glm::vec3 axis(0);
     axis[i] = reach;
-    segment(camera, {}, axis, kAxisInks[i], 2);
+    segment(camera, {}, axes.position(axis), kAxisInks[i], 2);
   }
 }
 
@@ -138,7 +139,8 @@ void export_preview(UiContext& ui, const glm::vec2& size_points) {
   if (!preview.grips.drag) preview.camera = camera_around(preview, shown.box, area);
   ImGui::PushClipRect(at, vec(area.max), true);
   if (shown.origin)
-    draw_ground(preview.frame.up_file, preview.camera, 0.75f * glm::length(shown.box.extent()));
+    draw_ground(preview.frame.up_file, ui.state.exporting.format.axes, preview.camera,
+                0.75f * glm::length(shown.box.extent()));
   draw_dots(cloud, preview.sample, to, preview.camera, area);
   drag_handles(ui, hovered);
   const std::string words =

@@ -30,9 +30,9 @@ Kind kind_of(FilePurpose purpose) {
   switch (purpose) {
     case FilePurpose::kOpen:
       return {"Open a scene or saved work", "Open", "",
-              with(extensions_of(scene_formats()), ".splatcut.json")};
+              with(extensions_of(read_formats()), ".splatcut.json")};
     case FilePurpose::kAdd:
-      return {"Add a scene to this one", "Add", "", extensions_of(scene_formats())};
+      return {"Add a scene to this one", "Add", "", extensions_of(read_formats())};
     case FilePurpose::kSaveWork:
       return {"Save the work", "Save", ".splatcut.json", {".splatcut.json"}};
     case FilePurpose::kSnapshot:

@@ -1,35 +1,12 @@
-// The axes of scene files whose axes differ from ours (x right, y down, z forward, as in a .ply) by signs
-// alone. Internal to src/scene/formats.
-//
-// A point p of the file is (x p.x, y p.y, z p.z) here. A quaternion's axis is a cross product of two
-// vectors, so each of its components takes the signs of the other two axes; a mirrored Gaussian looks the
-// same, as it is symmetric in its own axes. A spherical harmonic takes the signs of the coordinates it is a
-// product of.
+// Which axes a .spz has that does not say them. Internal to src/scene/formats.
 #pragma once
 
-#include <array>
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <vector>
 
 #include "scene/formats/scene_file.h"
 
 namespace splatcut {
-
-struct AxisSigns {
-  float x = 1, y = 1, z = 1;
-
-  glm::vec3 position(const glm::vec3& p) const { return {x * p.x, y * p.y, z * p.z}; }
-  glm::quat rotation(const glm::quat& q) const { return {q.w, y * z * q.x, x * z * q.y, x * y * q.z}; }
-  // Of the coefficients of degree 1, 2 and 3, in the order of f_rest.
-  constexpr std::array<float, 15> sh() const {
-    return {y, z, x, x * y, y * z, 1, x * z, 1, y, x * y * z, y, z, x, z, x};
-  }
-};
-
-inline constexpr AxisSigns kRightUpBack{1, -1, -1};    // OpenGL, three.js, .spz by its own text
-inline constexpr AxisSigns kLeftUpForward{-1, -1, 1};  // glTF
 
 // The axes in which the cameras see clearly more of a cloud that was read as right, up, back: a quarter more,
 // over a sample of both. None where they see about as much either way, as a circle of cameras around the

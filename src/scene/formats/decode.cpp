@@ -1,8 +1,5 @@
 #include "scene/formats/decode.h"
 
-#include <fmt/format.h>
-
-#include "core/error.h"
 #include "core/large_array.h"
 
 namespace splatcut {
@@ -17,15 +14,6 @@ void reserve_in_large_pages(std::vector<T>& values, std::size_t n) {
 }
 
 }  // namespace
-
-void check_expansion(const std::filesystem::path& path, std::uint64_t packed_bytes,
-                     std::uint64_t unpacked_bytes) {
-  constexpr std::uint64_t kMostFold = 256, kAlways = 16 << 20;
-  if (unpacked_bytes <= kAlways || unpacked_bytes / kMostFold <= packed_bytes) return;
-  throw Error(path.string(),
-              fmt::format("is damaged: its {} bytes promise {} unpacked, and no scene packs so well",
-                          packed_bytes, unpacked_bytes));
-}
 
 void check_cloud_size(const std::filesystem::path& path, std::uint64_t packed_bytes, std::uint64_t gaussians,
                       int degree) {

@@ -13,6 +13,7 @@
 #include "core/mapped_file.h"
 #include "scene/cloud/morton.h"
 #include "scene/formats/scene_file.h"
+#include "scene/packing/unpack.h"
 
 namespace splatcut {
 
@@ -39,14 +40,9 @@ inline bool is_within_reach(const glm::vec3& position) {
 // costs more than decoding into them.
 void resize_for_decode(GaussianCloud& cloud, std::size_t n, int degree);
 
-// Throws Error if data would unpack to more than 256 times their bytes and 16 MiB: no scene packs so well,
-// and a small file must not take all memory. The cloud takes at most six times the memory of the rows it is
-// made of, of a .sog with spherical harmonics eleven times.
-void check_expansion(const std::filesystem::path& path, std::uint64_t packed_bytes,
-                     std::uint64_t unpacked_bytes);
-
-// The same for what stands in a file once and is a Gaussian many times, or of a higher degree of spherical
-// harmonics than its own: throws Error if the cloud would take more than six times what may be unpacked.
+// check_expansion() for what stands in a file once and is a Gaussian many times, or of a higher degree of
+// spherical harmonics than its own: throws Error if the cloud would take more than six times what may be
+// unpacked.
 void check_cloud_size(const std::filesystem::path& path, std::uint64_t packed_bytes, std::uint64_t gaussians,
                       int degree);
 

@@ -44,6 +44,7 @@ constexpr Foreign kForeign[] = {
     {".stl", "", kMesh, kTrain},
     {".usdz", "", "is a USD package, which is not read", kExport},
     {".usdc", "PXR-USDC", "is a USD file, which is not read", kExport},
+    {".usda", "#usda", "is a USD file, which is written here, not read", kExport},
     {".splatv", "\x4b\x67\x00\x00"sv, "is a moving scene (.splatv), which is not read",
      "Export one moment of it as .ply"},
     {".lcc", "", "is a scene of XGRIDS, which is not read", kExport},

@@ -317,6 +317,7 @@ constinit const SceneFormat SceneFormat::kGlb = {
     .name = "glb",
     .extension = ".glb",
     .also = ".gltf",
+    .axes = kLeftUpForward,
     .recognises = is_gltf,
     .read = read_glb,
     .write = write_glb,

@@ -19,7 +19,7 @@ SceneFormat format_of(const MappedFile& file) {
   for (const SceneFormat& format : scene_formats())
     if (format.recognises && format.recognises(file)) return format;
   refuse_foreign(file);
-  return format_from_name(file.path());
+  return input_format_from_name(file.path());
 }
 
 // A folder stands for the scene of several files in it. Where there are both, meta.json needs no other

@@ -59,6 +59,7 @@ Scene load_scene(const std::filesystem::path& path, const Job& job = {});
 struct SaveOptions {
   int spz_version = 3;        // 3, which every reader of .spz knows, or 4, which is smaller
   bool may_be_empty = false;  // a .ply without Gaussians is written rather than refused
+  bool z_up = false;          // what a .usda says of its axes, which else have y up
 };
 
 struct SaveReport {

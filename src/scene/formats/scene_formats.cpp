@@ -57,6 +57,12 @@ std::vector<SceneFormat> scene_formats() {
   return formats;
 }
 
+std::vector<SceneFormat> read_formats() {
+  std::vector<SceneFormat> formats = scene_formats();
+  std::erase_if(formats, [](const SceneFormat& format) { return !format.read; });
+  return formats;
+}
+
 std::vector<SceneFormat> written_formats() {
   std::vector<SceneFormat> formats = scene_formats();
   std::erase_if(formats, [](const SceneFormat& format) { return !format.write; });
@@ -71,9 +77,10 @@ bool has_scene_extension(const std::filesystem::path& path) {
   return find_format(path) != nullptr;
 }
 
-SceneFormat format_from_name(const std::filesystem::path& path) {
-  if (const SceneFormat* format = find_format(path)) return *format;
-  throw Error(path.string(), "the file extension is none of " + spoken_extensions(scene_formats(), "and"));
+SceneFormat input_format_from_name(const std::filesystem::path& path) {
+  const SceneFormat* format = find_format(path);
+  if (format && format->read) return *format;
+  throw Error(path.string(), "the file extension is none of " + spoken_extensions(read_formats(), "and"));
 }
 
 SceneFormat output_format_from_name(const std::filesystem::path& path) {

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/formats/axis_signs.h"
+
 // In the order of lists and dialogs.
 // clang-format off
 #define SPLATCUT_SCENE_FORMATS(row) \
@@ -19,6 +21,7 @@
   row(kSog)                         \
   row(kStreamedSog)                 \
   row(kGlb)                         \
+  row(kUsda)                        \
   row(kKsplat)
 // clang-format on
 
@@ -44,11 +47,14 @@ struct SceneFormat {
   const char* extension = "";  // what file names end with, small letters: ".compressed.ply", "lod-meta.json"
   const char* also = "";       // another ending that is read: "meta.json"; empty for none
 
+  // Of what is written, against ours.
+  AxisSigns axes = {};
+
   // By the first bytes. Null: nothing marks such files but their name.
   bool (*recognises)(const MappedFile& file) = nullptr;
 
   // Fills cloud (Morton order), file_rows, dropped and what else a Scene says of its file. Throws Error for
-  // bad content.
+  // bad content. Null: the format is only written.
   void (*read)(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) = nullptr;
 
   // Writes the Gaussians, given as indices into scene.cloud in file order. Returns the sentence on what is
@@ -70,14 +76,15 @@ struct SceneFormat {
 };
 
 std::vector<SceneFormat> scene_formats();
+std::vector<SceneFormat> read_formats();
 std::vector<SceneFormat> written_formats();
 
 // The format whose extension the name ends with (the longest such), whatever the case; null for none.
 const SceneFormat* find_format(const std::filesystem::path& path);
 bool has_scene_extension(const std::filesystem::path& path);
 
-// The same. Throws Error for a name of no format.
-SceneFormat format_from_name(const std::filesystem::path& path);
+// The same, of a file to be read. Throws Error for a name of no format that is read.
+SceneFormat input_format_from_name(const std::filesystem::path& path);
 
 // Of a file to be written: by a format's own extension alone, as what `also` names is not what would be
 // written. Throws Error, which lists what can be, for any other name.

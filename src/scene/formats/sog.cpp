@@ -14,8 +14,8 @@
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/sog_rows.h"
-#include "scene/formats/webp.h"
-#include "scene/formats/zip_file.h"
+#include "scene/packing/webp.h"
+#include "scene/packing/zip_file.h"
 
 namespace splatcut {
 

@@ -10,10 +10,10 @@
 #include "core/atomic_file.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/losses.h"
-#include "scene/formats/palette.h"
 #include "scene/formats/sog.h"
-#include "scene/formats/webp.h"
-#include "scene/formats/zip_file.h"
+#include "scene/packing/palette.h"
+#include "scene/packing/webp.h"
+#include "scene/packing/zip_file.h"
 
 namespace splatcut {
 

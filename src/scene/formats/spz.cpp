@@ -10,7 +10,7 @@
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/spz_layout.h"
-#include "scene/formats/unpack.h"
+#include "scene/packing/unpack.h"
 
 namespace splatcut {
 
@@ -305,6 +305,7 @@ FormatPlan plan_spz(const Scene& scene, std::size_t gaussians, bool) {
 constinit const SceneFormat SceneFormat::kSpz = {
     .name = "spz",
     .extension = ".spz",
+    .axes = kRightUpBack,
     .recognises = is_spz,
     .read = read_spz,
     .write = write_spz,

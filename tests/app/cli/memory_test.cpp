@@ -11,8 +11,8 @@
 #include "core/image.h"
 #include "core/png_file.h"
 #include "program_runner.h"
-#include "scene/formats/webp.h"
-#include "scene/formats/zip_file.h"
+#include "scene/packing/webp.h"
+#include "scene/packing/zip_file.h"
 #include "scene_file_helpers.h"
 
 using namespace splatcut;
@@ -178,7 +178,7 @@ TEST_CASE("memory: scene files as they are written") {
   constexpr double kMostFactor = 20;  // .sog packs best
   for (const int degree : {0, 3}) {
     const std::string holds = fmt::format("{} Gaussians of degree {}", count, degree);
-    for (const SceneFormat& format : written_formats()) {
+    for (const SceneFormat& format : both_ways()) {
       const std::string name = fmt::format("degree{}{}", degree, format.extension);
       meter.save(count, degree, format, name);
       CHECK(meter.measure(name, holds).factor() < kMostFactor);

@@ -19,7 +19,7 @@ void save(const Workplace& place, const std::string& name, GaussianCloud cloud) 
   Scene scene;
   scene.file_rows = cloud.size();
   scene.cloud = std::move(cloud);
-  save_scene(place / name, scene, {}, format_from_name(name), {4});  // a .spz that says its axes
+  save_scene(place / name, scene, {}, output_format_from_name(name), {4});  // a .spz that says its axes
 }
 
 struct Files {

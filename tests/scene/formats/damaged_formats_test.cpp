@@ -6,8 +6,8 @@
 
 #include "ksplat_by_hand.h"
 #include "quick.h"
-#include "scene/formats/webp.h"
-#include "scene/formats/zip_file.h"
+#include "scene/packing/webp.h"
+#include "scene/packing/zip_file.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -122,7 +122,7 @@ TEST_CASE("damage: every format, cut anywhere or with bytes changed, gives an Er
   Scene scene;
   scene.cloud = varied_cloud(60, 1);
   std::map<std::string, std::string> files;
-  for (const SceneFormat& format : written_formats()) {
+  for (const SceneFormat& format : both_ways()) {
     const std::string name = fmt::format("whole{}", format.extension);
     save_scene(folder / name, scene, {}, format);
     files[format.extension] = text_of(folder / name);

@@ -31,16 +31,16 @@ void check_pair(const Folder& folder, const Scene& from, const SceneFormat& to) 
 
 TEST_CASE("pairs: from every format into every other, each value within the steps of the second") {
   const Folder folder;
-  for (const SceneFormat& from : written_formats()) REQUIRE(limits().contains(from.name));
+  for (const SceneFormat& from : both_ways()) REQUIRE(limits().contains(from.name));
   for (int degree = 0; degree <= 3; ++degree) {
     Scene made;
     made.cloud = varied_cloud(1200, degree);
-    for (const SceneFormat& from : written_formats()) {
+    for (const SceneFormat& from : both_ways()) {
       const fs::path path = folder / fmt::format("a{}", from.extension);
       save_scene(path, made, {}, from);
       Scene scene = load_scene(path);
       scene.rows_can_be_copied = false;  // rows of .ply are written anew, too
-      for (const SceneFormat& to : written_formats()) {
+      for (const SceneFormat& to : both_ways()) {
         CAPTURE(degree);
         CAPTURE(from.name);
         CAPTURE(to.name);
@@ -55,7 +55,7 @@ TEST_CASE("pairs: what is read only goes into every other format, and is refused
   for (int level = 0; level <= 2; ++level) {
     write(folder / "a.ksplat", ksplat_by_hand(level));
     const Scene scene = load_scene(folder / "a.ksplat");
-    for (const SceneFormat& to : written_formats()) {
+    for (const SceneFormat& to : both_ways()) {
       const fs::path path = folder / fmt::format("b{}", to.extension);
       save_scene(path, scene, {}, to);
       CHECK(load_scene(path).cloud.size() == 4);

@@ -172,7 +172,7 @@ QUICK_CASE("ply", "bad files are refused with a clear sentence") {
   Scene scene;
   scene.cloud = varied_cloud(500, 1);
   for (const char* name : {"full.spz", "full.compressed.ply"}) {
-    save_scene(folder / name, scene, {}, format_from_name(name));
+    save_scene(folder / name, scene, {}, output_format_from_name(name));
     const std::string bytes = text_of(folder / name);
     check("half_" + std::string(name), bytes.substr(0, bytes.size() / 2), {"truncated"});
   }
@@ -214,7 +214,7 @@ TEST_CASE("loading stops at every stage when asked to, without an error and with
   scene.cloud = varied_cloud(5000, 2);
   for (const char* name : {"a.ply", "a.compressed.ply", "a.splat", "a.spz", "a.sog", "a.glb"}) {
     CAPTURE(name);
-    save_scene(folder / name, scene, {}, format_from_name(name));
+    save_scene(folder / name, scene, {}, output_format_from_name(name));
     int stages = 0;
     Job counting;
     counting.on_progress = [&](std::string_view, double) { ++stages; };
@@ -289,7 +289,8 @@ TEST_CASE(
     if (bytes.empty()) fs::remove(folder / "a.ply");
     CHECK_THROWS_AS(save_scene(folder / "old.ply", scene, {}, SceneFormat::kPly), Error);
     CHECK(text_of(folder / "old.ply") == "old");
-    CHECK_NOTHROW(save_scene(folder / "b.splat", scene, {}, format_from_name("b.splat")));  // from memory
+    CHECK_NOTHROW(
+        save_scene(folder / "b.splat", scene, {}, output_format_from_name("b.splat")));  // from memory
     CHECK(!fs::exists(folder / "old.ply.splatcut.part"));
   }
 }

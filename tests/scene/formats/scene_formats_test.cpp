@@ -16,12 +16,18 @@ TEST_CASE("formats: names differ, every extension finds its row, lists follow fr
     CHECK(names.insert(format.name).second);
     CHECK(extensions.insert(format.extension).second);
     const bool is_read = format.read != nullptr, is_written = format.write != nullptr;
-    CHECK(is_read);
+    CHECK((is_read || is_written));
     CHECK(is_written == (format.plan != nullptr));
     std::string name = "some.scene" + std::string(format.extension);
-    CHECK(format_from_name(name) == format);
+    REQUIRE(find_format(name));
+    CHECK(*find_format(name) == format);
     for (char& c : name) c = static_cast<char>(std::toupper(c));
-    CHECK(format_from_name(name) == format);
+    REQUIRE(find_format(name));
+    CHECK(*find_format(name) == format);
+    if (is_read)
+      CHECK(input_format_from_name(name) == format);
+    else
+      CHECK_THROWS_AS(input_format_from_name(name), Error);
   }
   const std::vector<SceneFormat> three = {SceneFormat::kPly, SceneFormat::kCompressedPly, SceneFormat::kSpz};
   CHECK(spoken_extensions(three, "or") == ".ply, .compressed.ply or .spz");
@@ -33,16 +39,16 @@ TEST_CASE("formats: names differ, every extension finds its row, lists follow fr
   CHECK(with_extension("b.gltf", SceneFormat::kGlb) == "b.glb");
   CHECK_FALSE(has_scene_extension("scene.png"));
   CHECK(output_format_from_name("b.GLB") == SceneFormat::kGlb);
-  CHECK(format_from_name("b.gltf") == SceneFormat::kGlb);
-  CHECK(format_from_name("a/meta.json") == SceneFormat::kSog);
-  CHECK(format_from_name("a/lod-meta.json") == SceneFormat::kStreamedSog);
+  CHECK(input_format_from_name("b.gltf") == SceneFormat::kGlb);
+  CHECK(input_format_from_name("a/meta.json") == SceneFormat::kSog);
+  CHECK(input_format_from_name("a/lod-meta.json") == SceneFormat::kStreamedSog);
   for (const char* read_only : {"b.gltf", "meta.json", "lod-meta.json", "b.ksplat", "b.png"})
     CHECK_THROWS_AS(output_format_from_name(read_only), Error);
 }
 
 TEST_CASE("formats: every reader has a case that runs under the sanitizers") {
   const std::string labels = text_of(project_folder() + "/tests/quick_tests.cmake");
-  for (const SceneFormat& format : scene_formats())
+  for (const SceneFormat& format : read_formats())
     CHECK_MESSAGE(labels.find('"' + std::string(format.name) + '"') != std::string::npos, format.name);
 }
 
@@ -58,7 +64,7 @@ TEST_CASE("losses: the share of Gaussians beyond the range of bytes is said, rou
   for (float& v : scene.cloud.sh_rest) v = 0.995f;  // within half a step of 127/128
   scene.cloud.sh_rest[9 * 7] = -1.2f;
   const auto lost = [&](const char* name) {
-    const SceneFormat format = format_from_name(name);
+    const SceneFormat format = output_format_from_name(name);
     const std::string sentence = save_scene(folder / name, scene, {}, format).loss;
     std::string planned = format.plan(scene, 1000, false).lost;  // the same words, as a sentence of its own
     if (!planned.empty()) {
@@ -77,7 +83,8 @@ TEST_CASE("losses: the share of Gaussians beyond the range of bytes is said, rou
   CHECK(lost("a.compressed.ply").find("clamped") == std::string::npos);
   CHECK(lost("a.ply").empty());
   scene.cloud.antialiased = true;
-  for (const char* name : {"a.splat", "a.glb"}) CHECK(mentions(lost(name), {"antialiasing is left out"}));
+  for (const char* name : {"a.splat", "a.glb", "a.usda"})
+    CHECK(mentions(lost(name), {"antialiasing is left out"}));
   for (const char* name : {"a.ply", "a.compressed.ply", "a.spz", "a.sog"})
     CHECK(lost(name).find("antialiasing") == std::string::npos);
   std::vector<std::uint8_t> keep(1000, 0);

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "quick.h"
-#include "scene/formats/webp.h"
-#include "scene/formats/zip_file.h"
+#include "scene/packing/webp.h"
+#include "scene/packing/zip_file.h"
 #include "scene_file_helpers.h"
 
 using namespace splatcut;
@@ -195,7 +195,7 @@ TEST_CASE(
   const Streamed made;
   made.write_index(made.index);
   const Scene scene = load_scene(made.path);
-  for (const SceneFormat& to : written_formats()) {
+  for (const SceneFormat& to : both_ways()) {
     const fs::path path = made.folder / fmt::format("b{}", to.extension);
     save_scene(path, scene, {}, to);
     CHECK(load_scene(path).cloud.size() == 850);

@@ -1,4 +1,4 @@
-#include "scene/formats/zip_file.h"
+#include "scene/packing/zip_file.h"
 
 #include <fmt/format.h>
 #include <zip.h>
@@ -7,7 +7,7 @@
 #include <new>
 
 #include "core/error.h"
-#include "scene/formats/decode.h"
+#include "scene/packing/unpack.h"
 
 namespace splatcut {
 

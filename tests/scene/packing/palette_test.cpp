@@ -1,4 +1,4 @@
-#include "scene/formats/palette.h"
+#include "scene/packing/palette.h"
 
 #include <doctest/doctest.h>
 

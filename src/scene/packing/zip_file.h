@@ -1,4 +1,4 @@
-// ZIP archives in memory. Internal to src/scene/formats.
+// ZIP archives in memory. Internal to src/scene.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "scene/formats/unpack.h"
+#include "scene/packing/unpack.h"
 
 #include <fmt/format.h>
 #include <zstd.h>
@@ -24,6 +24,15 @@ void grow(Bytes& bytes, std::size_t wanted) {
 }
 
 }  // namespace
+
+void check_expansion(const std::filesystem::path& path, std::uint64_t packed_bytes,
+                     std::uint64_t unpacked_bytes) {
+  constexpr std::uint64_t kMostFold = 256, kAlways = 16 << 20;
+  if (unpacked_bytes <= kAlways || unpacked_bytes / kMostFold <= packed_bytes) return;
+  throw Error(path.string(),
+              fmt::format("is damaged: its {} bytes promise {} unpacked, and no scene packs so well",
+                          packed_bytes, unpacked_bytes));
+}
 
 GzipReader::GzipReader(const MappedFile& file) : file_(file), in_(file.bytes()) {
   constexpr int kGzipOnly = 16 + MAX_WBITS;

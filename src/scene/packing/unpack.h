@@ -1,10 +1,12 @@
 // Packed data, piece by piece: memory is taken as data arrives, so that a small file that promises much is
-// refused at little cost, and a stop is heard. Internal to src/scene/formats.
+// refused at little cost, and a stop is heard. Internal to src/scene.
 #pragma once
 
 #include <zlib.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -14,6 +16,12 @@
 namespace splatcut {
 
 using Bytes = std::vector<std::byte>;
+
+// Throws Error if data would unpack to more than 256 times their bytes and 16 MiB: no scene packs so well,
+// and a small file must not take all memory. The cloud takes at most six times the memory of the rows it is
+// made of, of a .sog with spherical harmonics eleven times.
+void check_expansion(const std::filesystem::path& path, std::uint64_t packed_bytes,
+                     std::uint64_t unpacked_bytes);
 
 // One gzip stream. Throws Error for data that are damaged.
 class GzipReader {

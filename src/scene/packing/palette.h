@@ -1,4 +1,4 @@
-// Few values for many: what .sog keeps of numbers. Internal to src/scene/formats.
+// Few values for many: what .sog keeps of numbers. Internal to src/scene.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "scene/formats/webp.h"
+#include "scene/packing/webp.h"
 
 #include <fmt/format.h>
 #include <webp/decode.h>
@@ -7,7 +7,7 @@
 #include <new>
 
 #include "core/error.h"
-#include "scene/formats/decode.h"
+#include "scene/packing/unpack.h"
 
 namespace splatcut {
 

@@ -1,4 +1,4 @@
-// Pictures of exact bytes as lossless WebP. Internal to src/scene/formats.
+// Pictures of exact bytes as lossless WebP. Internal to src/scene.
 #pragma once
 
 #include <cstddef>
