@@ -1,9 +1,10 @@
 // Writer of USD as text with one ParticleField3DGaussianSplat (OpenUSD 26.03 and later, usdVol/schema.usda).
 //
 // Values are activated: scales are standard deviations, opacities 0 to 1, quaternions unit with w first. The
-// coefficients of spherical harmonics stand Gaussian by Gaussian, the constant one first, then those of .ply in
-// their order, red green blue together; a colour is 0.5 + their sum, as OpenUSD's own renderer has it. elementSize
-// and interpolation are not in the schema, but a common renderer takes the coefficients for none without them.
+// coefficients of spherical harmonics stand Gaussian by Gaussian, the constant one first, then those of .ply
+// in their order, red green blue together; a colour is 0.5 + their sum, as OpenUSD's own renderer has it.
+// elementSize and interpolation are not in the schema, but a common renderer takes the coefficients for none
+// without them.
 #include <array>
 #include <charconv>
 #include <limits>
@@ -88,7 +89,8 @@ std::array<std::array<float, 3>, 2> extent_of(const GaussianCloud& cloud,
     least = glm::min(least, p - reach);
     most = glm::max(most, p + reach);
   }
-  return gaussians.empty() ? std::array<std::array<float, 3>, 2>{} : std::array{numbers(least), numbers(most)};
+  return gaussians.empty() ? std::array<std::array<float, 3>, 2>{}
+                           : std::array{numbers(least), numbers(most)};
 }
 
 std::array<float, 3> coefficient(const GaussianCloud& cloud, std::uint32_t g, std::size_t k) {
@@ -96,7 +98,8 @@ std::array<float, 3> coefficient(const GaussianCloud& cloud, std::uint32_t g, st
   static constexpr std::array<float, 15> kSigns = kUsdAxes.sh();
   const std::size_t all = cloud.sh_stride() / 3;
   const std::span<const float> rest = cloud.sh_rest_of(g);
-  return {rest[k - 1] * kSigns[k - 1], rest[all + k - 1] * kSigns[k - 1], rest[2 * all + k - 1] * kSigns[k - 1]};
+  return {rest[k - 1] * kSigns[k - 1], rest[all + k - 1] * kSigns[k - 1],
+          rest[2 * all + k - 1] * kSigns[k - 1]};
 }
 
 Losses usda_losses(const Scene& scene) {
@@ -119,9 +122,8 @@ std::string write_usda(AtomicFile& out, const Scene& scene, std::span<const std:
   text.add(", ");
   text.add(most);
   text.add("]");
-  text.add_array("point3f[] positions", gaussians, 1, [&](std::uint32_t g, std::size_t) {
-    return numbers(kUsdAxes.position(cloud.position[g]));
-  });
+  text.add_array("point3f[] positions", gaussians, 1,
+                 [&](std::uint32_t g, std::size_t) { return numbers(kUsdAxes.position(cloud.position[g])); });
   text.add_array("quatf[] orientations", gaussians, 1, [&](std::uint32_t g, std::size_t) {
     const glm::quat q = kUsdAxes.rotation(cloud.rotation[g]);
     return std::array{q.w, q.x, q.y, q.z};
@@ -147,7 +149,8 @@ FormatPlan plan_usda(const Scene& scene, std::size_t gaussians, bool) {
   plan.bytes = 900 + gaussians * (kFloats + scene.cloud.sh_stride()) * kDigits;
   plan.about = true;
   plan.kept =
-      "What the scene says of Gaussians in 32 bits, as text, for programs that read OpenUSD's particle fields.";
+      "What the scene says of Gaussians in 32 bits, as text, for programs that read OpenUSD's particle "
+      "fields.";
   plan.lost = usda_losses(scene).in_full();
   return plan;
 }

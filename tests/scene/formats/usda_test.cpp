@@ -17,7 +17,8 @@ struct Attribute {
   std::string text;            // of what is no number
 };
 
-// The attributes of a prim by name: "TYPE NAME = VALUE", a value in brackets over several lines, uniform or not.
+// The attributes of a prim by name: "TYPE NAME = VALUE", a value in brackets over several lines, uniform or
+// not.
 std::map<std::string, Attribute> attributes_of(const std::string& usda) {
   std::map<std::string, Attribute> found;
   std::istringstream lines(usda.substr(usda.find("\n{\n") + 3));
@@ -91,7 +92,8 @@ TEST_CASE("usda: a Gaussian made by hand, every line") {
   scene.cloud.rotation[0] = {0.5f, 0.5f, -0.5f, 0.5f};
   scene.cloud.opacity[0] = 0.75f;
   scene.cloud.f_dc[0] = {0.1f, 0.2f, -0.3f};
-  for (std::size_t i = 0; i < 9; ++i) scene.cloud.sh_rest[i] = static_cast<float>(i);  // red 0 1 2, green 3 ...
+  for (std::size_t i = 0; i < 9; ++i)
+    scene.cloud.sh_rest[i] = static_cast<float>(i);  // red 0 1 2, green 3 ...
   const SaveReport report = save_scene(folder / "a.usda", scene, {}, SceneFormat::kUsda);
   CHECK(report.loss.empty());
   CHECK(report.bytes == fs::file_size(folder / "a.usda"));
@@ -142,7 +144,8 @@ TEST_CASE("usda: every value is the cloud's, to the bit, and colours are the sam
                              opacities = numbers("opacities", "float[]"),
                              sh = numbers("radiance:sphericalHarmonicsCoefficients", "float3[]"),
                              extent = numbers("extent", "float3[]");
-    CHECK(numbers("radiance:sphericalHarmonicsDegree", "int") == std::vector<float>{static_cast<float>(degree)});
+    CHECK(numbers("radiance:sphericalHarmonicsDegree", "int") ==
+          std::vector<float>{static_cast<float>(degree)});
     const auto coefficients = static_cast<std::size_t>((degree + 1) * (degree + 1));
     CHECK(numbers("elementSize", "metadata") == std::vector<float>{static_cast<float>(coefficients)});
     REQUIRE(positions.size() == 3 * 70);
@@ -163,8 +166,8 @@ TEST_CASE("usda: every value is the cloud's, to the bit, and colours are the sam
         CHECK(extent[static_cast<std::size_t>(3 + c)] > p[c]);
       }
       const glm::vec3 d = glm::normalize(glm::vec3(0.3f, -0.5f + 0.01f * static_cast<float>(g), 0.7f));
-      CHECK(glm::length(colour_of(sh, 3 * coefficients * g, degree, flip * d) - our_colour(scene.cloud, g, d)) <
-            1e-5f);
+      CHECK(glm::length(colour_of(sh, 3 * coefficients * g, degree, flip * d) -
+                        our_colour(scene.cloud, g, d)) < 1e-5f);
     }
   }
 }
