@@ -4,9 +4,8 @@
 // In: hierarchy, a box in a soft view, weights. All pixels are the view's, soft; "all views" are the
 // observing ones (part_looks.h) with the box's own. Terms, of a part of which `in` pixels lie in the box:
 //
-// - kShort: how far the part stays away from the four sides of the box: sum of max(0, d - 0.1), d the
-// distance
-//   of its outermost hundredth from the side over the box's extent that way. A box touches what it is around.
+// - kShort: how far the part stays away from the box's four sides: sum of max(0, d - 0.1), d the distance of
+//   its outermost hundredth from the side over the box's extent that way. A box touches what it is around.
 // - kSpill: its pixels outside of the box / in, at most 3.
 // - kFills: -ln(in / all that shows in the box).
 // - kCut, kNoEdge, kCropped, kFrame, kSmall, kLarge: as of a first click, see candidates.h.

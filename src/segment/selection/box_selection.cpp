@@ -15,7 +15,7 @@ using Leaves = std::vector<std::uint8_t>;
 std::vector<Leaves> distinct_meanings(const PartHierarchy& parts, const LeafView& view,
                                       std::span<const PartMeaning> found, float doubt) {
   std::vector<Leaves> meant;
-  if (Leaves agreed = majority(vote_shares(parts, found, {}, {})); std::ranges::count(agreed, 1) > 0)
+  if (Leaves agreed = majority(vote_shares(parts, found)); std::ranges::count(agreed, 1) > 0)
     meant.push_back(std::move(agreed));
   for (const PartMeaning& meaning : found) {
     if (std::ssize(meant) == kMostMeanings || meaning.cost > found.front().cost + doubt) break;

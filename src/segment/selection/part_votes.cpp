@@ -8,18 +8,6 @@
 
 namespace splatcut {
 
-namespace {
-
-// Per node, how many of the leaves it holds.
-std::vector<float> held_by_nodes(const PartHierarchy& parts, const PartTree& tree,
-                                 std::span<const std::uint32_t> leaves) {
-  std::vector<float> count(parts.leaves, 0);
-  for (const std::uint32_t leaf : leaves) count[leaf] += 1;
-  return summed(tree, std::move(count));
-}
-
-}  // namespace
-
 std::vector<std::uint8_t> leaves_of(const PartHierarchy& parts, std::uint32_t tree, std::uint32_t node) {
   std::vector<std::uint8_t> marked(parts.trees[tree].nodes(), 0);
   marked[node] = 1;
@@ -28,16 +16,10 @@ std::vector<std::uint8_t> leaves_of(const PartHierarchy& parts, std::uint32_t tr
   return leaves;
 }
 
-std::vector<float> vote_shares(const PartHierarchy& parts, std::span<const PartMeaning> meanings,
-                               std::span<const std::uint32_t> held, std::span<const std::uint32_t> left_out) {
+std::vector<float> vote_shares(const PartHierarchy& parts, std::span<const PartMeaning> meanings) {
   std::vector<PartMeaning> voters;
   for (std::uint32_t t = 0; t < parts.trees.size(); ++t) {
-    const std::vector<float> wanted = held_by_nodes(parts, parts.trees[t], held),
-                             unwanted = held_by_nodes(parts, parts.trees[t], left_out);
-    const auto fits = [&](const PartMeaning& m) {
-      return m.tree == t && wanted[m.node] == static_cast<float>(held.size()) && unwanted[m.node] == 0;
-    };
-    const auto best = std::ranges::find_if(meanings, fits);
+    const auto best = std::ranges::find(meanings, t, &PartMeaning::tree);
     if (best != meanings.end()) voters.push_back(*best);
   }
   if (voters.empty()) return {};
