@@ -416,7 +416,8 @@ TEST_CASE("convert refuses an ending that it reads but does not write, and lists
     CAPTURE(name);
     const Result result = place.run("convert " + life.scene + " -o " + name);
     CHECK(result.code == 1);
-    CHECK(result.err.find("Choose .ply, .compressed.ply, .splat, .spz, .sog or .glb.") != std::string::npos);
+    CHECK(result.err.find("Choose .ply, .compressed.ply, .splat, .spz, .sog, .glb or .usda.") !=
+          std::string::npos);
     const bool read = name != "a.obj" && name != "a";
     CHECK((result.err.find("only read, not written") != std::string::npos) == read);
     CHECK_FALSE(place.exists(name));

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <limits>
+#include <string>
 
 #include "hands.h"
 #include "scene/raster/rasterizer.h"
@@ -33,6 +36,28 @@ TEST_CASE("hands: an export that fails leaves its dialog open and says why") {
   hands.app.frames(2);
   CHECK_FALSE(hands.app->interface().dialog_open());
   CHECK(std::filesystem::exists(folder / "object.ply"));
+}
+
+TEST_CASE("hands: what an export is asked to have up is of the file's own axes") {
+  const ScratchFolder folder("up");
+  Hands hands;
+  for (const auto& [up, sign] : {std::pair{ExportUp::kPlusY, 1.0f}, {ExportUp::kMinusY, -1.0f}}) {
+    CAPTURE(sign);
+    const ExportPlacement placement{.origin = ExportOrigin::kFoot, .up = up};
+    hands.studio().apply(
+        Export{{ExportWhat::kObject, SceneFormat::kUsda, folder / "apple.usda", true, placement}});
+    REQUIRE(hands.app.settle());
+    // As the text has it, not as our own readers turn it: the apple stands on the origin.
+    std::ifstream in(folder / "apple.usda");
+    std::string line;
+    while (std::getline(in, line) && line.find("extent") == std::string::npos) continue;
+    glm::vec3 low, high;
+    REQUIRE(std::sscanf(line.c_str(), " float3[] extent = [(%f, %f, %f), (%f, %f, %f)]", &low.x, &low.y,
+                        &low.z, &high.x, &high.y, &high.z) == 6);
+    const float above = sign > 0 ? high.y : -low.y, below = sign > 0 ? -low.y : high.y;
+    CHECK(above > 0);
+    CHECK(below < 0.2f * above);
+  }
 }
 
 TEST_CASE("hands: an export stands where it is asked to, and looks the same from there") {
