@@ -1,13 +1,20 @@
 // The settings by name, and the weights of the fitted model: each read as it is written, none twice.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <memory>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "core/error.h"
+#include "segment/session/local_session.h"
 #include "segment/session/settings_table.h"
 #include "segment/superpoints/part_model.h"
+#include "synthetic_cloud.h"
 
 using namespace splatcut;
+using namespace splatcut::testing;
 
 TEST_CASE("settings: what they say they take what they give, in every preset") {
   std::set<std::string> names;
@@ -68,4 +75,28 @@ TEST_CASE("part model: each weight has a name of its own and is what was set") {
   }
   // Each is in the table: floats and whole numbers of four bytes, nothing else.
   CHECK(part_weights().size() * 4 == sizeof(PartModel));
+}
+
+TEST_CASE("settings: a cut has as many neighbours a Gaussian as its preset says, paper-code nine") {
+  constexpr std::size_t kGaussians = 60;
+  const auto cloud = std::make_shared<const GaussianCloud>(random_cloud(kGaussians, 3));
+  LocalSession session({.cloud = cloud, .prepared = nullptr, .photographs = {}});
+  for (const auto& [name, neighbours] :
+       {std::pair<const char*, std::size_t>("default", 10), {"paper-code", 9}, {"paper", 10}}) {
+    CAPTURE(name);
+    const FlowGraph& graph = session.graph(preset(name));
+    CHECK(graph.listed == neighbours);
+    for (std::size_t g = 0; g < kGaussians; ++g) {
+      std::vector<std::pair<float, std::uint32_t>> others;
+      for (std::uint32_t h = 0; h < kGaussians; ++h)
+        if (h != g) others.emplace_back(glm::distance(cloud->position[g], cloud->position[h]), h);
+      std::ranges::sort(others);
+      std::set<std::uint32_t> nearest, listed;
+      for (std::size_t i = 0; i < neighbours; ++i) {
+        nearest.insert(others[i].second);
+        listed.insert(graph.head[graph.first_arc[g] + i]);
+      }
+      CHECK(listed == nearest);
+    }
+  }
 }
