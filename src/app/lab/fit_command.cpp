@@ -174,7 +174,9 @@ FitTable fit_table(const Bank& bank, const FitArguments& args, const SelectionMo
       {DecisionOf::kFirstClick, &SelectionModel::first},
       {DecisionOf::kCorrection, &SelectionModel::later},
       {DecisionOf::kBox, &SelectionModel::box}};
-  const auto [which, terms] = kFitted[args.of == "first" ? 0 : args.of == "later" ? 1 : 2];
+  const auto& row = kFitted[args.of == "first" ? 0 : args.of == "later" ? 1 : 2];
+  const DecisionOf which = row.first;
+  const auto terms = row.second;
   job.progress("sessions as shipped", 0.1);
   const std::vector<Decision> decisions =
       all_decisions(bank, shipped, args.of == "later" ? args.clicks : 1, job);
