@@ -1,9 +1,9 @@
-// A document of a scene becomes one of the same scene with other files in it, or files placed otherwise.
+// Carries a document over to its scene after files of the scene were added, taken out or moved.
 //
-// Labels, marks and what was deleted go with their Gaussians; Gaussians of added files have none. Labels that
-// are current stay so, see ObjectItem::cut_kept. Strokes see what they saw: added files are not in their
-// views, files that have moved no longer are. Where most of an object lies in a file that has moved, its
-// views move along and see that file alone.
+// Labels, hand marks and deletions follow their Gaussians; Gaussians of added files have none. Labels that
+// are current stay current, see ObjectItem::cut_kept. Strokes do not see Gaussians of files that were added
+// or moved, so that they mean what they meant. If more than half of an object lies in one file that has
+// moved, the object's views move with that file and see that file alone.
 #pragma once
 
 #include <cstdint>
@@ -19,16 +19,18 @@ namespace splatcut {
 
 class CarriedDocument {
  public:
-  // Files are known by their ids. Of both scenes only rows, places and counts are kept.
+  // Files of both scenes are matched by their ids. The constructor copies what it needs: neither scene has to
+  // outlive this object.
   CarriedDocument(const OpenedScene& before, const OpenedScene& after);
 
-  // Arrays that documents share are shared by what they become, too.
+  // Returns the carried document. Documents that share an array share the carried array, too: calls for all
+  // states of a history cost memory for distinct arrays only.
   Document operator()(const Document& document);
 
  private:
-  struct File {  // of the scene after
+  struct File {  // a file of the new scene
     bool moved = false;
-    Similarity to;  // from where it stood
+    Similarity to;  // movement from the old place to the new one
   };
   static constexpr std::int32_t kNew = -1, kAnyFile = -1;
   Flags carried(const Flags& flags);
@@ -37,7 +39,8 @@ class CarriedDocument {
   void carry_views(ObjectItem* object);
 
   std::vector<File> files_;
-  std::vector<std::int32_t> before_of_, file_of_;  // of each Gaussian after: which it was, or kNew; its file
+  // Per Gaussian of the new scene: its index in the old scene, or kNew; the index of its file in files_.
+  std::vector<std::int32_t> before_of_, file_of_;
   std::map<std::pair<Flags, std::int32_t>, Flags> known_;
 };
 

@@ -1,8 +1,8 @@
-// A scene's objects with clean edges, each made once and kept until its labels change: what the window shows
-// alone is what its exports write.
+// Cache of a scene's objects with clean edges. The window and its exports share it, so that an export writes
+// what the window shows.
 //
-// Thread-safe; two threads that ask for the same object at the same time both make it. Memory: the Gaussians
-// of the last few objects.
+// Thread-safe; two threads that ask for the same object at the same time both compute it. Memory: labels and
+// Gaussians of the last few objects.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,11 @@ class CleanObjects {
  public:
   explicit CleanObjects(std::shared_ptr<const OpenedScene> scene) : scene_(std::move(scene)) {}
 
-  // labels: per Gaussian of the scene, 1 = object. Null where it was not made yet.
+  // Returns the cached object for these labels (one per Gaussian of the scene, 1 = object) and this up
+  // direction; null if it is not cached.
   std::shared_ptr<const CleanObject> known(const std::vector<std::uint8_t>& labels,
                                            const glm::vec3& up_world) const;
-  // Makes it where it is not known, as clean_object() has it. Null where it was cancelled.
+  // Returns the cached object, or computes it with clean_object() and keeps it; null if cancelled.
   std::shared_ptr<const CleanObject> made(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world,
                                           const Job& job);
 
@@ -36,7 +37,7 @@ class CleanObjects {
 
   std::shared_ptr<const OpenedScene> scene_;
   mutable std::mutex mutex_;
-  std::deque<Kept> kept_;  // the newest last
+  std::deque<Kept> kept_;  // cached objects, the newest last
 };
 
 }  // namespace splatcut

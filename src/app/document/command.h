@@ -1,16 +1,18 @@
-// Everything the user can ask for. Keys, menus, buttons, the pointer, files and tests send the same commands
-// to Studio::apply(), so they cannot disagree.
+// Commands: everything that the user can ask for. Keys, menus, buttons, the pointer, files and tests send the
+// same commands to Studio::apply(), so they cannot disagree.
 //
-// A command that changes the document says here how: title() in the history, merge_key() if it replaces a
-// step of the same key (a slider's), edit() from a document to the next one, which document_edits.cpp
-// defines. edit() returns what the message strip says. Expected refusals (a locked object, nothing selected)
-// are Errors worded for the user; the document is then unchanged, because the caller drops its copy. Traits,
-// where they hold:
-//   passes       edit() passes over the Gaussians, so it runs on a worker
-//   at_once      the edits before it need not be done
-//   writes_file  cancelling the edits before it does not take it back
-//   no_work      it is no step: every state of the history takes the change, where edit() does not refuse; it
-//                refuses before it changes anything, and changes nothing that labels depend on
+// A command that changes the document declares up to three functions here. title() names its step in the
+// history. merge_key(), if there is one, lets the command replace a last step that has the same key (a slider
+// that moves). edit() changes a copy of the document and returns the text for the message strip;
+// document_edits.cpp defines it. Expected refusals (a locked object, nothing selected) throw an Error worded
+// for the user; the document stays as it was, because the caller drops its copy. Traits that a command may
+// have:
+//   passes       edit() passes over all Gaussians, so it runs on a worker
+//   at_once      the command does not wait for the edits that were asked for before it
+//   writes_file  the command stays in the queue even if the edits before it are cancelled
+//   no_work      the command is not a step of the history: every state of the history takes its change,
+//                unless edit() refuses there. edit() refuses before it changes anything, and changes nothing
+//                that labels depend on
 #pragma once
 
 #include <filesystem>
@@ -28,10 +30,10 @@ namespace splatcut {
 class SceneGraph;
 struct GaussianCloud;
 
-// What edits may read.
+// What edits may read besides the document.
 struct EditContext {
   const GaussianCloud& cloud;
-  SceneGraph* graph = nullptr;  // of the cloud; null if no edit asks for neighbours
+  SceneGraph* graph = nullptr;  // graph of the cloud; null if no edit asks for neighbours
   Job job{};
 };
 
@@ -56,7 +58,7 @@ constexpr bool kNoWork = requires {
 template <class C>
 std::string merge_key_of(const C& command) {
   if constexpr (requires { command.merge_key(); }) return command.merge_key();
-  return {};  // a step of its own
+  return {};  // the command is always a step of its own
 }
 
 inline const char* title_of(SetOperation operation) {
@@ -64,18 +66,18 @@ inline const char* title_of(SetOperation operation) {
   return kTitles[static_cast<int>(operation)];
 }
 
-// Strokes and selections; they make an object where none is active.
+// Strokes and selections change the active object; they make an object if none is active.
 struct AddStroke {
   Camera camera;
-  Stroke stroke;  // in the camera's pixels
-  Flags seen{};   // Gaussians on the screen; null: all
+  Stroke stroke;  // stroke in the camera's pixels
+  Flags seen{};   // Gaussians that the view shows; null: all
   std::string title() const {
     return std::string(stroke.is_click() ? "Click" : "Scribble") +
            (stroke.label == SeedLabel::kRest ? ": rest" : ": object");
   }
   friend std::string edit(Document* document, const AddStroke& command, const EditContext& context);
 };
-struct IntersectStroke {  // keeps of the object what this stroke alone would take
+struct IntersectStroke {  // keeps the part of the object that this stroke alone would take
   Camera camera;
   Stroke stroke;
   Flags seen{};
@@ -84,41 +86,42 @@ struct AddBox {
   Camera camera;
   glm::vec2 a_px, b_px;  // opposite corners
   Flags seen{};
-  // Otherwise than kAdd: removes from the object, or keeps of it, what the box alone would cut out.
+  // kAdd makes the box a stroke. The others remove from the object, or keep of it, what the box alone would
+  // cut out.
   SetOperation operation = SetOperation::kAdd;
   std::string title() const { return "Box"; }
   friend std::string edit(Document* document, const AddBox& command, const EditContext& context);
 };
 struct SelectRegion {
   Camera camera;
-  Mask region;  // in the camera's size
+  Mask region;  // mask of the camera's size
   SetOperation operation = SetOperation::kAdd;
 };
 struct SelectVolume {
   Volume volume;
   SetOperation operation = SetOperation::kAdd;
-  bool adjusts = false;  // replaces the last such selection, if nothing else was done since
+  bool adjusts = false;  // true: replaces the last such selection, if no other step came since
 };
 struct SelectColour {
-  glm::vec3 colour;
-  float tolerance;
+  glm::vec3 colour;  // base colour, [0, 1]
+  float tolerance;   // largest difference in a channel, [0, 1]
   SetOperation operation = SetOperation::kAdd;
 };
-struct PickColour {  // selects by a Gaussian's colour, within the view's tolerance
+struct PickColour {  // selects all Gaussians of this one's colour, within ViewState::colour_tolerance
   std::int32_t gaussian;
   SetOperation operation = SetOperation::kAdd;
 };
-struct SelectFlood {  // what is connected to a Gaussian and has its colour, within that tolerance
+struct SelectFlood {  // selects what is connected to a Gaussian and has its colour, within that tolerance
   std::int32_t gaussian;
   SetOperation operation = SetOperation::kAdd;
 };
-struct SelectScene {  // the Gaussians of one of the scene's files
-  std::uint32_t file;
+struct SelectScene {   // selects the Gaussians of one of the scene's files
+  std::uint32_t file;  // SceneSource::id
   SetOperation operation = SetOperation::kAdd;
 };
 struct SelectRange {
   Property property;
-  float low, high;
+  float low, high;  // limits, both included, in units of property_values()
   SetOperation operation = SetOperation::kAdd;
 };
 enum class SelectionEdit { kAll, kNone, kInvert, kGrow, kShrink, kLargestPart, kRemoveFloaters };
@@ -129,16 +132,16 @@ struct EditSelection {
   friend std::string edit(Document* document, const EditSelection& command, const EditContext& context);
 };
 struct ShowFloaters {
-  bool shown;  // a preview; EditSelection{kRemoveFloaters} removes them
+  bool shown;  // true: previews floaters; EditSelection{kRemoveFloaters} removes them
   static constexpr bool at_once = true;
 };
 struct StepScale {
-  int steps;  // of the active object's first click: to larger (+) or smaller (-) parts
+  int steps;  // steps to larger (+) or smaller (-) parts of the active object's first click
   std::string title() const { return steps > 0 ? "Larger part" : "Smaller part"; }
   friend std::string edit(Document* document, const StepScale& command, const EditContext& context);
 };
 struct ChooseMeaning {
-  int choice;  // of what the active object's first click can mean, 0 the likeliest
+  int choice;  // number of the meaning that the active object's first click gets, 0 the likeliest
   std::string title() const { return "Meaning " + std::to_string(choice + 1) + " of the click"; }
   friend std::string edit(Document* document, const ChooseMeaning& command, const EditContext& context);
 };
@@ -146,11 +149,11 @@ struct ClearStrokes {
   std::string title() const { return "Clear strokes"; }
   friend std::string edit(Document* document, const ClearStrokes& command, const EditContext& context);
 };
-struct ComeNearer {};  // to where the active object was clicked
+struct ComeNearer {};  // moves the camera towards the place where the active object was clicked
 
-// Objects.
+// Commands on objects.
 struct NewObject {
-  ObjectId within = 0;
+  ObjectId within = 0;  // object of which the new one is a part; 0: none
   std::string title() const { return "New object"; }
   friend std::string edit(Document* document, const NewObject& command, const EditContext& context);
 };
@@ -231,7 +234,7 @@ struct LeaveOutView {
   friend std::string edit(Document* document, const LeaveOutView& command, const EditContext& context);
 };
 
-// Settings that change the result.
+// Commands on settings that change the result.
 struct SetSmoothness {
   ObjectId object;
   float smoothness;
@@ -255,7 +258,7 @@ struct SetUp {
   friend std::string edit(Document* document, const SetUp& command, const EditContext& context);
 };
 
-// Work.
+// Commands on the history and on running work.
 struct Undo {};
 struct Redo {};
 struct JumpHistory {
@@ -266,7 +269,7 @@ struct Cancel {
 };
 struct Recompute {};
 
-// Looking: never undone.
+// Commands on the view: the history does not hold them.
 struct SetView {
   ViewState view;
   static constexpr bool at_once = true;
@@ -276,14 +279,14 @@ struct GoToCamera {
   static constexpr bool at_once = true;
 };
 struct LookAlong {
-  glm::vec3 direction_world;  // of the view, any length but 0
+  glm::vec3 direction_world;  // direction of the view, of any length but 0
   static constexpr bool at_once = true;
 };
 struct NextBackdrop {
   static constexpr bool at_once = true;
 };
 struct SetBackdrop {
-  std::size_t number;  // in backdrops()
+  std::size_t number;  // index in backdrops()
   static constexpr bool at_once = true;
 };
 struct SetFieldOfView {
@@ -291,19 +294,19 @@ struct SetFieldOfView {
   static constexpr bool at_once = true;
 };
 
-// Files.
+// Commands on files.
 struct OpenScene {
   std::filesystem::path path;                     // a scene or a work file
-  std::optional<SpzAxes> spz_axes = {};           // as LoadOptions has it; a work file says its own
+  std::optional<SpzAxes> spz_axes = {};           // axes as in LoadOptions; a work file holds its own
   std::vector<std::filesystem::path> added = {};  // further scenes, see AddScene
   static constexpr bool at_once = true;
 };
 struct AddScene {
-  std::filesystem::path path;  // a scene, put where its own coordinates say
+  std::filesystem::path path;  // a scene, which stands where its own coordinates say
   std::optional<SpzAxes> spz_axes = {};
 };
 struct PlaceScene {
-  std::uint32_t file;  // id in OpenedScene::files, not the first
+  std::uint32_t file;  // SceneSource::id of any file but the first
   ScenePlace place;
 };
 struct RemoveScene {
@@ -326,11 +329,11 @@ struct SaveSnapshot {
   static constexpr bool writes_file = true;
 };
 struct SaveTurntable {
-  std::filesystem::path path;  // a folder, or a file of animation or video
+  std::filesystem::path path;  // a folder for pictures; a file for an animation or a video
   int frames = 72;
-  int width_px = 0, height_px = 0;  // 0: as large as the view
+  int width_px = 0, height_px = 0;  // size of a picture; 0: size of the view
   TurntableAs as = TurntableAs::kPictures;
-  float turn_s = 3;  // of animation and video
+  float turn_s = 3;  // duration of one turn in an animation or a video, seconds
   bool clean_edges = false;
   static constexpr bool writes_file = true;
 };

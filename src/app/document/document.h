@@ -1,5 +1,6 @@
-// What the user makes: objects with their strokes and labels, and the settings that change them. A value:
-// copies share their large arrays, so that keeping one per undo step is cheap and undo is exact.
+// The document: what the user makes, that is objects with their strokes and labels, and the settings that
+// change them. A document is a value. Copies share their large arrays, so that one copy per undo step is
+// cheap and undo is exact.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +17,14 @@
 
 namespace splatcut {
 
-// One byte per Gaussian of the cloud, immutable; null means all zero.
+// One byte per Gaussian of the cloud, immutable. A null pointer means all zero, unless a comment says
+// otherwise.
 using Flags = std::shared_ptr<const std::vector<std::uint8_t>>;
 Flags make_flags(std::vector<std::uint8_t> values);
 
-using ObjectId = std::uint32_t;  // never used twice in a document; 0 is none
+using ObjectId = std::uint32_t;  // id of an object, never used twice in a document; 0: no object
 
-// Manual mark of a Gaussian; overrides the cut.
+// Mark that the user gave a Gaussian by hand; it overrides the cut.
 enum HandMark : std::uint8_t { kFollowCut = 0, kHandObject = 1, kHandRest = 2 };
 
 struct ObjectItem {
@@ -31,20 +33,21 @@ struct ObjectItem {
   Rgb8 colour{255, 140, 30};
   bool visible = true;
   bool locked = false;
-  ObjectId within = 0;                // part of that object: labels outside of it do not count
-  std::vector<StrokedView> views;     // in the order in which they were stroked, see CutRequest
-  int choice = 0;                     // of what the first click can mean, 0 the likeliest
-  int part_step = 0;                  // sizes above or below that meaning's own
+  ObjectId within = 0;                // object that this one is a part of: labels outside of it do not count
+  std::vector<StrokedView> views;     // views with their strokes, in the order of the strokes, see CutRequest
+  int choice = 0;                     // meaning of the first click that is taken, 0 the likeliest
+  int part_step = 0;                  // number of sizes above (+) or below (-) that meaning's own
   std::vector<Camera> left_out;       // views that do not count, see CutRequest
-  std::optional<glm::vec3> up_world;  // as it was at the first stroke; the document's where not given
-  std::optional<float> smoothness;    // the preset's own where not given
-  Flags cut;                          // labels from the strokes, 1 = object
-  std::string cut_key;                // cut_key() of what they were computed from; empty: none yet
-  bool cut_kept = false;              // computed before the scene got other files; the next stroke ends that
-  Flags hand;                         // HandMark
+  std::optional<glm::vec3> up_world;  // up direction at the first stroke; none: the document's
+  std::optional<float> smoothness;    // weight of the neighbour term; none: the preset's own
+  Flags cut;                          // labels that the cut gave, 1 = object
+  std::string cut_key;                // cut_key() of the inputs of `cut`; empty: there is no cut yet
+  // True if `cut` is older than the scene's present files: it stays as it is until the next stroke.
+  bool cut_kept = false;
+  Flags hand;  // HandMark of each Gaussian
 };
 
-inline constexpr std::size_t kMostObjects = 255;  // one byte per Gaussian names its object
+inline constexpr std::size_t kMostObjects = 255;  // limit, as one byte per Gaussian names its object
 
 struct Document {
   std::vector<ObjectItem> objects;  // at most kMostObjects
@@ -53,40 +56,43 @@ struct Document {
   glm::vec3 up_world{0, -1, 0};
   std::string preset = "default";
   glm::vec3 background{0.11f, 0.115f, 0.125f};
-  Flags deleted;  // Gaussians taken out of the scene: neither drawn nor exported
+  Flags deleted;  // Gaussians that the user deleted: they are neither drawn nor exported
 
   const ObjectItem* find(ObjectId id) const;
   ObjectItem* find(ObjectId id);
   const ObjectItem* active_object() const { return find(active); }
 };
 
-// The request for an object, and the settings to cut it with.
+// The request that cuts an object, and the settings for that cut.
 CutRequest cut_request(const Document& document, const ObjectItem& object);
 CutSettings cut_settings(const Document& document, const ObjectItem& object);
 
-// The camera of an earlier stroke of the object in the same view, else the camera itself.
+// Returns the camera of an earlier stroke of the object in the same view, else `camera` itself.
 Camera known_camera(const ObjectItem& object, const Camera& camera);
 
-// Request and settings as bytes, for keys, not for files: equal if and only if the labels must be.
+// Request and settings as bytes: two keys are equal if and only if the labels must be. For comparison in
+// memory, not for files.
 std::string cut_key(const Document& document, const ObjectItem& object);
 
-// True if `cut` was computed from another request or other settings.
+// True if `cut` was computed from another request or other settings. key: the object's present cut_key().
 bool is_stale(const Document& document, const ObjectItem& object);
-bool is_stale(const ObjectItem& object, const std::string& key);  // key: its cut_key()
+bool is_stale(const ObjectItem& object, const std::string& key);
 
-// Final labels (1 = object): cut, hand marks, `within` and deleted together. Size: `gaussians`.
+// Final labels, one per Gaussian, 1 = object: the cut, corrected by hand marks, deletions and `within`.
+// gaussians: size of the cloud.
 std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& object,
                                     std::size_t gaussians);
 
-// The final labels become `labels`: what differs from the cut is marked by hand.
+// Sets hand marks so that the final labels become `labels`.
 void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels);
 
-// A new object, active, with a name and a colour of its own. Throws Error where there are kMostObjects.
+// Adds an object with a name and a colour of its own, and makes it active. Throws Error if there are
+// kMostObjects already.
 ObjectItem& add_object(Document* document, std::string name = {});
 
-std::size_t count_flags(std::span<const std::uint8_t> flags);
+std::size_t count_flags(std::span<const std::uint8_t> flags);  // number of bytes that are not 0
 
-// Everything in them is equal; all but what cut_key() covers is.
+// same(): everything is equal. same_but_strokes(): everything is equal but what cut_key() covers.
 bool same(const Document& a, const Document& b);
 bool same_but_strokes(const Document& a, const Document& b);
 

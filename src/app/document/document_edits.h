@@ -1,4 +1,5 @@
-// What edits of documents share with what calls them; the edits themselves are declared by their commands.
+// Functions that edits of a document share with their callers. Each command declares its own edit, see
+// command.h.
 #pragma once
 
 #include <string>
@@ -7,19 +8,22 @@
 
 namespace splatcut {
 
-// What can stand behind the scene.
+// A background that the user can put behind the scene.
 struct Backdrop {
   const char* name;
   glm::vec3 colour;
   bool checker = false;
 };
 std::span<const Backdrop> backdrops();
+// True if the view shows this backdrop now.
 bool shows(const Backdrop& backdrop, const Document& document, const ViewState& view);
 
-// The active object's labels, combined with a selection found by any tool.
+// Combines the active object's labels with a selection that any tool found. Makes an object if none is
+// active. Returns the text for the message strip. Throws Error if the object is locked.
 std::string edit_selection(Document* document, const Selection& region, SetOperation operation,
                            const EditContext& context);
 
-Stroke stroke_of(const AddBox& command, SeedLabel label);  // throws Error where the box is too small
+// The stroke that a box stands for. Throws Error if the box is too small.
+Stroke stroke_of(const AddBox& command, SeedLabel label);
 
 }  // namespace splatcut

@@ -1,4 +1,5 @@
-// What an export writes. What a format keeps and loses is its plan in scene_formats.h.
+// Exports: which Gaussians go into which files. The plan of a format in scene_formats.h says what the format
+// keeps and loses.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +15,12 @@
 
 namespace splatcut {
 
-// kAllObjects: one file each, named after the object. kScene: all that was not deleted.
+// kRest: all but the object. kScene: all that was not deleted. kAllObjects: one file per object, named after
+// it.
 enum class ExportWhat { kObject, kRest, kScene, kAllObjects };
 
-enum class TurntableAs { kPictures, kWebp, kVideo };  // a folder of PNGs, an animation, a .mp4 made by ffmpeg
+// Form of a turntable: a folder of PNGs, an animated WebP, or a .mp4 that ffmpeg makes.
+enum class TurntableAs { kPictures, kWebp, kVideo };
 
 struct ExportRequest {
   ExportWhat what = ExportWhat::kObject;
@@ -25,33 +28,37 @@ struct ExportRequest {
   std::filesystem::path path;  // a file; for kAllObjects a folder
   bool overwrite = false;
   ExportPlacement placement = {};
-  bool clean_edges = false;  // of objects
+  bool clean_edges = false;  // true: objects are written with clean edges; kRest and kScene never are
 };
 
 struct ExportReport {
   std::size_t gaussians = 0, files = 0;
   std::uint64_t bytes = 0;
-  std::string loss;
-  std::size_t clean = 0;   // files whose object has clean edges
-  std::string edges_kept;  // why an object has not, where that was asked for
+  std::string loss;        // sentence about what the format lost; empty: nothing
+  std::size_t clean = 0;   // number of files whose object has clean edges
+  std::string edges_kept;  // reason why an object has none, if they were asked for
 };
 
-// 1 for each of the scene's Gaussians that is written, of kAllObjects into any of the files.
+// Flags per Gaussian of the scene: 1 if the export writes it, for kAllObjects into any of its files.
+// gaussians: size of the cloud.
 std::vector<std::uint8_t> exported(const Document& document, ObjectId object, ExportWhat what,
                                    std::size_t gaussians);
 
-// Throws Error: nothing to export, the file is one that the scene was read from, or exists and overwriting
-// was not asked for, the disk is full. clean: of the same scene; null where no clean edges are asked for.
-// Cancelled: what is not yet written stays unwritten.
+// Writes the files of an export. clean: cache of the same scene; may be null if the request wants no clean
+// edges. Throws Error if there is nothing to export, if a number of the placement is unusable, if the path
+// lacks the format's extension, if a file is one that the scene was read from, if a file exists and the
+// request does not overwrite, or if the disk is full. If cancelled, files that are not yet written stay
+// unwritten.
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
                         const ExportRequest& request, CleanObjects* clean = nullptr, const Job& job = {});
 
-std::string file_name_of(const std::string& object_name);  // letters, digits, - and _
+// File name for an object, of letters, digits, - and _ only.
+std::string file_name_of(const std::string& object_name);
 
-// The same with a number behind it where `taken` has it; then it is taken, too.
+// file_name_of() with a number behind it if `taken` has that name already. The call adds the name to `taken`.
 std::string free_file_name(const std::string& object_name, std::set<std::string>* taken);
 
-// The same with a number before its extension where a file of that name is there already.
+// Returns the path itself, or the path with a number before its extension if a file of that name exists.
 std::filesystem::path free_path(const std::filesystem::path& path, const std::string& extension);
 
 std::string human_bytes(std::uint64_t bytes);  // "4.4 MB"

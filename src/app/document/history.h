@@ -1,5 +1,6 @@
-// Undo and redo by keeping every state of the document; large arrays are shared between states, so a step
-// costs what it changed. The state at the cursor is the document; nothing else writes it.
+// Undo and redo. The history keeps every state of the document; states share large arrays, so a step costs
+// the memory of what it changed. The state at the cursor is the document, and only the history writes it. The
+// oldest states go once their arrays take more than 1 GiB.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +14,15 @@
 
 namespace splatcut {
 
-// What the labels of an object, and the meanings of its first click, depend on: bytes to compare.
+// Keys of an object, as bytes to compare: everything that its labels, and the meanings of its first click,
+// depend on.
 struct ObjectKeys {
   std::string cut;          // cut_key()
   std::string first_click;  // key_of_first_stroke()
   bool operator==(const ObjectKeys&) const = default;
 };
 
-// Steps of a history as files hold them.
+// Steps of a history, as work files hold them. cursor: index into steps.
 struct SavedSteps {
   struct Step {
     std::string title;
@@ -33,44 +35,46 @@ struct SavedSteps {
 class History {
  public:
   struct Entry {
-    std::string title;      // what was done, for the list
+    std::string title;      // name of the step, for the list
     std::string merge_key;  // consecutive steps with the same non-empty key become one (a slider as it moves)
-    Document document;      // after it was done
-    std::vector<std::shared_ptr<const ObjectKeys>> keys;  // of its objects, made once
-    std::uint64_t other_files =
-        0;  // not 0: a step to other files of the scene, which whoever made it takes back
+    Document document;      // state after the step
+    std::vector<std::shared_ptr<const ObjectKeys>> keys;  // keys of the document's objects, made once
+    // Number of a step to other files of the scene, which SceneFiles takes back; 0: the step is no such step.
+    std::uint64_t other_files = 0;
   };
 
   History() { reset({}, "Open"); }
   void reset(Document document, std::string title);
-  // At least one step. Labels known at the cursor reach the others.
+  // saved: at least one step. Labels of the state at the cursor reach other states that have the same inputs.
   void reset(const SavedSteps& saved);
 
   const Document& now() const { return entries_[cursor_].document; }
-  // Changes whenever now() does; never 0, and that of no other document of the program.
+  // Number that changes whenever now() does. It is never 0, and no other state in the program has it.
   std::uint64_t serial() const { return serial_; }
-  const ObjectKeys& keys(const ObjectItem& object) const;  // of an object of now()
+  const ObjectKeys& keys(const ObjectItem& object) const;  // keys of an object of now()
   const std::vector<Entry>& entries() const { return entries_; }
   std::size_t cursor() const { return cursor_; }
   bool can_undo() const { return cursor_ > 0; }
   bool can_redo() const { return cursor_ + 1 < entries_.size(); }
 
-  // False where the document is as before: nothing to undo.
+  // Makes `after` the document and forgets what could be redone. Returns false and makes no step if `after`
+  // equals the document.
   bool push(std::string title, Document after, std::string merge_key = {});
-  bool merges(std::string_view merge_key) const;  // a push with it would replace the step at the cursor
-  // A step that changes nothing of the document. What could be redone is forgotten.
+  // True if a push with this key would replace the step at the cursor.
+  bool merges(std::string_view merge_key) const;
+  // Adds a step that leaves the document as it is, see Entry::other_files. Forgets what could be redone.
   void push_other_files(std::string title, std::uint64_t number);
   void forget_redo();
   void undo();
   void redo();
   void jump(std::size_t entry);
 
-  // The result of a cut reaches every state that has exactly its inputs: undo and redo find it, too.
+  // Stores the labels of a cut in every state that has exactly its inputs, so that undo and redo find them.
   void set_cut(ObjectId object, const std::string& cut_key, const Flags& cut);
 
-  // Every state becomes what `carried` makes of it: the scene has other Gaussians.
+  // Replaces every state by what `carried` makes of it, as the scene has other Gaussians now.
   void carry(const std::function<Document(const Document&)>& carried);
-  // In every state, what is no work and no object depends on.
+  // Changes every state. `change` must not touch anything that labels depend on.
   void change_all(const std::function<void(Document*)>& change);
 
  private:

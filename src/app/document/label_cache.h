@@ -1,6 +1,6 @@
-// Final labels of the document's objects, made once and kept until something that they come from changes.
+// Cache of the final labels of the document's objects. An entry holds until one of its inputs changes.
 //
-// Not thread-safe: each thread that needs one has its own.
+// The cache is not thread-safe: each thread that needs one has its own.
 #pragma once
 
 #include <map>
@@ -11,14 +11,14 @@ namespace splatcut {
 
 class LabelCache {
  public:
-  // As labels_of() has them; never null.
+  // Labels as labels_of() gives them; never null.
   const Flags& labels(const Document& document, const ObjectItem& object, std::size_t gaussians);
   std::size_t count(const Document& document, const ObjectItem& object, std::size_t gaussians);
   void clear() { kept_.clear(); }
 
  private:
   struct Kept {
-    Flags cut, hand, deleted, whole;  // that the labels were made from
+    Flags cut, hand, deleted, whole;  // inputs of the labels; whole: labels of the object around it
     Flags labels;
     std::size_t count = 0;
   };

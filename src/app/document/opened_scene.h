@@ -1,4 +1,5 @@
-// A scene as the window and `splatcut cut --work` open it: files, capture cameras, up.
+// A scene as the window and `splatcut cut --work` open it: one or more files, their capture cameras, an up
+// direction.
 #pragma once
 
 #include <filesystem>
@@ -15,33 +16,34 @@
 namespace splatcut {
 
 struct OpenedScene {
-  std::uint64_t serial = 0;  // differs for every scene opened
+  std::uint64_t serial = 0;  // number that differs for every scene opened
   std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const GaussianCloud> cloud;  // of the scene
-  std::vector<SceneSource> files;              // what it is made of, one or more
-  std::vector<std::string> remarks;  // a sentence each on what is odd about files read for the first time
-  Box bounds;                        // robust: outliers do not count
-  std::shared_ptr<const CloudBlocks> blocks;  // of the cloud
+  std::shared_ptr<const GaussianCloud> cloud;  // cloud of the scene
+  std::vector<SceneSource> files;              // files that the scene is made of, one or more
+  std::vector<std::string> remarks;  // sentences on oddities of files that were read for the first time
+  Box bounds;                        // robust bounds: outliers do not count
+  std::shared_ptr<const CloudBlocks> blocks;  // blocks of the cloud
 
-  // The first file's say how the whole is looked at.
+  // Views of the first file; they hold for the whole scene.
   const FileViews& views() const { return *files.front().views; }
-  const SceneSource* file(std::uint32_t id) const;  // null: none of that id
+  const SceneSource* file(std::uint32_t id) const;  // file of that id; null: there is none
 };
 
-// 1 for each Gaussian of one of its files.
+// Flags per Gaussian of the scene: 1 if it comes from the file of that id.
 std::vector<std::uint8_t> gaussians_of(const OpenedScene& scene, std::uint32_t file);
 
-// Throws Error for a file that is no scene. Cancelled: the result is empty. before: a scene in which some of
-// the files are, known by their ids; Error where one of them has changed since.
+// Opens files as one scene. before: an open scene that shares some of the files, matched by their ids; null:
+// none. Throws Error for a file that is no scene, and for a shared file that has changed on the disk since.
+// If cancelled, the result holds no scene.
 std::shared_ptr<OpenedScene> open_scene(std::vector<SceneSource> files, const Job& job = {},
                                         const OpenedScene* before = nullptr);
 std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const Job& job = {});
 
-// A session on it. The cameras beside its first file observe what is clicked.
+// Makes a session on the scene. The cameras beside its first file observe what the user clicks.
 Session session_on(const OpenedScene& scene, const PreparedCache& cache = {});
 
-// Capture cameras beside a scene: cameras.json, transforms.json or a COLMAP folder in its folder or the two
-// above.
+// Capture cameras that lie beside a scene: cameras.json, transforms.json or a COLMAP folder (sparse/0) in its
+// folder or one of the two above. Empty if there are none that can be read.
 std::vector<Camera> cameras_near(const std::filesystem::path& scene);
 
 }  // namespace splatcut

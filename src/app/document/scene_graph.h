@@ -1,7 +1,7 @@
-// The nearest neighbours of all Gaussians of a scene, made when an edit first asks for them.
+// Graph of the nearest neighbours of all Gaussians of a scene, built when an edit first asks for it.
 //
-// Cutting needs no such graph, only growing, flooding and the search for floaters do. Any thread may ask; the
-// others wait for the one that builds it. Cost: some 2 us a Gaussian, once.
+// Growing, shrinking, flooding, parts and floaters need the graph; cutting does not. Any thread may ask;
+// other threads wait for the one that builds it. Cost: some 2 us a Gaussian, once.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,6 @@
-// The files that the window's scene is made of: the one that was opened, and others added to it, each where
-// it was put. Their scene is that of `splatcut merge`: the rows of the first, then of the second, and so on.
+// Files that the window's scene is made of: the opened file, and files added to it, each with its place.
+// Their scene is what `splatcut merge` makes of them: the rows of the first file, then those of the second,
+// and so on.
 #pragma once
 
 #include <cstdint>
@@ -15,54 +16,59 @@
 
 namespace splatcut {
 
-// p' = scale R (p - middle) + middle + move, R about x, then y, then z of the world, right-handed.
+// Place of a file in the scene: p' = scale R (p - middle) + middle + move, with middle that of
+// SceneSource::bounds, and R a right-handed rotation about x, then y, then z of the world.
 struct ScenePlace {
-  glm::vec3 move{0};  // scene units
-  glm::vec3 turn_deg{0};
+  glm::vec3 move{0};      // translation, scene units
+  glm::vec3 turn_deg{0};  // angles about x, y and z
   float scale = 1;
   bool operator==(const ScenePlace&) const = default;
 };
 
-// From where a scene is looked at, in its file's own coordinates.
+// Views of a file's scene, in the file's own coordinates.
 struct FileViews {
-  std::vector<Camera> cameras;   // of the capture, found beside the file; may be empty
-  glm::vec3 up_world{0, -1, 0};  // of the capture, or guessed
-  // Set if neither a capture camera nor a view of all from outside is a good start.
+  std::vector<Camera> cameras;   // capture cameras found beside the file; may be empty
+  glm::vec3 up_world{0, -1, 0};  // up direction of the capture, or a guess
+  // Guessed start of the window, if there are no cameras and a view of all from outside is a bad start.
   std::optional<Camera> first_view;
-  Camera reference;  // a capture camera, the first view or the view of all
+  Camera reference;  // start of the window: a capture camera, first_view, or a view of all
 };
 
 struct SceneSource {
-  std::uint32_t id = 0;  // tells the files of a window apart, differs for every file opened
+  std::uint32_t id = 0;  // number that differs for every file that a window opens
   std::filesystem::path path;
-  std::optional<SpzAxes> spz_axes;  // as LoadOptions; once loaded, those of a file that does not say them
-  ScenePlace place;                 // the first file stays where it is
+  // Axes to read a .spz with, as in LoadOptions. After loading: the axes taken, if the file does not say
+  // them.
+  std::optional<SpzAxes> spz_axes;
+  ScenePlace place;  // place in the scene; the first file always stays where its coordinates say
 
-  // Once it is loaded.
-  std::uint64_t hash = 0;  // hash_of_file(); not 0 before: the file must be that one
+  // Loading sets the rest.
+  std::uint64_t hash =
+      0;  // hash_of_file(); from a work file: the hash that the file must have, see restored()
   std::size_t file_rows = 0, gaussians = 0;
   std::shared_ptr<const FileViews> views;
-  Box bounds;  // framed_bounds() before it was placed; around the middle it is turned and scaled
+  Box bounds;  // framed_bounds() of the file before it is placed; `place` turns and scales about its middle
 };
 
-// Throws Error for numbers that no scene can be placed by.
+// Throws Error if a number of the place is out of range or not finite.
 void check(const ScenePlace& place, const std::filesystem::path& file);
 
+// The transform from the file's own coordinates to the scene's.
 Similarity similarity_of(const SceneSource& file);
-// From where the file stands in `before` to where it stands in `after`.
+// The transform from the file's place in `before` to its place in `after`.
 Similarity similarity_between(const SceneSource& before, const SceneSource& after);
 
-// After a drag of handles whose centre is the file's middle where it stands.
+// The place after a drag of handles whose centre is the placed middle of the file.
 ScenePlace changed(ScenePlace place, const PlacingChange& change);
 
-// The same place, but that the file's own way up is `up_world`.
+// The place, turned so that the file's own up becomes `up_world`.
 ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::vec3& up_world);
-// The same, but that the file's box stands on the point: its middle lies above that by half of what the box
-// measures along up_world.
+// The place, moved so that the file's box stands on the point: its middle lies above the point by half of the
+// box's extent along up_world.
 ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& point_world,
                     const glm::vec3& up_world);
 
-// Sees of a moved scene what the camera sees of the scene.
+// The camera that sees the transformed scene as `camera` sees the scene.
 Camera moved(const Camera& camera, const Similarity& to);
 
 }  // namespace splatcut

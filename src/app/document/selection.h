@@ -1,8 +1,9 @@
-// From a region of the picture, or a property, to Gaussians. One byte per Gaussian, 1 = selected.
+// Selections of Gaussians by a region of the picture, a volume, a colour or a property. A selection has one
+// byte per Gaussian, 1 = selected.
 //
-// Visible-only takes what the picture shows: Gaussians most of whose visible weight (alpha T, see
-// scene/raster/rasterizer.h) lies in the region. See-through takes every Gaussian whose centre projects into
-// the region, down to a depth limit behind the visible surface.
+// select_visible() takes what the picture shows: Gaussians with more than half of their visible weight (alpha
+// T, see scene/raster/rasterizer.h) in the region. select_through() takes every Gaussian whose centre
+// projects into the region, down to a depth limit behind the visible surface.
 #pragma once
 
 #include <cstdint>
@@ -21,19 +22,20 @@ namespace splatcut {
 
 using Selection = std::vector<std::uint8_t>;
 
-// kMaskObject where the pixel centre lies in the shape; width and height of the viewport. Even-odd rule.
+// Masks of shapes: kMaskObject where a pixel's centre lies in the shape, by the even-odd rule. width, height:
+// size of the viewport, pixels.
 Mask polygon_region(std::span<const glm::vec2> corners_px, int width, int height);
 Mask rectangle_region(const glm::vec2& a_px, const glm::vec2& b_px, int width, int height);
 Mask brush_region(std::span<const glm::vec2> path_px, float radius_px, int width, int height);
 
-// shown: empty, or 0 for Gaussians that are not drawn and so cannot be selected.
+// shown, here and below: per Gaussian, 0 if it is not drawn and so cannot be selected; empty: all are drawn.
 Selection select_visible(const GaussianCloud& cloud, const Camera& camera, const Mask& region,
                          std::span<const std::uint8_t> shown, const Job& job = {});
 
 struct SeeThroughOptions {
-  const Image<float>* surface_depth =
-      nullptr;  // camera z per pixel in any size of the same picture; 0: nothing there
-  float depth_limit = std::numeric_limits<float>::infinity();  // scene units behind the surface
+  // Camera z of the visible surface, in scene units, of the same picture in any size. 0: nothing is there.
+  const Image<float>* surface_depth = nullptr;
+  float depth_limit = std::numeric_limits<float>::infinity();  // distance behind the surface, scene units
 };
 Selection select_through(const GaussianCloud& cloud, const Camera& camera, const Mask& region,
                          std::span<const std::uint8_t> shown, const SeeThroughOptions& options = {});
@@ -41,50 +43,52 @@ Selection select_through(const GaussianCloud& cloud, const Camera& camera, const
 Selection select_volume(const GaussianCloud& cloud, const Volume& volume,
                         std::span<const std::uint8_t> shown);
 
-// tolerance: largest difference in any channel of the base colour, [0, 1].
+// Selects by base colour. tolerance: largest difference in any channel, [0, 1].
 Selection select_colour(const GaussianCloud& cloud, const glm::vec3& colour, float tolerance);
-// From `start` over the graph's edges, as long as the base colour stays that near to the start's.
+// Selects from `start` over the graph's edges, as long as the base colour stays within the tolerance of the
+// start's.
 Selection select_flood(const GaussianCloud& cloud, const FlowGraph& graph, std::size_t start, float tolerance,
                        std::span<const std::uint8_t> shown);
-glm::vec3 base_colour(const GaussianCloud& cloud, std::size_t g);
+glm::vec3 base_colour(const GaussianCloud& cloud, std::size_t g);  // colour of degree 0, clamped to [0, 1]
 
 enum class Property { kOpacity, kSize, kDepth };
-// kOpacity: [0, 1]. kSize: log10 of the largest standard deviation, scene units. kDepth: camera z; needs a
-// camera.
+// Values of a property, one per Gaussian. kOpacity: [0, 1]. kSize: log10 of the largest standard deviation in
+// scene units. kDepth: camera z in scene units; needs a camera.
 std::vector<float> property_values(const GaussianCloud& cloud, Property property,
                                    const Camera* camera = nullptr);
-Selection select_range(std::span<const float> values, float low, float high);
+Selection select_range(std::span<const float> values, float low, float high);  // low and high are included
 
 struct Histogram {
   float low = 0, high = 1;
-  std::vector<float> share;  // per bin, of the fullest bin
+  std::vector<float> share;  // count of each bin over that of the fullest bin, [0, 1]
 };
-// Between the 0.1 % and 99.9 % quantiles: outliers cannot squeeze the rest into one bin.
+// Histogram between the 0.1 % and 99.9 % quantiles, so that outliers cannot squeeze the rest into one bin.
 Histogram histogram(std::span<const float> values, int bins);
 
-// One step over the neighbour graph.
+// The selection grown or shrunk by one step over the neighbour graph.
 Selection grown(const FlowGraph& graph, const Selection& selection);
 Selection shrunk(const FlowGraph& graph, const Selection& selection);
 
-// Connected parts of the selection along graph edges no longer than `longest` scene units. part[g] is the
-// number of g's part, from 0, the largest first; -1 where g is not selected.
+// Connected parts of a selection, the largest first.
 struct Parts {
-  std::vector<std::int32_t> part;
-  std::vector<std::size_t> size;
+  std::vector<std::int32_t> part;  // number of each Gaussian's part, from 0; -1: not selected
+  std::vector<std::size_t> size;   // number of Gaussians in each part
 };
+// longest: graph edges longer than this, in scene units, do not connect.
 Parts connected_parts(const GaussianCloud& cloud, const FlowGraph& graph, const Selection& selection,
                       float longest = std::numeric_limits<float>::infinity());
 Selection largest_part(const GaussianCloud& cloud, const FlowGraph& graph, const Selection& selection);
 
 struct FloaterOptions {
   double most_share = 0.01;  // a floater has at most this share of the selection's Gaussians
-  float gap_spacings = 6;    // and is apart by more than this many times the usual neighbour distance
+  float gap_spacings = 6;    // and its gap to others is larger than this many median neighbour distances
 };
-// Small clusters away from the rest of the selection.
+// Selects floaters: small clusters away from the rest of the selection.
 Selection floaters(const GaussianCloud& cloud, const FlowGraph& graph, const Selection& selection,
                    const FloaterOptions& options = {});
 
 enum class SetOperation { kAdd, kRemove, kIntersect };
+// Combines two selections of one size.
 Selection combined(std::span<const std::uint8_t> before, std::span<const std::uint8_t> region,
                    SetOperation operation);
 

@@ -1,7 +1,7 @@
-// The tools by name. What each does is its row of the table in app/tools/tool.h.
+// Ids of the tools. The row of a tool in the table of app/tools/tool.h says what the tool does.
 #pragma once
 
-// In the order of the column.
+// List of the tools, in the order in which the window's column shows them.
 // clang-format off
 #define SPLATCUT_TOOLS(tool) \
   tool(Navigate)             \

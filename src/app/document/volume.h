@@ -11,21 +11,21 @@
 
 namespace splatcut {
 
-// Lengths in scene units. A sphere has its radius in half.x; a box its own axes.
+// A sphere or a box. Lengths are in scene units.
 struct Volume {
-  bool round = true;
+  bool round = true;  // true: sphere, false: box
   glm::vec3 centre_world{0};
-  glm::vec3 half{0};  // of the sides, > 0
-  glm::quat world_from_box{1, 0, 0, 0};
+  glm::vec3 half{0};                     // halves of a box's sides, > 0; a sphere has its radius in half.x
+  glm::quat world_from_box{1, 0, 0, 0};  // axes of a box
 };
 
 bool inside(const Volume& volume, const glm::vec3& point_world);
 
-// Where they are in the picture; none where one would be behind the camera. Handle 0 moves the whole, the
-// others change its size: of a sphere 1, of a box 1 to 6, a face each (+x, -x, +y, ...).
+// Pixels of the handles; empty if one of them would be behind the camera. Handle 0 moves the volume. The
+// others change its size: handle 1 of a sphere; handles 1 to 6 of a box, one per face (+x, -x, +y, ...).
 std::vector<glm::vec2> handles_px(const Volume& volume, const Camera& camera);
-using Edges = std::vector<std::pair<glm::vec2, glm::vec2>>;
-Edges edges_px(const Volume& volume, const Camera& camera);  // of a box
+using Edges = std::vector<std::pair<glm::vec2, glm::vec2>>;  // both ends of each edge, pixels
+Edges edges_px(const Volume& volume, const Camera& camera);  // edges of a box
 
 // The volume after a handle went from one pixel to another.
 Volume dragged(const Volume& volume, std::size_t handle, const glm::vec2& from_px, const glm::vec2& to_px,

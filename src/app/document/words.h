@@ -1,4 +1,4 @@
-// How numbers are written for people: one way everywhere.
+// Numbers as text for people, written one way everywhere.
 #pragma once
 
 #include <cstddef>
