@@ -43,8 +43,7 @@ struct SceneSource {
   ScenePlace place;  // place in the scene; the first file always stays where its coordinates say
 
   // Loading sets the rest.
-  std::uint64_t hash =
-      0;  // hash_of_file(); from a work file: the hash that the file must have, see restored()
+  std::uint64_t hash = 0;  // hash_of_file(); in a work file the hash that the file must have
   std::size_t file_rows = 0, gaussians = 0;
   std::shared_ptr<const FileViews> views;
   Box bounds;  // framed_bounds() of the file before it is placed; `place` turns and scales about its middle

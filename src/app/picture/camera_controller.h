@@ -1,8 +1,9 @@
-// Where the user looks from: orbit, pan, zoom, fly, focus, frame, given cameras. Never part of undo.
+// The user's camera, and what moves it: orbit, pan, zoom, flight, focus, framing, given cameras. Undo does
+// not move it.
 //
 // State: a camera pose (COLMAP axes), a pivot at `distance` along the view axis, a vertical field of view.
-// Moves are in logical pixels of the viewport; lengths in scene units. Transitions take kTransitionSeconds of
-// advance().
+// Moves are in logical pixels of the viewport unless said otherwise, lengths in scene units. A transition
+// takes kTransitionSeconds of advance().
 #pragma once
 
 #include <glm/glm.hpp>
@@ -16,50 +17,53 @@
 
 namespace splatcut {
 
-// Steps of a flight: each -1, 0 or 1 along the camera's axes.
+// Direction of a flight: -1, 0 or 1 along the camera's x and z axes, and against the up direction.
 struct Flight {
   int right = 0, down = 0, forward = 0;
-  float speed = 1;  // of the usual speed
+  float speed = 1;  // speed over the usual one
   bool moving() const { return right != 0 || down != 0 || forward != 0; }
 };
 
 class CameraController {
  public:
-  // scene: what is framed by frame_scene(); outlier Gaussians do not count in it.
+  // Starts with another scene. scene: its robust bounds, which frame_scene() frames.
   void reset(const Box& scene, const glm::vec3& up_world);
-  void change_scene(const Box& scene);  // the view stays as it is
+  void change_scene(const Box& scene);  // sets new bounds and leaves the view as it is
 
   void orbit(const glm::vec2& delta_px);
-  // What lies at `depth` (camera z, scene units; the pivot's where not given) follows the pointer.
+  // Pans so that what lies at `depth` follows the pointer. depth: camera z, scene units; none: the pivot's.
+  // viewport_height_px: height in the pixels of delta_px.
   void pan(const glm::vec2& delta_px, float viewport_height_px, std::optional<float> depth = {});
-  // Wheel notches; positive goes nearer to the point, which stays where it is in the picture. Without one, to
-  // the pivot.
+  // Moves towards the point (none: the pivot), which stays in place in the picture. steps: notches of the
+  // wheel; positive: nearer.
   void zoom(float steps, const std::optional<glm::vec3>& point_world = {});
   void fly(const Flight& flight, float seconds);
-  void focus(const glm::vec3& point_world);                  // pivot there, same direction
-  void approach(const glm::vec3& point_world, float share);  // the same, at that share of the distance
-  // orbit() turns around it as long as it is in front of the camera, and around the pivot otherwise.
+  void focus(const glm::vec3& point_world);                  // brings the point to the middle, as the pivot
+  void approach(const glm::vec3& point_world, float share);  // focus() at that share of the distance
+  // Sets the point that orbit() turns around while it is in front of the camera and in or near the picture.
+  // Else orbit() turns around the pivot.
   void set_orbit_centre(const glm::vec3& point_world) { orbit_centre_ = point_world; }
-  void frame(const Box& box);  // the box fills the picture, same direction
-  // The same, within the part of the picture above its lowest covered_bottom_px pixels.
+  void frame(const Box& box);  // lets the box fill the picture, from the same direction
+  // Frames the box within the part of the picture above its lowest covered_bottom_px pixels, in camera's
+  // pixels.
   void frame(const Box& box, const Camera& camera, float covered_bottom_px);
   void frame_scene() { frame(scene_); }
-  void go_to(const Camera& camera);                   // the exact pose; the pivot stays at its distance
-  void look_along(const glm::vec3& direction_world);  // at the pivot
-  void set_up(const glm::vec3& up_world);             // turns the view upright
-  void set_fov_y(float fov_y_rad);
+  void go_to(const Camera& camera);                   // takes its exact pose and field of view
+  void look_along(const glm::vec3& direction_world);  // looks at the pivot along the direction
+  void set_up(const glm::vec3& up_world);             // sets the up direction and turns the view upright
+  void set_fov_y(float fov_y_rad);                    // sets the field of view, clamped to 5 to 140 degrees
 
-  // Moves a running transition on. True while the picture changes.
+  // Moves a running transition on. Returns true while the picture changes.
   bool advance(float seconds);
   void finish_transition();
 
   const CameraPose& pose() const { return pose_; }
   void set_pose(const CameraPose& pose);
-  CameraPose kept_pose() const;  // for files: its pivot is as deep as what orbit() turns around
+  CameraPose kept_pose() const;  // pose for files: its pivot has the depth of the orbit centre
   const glm::vec3& up_world() const { return up_world_; }
   glm::vec3 pivot_world() const;
   Camera camera(int width_px, int height_px) const;
-  float scene_size() const { return scene_size_; }  // diagonal of the framed box, scene units
+  float scene_size() const { return scene_size_; }  // diagonal of the scene's bounds, scene units
 
  private:
   void start(const CameraPose& target);
@@ -70,7 +74,7 @@ class CameraController {
   glm::vec3 up_world_{0, -1, 0};
   CameraPose pose_, from_;
   std::optional<CameraPose> target_;
-  std::optional<glm::vec3> orbit_centre_;  // world
+  std::optional<glm::vec3> orbit_centre_;  // centre in world coordinates; none: the pivot
   float progress_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Pictures of what the window shows, for files: a view, the object turning once.
+// Pictures of what the window shows, for files: a view, or the object turning once.
 #pragma once
 
 #include <filesystem>
@@ -8,19 +8,20 @@
 
 namespace splatcut {
 
-// With straight alpha and no background, or opaque over the background. visible: null for all.
+// Draws a view: transparent, with straight alpha and no background, or opaque over the background (RGB in [0,
+// 1]). visible: 1 per Gaussian to draw; null: all. If cancelled, the picture is incomplete.
 Image<Rgba8> capture(const GaussianCloud& cloud, const Camera& camera, const Flags& visible,
                      const DrawLimits& limits, const glm::vec3& background, bool transparent, const Job& job);
 
 struct TurntableOptions {
   TurntableAs as = TurntableAs::kPictures;
-  std::filesystem::path path;  // of the folder or file; what is there is replaced
-  float turn_s = 3;            // of one turn in animation and video
-  glm::vec3 background{0};     // of the video, which knows no transparency
+  std::filesystem::path path;  // folder or file to write; what is there is replaced
+  float turn_s = 3;            // duration of one turn in an animation or a video, seconds
+  glm::vec3 background{0};     // background of a video, which has no transparency
 };
 
-// One picture per camera. False where it was cancelled: then nothing is written. Throws Error: the disk is
-// full, ffmpeg is missing or fails.
+// Writes one picture per camera. Returns false if cancelled: nothing is written then. Throws Error if the
+// disk is full, or if ffmpeg is missing or fails.
 bool save_turntable(const GaussianCloud& cloud, const std::vector<Camera>& cameras, const Flags& visible,
                     const DrawLimits& limits, const TurntableOptions& options, const Job& job);
 

@@ -1,8 +1,9 @@
-// From what the CPU rasteriser saw to the picture on the screen: background, tint, outlines, heat map.
+// Shading: turns what the CPU rasteriser saw into the picture on the screen, with background, tint, outlines
+// and heat map.
 //
-// In: colour, alpha and first hit per pixel, the object each Gaussian belongs to. Out: RGBA8. A change of
-// labels or colours needs no new rasterising. Outlines and tints are smoothed over 5 x 5 pixels. Cost: about
-// 3 ms a megapixel.
+// In: colour, alpha and first hit per pixel, and the object that each Gaussian belongs to. Out: RGBA8. A
+// change of labels or colours needs no new rasterising. Outlines and tints are smoothed over 5 x 5 pixels.
+// Cost: about 3 ms a megapixel.
 #pragma once
 
 #include <array>
@@ -17,37 +18,37 @@
 
 namespace splatcut {
 
-// One rasterised view.
+// One rasterised view. All images have the size of the camera's picture.
 struct Frame {
   Camera camera;
-  Image<glm::vec3> colour;  // on black, premultiplied
+  Image<glm::vec3> colour;  // colour on black, premultiplied with alpha
   Image<float> alpha;
-  Image<float> depth;             // median, camera z; 0 where nothing is
-  Image<std::int32_t> first_hit;  // Gaussian, or -1
+  Image<float> depth;             // median depth as camera z, scene units; 0: nothing is there
+  Image<std::int32_t> first_hit;  // index of the Gaussian that shows; -1: none
   double raster_ms = 0;
 };
 
-// How much of the picture's colour the shading replaces, by the CPU and in OpenGL alike, [0, 1].
+// Shares of the picture's colour that the shading replaces, on the CPU and in OpenGL alike, [0, 1].
 inline constexpr float kTintStrength = 0.6f, kHeatStrength = 0.7f, kOutlineStrength = 0.95f;
 
 struct FrameStyle {
   glm::vec3 background{0};
-  float checker_px = 0;  // side of its squares, in place of the background; 0: none
+  float checker_px = 0;  // side of the squares of a checker in place of the background; 0: no checker
   bool tint = true;
   bool outline = true;
-  Flags owner;  // per Gaussian: number of the object it belongs to, 0 none; null: none
-  std::array<Rgb8, 256> owner_colour{};            // by that number
-  std::shared_ptr<const std::vector<float>> heat;  // per Gaussian, [0, 1]: shown instead of tint where given
-  Flags highlight;                                 // per Gaussian: outlined in white (hover, floaters)
+  Flags owner;  // number of the object that each Gaussian belongs to, 0: none; null: all 0
+  std::array<Rgb8, 256> owner_colour{};            // colour of each such number
+  std::shared_ptr<const std::vector<float>> heat;  // heat of each Gaussian, [0, 1]; null: tint instead
+  Flags highlight;  // flags of Gaussians to outline (hover, floaters); null: none
   Rgb8 highlight_colour{255, 255, 255};
 };
 
-// Of the checker at a pixel.
+// Colour of the checker at a pixel.
 glm::vec3 checker_colour(int x, int y, float side_px);
 
 Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style);
 
-// 0 blue over yellow to 1 red.
+// Colour of a heat value: 0 is blue, 1 is red, yellow lies between.
 glm::vec3 heat_colour(float value);
 
 }  // namespace splatcut

@@ -1,9 +1,9 @@
-// Draws the viewport on a thread of its own: the window never waits for a picture.
+// Thread that draws the viewport, so that the window never waits for a picture.
 //
-// The latest request wins. A request that asks for another view while a full picture is being drawn stops it;
-// one for a reduced picture lets the reduced picture before it finish, so that something moves. Requests that
-// differ in style only are shaded again, not rasterised. Pictures have priority over the work of other
-// threads; reduced ones use the coarse cloud if there is one.
+// The latest request wins. A request for another view stops a full picture that is being drawn, but lets a
+// reduced picture finish, so that something moves. A request that differs in style only is shaded again, not
+// rasterised. Pictures have priority over the work of other threads. Reduced pictures use the coarse cloud if
+// there is one.
 #pragma once
 
 #include <condition_variable>
@@ -23,52 +23,53 @@
 
 namespace splatcut {
 
-// What lies nearer or farther than this along the view axis is not drawn, scene units; nor is a splat drawn
-// thinner than the low-pass.
+// Limits of what is drawn.
 struct DrawLimits {
-  float near_plane = 0.2f, far_plane = 1e30f;
-  float low_pass_px2 = kLowPassPx2;
+  float near_plane = 0.2f, far_plane = 1e30f;  // range of camera z, scene units
+  float low_pass_px2 = kLowPassPx2;            // variance that is added to every splat, square pixels
   bool operator==(const DrawLimits&) const = default;
 };
 
-// The Gaussians that are shown and not beyond the far plane. `shown` itself where there is none.
+// Flags of the Gaussians that are shown and not beyond the far plane; `shown` itself if there is no far
+// plane.
 Flags within_far_plane(const GaussianCloud& cloud, const Camera& camera, const Flags& shown, float far_plane);
 
-// One pane of the viewport: the whole, or one half of side by side.
+// One pane of the viewport: the whole viewport, or one half of a side by side view.
 struct PaneRequest {
   Camera camera;
-  Flags shown;  // 0 leaves the Gaussian out; null: all
+  Flags shown;  // flags of the Gaussians to draw; null: all
   FrameStyle style;
-  std::shared_ptr<const CleanObject> clean;  // drawn in place of the scene's rows; may be null
+  std::shared_ptr<const CleanObject> clean;  // object to draw in place of the scene's rows; null: the rows
 };
 
 struct FrameRequest {
-  std::uint64_t scene = 0;  // changes with the cloud
+  std::uint64_t scene = 0;  // number that changes with the cloud
   std::shared_ptr<const GaussianCloud> cloud;
-  std::shared_ptr<const CloudBlocks> blocks;  // of the cloud
-  std::shared_ptr<const CoarseCloud> coarse;  // may be null: what reduced pictures are drawn of
-  std::vector<PaneRequest> panes;             // 1 or 2, left to right
+  std::shared_ptr<const CloudBlocks> blocks;  // blocks of the cloud
+  std::shared_ptr<const CoarseCloud> coarse;  // cloud for reduced pictures; null: the cloud itself
+  std::vector<PaneRequest> panes;             // one or two panes, left to right
   DrawLimits limits;
-  bool full = true;  // full resolution; may be stopped by the next request
+  bool full = true;  // true: full resolution, and another request may stop it; false: a reduced picture
 };
 
 struct FrameResult {
-  std::uint64_t scene = 0;
-  std::vector<std::shared_ptr<const Frame>> frames;  // per pane
-  std::vector<Image<Rgba8>> pictures;
+  std::uint64_t scene = 0;                           // FrameRequest::scene
+  std::vector<std::shared_ptr<const Frame>> frames;  // one frame per pane
+  std::vector<Image<Rgba8>> pictures;                // one picture per pane
   bool full = true;
-  double ms = 0;  // rasterising and shading
+  double ms = 0;  // time of rasterising and shading
   DrawLimits limits;
 };
 
 class FrameThread {
  public:
+  // wake: is called on the thread whenever a request is done or was stopped.
   explicit FrameThread(std::function<void()> wake = {});
   ~FrameThread();
 
   void request(FrameRequest request);
-  std::optional<FrameResult> take();  // the newest finished picture, once
-  bool idle() const;
+  std::optional<FrameResult> take();  // returns the newest finished picture once; none: there is no new one
+  bool idle() const;                  // true: no request waits or runs, and the last picture was taken
 
  private:
   void run(const std::stop_token& stop);
@@ -79,9 +80,9 @@ class FrameThread {
   std::condition_variable_any changed_;
   std::optional<FrameRequest> wanted_;
   std::optional<FrameResult> done_;
-  std::optional<FrameRequest> drawing_;  // what is being drawn
+  std::optional<FrameRequest> drawing_;  // request that is being drawn
   std::stop_source drawing_stop_;
-  // The drawing thread's own: what it rasterised last, per pane.
+  // Frame that the drawing thread rasterised last for a pane. Only that thread uses it.
   struct Kept {
     std::uint64_t scene = 0;
     Flags shown;
@@ -91,17 +92,18 @@ class FrameThread {
     std::shared_ptr<const Frame> frame;
   };
   std::vector<Kept> kept_;
-  struct Arena;  // of a higher priority than other work
+  struct Arena;  // TBB arena with a higher priority than other work
   std::unique_ptr<Arena> arena_;
-  std::jthread thread_;  // last: ends before the rest goes
+  std::jthread thread_;  // last member: the thread ends before what it uses is destroyed
 };
 
-// The same on the calling thread, without reuse: for captures and tests.
+// Draws a frame on the calling thread and keeps nothing, for captures and tests. blocks: blocks of the cloud,
+// or null. If cancelled, the frame is incomplete.
 std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
                                           const Flags& shown, const DrawLimits& limits, const Job& job = {},
                                           const CloudBlocks* blocks = nullptr);
-// Of a cloud drawn in place of a scene. stands_for: per Gaussian of `cloud`, the scene's that `shown` and the
-// frame's hits mean.
+// The same for a cloud that is drawn in place of a scene. stands_for: per Gaussian of `cloud`, the index of
+// the scene's Gaussian. `shown` and the frame's hits are of the scene's Gaussians.
 std::shared_ptr<const Frame> stand_in_frame(const GaussianCloud& cloud,
                                             std::span<const std::uint32_t> stands_for, const Camera& camera,
                                             const Flags& shown, const DrawLimits& limits,

@@ -1,9 +1,8 @@
-// Whether the last picture shows a point in space, or something before it: for what is drawn over the
-// picture.
+// Depth test against the last picture, for what is drawn over it: does the picture show a point in space, or
+// something before the point?
 //
-// The point is looked up in the picture's own camera, so a picture that lags behind a moving view still
-// answers for the place. A reference to the frame is kept: the frame must outlive it. Cost: two products of
-// matrix and vector a question.
+// The picture's own camera projects the point, so that a picture which lags behind a moving view still gives
+// the right answer. The frame must outlive this object. Cost: two products of matrix and vector a question.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,11 +14,12 @@ namespace splatcut {
 
 class PictureDepth {
  public:
-  // pane: of the picture. No picture, or none of that pane: nothing hides anything.
+  // pane: index of a pane of the picture. If picture is null or lacks that pane, nothing hides anything.
   PictureDepth(const FrameResult* picture, std::size_t pane);
 
-  // The surface that the picture shows before the point, more than `slack` (scene units along the view axis)
-  // before it; none: the point is seen, or lies where the picture knows nothing.
+  // World point of the surface that hides the point; none: the point is seen, or the picture knows nothing
+  // there.
+  // slack: length by which the surface must lie before the point, along the view axis, scene units.
   std::optional<glm::vec3> before(const glm::vec3& point_world, float slack = 0) const;
 
  private:

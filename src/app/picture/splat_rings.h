@@ -1,14 +1,14 @@
-// Which Gaussians are drawn as rings, and where: the outlines of their ellipses in the picture.
+// Rings: outlines of the Gaussians' ellipses in the picture, and the choice of Gaussians that get one.
 //
-// In: the cloud, who is wanted, a camera, the picture's depth. Out: at most `most` rings, each by the half
-// axes of its ellipse at kRingSigmas standard deviations: eigenvectors v of Sigma2 (low-pass included), of
-// length kRingSigmas sqrt(lambda). Left out: what is smaller than least_radius_px, beside the picture, beyond
-// the near or far plane, or behind what the picture shows by more than its own thickness.
-// Thinned evenly in space where there are more: Gaussians lie in Morton order, so blocks of them are small in
-// space; blocks beside the picture cost nothing, and of each other block the same share is looked at, always
-// the same members first. A ring that shows keeps showing as the view comes nearer.
-// Cost: `most_tried` projections at most, in parallel; begin() one pass over the cloud. Not handled: a
-// Gaussian beside the picture whose ring reaches into it.
+// In: the cloud, the wanted Gaussians, a camera, the picture's depth. Out: at most `most` rings. A ring is
+// given by the half axes of its ellipse at kRingSigmas standard deviations: eigenvectors of the picture
+// covariance Sigma2 (low-pass included), of length kRingSigmas sqrt(lambda). Left out: Gaussians smaller than
+// least_radius_px, beside the picture, beyond the near or far plane, or behind the picture's surface by more
+// than their own thickness. If there are more, the choice is even in space. Gaussians lie in Morton order, so
+// blocks of them are small in space. Blocks beside the picture are skipped; of every other block the same
+// share of members is tried, always the same members first, so that a ring which shows keeps showing as the
+// view comes nearer. Cost: at most `most_tried` projections, in parallel; begin() passes over the cloud once.
+// Not handled: a Gaussian beside the picture whose ring reaches into it.
 #pragma once
 
 #include <cstdint>
@@ -24,28 +24,29 @@ inline constexpr float kRingSigmas = 2;
 
 struct Ring {
   glm::vec2 centre_px{0};
-  glm::vec2 long_px{0}, short_px{0};  // half axes
-  std::uint32_t gaussian = 0;
+  glm::vec2 long_px{0}, short_px{0};  // half axes of the ellipse
+  std::uint32_t gaussian = 0;         // index in the cloud
 };
 
 struct RingOptions {
   DrawLimits limits;
-  float least_radius_px = 2;  // of the long half axis: less is a dot
-  std::size_t most = 4000, most_tried = 60000;
+  float least_radius_px = 2;  // least length of the long half axis: a smaller ring would be a dot
+  std::size_t most = 4000, most_tried = 60000;  // limits of rings, and of Gaussians that are projected
 };
 
 class SplatRings {
  public:
-  // shown, of_object: who is wanted, a Gaussian in both; null: all.
+  // Sets the cloud and the wanted Gaussians: those that both shown and of_object flag; null: all.
   void begin(std::shared_ptr<const GaussianCloud> cloud, const Flags& shown, const Flags& of_object);
+  // Rings that the camera shows, in the order of their Gaussians.
   std::vector<Ring> in_view(const Camera& camera, const PictureDepth& depth,
                             const RingOptions& options) const;
 
  private:
-  static constexpr std::size_t kBlock = 256;  // Gaussians
+  static constexpr std::size_t kBlock = 256;  // number of Gaussians in a block
   struct Block {
-    Box box;                  // of the wanted ones
-    std::uint32_t count = 0;  // of them
+    Box box;                  // bounds of the centres of its wanted Gaussians
+    std::uint32_t count = 0;  // number of its wanted Gaussians
   };
   bool wanted(std::size_t g) const { return (!shown_ || (*shown_)[g]) && (!of_object_ || (*of_object_)[g]); }
 

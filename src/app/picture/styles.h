@@ -1,6 +1,7 @@
-// From the document to what the panes show: which Gaussians are drawn, whose each is, what is outlined.
+// Styles of the panes, made from the document: the Gaussians to draw, the object that each belongs to, and
+// what is outlined.
 //
-// A few passes over all Gaussians, so it runs on a worker from a snapshot of what it reads.
+// Making them takes a few passes over all Gaussians, so it runs on a worker from a snapshot of its inputs.
 #pragma once
 
 #include <array>
@@ -17,27 +18,28 @@ namespace splatcut {
 
 struct StyleOrder {
   std::shared_ptr<const GaussianCloud> cloud;
-  std::shared_ptr<SceneGraph> graph;  // for floaters
+  std::shared_ptr<SceneGraph> graph;  // graph of the cloud, to find floaters
   Document document;
-  std::map<ObjectId, Flags> previews;                    // cuts shown in place of the object's own
-  std::shared_ptr<const std::vector<float>> likelihood;  // of the active object, for the heat map
+  std::map<ObjectId, Flags> previews;                    // cuts to show in place of the objects' own
+  std::shared_ptr<const std::vector<float>> likelihood;  // likelihood of the active object, for the heat map
   std::shared_ptr<const CleanObjects> clean;
   ViewState view;
-  float pixels_per_point = 1;
-  bool floaters = false;  // of the active object, outlined
+  float pixels_per_point = 1;  // pixels per logical pixel
+  bool floaters = false;       // true: floaters of the active object are outlined
 };
 
 struct Styles {
-  int panes = 0;               // 1 or 2; 0: not made yet
-  std::array<Flags, 2> shown;  // per pane: Gaussians that it draws; null: all
+  int panes = 0;               // number of panes, 1 or 2; 0: the styles are not made yet
+  std::array<Flags, 2> shown;  // flags per pane of the Gaussians to draw; null: all
   std::array<FrameStyle, 2> style;
-  std::array<std::shared_ptr<const CleanObject>, 2> clean;  // per pane: drawn in place of the scene's rows
-  Flags active_labels;  // of the active object, all 0 without one; null: none yet
-  std::size_t floaters = 0;
+  // Object per pane that is drawn in place of the scene's rows; null: the rows.
+  std::array<std::shared_ptr<const CleanObject>, 2> clean;
+  Flags active_labels;       // labels of the active object, all 0 without one; null: they are not made yet
+  std::size_t floaters = 0;  // number of Gaussians in floaters
 };
 
-// before: the last result; an equal set of shown Gaussians stays the same object, as the picture need not be
-// rasterised again then.
+// Makes the styles. before: the last result. If the set of shown Gaussians has not changed, it stays the same
+// shared array, so that the picture need not be rasterised again. labels: cache of the calling thread.
 Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels);
 
 }  // namespace splatcut

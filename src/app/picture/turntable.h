@@ -8,10 +8,12 @@
 
 namespace splatcut {
 
-// Throws Error for a number of frames, a size or a time that cannot be.
+// Throws Error if the number of frames, the size or the duration is out of range.
 void check_turntable(const SaveTurntable& command);
 
-// Once round the object at the front camera's own elevation, from where the user stands.
+// Cameras of one turn around the object, at the elevation of the front camera, which looks in the first one's
+// direction. The
+// whole object fits into each picture.
 std::vector<Camera> cameras_of_turn(const ObjectExtent& extent, const Camera& front,
                                     const glm::vec3& up_world, const SaveTurntable& command);
 

@@ -1,4 +1,4 @@
-// The keys: one table that the keyboard, the menus, the tooltips and the F1 page all read.
+// Key bindings: one table that the keyboard, the menus, the tooltips and the F1 page all read.
 #pragma once
 
 #include <span>
@@ -91,21 +91,22 @@ struct Binding {
   int key;
   Modifiers modifiers;
   const char* group;  // heading on the F1 page
-  const char* what;   // "Undo"
+  const char* what;   // name of the action: "Undo"
 };
 
 std::span<const Binding> key_bindings();
 
-// The action that selects a tool.
+// The action that selects a tool, and the tool that an action selects; null: the action selects no tool.
 Action action_of(const Tool& tool);
-const Tool* tool_of(Action action);  // null for other actions
+const Tool* tool_of(Action action);
 
-// kNone where nothing is bound. Flight keys answer with any of Shift and Alt held.
+// The action bound to a key; kNone: nothing is bound. A flight key keeps its action while Shift or Alt is
+// held.
 Action action_for(int key, const Modifiers& modifiers);
 
-std::string key_name(int key, const Modifiers& modifiers);  // "Ctrl+Shift+Z"
-std::string keys_of(Action action);  // all of them: "I, Tab"; empty where there is none
-const char* name_of(Action action);  // Binding::what
+std::string key_name(int key, const Modifiers& modifiers);  // name of a key: "Ctrl+Shift+Z"
+std::string keys_of(Action action);  // all keys of the action: "I, Tab"; empty: it has none
+const char* name_of(Action action);  // Binding::what of the action
 
 constexpr bool is_flight(Action action) {
   return action >= Action::kFlyForward && action <= Action::kFlyDown;

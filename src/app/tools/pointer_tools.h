@@ -1,7 +1,8 @@
-// What the pointer does in the viewport: navigation and the tools. Events in, commands out; knows no window.
+// The pointer in the viewport: navigation and tools. Events come in, commands go out; the class knows no
+// window.
 //
-// Middle drag always orbits (with Shift pans). Where the tool does not take a drag, a left one orbits and a
-// right one pans.
+// A middle drag always orbits, and pans with Shift. If the tool does not take drags, a left drag orbits and a
+// right drag pans. Positions are viewport pixels, x right, y down.
 #pragma once
 
 #include <optional>
@@ -22,15 +23,17 @@ class PointerTools {
   std::vector<Command> wheel(float steps, const Modifiers& modifiers, const ToolContext& context);
 
   std::vector<Command> confirm(const ToolContext& context);  // closes a polygon
-  bool abandon();  // drops a shape or a drag; true where there was one
+  bool abandon();  // drops a shape or a drag; returns true if there was one
 
+  // dragging(): a button is held. at_work(): a shape is begun.
   bool dragging() const { return state_.button.has_value(); }
   bool at_work() const { return !state_.path_px.empty() || !state_.corners_px.empty(); }
   bool moves_camera() const { return drag_ == Drag::kOrbit || drag_ == Drag::kPan; }
-  bool scale_armed() const { return state_.scale_armed; }  // the wheel steps through parts
+  bool scale_armed() const { return state_.scale_armed; }  // true: the wheel steps through parts
   const glm::vec2& pointer_px() const { return state_.pointer_px; }
-  void hold(const Modifiers& modifiers);  // keys that are held now
+  void hold(const Modifiers& modifiers);  // sets the keys that are held now, unless a drag goes on
   ToolOverlay overlay(const ViewState& view, const Camera& camera, float pixels_per_point) const;
+  // Number of points that the user has clicked so far with Set up or Measure.
   std::size_t points_set() const { return state_.points_world.size(); }
 
  private:

@@ -1,5 +1,5 @@
-// The table of tools. Keys, tooltips, the column, what the pointer does and what is drawn over the picture
-// follow from it. A tool is one file in src/app/tools that defines its row, and one line in
+// The table of tools. Keys, tooltips, the column, the work of the pointer and the marks over the picture
+// follow from it. To add a tool, define its row in a file of src/app/tools, and add a line to
 // app/document/tool_id.h.
 #pragma once
 
@@ -17,47 +17,50 @@ struct ToolHand;
 struct ToolOverlay;
 struct ToolState;
 
-// Symbols are marks in a square from -1 to 1, x right, y down: the icon font has none for most tools.
+// One mark of a tool's symbol, in a square from -1 to 1, x right, y down. Symbols are drawn, because the icon
+// font has none for most tools.
 struct IconMark {
   enum class Kind { kLine, kLoop, kDot, kRing };
   Kind kind = Kind::kLine;
-  std::vector<glm::vec2> points;  // the centre of a dot or ring
-  float radius = 0;               // of a dot or ring
-  float wider = 0;                // than other lines, points of the screen
+  std::vector<glm::vec2> points;  // points of a line or loop; the centre of a dot or ring
+  float radius = 0;               // radius of a dot or ring
+  float wider = 0;                // width beyond that of other lines, logical pixels
 };
 using Icon = std::vector<IconMark>;
 
-// What is drawn over the picture while a tool is at work.
+// Shape that the interface draws over the picture while a tool is at work.
 enum class ToolShape { kNone, kPath, kRectangle, kPolygon, kCircle, kPoints };
 
-// One row. A value that is copied freely; rows are equal where their names are. The functions are null where
-// nothing happens; see tool_hand.h for what they are given.
+// One row of the table. It is a value that may be copied freely; rows are equal if their names are. A
+// function that is null does nothing; tool_hand.h says what the functions are given.
 struct Tool {
-  enum class Drag { kNavigates, kPath, kCorners };  // the last two: collects points, or the first and last
+  // Work of a left drag: it moves the camera, or collects all points of its path, or its first and last
+  // point.
+  enum class Drag { kNavigates, kPath, kCorners };
   enum class Selects { kNothing, kPixels, kColours, kSpace };
 
-  const char* name = "";      // on the F1 page and in the tooltip: "Click an object"
-  int key = 0;                // without modifiers
-  const char* sentence = "";  // in the tooltip
-  const char* hint = "";      // in the bar; {} stands for how many points are set
+  const char* name = "";      // name on the F1 page and in the tooltip: "Click an object"
+  int key = 0;                // key code, without modifiers
+  const char* sentence = "";  // text of the tooltip
+  const char* hint = "";      // text in the bar; {} stands for the number of points set
   Icon (*icon)() = nullptr;
-  bool first_of_group = false;  // a line in the column above it
+  bool first_of_group = false;  // true: a line stands above the tool in the column
 
-  Drag drag = Drag::kNavigates;  // what a left drag does
-  bool right_drags = false;      // the right button draws as the left one does
-  float brush = 0;               // radius of what it draws, of the brush size; 0: no brush
-  bool strokes = false;          // what it draws goes to the cut
-  bool shows_keys = false;       // strokes: the pointer's sign says what the keys that are held make of them
-  Selects selects = Selects::kNothing;  // Gaussians, by hand
+  Drag drag = Drag::kNavigates;
+  bool right_drags = false;  // true: the right button draws as the left one does
+  float brush = 0;           // radius of what the tool draws over that of the brush; 0: the tool has no brush
+  bool strokes = false;      // true: what the tool draws goes to the cut
+  bool shows_keys = false;   // true: a sign at the pointer shows what the held keys make of a stroke
+  Selects selects = Selects::kNothing;  // what the tool selects by hand: by pixels, by colour, or in space
 
   void (*press)(ToolHand& hand) = nullptr;    // a shape begins
   void (*move)(ToolHand& hand) = nullptr;     // the path has changed
   void (*release)(ToolHand& hand) = nullptr;  // the path is done
   void (*click)(ToolHand& hand) = nullptr;
   void (*double_click)(ToolHand& hand) = nullptr;
-  void (*confirm)(ToolHand& hand) = nullptr;  // Enter
+  void (*confirm)(ToolHand& hand) = nullptr;  // the user pressed Enter
 
-  ToolShape shape = ToolShape::kNone;  // made of the path, unless show() gives it other points
+  ToolShape shape = ToolShape::kNone;  // shape made of the path, unless show() sets other points
   void (*show)(const ToolState& state, const Camera& camera, ToolOverlay* out) = nullptr;
 
   friend bool operator==(const Tool& a, const Tool& b) { return std::string_view(a.name) == b.name; }
@@ -68,7 +71,7 @@ struct Tool {
 #undef SPLATCUT_DECLARE_TOOL
 };
 
-std::span<const Tool* const> tools();  // by their ids
+std::span<const Tool* const> tools();  // all tools, in the order of ToolId
 const Tool& tool_of(ToolId id);
 
 }  // namespace splatcut

@@ -1,7 +1,7 @@
-// Autosaves in the state folder: one per running program, and those that programs left which no longer run.
+// Autosaves in the state folder: one file per running program, and the files that crashed programs left.
 //
-// A program holds the lock beside its file for as long as it lives; a file whose lock is free was left by a
-// crash. Errors: none; what cannot be read or locked is neither offered nor written.
+// A program holds the lock beside its file as long as it lives, so a file whose lock is free was left by a
+// crash. Errors: none are thrown; a file that cannot be read or locked is neither offered nor written.
 #pragma once
 
 #include <filesystem>
@@ -12,25 +12,27 @@ namespace splatcut {
 
 class Autosaves {
  public:
-  // folder: empty: no autosaves.
+  // folder: the state folder; empty: there are no autosaves.
   explicit Autosaves(const std::filesystem::path& folder);
   ~Autosaves();
   Autosaves(const Autosaves&) = delete;
   Autosaves& operator=(const Autosaves&) = delete;
 
-  const std::filesystem::path& own() const { return own_.file; }  // empty: none is to be written
-  // Left by others, the newest; empty: none. No other program offers it meanwhile.
+  // File of this program; empty: this program must not write one.
+  const std::filesystem::path& own() const { return own_.file; }
+  // The newest file that a crashed program left; empty: there is none. This object holds its lock, so that no
+  // other program offers it.
   std::filesystem::path left_behind() const;
-  // Also what a program left that had not quite ended before.
+  // Looks again for files that crashed programs left: one may have been about to end before.
   void look_again() {
     if (!folder_.empty()) hold_left_behind(folder_);
   }
-  void remove(const std::filesystem::path& file);  // one that was left behind
+  void remove(const std::filesystem::path& file);  // deletes a file that was left behind; ignores any other
 
  private:
   struct Held {
     std::filesystem::path file;
-    int lock = -1;  // descriptor
+    int lock = -1;  // descriptor of the locked file; -1: none
     std::filesystem::file_time_type written;
   };
   void hold_left_behind(const std::filesystem::path& folder);
@@ -38,7 +40,7 @@ class Autosaves {
 
   std::filesystem::path folder_;
   Held own_;
-  std::vector<Held> left_;  // the newest last
+  std::vector<Held> left_;  // files that were left behind, the newest last
 };
 
 }  // namespace splatcut

@@ -1,4 +1,4 @@
-// A document as JSON, for work files: the one at the top of the file, and every step of the history.
+// A document as JSON, for work files: the document at the top of the file, and that of every history step.
 #pragma once
 
 #include <functional>
@@ -9,14 +9,14 @@
 
 namespace splatcut {
 
-// How arrays over the Gaussians are written and read; `most`: the largest value that one may hold.
+// Functions that write and read arrays over the Gaussians. most: the largest value that an element may have.
 using WriteFlags = std::function<nlohmann::json(const Flags&)>;
 using ReadFlags = std::function<Flags(const nlohmann::json&, std::uint8_t most)>;
 
 nlohmann::json document_json(const Document& document, const WriteFlags& flags);
 
-// objects: those of the document, wherever they stand. Throws Error, or a json::exception where the form is
-// not the expected one.
+// Reads a document. objects: its objects, which need not stand in `j`. Throws Error if a value is out of
+// range, and json::exception if the form is not the expected one.
 Document document_from(const nlohmann::json& j, std::span<const nlohmann::json* const> objects,
                        const ReadFlags& flags);
 

@@ -1,12 +1,13 @@
-// The work file (.splatcut.json): which scene, and what was made of it. Text, written whole or not at all.
+// The work file (.splatcut.json): a scene and the document that was made of it. It is text, and is written
+// whole or not at all.
 //
-// Holds the path (relative to the work file where it lies below or beside it), hash and place of each file of
-// the scene, and the document: strokes with their cameras in full float precision, hand marks and labels as
-// run lengths over the Gaussians in file order, settings, and where the user looked from. The labels of an
-// object are a function of scene, strokes, settings and marks, so that `splatcut cut --work` computes the
-// same bits again; those that were cut before the scene got other files (ObjectItem::cut_kept) are kept as
-// they are. What can be undone and redone stands beside it, see work_history.h. Errors: Error naming the file
-// and the entry.
+// The file holds path, hash and place of each file of the scene; a path is relative if the file lies beside
+// or below the work file. It holds the document: strokes with their cameras in full float precision, hand
+// marks and labels as run lengths over the rows of the scene, and settings. It also holds the user's camera,
+// and the steps that can be undone and redone, see work_history.h. The labels of an object are a function of
+// scene, strokes, settings and marks, so that `splatcut cut --work` computes the same bits again. Labels that
+// are older than the scene's present files (ObjectItem::cut_kept) are kept as they are. Errors: Error names
+// the file and the entry.
 #pragma once
 
 #include <filesystem>
@@ -23,25 +24,27 @@
 
 namespace splatcut {
 
-// A work file as it was read: the files of its scene, to load those, and the rest for restored().
+// A work file after reading: the files of its scene, which the caller opens, and the content for restored().
 struct WorkFile {
   std::filesystem::path path;
-  std::vector<SceneSource> files;  // of its scene, one or more; paths are absolute
+  std::vector<SceneSource> files;  // files of its scene, one or more, with absolute paths
   std::shared_ptr<const nlohmann::json> content;
 };
 
 struct RestoredWork {
   Document document;
-  std::optional<CameraPose> view;  // none in files of older programs
-  std::string warning;             // a sentence about what the file could not say, or empty
-  SavedSteps history;              // around the document; none in files of older programs
+  std::optional<CameraPose> view;  // pose of the user's camera; none: the file holds none
+  std::string warning;             // sentence about steps that could not be read, or empty
+  SavedSteps history;              // steps around the document; none: the file holds none
 };
 
-bool is_work_file(const std::filesystem::path& path);  // by its name
+bool is_work_file(const std::filesystem::path& path);  // true if the name ends like one
 
+// Throws Error for a file that is no work file, or is of a version that this program does not read.
 WorkFile read_work_file(const std::filesystem::path& path);
 
-// scene: of those files; its cloud gives the arrays their order. Throws Error where they differ.
+// Reads the document of a work file. scene: the opened scene of WorkFile::files; its cloud gives the arrays
+// their order. Throws Error if the scene has other files, or if a file's hash is another.
 RestoredWork restored(const WorkFile& file, const OpenedScene& scene);
 
 void write_work_file(const std::filesystem::path& path, const OpenedScene& scene, const Document& document,

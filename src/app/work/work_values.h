@@ -1,5 +1,5 @@
-// Values of a document as they stand in work files: JSON, floats in full precision. What reads throws Error,
-// or a json::exception where the form is not the expected one.
+// Values of a document as JSON, for work files. Floats keep their full precision. Functions that read throw
+// Error if a value is out of range, and json::exception if the form is not the expected one.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,7 +13,7 @@ namespace splatcut {
 
 nlohmann::json list(const glm::vec3& v);
 glm::vec3 vec3_from(const nlohmann::json& j);
-glm::vec3 direction_from(const nlohmann::json& j);  // not of length 0
+glm::vec3 direction_from(const nlohmann::json& j);  // throws Error for a vector of length 0
 
 nlohmann::json camera_json(const Camera& camera);
 Camera camera_from(const nlohmann::json& j);
@@ -24,7 +24,8 @@ CameraPose pose_from(const nlohmann::json& j);
 nlohmann::json strokes_json(const Strokes& strokes);
 Strokes strokes_from(const nlohmann::json& j);
 
-// [value, run, value, run, ...] over the rows of the scene's file; null for no flags.
+// Flags as [value, run, value, run, ...] over the rows of the scene's files; a null pointer is null. most:
+// the largest value that a flag may have.
 nlohmann::json runs_json(const Flags& flags, const Scene& scene);
 Flags flags_from(const nlohmann::json& j, const Scene& scene, std::uint8_t most);
 
