@@ -1,7 +1,7 @@
-// Makes the active object's edges clean on the worker: at once where the object is shown alone, else while
-// nothing else is to do, so that it is there when it is asked for.
+// Computes the active object with clean edges on the worker: at once if the object is shown alone, else while
+// the worker has nothing else to do, so that the object is there when the user asks for it.
 //
-// A cut that starts, a scene that is opened and a new selection stop it; it starts anew by itself.
+// A new cut, a scene that opens and a change of labels stop the computation; it starts anew by itself.
 #pragma once
 
 #include "app/document/document.h"
@@ -15,8 +15,9 @@ class CleanEdges {
   CleanEdges(Workspace& workspace, const Viewport& viewport, const CutJobs& cuts)
       : ws_(workspace), viewport_(viewport), cuts_(cuts) {}
 
-  void update();  // once a frame
-  // Stops what a view waits for; it is not made again for the same labels. False where no view waits.
+  void update();  // starts what is needed; called once a frame
+  // Stops the computation that a view waits for, and gives it up for these labels. Returns false if no view
+  // waits.
   bool cancel();
 
  private:
@@ -25,9 +26,9 @@ class CleanEdges {
   Workspace& ws_;
   const Viewport& viewport_;
   const CutJobs& cuts_;
-  Flags settled_;  // labels whose edges are made, or were given up
-  Flags seen_;     // labels of the last frame
-  double seen_since_s_ = 0;
+  Flags settled_;            // labels whose edges are computed, or were given up
+  Flags seen_;               // labels at the last update()
+  double seen_since_s_ = 0;  // clock time since which labels and worker are quiet
 };
 
 }  // namespace splatcut

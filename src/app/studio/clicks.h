@@ -1,4 +1,5 @@
-// Clicks and scribbles: what they hit, what the next one would change, what else the first one can mean.
+// Clicks, scribbles and boxes: what they hit, what the next click would change, what else the first one can
+// mean.
 #pragma once
 
 #include <optional>
@@ -16,33 +17,37 @@ class Clicks {
   Clicks(Workspace& workspace, Viewport& viewport, const CutJobs& cuts, Edits& edits)
       : ws_(workspace), viewport_(viewport), cuts_(cuts), edits_(edits) {}
 
-  void reset();   // another scene
-  void update();  // once a frame: the outline under the pointer, what a click needs, the sizes of a new cut
-  void pointer_inside(bool inside) { pointer_inside_ = inside; }  // of the viewport
+  void reset();  // forgets everything of the last scene
+  // Updates the outline under the pointer, prepares a click in the middle of the picture, and notes sizes of
+  // a new cut. Called once a frame.
+  void update();
+  void pointer_inside(bool inside) { pointer_inside_ = inside; }  // says if the pointer is in the viewport
 
-  // Other meanings of the active object's first click, offered until it gets another stroke; null: none.
+  // Meanings of the active object's first click, offered until the object gets another stroke; null: no
+  // offer.
   const ClickMeanings* offer() const;
-  bool decline_offer();  // false where there is none
-  // The sizes beside the one that the wheel is at, for a while after the click or the last step; and how
-  // clearly they show, from 1 to 0.
+  bool decline_offer();  // withdraws the offer; returns false if there is none
+  // Sizes next to the one taken, shown for a while after a click or a step of the wheel; null: none are
+  // shown.
   const ClickMeanings* sizes() const;
-  float sizes_opacity() const;
-  // True if the active object's clicks found nothing, mostly for being made from too far away.
+  float sizes_opacity() const;  // opacity of sizes(), which falls from 1 to 0
+  // True if the active object's clicks found nothing, mostly because they were made from too far away.
   bool found_nothing() const;
-  // A refusal if the first click has no part that many sizes larger, as far as is known; else empty.
+  // Returns a refusal if the first click is known to have no part that many sizes larger; else empty.
   std::string why_not_step(int steps) const;
 
   void perform(const AddStroke& c);
   void perform(const StepScale& c);
   void perform(const ComeNearer&);
-  // What strokes alone would cut out, taken from the object or kept of it.
+  // These two may combine the object with what a stroke alone would cut out: keep of the object what both
+  // hold, or remove it.
   void perform(const IntersectStroke& c);
   void perform(const AddBox& c);
 
  private:
-  // Asked of the worker, or shown already.
+  // A question to the worker about the click under the pointer.
   struct HoverAsk {
-    std::uint64_t document = 0, view = 0;  // serials
+    std::uint64_t document = 0, view = 0;  // serials of the document and of the view
     Camera camera;
     glm::vec2 pixel{0};
     bool rest = false;
@@ -67,11 +72,11 @@ class Clicks {
   Viewport& viewport_;
   const CutJobs& cuts_;
   Edits& edits_;
-  std::optional<HoverAsk> hover_;
-  std::optional<Camera> ready_;  // what its middle shows has been made ready for a click, or is being
-  std::string declined_offer_;   // its key
-  double stepped_s_ = -1e9;      // when a size was chosen last, or a click found some
-  std::uint64_t cuts_done_ = 0;  // see CutJobs::done()
+  std::optional<HoverAsk> hover_;  // question that was asked last; its answer may be shown already
+  std::optional<Camera> ready_;    // camera whose middle was prepared for a click last
+  std::string declined_offer_;     // ClickMeanings::key of the offer that was declined last
+  double stepped_s_ = -1e9;        // clock time of the last choice of a size, or click that found some
+  std::uint64_t cuts_done_ = 0;    // CutJobs::done() at the last update()
   bool pointer_inside_ = false;
 };
 

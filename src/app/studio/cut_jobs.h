@@ -1,8 +1,8 @@
-// Cuts what the document asks for, on the worker, and keeps what is known of each cut.
+// Cuts on the worker, started as the document asks for them, and what is known of each cut.
 //
-// The document decides: the cut of a stale object is started, one that is no longer needed is stopped, one
-// that was cancelled or failed is not tried again by itself. Labels go to the history, the rest is shown with
-// them wherever the history stands.
+// The document decides. Cuts of stale objects start by themselves; a cut that is no longer needed is stopped;
+// a cut that was cancelled or failed is not tried again by itself. Labels go to the history. The rest is kept
+// beside them, so that the window shows it wherever the history stands.
 #pragma once
 
 #include <deque>
@@ -19,20 +19,21 @@ class CutJobs {
  public:
   explicit CutJobs(Workspace& workspace) : ws_(workspace) {}
 
-  // The cut that runs for the object, else the one whose labels it has; null: none is known.
+  // The cut that runs for the object, else the cut whose labels the object has; null: neither is known.
   const CutRun* run(ObjectId object) const;
-  ObjectId cutting() const { return running_ ? running_->object : 0; }
-  std::uint64_t done() const { return done_; }  // cuts so far
+  ObjectId cutting() const { return running_ ? running_->object : 0; }  // object whose cut runs; 0: none
+  std::uint64_t done() const { return done_; }                          // number of cuts finished so far
 
-  void reset();   // another scene
-  void update();  // once a frame
-  // Throws Error where there is nothing to cut yet.
+  void reset();   // stops and forgets everything of the last scene
+  void update();  // starts and stops cuts as the document asks; called once a frame
+  // Cuts the active object again without anything that is cached. Throws Error if it has no strokes.
   void recompute();
-  // What runs, or the likelihood of the active object, is not tried again by itself. False where neither
-  // does.
+  // These stop the running cut, or the likelihood of the active object, and give it up: update() does not
+  // start it again. They return false if it does not run.
   bool cancel();
   bool cancel_likelihood();
-  void pause();  // what runs stops and starts anew once no scene is being opened
+  void pause();  // stops the running cut; update() starts it again once no scene is being opened
+  // Lets update() start a cut again that was given up.
   void want_again(const ObjectItem& object) { given_up_.erase(ws_.history.keys(object).cut); }
 
  private:
@@ -57,8 +58,8 @@ class CutJobs {
 
   Workspace& ws_;
   std::optional<Known> running_;
-  std::deque<Known> known_;         // the newest last
-  std::set<std::string> given_up_;  // keys that were cancelled or failed
+  std::deque<Known> known_;         // finished cuts, the newest last
+  std::set<std::string> given_up_;  // keys of cuts that were cancelled or failed
   std::uint64_t next_card_serial_ = 1, started_ = 0, done_ = 0;
 };
 

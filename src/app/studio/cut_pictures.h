@@ -1,4 +1,4 @@
-// What a cut is shown with: a card per view, outlines of the click's meanings.
+// Pictures of a cut for the window: a card per view, and outlines of the first click's meanings.
 #pragma once
 
 #include "app/studio/cut_run.h"
@@ -9,19 +9,20 @@
 
 namespace splatcut {
 
-// The view with its mask alone, before there is time for pictures.
+// Card of a view that shows its mask alone, for the time until pictures are drawn.
 ViewCard mask_card(const ViewReport& view, const Rgb8& colour);
 
-// Rasterised, with the mask in the object's colour; dark where the view does not count. Where the cut used
-// no view around the object, a few are made for the person to check. Cancelled: incomplete.
+// Cards with rasterised views and the mask in the object's colour. Cards of views that do not count are dark.
+// If the cut used no view around the object, a few are added for the user to check. If cancelled, cards are
+// missing.
 std::vector<ViewCard> picture_cards(Session& session, const CutRequest& request, const CutSettings& settings,
                                     const CutResult& result, const Rgb8& colour, const Job& job);
 
-// A card that looks nearly as one did before takes its place in the strip, the others come behind; the first,
-// the user's own view, stays first.
+// Orders cards for the strip: a card whose view is near an earlier card's takes that place, and the others
+// follow. The first card, which is the user's own view, stays first.
 std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vector<ViewCard> cards);
 
-// Null as long as the result has none.
+// Meanings of the first click, with outlines; null if the result has none yet.
 std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, const CutResult& result);
 
 }  // namespace splatcut

@@ -1,4 +1,4 @@
-// What is known of one cut, for the window: its times, views, doubts, what its first click can mean.
+// What the window knows of one cut: its times, views and doubts, and the meanings of its first click.
 #pragma once
 
 #include <memory>
@@ -17,38 +17,39 @@ struct ViewCard {
   Camera camera;
   bool used = true;
   double confidence = 0;
-  std::string reason;  // why it does not count
+  std::string reason;  // reason why the view does not count; empty: it counts
   std::shared_ptr<const Image<Rgba8>> picture;
-  bool only_to_look = false;  // it had no influence on the cut
-  std::uint64_t serial = 0;   // changes with the picture
+  bool only_to_look = false;  // true: the view had no influence on the cut
+  std::uint64_t serial = 0;   // number that changes with the picture
 };
 
 // The meanings of an object's first click, once a cut has found them.
 struct ClickMeanings {
-  std::string key;                            // of that click, see key_of_first_stroke()
-  int choice = 0;                             // whose sizes these are:
-  std::size_t sizes = 0, likeliest_size = 0;  // how many, and the one that a click takes
-  std::size_t size = 0;                       // the one taken
-  Camera camera;                              // of the click
-  // Per meaning its borders in the camera's pixels.
+  std::string key;                            // key of that click, see key_of_first_stroke()
+  int choice = 0;                             // meaning that the sizes belong to
+  std::size_t sizes = 0, likeliest_size = 0;  // number of sizes, and the size that a click takes by itself
+  std::size_t size = 0;                       // size taken now
+  Camera camera;                              // camera of the click
+  // Borders of each meaning, in the camera's pixels.
   std::vector<std::vector<std::vector<glm::vec2>>> outlines;
-  std::vector<std::vector<glm::vec2>> smaller, larger;  // of the next sizes; empty: there is none
+  std::vector<std::vector<glm::vec2>> smaller, larger;  // borders of the next sizes; empty: none
 };
 
-// A cut that is done, or the one that runs.
+// A finished cut, or the running one.
 struct CutRun {
   bool running = false;
-  std::string key;                          // cut_key() of what it cuts
-  std::shared_ptr<const CutResult> result;  // null until it is done
-  std::vector<StageTime> stages;            // so far
+  std::string key;                          // cut_key() of its inputs
+  std::shared_ptr<const CutResult> result;  // result; null until the cut is done
+  std::vector<StageTime> stages;            // times of the stages so far
   std::vector<ViewCard> views;
-  bool views_of_before = false;  // they are those of the object's cut before, until its own are drawn
-  Flags preview;                 // labels so far
+  bool views_of_before = false;  // true: `views` are those of the object's last cut, until new ones are drawn
+  Flags preview;                 // labels so far; null once the cut is done
   double first_mask_ms = 0, total_ms = 0;
-  std::shared_ptr<const ClickMeanings> meanings;         // of the first click, as far as it is known
-  std::vector<std::string> doubts;                       // a sentence each
-  std::shared_ptr<const std::vector<float>> likelihood;  // null until asked for
-  bool likelihood_failed = false;                        // not asked for again
+  std::shared_ptr<const ClickMeanings> meanings;  // meanings of the first click; null: not known yet
+  std::vector<std::string> doubts;                // doubts about the result, one sentence each
+  // Likelihood per Gaussian, [0, 1]; null until it is asked for.
+  std::shared_ptr<const std::vector<float>> likelihood;
+  bool likelihood_failed = false;  // true: the likelihood is not asked for again
 };
 
 }  // namespace splatcut

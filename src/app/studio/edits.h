@@ -1,8 +1,8 @@
-// Commands that change the document, one after the other in the order in which they were asked for.
+// Commands that change the document, performed one after the other in the order in which they were asked for.
 //
-// What passes over the scene's Gaussians (selections, growing, merging) is done on the worker from a snapshot
-// of the document; commands that come meanwhile wait their turn. If the document became another one all the
-// same, by a cut that ended, the edit is done again on that.
+// Edits that pass over the scene's Gaussians (selections, growing, merging) run on the worker from a snapshot
+// of the document; commands that come meanwhile wait their turn. If the document changes all the same,
+// because a cut ends, the edit runs again on the new document.
 #pragma once
 
 #include <deque>
@@ -20,24 +20,28 @@ class Edits {
   Edits(Workspace& workspace, const Viewport& viewport, CutJobs& cuts)
       : ws_(workspace), viewport_(viewport), cuts_(cuts) {}
 
-  // Runs it now, or after the edits that were asked for before. kStays: also where these are cancelled.
+  // What becomes of a waiting command if the edits before it are cancelled.
   enum class OnCancel { kDropped, kStays };
+  // Runs the command now, or after the edits that were asked for before it.
   void in_turn(std::function<void()> command, OnCancel on_cancel = OnCancel::kDropped);
-  bool waiting() const { return under_way_; }
-  bool cancel();  // what is under way and the edits that wait; false where nothing does
-  void reset();   // another scene
+  bool waiting() const { return under_way_; }  // true: an edit is under way
+  // Cancels that edit and the waiting commands that do not stay. Returns false if no edit is under way.
+  bool cancel();
+  void reset();  // cancels and forgets everything of the last scene
 
-  // `after` becomes the document. message: shown when it does.
+  // Makes `after` the document and shows the message.
   void push(std::string title, Document after, std::string merge_key, const std::string& message);
-  // The same with an edit that passes over the Gaussians. It returns the message; what it throws is shown as
-  // a refusal.
+  // An edit that passes over the Gaussians. It changes the document and returns the message; an Error that it
+  // throws is shown as a refusal.
   using Change = std::function<std::string(Document* document, const EditContext& context, const Job& job)>;
   struct Step {
     std::string title, merge_key;
     Change change;
-    bool replaces = false;  // the last step, where that has the same merge key: done from the state before it
+    // True: starts from the state before the last step, if that step has the same merge key.
+    bool replaces = false;
   };
-  void push_later(const Step& step);
+  void push_later(const Step& step);  // runs the step on the worker, then makes its result the document
+  // Combines the active object with a selection, as a step on the worker.
   void select_later(Selection region, SetOperation operation, std::string title);
 
   void perform(const SelectRegion& c);
@@ -50,7 +54,7 @@ class Edits {
   void undo();
   void redo();
   void perform(const JumpHistory& c);
-  // Any command that edit() in document_edits.h has; others do nothing.
+  // True for commands that have an edit(), see command.h. perform_plain() performs these and ignores others.
   template <class C>
   static constexpr bool kKnows = requires(Document* document, const C& c, const EditContext& context) {
     edit(document, c, context);
@@ -68,15 +72,15 @@ class Edits {
   const Viewport& viewport_;
   CutJobs& cuts_;
   bool under_way_ = false;
-  std::uint64_t number_ = 0;  // of the edit that is under way
+  std::uint64_t number_ = 0;  // number of the edit that is under way
   struct Waiting {
     std::function<void()> command;
     OnCancel on_cancel;
   };
   std::deque<Waiting> waiting_;
   std::string volume_key_;   // merge key of the last volume's step
-  Flags volume_seen_;        // what was shown when it first selected
-  std::size_t volumes_ = 0;  // so far
+  Flags volume_seen_;        // Gaussians that were shown when that volume first selected
+  std::size_t volumes_ = 0;  // number of volumes so far
 };
 
 }  // namespace splatcut

@@ -1,5 +1,5 @@
-// What the window writes for others: scenes, pictures of the view, turntables. Written on the worker, of the
-// document as it is when it is asked for.
+// Files that the window writes for other programs: scenes, pictures of the view, turntables. The worker
+// writes them from the document as it is at the time of the command.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ class Exports {
   void perform(const SaveSnapshot& c);
   void perform(const SaveTurntable& c);
 
-  // The scene, or folder of scenes, that was written last; empty: none was.
+  // Path of the scene, or folder of scenes, that was written last; empty: none was.
   const std::filesystem::path& last() const { return last_; }
 
  private:

@@ -1,15 +1,16 @@
-// What the program says of itself in the message strip, newest last.
+// Messages for the message strip, and requests to the interface.
 #pragma once
 
 #include <string>
 
 namespace splatcut {
 
+// What the program says in the message strip.
 struct Message {
   enum class Kind { kInfo, kDone, kRefused, kError };
   Kind kind = Kind::kInfo;
   std::string text;
-  double time_s = 0;  // Workspace's clock
+  double time_s = 0;  // time by Workspace::clock_s
 };
 
 // Requests that only the interface can fulfil.
@@ -23,7 +24,7 @@ enum class UiRequest {
   kHistory,
   kQuit,
   kSnapshotDialog,
-  kExportFailed  // the dialog comes back as it was
+  kExportFailed  // the export dialog shall come back as it was
 };
 
 }  // namespace splatcut

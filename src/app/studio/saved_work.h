@@ -1,7 +1,6 @@
-// The work file of a session, and the autosave: what is written when, what of it is unsaved, what a crash
-// left.
+// Saved work: the user's work file, the autosave, what is unsaved, and what a crash left.
 //
-// Written on the worker; the window goes on.
+// The worker writes the files; the window goes on.
 #pragma once
 
 #include <filesystem>
@@ -20,20 +19,21 @@ class SavedWork {
  public:
   SavedWork(Workspace& workspace, Viewport& viewport);
 
-  void update(double seconds);  // once a frame: the autosave
-  void leave();                 // the program ends: an autosave that is not needed goes
-  void keep_unsaved();          // it is ended from outside: offered at the next start
+  void update(double seconds);  // writes the autosave when it is due; called once a frame
+  void leave();                 // removes the autosave if nothing is unsaved; called when the program ends
+  void keep_unsaved();  // writes the autosave if work is unsaved; called when a signal ends the program
 
-  const std::filesystem::path& work_path() const { return work_path_; }
+  const std::filesystem::path& work_path() const { return work_path_; }  // the user's file; empty: none yet
   bool unsaved() const;
-  // Unsaved work that a crash left: offered until it is restored, by opening it, or dropped.
+  // Unsaved work that a crash left is offered until the user restores it, by opening its file, or drops it.
   bool autosave_found() const { return !offered().empty(); }
-  std::filesystem::path offered() const;  // the work file of that; empty: none
+  std::filesystem::path offered() const;  // file of the offered work; empty: none is offered
   const std::filesystem::path& own_autosave() const { return autosaves_.own(); }
-  // "garden/point_cloud.ply, 2026-03-01 18:40": of which scene, and when it was written.
+  // Scene and time of the offered work: "garden/point_cloud.ply, 2026-03-01 18:40".
   const std::string& autosave_says() const { return restorable_says_; }
 
-  // The workspace has another scene and document: those of the file, where there is one.
+  // Notes that the workspace has another scene and document. work, file: the work file that they come from,
+  // if any.
   void opened(const std::optional<RestoredWork>& work, const std::filesystem::path& file);
   void perform(const SaveWork& c);
   void perform(const DropAutosave&);
@@ -48,12 +48,13 @@ class SavedWork {
   Viewport& viewport_;
   std::filesystem::path work_path_;
   Autosaves autosaves_;
-  std::filesystem::path restored_;  // left behind by a crash, in this work now: goes once that is saved
+  // File that a crash left and that the user opened; it is removed once the work is in another file.
+  std::filesystem::path restored_;
   std::string restorable_says_;
   double looked_for_s_ = 0;
-  // Serials of the document that is in the files; 0: in none.
+  // Serials of the documents that the autosave and the user's file hold; 0: the file holds none.
   std::uint64_t autosaved_serial_ = 0, saved_serial_ = 0;
-  std::uint64_t waiting_serial_ = 0;  // of the document that waits to be autosaved
+  std::uint64_t waiting_serial_ = 0;  // serial of the document that waits to be autosaved
   double waited_s_ = 0;
   CameraPose autosaved_pose_;
 };

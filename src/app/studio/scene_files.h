@@ -1,7 +1,7 @@
-// Files that the window's scene is made of: opened, added, placed, taken out, undone as a whole, and
-// prepared.
+// Changes of the files that the window's scene is made of: opening, adding, placing, taking out, and undoing
+// these.
 //
-// Scenes are read and prepared on the worker; the window goes on.
+// The worker reads scenes and prepares them; the window goes on.
 #pragma once
 
 #include <filesystem>
@@ -20,17 +20,18 @@ namespace splatcut {
 class SceneFiles {
  public:
   struct Calls {
-    // The workspace has another scene and document, the view is not set up yet. same: the same scene with
-    // other files in it, or placed otherwise.
+    // Called when the workspace has another scene and document, before the view is set up. same: it is the
+    // same scene with other files in it, or with files placed otherwise.
     std::function<void(bool same)> opened;
-    std::function<void(std::function<void()>)> in_turn;  // after the edits that were asked for before
+    // Runs a function after the edits that were asked for before it.
+    std::function<void(std::function<void()>)> in_turn;
   };
   SceneFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts, SavedWork& work, Calls calls);
 
-  void update();          // once a frame: preparing goes on where a scene could not be opened
-  void cancel_loading();  // the scene stays as it is, its files where they are
-  // The last change of the files is taken back, or made again, where that is the next step. False where it is
-  // not, or no longer kept.
+  void update();          // resumes preparing if a scene could not be opened; called once a frame
+  void cancel_loading();  // stops opening and changing files; the scene stays as it is
+  // These undo or redo a change of files, if that is the next step to undo or redo. They return false if it
+  // is not, or if the scene before the change is no longer kept.
   bool undo_files();
   bool redo_files();
   bool can_redo_files() const;
@@ -46,7 +47,7 @@ class SceneFiles {
   void start_preparing();
   void stop_for_loading();
   void take(const std::shared_ptr<const OpenedScene>& scene);
-  // Files of the scene as they are to be, those under way included.
+  // Files of the scene after the changes that are under way.
   std::vector<SceneSource> wanted_files() const;
   SceneSource& added_file(std::vector<SceneSource>* files, std::uint32_t id) const;
   void change_files(std::vector<SceneSource> files, const std::string& doing, const std::string& done);
@@ -58,14 +59,14 @@ class SceneFiles {
   CutJobs& cuts_;
   SavedWork& work_;
   Calls calls_;
-  bool preparing_stopped_ = false;  // for a scene that was to be opened
+  bool preparing_stopped_ = false;  // true: preparing was stopped for a scene that was to be opened
   std::uint64_t next_scene_serial_ = 1;
   std::uint32_t next_file_id_ = 1;
-  std::vector<SceneSource> changing_to_;  // files of the scene that is being made; empty: none is
+  std::vector<SceneSource> changing_to_;  // files of the scene that is being made; empty: none is made
 
-  // A scene with all that is made of it and of it alone: to go back to as a whole.
+  // A scene with everything that was made from it, kept to go back to as a whole.
   struct Kept {
-    std::uint64_t step = 0;  // before or after which it was; History::Entry::other_files
+    std::uint64_t step = 0;  // step that left the scene: History::Entry::other_files
     std::shared_ptr<const OpenedScene> scene;
     std::shared_ptr<SceneGraph> graph;
     std::shared_ptr<Session> session;
@@ -74,9 +75,9 @@ class SceneFiles {
   };
   Kept kept_now(std::uint64_t step) const;
   void go_back_to(Kept kept);
-  std::vector<Kept> before_files_;  // the newest last
-  std::vector<Kept> undone_files_;
-  std::uint64_t redo_serial_ = 0;  // of the document after which the last of these may be made again
+  std::vector<Kept> before_files_;  // scenes before changes of files, the newest last
+  std::vector<Kept> undone_files_;  // scenes after changes that were undone, the next to redo last
+  std::uint64_t redo_serial_ = 0;   // serial of the document for which the last of these may be redone
   std::uint64_t next_step_ = 1;
 };
 

@@ -1,11 +1,12 @@
-// The application without its window: the sum of its parts. A command goes to the part that performs it.
+// The application without its window. It is the sum of its parts: a command goes to the part that performs
+// it.
 //
-// One thread (the main one) calls everything here. Commands come in by apply() or by events; what the
-// interface shows is read through the parts. Events of a test and of the window run the very same code.
-// Files, cuts, edits of many Gaussians, styles and pictures are made on workers and arrive in update(). What
-// is left here costs a few milliseconds a million Gaussians at the most: the place under the pointer where no
-// picture shows it yet, labels of an object that changed. Errors: every Error ends in apply() or
-// update() and becomes a message.
+// Only the main thread calls anything here. Commands come in by apply() or by events; the interface reads
+// what it shows from the parts. Events of a test and of the window run the very same code. Files, cuts, edits
+// of many Gaussians, styles and pictures are made on workers and arrive in update(). What is left for the
+// main thread costs at most a few milliseconds a million Gaussians: picking where no picture shows the view
+// yet, and labels of an object that changed. Errors: every Error ends in apply() or update() and becomes a
+// message.
 #pragma once
 
 #include <set>
@@ -29,26 +30,27 @@ class Studio {
   explicit Studio(const StudioOptions& options);
   ~Studio();
 
-  // Commands and events. Positions are viewport pixels.
+  // Commands and events. Positions are viewport pixels, x right, y down.
   void apply(const Command& command);
   void run(Action action);
-  std::string why_not(Action action) const;  // empty where it is allowed
-  // covered_bottom_px: of the viewport, by thumbnails; framing keeps clear of it.
+  std::string why_not(Action action) const;  // reason why the action is refused now; empty: it is allowed
+  // covered_bottom_px: height that thumbnails cover at the bottom of the viewport; framing keeps clear of it.
   void set_viewport(int width_px, int height_px, float pixels_per_point, float covered_bottom_px = 0);
   void pointer_pressed(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers);
   void pointer_moved(const glm::vec2& pixel, const Modifiers& modifiers);
   void pointer_released(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers);
   void pointer_double_clicked(const glm::vec2& pixel);
   void wheel(float steps, const Modifiers& modifiers);
-  void key_pressed(int key, const Modifiers& modifiers, bool repeated = false);  // repeated: still held
+  void key_pressed(int key, const Modifiers& modifiers, bool repeated = false);  // repeated: it is still held
   void key_released(int key);
   void release_keys();  // the window lost the focus
-  void pointer_left();  // the viewport
+  void pointer_left();  // the pointer left the viewport
   void set_gpu_view(bool gpu) { viewport_.set_gpu_view(gpu); }
   void leave() { work_.leave(); }                // the program ends
-  void keep_unsaved() { work_.keep_unsaved(); }  // it is ended from outside, by a signal
+  void keep_unsaved() { work_.keep_unsaved(); }  // a signal ends the program
 
-  // Once a frame: results, transitions, requests. True while something moves or waits.
+  // Takes results, moves transitions on and makes requests; called once a frame. Returns true while something
+  // moves or waits.
   bool update(double seconds);
 
   // The parts, and what they share.
@@ -70,18 +72,18 @@ class Studio {
   const std::deque<Message>& messages() const { return ws_.messages; }
   std::vector<UiRequest> take_ui_requests() { return std::exchange(ws_.ui_requests, {}); }
   double clock_s() const { return ws_.clock_s; }
-  std::vector<std::uint8_t> labels(ObjectId object) const;  // empty where there is no such object
+  std::vector<std::uint8_t> labels(ObjectId object) const;  // final labels; empty: there is no such object
   std::size_t gaussians_of(ObjectId object) const { return ws_.gaussians_of(object); }
 
-  // Also while work is being written.
+  // True if work is unsaved, also while it is being written.
   bool unsaved() const { return edits_.waiting() || work_.unsaved(); }
   bool loading() const { return tasks_.busy(TaskKind::kLoad); }
   bool cutting() const { return tasks_.busy(TaskKind::kCut); }
-  std::size_t neighbourhoods() const;  // prepared for clicks and kept; to be asked while idle()
+  std::size_t neighbourhoods() const;  // number of places prepared for clicks; to be called while idle()
   TaskThread::Progress progress() const;
-  bool idle() const;  // no task, no picture on its way, the last picture is full and current
+  bool idle() const;  // true: no task and no picture is on its way, and the last picture is full and current
 
-  // For tests: waits until idle(); runs update() with steps of 1/60 s. False after `most_seconds`.
+  // For tests: runs update() in steps of 1/60 s until idle(). Returns false after `most_seconds`.
   bool settle(double most_seconds);
 
  private:
@@ -102,13 +104,13 @@ class Studio {
   void scene_opened(bool same);
   void follow_document();
   void run_all(const std::vector<Command>& commands);
-  // What keys and buttons do, see studio_actions.cpp.
+  // Work of an action, see studio_actions.cpp.
   struct ActionRow;
-  static const ActionRow* row_of(Action action);  // null: a tool, or a flight key
+  static const ActionRow* row_of(Action action);  // null: the action is a tool or a flight key
   void ask(UiRequest request) { ws_.ui_requests.push_back(request); }
   void close_shape();
-  void turn_over(bool ViewState::*part);  // on or off
-  void turn_over(DisplayMode mode);       // that display, or the whole again
+  void turn_over(bool ViewState::*part);  // switches a setting of the view on or off
+  void turn_over(DisplayMode mode);       // switches to that display, or back to the whole scene
   void side_by_side();
   void scale_brush(float factor);
   void step_camera(int direction);
@@ -126,9 +128,9 @@ class Studio {
   CleanEdges clean_edges_;
   std::set<int> held_keys_;
   double brush_repeated_s_ = -1e9;
-  std::uint64_t followed_serial_ = 0;  // of the document that follow_document() saw last
+  std::uint64_t followed_serial_ = 0;  // serial of the document that follow_document() saw last
 
-  // Last: threads end before what they may call.
+  // Last members: the threads end before what they may call is destroyed.
   TaskThread tasks_, quick_;
 };
 

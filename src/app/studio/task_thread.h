@@ -1,11 +1,11 @@
-// A worker for what takes long: load, prepare, cut, select, export. Work runs on snapshots; what it finds
-// comes back as closures that the main thread runs in deliver().
+// Worker thread for tasks that take long: load, prepare, cut, select, export. A task works on snapshots and
+// returns its results as closures, which the main thread runs in deliver().
 //
-// A task of a kind replaces the waiting and stops the running task of the same kind: the latest request wins.
-// Exports and saved work wait for each other: each is a file that somebody asked for. Everything runs at a
-// lower priority than what draws the window, preparing lower still: pictures of the scene come first, also
-// where there are few cores. Cancel is a normal end.
-// Shutdown: work that waits to be saved is saved, other tasks are stopped or dropped, the thread is joined.
+// The latest request wins: a new task drops the waiting task of its kind and stops the running one. Exports
+// and saves are the exception: they all run, one after the other, because each is a file that the user asked
+// for. Tasks run at a lower priority than what draws the window, and preparing runs at a lower one still, so
+// that pictures come first even if there are few cores. Cancelling is a normal end. Shutdown: saves that wait
+// are done, other tasks are stopped or dropped, and the thread is joined.
 #pragma once
 
 #include <condition_variable>
@@ -28,50 +28,50 @@ enum class TaskKind {
   kSelect,
   kStyle,
   kHover,
-  kReady,  // ahead of a click
+  kReady,  // prepares a click that may come
   kExport,
   kSave,
   kAutosave
 };
 
-// False: the program does it by itself, nobody waits for its end.
+// True if the user asked for tasks of this kind. False: the program does them by itself, and nobody waits.
 bool asked_for(TaskKind kind);
 
 class TaskThread {
  public:
-  // Runs on the worker. What it throws arrives in `failed` of its own order, then in on_error; trouble of a
-  // task that was stopped or replaced is dropped.
+  // Work of a task, run on the worker. What it throws is reported to Order::failed, then to on_error, unless
+  // the task was stopped or replaced.
   using Work = std::function<void(const Job& job)>;
 
   struct Order {
     TaskKind kind;
-    std::function<void()> failed;  // called in deliver()
+    std::function<void()> failed;  // called in deliver() if the work throws
     Order(TaskKind task_kind, std::function<void()> on_failure = {})
         : kind(task_kind), failed(std::move(on_failure)) {}
   };
 
   struct Progress {
-    bool busy = false;  // with something that is asked_for()
+    bool busy = false;  // true: a task runs that is asked_for()
     TaskKind kind = TaskKind::kLoad;
     std::string stage;
-    double fraction = 0;  // [0, 1]
+    double fraction = 0;  // share of the stage that is done, [0, 1]
   };
 
-  // wake: called from the worker when there is something to deliver. inline_work: every task runs and is
-  // delivered inside submit(), for tests that want one order of events.
+  // wake: is called from the worker when there is something to deliver. inline_work: every task runs and is
+  // delivered inside submit(), for tests that need one order of events.
   explicit TaskThread(std::function<void()> wake = {}, bool inline_work = false);
   ~TaskThread();
 
   void submit(Order order, Work work);
   void cancel(TaskKind kind);
-  bool busy(TaskKind kind) const;  // waiting or running
-  bool idle() const;
+  bool busy(TaskKind kind) const;  // true: a task of this kind waits or runs
+  bool idle() const;               // true: nothing waits, runs, or is to be delivered
   Progress progress() const;
 
-  // From the worker: `closure` will run on the main thread.
+  // Hands a closure to the main thread. Tasks call it on the worker.
   void post(std::function<void()> closure);
 
-  // Main thread: runs what was posted. True where there was anything.
+  // Runs the closures that were posted; called on the main thread. Returns true if there were any.
   bool deliver();
 
   std::function<void(const std::string& message)> on_error;  // called in deliver()
@@ -95,7 +95,7 @@ class TaskThread {
   std::stop_source running_stop_;
   Progress progress_;
   std::vector<std::function<void()>> posted_;
-  std::jthread thread_;  // last: ends before the rest goes
+  std::jthread thread_;  // last member: the thread ends before what it uses is destroyed
 };
 
 }  // namespace splatcut

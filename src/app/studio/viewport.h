@@ -1,8 +1,8 @@
 // The view of the scene: its size and panes, the camera, what is drawn in which style, the pictures as they
 // arrive, and what lies under a pixel.
 //
-// Pixels are of the viewport, x right, y down; two panes are halves of it side by side. Main thread; pictures
-// are made on FrameThread, styles on Workspace::quick.
+// Pixels are the viewport's, x right, y down; two panes are its halves side by side. Only the main thread
+// calls this class. FrameThread makes pictures, and Workspace::quick makes styles.
 #pragma once
 
 #include <algorithm>
@@ -20,62 +20,70 @@ class Viewport {
  public:
   Viewport(Workspace& workspace, const CutJobs& cuts);
 
-  // covered_bottom_px: by thumbnails; framing keeps clear of it.
+  // covered_bottom_px: height that thumbnails cover at the bottom; framing keeps clear of it.
   void set_size(int width_px, int height_px, float pixels_per_point, float covered_bottom_px);
-  // A GPU draws the splats: pictures are then made for picking only, when nothing moves.
+  // Says whether a GPU draws the splats. If so, pictures are made for picking only, and only when nothing
+  // moves.
   void set_gpu_view(bool gpu) { gpu_view_ = gpu; }
-  void reset();                                       // another scene, the workspace's
-  void change_scene();                                // the same with other files in it: the camera stays
-  bool update(double seconds, const Flight& flight);  // once a frame; true while the view moves
-  bool idle() const;  // the last picture is full, current, in the current style
+  void reset();         // starts with the workspace's new scene
+  void change_scene();  // goes on with the workspace's scene, which has other files now; the camera stays
+  // Moves the camera, and requests and takes styles and pictures; called once a frame. Returns true while the
+  // camera moves by itself.
+  bool update(double seconds, const Flight& flight);
+  bool idle() const;  // true: the last picture is full, current, and in the current style
 
   // Camera and panes.
   CameraController& camera() { return camera_; }
   const CameraController& camera() const { return camera_; }
-  Camera pane_camera() const;                               // of each pane: two show the same
-  int panes() const { return std::max(1, styles_.panes); }  // as they are shown
-  int pane_at(const glm::vec2& pixel) const;
-  // Where a drag goes on; 1: the right one.
+  Camera pane_camera() const;  // camera of each pane: two panes show the same view
+  int panes() const { return std::max(1, styles_.panes); }  // number of panes that are shown
+  int pane_at(const glm::vec2& pixel) const;                // pane under the pixel; during a drag, the drag's
+  // Pane in which a drag goes on; 1 is the right one.
   int drag_pane() const { return panes() == 2 && ws_.tools.dragging() ? pressed_pane_ : 0; }
   void press_in(int pane) { pressed_pane_ = pane; }
-  int pressed_pane() const { return panes() == 2 ? pressed_pane_ : 0; }  // the last one: where the hand works
-  glm::vec2 in_pane(const glm::vec2& pixel) const;
+  // Pane in which a button was pressed last: the one that the user works in.
+  int pressed_pane() const { return panes() == 2 ? pressed_pane_ : 0; }
+  glm::vec2 in_pane(const glm::vec2& pixel) const;  // position within the pane that pane_at() names
   float pixels_per_point() const { return pixels_per_point_; }
   void frame_object();
-  bool moving() const;  // or it did a moment ago
+  bool moving() const;  // true: the view moves, or did a moment ago
 
-  // What is drawn.
+  // What the panes draw.
   DrawLimits draw_limits() const;
   const Flags& shown(int pane) const { return styles_.shown.at(static_cast<std::size_t>(pane)); }
   const FrameStyle& style(int pane) const { return styles_.style.at(static_cast<std::size_t>(pane)); }
-  // Drawn there in place of the scene's rows; null: those.
+  // Object that the pane draws in place of the scene's rows; null: the rows.
   const std::shared_ptr<const CleanObject>& clean(int pane) const {
     return styles_.clean.at(static_cast<std::size_t>(pane));
   }
-  std::uint64_t style_serial() const { return style_serial_; }  // changes with shown() and style()
-  bool style_current() const;  // made of the document and the view as they are
-  const Flags& active_labels() const { return styles_.active_labels; }  // as they are shown; null: none yet
-  Flags seen(int pane) const;  // what can be seen there now; null: all
+  // Number that changes with shown() and style().
+  std::uint64_t style_serial() const { return style_serial_; }
+  bool style_current() const;  // true: the styles belong to the present document and view
+  // Labels of the active object, as they are shown; null: there are none yet.
+  const Flags& active_labels() const { return styles_.active_labels; }
+  Flags seen(int pane) const;  // Gaussians that the pane shows now; null: all
   void show_floaters(bool shown);
   bool floaters_shown() const { return floaters_shown_; }
   std::size_t floater_count() const { return styles_.floaters; }
-  // Outlines Gaussians in the first pane, until the next change of style; null: none.
+  // Outlines Gaussians in the first pane until the styles change; null: outlines none.
   void highlight(const Flags& gaussians, const Rgb8& colour);
 
   // Pictures.
   const FrameResult* picture() const { return picture_ ? &*picture_ : nullptr; }
   std::uint64_t picture_serial() const { return picture_serial_; }
-  // Of the pane; null: the screen shows another view, or not in full.
+  // Frame of the pane; null: the last picture shows another view, or is not full.
   std::shared_ptr<const Frame> full_picture_of(const Camera& camera, int pane = 0) const;
-  float moving_scale() const { return moving_scale_; }
-  double moving_ms() const { return moving_ms_; }
-  double still_ms() const { return still_ms_; }
+  float moving_scale() const { return moving_scale_; }  // size of a reduced picture over that of a full one
+  double moving_ms() const { return moving_ms_; }       // time of the last reduced picture
+  double still_ms() const { return still_ms_; }         // time of the last full picture
 
-  // What lies under a pixel of the pressed pane. The picture knows, where it shows this view, else that one
-  // pixel is drawn.
+  // Picks the surface under a pixel of the pressed pane; none: nothing is there. The last picture answers if
+  // it shows this view; else the one pixel is drawn.
   std::optional<PickedPoint> pick(const glm::vec2& pixel) const;
+  // The same for any camera. visible: flags of the Gaussians that count; null: all.
   std::optional<PickedPoint> hit_in(const Camera& camera, const glm::vec2& pixel, const Flags& visible) const;
-  // Camera z, from the last picture of any size and camera: while the view moves it lags behind.
+  // Camera z of the surface under a pixel, scene units, from the last picture; none: unknown. While the view
+  // moves, the picture lags behind, and so does the answer.
   std::optional<float> depth_on_screen(const glm::vec2& pixel) const;
   ToolContext tool_context(const glm::vec2& pixel);
 
@@ -90,12 +98,12 @@ class Viewport {
   int width_px_ = 0, height_px_ = 0;
   float covered_bottom_px_ = 0, pixels_per_point_ = 1;
   bool gpu_view_ = false;
-  int pressed_pane_ = 0;  // of the drag
+  int pressed_pane_ = 0;  // pane in which a button was pressed last
 
   Styles styles_;
-  std::shared_ptr<LabelCache> style_labels_;  // the worker's
+  std::shared_ptr<LabelCache> style_labels_;  // cache that the worker uses
   std::uint64_t style_serial_ = 0;
-  std::uint64_t styled_document_ = 0, styled_view_ = 0;  // serials of what was asked for last
+  std::uint64_t styled_document_ = 0, styled_view_ = 0;  // serials for which styles were requested last
   bool styles_on_the_way_ = false;
   bool floaters_shown_ = false, say_floaters_ = false;
 
@@ -108,7 +116,7 @@ class Viewport {
   float moving_scale_ = 0.5f;
   double moving_ms_ = 0, still_ms_ = 0;
 
-  FrameThread frames_;  // last: ends before the rest goes
+  FrameThread frames_;  // last member: its thread ends before the rest is destroyed
 };
 
 }  // namespace splatcut

@@ -1,5 +1,5 @@
-// What the parts of the program share: the document with its history, the opened scene, how it is looked at,
-// messages, and the threads that do the work. Main thread.
+// What the parts of the window's program share: the document with its history, the opened scene, the view
+// settings, messages, and the threads that do the work. Only the main thread uses it.
 #pragma once
 
 #include <deque>
@@ -22,35 +22,35 @@
 namespace splatcut {
 
 struct StudioOptions {
-  std::function<void()> wake;          // called from any thread when update() has something to do
-  bool inline_tasks = false;           // for tests: tasks run inside apply()
-  std::filesystem::path state_folder;  // for the autosave; empty: none is written
-  PreparedCache cache;                 // of scenes once prepared
+  std::function<void()> wake;          // function that any thread calls when update() has something to do
+  bool inline_tasks = false;           // true: tasks run inside apply(), for tests
+  std::filesystem::path state_folder;  // folder for autosaves; empty: none are written
+  PreparedCache cache;                 // cache of what was prepared for clicks
 };
 
 struct Workspace {
   StudioOptions options;
-  TaskThread& tasks;  // load, prepare, cut, write files: seconds
-  TaskThread& quick;  // selections and styles: a few passes over the Gaussians
+  TaskThread& tasks;  // worker that loads, prepares, cuts and writes files, which takes seconds
+  TaskThread& quick;  // worker for selections and styles, which take a few passes over the Gaussians
 
   History history{};
   ViewState view{};
-  std::uint64_t view_serial = 1;  // changes with `view` and with previews of a cut
+  std::uint64_t view_serial = 1;  // number that changes with `view` and with previews of a cut
   PointerTools tools{};
   Modifiers held_modifiers{};
-  std::shared_ptr<const OpenedScene> scene{};   // null: none
-  std::shared_ptr<Session> session{};           // of the scene, for `tasks`; null as long as it is
-  std::shared_ptr<SceneGraph> graph{};          // of the scene, made at the first edit that asks for it
-  std::shared_ptr<CleanObjects> clean{};        // of the scene
-  std::shared_ptr<const CoarseCloud> coarse{};  // of large scenes, for pictures while the view moves
+  std::shared_ptr<const OpenedScene> scene{};   // opened scene; null: none
+  std::shared_ptr<Session> session{};           // session on the scene, used on `tasks`; null without a scene
+  std::shared_ptr<SceneGraph> graph{};          // graph of the scene, built when an edit first asks for it
+  std::shared_ptr<CleanObjects> clean{};        // objects of the scene with clean edges
+  std::shared_ptr<const CoarseCloud> coarse{};  // cloud for pictures of a large scene in motion; null: none
   mutable LabelCache labels{};
-  std::deque<Message> messages{};  // the last hundred
+  std::deque<Message> messages{};  // last hundred messages, the newest last
   std::vector<UiRequest> ui_requests{};
-  double clock_s = 0;
+  double clock_s = 0;  // sum of the seconds that update() was given
 
   const Document& document() const { return history.now(); }
   std::size_t gaussians() const { return scene ? scene->cloud->size() : 0; }
-  std::size_t gaussians_of(ObjectId object) const;  // 0 where there is no such object
+  std::size_t gaussians_of(ObjectId object) const;  // number of its Gaussians; 0: there is no such object
   EditContext context() const { return {*scene->cloud, graph.get()}; }
   void require_scene() const;  // throws Error without one
   void say(Message::Kind kind, std::string text);
