@@ -1,15 +1,17 @@
-// What a box around something can mean: every part of every tree that shows in it, not only the ancestors of
-// one leaf, each with its terms (part_model.h names them) and their weighted sum, likeliest first.
+// Meanings of a box: the parts that a user may have drawn it around.
 //
-// In: hierarchy, a box in a soft view, weights. All pixels are the view's, soft; "all views" are the
-// observing ones (part_looks.h) with the box's own. Terms, of a part of which `in` pixels lie in the box:
+// In: hierarchy, a box in a soft view, weights. Out: every part of every tree that shows in the box, not only
+// the ancestors of one leaf, with its terms (part_model.h names them) and their weighted sum, likeliest
+// first. Pixels are the view's, and a leaf counts with its share of each. "All views" are the observing views
+// (part_looks.h) and the box's own. Terms of a part that shows `in` pixels in the box:
 //
-// - kShort: how far the part stays away from the box's four sides: sum of max(0, d - 0.1), d the distance of
-//   its outermost hundredth from the side over the box's extent that way. A box touches what it is around.
-// - kSpill: its pixels outside of the box / in, at most 3.
-// - kFills: -ln(in / all that shows in the box).
-// - kCut, kNoEdge, kCropped, kFrame, kSmall, kLarge: as of a first click, see candidates.h.
-// Parts of which less than a fiftieth of the box's area shows in it are none of its meanings.
+// - kShort: gaps between the part and the box's four sides: the sum of max(0, d - 0.1), where d is the
+//   distance of the part's outermost hundredth from a side, over the box's extent that way. People draw boxes
+//   that touch the object.
+// - kSpill: the part's pixels outside of the box over `in`, at most 3.
+// - kFills: -ln(`in` / all pixels that show anything in the box).
+// - kCut, kNoEdge, kCropped, kFrame, kSmall, kLarge: the same as for a first click, see candidates.h.
+// A part is no meaning if `in` is less than a fiftieth of the box's area.
 // Cost: some 10 ms. The result depends on the arguments alone.
 #pragma once
 
@@ -21,7 +23,7 @@
 
 namespace splatcut {
 
-// Empty where the box shows nothing.
+// The meanings, likeliest first; empty if nothing shows in the box. box: in the view's pixels.
 std::vector<PartMeaning> box_meanings(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
                                       const TermValues& weights);
 

@@ -1,39 +1,44 @@
-// What a click can mean: candidates, with the terms of their cost.
+// Candidates: what a click can mean, with the terms of the cost of each meaning.
 //
-// In: hierarchy, what was selected so far, a click in a soft view. Out: the clicked leaf's ancestors in every
-// tree, each with its terms (part_model.h names them) and their weighted sum, likeliest first; the disc alone
-// and, after one click on the object, another meaning of that click are candidates, too. All pixels are the
-// view's; "all views" are the observing ones (part_looks.h), of a first click with its own: a part looks the
-// same from wherever the user stands. Terms:
+// In: hierarchy, the selection so far, a click in a soft view. Out: candidates, likeliest first, each with
+// its terms (part_model.h names them) and their weighted sum. Candidates are the ancestors of the clicked
+// leaf in every tree. For corrections, the disc alone is one more candidate, and so is another meaning of the
+// first click if that is the only click on the object. Pixels are the view's. "All views" are the observing
+// views (part_looks.h), for a first click together with its own, so that a part looks the same from wherever
+// the user stands. f is ln(pixels that would change / area of the disc that reaches to where the wrong region
+// may end). Terms of a candidate:
 //
-// - kCut: ln(length of the node's border, likeness-weighted / sqrt(area)), in the scene; where it touches
-//   nothing -16, of a first click -12.
-// - kJump: ln of how much dearer the merge that ends the node is than the one that made it, at most 2.
-// - kRare: -ln of the mean IoU (at least 0.01) with the likest ancestors in the other trees of its kind; of a
-//   first click in pixels of all views.
-// - kFrame: pixels at the picture's frame / sqrt(all); of a first click both are summed over all views.
-// - kShadeBlind: 1 where the tree counts lightness less.
-// - kOffCentre: ln(0.7 / share), at least 0; share: the click's distance to the border of what would change
+// - kCut: ln(L / sqrt(area)), with L the length of the node's border in the scene, weighted by likeness; at
+//   least -16, for a first click at least -12: a node that touches nothing gets that.
+// - kJump: ln(cost of the merge that ends the node / cost of the merge that made it), from 0 to 2.
+// - kRare: -ln of the node's mean IoU (at least 0.01) with the likest ancestors in the other trees of its
+//   kind; for a first click IoU counts pixels of all views.
+// - kFrame: pixels at the picture's frame / sqrt(all pixels of the node); for a first click both are sums
+//   over all views.
+// - kShadeBlind: 1 if the tree gives lightness less weight.
+// - kOffCentre: ln(0.7 / share), at least 0. share: the click's distance to the border of what would change,
 //   over the largest such distance. People click in the middle of what they mean.
-// - kNoEdge: of a first click, share of its border in all views where the depth does not jump.
-// - kCropped: of a first click, the share of the views in which it touches the picture's frame; views count
-//   by the side of what they show of it.
-// - kSmall, kLarge: of a first click, ln of folds of the picture below 1 % and above 35 %; of the picture in
-//   which its average pixel lies.
-// - kScrap, kFold, kGiant: of later clicks, with f = ln(changed pixels / disc to where the region may end):
-//   max(0, -0.3 - f), max(0, f - 1), max(0, f - 3.25).
-// - kApart: share of the view's pixels that would change which the click does not reach without a jump in
-//   depth (click_reach.h): another thing behind or before. People click each thing that is wrong.
-// - kBorder: max(0, f - 1) where the click is within 2 pixels of the border.
-// - kHidden: max(0, ln(H) - 2), H: area that would change, at the clicked leaf's depth, over changed pixels
-//   or that disc: what would mostly change where the user cannot see it.
-// - kTakes: of a click on the rest, max(0, -ln(share of the object's pixels in the view that would be left) -
-//   0.4): people take parts away from an object, and undo where they want nearly all of it gone.
-// - kOpposed: clicks of the other sign that it holds.
-// - kBack: IoU with what a click of the other sign has changed, the largest. People undo in that case.
-// - kDisc: 1 where nothing but the disc would change.
-// - kRepick: 1 where the first click is given another meaning; see ClickSelection. It is a candidate while f
-//   is at most 1, and has none of the other terms but those of size.
+// - kNoEdge (first clicks): share of the node's border, in all views, at which depth does not jump.
+// - kCropped (first clicks): share of the views in which the node touches the picture's frame. A view counts
+//   by the square root of the area that it shows of the node.
+// - kSmall, kLarge (first clicks): ln of how many times the node is smaller than 1 %, or larger than 35 %, of
+//   the picture in which its average pixel lies.
+// - kScrap, kFold, kGiant (later clicks): max(0, -0.3 - f), max(0, f - 1), max(0, f - 3.25).
+// - kApart (later clicks): share of the pixels that would change which the click does not reach without a
+//   jump in depth (click_reach.h): they are another thing behind or before. People click each thing that is
+//   wrong.
+// - kBorder (later clicks): max(0, f - 1) if the click is within 2 pixels of the border.
+// - kHidden (later clicks): max(0, ln(H) - 2). H: area that would change, in pixels at the clicked leaf's
+//   depth, over the pixels that would change or the disc's, whichever are more. It is large if most of the
+//   change is where the user cannot see it.
+// - kTakes (later clicks on the rest): max(0, -ln(share of the object's pixels in the view that would be
+//   left) - 0.4). People take parts away from an object, and undo if they want nearly all of it gone.
+// - kOpposed: number of clicks of the other sign in the node.
+// - kBack (later clicks): largest IoU with what a click of the other sign has changed. People undo in that
+//   case.
+// - kDisc: 1 if nothing but the disc would change.
+// - kRepick: 1 if the first click gets another meaning, see ClickSelection. This is a candidate while f is at
+//   most 1, and has none of the other terms but kScrap, kFold, kGiant and kBorder.
 // Cost: some 10 ms. The result depends on the arguments alone.
 #pragma once
 
@@ -48,22 +53,24 @@
 
 namespace splatcut {
 
-inline constexpr float kLeastChangePx = 0.3f;  // candidates that change less change nothing
+inline constexpr float kLeastChangePx = 0.3f;  // limit: a candidate that changes fewer pixels is none
 
 // The candidates of one tree: the clicked leaf and its ancestors.
 struct Chain {
-  std::vector<std::uint32_t> nodes;  // the leaf and its ancestors
-  std::vector<std::uint32_t>
-      level;  // per leaf of the hierarchy: the first of the nodes that holds it, or kNoLevel
-  std::vector<float> view_px, frame_px, opposed, changed_px, changed_area, stability;  // per node
-  std::vector<PartLooks> looks;  // of a first click, per node: in the observing views and its own
-  bool shade_blind = false;
-  bool of_tree = true;  // false: a set of leaves that no tree holds
+  std::vector<std::uint32_t> nodes;  // nodes of the tree, from the leaf to the root
+  // Per leaf of the hierarchy: index of the first node in `nodes` that holds it, or kNoLevel.
+  std::vector<std::uint32_t> level;
+  // Values per node: pixels in the view and at its frame, clicks of the other sign, pixels and scene area
+  // that would change, and mean IoU with the other trees.
+  std::vector<float> view_px, frame_px, opposed, changed_px, changed_area, stability;
+  std::vector<PartLooks> looks;  // looks per node in all views, for a first click only
+  bool shade_blind = false;      // true: the tree gives lightness less weight
+  bool of_tree = true;           // false: the chain is a set of leaves that no tree holds
 };
 
 struct Candidate {
   static constexpr std::size_t kDiscAlone = ~std::size_t{0};
-  std::size_t chain = 0, index = 0;  // into that chain's nodes; kDiscAlone: no part
+  std::size_t chain = 0, index = 0;  // index of the chain, and in its nodes; index kDiscAlone: no part
   TermValues terms{};
   float cost = 0;
 };
@@ -71,9 +78,10 @@ struct Candidate {
 // All candidates of a click, and what their terms are computed from.
 struct Answers {
   std::vector<Chain> chains;
-  std::vector<Candidate> candidates;  // likeliest first
-  std::vector<std::uint8_t> free;     // per leaf: whether a candidate may change it
+  std::vector<Candidate> candidates;  // candidates, likeliest first
+  std::vector<std::uint8_t> free;     // flags per leaf: 1 if a candidate may change it
 
+  // True if the candidate holds the leaf and may change it.
   bool changes(const Candidate& candidate, std::uint32_t leaf) const {
     return candidate.index != Candidate::kDiscAlone &&
            chains[candidate.chain].level[leaf] <= candidate.index &&
@@ -81,37 +89,39 @@ struct Answers {
   }
 };
 
-// What one correction has changed.
+// Change that one correction has made.
 struct Change {
-  std::vector<std::uint32_t> leaves;
-  bool object = false;
+  std::vector<std::uint32_t> leaves;  // leaves that changed side
+  bool object = false;                // true: they became object
 };
 
-// The state after the clicks so far.
+// Selection after the clicks so far.
 struct SelectedParts {
-  std::vector<std::uint8_t> object;       // per leaf
-  std::vector<std::int8_t> said;          // per leaf: +1, -1: decided by a disc
-  std::vector<std::uint32_t> clicked[2];  // leaves clicked, by sign
-  std::vector<Change> changes;            // by each correction
-  std::shared_ptr<const Answers> first;   // what the first click could mean
+  std::vector<std::uint8_t> object;  // labels per leaf, 1 = object
+  std::vector<std::int8_t> said;     // sign per leaf that a disc has decided: +1 object, -1 rest; 0: none
+  std::vector<std::uint32_t> clicked[2];  // leaves clicked: [0] on the rest, [1] on the object
+  std::vector<Change> changes;            // change of each correction
+  std::shared_ptr<const Answers> first;   // candidates of the first click; null before it
 };
 
 struct Click {
   const LeafView& view;
-  glm::ivec2 at;
-  bool object;
-  bool first;
-  std::uint32_t leaf;     // not on that side yet
-  float radius_px;        // to where the wrong region may end; 0 for the first
-  const Mask& displayed;  // before the click
+  glm::ivec2 at;          // clicked pixel
+  bool object;            // true: the click says object; false: rest
+  bool first;             // true: it is the first click
+  std::uint32_t leaf;     // leaf that the click shall change: it is on the other side
+  float radius_px;        // distance to where the wrong region may end; 0 for the first click
+  const Mask& displayed;  // mask that the view showed before the click
 };
 
 struct AnswerOptions {
-  bool all_terms = false;  // else kOffCentre is measured of those alone that can win by it,
-  float least_growth = 1;  // in changed pixels from one node of a chain to the next that is a candidate
+  // True: kOffCentre is measured for all candidates. False: only for those that can win by it; others are
+  // dropped.
+  bool all_terms = false;
+  float least_growth = 1;  // least ratio of changed pixels from one candidate of a chain to the next
 };
 
-// model: its weights say how much each term costs.
+// Finds the candidates of a click. model: its weights say what each term costs.
 Answers answers(const PartHierarchy& parts, const SelectedParts& selected, const Click& click,
                 const SelectionModel& model, const AnswerOptions& options = {});
 

@@ -1,19 +1,24 @@
-// What clicks and strokes mean: a label per Gaussian that grows with each of them, in any view.
+// Selection by clicks and other strokes: labels of the Gaussians that each stroke changes, in any view.
 //
 // In: the hierarchy of parts, and one stroke after the other with the view it was made in. Out: labels (1 =
-// object), and which Gaussians the strokes themselves have decided.
-// A click says two things. Certain: what is displayed around it is on the wrong side now. Within a disc of
-// disc_share times the distance to where the wrong region may end (the displayed border, or a jump of the
-// depth before it), Gaussians that show mostly there take the said label and keep it until a later disc of
-// the other sign covers them; so do leaves that lie mostly in the disc. Probable: one of the clicked leaf's
-// ancestors in any tree is meant, the one of the least cost; see candidates.h. A leaf follows a correction
-// only where, in most trees, it meets no click of the other sign below its common ancestor with this click.
-// After one object click, a click on the rest may also say that another part of that click was meant: the
-// likeliest that holds none of the clicks on the rest. Where no candidate is likely the disc alone changes.
-// A box says what is meant as a whole (box_meanings.h): the likeliest part of each tree votes for its leaves
-// (part_votes.h), and those of more than half of the votes change side, unless a click has decided them. It
-// decides no Gaussian by itself: clicks correct it anywhere.
-// Cost: some 10 ms a click once its view is known. The result depends on the strokes in their order alone.
+// object), and the Gaussians that the strokes themselves have decided.
+//
+// A click says two things. Certain: what the view displays around it is on the wrong side now. This holds
+// within a disc, whose radius is disc_share times the distance to where the wrong region may end: the
+// displayed border, or a jump of the depth before it. Gaussians that show mostly in the disc take the said
+// label, and keep it until a later disc of the other sign covers them; leaves that lie mostly in the disc do
+// the same. Probable: the click means an ancestor of the clicked leaf in one of the trees, namely the one of
+// the least cost, see candidates.h. A leaf follows a correction only if, in at least nearer_majority of the
+// trees, it meets no click of the other sign below its common ancestor with this click.
+//
+// After a single object click, a click on the rest may also say that the first click meant another part: the
+// likeliest that holds no click on the rest. If no candidate is likely, only the disc changes.
+//
+// A box says what is meant as a whole (box_meanings.h). The likeliest part of each tree votes for its leaves
+// (part_votes.h); leaves with more than half of the votes change side, unless a click has decided them. A box
+// decides no Gaussian by itself, so clicks can correct it anywhere.
+//
+// Cost: some 10 ms a click once its view is known. The result depends on the strokes and their order alone.
 #pragma once
 
 #include <cstdint>
@@ -29,46 +34,48 @@
 
 namespace splatcut {
 
-inline constexpr int kMostMeanings = 3;  // of a first click that are offered
+inline constexpr int kMostMeanings = 3;  // limit of meanings of a first click that are offered
 
 class ClickSelection {
  public:
-  // choice: which meaning of the first click is taken, 0 the likeliest; see meanings(). part_step: how many
-  // sizes above or below that meaning's own. Both are clamped to what there is.
+  // choice: number of the meaning of the first click to take, 0 the likeliest; see meanings(). part_step:
+  // number of sizes above (+) or below (-) that meaning's own. Both are clamped to what there is. parts must
+  // outlive this.
   ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step = 0, int choice = 0);
 
-  // Applies a stroke, given in the view's pixels. False if it hits nothing of the scene, or marks background
-  // before there is an object.
+  // Applies a stroke, given in the view's pixels. Returns false if it hits nothing of the scene, or marks the
+  // rest before there is an object.
   bool apply(const LeafView& view, const Stroke& stroke);
 
-  // The candidates of a click on this pixel. Nothing if it misses the scene, or the pixel shows that label
+  // Candidates of a click on this pixel; none if it misses the scene, or if the pixel shows that label
   // already.
   std::optional<Answers> considered(const LeafView& view, const glm::vec2& pixel, bool object,
                                     const AnswerOptions& options = {}) const;
-  void set_model(const SelectionModel& model) { model_ = model; }  // for the clicks to come
+  void set_model(const SelectionModel& model) { model_ = model; }  // sets the model for strokes to come
   const SelectedParts& selected() const { return selected_; }
 
-  bool any() const { return any_; }                                    // some stroke has hit the scene
-  const std::vector<std::uint8_t>& labels() const { return labels_; }  // per Gaussian
-  const std::vector<std::int8_t>& said() const { return said_; }  // per Gaussian: +1, -1: by a disc; or 0
+  bool any() const { return any_; }                                    // true: some stroke has hit the scene
+  const std::vector<std::uint8_t>& labels() const { return labels_; }  // labels per Gaussian, 1 = object
+  // Sign per Gaussian that a stroke has decided: +1 object, -1 rest; 0: no stroke has.
+  const std::vector<std::int8_t>& said() const { return said_; }
 
-  // Sizes that the first click can mean: how many, the one taken, whether another was nearly as likely.
+  // Sizes that the first click can mean: their number, the index of the one taken, and that at part_step 0.
   std::size_t sizes() const { return sizes_; }
   std::size_t size() const { return size_; }
-  std::size_t likeliest_size() const { return likeliest_size_; }  // at part_step 0
-  // What the next smaller and the next larger size would show in the first click's view; empty: there is
-  // none.
+  std::size_t likeliest_size() const { return likeliest_size_; }
+  // Masks of the next smaller and the next larger size in the first click's view; empty: there is none.
   const Mask& smaller() const { return next_sizes_->smaller; }
   const Mask& larger() const { return next_sizes_->larger; }
+  // True if a clearly larger or smaller part was nearly as likely.
   bool ambiguous() const { return ambiguous_; }
 
-  // A mask for each meaning of the first click that is nearly as likely as the best and looks clearly
-  // different in its view, the likeliest first; at most kMostMeanings. Empty before the first click. Those of
-  // a box are what the trees agree on, then single parts.
+  // Masks of the first click's meanings in its view, the likeliest first: those that are nearly as likely as
+  // the best and look clearly different, at most kMostMeanings. Empty before the first click. For a box, the
+  // first is what the trees agree on, and the others are single parts.
   std::span<const Mask> meanings() const;
-  std::size_t choice() const { return choice_taken_; }
+  std::size_t choice() const { return choice_taken_; }  // index of the meaning that is taken
 
-  // The last stroke changed its disc alone: no part fitted it.
+  // True if the last stroke changed its disc alone, because no part fitted it.
   bool spot_alone() const { return spot_alone_; }
 
  private:
@@ -98,7 +105,7 @@ class ClickSelection {
   SelectedParts selected_;
   struct Offers {
     std::vector<Candidate> meant;
-    std::vector<Mask> masks;  // of each, in the first click's view
+    std::vector<Mask> masks;  // mask of each meaning in the first click's view
   };
   std::shared_ptr<const Offers> offers_;
   struct NextSizes {

@@ -1,10 +1,10 @@
-// What one view shows of the scene, softly: every Gaussian's and every leaf's share of every pixel.
+// Soft view of the scene: the share that every Gaussian and every leaf has of every pixel.
 //
 // In: cloud, hierarchy of parts, camera. Out: per pixel the weights alpha T of the Gaussians that make it,
-// and the same summed by leaf. A labelling's picture follows from it without drawing: a pixel is object where
-// its object weights reach 0.5, as in render_labels(). Unlike the Gaussian at the median depth of each pixel,
-// the sums do not speckle on real captures. Cost: one drawing; 8 bytes per pixel and Gaussian listed, some 20
-// of them a pixel.
+// and the same summed by leaf. The picture of any labelling follows without drawing: a pixel is object if its
+// object weights reach 0.5, as in render_labels(). Unlike the Gaussian at the median depth of each pixel,
+// these sums do not speckle on real captures. Cost: one drawing; 8 bytes per Gaussian listed, some 20 a
+// pixel.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,10 @@
 
 namespace splatcut {
 
-// Per pixel a list, row by row: entries first[i] .. first[i + 1] belong to pixel i, heaviest first.
+// Lists of weights, one per pixel, row by row: entries first[i] to first[i + 1] - 1 belong to pixel i,
+// heaviest first.
 struct PixelWeights {
-  std::vector<std::uint32_t> first;  // pixels + 1
+  std::vector<std::uint32_t> first;  // start of each list, one more than there are pixels
   std::vector<GroupWeight> entry;
   std::span<const GroupWeight> at(std::size_t pixel) const {
     return std::span(entry).subspan(first[pixel], first[pixel + 1] - first[pixel]);
@@ -29,34 +30,35 @@ struct PixelWeights {
 struct LeafView {
   Camera camera;
   PixelWeights gaussians, leaves;
-  Image<float> depth;                // expected, camera z; 0 where nothing is
-  bool whole = true;                 // false: Gaussians were left out
-  std::vector<float> alone_px;       // per Gaussian: its pixels if nothing occluded it; empty: not known
-  std::vector<float> leaf_px;        // per leaf: sum of its weights, pixels
-  std::vector<float> leaf_frame_px;  // the same at the picture's frame
+  Image<float> depth;                // expected depth as camera z, scene units; 0: nothing is there
+  bool whole = true;                 // false: some Gaussians were left out
+  std::vector<float> alone_px;       // pixels that each Gaussian has if nothing occludes it; empty: not known
+  std::vector<float> leaf_px;        // sum of each leaf's weights, pixels
+  std::vector<float> leaf_frame_px;  // sum of each leaf's weights at the picture's frame, pixels
 };
 
-// seen: Gaussians that are drawn; null: all. Cancelled: what comes back must not be used.
+// Draws a view. seen: flags of the Gaussians to draw; null: all. If cancelled, the result must not be used.
 LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera,
                    const Job& job = {}, const SeenGaussians& seen = {});
 
-// The same from lists that are known: per pixel the Gaussians that make it.
+// Makes a view from known lists. gaussians: per pixel the weights of its Gaussians, heaviest first.
 LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera,
                       Image<std::vector<GroupWeight>> gaussians, Image<float> depth);
 
-// Which leaf each pixel shows.
+// Picture of the leaf that each pixel shows.
 LeafPicture picture_of(const LeafView& view);
 
-inline constexpr std::uint32_t kNoLevel = 0xffffffffu;
+inline constexpr std::uint32_t kNoLevel = 0xffffffffu;  // level of what never joins
 
-// Of a set of leaves that grows level by level, as along a chain of ancestors: per pixel, the first level at
-// which the pixel shows the set; kNoLevel if it never does. level: per leaf, when it joins, or kNoLevel.
+// For a set of leaves that grows level by level, as along a chain of ancestors: the first level at which each
+// pixel shows the set; kNoLevel: it never does. level: per leaf the level at which it joins, or kNoLevel.
 Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint32_t> level);
 
-// Whether a person would take two sets of leaves for the same thing: IoU of their pixels, 0.8 at least.
+// True if a person would take two sets of leaves for the same thing: the IoU of their pixels is at least 0.8.
+// a, b: flags per leaf.
 bool look_alike(const LeafView& view, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 
-// The mask of a labelling, one label per group.
+// Mask of a labelling. labels: one per group of the weights (Gaussian or leaf), 1 = object.
 Mask shown(const PixelWeights& weights, const Camera& camera, std::span<const std::uint8_t> labels);
 
 }  // namespace splatcut

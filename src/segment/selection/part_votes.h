@@ -1,9 +1,9 @@
-// One set of leaves from many parts that a stroke can mean: the trees vote.
+// Votes of the trees: they make one set of leaves from many parts that a stroke can mean.
 //
-// In: parts with their costs. The cheapest part of each tree votes with exp(least cost - its cost) for its
-// leaves; trees without a part do not vote. Out: per leaf the share of the votes. Trees disagree where a part
-// is an accident of one of them; what most of them hold is steadier than the likeliest part alone. Cost:
-// linear in the nodes.
+// In: parts with their costs. Out: per leaf the share of the votes. The cheapest part of each tree votes for
+// its leaves with the weight exp(least cost - its cost); a tree without a part does not vote. Trees disagree
+// where a part is an accident of one tree, so what most of them hold is steadier than the likeliest part
+// alone. Cost: linear in the nodes.
 #pragma once
 
 #include <cstdint>
@@ -15,19 +15,20 @@
 
 namespace splatcut {
 
+// A part that a stroke can mean: a node of a tree, with the terms of its cost.
 struct PartMeaning {
   std::uint32_t tree = 0, node = 0;
   TermValues terms{};
   float cost = 0;
 };
 
-// The leaves of one node: 1 each.
+// Flags per leaf: 1 if the node holds it.
 std::vector<std::uint8_t> leaves_of(const PartHierarchy& parts, std::uint32_t tree, std::uint32_t node);
 
-// Per leaf the share in [0, 1]; empty where no tree votes. meanings: cheapest first.
+// Share of the votes for each leaf, [0, 1]; empty if no tree votes. meanings: parts, the cheapest first.
 std::vector<float> vote_shares(const PartHierarchy& parts, std::span<const PartMeaning> meanings);
 
-// The leaves of more than half of the votes.
+// Flags per leaf: 1 if it has more than half of the votes.
 std::vector<std::uint8_t> majority(std::span<const float> shares);
 
 }  // namespace splatcut

@@ -1,9 +1,10 @@
-// All strokes on one object, in their order and in any views, as one selection of parts.
+// Replay of all strokes on one object, in their order and in any views, into one selection of parts.
 //
 // In: strokes with their cameras. Out: labels, and the Gaussians that the strokes themselves decide, see
 // click_selection.h. All views count alike; the first one only decides what the first click can mean. Views
-// are looked at no wider than asked for, or wider where the object is small in them. The strokes of the last
-// replay are kept: one more stroke costs one stroke. The result depends on the strokes alone.
+// are rasterised no wider than asked for, or wider if the object is small in them. The replay keeps
+// selections of the last replay, so that one more stroke costs one stroke. The result depends on the strokes
+// alone.
 #pragma once
 
 #include <list>
@@ -17,21 +18,21 @@ namespace splatcut {
 
 struct CameraStroke {
   Camera camera;
-  Stroke stroke;         // in the camera's pixels
-  SeenGaussians seen{};  // it affects these alone; null: all
+  Stroke stroke;         // stroke in the camera's pixels
+  SeenGaussians seen{};  // flags of the Gaussians that it affects; null: all
 };
 
 struct ReplayOptions {
   SelectionModel model;
-  int part_step = 0;         // see ClickSelection
-  int choice = 0;            // see ClickSelection
-  int work_width_px = 320;   // views are rasterised no wider than this
-  int least_object_px = 48;  // square root of its pixels: wider where the object shows fewer
+  int part_step = 0;         // number of sizes above or below the meaning's own, see ClickSelection
+  int choice = 0;            // number of the meaning of the first click, see ClickSelection
+  int work_width_px = 320;   // greatest width of rasterised views, but see least_object_px
+  int least_object_px = 48;  // least square root of the object's pixels: a view that shows fewer gets wider
   bool operator==(const ReplayOptions&) const = default;
 };
 
-// The order in which strokes are applied: the first one on the object, then all others as they were made, as
-// strokes on the background correct an object.
+// Strokes in the order in which they are applied: the first one on the object, then all others as they were
+// made. Strokes on the rest correct an object, so one has to come first.
 std::vector<CameraStroke> in_replay_order(std::span<const CameraStroke> strokes);
 
 class StrokeReplay {
@@ -39,7 +40,8 @@ class StrokeReplay {
   // parts must outlive this.
   explicit StrokeReplay(const PartHierarchy& parts) : parts_(parts) {}
 
-  // Cancelled: the selection must not be used. The result is valid until the next call.
+  // Returns the selection after all strokes, which is valid until the next call. If cancelled, it must not be
+  // used.
   const ClickSelection& replay(const Drawer& drawer, std::span<const CameraStroke> strokes,
                                const ReplayOptions& options, const Job& job = {});
 
@@ -48,17 +50,18 @@ class StrokeReplay {
     LeafView view;
     SeenGaussians seen;
   };
-  // The view of the Gaussians that the stroke affects. Null if cancelled.
+  // View of the Gaussians that the stroke affects; null if cancelled.
   const LeafView* view(const Drawer& drawer, const CameraStroke& said, int width_px, const Job& job);
+  // Selection after one more stroke; null if cancelled.
   std::shared_ptr<const ClickSelection> after(const Drawer& drawer, const ClickSelection& before,
                                               const CameraStroke& said, const Job& job);
 
   const PartHierarchy& parts_;
-  std::list<KnownView> views_;  // the newest first
+  std::list<KnownView> views_;  // views that are kept, the last used first
   ReplayOptions options_;
-  std::vector<CameraStroke> done_;  // in the order in which they were applied
-  std::vector<std::shared_ptr<const ClickSelection>>
-      after_;  // the selection after each of them; null: no longer kept
+  std::vector<CameraStroke> done_;  // strokes in the order in which they were applied
+  // Selection after each of them; null: it is no longer kept.
+  std::vector<std::shared_ptr<const ClickSelection>> after_;
   std::shared_ptr<const ClickSelection> last_;
 };
 
