@@ -39,7 +39,7 @@ class CarriedDocument {
   void carry_views(ObjectItem* object);
 
   std::vector<File> files_;
-  // Per Gaussian of the new scene: its index in the old scene, or kNew; the index of its file in files_.
+  // Index in the old scene, or kNew, and index of the file in files_, for each Gaussian of the new scene.
   std::vector<std::int32_t> before_of_, file_of_;
   std::map<std::pair<Flags, std::int32_t>, Flags> known_;
 };

@@ -30,7 +30,7 @@ namespace splatcut {
 class SceneGraph;
 struct GaussianCloud;
 
-// What edits may read besides the document.
+// Data that edits may read besides the document.
 struct EditContext {
   const GaussianCloud& cloud;
   SceneGraph* graph = nullptr;  // graph of the cloud; null if no edit asks for neighbours

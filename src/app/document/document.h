@@ -50,7 +50,7 @@ struct ObjectItem {
 inline constexpr std::size_t kMostObjects = 255;  // limit, as one byte per Gaussian names its object
 
 struct Document {
-  std::vector<ObjectItem> objects;  // at most kMostObjects
+  std::vector<ObjectItem> objects;  // objects, at most kMostObjects
   ObjectId active = 0;
   ObjectId next_id = 1;
   glm::vec3 up_world{0, -1, 0};

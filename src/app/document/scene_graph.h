@@ -17,7 +17,7 @@ class SceneGraph {
  public:
   explicit SceneGraph(std::shared_ptr<const GaussianCloud> cloud) : cloud_(std::move(cloud)) {}
 
-  // Throws Error if cancelled.
+  // Returns the graph, which the first call builds. Throws Error if cancelled.
   const FlowGraph& get(const Job& job = {});
 
  private:

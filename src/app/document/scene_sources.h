@@ -49,7 +49,7 @@ struct SceneSource {
   Box bounds;  // framed_bounds() of the file before it is placed; `place` turns and scales about its middle
 };
 
-// Throws Error if a number of the place is out of range or not finite.
+// Checks a place: throws Error if a number is out of range or not finite. file: named by the Error.
 void check(const ScenePlace& place, const std::filesystem::path& file);
 
 // The transform from the file's own coordinates to the scene's.

@@ -81,7 +81,7 @@ Selection largest_part(const GaussianCloud& cloud, const FlowGraph& graph, const
 
 struct FloaterOptions {
   double most_share = 0.01;  // a floater has at most this share of the selection's Gaussians
-  float gap_spacings = 6;    // and its gap to others is larger than this many median neighbour distances
+  float gap_spacings = 6;    // its gap to others is larger than this many median neighbour distances
 };
 // Selects floaters: small clusters away from the rest of the selection.
 Selection floaters(const GaussianCloud& cloud, const FlowGraph& graph, const Selection& selection,

@@ -11,7 +11,7 @@ namespace splatcut {
 // larger brush was meant for the scene it was used in.
 inline constexpr float kLeastBrushPx = 1, kMostBrushPx = 120, kMostKeptBrushPx = 40;
 
-// What the panes show. kWhole: the scene. kIsolate: the object alone. kHide: the scene without the object.
+// Content of the panes. kWhole: the scene. kIsolate: the object alone. kHide: the scene without the object.
 // kSideBySide: scene and object. kBeforeAfter: the object with its rows as they are, and with clean edges.
 enum class DisplayMode { kWhole, kIsolate, kHide, kSideBySide, kBeforeAfter };
 

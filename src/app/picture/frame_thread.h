@@ -102,7 +102,7 @@ class FrameThread {
 std::shared_ptr<const Frame> raster_frame(const GaussianCloud& cloud, const Camera& camera,
                                           const Flags& shown, const DrawLimits& limits, const Job& job = {},
                                           const CloudBlocks* blocks = nullptr);
-// The same for a cloud that is drawn in place of a scene. stands_for: per Gaussian of `cloud`, the index of
+// Draws a frame of a cloud that stands in for a scene. stands_for: per Gaussian of `cloud`, the index of
 // the scene's Gaussian. `shown` and the frame's hits are of the scene's Gaussians.
 std::shared_ptr<const Frame> stand_in_frame(const GaussianCloud& cloud,
                                             std::span<const std::uint32_t> stands_for, const Camera& camera,

@@ -8,7 +8,7 @@
 
 namespace splatcut {
 
-// Throws Error if the number of frames, the size or the duration is out of range.
+// Checks a command: throws Error if the number of frames, the size or the duration is out of range.
 void check_turntable(const SaveTurntable& command);
 
 // Cameras of one turn around the object, at the elevation of the front camera, which looks in the first one's

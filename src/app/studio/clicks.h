@@ -39,7 +39,7 @@ class Clicks {
   void perform(const AddStroke& c);
   void perform(const StepScale& c);
   void perform(const ComeNearer&);
-  // These two may combine the object with what a stroke alone would cut out: keep of the object what both
+  // Both commands may combine the object with what a stroke alone would cut out: keep of the object what both
   // hold, or remove it.
   void perform(const IntersectStroke& c);
   void perform(const AddBox& c);

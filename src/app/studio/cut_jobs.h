@@ -28,8 +28,8 @@ class CutJobs {
   void update();  // starts and stops cuts as the document asks; called once a frame
   // Cuts the active object again without anything that is cached. Throws Error if it has no strokes.
   void recompute();
-  // These stop the running cut, or the likelihood of the active object, and give it up: update() does not
-  // start it again. They return false if it does not run.
+  // cancel() and cancel_likelihood() stop the running cut, or the likelihood of the active object, and give
+  // it up: update() does not start it again. They return false if it does not run.
   bool cancel();
   bool cancel_likelihood();
   void pause();  // stops the running cut; update() starts it again once no scene is being opened

@@ -1,4 +1,4 @@
-// What the window knows of one cut: its times, views and doubts, and the meanings of its first click.
+// One cut as the window knows it: its times, views and doubts, and the meanings of its first click.
 #pragma once
 
 #include <memory>

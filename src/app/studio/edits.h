@@ -20,7 +20,7 @@ class Edits {
   Edits(Workspace& workspace, const Viewport& viewport, CutJobs& cuts)
       : ws_(workspace), viewport_(viewport), cuts_(cuts) {}
 
-  // What becomes of a waiting command if the edits before it are cancelled.
+  // Fate of a waiting command if the edits before it are cancelled.
   enum class OnCancel { kDropped, kStays };
   // Runs the command now, or after the edits that were asked for before it.
   void in_turn(std::function<void()> command, OnCancel on_cancel = OnCancel::kDropped);

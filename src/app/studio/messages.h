@@ -5,7 +5,7 @@
 
 namespace splatcut {
 
-// What the program says in the message strip.
+// A message in the message strip.
 struct Message {
   enum class Kind { kInfo, kDone, kRefused, kError };
   Kind kind = Kind::kInfo;

@@ -30,8 +30,8 @@ class SceneFiles {
 
   void update();          // resumes preparing if a scene could not be opened; called once a frame
   void cancel_loading();  // stops opening and changing files; the scene stays as it is
-  // These undo or redo a change of files, if that is the next step to undo or redo. They return false if it
-  // is not, or if the scene before the change is no longer kept.
+  // undo_files() and redo_files() undo or redo a change of files, if that is the next step to undo or redo.
+  // They return false if it is not, or if the scene before the change is no longer kept.
   bool undo_files();
   bool redo_files();
   bool can_redo_files() const;

@@ -48,7 +48,7 @@ class Viewport {
   void frame_object();
   bool moving() const;  // true: the view moves, or did a moment ago
 
-  // What the panes draw.
+  // Content of the panes.
   DrawLimits draw_limits() const;
   const Flags& shown(int pane) const { return styles_.shown.at(static_cast<std::size_t>(pane)); }
   const FrameStyle& style(int pane) const { return styles_.style.at(static_cast<std::size_t>(pane)); }
@@ -80,7 +80,7 @@ class Viewport {
   // Picks the surface under a pixel of the pressed pane; none: nothing is there. The last picture answers if
   // it shows this view; else the one pixel is drawn.
   std::optional<PickedPoint> pick(const glm::vec2& pixel) const;
-  // The same for any camera. visible: flags of the Gaussians that count; null: all.
+  // Picks the surface under a pixel of any camera. visible: flags of the Gaussians that count; null: all.
   std::optional<PickedPoint> hit_in(const Camera& camera, const glm::vec2& pixel, const Flags& visible) const;
   // Camera z of the surface under a pixel, scene units, from the last picture; none: unknown. While the view
   // moves, the picture lags behind, and so does the answer.

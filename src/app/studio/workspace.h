@@ -1,5 +1,5 @@
-// What the parts of the window's program share: the document with its history, the opened scene, the view
-// settings, messages, and the threads that do the work. Only the main thread uses it.
+// Workspace that the parts of the window's program share: the document with its history, the opened scene,
+// the view settings, messages, and the threads that do the work. Only the main thread uses it.
 #pragma once
 
 #include <deque>

@@ -22,7 +22,7 @@ struct PickedPoint {
   std::int32_t gaussian = -1;
 };
 
-// What the tools may see and move.
+// Surroundings that the tools may see and move.
 struct ToolContext {
   CameraController& camera;
   const ViewState& view;
@@ -35,7 +35,7 @@ struct ToolContext {
   std::function<Flags()> seen;  // Gaussians that the pane shows; null: all
 };
 
-// What the interface draws over the picture while a tool is at work.
+// Marks that the interface draws over the picture while a tool is at work.
 struct ToolOverlay {
   using Shape = ToolShape;
   Shape shape = Shape::kNone;

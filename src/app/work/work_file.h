@@ -40,7 +40,8 @@ struct RestoredWork {
 
 bool is_work_file(const std::filesystem::path& path);  // true if the name ends like one
 
-// Throws Error for a file that is no work file, or is of a version that this program does not read.
+// Reads a work file. Throws Error for a file that is none, or is of a version that this program does not
+// read.
 WorkFile read_work_file(const std::filesystem::path& path);
 
 // Reads the document of a work file. scene: the opened scene of WorkFile::files; its cloud gives the arrays

@@ -58,7 +58,7 @@ inline constexpr float kLeastChangePx = 0.3f;  // limit: a candidate that change
 // The candidates of one tree: the clicked leaf and its ancestors.
 struct Chain {
   std::vector<std::uint32_t> nodes;  // nodes of the tree, from the leaf to the root
-  // Per leaf of the hierarchy: index of the first node in `nodes` that holds it, or kNoLevel.
+  // Index of the first node in `nodes` that holds each leaf of the hierarchy, or kNoLevel.
   std::vector<std::uint32_t> level;
   // Values per node: pixels in the view and at its frame, clicks of the other sign, pixels and scene area
   // that would change, and mean IoU with the other trees.
