@@ -1,4 +1,4 @@
-// A pair of hands in the window, as an artist has them.
+// A pair of hands in the window with a scene open, as an artist has them.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -11,10 +11,11 @@ inline constexpr int kHandsWidth = 900, kHandsHeight = 520;
 
 class Hands {
  public:
-  explicit Hands(bool cut = true, ApplicationOptions options = with_kept_scenes())
+  explicit Hands(bool cut = true, ApplicationOptions options = with_kept_scenes(),
+                 const std::filesystem::path& scene = kSmallSample)
       : app(kHandsWidth, kHandsHeight, 1, std::move(options)) {
     app.interface_state().hint_wanted = false;
-    app.open(kSample);
+    app.open(scene);
     REQUIRE(app.settle());
     if (!cut) return;
     studio().apply(SetPreset{"fast"});
@@ -43,5 +44,10 @@ class Hands {
   }
   HeadlessApp app;
 };
+
+// For what is told by which Gaussians are taken: the sample as it is shipped.
+inline Hands hands_on_sample(bool cut = true) {
+  return Hands(cut, with_kept_scenes(), kSample);
+}
 
 }  // namespace splatcut::testing

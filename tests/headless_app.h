@@ -25,6 +25,10 @@ namespace splatcut::testing {
 
 inline const std::filesystem::path kSampleFolder = project_folder() + "/assets/sample";
 inline const std::filesystem::path kSample = kSampleFolder / "sample.compressed.ply";
+// The same table of 3,000 Gaussians, seen by the same cameras: for what the hands do, not what is cut. Made
+// by `splatcut-lab make-scene small_sample --gaussians 3000 --format compressed.ply`.
+inline const std::filesystem::path kSmallSample =
+    project_folder() + "/tests/data/small_sample/small_sample.compressed.ply";
 
 // Scenes are prepared once for all tests and kept where ctest says; run by hand, and with other options,
 // anew.
@@ -207,8 +211,8 @@ inline constexpr std::uint8_t kMug = 1, kApple = 2, kOrange = 3;  // of sample.l
 inline constexpr glm::vec2 kOnApple{670, 490}, kOnOrange{786, 460}, kOnMug{498, 450};
 
 // The sample opened and its apple cut out by one click.
-inline bool cut_out_apple(HeadlessApp& app) {
-  app.open(kSample);
+inline bool cut_out_apple(HeadlessApp& app, const std::filesystem::path& scene = kSample) {
+  app.open(scene);
   if (!app.settle()) return false;
   app.studio().apply(SetPreset{"fast"});
   app.click(app.screen_of(kOnApple));

@@ -78,7 +78,7 @@ TEST_CASE("several scenes: the window shows the merge, labels and history stay w
   REQUIRE(studio.scene()->files.size() == 2);
   CHECK(last_file(hands).gaussians == kAdded);
   std::vector<Scene> scenes;
-  scenes.push_back(load_scene(kSample));
+  scenes.push_back(load_scene(kSmallSample));
   scenes.push_back(load_scene(path));
   CHECK(same_cloud(*studio.scene()->cloud, merged(std::move(scenes)).scene.cloud));
   CHECK(studio.camera().pose() == pose);
@@ -97,7 +97,7 @@ TEST_CASE("several scenes: the window shows the merge, labels and history stay w
   CHECK(hands.selected() == kAdded);
   studio.apply(RemoveScene{last_file(hands).id});
   REQUIRE(hands.app.settle());
-  CHECK(same_cloud(*studio.scene()->cloud, load_scene(kSample).cloud));
+  CHECK(same_cloud(*studio.scene()->cloud, load_scene(kSmallSample).cloud));
   CHECK(hands.selected() == 0);
   CHECK(by_row(studio, studio.labels(1)) == grown);
 }
@@ -154,9 +154,9 @@ TEST_CASE("several scenes: a placed file stands where the numbers say, what was 
   Hands hands(false);
   Studio& studio = hands.studio();
   studio.apply(SetPreset{"fast"});
-  add(hands, kSample);  // its twin
+  add(hands, kSmallSample);  // its twin
   const glm::vec3 middle = last_file(hands).bounds.centre();
-  const GaussianCloud own = load_scene(kSample).cloud;
+  const GaussianCloud own = load_scene(kSmallSample).cloud;
   const auto checked_at = [&](const ScenePlace& place) {
     const glm::quat turn = glm::angleAxis(glm::radians(place.turn_deg.z), glm::vec3(0, 0, 1)) *
                            glm::angleAxis(glm::radians(place.turn_deg.y), glm::vec3(0, 1, 0)) *
@@ -219,7 +219,7 @@ TEST_CASE("several scenes: a placed file stands where the numbers say, what was 
   const auto again = active_by_row(studio);
   std::size_t differ = 0;
   for (std::size_t row = 0; row < again.size(); ++row) differ += again[row] != apple[row];
-  CHECK(differ < count_flags(apple) / 100);
+  CHECK(differ <= count_flags(apple) / 100);
 }
 
 TEST_CASE("several scenes: asked for in haste, cancelled, refused") {
@@ -265,7 +265,7 @@ TEST_CASE("several scenes: asked for in haste, cancelled, refused") {
   studio.apply(Cancel{});
   REQUIRE(hands.app.settle());
   CHECK(studio.scene()->files.size() <= 4);  // it may have come in before
-  studio.apply(OpenScene{kSample});
+  studio.apply(OpenScene{kSmallSample});
   REQUIRE(hands.app.settle());
   CHECK(studio.scene()->files.size() == 1);
 }

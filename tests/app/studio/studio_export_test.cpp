@@ -137,7 +137,7 @@ double sum_of_sides(const GaussianCloud& cloud) {
 
 TEST_CASE("hands: an object is exported with clean edges, placed or not, or with its rows as they are") {
   const ScratchFolder folder("edges");
-  Hands hands;
+  Hands hands = hands_on_sample();
   take_what_touches_it(hands);
   const std::size_t labelled = hands.selected();
   const CleanObject clean = cleaned_without_window(hands);
@@ -167,7 +167,7 @@ TEST_CASE("hands: an object is exported with clean edges, placed or not, or with
 }
 
 TEST_CASE("hands: alone, the object is drawn with clean edges, beside itself as it is, or as it is") {
-  Hands hands;
+  Hands hands = hands_on_sample();
   take_what_touches_it(hands);
   const CleanObject clean = cleaned_without_window(hands);
   CAPTURE(clean.report.reason);
@@ -210,7 +210,7 @@ TEST_CASE("hands: alone, the object is drawn with clean edges, beside itself as 
 }
 
 TEST_CASE("hands: edges are made clean beforehand while nothing else is to do, and again for other labels") {
-  Hands hands;
+  Hands hands = hands_on_sample();
   const auto wait = [&] { hands.app.frames(120); };  // two seconds
   const auto isolated = [&] {
     hands.studio().run(Action::kIsolate);
@@ -279,7 +279,7 @@ TEST_CASE("hands: nothing is saved over the file that the scene was read from, b
   const ScratchFolder folder("own_file");
   const std::filesystem::path scene = folder / "mine.compressed.ply", link = folder / "link.compressed.ply",
                               work = folder / "link.splatcut.json", picture = folder / "link.png";
-  std::filesystem::copy(kSample, scene);
+  std::filesystem::copy(kSmallSample, scene);
   for (const auto& name : {link, work, picture}) std::filesystem::create_symlink(scene, name);
   HeadlessApp app(kHandsWidth, kHandsHeight);
   app.open(scene);
@@ -295,7 +295,7 @@ TEST_CASE("hands: nothing is saved over the file that the scene was read from, b
   refused(SaveWork{work}, "is what is read here");
   refused(SaveSnapshot{picture}, "is what is read here");
   refused(SaveSnapshot{folder / "new.ply"}, "is the name of a scene");
-  CHECK(bytes_of_file(scene) == bytes_of_file(kSample));
+  CHECK(bytes_of_file(scene) == bytes_of_file(kSmallSample));
   for (const auto& name : {link, work, picture}) CHECK(std::filesystem::is_symlink(name));
   CHECK_FALSE(std::filesystem::exists(folder / "new.ply"));
 }

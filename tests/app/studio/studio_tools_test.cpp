@@ -60,7 +60,7 @@ TEST_CASE("hands: up by three points draws marks, and computes no object again")
 }
 
 TEST_CASE("hands: the eyedropper takes one colour everywhere, the flood where it hangs together") {
-  Hands hands(false);
+  Hands hands = hands_on_sample(false);
   REQUIRE(hands.app.settle());
   const Scene& scene = *hands.studio().scene()->scene;
   hands.app.key('C');
@@ -89,7 +89,7 @@ TEST_CASE("hands: the eyedropper takes one colour everywhere, the flood where it
 }
 
 TEST_CASE("hands: Shift adds, Ctrl removes, Alt intersects, with clicks as with regions") {
-  Hands hands;
+  Hands hands = hands_on_sample();
   const std::vector<std::uint8_t> apple = hands.studio().labels(hands.studio().document().active);
   hands.app.click(hands.app.screen_of(kOnOrange), PointerButton::kLeft, {.shift = true});
   REQUIRE(hands.app.settle());
@@ -144,7 +144,7 @@ TEST_CASE("hands: two points are measured in scene units") {
 }
 
 TEST_CASE("hands: a sphere and a box in space select by a drag, and again by their handles") {
-  Hands hands(false);
+  Hands hands = hands_on_sample(false);
   const Scene& scene = *hands.studio().scene()->scene;
   const auto apple = sample_truth(scene, kApple);
   const auto share = [&] {
@@ -226,7 +226,7 @@ TEST_CASE("hands: a volume replaces what it took, though a cut is done in betwee
 
 TEST_CASE(
     "hands: a volume changed while its object is shown alone takes what was to be seen, and ends nothing") {
-  Hands hands(false);
+  Hands hands = hands_on_sample(false);
   const Volume small{true, hands.under(hands.app.screen_of(kOnApple)), glm::vec3(0.02f)};
   Volume large = small;
   large.half = glm::vec3(0.1f);
@@ -297,7 +297,7 @@ TEST_CASE("hands: a drag goes on in the pane where it was pressed") {
 }
 
 TEST_CASE("hands: a box around a second thing leaves what was clicked first") {
-  Hands hands;
+  Hands hands = hands_on_sample();
   const Scene& scene = *hands.studio().scene()->scene;
   const auto share_of = [&](std::uint8_t thing) {
     const auto labels = hands.studio().labels(hands.studio().document().active),
@@ -316,7 +316,7 @@ TEST_CASE("hands: a box around a second thing leaves what was clicked first") {
 }
 
 TEST_CASE("hands: keys held with a box add what it would cut out, remove it, or keep it alone") {
-  Hands hands;
+  Hands hands = hands_on_sample();
   const Scene& scene = *hands.studio().scene()->scene;
   const auto share_of = [&](std::uint8_t thing) {
     const std::vector<std::uint8_t> labels = hands.studio().labels(hands.studio().document().active),
@@ -386,7 +386,7 @@ TEST_CASE("hands: a box that reaches out of the picture is around what of it is 
 }
 
 TEST_CASE("hands: a box around a thing takes nothing that stands outside of it") {
-  Hands hands(false);
+  Hands hands = hands_on_sample(false);
   const Scene& scene = *hands.studio().scene()->scene;
   for (const auto& [thing, name] : {std::pair{kApple, "apple"}, {kOrange, "orange"}, {kMug, "mug"}}) {
     CAPTURE(name);
@@ -416,7 +416,7 @@ TEST_CASE("hands: a box around a thing takes nothing that stands outside of it")
 }
 
 TEST_CASE("hands: a box around a pot leaves the plant that grows out of it, but for what hangs over") {
-  Hands hands(false);
+  Hands hands = hands_on_sample(false);
   const GaussianCloud& cloud = *hands.studio().scene()->cloud;
   hands.app.key('4');
   const glm::vec2 a = hands.app.screen_of({560, 268}), b = hands.app.screen_of({728, 404});

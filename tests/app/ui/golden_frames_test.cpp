@@ -77,7 +77,7 @@ TEST_CASE("frames: the OpenGL renderer shows what the CPU renderer shows") {
     options.renderer = renderer;
     HeadlessApp app(760, 420, 1, options);
     app.interface_state().hint_wanted = false;
-    app.open(kSample);
+    app.open(kSmallSample);
     REQUIRE(app.settle());
     app.studio().apply(EditSelection{SelectionEdit::kAll});  // the tint, too
     ViewState view = app.studio().view();
@@ -107,7 +107,7 @@ TEST_CASE("frames: OpenGL draws the checker as the CPU does, moving or still, on
     options.renderer = renderer;
     HeadlessApp app(760, 420, 1, options);
     app.interface_state().hint_wanted = false;
-    app.open(kSample);
+    app.open(kSmallSample);
     REQUIRE(app.settle());
     Studio& studio = app.studio();
     // A few Gaussians alone: nearly all of the picture is checker.

@@ -30,7 +30,7 @@ TEST_CASE("dialogs: zenity's answer opens the scene, kdialog's too, and it is as
     CAPTURE(program);
     const ScratchFolder folder("native_" + program);
     const OnlyPath path(folder.path());
-    path.put(program, "echo '" + kSample.string() + "'");
+    path.put(program, "echo '" + kSmallSample.string() + "'");
     HeadlessApp app(760, 420);
     app.interface_state().native_wanted = true;
     app.key('O', {.ctrl = true});
@@ -38,7 +38,7 @@ TEST_CASE("dialogs: zenity's answer opens the scene, kdialog's too, and it is as
     CHECK_FALSE(app->interface().dialog_open());
     REQUIRE(app.settle());
     REQUIRE(app.studio().scene());
-    CHECK(app.studio().scene()->scene->path == kSample);
+    CHECK(app.studio().scene()->scene->path == kSmallSample);
     CHECK(path.asked().find(program) != std::string::npos);
     CHECK(path.asked().find("*.splatcut.json") != std::string::npos);
   }
@@ -47,7 +47,7 @@ TEST_CASE("dialogs: zenity's answer opens the scene, kdialog's too, and it is as
 TEST_CASE("dialogs: work is saved where the desktop's dialog says, with the ending it needs") {
   const ScratchFolder folder("native_save");
   HeadlessApp app(760, 420);
-  app.open(kSample);
+  app.open(kSmallSample);
   REQUIRE(app.settle());
   const OnlyPath path(folder.path());
   path.put("zenity", "echo '" + (folder / "mine").string() + "'");
@@ -88,7 +88,7 @@ TEST_CASE(
   const auto there = folder / "beta.splatcut.json";
   std::ofstream(there) << "x";
   HeadlessApp app(760, 420);
-  app.open(kSample);
+  app.open(kSmallSample);
   REQUIRE(app.settle());
   app.studio().apply(EditSelection{SelectionEdit::kAll});
   REQUIRE(app.settle());
@@ -142,7 +142,7 @@ TEST_CASE(
 TEST_CASE("dialogs: a double-click on a folder goes into it, and chooses nothing there") {
   const ScratchFolder folder("double");
   std::filesystem::create_directories(folder / "garden");
-  std::filesystem::copy_file(kSample, folder / "garden" / "mug.compressed.ply");
+  std::filesystem::copy_file(kSmallSample, folder / "garden" / "mug.compressed.ply");
   HeadlessApp app(760, 420);
   FileBrowser& files = app.interface_state().files;
   files.folder = folder.path();
@@ -238,14 +238,14 @@ TEST_CASE("dialogs: keys that are pressed and released between two frames count,
 TEST_CASE("dialogs: a second scene, and all of both is exported without an object") {
   const ScratchFolder folder("whole");
   HeadlessApp app(760, 520);
-  app.open(kSample);
+  app.open(kSmallSample);
   REQUIRE(app.settle());
   app.key('O', {.shift = true, .ctrl = true});
   app.frames(3);
   FileBrowser& files = app.interface_state().files;
   REQUIRE(files.open);
-  files.enter(kSampleFolder);
-  files.name = kSample.filename().string();
+  files.enter(kSmallSample.parent_path());
+  files.name = kSmallSample.filename().string();
   app.key(key::kEnter);
   REQUIRE(app.settle());
   REQUIRE(app.studio().scene()->files.size() == 2);
@@ -307,9 +307,9 @@ TEST_CASE("dialogs: Esc where a folder is chosen goes back to the export, which 
 TEST_CASE("dialogs: what an export keeps and loses is told as it is written, moved or not") {
   const ScratchFolder folder("kept");
   {
-    Scene plain = load_scene(kSample);
+    Scene plain = load_scene(kSmallSample);
     save_scene(folder / "plain.ply", plain, {}, SceneFormat::kPly);
-    std::filesystem::copy_file(kSampleFolder / "cameras.json", folder / "cameras.json");
+    std::filesystem::copy_file(kSmallSample.parent_path() / "cameras.json", folder / "cameras.json");
   }
   HeadlessApp app(760, 520);
   app.open(folder / "plain.ply");
@@ -336,7 +336,7 @@ TEST_CASE("dialogs: what an export keeps and loses is told as it is written, mov
 
 TEST_CASE("panels: a number is typed in the unit it is shown in") {
   HeadlessApp app(900, 1300);
-  app.open(kSample);
+  app.open(kSmallSample);
   REQUIRE(app.settle());
   const ViewState& view = app.studio().view();
   const float size = app.studio().camera().scene_size();

@@ -1,8 +1,10 @@
-// The presets that are shipped, against all others that the study tries: slow.
+// The study whole: every experiment, and the presets that are shipped against all others that it tries. Slow.
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/lab/eval_suite.h"
+#include "app/lab/study/study_plan.h"
 #include "app/lab/study/study_tables.h"
 #include "program_runner.h"
 
@@ -47,4 +49,38 @@ TEST_CASE("the presets that are shipped are those of the study, and near its fro
       CHECK((*own)["image_iou"] == scene["image_iou"]);
     }
   }
+}
+
+TEST_CASE(
+    "every experiment of the study runs on still lifes of its own, is drawn, and shows its worst case") {
+  const Workplace place;
+  const Result done = place.run("study -o study --quick --cells 1 --draws 1 --gaussians 2500");
+  REQUIRE_MESSAGE(done.code == 0, done.err);
+  std::set<std::string> planned, measured;
+  for (const StudyCell& cell : study_plan(1, true)) planned.insert(cell.experiment);
+  const json results = json::parse(place.text("study/results.json"))["results"];
+  for (const json& r : results) {
+    measured.insert(r["experiment"]);
+    CHECK(r["warned"].is_string());
+    // Where the robot finds nothing to click, nothing is looked at.
+    CHECK((r["looked_at_mpx"].get<double>() > 0 || !r["found"].get<bool>()));
+  }
+  CHECK(planned == measured);
+  for (const StabilityAxis& axis : stability_axes())
+    for (const char* ending : {".csv", ".svg", ".png"})
+      CHECK_MESSAGE(place.exists("study/charts/" + axis.file + ending), axis.file);
+  CHECK(planned.size() >= stability_axes().size() + 12);
+  const std::string page = place.text("study/study.md");
+  std::size_t pictures = 0, named = 0;
+  for (std::size_t at = 0; (at = page.find("](", at)) != std::string::npos; at += 2) {
+    const std::string file = page.substr(at + 2, page.find(')', at) - at - 2);
+    CHECK_MESSAGE(place.exists("study/" + file), file);
+    pictures += file.ends_with(".svg");
+    named += file.starts_with("worst_");
+  }
+  CHECK(named == planned.size());
+  CHECK(pictures >= stability_axes().size() + 4);
+  CHECK(page.find("The paper's tables") != std::string::npos);
+  CHECK(place.run("study -o study --quick --cells 1 --draws 1 --gaussians 2500 --no-charts").code == 0);
+  CHECK(json::parse(place.text("study/results.json"))["results"] == results);  // nothing was left to measure
 }
