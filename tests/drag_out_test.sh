@@ -12,7 +12,7 @@ cp "$sample/sample.compressed.ply" "$sample/cameras.json" "$work/a b/"
 start_screen 2100x800
 export DISPLAY=$screen
 window() {  # window NAME WIDTH [SCENE]: of a program with its own folders
-  XDG_CONFIG_HOME=$work/$1/config XDG_STATE_HOME=$work/$1/state XDG_CACHE_HOME=$work/cache \
+  SPLATCUT_ITEMS=$items.$1 XDG_CONFIG_HOME=$work/$1/config XDG_STATE_HOME=$work/$1/state XDG_CACHE_HOME=$work/cache \
     "$program" view --width "$2" --height 800 ${3:+"$3"} >"$work/$1.log" 2>&1 &
   children+=($!)
 }
@@ -38,10 +38,13 @@ exported() { ls "$work/a b/sample_scene.ply"; }
 wait_for 60 "exported file" exported
 sleep 1; shot 1_exported
 opened() { xdotool search --name 'sample_scene.ply - splatcut'; }
+items=$items.giver
+wait_for 10 "row of the exported file" button_at 'sample_scene\\.ply'
+read -r x y <<<"$(button_at 'sample_scene\\.ply')"
 # The row under Objects, which must see the press before the pointer leaves it: slower where frames are slow.
 for pause in 0.5 1 2 4; do
-  drag=(mousemove 1060 152 sleep $pause mousedown 1 sleep $pause mousemove 1080 152 sleep $pause)
-  for x in 1150 1300 1450 1560; do drag+=(mousemove "$x" 300 sleep $pause); done
+  drag=(mousemove "$x" "$y" sleep $pause mousedown 1 sleep $pause mousemove $((x + 20)) "$y" sleep $pause)
+  for beyond in 1150 1300 1450 1560; do drag+=(mousemove "$beyond" 300 sleep $pause); done
   xdotool "${drag[@]}"
   shot 2_dragged
   xdotool mouseup 1

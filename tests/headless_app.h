@@ -148,6 +148,13 @@ class HeadlessApp {
     return {{rect.Min.x, rect.Min.y}, {rect.Max.x, rect.Max.y}};
   }
 
+  // Where a button of the interface lies, by what stands on it.
+  UiRect button(std::string_view name) {
+    for (const ShownItem& i : interface_state().items)
+      if (i.name.find(name) != std::string::npos) return {i.min, i.max};
+    return {};
+  }
+
   // Where a pixel of the sample's camera 0 is on the screen while the view stands there.
   glm::vec2 screen_of(const glm::vec2& pixel) {
     const Camera given = load_cameras(kSampleFolder / "cameras.json").front();

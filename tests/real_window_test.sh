@@ -6,11 +6,11 @@ set -euo pipefail
 program=$1 sample=$2 shots=${3:-}
 source "$(dirname "$0")/virtual_screen.sh"
 [ -z "$shots" ] || mkdir -p "$shots"
-fail() { echo "failed: $*"; cat "$work/program.log"; exit 1; }
+fail() { echo "failed: $*"; cat "$work/program.log"; cat "$items"; exit 1; }
 
 cp "$sample/sample.compressed.ply" "$sample/cameras.json" "$work/"
 start_screen 1280x800
-export DISPLAY=$screen
+export DISPLAY=$screen SPLATCUT_ITEMS=$items
 
 # A program that searches for leaks does so when its driver is unloaded, whose own tables then belong to nobody.
 asan=$(ldd "$program" | awk '/libasan/ {print $3}')
@@ -35,25 +35,27 @@ wait_for 60 "window" xdotool search --name sample
 sleep 1
 shot 1_opened
 wait_for 10 "settings, kept while it runs" grep -q sample "$work/config/splatcut/settings.json"
-click 668 524                                   # the apple
+read -r x y <<<"$(pixel_at 670 490)"  # of the apple
+click "$x" "$y"
 wait_for 240 "cutout of the apple" grep -q '"cut_is_current": *true' "$autosave"
-xdotool mousemove 1110 600 sleep 0.7  # beside the picture: hovering outlines what a click would change
+xdotool mousemove 1270 600 sleep 0.7  # beside the picture: hovering outlines what a click would change
 shot 2_clicked
 before=$(stat -c %Y.%s "$autosave")
-xdotool key Escape key 3 mousemove 660 505 mousedown 1 mousemove 668 515 mousemove 676 530 mouseup 1
+xdotool key Escape key 3 mousemove $((x - 8)) $((y - 19)) mousedown 1 mousemove "$x" $((y - 9)) mousemove $((x + 8)) $((y + 6)) mouseup 1
 changed() { [ "$(stat -c %Y.%s "$autosave")" != "$before" ]; }
 wait_for 240 "new cutout after the stroke" changed
 shot 3_scribbled
 xdotool key i; shot 4_isolated
 xdotool key ctrl+e sleep 1; shot 5_export
-click 1058 599  # Export
+press() { local at; at=$(button_at "$1") && click $at; }
+wait_for 10 "button Export" press '^Export$'
 exported() { ls "$work"/sample_*.ply; }
 wait_for 60 "exported file" exported
 shot 6_exported
 cp "$autosave" "$work/apple.splatcut.json"       # leaving the program for good removes it
 xdotool key ctrl+q sleep 1; shot 7_quit
 for _ in $(seq 60); do
-  click 595 448   # Leave; again where the dialog was not there yet
+  press '^Leave$' || true  # the dialog may not be there yet
   kill -0 $pid 2>/dev/null || break
   sleep 1
 done
@@ -82,7 +84,7 @@ pid=$!
 children+=($pid)
 wait_for 60 "window again" xdotool search --name sample
 sleep 1
-click 668 524
+click "$x" "$y"
 wait_for 60 "mark of unsaved work" xdotool search --name '^\* sample'
 kill -TERM $pid
 wait $pid || fail "a signal ended it with an error"

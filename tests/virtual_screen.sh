@@ -22,3 +22,17 @@ start_screen() {  # start_screen WIDTHxHEIGHT [OPTIONS OF XVFB...]: a virtual sc
   [ -s "$number" ] || { echo "skipped: Xvfb does not start here"; exit 77; }
   screen=:$(cat "$number")
 }
+
+# Where things lie in a window that runs with SPLATCUT_ITEMS=$items, at the screen's corner: the middle of a button, and a
+# pixel of the sample's camera 0 (1008x756) while the view stands there.
+items=$work/items
+button_at() {  # button_at REGEX; fails where there is none
+  awk -v name="$1" '{x = int(($1 + $3) / 2); y = int(($2 + $4) / 2); $1 = $2 = $3 = $4 = ""; sub(/^ */, "")}
+    $0 ~ name {print x, y; found = 1; exit}
+    END {exit !found}' "$items"
+}
+pixel_at() {
+  awk -v x="$1" -v y="$2" '$5 == "picture" {
+    scale = ($4 - $2) / 756
+    print int(($1 + $3) / 2 + scale * (x - 504)), int(($2 + $4) / 2 + scale * (y - 378)) }' "$items"
+}

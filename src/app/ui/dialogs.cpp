@@ -294,7 +294,7 @@ void export_dialog(UiContext& ui) {
     ImGui::Columns(1);
   }
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || (!typing && !dragging && escape_pressed());
+  const bool cancelled = plain_button(ui, "Cancel", 110) || (!typing && !dragging && escape_pressed());
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);
   const std::string reason = choice.path.empty()             ? "Type where it should go"
                              : !(choice.placement.scale > 0) ? "The scale must be larger than 0"
@@ -333,7 +333,7 @@ void help_page(UiContext& ui) {
   ImGui::EndChild();
   const bool closed =
       escape_pressed() || (ImGui::IsKeyPressed(key::kF1, false) && !ImGui::IsWindowAppearing());
-  if (ImGui::Button("Close", {110, 0}) || closed || enter_pressed()) {
+  if (plain_button(ui, "Close", 110) || closed || enter_pressed()) {
     ui.state.help_open = false;
     ImGui::CloseCurrentPopup();
   }
@@ -354,9 +354,9 @@ void open_anyway_dialog(UiContext& ui) {
       ui, fmt::format("The objects and strokes were not saved since they changed; opening {} ends that work.",
                       name));
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool stays = ImGui::Button("Stay", {100, 0}) || escape_pressed();
+  const bool stays = plain_button(ui, "Stay", 100) || escape_pressed();
   ImGui::SameLine();
-  const bool opens = ImGui::Button("Open", {100, 0});
+  const bool opens = plain_button(ui, "Open", 100);
   ImGui::SameLine(ImGui::GetWindowWidth() - 112);
   const bool saves = button(ui, "Save...", "Save the work first  (Enter)", {}, true, 100) ||
                      (!opens && !stays && enter_pressed());
@@ -378,9 +378,9 @@ void quit_dialog(UiContext& ui) {
                 "The objects and strokes were not saved since they changed. A copy is kept all the same and "
                 "offered at the next start.");
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool stays = ImGui::Button("Stay", {100, 0}) || escape_pressed();
+  const bool stays = plain_button(ui, "Stay", 100) || escape_pressed();
   ImGui::SameLine();
-  if (ImGui::Button("Leave", {100, 0})) ui.state.quit_wanted = true;
+  if (plain_button(ui, "Leave", 100)) ui.state.quit_wanted = true;
   ImGui::SameLine(ImGui::GetWindowWidth() - 112);
   const bool saves = button(ui, "Save...", "Save the work first  (Enter)", {}, true, 100) ||
                      (!stays && !ui.state.quit_wanted && enter_pressed());

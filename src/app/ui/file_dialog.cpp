@@ -261,7 +261,7 @@ void file_dialog(UiContext& ui) {
     files.enter(files.folder / files.entries[static_cast<std::size_t>(files.cursor)].name);
   chosen |= enters && !at_folder;
   const Kind kind = kind_of(ui.state.file_purpose);
-  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || escape_pressed();
+  const bool cancelled = plain_button(ui, "Cancel", 110) || escape_pressed();
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);
   const std::string reason = files.name.empty() ? (files.saving ? "Type a name" : "Choose a file") : "";
   chosen |= button(ui, kind.button, kind.title, reason, reason.empty(), 110);
@@ -285,7 +285,7 @@ void replace_dialog(UiContext& ui) {
   const std::filesystem::path path = ui.state.replace_asked.value_or("");
   wrapped_muted(ui, path.filename().string() + " is there already. What it holds would be gone.");
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool replaces = ImGui::Button("Replace", {110, 0});
+  const bool replaces = plain_button(ui, "Replace", 110);
   ImGui::SameLine(ImGui::GetWindowWidth() - 142);
   const bool keeps = button(ui, "Another name", "The file stays  (Enter)", {}, true, 130) ||
                      (!replaces && (enter_pressed() || escape_pressed()));

@@ -138,6 +138,7 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   const Palette& p = theme_.colour;
   const glm::vec2 size = size_points_;
   const UiRect view = viewport();
+  state_.items = {{"picture", view.min, view.max}};
   const float cards = view_strip_width(studio);
   fixed_panel("picture", view, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {0, 0},
               [&] { covered_ = viewport_pane(ui, view, cards > 0 ? kStrip : 0, gpu_picture); });

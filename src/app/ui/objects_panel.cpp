@@ -145,7 +145,7 @@ void exported_file(UiContext& ui) {
   if (file.empty()) return;
   const std::string name = fmt::format("{}  {}##exported", icon::kFile, file.filename().string());
   ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
-  if (ImGui::Button(name.c_str(), {-1, 0})) ImGui::SetClipboardText(std::filesystem::absolute(file).c_str());
+  if (plain_button(ui, name.c_str(), -1)) ImGui::SetClipboardText(std::filesystem::absolute(file).c_str());
   ImGui::PopStyleVar();
   constexpr float kStart = 6;  // points: less is a click
   if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, kStart) && !ui.state.drags_out) {

@@ -147,7 +147,7 @@ void turntable_dialog(UiContext& ui) {
   clean_edges_choice(ui);
   wrapped_muted(ui, what_is_written(choice));
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool cancelled = ImGui::Button("Cancel", {110, 0}) || (!typing && escape_pressed());
+  const bool cancelled = plain_button(ui, "Cancel", 110) || (!typing && escape_pressed());
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);
   const std::string reason = choice.path.empty() ? "Type where they should go" : "";
   const bool pressed =

@@ -101,6 +101,13 @@ struct PlacingChoice {
 
 enum class FilePurpose { kOpen, kAdd, kSaveWork, kSnapshot, kTurntable, kExport };
 
+// What can be pressed, and the picture: where it lies in the last frame, in logical points.
+struct ShownItem {
+  std::string name;  // what stands on it, without ImGui's ids; "picture"
+  glm::vec2 min{0}, max{0};
+  bool operator==(const ShownItem&) const = default;
+};
+
 // The interface's own state: neither document nor view.
 struct UiState {
   bool dark = true;
@@ -132,6 +139,7 @@ struct UiState {
   ObjectId renaming = 0;
   std::string new_name;
   std::string renderer_line;  // which renderer draws, and why
+  std::vector<ShownItem> items;
 };
 
 struct UiContext {

@@ -1,7 +1,7 @@
 #include "app/ui/widgets.h"
 
 #include <fmt/format.h>
-#include <imgui_internal.h>  // GetActiveID
+#include <imgui_internal.h>  // GetActiveID, FindRenderedTextEnd
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +59,14 @@ void tooltip(const std::string& text) {
   ImGui::EndTooltip();
 }
 
+bool plain_button(UiContext& ui, const char* label, float width) {
+  const bool pressed = ImGui::Button(label, {width, 0});
+  const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+  const std::string_view shown(label, ImGui::FindRenderedTextEnd(label));
+  ui.state.items.push_back({std::string(shown), {min.x, min.y}, {max.x, max.y}});
+  return pressed;
+}
+
 bool button(UiContext& ui, const char* label, const std::string& tip, const std::string& reason, bool on,
             float width) {
   const Palette& p = ui.theme.colour;
@@ -68,7 +76,7 @@ bool button(UiContext& ui, const char* label, const std::string& tip, const std:
     ImGui::PushStyleColor(ImGuiCol_Text, p.on_accent);
   }
   ImGui::BeginDisabled(!reason.empty());
-  const bool pressed = ImGui::Button(label, {width, 0});
+  const bool pressed = plain_button(ui, label, width);
   ImGui::EndDisabled();
   if (on) ImGui::PopStyleColor(3);
   tooltip(reason.empty() ? tip : tip + "\n" + reason);

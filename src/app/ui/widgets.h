@@ -8,15 +8,19 @@
 
 namespace splatcut {
 
-// A button for an action of the key table: greyed with its reason where it is not allowed, its keys in the
-// tooltip. label: what it shows, an icon or text. on: drawn as switched on. width 0: as wide as its label.
 // The view's switch, for what is written of an object.
 void clean_edges_choice(UiContext& ui);
+
+// A button for an action of the key table: greyed with its reason where it is not allowed, its keys in the
+// tooltip. label: what it shows, an icon or text. on: drawn as switched on. width 0: as wide as its label.
 void action_button(UiContext& ui, Action action, const char* label, bool on = false, float width = 0);
 
 // A button that is greyed with `reason` unless that is empty. True when pressed.
 bool button(UiContext& ui, const char* label, const std::string& tip, const std::string& reason = {},
             bool on = false, float width = 0);
+
+// A button without a tooltip. width -1: as wide as there is room.
+bool plain_button(UiContext& ui, const char* label, float width = 0);
 
 bool enter_pressed();   // a dialog's default answer, where nothing else takes the key
 bool escape_pressed();  // leaves a dialog; a key that closed the one before says nothing to this one

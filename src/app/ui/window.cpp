@@ -17,6 +17,7 @@
 #include "app/ui/frame_log.h"
 #include "app/ui/settings.h"
 #include "app/ui/window_place.h"
+#include "core/atomic_file.h"
 #include "core/error.h"
 
 namespace splatcut {
@@ -261,6 +262,24 @@ std::string title_of(const Studio& studio) {
   return fmt::format("{}{} - splatcut", studio.unsaved() ? "* " : "", shown.filename().string());
 }
 
+// For scripts that press what a user presses: a line an item, "x0 y0 x1 y1 name" in logical points of the
+// window, into the file that SPLATCUT_ITEMS names, whenever they change.
+class ItemsFile {
+ public:
+  void keep(const std::vector<ShownItem>& items) {
+    if (!file_ || items == kept_) return;
+    std::string text;
+    for (const ShownItem& i : items)
+      text += fmt::format("{:.0f} {:.0f} {:.0f} {:.0f} {}\n", i.min.x, i.min.y, i.max.x, i.max.y, i.name);
+    write_text_file(file_, text, PowerCut::kMayLeaveNone);
+    kept_ = items;
+  }
+
+ private:
+  const char* file_ = std::getenv("SPLATCUT_ITEMS");
+  std::vector<ShownItem> kept_;
+};
+
 void run_loop(Loop& loop, SettingsKeeper* keeper, const std::stop_token& stop, std::optional<FrameLog> log) {
   constexpr double kAfterEventSeconds = 0.3, kIdleSeconds = 0.5, kMovingSeconds = 0.004;
   constexpr double kWorkingSeconds = 0.05;  // software OpenGL would take the cores that the work needs
@@ -268,6 +287,7 @@ void run_loop(Loop& loop, SettingsKeeper* keeper, const std::stop_token& stop, s
   double before = glfwGetTime(), kept_s = before;
   std::string title;
   FileDrag drag;
+  ItemsFile items;
   while (!loop.app.wants_to_close() && !stop.stop_requested()) {
     if (glfwWindowShouldClose(loop.window)) {
       glfwSetWindowShouldClose(loop.window, GLFW_FALSE);
@@ -288,6 +308,7 @@ void run_loop(Loop& loop, SettingsKeeper* keeper, const std::stop_token& stop, s
     }
     if (const auto file = std::exchange(loop.app.interface().state().dragged_out, {})) drag.begin(*file);
     const bool drags = drag.update();
+    items.keep(loop.app.interface().state().items);
     glfwSwapBuffers(loop.window);
     if (log)
       log->add({now, std::exchange(loop.events_ms, 0), parts, 1000 * (glfwGetTime() - drawn_s),

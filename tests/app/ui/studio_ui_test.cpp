@@ -94,7 +94,6 @@ TEST_CASE("cancel: in every stage the strokes stay, nothing half done is left, a
   const std::pair<const char*, std::function<bool()>> stages[] = {
       {"as it begins", [&] { return app.studio().cutting(); }},
       {"with the first labels", [&] { return run() && run()->preview; }},
-      {"between views", [&] { return run() && run()->preview && app.studio().progress().stage == "views"; }},
       {"after the cut", [&] { return app.studio().progress().stage == "pictures of the views"; }}};
   constexpr int kMostFrames = 2000;
   int stages_reached = 0;
@@ -107,7 +106,7 @@ TEST_CASE("cancel: in every stage the strokes stay, nothing half done is left, a
       was_reached = reached();
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    stages_reached += was_reached;  // a fast machine may be through before it is seen
+    stages_reached += was_reached;
     app.key(key::kEscape);
     REQUIRE(app.settle());
     const ObjectItem& object = *app.studio().document().active_object();
@@ -118,7 +117,7 @@ TEST_CASE("cancel: in every stage the strokes stay, nothing half done is left, a
     app.studio().apply(SetView{});
     REQUIRE(app.settle());
   }
-  CHECK(stages_reached > 0);
+  CHECK(stages_reached >= 2);  // one may be over before a frame sees it
   app.click(apple);
   app.frames(1);
   app.key(key::kEscape);
@@ -215,8 +214,9 @@ TEST_CASE("ui: what was exported last is dragged out of the window, or its path 
   REQUIRE(hands.app.settle());
   hands.app.frames(2);
   CHECK(hands.studio().exports().last() == folder / "all.splat");
-  const UiRect side = hands.app.window("side");
-  const glm::vec2 row(0.5f * (side.min.x + side.max.x), side.min.y + 106);
+  const UiRect button = hands.app.button("all.splat");
+  REQUIRE(button.size().x > 0);
+  const glm::vec2 row = 0.5f * (button.min + button.max);
   hands.app.move(row);
   hands.app.press(PointerButton::kLeft);
   hands.app.frames(2);

@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 
@@ -185,21 +186,34 @@ TEST_CASE("parts: cancelled before, or at any step that reports progress, withou
   const Camera camera = look_at({0, 0, -4}, {0, 0, 0}, {0, -1, 0}, 0.9f, 160, 120);
   const PreparedScene whole = prepare_scene(cloud, observing_views(cloud, camera, {0, -1, 0}, {}));
   REQUIRE_FALSE(whole.parts.trees.empty());
-  int stopped_on_the_way = 0;
-  for (int step = 0; step < 12; ++step) {
+  // Stopped at its step-th report of progress, if there are so many.
+  const auto stopped_at = [&](int step, int* reports) {
     std::stop_source stop;
-    int seen = 0;
     Job job;
     job.stop = stop.get_token();
+    std::atomic<int> seen = 0;  // reports may come from workers
     job.on_progress = [&](std::string_view, double) {
       if (seen++ == step) stop.request_stop();
     };
     const PreparedScene made =
         prepare_scene(cloud, observing_views(cloud, camera, {0, -1, 0}, {}, {}, job), {}, job);
-    stopped_on_the_way += stop.stop_requested();
-    CHECK((made.parts.trees.empty() || made.parts.trees.size() == whole.parts.trees.size()));  // no half
+    *reports = seen;
+    return made.parts.trees.size();
+  };
+  int all = 0;
+  constexpr int kNever = -1;
+  CHECK(stopped_at(kNever, &all) == whole.parts.trees.size());
+  REQUIRE(all > 2);
+  int stopped_with_none = 0;
+  for (int step = 0; step < all; ++step) {
+    CAPTURE(step);
+    int reports = 0;
+    const std::size_t trees = stopped_at(step, &reports);
+    CHECK(reports > step);                                     // it was reached
+    CHECK((trees == 0 || trees == whole.parts.trees.size()));  // no half
+    stopped_with_none += trees == 0;
   }
-  CHECK(stopped_on_the_way > 0);
+  CHECK(stopped_with_none > 0);  // a late stop finds all trees grown
   std::stop_source stopped;
   stopped.request_stop();
   Job job;
