@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <vector>
 
 namespace splatcut {
 
@@ -37,6 +38,14 @@ glm::quat looking(const glm::vec3& forward, const glm::vec3& up, const glm::vec3
   x = glm::normalize(x);
   const glm::vec3 y = glm::cross(z, x);
   return glm::normalize(glm::quat_cast(glm::transpose(glm::mat3(x, y, z))));
+}
+
+// share: in [0, 1]. values: at least one; their order changes.
+float quantile(std::vector<float>& values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
 }
 
 }  // namespace
@@ -149,18 +158,46 @@ void CameraController::approach(const glm::vec3& point_world, float share) {
   orbit_centre_ = point_world;
 }
 
-void CameraController::frame(const Box& box, const Camera& camera, float covered_bottom_px) {
-  CameraPose target = pose_;
+void CameraController::frame(std::span<const glm::vec3> points_world, const Camera& camera,
+                             float covered_bottom_px) {
+  if (points_world.empty()) return;
+  constexpr float kFilled = 0.8f;
+  constexpr std::size_t kMostPoints = 20000;
+  constexpr int kRounds = 6;  // perspective moves and scales the silhouette a little less in each
   const auto width = static_cast<float>(camera.width_px), height = static_cast<float>(camera.height_px);
   const float free = std::max(0.3f * height, height - covered_bottom_px);
-  const float slope = 0.5f * std::min(free / camera.fy_px, width / camera.fx_px);  // of the free cone's side
+  const glm::vec2 wanted = kFilled * glm::vec2(width / camera.fx_px, free / camera.fy_px);
+  CameraPose target = pose_;
+  const glm::mat3 camera_from_world = glm::mat3_cast(pose_.camera_from_world);
+  std::vector<glm::vec3> points;  // in the camera's axes
+  const std::size_t step = 1 + (points_world.size() - 1) / kMostPoints;
+  for (std::size_t i = 0; i < points_world.size(); i += step)
+    points.push_back(camera_from_world * points_world[i]);
+  const Box box = robust_bounds(points);
   const float radius = std::max(1e-6f * scene_size_, 0.5f * glm::length(box.extent()));
-  target.distance = kFramesPerRadius * radius * std::sqrt(1 + slope * slope) / slope;
+  const float least = 0.5f * box.extent().z + 0.05f * radius;  // all are ahead
+  glm::vec3 middle = box.centre();
+  target.distance = 4 * radius;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<float> slopes[2];
+    for (const glm::vec3& p : points) {
+      const float z = p.z - middle.z + target.distance;
+      for (int axis = 0; z > 0 && axis < 2; ++axis) slopes[axis].push_back((p[axis] - middle[axis]) / z);
+    }
+    float filled = 0;
+    for (int axis = 0; axis < 2; ++axis) {
+      const float low = quantile(slopes[axis], 0.01), high = quantile(slopes[axis], 0.99);
+      middle[axis] += 0.5f * (low + high) * target.distance;
+      filled = std::max(filled, (high - low) / wanted[axis]);
+    }
+    target.distance = std::max(least, target.distance * std::max(filled, 1e-3f));
+  }
   const glm::mat3 axes = world_from_camera(pose_);
   const float lower = 0.5f * (height - free) * target.distance / camera.fy_px;
-  target.position_world = box.centre() - target.distance * axes[2] + lower * axes[1];
+  const glm::vec3 middle_world = axes * middle;
+  target.position_world = middle_world - target.distance * axes[2] + lower * axes[1];
   start(target);
-  orbit_centre_ = box.centre();
+  orbit_centre_ = middle_world;
 }
 
 void CameraController::frame(const Box& box) {

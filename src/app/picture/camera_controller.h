@@ -44,9 +44,10 @@ class CameraController {
   // Else orbit() turns around the pivot.
   void set_orbit_centre(const glm::vec3& point_world) { orbit_centre_ = point_world; }
   void frame(const Box& box);  // lets the box fill the picture, from the same direction
-  // Frames the box within the part of the picture above its lowest covered_bottom_px pixels, in camera's
-  // pixels.
-  void frame(const Box& box, const Camera& camera, float covered_bottom_px);
+  // Lets the points fill four fifths of the part of the picture above its lowest covered_bottom_px pixels, in
+  // camera's pixels, and moves their silhouette to the middle of that part; from the same direction. The
+  // outermost hundredth of the points on each side does not count. No points: nothing moves.
+  void frame(std::span<const glm::vec3> points_world, const Camera& camera, float covered_bottom_px);
   void frame_scene() { frame(scene_); }
   void go_to(const Camera& camera);                   // takes its exact pose and field of view
   void look_along(const glm::vec3& direction_world);  // looks at the pivot along the direction

@@ -138,7 +138,7 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
   Job job;
   job.stop = stop;
   kept_.resize(request.panes.size());
-  FrameResult result{request.scene, {}, {}, request.full, 0, request.limits};
+  FrameResult result{request.scene, {}, {}, {}, request.full, 0, request.limits};
   for (std::size_t i = 0; i < request.panes.size(); ++i) {
     const PaneRequest& pane = request.panes[i];
     Kept& kept = kept_[i];
@@ -152,6 +152,7 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
     }
     result.frames.push_back(kept.frame);
     result.pictures.push_back(shaded(*kept.frame, pane.style));
+    result.shown.push_back(pane.shown);
   }
   result.ms = drawn_ms(start);
   return result;

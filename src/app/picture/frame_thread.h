@@ -56,6 +56,7 @@ struct FrameResult {
   std::uint64_t scene = 0;                           // FrameRequest::scene
   std::vector<std::shared_ptr<const Frame>> frames;  // one frame per pane
   std::vector<Image<Rgba8>> pictures;                // one picture per pane
+  std::vector<Flags> shown;                          // PaneRequest::shown of each pane
   bool full = true;
   double ms = 0;  // time of rasterising and shading
   DrawLimits limits;

@@ -83,6 +83,7 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
     out.shown[pane] = kept_if_equal(before.shown[pane], shown_in(mode, document, active));
   };
   out.panes = two ? 2 : 1;
+  out.display = order.view.display;
   shown(0, compares ? DisplayMode::kIsolate : two ? DisplayMode::kWhole : order.view.display);
   out.style[0] = alone && !style.highlight ? plain : style;
   if (two) {

@@ -29,7 +29,8 @@ struct StyleOrder {
 };
 
 struct Styles {
-  int panes = 0;               // number of panes, 1 or 2; 0: the styles are not made yet
+  int panes = 0;  // number of panes, 1 or 2; 0: the styles are not made yet
+  DisplayMode display = DisplayMode::kWhole;
   std::array<Flags, 2> shown;  // flags per pane of the Gaussians to draw; null: all
   std::array<FrameStyle, 2> style;
   // Object per pane that is drawn in place of the scene's rows; null: the rows.

@@ -85,8 +85,9 @@ void Clicks::perform(const AddStroke& c) {
   const std::string held = already_so(c);
   Document after = ws_.document();
   const std::string message = edit(&after, c, ws_.context());
-  // The view turns around what was clicked.
-  if (c.stroke.is_click() && c.stroke.label == SeedLabel::kObject && viewport_.panes() == 1 &&
+  // The view turns around what was clicked; around the object as long as that is alone.
+  if (ws_.view.display == DisplayMode::kWhole && c.stroke.is_click() &&
+      c.stroke.label == SeedLabel::kObject && viewport_.panes() == 1 &&
       same_camera(c.camera, viewport_.pane_camera()))
     if (const auto hit = viewport_.pick(c.stroke.points_px.front()))
       viewport_.camera().set_orbit_centre(hit->position_world);

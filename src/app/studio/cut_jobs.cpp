@@ -29,7 +29,7 @@ std::string what_changed(const std::vector<std::uint8_t>& before, const std::vec
   }
   const std::size_t removed = was + added - is;
   if (was == 0) return fmt::format("{} cut out in {:.1f} s", gaussians_text(is), seconds);
-  if (added + removed == 0) return gaussians_text(is) + ", as before";
+  if (added + removed == 0) return gaussians_text(is) + ", as before: that changed nothing";
   return fmt::format("{}, {} added and {} removed in {:.1f} s", gaussians_text(is), grouped(added),
                      grouped(removed), seconds);
 }
@@ -186,7 +186,7 @@ void CutJobs::start(const ObjectItem& object) {
   const auto failed = [this, order] {
     if (runs(order)) end(order.key);
   };
-  for (const TaskKind kind : {TaskKind::kHover, TaskKind::kReady, TaskKind::kClean}) ws_.tasks.cancel(kind);
+  for (const TaskKind kind : {TaskKind::kHover, TaskKind::kClean}) ws_.tasks.cancel(kind);
   ws_.tasks.submit({TaskKind::kCut, failed}, [this, order](const Job& job) { work(order, job); });
 }
 
@@ -272,6 +272,10 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string& name = ws_.document().find(order.object)->name;
   if (result->outcome == Outcome::kNothingFound)
     return ws_.say(Message::Kind::kRefused, name + ": " + result->reason);
+  if (*before == *labels_now() && count_flags(*before) > 0)
+    return ws_.say(Message::Kind::kRefused,
+                   fmt::format("{}: {}. Click nearer to what is wrong, come nearer, or draw over it", name,
+                               what_changed(*before, *labels_now(), seconds)));
   const std::string shared = shared_with(ws_, order.object);
   const bool offers_sizes = result->ambiguous && ws_.tools.scale_armed();
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,

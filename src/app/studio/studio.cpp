@@ -112,6 +112,8 @@ bool Studio::update(double seconds) {
   ws_.clock_s += seconds;
   tasks_.deliver();
   quick_.deliver();
+  if (viewport_.display_current())
+    for (const auto& event : std::exchange(held_pointer_, {})) event();
   follow_document();
   cuts_.update();
   const bool moves = viewport_.update(seconds, flight());
@@ -202,6 +204,8 @@ void Studio::perform(const SetUp& c) {
 
 void Studio::perform(const SetView& c) {
   if (c.view.tool != ws_.view.tool) ws_.tools.abandon();
+  if (c.view.display != ws_.view.display && c.view.display == DisplayMode::kIsolate)
+    viewport_.turn_about_object();
   ws_.view = c.view;
   ++ws_.view_serial;
 }

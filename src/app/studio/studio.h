@@ -9,6 +9,7 @@
 // message.
 #pragma once
 
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -115,6 +116,9 @@ class Studio {
   void scale_brush(float factor);
   void step_camera(int direction);
   void hold(const Modifiers& modifiers);
+  // What a press means depends on what is shown: from a change of display on, the pointer's events wait until
+  // the panes follow it.
+  void pointer(std::function<void()> event);
   Flight flight() const;
 
   Workspace ws_;
@@ -127,6 +131,7 @@ class Studio {
   Exports exports_;
   CleanEdges clean_edges_;
   std::set<int> held_keys_;
+  std::vector<std::function<void()>> held_pointer_;
   double brush_repeated_s_ = -1e9;
   std::uint64_t followed_serial_ = 0;  // serial of the document that follow_document() saw last
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/studio/studio.h"
 
@@ -69,10 +70,19 @@ Flight Studio::flight() const {
   return flight;
 }
 
-void Studio::pointer_pressed(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
+void Studio::pointer(std::function<void()> event) {
   if (!ws_.scene) return;
-  viewport_.press_in(viewport_.pane_at(pixel));
-  run_all(ws_.tools.press(viewport_.in_pane(pixel), button, modifiers, viewport_.tool_context(pixel)));
+  if (held_pointer_.empty() && viewport_.display_current())
+    event();
+  else
+    held_pointer_.push_back(std::move(event));
+}
+
+void Studio::pointer_pressed(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
+  pointer([this, pixel, button, modifiers] {
+    viewport_.press_in(viewport_.pane_at(pixel));
+    run_all(ws_.tools.press(viewport_.in_pane(pixel), button, modifiers, viewport_.tool_context(pixel)));
+  });
 }
 
 void Studio::pointer_left() {
@@ -82,16 +92,21 @@ void Studio::pointer_left() {
 void Studio::pointer_moved(const glm::vec2& pixel, const Modifiers& modifiers) {
   clicks_.pointer_inside(true);
   hold(modifiers);
-  if (ws_.scene) run_all(ws_.tools.move(viewport_.in_pane(pixel), modifiers, viewport_.tool_context(pixel)));
+  pointer([this, pixel, modifiers] {
+    run_all(ws_.tools.move(viewport_.in_pane(pixel), modifiers, viewport_.tool_context(pixel)));
+  });
 }
 
 void Studio::pointer_released(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
-  if (ws_.scene)
+  pointer([this, pixel, button, modifiers] {
     run_all(ws_.tools.release(viewport_.in_pane(pixel), button, modifiers, viewport_.tool_context(pixel)));
+  });
 }
 
 void Studio::pointer_double_clicked(const glm::vec2& pixel) {
-  if (ws_.scene) run_all(ws_.tools.double_click(viewport_.in_pane(pixel), viewport_.tool_context(pixel)));
+  pointer([this, pixel] {
+    run_all(ws_.tools.double_click(viewport_.in_pane(pixel), viewport_.tool_context(pixel)));
+  });
 }
 
 void Studio::wheel(float steps, const Modifiers& modifiers) {

@@ -78,10 +78,8 @@ void TaskThread::submit(Order order, Work work) {
   }
   {
     const std::lock_guard lock(mutex_);
-    if (kind != TaskKind::kExport && kind != TaskKind::kSave) {
-      std::erase_if(waiting_, [&](const Task& t) { return t.order.kind == kind; });
-      if (running_ && running_kind_ == kind) running_stop_.request_stop();
-    }
+    if (kind != TaskKind::kExport && kind != TaskKind::kSave) stop(kind);
+    if (asked_for(kind)) stop(TaskKind::kReady);
     waiting_.push_back(std::move(task));
   }
   changed_.notify_one();
@@ -89,6 +87,10 @@ void TaskThread::submit(Order order, Work work) {
 
 void TaskThread::cancel(TaskKind kind) {
   const std::lock_guard lock(mutex_);
+  stop(kind);
+}
+
+void TaskThread::stop(TaskKind kind) {
   std::erase_if(waiting_, [&](const Task& t) { return t.order.kind == kind; });
   if (running_ && running_kind_ == kind) running_stop_.request_stop();
 }

@@ -3,9 +3,10 @@
 //
 // The latest request wins: a new task drops the waiting task of its kind and stops the running one. Exports
 // and saves are the exception: they all run, one after the other, because each is a file that the user asked
-// for. Tasks run at a lower priority than what draws the window, and preparing runs at a lower one still, so
-// that pictures come first even if there are few cores. Cancelling is a normal end. Shutdown: saves that wait
-// are done, other tasks are stopped or dropped, and the thread is joined.
+// for. Any task that was asked for stops what only prepares a click. Tasks run at a lower priority than what
+// draws the window, and preparing runs at a lower one still, so that pictures come first even if there are
+// few cores. Cancelling is a normal end. Shutdown: saves that wait are done, other tasks are stopped or
+// dropped, and the thread is joined.
 #pragma once
 
 #include <condition_variable>
@@ -84,6 +85,7 @@ class TaskThread {
   };
   void run(const std::stop_token& stop);
   void perform(Task& task);
+  void stop(TaskKind kind);  // under mutex_
 
   std::function<void()> wake_;
   const bool inline_work_;

@@ -107,15 +107,23 @@ glm::vec2 Viewport::in_pane(const glm::vec2& pixel) const {
   return pixel - glm::vec2(0.5f * static_cast<float>(width_px_ * pane_at(pixel)), 0);
 }
 
-void Viewport::frame_object() {
-  const ObjectItem* object = ws_.document().active_object();
-  if (!object) return;
-  const Flags own = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
+std::vector<glm::vec3> Viewport::object_positions() const {
   std::vector<glm::vec3> positions;
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object) return positions;
+  const Flags own = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
   for (std::size_t g = 0; g < own->size(); ++g)
     if ((*own)[g]) positions.push_back(ws_.scene->cloud->position[g]);
-  constexpr double kShare = 0.96;  // of its Gaussians in each direction
-  camera_.frame(robust_bounds(positions, kShare), pane_camera(), covered_bottom_px_);
+  return positions;
+}
+
+void Viewport::frame_object() {
+  camera_.frame(object_positions(), pane_camera(), covered_bottom_px_);
+}
+
+void Viewport::turn_about_object() {
+  if (const std::vector<glm::vec3> positions = object_positions(); !positions.empty())
+    camera_.set_orbit_centre(robust_bounds(positions).centre());
 }
 
 DrawLimits Viewport::draw_limits() const {
@@ -225,8 +233,9 @@ void Viewport::take_picture() {
 
 std::shared_ptr<const Frame> Viewport::full_picture_of(const Camera& camera, int pane) const {
   if (!picture_ || !picture_->full || picture_->limits != draw_limits()) return nullptr;
-  if (static_cast<std::size_t>(pane) >= picture_->frames.size()) return nullptr;
-  const std::shared_ptr<const Frame>& frame = picture_->frames[static_cast<std::size_t>(pane)];
+  const auto index = static_cast<std::size_t>(pane);
+  if (index >= picture_->frames.size() || picture_->shown[index] != shown(pane)) return nullptr;
+  const std::shared_ptr<const Frame>& frame = picture_->frames[index];
   return same_camera(frame->camera, camera) ? frame : nullptr;
 }
 

@@ -46,7 +46,8 @@ class Viewport {
   glm::vec2 in_pane(const glm::vec2& pixel) const;  // position within the pane that pane_at() names
   float pixels_per_point() const { return pixels_per_point_; }
   void frame_object();
-  bool moving() const;  // true: the view moves, or did a moment ago
+  void turn_about_object();  // makes the middle of the active object what the view turns around
+  bool moving() const;       // true: the view moves, or did a moment ago
 
   // Content of the panes.
   DrawLimits draw_limits() const;
@@ -59,6 +60,10 @@ class Viewport {
   // Number that changes with shown() and style().
   std::uint64_t style_serial() const { return style_serial_; }
   bool style_current() const;  // true: the styles belong to the present document and view
+  // True: the panes hold what the view's display asks for, alone or whole; the picture may follow later.
+  bool display_current() const {
+    return !ws_.scene || styles_.panes == 0 || styles_.display == ws_.view.display;
+  }
   // Labels of the active object, as they are shown; null: there are none yet.
   const Flags& active_labels() const { return styles_.active_labels; }
   Flags seen(int pane) const;  // Gaussians that the pane shows now; null: all
@@ -88,6 +93,7 @@ class Viewport {
   ToolContext tool_context(const glm::vec2& pixel);
 
  private:
+  std::vector<glm::vec3> object_positions() const;  // of the active object's Gaussians
   void request_styles();
   void request_picture();
   void take_picture();

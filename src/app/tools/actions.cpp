@@ -43,16 +43,20 @@ constexpr std::array kOwnBindings = {
     Binding{Action::kBrushSmaller, '[', kPlain, kTools, "Smaller brush"},
     Binding{Action::kBrushLarger, ']', kPlain, kTools, "Larger brush"},
     Binding{Action::kSeeThrough, 'V', kPlain, kTools, "Visible only, or see-through"},
+    Binding{Action::kPartLarger, '=', kPlain, kTools, "Larger part of what was clicked"},
+    Binding{Action::kPartLarger, key::kKeypadAdd, kPlain, kTools, "Larger part of what was clicked"},
     Binding{Action::kPartLarger, key::kPageUp, kPlain, kTools, "Larger part of what was clicked"},
+    Binding{Action::kPartSmaller, '-', kPlain, kTools, "Smaller part of what was clicked"},
+    Binding{Action::kPartSmaller, key::kKeypadSubtract, kPlain, kTools, "Smaller part of what was clicked"},
     Binding{Action::kPartSmaller, key::kPageDown, kPlain, kTools, "Smaller part of what was clicked"},
     Binding{Action::kSelectAll, 'A', kCtrl, "Selection", "Select all"},
     Binding{Action::kSelectNone, 'D', kCtrl, "Selection", "Select none"},
     Binding{Action::kSelectNone, 'A', kCtrlShift, "Selection", "Select none"},
     Binding{Action::kInvert, 'I', kCtrl, "Selection", "Invert"},
-    Binding{Action::kGrow, '=', kPlain, "Selection", "Grow"},
-    Binding{Action::kGrow, key::kKeypadAdd, kPlain, "Selection", "Grow"},
-    Binding{Action::kShrink, '-', kPlain, "Selection", "Shrink"},
-    Binding{Action::kShrink, key::kKeypadSubtract, kPlain, "Selection", "Shrink"},
+    Binding{Action::kGrow, '=', kCtrl, "Selection", "Grow"},
+    Binding{Action::kGrow, key::kKeypadAdd, kCtrl, "Selection", "Grow"},
+    Binding{Action::kShrink, '-', kCtrl, "Selection", "Shrink"},
+    Binding{Action::kShrink, key::kKeypadSubtract, kCtrl, "Selection", "Shrink"},
     Binding{Action::kLargestPart, 'L', kCtrl, "Selection", "Keep the largest part"},
     Binding{Action::kFloaters, 'L', kCtrlShift, "Selection", "Show floaters"},
     Binding{Action::kDelete, key::kDelete, kPlain, "Selection", "Delete from the scene"},
@@ -161,12 +165,12 @@ Action action_for(int code, const Modifiers& modifiers) {
       bindings, [&](const Binding& b) { return b.key == code && b.modifiers == modifiers; });
   if (exact != bindings.end()) return exact->action;
   if (code == key::kEnter || code == key::kKeypadEnter) return Action::kConfirm;  // whatever drew the shape
+  if (code == '=' && modifiers.shift)  // "+" is Shift+= on many keyboards
+    return action_for(code, {false, modifiers.ctrl, modifiers.alt});
   if (modifiers.ctrl) return Action::kNone;
   const auto flight =
       std::ranges::find_if(bindings, [&](const Binding& b) { return b.key == code && is_flight(b.action); });
-  if (flight != bindings.end()) return flight->action;
-  // "+" is Shift+= on many keyboards.
-  return code == '=' && modifiers.shift ? Action::kGrow : Action::kNone;
+  return flight != bindings.end() ? flight->action : Action::kNone;
 }
 
 std::string key_name(int code, const Modifiers& modifiers) {

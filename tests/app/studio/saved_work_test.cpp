@@ -21,7 +21,7 @@ TEST_CASE("saved work: read back the same, and computed again bit for bit") {
   opened(app);
   app.click(app.screen_of(kOnApple));
   REQUIRE(app.settle());
-  app.key('=');
+  app.key('=', {.ctrl = true});
   app.studio().apply(SetSmoothness{app.studio().document().active, 3.5f});
   REQUIRE(app.settle());
   const auto file = folder / "apple.splatcut.json";

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hands.h"
+#include "segment/masks/mask_tools.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -230,4 +231,62 @@ TEST_CASE("hands: the axes in the corner turn the view, and take the click") {
   hands.app.click(middle + glm::vec2(x_side * 34, 0));  // the ball of +X
   REQUIRE(hands.app.settle());
   CHECK(hands.studio().viewport().pane_camera().forward_world().x < -0.99f);
+}
+
+namespace {
+
+// Where the active object is seen, in logical points of the picture.
+UiRect seen_object(Hands& hands) {
+  const Camera camera = hands.studio().viewport().pane_camera();
+  const std::vector<std::uint8_t> labels = hands.studio().labels(hands.studio().document().active);
+  const Image<float> weight = render_labels(hands.studio().scene()->scene->cloud, camera, labels);
+  UiRect box{glm::vec2(1e9f), glm::vec2(-1e9f)};
+  for (int y = 0; y < weight.height(); ++y)
+    for (int x = 0; x < weight.width(); ++x)
+      if (weight.at(x, y) > 0.5f) {
+        box.min = glm::min(box.min, glm::vec2(x, y));
+        box.max = glm::max(box.max, glm::vec2(x + 1, y + 1));
+      }
+  return box;
+}
+
+}  // namespace
+
+TEST_CASE("hands: F lets the object fill four fifths of what is free of the picture") {
+  Hands hands = hands_on_sample();
+  hands.app.key('I');  // nothing stands before it
+  for (const glm::vec2 turn : {glm::vec2(0), glm::vec2(160, 30), glm::vec2(-90, 60)}) {
+    hands.studio().camera().orbit(turn);
+    hands.app.key('F');
+    REQUIRE(hands.app.settle());
+    const UiRect seen = seen_object(hands);
+    const Camera camera = hands.studio().viewport().pane_camera();
+    const float free =
+        static_cast<float>(camera.height_px) - hands.app->interface().covered_bottom(hands.studio());
+    const glm::vec2 share = seen.size() / glm::vec2(static_cast<float>(camera.width_px), free);
+    CAPTURE(share.x);
+    CAPTURE(share.y);
+    CHECK(std::max(share.x, share.y) > 0.74f);
+    CHECK(std::max(share.x, share.y) < 0.88f);
+    const glm::vec2 middle = 0.5f * (seen.min + seen.max);
+    CHECK(std::abs(middle.x / static_cast<float>(camera.width_px) - 0.5f) < 0.03f);
+    CHECK(std::abs(middle.y / free - 0.5f) < 0.03f);
+  }
+}
+
+TEST_CASE("hands: alone, the object is what the view turns around, corrected or not") {
+  Hands hands = hands_on_sample();
+  hands.app.key('I');
+  REQUIRE(hands.app.settle());
+  const glm::vec3 rim = hands.under(hands.app.screen_of(kOnApple + glm::vec2(40, 20)));
+  hands.app.click(hands.seen_at(rim));  // a correction far from the middle
+  REQUIRE(hands.app.settle());
+  const auto middle = [&] {
+    const UiRect seen = seen_object(hands);
+    return 0.5f * (seen.min + seen.max);
+  };
+  const glm::vec2 before = middle();
+  hands.studio().camera().orbit({400, 0});
+  REQUIRE(hands.app.settle());
+  CHECK(glm::distance(before, middle()) < 12);
 }

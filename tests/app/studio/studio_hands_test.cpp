@@ -250,3 +250,43 @@ TEST_CASE("hands: floaters are shown as long as there are any") {
   REQUIRE(app.settle());
   CHECK_FALSE(studio.viewport().floaters_shown());
 }
+
+TEST_CASE("hands: a click soon after the display changed is judged in the picture that will show it") {
+  Hands hands = hands_on_sample();
+  hands.app.key('I');
+  REQUIRE(hands.app.settle());
+  const std::size_t before = hands.selected();
+  hands.app.key('I');  // back to the scene; the apple alone is still on the screen
+  hands.app.move(hands.app.screen_of(kOnOrange));
+  hands.app.press(PointerButton::kLeft);
+  hands.app.release(PointerButton::kLeft);
+  CHECK(hands.selected() > before);
+  CHECK(hands.studio().document().active_object()->views.front().strokes.size() == 2);
+  CHECK(hands.said().find("nothing in that place") == std::string::npos);
+}
+
+TEST_CASE("hands: a click that changes nothing is a warning, with what to do") {
+  Hands hands;
+  const std::size_t before = hands.selected();
+  hands.app.click(hands.app.screen_of(kOnApple));
+  REQUIRE(hands.selected() == before);
+  const Message& last = hands.studio().messages().back();
+  CHECK(last.kind == Message::Kind::kRefused);
+  CHECK(last.text.find("changed nothing") != std::string::npos);
+}
+
+TEST_CASE("hands: right after a click + and - step its sizes, as the badges say; Ctrl grows and shrinks") {
+  CHECK(action_for('=', {}) == Action::kPartLarger);
+  CHECK(action_for('=', {.shift = true}) == Action::kPartLarger);  // + on many keyboards
+  CHECK(action_for('-', {}) == Action::kPartSmaller);
+  CHECK(action_for('=', {.ctrl = true}) == Action::kGrow);
+  CHECK(action_for('=', {.shift = true, .ctrl = true}) == Action::kGrow);
+  CHECK(action_for('-', {.ctrl = true}) == Action::kShrink);
+  Hands hands = hands_on_sample();
+  const std::size_t apple = hands.selected();
+  hands.app.key('=', {.shift = true});
+  CHECK(hands.selected() > apple);
+  CHECK(hands.studio().document().active_object()->part_step == 1);
+  hands.app.key('-');
+  CHECK(hands.selected() == apple);
+}

@@ -34,7 +34,7 @@ TEST_CASE("a click on the apple cuts out the apple, strokes, undo and redo give 
   REQUIRE(app.settle());
   states.push_back(app.studio().document());
   CHECK(app.studio().document().active_object()->views.front().strokes.size() == 2);
-  app.key('=');  // grow, by hand
+  app.key('=', {.ctrl = true});  // grow, by hand
   REQUIRE(app.settle());
   states.push_back(app.studio().document());
   REQUIRE_FALSE(same(states.back(), states[2]));
