@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,12 @@ bool is_scene(const std::string& word) {
   return has_scene_extension(word) || word.ends_with(".splatcut.json");
 }
 
+// A scene of several files, by its folder.
+bool is_folder(const std::string& word) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(word, ignored);
+}
+
 bool is_command(const std::string& word) {
   return std::ranges::any_of(kCommands, [&](const Command& command) { return command.name == word; });
 }
@@ -41,7 +48,8 @@ bool only_options_before_scene(const std::vector<std::string>& words) {
 
 // `splatcut`, `splatcut SCENE` and `splatcut OPTIONS SCENE` mean `splatcut view`.
 std::vector<std::string> with_command(std::vector<std::string> words) {
-  if (words.empty() || is_scene(words.front()) || only_options_before_scene(words))
+  if (words.empty() || is_scene(words.front()) || only_options_before_scene(words) ||
+      (!is_command(words.front()) && is_folder(words.front())))
     words.insert(words.begin(), "view");
   return words;
 }

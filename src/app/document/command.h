@@ -124,6 +124,10 @@ struct SelectRange {
   float low, high;  // limits, both included, in units of property_values()
   SetOperation operation = SetOperation::kAdd;
 };
+struct ShowRange {                   // outlines what a SelectRange would be about, and selects nothing
+  std::optional<SelectRange> range;  // none: no outline
+  static constexpr bool at_once = true;
+};
 enum class SelectionEdit { kAll, kNone, kInvert, kGrow, kShrink, kLargestPart, kRemoveFloaters };
 struct EditSelection {
   SelectionEdit edit;
@@ -340,12 +344,12 @@ struct SaveTurntable {
 
 using Command =
     std::variant<AddStroke, IntersectStroke, AddBox, SelectRegion, SelectVolume, SelectColour, PickColour,
-                 SelectFlood, SelectScene, SelectRange, EditSelection, ShowFloaters, StepScale, ChooseMeaning,
-                 ClearStrokes, ComeNearer, NewObject, RemoveObject, RenameObject, RecolourObject, ShowObject,
-                 LockObject, ActivateObject, MergeObjects, SplitObject, DuplicateObject, SeparateObject,
-                 DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness, SetPreset, SetBackground, SetUp,
-                 Undo, Redo, JumpHistory, Cancel, Recompute, SetView, GoToCamera, LookAlong, NextBackdrop,
-                 SetBackdrop, SetFieldOfView, OpenScene, AddScene, PlaceScene, RemoveScene, SaveWork,
-                 DropAutosave, Export, SaveSnapshot, SaveTurntable>;
+                 SelectFlood, SelectScene, SelectRange, ShowRange, EditSelection, ShowFloaters, StepScale,
+                 ChooseMeaning, ClearStrokes, ComeNearer, NewObject, RemoveObject, RenameObject,
+                 RecolourObject, ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject,
+                 DuplicateObject, SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness,
+                 SetPreset, SetBackground, SetUp, Undo, Redo, JumpHistory, Cancel, Recompute, SetView,
+                 GoToCamera, LookAlong, NextBackdrop, SetBackdrop, SetFieldOfView, OpenScene, AddScene,
+                 PlaceScene, RemoveScene, SaveWork, DropAutosave, Export, SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

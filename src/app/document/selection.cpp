@@ -162,6 +162,12 @@ std::vector<float> property_values(const GaussianCloud& cloud, Property property
       const glm::vec3& s = cloud.scale[g];
       values[g] = std::log10(std::max({s.x, s.y, s.z, 1e-20f}));
     }
+    if (property == Property::kNeedle) {
+      const glm::vec3& s = cloud.scale[g];
+      const float longest = std::max({s.x, s.y, s.z}), shortest = std::min({s.x, s.y, s.z});
+      const float middle = s.x + s.y + s.z - longest - shortest;
+      values[g] = longest > 0 ? longest / std::max(middle, 1e-4f * longest) : 1;
+    }
   }
   return values;
 }

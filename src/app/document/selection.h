@@ -51,9 +51,10 @@ Selection select_flood(const GaussianCloud& cloud, const FlowGraph& graph, std::
                        std::span<const std::uint8_t> shown);
 glm::vec3 base_colour(const GaussianCloud& cloud, std::size_t g);  // colour of degree 0, clamped to [0, 1]
 
-enum class Property { kOpacity, kSize, kDepth };
+enum class Property { kOpacity, kSize, kDepth, kNeedle };
 // Values of a property, one per Gaussian. kOpacity: [0, 1]. kSize: log10 of the largest standard deviation in
-// scene units. kDepth: camera z in scene units; needs a camera.
+// scene units. kDepth: camera z in scene units; needs a camera. kNeedle: largest standard deviation over the
+// middle one, [1, 1e4]; a disc has about 1.
 std::vector<float> property_values(const GaussianCloud& cloud, Property property,
                                    const Camera* camera = nullptr);
 Selection select_range(std::span<const float> values, float low, float high);  // low and high are included

@@ -25,4 +25,14 @@ std::string length_text(float length) {
   return fmt::format("{:.{}f}", length, std::max(0, 2 - static_cast<int>(std::floor(std::log10(size)))));
 }
 
+std::string scene_name(const std::filesystem::path& scene) {
+  const std::filesystem::path& path = scene.has_filename() ? scene : scene.parent_path();  // "folder/"
+  const std::string name = path.filename().string();
+  if (name != "meta.json" && name != "lod-meta.json") return name;
+  std::error_code ignored;
+  const std::filesystem::path whole = std::filesystem::absolute(path, ignored);
+  const std::string folder = whole.lexically_normal().parent_path().filename().string();
+  return folder.empty() ? name : folder;
+}
+
 }  // namespace splatcut

@@ -2,12 +2,17 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 
 namespace splatcut {
 
 std::string grouped(std::size_t n);         // "92,440"
 std::string gaussians_text(std::size_t n);  // "92,440 Gaussians", "1 Gaussian"
+
+// The name that a person knows a scene by: its file's, or its folder's where files of one scene always have
+// the same names (meta.json, lod-meta.json). A folder's own name where a folder is given.
+std::string scene_name(const std::filesystem::path& scene);
 
 // A length of the scene with three figures: "0.0235", "12.4", "1,250". Scene units.
 std::string length_text(float length);

@@ -73,6 +73,10 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
     Selection found = floaters(*order.cloud, order.graph->get(), *active);
     out.floaters = count_flags(found);
     style.highlight = make_flags(std::move(found));
+  } else if (order.range) {
+    const SelectRange& range = *order.range;
+    style.highlight = make_flags(
+        select_range(property_values(*order.cloud, range.property, &order.camera), range.low, range.high));
   }
   const bool compares = order.view.display == DisplayMode::kBeforeAfter;
   const bool two = order.view.display == DisplayMode::kSideBySide || compares;

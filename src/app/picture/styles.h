@@ -6,8 +6,10 @@
 
 #include <array>
 #include <map>
+#include <optional>
 
 #include "app/document/clean_objects.h"
+#include "app/document/command.h"
 #include "app/document/label_cache.h"
 #include "app/document/scene_graph.h"
 #include "app/document/view_state.h"
@@ -24,8 +26,10 @@ struct StyleOrder {
   std::shared_ptr<const std::vector<float>> likelihood;  // likelihood of the active object, for the heat map
   std::shared_ptr<const CleanObjects> clean;
   ViewState view;
-  float pixels_per_point = 1;  // pixels per logical pixel
-  bool floaters = false;       // true: floaters of the active object are outlined
+  float pixels_per_point = 1;        // pixels per logical pixel
+  bool floaters = false;             // true: floaters of the active object are outlined
+  std::optional<SelectRange> range;  // outlined if there are no floaters; depths are the camera's
+  Camera camera;
 };
 
 struct Styles {

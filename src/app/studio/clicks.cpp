@@ -171,7 +171,7 @@ void Clicks::perform(const StepScale& c) {
 bool Clicks::asks_ahead() const {
   const ObjectItem* active = ws_.document().active_object();
   if (!ws_.session || ws_.view.tool != Tool::kClick || viewport_.panes() != 1 || ws_.view.heat ||
-      ws_.tools.dragging() || viewport_.floaters_shown() || cuts_.cutting() != 0 ||
+      ws_.tools.dragging() || viewport_.floaters_shown() || viewport_.range_shown() || cuts_.cutting() != 0 ||
       (active && active->locked))
     return false;
   return viewport_.style_current() && viewport_.full_picture_of(viewport_.pane_camera());

@@ -1,4 +1,5 @@
 #include "app/studio/edits.h"
+#include "app/document/words.h"
 
 #include <fmt/format.h>
 
@@ -218,7 +219,7 @@ void Edits::perform(const SelectScene& c) {
   ws_.require_scene();
   const SceneSource* file = ws_.scene->file(c.file);
   if (!file) throw Error("selection", "there is no such file");
-  push_later({fmt::format("{} ({})", title_of(c.operation), file->path.filename().string()),
+  push_later({fmt::format("{} ({})", title_of(c.operation), scene_name(file->path)),
               {},
               [c, scene = ws_.scene](Document* document, const EditContext& context, const Job&) {
                 return edit_selection(document, gaussians_of(*scene, c.file), c.operation, context);
@@ -227,7 +228,7 @@ void Edits::perform(const SelectScene& c) {
 
 void Edits::perform(const SelectRange& c) {
   ws_.require_scene();
-  const char* const names[] = {" (opacity)", " (size)", " (depth)"};
+  const char* const names[] = {" (opacity)", " (size)", " (depth)", " (needles)"};
   push_later(
       {std::string(title_of(c.operation)) + names[static_cast<int>(c.property)],
        {},

@@ -17,12 +17,12 @@ constexpr std::size_t kCoarseFrom = 300000;  // Gaussians; fewer are drawn fast 
 std::string described(const OpenedScene& opened) {
   const Scene& scene = *opened.scene;
   const std::size_t more = opened.files.size() - 1;
-  std::string text = fmt::format("{}{}: {} Gaussians, SH degree {}", scene.path.filename().string(),
-                                 more ? fmt::format(" and {} more", more) : "", grouped(scene.cloud.size()),
-                                 scene.cloud.sh_degree);
+  std::string text =
+      fmt::format("{}{}: {}", scene_name(scene.path), more ? fmt::format(" and {} more", more) : "",
+                  gaussians_text(scene.cloud.size()));
   if (scene.dropped) text += fmt::format(", {} unusable rows left out", grouped(scene.dropped));
   return text + (opened.views().cameras.empty()
-                     ? std::string(". Does it lean or stand on its head? Set what is up under View")
+                     ? std::string(". Which way is up is guessed: View has other ways")
                      : fmt::format(", {} cameras (N, P)", opened.views().cameras.size()));
 }
 
@@ -48,7 +48,7 @@ void SceneFiles::perform(const OpenScene& c) {
   const std::uint64_t serial = next_scene_serial_++;
   const bool restores = work_.autosave_found() && c.path == work_.offered();
   ws_.say(Message::Kind::kInfo, restores ? "Restoring the work of last time: " + work_.autosave_says()
-                                         : "Opening " + c.path.filename().string());
+                                         : "Opening " + scene_name(c.path));
   stop_for_loading();
   changing_to_.clear();
   std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes}};
@@ -99,7 +99,7 @@ void SceneFiles::perform(const AddScene& c) {
     throw Error(c.path.filename().string(), "is saved work, not a scene", "Open it, or add the scene itself");
   std::vector<SceneSource> files = wanted_files();
   files.push_back({.id = next_file_id_++, .path = c.path, .spz_axes = c.spz_axes});
-  const std::string name = c.path.filename().string();
+  const std::string name = scene_name(c.path);
   change_files(std::move(files), "Adding " + name, name + " added; place it under Files");
 }
 
@@ -109,13 +109,13 @@ void SceneFiles::perform(const PlaceScene& c) {
   check(c.place, file.path);
   if (file.place == c.place) return;
   file.place = c.place;
-  const std::string name = file.path.filename().string();
+  const std::string name = scene_name(file.path);
   change_files(std::move(files), "Placing " + name, name + " placed");
 }
 
 void SceneFiles::perform(const RemoveScene& c) {
   std::vector<SceneSource> files = wanted_files();
-  const std::string name = added_file(&files, c.file).path.filename().string();
+  const std::string name = scene_name(added_file(&files, c.file).path);
   std::erase_if(files, [&](const SceneSource& file) { return file.id == c.file; });
   change_files(std::move(files), "Taking out " + name, name + " taken out; the file stays as it is");
 }

@@ -156,6 +156,11 @@ void Studio::perform(const ShowFloaters& c) {
   viewport_.show_floaters(c.shown);
 }
 
+void Studio::perform(const ShowRange& c) {
+  ws_.require_scene();
+  viewport_.show_range(c.range);
+}
+
 // What runs for the person, the nearest to its end first.
 bool Studio::cancel_task() {
   if (cuts_.cancel()) {

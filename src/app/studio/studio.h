@@ -89,6 +89,7 @@ class Studio {
 
  private:
   void perform(const ShowFloaters& c);
+  void perform(const ShowRange& c);
   void perform(const Cancel&);
   void perform(const Undo&);
   void perform(const Redo&);

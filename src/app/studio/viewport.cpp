@@ -46,6 +46,7 @@ void Viewport::change_scene() {
   styles_ = {};
   styled_document_ = 0;
   styles_on_the_way_ = floaters_shown_ = false;
+  range_shown_.reset();
   picture_.reset();
   camera_.change_scene(ws_.scene->bounds);
 }
@@ -143,6 +144,11 @@ void Viewport::show_floaters(bool shown) {
   ++ws_.view_serial;
 }
 
+void Viewport::show_range(const std::optional<SelectRange>& range) {
+  range_shown_ = range;
+  ++ws_.view_serial;
+}
+
 void Viewport::highlight(const Flags& gaussians, const Rgb8& colour) {
   FrameStyle& style = styles_.style[0];
   const bool same =
@@ -164,8 +170,9 @@ void Viewport::request_styles() {
   styled_document_ = ws_.history.serial();
   styled_view_ = ws_.view_serial;
   styles_on_the_way_ = true;
-  StyleOrder order{ws_.scene->cloud, ws_.graph,         ws_.document(), {}, nullptr, ws_.clean,
-                   ws_.view,         pixels_per_point_, floaters_shown_};
+  StyleOrder order{ws_.scene->cloud, ws_.graph,    ws_.document(), {},
+                   nullptr,          ws_.clean,    ws_.view,       pixels_per_point_,
+                   floaters_shown_,  range_shown_, pane_camera()};
   for (const ObjectItem& object : order.document.objects)
     if (const CutRun* run = cuts_.run(object.id)) {
       if (run->preview) order.previews[object.id] = run->preview;

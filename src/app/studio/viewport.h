@@ -69,6 +69,8 @@ class Viewport {
   Flags seen(int pane) const;  // Gaussians that the pane shows now; null: all
   void show_floaters(bool shown);
   bool floaters_shown() const { return floaters_shown_; }
+  void show_range(const std::optional<SelectRange>& range);  // outlines it; none: no outline
+  const std::optional<SelectRange>& range_shown() const { return range_shown_; }
   std::size_t floater_count() const { return styles_.floaters; }
   // Outlines Gaussians in the first pane until the styles change; null: outlines none.
   void highlight(const Flags& gaussians, const Rgb8& colour);
@@ -112,6 +114,7 @@ class Viewport {
   std::uint64_t styled_document_ = 0, styled_view_ = 0;  // serials for which styles were requested last
   bool styles_on_the_way_ = false;
   bool floaters_shown_ = false, say_floaters_ = false;
+  std::optional<SelectRange> range_shown_;
 
   std::optional<FrameResult> picture_;
   std::uint64_t picture_serial_ = 0;

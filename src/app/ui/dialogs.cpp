@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/console/version.h"
+#include "app/document/words.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
@@ -46,7 +47,7 @@ void propose_path(UiContext& ui) {
   const std::filesystem::path folder = choice.path.empty()
                                            ? std::filesystem::absolute(s.scene()->scene->path).parent_path()
                                            : std::filesystem::path(choice.path).parent_path();
-  std::string stem = s.scene()->scene->path.filename().string();
+  std::string stem = scene_name(s.scene()->scene->path);
   stem = stem.substr(0, stem.find('.'));
   const ObjectItem* active = s.document().active_object();
   std::string name = choice.what == ExportWhat::kRest         ? "rest"
@@ -349,7 +350,7 @@ void open_anyway_dialog(UiContext& ui) {
   if (ui.state.open_asked && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
   centre_next_window({430, 150});
   if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
-  const std::string name = ui.state.open_asked ? ui.state.open_asked->path.filename().string() : "";
+  const std::string name = ui.state.open_asked ? scene_name(ui.state.open_asked->path) : "";
   wrapped_muted(
       ui, fmt::format("The objects and strokes were not saved since they changed; opening {} ends that work.",
                       name));

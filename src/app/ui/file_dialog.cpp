@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "app/document/words.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
@@ -46,7 +47,7 @@ Kind kind_of(FilePurpose purpose) {
 }
 
 std::string stem_of_scene(const Studio& studio) {
-  std::string name = studio.scene() ? studio.scene()->scene->path.filename().string() : "scene";
+  std::string name = studio.scene() ? scene_name(studio.scene()->scene->path) : "scene";
   return name.substr(0, name.find('.'));
 }
 

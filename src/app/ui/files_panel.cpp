@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/document/words.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
@@ -77,7 +78,7 @@ void file_row(UiContext& ui, const SceneSource& file, bool first) {
   const std::string count = grouped(file.gaussians);
   const float select_width = 54, count_width = ImGui::CalcTextSize(count.c_str()).x;
   ImGui::AlignTextToFramePadding();
-  const std::string name = file.path.filename().string() + "##file";
+  const std::string name = scene_name(file.path) + "##file";
   if (ImGui::Selectable(name.c_str(), chosen && !first, 0,
                         {ImGui::GetContentRegionAvail().x - select_width - count_width - 16, 0}))
     choice.file = chosen || first ? 0 : file.id;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
@@ -11,8 +12,16 @@ namespace splatcut {
 
 namespace {
 
-constexpr const char* kPropertyNames[] = {"Opacity", "Size", "Depth", "Colour"};
-constexpr int kColourProperty = 3, kBins = 48;
+struct PropertyName {
+  const char *name, *tip;
+};
+constexpr PropertyName kProperties[] = {
+    {"Opacity", "Select by opacity"},
+    {"Size", "Select by size: the largest standard deviation, in scene units"},
+    {"Depth", "Select by distance from the camera, in scene units"},
+    {"Needles", "Select by shape: how many times longer a Gaussian is than it is wide"},
+    {"Colour", "Select by colour"}};
+constexpr int kColourProperty = PropertyChoice::kColourProperty, kBins = 48;
 
 void pair_of(UiContext& ui, Action left, const char* left_label, Action right, const char* right_label) {
   const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
@@ -78,8 +87,10 @@ void property_range(UiContext& ui) {
   PropertyChoice& choice = ui.state.property;
   refresh_histogram(ui);
   draw_histogram(ui);
-  // Shares are shown in percent, sizes as lengths, of which powers of ten are kept.
-  const bool is_share = choice.property == 0, is_size = choice.property == 1;
+  // Shares are shown in percent, sizes as lengths, of which powers of ten are kept. The ends of the histogram
+  // stand for everything beyond them.
+  const bool is_share = choice.property == static_cast<int>(Property::kOpacity),
+             is_size = choice.property == static_cast<int>(Property::kSize);
   constexpr float kLeastLength = 1e-20f;
   const auto shown = [&](float value) {
     return is_share ? 100 * value : is_size ? std::pow(10.0f, value) : value;
@@ -92,33 +103,48 @@ void property_range(UiContext& ui) {
               most = shown(choice.histogram.high);
   const float range =
       is_size ? most - least : high - low;  // sizes are dragged in proportion to the whole range
+  const auto format = [&](float value, bool end, const char* beyond) {
+    return (is_share ? "%.0f %%" : length_format(value)) + (end ? beyond : "");
+  };
+  const std::string low_format = format(low, choice.low <= choice.histogram.low, " and less"),
+                    high_format = format(high, choice.high >= choice.histogram.high, " and more");
   ImGui::SetNextItemWidth(-1);
   ImGui::DragFloatRange2("##range", &low, &high, std::max(is_size ? 0.0f : shown(1e-4f), range / 200), least,
-                         most, is_share ? "%.0f %%" : length_format(low).c_str(),
-                         is_share ? "%.0f %%" : length_format(high).c_str(),
+                         most, low_format.c_str(), high_format.c_str(),
                          ImGuiSliderFlags_NoRoundToFormat | (is_size ? ImGuiSliderFlags_Logarithmic : 0));
-  if (low != low_before) choice.low = kept(low);
-  if (high != high_before) choice.high = kept(high);
-  tooltip(choice.property == 1   ? "Size: the largest standard deviation, in scene units. Drag to change."
-          : choice.property == 2 ? "Distance from the camera, in scene units. Drag to change."
-                                 : "Drag to change.");
+  if (low != low_before) choice.low = low == least ? choice.histogram.low : kept(low);
+  if (high != high_before) choice.high = high == most ? choice.histogram.high : kept(high);
+}
+
+SelectRange range_of(const PropertyChoice& choice, SetOperation operation) {
+  constexpr float kAll = std::numeric_limits<float>::infinity();
+  return {static_cast<Property>(choice.property), choice.low <= choice.histogram.low ? -kAll : choice.low,
+          choice.high >= choice.histogram.high ? kAll : choice.high, operation};
+}
+
+// Shows in the picture what is in the range while the pointer is at it.
+void preview_range(UiContext& ui, bool at_range) {
+  const auto& shown = ui.studio.viewport().range_shown();
+  if (!at_range) {
+    if (shown) ui.ask(ShowRange{});
+    return;
+  }
+  const SelectRange wanted = range_of(ui.state.property, SetOperation::kAdd);
+  if (!shown || shown->property != wanted.property || shown->low != wanted.low || shown->high != wanted.high)
+    ui.ask(ShowRange{wanted});
 }
 
 void property_selection(UiContext& ui) {
   PropertyChoice& choice = ui.state.property;
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Select by");
-  for (int i = 0; i < 4; ++i) {
-    if (i == 0)
-      ImGui::SameLine(76);
-    else
-      ImGui::SameLine(0, 2);
+  for (int i = 0; i < std::ssize(kProperties); ++i) {
+    if (i > 0) ImGui::SameLine(0, 2);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6, 4});
-    if (button(ui, kPropertyNames[i], fmt::format("Select Gaussians by {}", kPropertyNames[i]), {},
-               choice.property == i))
-      choice.property = i;
+    if (button(ui, kProperties[i].name, kProperties[i].tip, {}, choice.property == i)) choice.property = i;
     ImGui::PopStyleVar();
   }
+  const ImVec2 range_from = ImGui::GetCursorScreenPos();
   if (choice.property == kColourProperty) {
     ImGui::SetNextItemWidth(-1);
     ImGui::ColorEdit3("##colour", &choice.colour.x, ImGuiColorEditFlags_DisplayRGB);
@@ -127,11 +153,12 @@ void property_selection(UiContext& ui) {
   } else {
     property_range(ui);
   }
+  const bool ranges = ImGui::IsItemActive();  // dragged, wherever the pointer is
   const auto ask = [&](SetOperation operation) {
     if (choice.property == kColourProperty)
       ui.ask(SelectColour{choice.colour, choice.tolerance, operation});
     else
-      ui.ask(SelectRange{static_cast<Property>(choice.property), choice.low, choice.high, operation});
+      ui.ask(range_of(choice, operation));
   };
   const ObjectItem* active = ui.studio.document().active_object();
   const std::string reason = active && active->locked ? active->name + " is locked" : "";
@@ -144,12 +171,16 @@ void property_selection(UiContext& ui) {
   ImGui::SameLine(0, 4);
   if (button(ui, "Keep only", "Keep only what lies in the range", reason, false, third))
     ask(SetOperation::kIntersect);
+  const ImVec2 range_to(range_from.x + ImGui::GetContentRegionAvail().x, ImGui::GetItemRectMax().y);
+  const bool in_window = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
+  preview_range(ui, choice.property != kColourProperty &&
+                        (ranges || (in_window && ImGui::IsMouseHoveringRect(range_from, range_to))));
 }
 
 }  // namespace
 
 void repair_panel(UiContext& ui) {
-  if (!section(ui, "Repair by hand", false)) return;
+  if (!section(ui, "Repair by hand", false)) return preview_range(ui, false);
   pair_of(ui, Action::kGrow, "Grow", Action::kShrink, "Shrink");
   pair_of(ui, Action::kInvert, "Invert", Action::kLargestPart, "Largest part");
   floater_buttons(ui);

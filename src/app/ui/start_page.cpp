@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/document/words.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
@@ -19,7 +20,7 @@ void restore_buttons(UiContext& ui) {
 
 void recent_list(UiContext& ui) {
   for (const auto& path : ui.state.recent) {
-    const std::string name = (path.parent_path().filename() / path.filename()).string();
+    const std::string name = (path.parent_path().filename() / scene_name(path)).string();
     if (ImGui::Selectable((name + "##" + path.string()).c_str())) ui.ask(OpenScene{path});
     tooltip(path.string());
   }

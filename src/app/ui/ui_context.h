@@ -62,7 +62,8 @@ struct TurntableChoice {
 
 // By-property selection of the repair panel.
 struct PropertyChoice {
-  int property = 0;  // 0 opacity, 1 size, 2 depth, 3 colour
+  int property = 0;  // a Property, or kColourProperty
+  static constexpr int kColourProperty = 4;
   float low = 0, high = 1;
   glm::vec3 colour{0.5f};
   float tolerance = 0.1f;

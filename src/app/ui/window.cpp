@@ -13,6 +13,7 @@
 
 #include "app/console/console.h"
 #include "app/console/user_folders.h"
+#include "app/document/words.h"
 #include "app/ui/file_drag.h"
 #include "app/ui/frame_log.h"
 #include "app/ui/settings.h"
@@ -259,7 +260,7 @@ std::string title_of(const Studio& studio) {
   if (!studio.scene()) return "splatcut";
   const std::filesystem::path& shown =
       studio.work().work_path().empty() ? studio.scene()->scene->path : studio.work().work_path();
-  return fmt::format("{}{} - splatcut", studio.unsaved() ? "* " : "", shown.filename().string());
+  return fmt::format("{}{} - splatcut", studio.unsaved() ? "* " : "", scene_name(shown));
 }
 
 // For scripts that press what a user presses: a line an item, "x0 y0 x1 y1 name" in logical points of the

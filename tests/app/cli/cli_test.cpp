@@ -409,6 +409,15 @@ TEST_CASE("convert goes through every format and back, and says what is lost") {
   CHECK(place.leftovers().empty());
 }
 
+TEST_CASE("a folder without a command is a scene to view, unless a command has its name") {
+  const Workplace place;
+  place.make_folder("garden");
+  place.make_folder("info");
+  CHECK(place.run("garden --check").err.find("subcommand") == std::string::npos);
+  CHECK(place.run("nowhere --check").err.find("subcommand") != std::string::npos);
+  CHECK(place.run("info --check").code == 2);  // is no option of `info`
+}
+
 TEST_CASE("convert refuses an ending that it reads but does not write, and lists what it writes") {
   const StillLife& life = still_life();
   const Workplace& place = life.place;

@@ -17,6 +17,11 @@ TEST_CASE("hands: numbers are written one way, lengths with three figures") {
   CHECK(length_text(0.0235f) == "0.0235");
   CHECK(length_text(12.4f) == "12.4");
   CHECK(length_text(1250.4f) == "1,250");
+  CHECK(scene_name("a/garden.ply") == "garden.ply");
+  CHECK(scene_name("a/garden/meta.json") == "garden");
+  CHECK(scene_name("a/garden/lod-meta.json") == "garden");
+  CHECK(scene_name("a/garden/") == "garden");
+  CHECK(scene_name("meta.json") == std::filesystem::current_path().filename());
   Hands hands(false);
   CHECK(std::ranges::any_of(hands.studio().messages(), [](const Message& m) {
     return m.text.find("3,000") != std::string::npos && m.text.find("Gaussians") != std::string::npos;

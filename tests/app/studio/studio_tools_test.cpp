@@ -8,6 +8,7 @@
 
 #include "app/document/document_edits.h"
 #include "hands.h"
+#include "synthetic_cloud.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -449,4 +450,47 @@ TEST_CASE("hands: side by side, what is drawn in the right pane takes what that 
   };
   CHECK(drag(0.55f, 0.95f) == apple);  // the object stands there alone
   CHECK(drag(0.05f, 0.45f) > 2 * apple);
+}
+
+TEST_CASE("hands: the ends of a range take all beyond them, and what is in it shows before it is taken") {
+  HeadlessApp app(900, 1000);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  const auto selected = [&] {
+    REQUIRE(app.settle());
+    return app.studio().gaussians_of(app.studio().document().active);
+  };
+  app.press_item("side/scroll", {"Repair by hand"});
+  app.press_item("side/scroll", {"Size"});
+  const GaussianCloud& cloud = app.studio().scene()->scene->cloud;
+  const std::vector<float> sizes = property_values(cloud, Property::kSize);
+  PropertyChoice& choice = app.interface_state().property;
+  const float largest = *std::ranges::max_element(sizes);
+  REQUIRE(largest > choice.histogram.high);  // outliers are beyond the histogram
+  choice.low = 0.5f * (choice.histogram.low + choice.histogram.high);
+  const std::size_t in_range =
+      static_cast<std::size_t>(std::ranges::count_if(sizes, [&](float s) { return s >= choice.low; }));
+  app.frames(2);
+  const UiRect add = app.button("Add");
+  app.move(0.5f * (add.min + add.max));
+  REQUIRE(app.settle());
+  const Flags shown = app.studio().viewport().style(0).highlight;
+  REQUIRE(shown);
+  CHECK(count_flags(*shown) == in_range);
+  CHECK(selected() == 0);
+  app.move({300, 300});
+  app.frames(2);
+  REQUIRE(app.settle());
+  CHECK_FALSE(app.studio().viewport().range_shown());
+  app.press_item("side/scroll", {"Add"});
+  CHECK(selected() == in_range);
+}
+
+TEST_CASE("needles: how many times longer than wide, whatever the third axis") {
+  GaussianCloud cloud = random_cloud(3, 1);
+  cloud.scale = {{1, 8, 0.001f}, {2, 2, 1e-9f}, {5, 0, 0}};
+  const std::vector<float> needles = property_values(cloud, Property::kNeedle);
+  CHECK(needles[0] == doctest::Approx(8));
+  CHECK(needles[1] == doctest::Approx(1));
+  CHECK(needles[2] == doctest::Approx(1e4));
 }

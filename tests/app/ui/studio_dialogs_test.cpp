@@ -362,7 +362,7 @@ TEST_CASE("panels: a number is typed in the unit it is shown in") {
   app.frames(2);
   typed(side, {"##range", "##max"}, 0.02f);
   CHECK(property.high == doctest::Approx(std::log10(0.02f)).epsilon(1e-3));
-  property.property = 3;
+  property.property = PropertyChoice::kColourProperty;
   app.frames(2);
   typed(side, {"##tolerance"}, 25);
   CHECK(property.tolerance == doctest::Approx(0.25f));
