@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <tuple>
 
 #include "core/error.h"
@@ -17,6 +18,17 @@ namespace {
 constexpr std::array<Rgb8, 8> kObjectColours = {Rgb8{255, 145, 40},  Rgb8{70, 180, 255}, Rgb8{40, 205, 145},
                                                 Rgb8{240, 110, 190}, Rgb8{250, 225, 70}, Rgb8{150, 130, 255},
                                                 Rgb8{255, 95, 80},   Rgb8{120, 220, 235}};
+
+glm::vec3 as_shares(const Rgb8& c) {
+  return glm::vec3(c[0], c[1], c[2]) / 255.0f;
+}
+
+// As different as two colours look, sRGB, 0 to 3 (Riemersma's weights by the mean of the reds).
+float difference(const glm::vec3& a, const glm::vec3& b) {
+  const float red = 0.5f * (a.r + b.r);
+  const glm::vec3 d = a - b;
+  return std::sqrt((2 + red) * d.r * d.r + 4 * d.g * d.g + (3 - red) * d.b * d.b);
+}
 
 bool none_set(const Flags& flags) {
   return !flags || std::ranges::all_of(*flags, [](std::uint8_t f) { return f == 0; });
@@ -123,6 +135,22 @@ ObjectItem& add_object(Document* document, std::string name) {
   object.colour = kObjectColours[(object.id - 1) % kObjectColours.size()];
   document->active = object.id;
   return document->objects.emplace_back(std::move(object));
+}
+
+void stand_out(Document* document, ObjectId object, const glm::vec3& under) {
+  constexpr float kShows = 0.6f;
+  ObjectItem& item = *document->find(object);
+  const bool taken = std::ranges::any_of(document->objects, [&](const ObjectItem& other) {
+    return other.id != object && other.colour == item.colour;
+  });
+  if (difference(as_shares(item.colour), under) >= kShows && !taken) return;
+  const auto apart = [&](const Rgb8& colour) {
+    float least = difference(as_shares(colour), under);
+    for (const ObjectItem& other : document->objects)
+      if (other.id != object) least = std::min(least, difference(as_shares(colour), as_shares(other.colour)));
+    return least;
+  };
+  item.colour = *std::ranges::max_element(kObjectColours, {}, apart);
 }
 
 std::size_t count_flags(std::span<const std::uint8_t> flags) {

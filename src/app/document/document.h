@@ -90,6 +90,10 @@ void set_labels(Document* document, ObjectItem* object, std::span<const std::uin
 // kMostObjects already.
 ObjectItem& add_object(Document* document, std::string name = {});
 
+// Gives the object another of those colours where its own hardly shows on `under` (sRGB, [0, 1]) or another
+// object has it: the one that is farthest from that and from the other objects' colours.
+void stand_out(Document* document, ObjectId object, const glm::vec3& under);
+
 std::size_t count_flags(std::span<const std::uint8_t> flags);  // number of bytes that are not 0
 
 // same(): everything is equal. same_but_strokes(): everything is equal but what cut_key() covers.

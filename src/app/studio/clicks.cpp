@@ -84,7 +84,12 @@ void Clicks::perform(const AddStroke& c) {
     throw Error("click", "there is nothing in that place", "Click on something that can be seen");
   const std::string held = already_so(c);
   Document after = ws_.document();
+  const ObjectItem* active = ws_.document().active_object();
+  const bool first = !active || (!any_mark(*active) && ws_.gaussians_of(active->id) == 0);
   const std::string message = edit(&after, c, ws_.context());
+  const auto on = first ? viewport_.pick(c.stroke.points_px.front()) : std::nullopt;
+  if (on && same_camera(c.camera, viewport_.pane_camera()))
+    stand_out(&after, after.active, base_colour(*ws_.scene->cloud, static_cast<std::size_t>(on->gaussian)));
   // The view turns around what was clicked; around the object as long as that is alone.
   if (ws_.view.display == DisplayMode::kWhole && c.stroke.is_click() &&
       c.stroke.label == SeedLabel::kObject && viewport_.panes() == 1 &&

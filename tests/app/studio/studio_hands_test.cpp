@@ -295,3 +295,18 @@ TEST_CASE("hands: right after a click + and - step its sizes, as the badges say;
   hands.app.key('-');
   CHECK(hands.selected() == apple);
 }
+
+TEST_CASE("hands: an object's colour is one that shows on what was clicked, and stays") {
+  Hands hands = hands_on_sample(false);
+  hands.app.click(hands.app.screen_of(kOnOrange));
+  REQUIRE(hands.app.settle());
+  const Rgb8 on_orange = hands.studio().document().active_object()->colour;
+  CHECK(on_orange[2] > on_orange[0]);  // bluish; an object's first colour is orange
+  hands.app.click(hands.app.screen_of(kOnApple));
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().document().active_object()->colour == on_orange);
+  hands.app.key('N', {.ctrl = true});
+  hands.app.click(hands.app.screen_of(kOnMug));
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().document().active_object()->colour != on_orange);
+}
