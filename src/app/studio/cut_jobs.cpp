@@ -272,14 +272,17 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string& name = ws_.document().find(order.object)->name;
   if (result->outcome == Outcome::kNothingFound)
     return ws_.say(Message::Kind::kRefused, name + ": " + result->reason);
-  if (*before == *labels_now() && count_flags(*before) > 0)
-    return ws_.say(Message::Kind::kRefused,
-                   fmt::format("{}: {}. Click nearer to what is wrong, come nearer, or draw over it", name,
-                               what_changed(*before, *labels_now(), seconds)));
+  const std::string changed = what_changed(*before, *labels_now(), seconds);
+  const std::string& step = ws_.history.entries()[ws_.history.cursor()].title;
+  const bool stroked = step.starts_with("Click") || step.starts_with("Scribble");
+  if (stroked && *before == *labels_now() && count_flags(*before) > 0)
+    return ws_.say(
+        Message::Kind::kRefused,
+        fmt::format("{}: {}. Click nearer to what is wrong, come nearer, or draw over it", name, changed));
   const std::string shared = shared_with(ws_, order.object);
   const bool offers_sizes = result->ambiguous && ws_.tools.scale_armed();
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
-          fmt::format("{}: {}{}{}", name, what_changed(*before, *labels_now(), seconds), shared,
+          fmt::format("{}: {}{}{}", name, changed, shared,
                       !doubt.empty() ? ". But " + doubt
                       : offers_sizes ? ". Not all of it? Turn the wheel for another size"
                                      : ""));

@@ -78,6 +78,7 @@ void Studio::scene_opened(bool same) {
   cuts_.reset();
   edits_.reset();
   clicks_.reset();
+  held_pointer_.clear();
   ws_.tools.abandon();
   if (same) {
     ++ws_.view_serial;
