@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/mapped_file.h"
+#include "core/stand_in.h"
 
 namespace splatcut {
 
@@ -37,6 +38,7 @@ nlohmann::json parse_json(const std::filesystem::path& path, std::string_view te
   try {
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
+    refuse_stand_in(path, text);
     throw Error(path.string(), fmt::format("is not valid JSON at byte {}", error.byte));
   } catch (const nlohmann::json::exception& error) {
     throw Error(path.string(), fmt::format("is not valid JSON ({})", fault_of(error)));

@@ -15,6 +15,7 @@
 
 #include "core/error.h"
 #include "core/mapped_file.h"
+#include "core/stand_in.h"
 
 namespace splatcut {
 
@@ -180,6 +181,7 @@ Picture read_picture(const std::filesystem::path& path) {
   constexpr std::string_view kWebpMark = "WEBPVP8";  // behind RIFF and a size
   if (bytes.starts_with("RIFF") && std::string_view(bytes).substr(0, 15).ends_with(kWebpMark))
     return read_any_webp(path, bytes);
+  refuse_stand_in(path, bytes);
   throw Error(path.string(), "is neither PNG nor JPEG nor WebP");
 }
 

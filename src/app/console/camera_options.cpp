@@ -68,6 +68,16 @@ glm::vec3 up_for(const CameraOptions& options, const glm::vec3& forward, const g
   return std::abs(up.y) > 0.5f ? glm::vec3(0, 0, 1) : glm::vec3(0, -1, 0);
 }
 
+// Of those left out, the one that was asked for may be one.
+const Camera& asked_camera(const CameraOptions& options, const ChosenCamera& chosen) {
+  try {
+    return find_camera(chosen.given, options.camera.empty() ? "0" : options.camera, options.cameras.string());
+  } catch (const Error& error) {
+    if (chosen.warning.empty()) throw;
+    throw Error(error.unstopped(), chosen.warning);
+  }
+}
+
 }  // namespace
 
 void CameraOptions::add_to(CLI::App& command) {
@@ -120,8 +130,7 @@ ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cl
     chosen.camera = look_at(position, target, up_for(options, target - position, chosen.up_world), fov_y_rad,
                             width, height);
   } else if (!chosen.given.empty()) {
-    chosen.camera =
-        find_camera(chosen.given, options.camera.empty() ? "0" : options.camera, options.cameras.string());
+    chosen.camera = asked_camera(options, chosen);
     if (!options.size.empty()) chosen.camera = resized(chosen.camera, width, height);
   } else {
     chosen.camera = first_view(cloud, chosen.up_world, fov_y_rad, width, height);

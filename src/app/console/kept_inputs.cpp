@@ -40,6 +40,9 @@ void refuse_written_inputs(const fs::path& output, const std::vector<fs::path>& 
     if (same_file(output, input))
       throw Error(output.string(), fmt::format("is what is read here ({})", input.string()),
                   "It would be lost: choose another place to write to");
+    if (there == fs::file_type::regular && fs::is_directory(input, failure) && holds(input, output))
+      throw Error(output.string(), fmt::format("lies in {}, which is read here", input.string()),
+                  "It could be lost: choose another place to write to");
     if (there == fs::file_type::directory && holds(output, input))
       throw Error(output.string(), fmt::format("holds {}, which is read here", input.string()),
                   "It could be lost: choose another folder to write to");

@@ -7,9 +7,9 @@
 
 namespace splatcut {
 
-// Throws Error where `output`, a file or a folder, is one of the inputs or a folder that holds one. Files are
-// told apart by device and inode, so that links do not hide them. Inputs that are empty or not there, and
-// outputs that are pipes or devices, are nothing to lose.
+// Throws Error where `output`, a file or a folder, is one of the inputs, a folder that holds one, or a file
+// in an input that is a folder. Files are told apart by device and inode, so that links do not hide them.
+// Inputs that are empty or not there, and outputs that are not there, pipes or devices, are nothing to lose.
 void refuse_written_inputs(const std::filesystem::path& output,
                            const std::vector<std::filesystem::path>& inputs);
 

@@ -1,7 +1,7 @@
 #include "app/console/mask_file.h"
 
 #include <algorithm>
-#include <array>
+#include <functional>
 
 #include "core/error.h"
 #include "segment/masks/seeds.h"
@@ -28,11 +28,6 @@ Mask where(const Image<Pixel>& image, const Test& is_object) {
   return mask;
 }
 
-bool alpha_varies(const Image<Rgba8>& pixels) {
-  const auto [least, most] = std::ranges::minmax(pixels.pixels(), {}, [](const Rgba8& p) { return p[3]; });
-  return least[3] != most[3];
-}
-
 // half: of what white would be.
 template <class Pixel>
 ReadMask mask_of_grey(const Image<Pixel>& grey, int half, int least) {
@@ -40,6 +35,21 @@ ReadMask mask_of_grey(const Image<Pixel>& grey, int half, int least) {
   if (brightest < least) return {Mask(grey.width(), grey.height()), ""};
   if (brightest >= half) return {where(grey, [&](Pixel p) { return p >= half; }), "white"};
   return {where(grey, [&](Pixel p) { return p >= least; }), "numbers, 0 is the rest"};
+}
+
+// Whether both object and rest are there: smoothed borders alone, or a picture that is all opaque, show
+// nothing.
+bool has_both(const Mask& mask) {
+  return std::ranges::adjacent_find(mask.pixels(), std::not_equal_to()) != mask.pixels().end();
+}
+
+// Of the picture's brightness or its alpha.
+template <class Level>
+Image<std::uint8_t> levels_of(const Image<Rgba8>& pixels, const Level& level) {
+  Image<std::uint8_t> levels(pixels.width(), pixels.height());
+  std::ranges::transform(pixels.pixels(), levels.pixels().begin(),
+                         [&](const Rgba8& p) { return static_cast<std::uint8_t>(level(p)); });
+  return levels;
 }
 
 ReadMask mask_of_colours(const Image<Rgba8>& pixels, int least, const std::string& where_it_is) {
@@ -54,7 +64,9 @@ ReadMask mask_of_colours(const Image<Rgba8>& pixels, int least, const std::strin
 
 ReadMask mask_of(const Picture& picture, const std::string& where_it_is) {
   const Image<Rgba8>& pixels = picture.pixels;
-  if (alpha_varies(pixels)) return {where(pixels, [](const Rgba8& p) { return p[3] >= kHalf; }), "alpha"};
+  if (ReadMask alpha = mask_of_grey(levels_of(pixels, [](const Rgba8& p) { return p[3]; }), kHalf, 1);
+      has_both(alpha.mask))
+    return {std::move(alpha.mask), "alpha"};
   constexpr int kWide = 1 << 8, kWideHalf = 1 << 15;
   if (!picture.grey16.pixels().empty()) {
     const bool wide = *std::ranges::max_element(picture.grey16.pixels()) >= kWide;
@@ -67,11 +79,11 @@ ReadMask mask_of(const Picture& picture, const std::string& where_it_is) {
   if (!grey && !picture.indices.pixels().empty())
     return {where(picture.indices, [](std::uint8_t index) { return index > 0; }), "palette, index > 0"};
   constexpr int kDarkestColour = 32;  // the least of the usual palettes of ids
-  if (!grey) return mask_of_colours(pixels, picture.lossy ? kLossyLeast : kDarkestColour, where_it_is);
-  Image<std::uint8_t> level(pixels.width(), pixels.height());
-  std::ranges::transform(pixels.pixels(), level.pixels().begin(),
-                         [](const Rgba8& p) { return static_cast<std::uint8_t>(brightest_of(p)); });
-  return mask_of_grey(level, kHalf, picture.lossy ? kLossyLeast : 1);
+  const Image<std::uint8_t> levels = levels_of(pixels, brightest_of);
+  const bool dark = *std::ranges::max_element(levels.pixels()) < kDarkestColour;  // ids in one channel
+  const int least = picture.lossy ? kLossyLeast : dark ? 1 : kDarkestColour;
+  if (!grey) return mask_of_colours(pixels, least, where_it_is);
+  return mask_of_grey(levels, kHalf, picture.lossy ? kLossyLeast : 1);
 }
 
 ReadMask read_mask(const std::filesystem::path& path) {

@@ -46,10 +46,11 @@ std::vector<fs::path> masks_in(const fs::path& folder) {
   return files;
 }
 
-// The mask of each camera that has one, and the masks that have no camera.
+// The mask of each camera that has one, the masks that have no camera, and what is no mask.
 struct Matches {
   std::map<std::size_t, fs::path> mask_of;
   std::vector<fs::path> others;
+  std::vector<fs::path> photographs;  // of cameras that have a picture called a mask, too
 };
 
 Matches matched(const std::vector<Camera>& cameras, const fs::path& folder) {
@@ -66,11 +67,16 @@ Matches matched(const std::vector<Camera>& cameras, const fs::path& folder) {
       throw Error(file.string(), fmt::format("{} cameras are called \"{}\"", found.size(), name),
                   "Give the pictures names that differ");
     const auto [at, first] = matches.mask_of.emplace(found.front(), file);
-    if (!first)
+    const bool named_so = is_called_mask(file), other_named_so = is_called_mask(at->second);
+    if (!first && named_so != other_named_so) {
+      matches.photographs.push_back((named_so ? at->second : file).lexically_relative(folder));
+      if (named_so) at->second = file;
+    } else if (!first) {
       throw Error(file.string(),
                   fmt::format("the camera \"{}\" has another mask, {}", cameras[found.front()].name,
                               at->second.string()),
                   "Leave one of them");
+    }
   }
   if (matches.mask_of.empty())
     throw Error((folder / matches.others.front()).string(),
@@ -130,10 +136,17 @@ class Understood {
   std::size_t black_ = 0;
 };
 
-std::string without_camera(const Matches& matches) {
-  if (matches.others.empty()) return {};
-  return fmt::format("{} of the masks have no camera and are left out, \"{}\" among them",
-                     matches.others.size(), matches.others.front().string());
+// Sentences on what was left out.
+std::vector<std::string> left_out(const Matches& matches) {
+  std::vector<std::string> sentences;
+  const auto add = [&](const std::vector<fs::path>& files, const char* what) {
+    if (!files.empty())
+      sentences.push_back(fmt::format("{} of the {} left out, \"{}\" among them", files.size(), what,
+                                      files.front().string()));
+  };
+  add(matches.others, "masks have no camera and are");
+  add(matches.photographs, "pictures lie beside the mask of their camera and are");
+  return sentences;
 }
 
 }  // namespace
@@ -174,8 +187,7 @@ MaskFolder load_mask_folder(const std::vector<Camera>& cameras, const MaskFolder
   for (GivenView& view : views) view.mask = reduced(std::move(view.mask));
   found.others = std::move(views);
   found.how = understood.sentence(matches);
-  if (std::string left_out = without_camera(matches); !left_out.empty())
-    found.warnings.push_back(std::move(left_out));
+  found.warnings = left_out(matches);
   if (options.reference && found.reference.camera.name != *options.reference)
     found.warnings.push_back(fmt::format("the camera \"{}\" has no mask, \"{}\" is the reference",
                                          *options.reference, found.reference.camera.name));

@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <optional>
+#include <string_view>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/lower_case.h"
 #include "core/mapped_file.h"
-#include "core/picture_file.h"
 #include "scene/camera/camera_formats.h"
 #include "scene/camera/camera_names.h"
 
@@ -25,115 +23,44 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
+// Python writes NaN and Infinity, which are no JSON, where a pose failed. As null they spoil one camera
+// alone.
+std::string without_nan(std::string_view text) {
+  std::string json_alone;
+  bool in_string = false;
+  while (!text.empty()) {
+    std::size_t taken = in_string && text[0] == '\\' ? std::min<std::size_t>(2, text.size()) : 1;
+    if (text[0] == '"') in_string = !in_string;
+    bool number = false;
+    for (const std::string_view word : {"-Infinity", "Infinity", "NaN"})
+      if (!in_string && text.starts_with(word)) number = true, taken = word.size();
+    json_alone += number ? "null" : text.substr(0, taken);
+    text.remove_prefix(taken);
+  }
+  return json_alone;
+}
+
 // No pipe: nobody may have named this file.
 json json_of_regular_file(const fs::path& path) {
   const MappedFile file(path);
-  return parse_json(path, {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()});
-}
-
-glm::dvec3 vec3_from(const json& list) {
-  return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
-}
-
-// Rows as in the file; further columns and rows of a 4x4 matrix are not looked at.
-glm::dmat3 mat3_from(const json& rows) {
-  return glm::transpose(glm::dmat3(vec3_from(rows.at(0)), vec3_from(rows.at(1)), vec3_from(rows.at(2))));
-}
-
-// A side as an int; one beyond all pictures stays beyond them, for check_lens() to refuse.
-int side_px(double said) {
-  constexpr double kBeyond = 1 << 20;
-  return std::isnan(said) ? 0 : static_cast<int>(std::clamp(said, -kBeyond, kBeyond));
+  const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
+  const bool has_nan = text.find("NaN") != text.npos || text.find("Infinity") != text.npos;
+  return has_nan ? parse_json(path, without_nan(text)) : parse_json(path, text);
 }
 
 Camera inria_camera(const json& entry) {
   Camera camera;
-  camera.name = entry.value("img_name", std::string());
-  camera.width_px = side_px(entry.at("width").get<double>());
-  camera.height_px = side_px(entry.at("height").get<double>());
-  camera.fx_px = entry.at("fx").get<float>();
-  camera.fy_px = entry.at("fy").get<float>();
-  camera.cx_px = entry.value("cx", 0.5f * static_cast<float>(camera.width_px));
-  camera.cy_px = entry.value("cy", 0.5f * static_cast<float>(camera.height_px));
-  if (!set_pose(camera, mat3_from(entry.at("rotation")), vec3_from(entry.at("position"))))
+  const json name = entry.value("img_name", json(""));
+  camera.name = name.is_string() ? name.get<std::string>() : json_text(name);
+  const auto number = [&](const char* key) { return required_number(entry, key); };
+  camera.width_px = side_px(number("width"));
+  camera.height_px = side_px(number("height"));
+  camera.fx_px = static_cast<float>(number("fx"));
+  camera.fy_px = static_cast<float>(number("fy"));
+  camera.cx_px = static_cast<float>(number_in(entry, "cx").value_or(0.5 * camera.width_px));
+  camera.cy_px = static_cast<float>(number_in(entry, "cy").value_or(0.5 * camera.height_px));
+  if (!set_pose(camera, axes_of_json(entry.at("rotation")), point_of_json(entry.at("position"))))
     throw std::domain_error("\"rotation\" or \"position\" is not a pose");
-  return camera;
-}
-
-// A value of the frame, or else of the whole file. Some tools write numbers as text, and null for none.
-std::optional<double> lens_number(const json& frame, const json& file, const char* name) {
-  for (const json* part : {&frame, &file}) {
-    const auto found = part->find(name);
-    if (found == part->end() || found->is_null()) continue;
-    if (!found->is_string()) return found->get<double>();
-    const auto& text = found->get_ref<const std::string&>();
-    char* end = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end) throw std::domain_error(fmt::format("\"{}\" is no number: {}", name, text));
-    return number;
-  }
-  return {};
-}
-float lens_value(const json& frame, const json& file, const char* name, float otherwise) {
-  return static_cast<float>(lens_number(frame, file, name).value_or(otherwise));
-}
-
-// Throws what each_entry() says of the frame where its lens is far from a pinhole.
-void check_model(const json& frame, const json& file) {
-  const json named = frame.value("camera_model", file.value("camera_model", json()));
-  const std::string model = named.is_string() ? lower_case(named.get<std::string>()) : "";
-  const json fisheye = frame.value("is_fisheye", file.value("is_fisheye", json()));
-  const bool known_far =
-      std::ranges::any_of(std::array{"fisheye", "equirect", "ortho", "spher", "pano", "cylind", "omni"},
-                          [&](const char* part) { return model.find(part) != model.npos; });
-  if (known_far || (fisheye.is_boolean() && fisheye.get<bool>()))
-    throw std::domain_error(
-        fmt::format("the model {} is not close to a pinhole: undistort the pictures first",
-                    model.empty() ? "\"is_fisheye\"" : named.get<std::string>()));
-}
-
-// The size of the frame's picture, beside the file.
-glm::ivec2 size_of_picture(const fs::path& beside, const fs::path& picture) {
-  std::error_code ignored;
-  for (const char* ending : {"", ".png", ".jpg", ".jpeg", ".JPG"}) {
-    const fs::path path = beside / (picture.string() + ending);
-    if (!fs::is_regular_file(path, ignored)) continue;
-    if (const auto size = picture_size(path)) return *size;
-  }
-  throw std::domain_error("\"w\" and \"h\" are missing and " + (beside / picture).string() +
-                          " is no PNG or JPEG");
-}
-
-Camera transforms_camera(const fs::path& path, const json& file, const json& frame) {
-  Camera camera;
-  check_model(frame, file);
-  std::string picture = frame.value("file_path", std::string());
-  std::ranges::replace(picture, '\\', '/');
-  camera.name = picture;
-  camera.width_px = side_px(lens_value(frame, file, "w", 0));
-  camera.height_px = side_px(lens_value(frame, file, "h", 0));
-  if (camera.width_px == 0 ||
-      camera.height_px == 0) {  // NeRF's synthetic scenes leave the size to the pictures
-    const glm::ivec2 size = size_of_picture(path.parent_path(), picture);
-    camera.width_px = size.x;
-    camera.height_px = size.y;
-  }
-  const auto width = static_cast<float>(camera.width_px), height = static_cast<float>(camera.height_px);
-  const float angle_x = lens_value(frame, file, "camera_angle_x", 0),
-              angle_y = lens_value(frame, file, "camera_angle_y", 0);
-  const float from_angle = angle_x > 0 ? 0.5f * width / std::tan(0.5f * angle_x) : 0.0f;
-  camera.fx_px = lens_value(frame, file, "fl_x", from_angle);
-  const float fy_otherwise = angle_y > 0 ? 0.5f * height / std::tan(0.5f * angle_y) : camera.fx_px;
-  camera.fy_px = lens_value(frame, file, "fl_y", fy_otherwise);
-  camera.cx_px = lens_value(frame, file, "cx", 0.5f * width);
-  camera.cy_px = lens_value(frame, file, "cy", 0.5f * height);
-  const json& matrix = frame.at("transform_matrix");
-  glm::dmat3 axes = mat3_from(matrix);  // OpenGL: x right, y up, z back
-  axes[1] = -axes[1];
-  axes[2] = -axes[2];
-  const glm::dvec3 centre(matrix.at(0).at(3).get<double>(), matrix.at(1).at(3).get<double>(),
-                          matrix.at(2).at(3).get<double>());
-  if (!set_pose(camera, axes, centre)) throw std::domain_error("\"transform_matrix\" is not a pose");
   return camera;
 }
 
@@ -163,19 +90,13 @@ std::vector<Camera> each_entry(const fs::path& path, const json& list, const cha
   return cameras;
 }
 
-// The frame's or the file's k1 k2 p1 p2 k3.
-Distortion distortion_of(const json& frame, const json& file) {
-  const auto value = [&](const char* name) { return lens_number(frame, file, name).value_or(0); };
-  return {value("k1"), value("k2"), value("p1"), value("p2"), value("k3")};
-}
-
 std::vector<Camera> load_json_cameras(const fs::path& path, CameraRemarks* remarks) {
   const json file = json_of_regular_file(path);
   if (file.is_array()) return each_entry(path, file, "camera", inria_camera, remarks);
   if (file.is_object() && file.contains("frames") && file["frames"].is_array()) {
     const auto read = [&](const json& frame) {
       const Camera camera = transforms_camera(path, file, frame);
-      remarks->add_shift(corner_shift_px(camera, distortion_of(frame, file)));
+      remarks->add_shift(corner_shift_px(camera, transforms_distortion(file, frame)));
       return camera;
     };
     return each_entry(path, file["frames"], "frame", read, remarks);
@@ -230,6 +151,7 @@ namespace {
 // Where COLMAP's model lies in the folders of a capture, as COLMAP, nerfstudio and Inria's scripts lay it
 // out.
 constexpr std::array kColmapFolders = {"",
+                                       "0",
                                        "sparse/0",
                                        "sparse",
                                        "colmap/sparse/0",

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/mapped_file.h"
+#include "core/stand_in.h"
 #include "scene/camera/camera_formats.h"
 #include "scene/camera/camera_names.h"
 #include "scene/cloud/quantise.h"
@@ -39,7 +40,11 @@ constexpr std::array<LensModel, 11> kModels{{{"SIMPLE_PINHOLE", 3, true, false},
                                              {"RADIAL_FISHEYE", 5, true, true},
                                              {"THIN_PRISM_FISHEYE", 12, false, true}}};
 
-using Lenses = std::map<std::uint32_t, Camera>;
+// By id. wrong: lenses whose images are left out, and why.
+struct Lenses {
+  std::map<std::uint32_t, Camera> usable;
+  std::map<std::uint32_t, Error> wrong;
+};
 
 struct Pose {
   glm::dquat camera_from_world{1, 0, 0, 0};
@@ -47,16 +52,6 @@ struct Pose {
   std::uint32_t lens = 0;
   std::string name;
 };
-
-const LensModel& pinhole_like(const fs::path& path, const LensModel* model, std::uint32_t id,
-                              std::string_view named) {
-  if (!model) throw Error(path.string(), fmt::format("camera {}: unknown model {}", id, named));
-  if (model->fisheye)
-    throw Error(path.string(),
-                fmt::format("camera {}: the model {} is not close to a pinhole", id, model->name),
-                "Undistort the pictures first (colmap image_undistorter)");
-  return *model;
-}
 
 Camera lens_from(const fs::path& path, std::uint32_t id, const LensModel& model, double width, double height,
                  std::span<const double> params) {
@@ -82,6 +77,24 @@ Distortion distortion_from(const LensModel& model, std::span<const double> param
   return {after_centre(0), after_centre(1), after_centre(2), after_centre(3), after_centre(4)};
 }
 
+// model: null for one that is unknown, by what it is called.
+void add_lens(const fs::path& path, std::uint32_t id, const LensModel* model, std::string_view named,
+              double width, double height, std::span<const double> params, Lenses* lenses,
+              CameraRemarks* remarks) {
+  try {
+    if (!model) throw Error(path.string(), fmt::format("camera {}: unknown model {}", id, named));
+    if (model->fisheye)
+      throw Error(path.string(),
+                  fmt::format("camera {}: the model {} is not close to a pinhole", id, model->name),
+                  "Undistort the pictures first (colmap image_undistorter)");
+    const Camera lens = lens_from(path, id, *model, width, height, params);
+    lenses->usable[id] = lens;
+    remarks->add_shift(corner_shift_px(lens, distortion_from(*model, params)));
+  } catch (const Error& error) {
+    lenses->wrong.emplace(id, error);
+  }
+}
+
 // A camera per image, by name: the order in the file is that of a hash table.
 class Cameras {
  public:
@@ -89,10 +102,13 @@ class Cameras {
       : path_(std::move(path)), lenses_(std::move(lenses)), remarks_(remarks) {}
 
   void add(const Pose& pose) {
-    const auto lens = lenses_.find(pose.lens);
-    if (lens == lenses_.end())
-      throw Error(path_.string(),
-                  fmt::format("image \"{}\" names camera {}, which is missing", pose.name, pose.lens));
+    if (const auto wrong = lenses_.wrong.find(pose.lens); wrong != lenses_.wrong.end())
+      return remarks_->leave_out(wrong->second);
+    const auto lens = lenses_.usable.find(pose.lens);
+    if (lens == lenses_.usable.end())
+      return remarks_->leave_out(
+          Error(path_.string(),
+                fmt::format("image \"{}\" names camera {}, which is missing", pose.name, pose.lens)));
     Camera camera = lens->second;
     camera.name = pose.name;
     const glm::dmat3 world_from_camera =
@@ -120,7 +136,9 @@ class Cameras {
 // The bytes of a file from front to back.
 class BinaryReader {
  public:
-  explicit BinaryReader(const fs::path& path) : file_(path), left_(file_.bytes()) {}
+  explicit BinaryReader(const fs::path& path) : file_(path), left_(file_.bytes()) {
+    refuse_stand_in(path, {reinterpret_cast<const char*>(left_.data()), left_.size()});
+  }
 
   const fs::path& path() const { return file_.path(); }
   std::span<const std::byte> skip(std::uint64_t count) {
@@ -154,13 +172,12 @@ Lenses read_lenses_bin(const fs::path& path, CameraRemarks* remarks) {
     const auto id = in.read<std::uint32_t>();
     const auto number = in.read<std::uint32_t>();
     const LensModel* known = number < kModels.size() ? &kModels[number] : nullptr;
-    const LensModel& model = pinhole_like(path, known, id, std::to_string(number));
+    if (!known) throw Error(path.string(), fmt::format("camera {}: unknown model {}", id, number));
     const auto width = static_cast<double>(in.read<std::uint64_t>());
     const auto height = static_cast<double>(in.read<std::uint64_t>());
     std::vector<double> params;
-    for (std::size_t p = 0; p < model.params; ++p) params.push_back(in.read<double>());
-    lenses[id] = lens_from(path, id, model, width, height, params);
-    remarks->add_shift(corner_shift_px(lenses[id], distortion_from(model, params)));
+    for (std::size_t p = 0; p < known->params; ++p) params.push_back(in.read<double>());
+    add_lens(path, id, known, known->name, width, height, params, &lenses, remarks);
   }
   return lenses;
 }
@@ -188,7 +205,21 @@ std::vector<Camera> read_images_bin(const fs::path& path, Lenses lenses, CameraR
 
 std::string text_of(const fs::path& path) {
   const MappedFile file(path);
-  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
+  const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
+  refuse_stand_in(path, text);
+  return std::string(text);
+}
+
+// NaN, too, which a stream does not take for a number.
+bool read_numbers(std::istream& words, std::initializer_list<double*> numbers) {
+  for (double* number : numbers) {
+    std::string word;
+    char* end = nullptr;
+    if (!(words >> word)) return false;
+    *number = std::strtod(word.c_str(), &end);
+    if (*end) return false;
+  }
+  return true;
 }
 
 bool is_blank_or_comment(const std::string& line) {
@@ -211,14 +242,13 @@ Lenses read_lenses_txt(const fs::path& path, CameraRemarks* remarks) {
       throw Error(path.string(), fmt::format("line {} is not \"id model width height parameters\"", number));
     const auto* known =
         std::ranges::find(kModels, name, [](const LensModel& m) { return std::string_view(m.name); });
-    const LensModel& model = pinhole_like(path, known == kModels.end() ? nullptr : known, id, name);
-    std::vector<double> params(model.params);
+    const LensModel* model = known == kModels.end() ? nullptr : known;
+    std::vector<double> params(model ? model->params : 0);
     for (double& p : params) words >> p;
     if (!words)
       throw Error(path.string(),
-                  fmt::format("line {}: the model {} has {} parameters", number, name, model.params));
-    lenses[id] = lens_from(path, id, model, width, height, params);
-    remarks->add_shift(corner_shift_px(lenses[id], distortion_from(model, params)));
+                  fmt::format("line {}: the model {} has {} parameters", number, name, params.size()));
+    add_lens(path, id, model, name, width, height, params, &lenses, remarks);
   }
   return lenses;
 }
@@ -249,10 +279,12 @@ std::vector<Camera> read_images_txt(const fs::path& path, Lenses lenses, CameraR
     std::uint32_t id = 0;
     glm::dquat& q = pose.camera_from_world;
     glm::dvec3& t = pose.translation;
-    words >> id >> q.w >> q.x >> q.y >> q.z >> t.x >> t.y >> t.z >> pose.lens >> std::ws;
+    words >> id;
+    const bool has_pose = read_numbers(words, {&q.w, &q.x, &q.y, &q.z, &t.x, &t.y, &t.z});
+    words >> pose.lens >> std::ws;
     std::getline(words, pose.name);
     if (pose.name.ends_with('\r')) pose.name.pop_back();
-    if (!words || pose.name.empty())
+    if (!words || !has_pose || pose.name.empty())
       throw Error(path.string(),
                   fmt::format("line {} is not \"id qw qx qy qz tx ty tz camera name\"", number));
     cameras.add(pose);

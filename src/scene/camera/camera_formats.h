@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
+#include "core/json_file.h"
 #include "scene/camera/camera_file.h"
 
 namespace splatcut {
@@ -36,6 +38,24 @@ class CameraRemarks {
 // folder holds cameras and images, both .bin or both .txt (.bin is preferred).
 std::vector<Camera> load_colmap_cameras(const std::filesystem::path& folder, CameraRemarks* remarks);
 bool has_colmap_cameras(const std::filesystem::path& folder);
+
+// The frame of a transforms.json. path: of the file, beside which its pictures are. Throws json::exception or
+// domain_error, whose words are about the frame.
+Camera transforms_camera(const std::filesystem::path& path, const nlohmann::json& file,
+                         const nlohmann::json& frame);
+Distortion transforms_distortion(const nlohmann::json& file, const nlohmann::json& frame);
+
+// A number, which some tools write as text; none where it is missing or null. Throws domain_error for other
+// text, the second also for none.
+std::optional<double> number_in(const nlohmann::json& part, const char* name);
+double required_number(const nlohmann::json& part, const char* name);
+
+// A side as an int; one beyond all pictures stays beyond them, for check_lens() to refuse.
+int side_px(double said);
+
+// Rows as in the file; further columns and rows of a 4x4 matrix are not looked at.
+glm::dmat3 axes_of_json(const nlohmann::json& rows);
+glm::dvec3 point_of_json(const nlohmann::json& list);
 
 // The pose from the camera's axes and centre in the world; the axes are made unit length. False when
 // they are no rotation.

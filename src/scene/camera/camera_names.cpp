@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/lower_case.h"
+#include "scene/camera/plain_letters.h"
 
 namespace splatcut {
 
@@ -55,32 +56,6 @@ std::string itself(const std::string& name) {
   return name;
 }
 
-// Letters of U+00C0 to U+017F without their accents; '.' where there is no such letter.
-constexpr std::string_view kPlainLetters =
-    "AAAAAA.CEEEEIIII.NOOOOO..UUUUY..aaaaaa.ceeeeiiii.nooooo..uuuuy.y"
-    "AaAaAaCcCcCcCcDd..EeEeEeEeEeGgGgGgGgHh..IiIiIiIiI...JjKk.LlLlLl....NnNnNn...OoOoOo..RrRrRrSsSsSsSsTtTt.."
-    "UuUuUuUuUuUuWwYyYZzZzZz.";
-
-// A letter with an accent is one character, or two as macOS writes file names: the accent goes either way.
-std::string without_accents(const std::string& name) {
-  std::string plain;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const auto a = static_cast<unsigned char>(name[i]);
-    const auto b = static_cast<unsigned char>(i + 1 < name.size() ? name[i + 1] : 0);
-    constexpr unsigned kFirst = 0xc0, kFirstAccent = 0x300, kLastAccent = 0x36f;
-    const unsigned point = (a & 0xe0) == 0xc0 ? (a & 0x1fu) << 6 | (b & 0x3fu) : 0;
-    const bool accent = point >= kFirstAccent && point <= kLastAccent;
-    const bool letter =
-        point >= kFirst && point - kFirst < kPlainLetters.size() && kPlainLetters[point - kFirst] != '.';
-    if (letter) plain += kPlainLetters[point - kFirst];
-    if (letter || accent)
-      ++i;
-    else
-      plain += name[i];
-  }
-  return plain;
-}
-
 // The last number of the file's name without zeros before it.
 std::string with_short_number(const std::string& name) {
   const std::size_t last = name.find_last_of("0123456789");
@@ -92,9 +67,14 @@ std::string with_short_number(const std::string& name) {
 }
 
 std::string without_mask_ending(const std::string& name) {
-  for (const std::string_view ending : {"_mask", "-mask", ".mask"})
+  for (const std::string_view ending :
+       {"_mask", "-mask", ".mask", "_masks", "_seg", "_segmentation", "_alpha", "_matte"})
     if (lower_case(name).ends_with(ending)) return name.substr(0, name.size() - ending.size());
-  return name;
+  const std::size_t file = name.rfind('/') + 1;  // npos + 1 is 0
+  constexpr std::string_view kBegin = "mask_";
+  return lower_case(name).compare(file, kBegin.size(), kBegin) == 0
+             ? name.substr(0, file) + name.substr(file + kBegin.size())
+             : name;
 }
 
 bool is_number(const std::string& name) {
@@ -123,27 +103,37 @@ void name_after_pictures(std::vector<Camera>* cameras) {
 }
 
 std::vector<std::size_t> cameras_named(const std::vector<Camera>& cameras, const std::string& name) {
-  return alike(cameras, name, itself);
+  const std::vector<std::size_t> found = alike(cameras, name, itself);
+  return found.empty() ? alike(cameras, name, lower_case) : found;
 }
 
 std::vector<std::size_t> cameras_of_mask(const std::vector<Camera>& cameras, const std::string& name) {
   const std::string bare = without_mask_ending(without_picture_ending(name));
-  const Key short_and_plain = [](const std::string& n) { return with_short_number(without_accents(n)); };
-  for (const Key& key : {Key(itself), Key(without_accents), short_and_plain})
+  const Key short_and_plain = [](const std::string& n) {
+    return lower_case(with_short_number(without_accents(n)));
+  };
+  for (const Key& key :
+       {Key(itself), Key([](const std::string& n) { return without_accents(n); }), Key(short_and_plain)})
     for (const std::string& tried : {name, bare})
       if (std::vector<std::size_t> found = alike(cameras, tried, key); !found.empty()) return found;
   return {};
 }
 
+bool is_called_mask(const fs::path& picture) {
+  const std::string name = without_picture_ending(without_picture_ending(picture.filename()));
+  return without_mask_ending(name) != name;
+}
+
 const Camera& find_camera(const std::vector<Camera>& cameras, const std::string& name,
                           const std::string& where) {
   const auto named = std::ranges::find(cameras, name, &Camera::name);
-  if (named != cameras.end()) return *named;
+  if (std::ranges::count(cameras, name, &Camera::name) == 1) return *named;
   const std::vector<std::size_t> found = cameras_named(cameras, name);
   if (found.size() == 1) return cameras[found.front()];
   if (found.size() > 1)
     throw Error(where, fmt::format("has {} cameras that \"{}\" can mean", found.size(), name),
-                fmt::format("The first is \"{}\": give the whole name", cameras[found.front()].name));
+                fmt::format("The first is \"{}\", number {}: give the whole name or the number",
+                            cameras[found.front()].name, found.front()));
   std::size_t index = cameras.size();
   if (is_number(name)) std::from_chars(name.data(), name.data() + name.size(), index);
   if (index < cameras.size()) return cameras[index];

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/lower_case.h"
+#include "core/stand_in.h"
 
 namespace splatcut {
 
@@ -16,23 +17,13 @@ struct Foreign {
 };
 
 constexpr const char* kPoints = "is a point cloud of a scanner: its points have no size, rotation or opacity";
-constexpr std::string_view kNoEnding = "/";  // of no name
 constexpr const char* kMesh = "is a mesh: it has no Gaussians";
 constexpr const char* kTrain =
     "Train Gaussians from the photographs and give the .ply that the trainer writes";
 constexpr const char* kExport = "Export .ply or .spz from the program that made it";
 
-// What stands in place of a file, whatever its name.
-constexpr const char* kWebPage = "is a web page, not the file that was to be fetched";
-constexpr const char* kFetchAgain = "Fetch it again: the page may ask to log in or to agree";
-
 using namespace std::string_view_literals;
 constexpr Foreign kForeign[] = {
-    {kNoEnding, "version https://git-lfs", "is a pointer of Git LFS, not the file",
-     "Fetch the file: git lfs pull"},
-    {kNoEnding, "<!DOCTYPE", kWebPage, kFetchAgain},
-    {kNoEnding, "<!doctype", kWebPage, kFetchAgain},
-    {kNoEnding, "<html", kWebPage, kFetchAgain},
     {".las", "LASF", kPoints, kTrain},
     {".laz", "", kPoints, kTrain},
     {".e57", "ASTM-E57", kPoints, kTrain},
@@ -62,6 +53,7 @@ constexpr Foreign kForeign[] = {
 void refuse_foreign(const MappedFile& file) {
   const std::string name = lower_case(file.path().filename().string());
   const std::string_view content(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
+  refuse_stand_in(file.path(), content);
   for (const Foreign& foreign : kForeign)
     if (name.ends_with(foreign.ending) || (!foreign.mark.empty() && content.starts_with(foreign.mark)))
       throw Error(file.path().string(), foreign.what, foreign.remedy);

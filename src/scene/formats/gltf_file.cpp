@@ -97,9 +97,10 @@ void open_buffers(const MappedFile& file, std::span<const std::byte> binary, Glt
       gltf->buffers.emplace_back(gltf->inside.back());
       continue;
     }
-    const std::string uri = without_percent_signs(said);
-    if (std::filesystem::path(uri).filename() != uri)
-      throw Error(file.path().string(), "its numbers are in another folder",
+    const auto uri = std::filesystem::path(without_percent_signs(said)).lexically_normal();
+    if (uri.empty() || uri.is_absolute() || *uri.begin() == ".." ||
+        uri.string().find(':') != std::string::npos)
+      throw Error(file.path().string(), "its numbers are in another folder, not beside it or below",
                   "Save it as .glb, which holds all in one file");
     gltf->beside.push_back(std::make_unique<MappedFile>(file.path().parent_path() / uri));
     gltf->buffers.push_back(gltf->beside.back()->bytes());

@@ -396,6 +396,7 @@ TEST_CASE("output: no command writes over what it reads, by whatever name, and n
       {shot + "new.splat", "is the name of a scene (.splat)"},
       {shot + "labels.u8 --what labels --labels labels.u8", "is what is read here (labels.u8)"},
       {shot + "work/cameras.json --cameras work/cameras.json", "is what is read here"},
+      {shot + "work/cameras.json --cameras work", "work/cameras.json: lies in work, which is read here"},
       {"compare a.png a.png --overwrite --diff a.png", "is what is read here"},
       {"compare a.png a.png --overwrite --diff hard.ply", "is the name of a scene"},
       {"eval made/suite.json --overwrite -o made", "made: holds made/suite.json"},

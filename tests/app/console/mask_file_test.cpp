@@ -91,6 +91,13 @@ TEST_CASE("mask file: grey, 0 and 1, ids, colours on black, alpha, each understo
         ".##. any colour on black");
   // A dark thing cut out of its photograph: white is where nothing is.
   CHECK(drawn({{255, 255, 255, 0}, {20, 10, 5, 255}, {0, 0, 0, 255}, {90, 80, 70, 127}}) == ".##. alpha");
+  CHECK(drawn({{9, 9, 9, 0}, {9, 9, 9, 1}, {9, 9, 9, 1}, {9, 9, 9, 0}}) ==
+        ".##. alpha");  // 0 and 1 there, too
+  // Smoothed borders alone are no mask: then the colours are.
+  CHECK(drawn({{255, 255, 255, 255}, {0, 0, 0, 254}, {0, 0, 0, 255}, {255, 255, 255, 250}}) == "#..# white");
+  // Ids in one channel, all of them dark.
+  CHECK(drawn({{0, 0, 0, 255}, {1, 0, 0, 255}, {7, 0, 0, 255}, {0, 0, 0, 255}}) ==
+        ".##. any colour on black");
   CHECK(drawn({{9, 9, 9, 255}, {9, 9, 9, 255}}) == "## numbers, 0 is the rest");  // alpha does not vary
   // JPEG: neither black nor grey are quite that.
   CHECK(drawn({{3, 1, 6, 255}, {250, 255, 240, 255}}, true) == ".# white");
@@ -122,6 +129,8 @@ TEST_CASE("mask file: PNG of a palette by its indices, of 16 bits by its numbers
     place.write("cut.jpg", from_hex(kJpeg).substr(0, size));
     CHECK_THROWS_WITH_AS(read_mask(place / "cut.jpg"), doctest::Contains("damaged"), Error);
   }
+  place.write("pointer.png", "version https://git-lfs.github.com/spec/v1\n");
+  CHECK_THROWS_WITH_AS(read_mask(place / "pointer.png"), doctest::Contains("git lfs pull"), Error);
   place.write("text.png", "no picture");
   CHECK_THROWS_WITH_AS(read_mask(place / "text.png"), doctest::Contains("neither PNG"), Error);
 }
@@ -132,6 +141,7 @@ TEST_CASE("names: with and without endings, by path below images, numbers only w
   CHECK(found("0001.jpg") == "0001");
   CHECK(found("images/0001.png") == "0001");
   CHECK(found("IMG_7") == "IMG_7.JPG");
+  CHECK(found("img_7.jpg") == "IMG_7.JPG");
   CHECK(found("view.001") == "view.001");
   CHECK(found("2") == "0004");
   CHECK(found("0") == "0000");
@@ -142,6 +152,9 @@ TEST_CASE("names: with and without endings, by path below images, numbers only w
   CHECK(find_camera(rig, "cam1\\0001.jpg", "rig").name == "cam1/0001");
   CHECK(find_camera(rig, "0002", "rig").name == "cam1/0002");
   CHECK_THROWS_WITH_AS(find_camera(rig, "0001", "rig"), doctest::Contains("2 cameras"), Error);
+  const std::vector<Camera> twins = cameras_called({"a", "b", "b"});
+  CHECK(find_camera(twins, "2", "twins").name == "b");
+  CHECK_THROWS_WITH_AS(find_camera(twins, "b", "twins"), doctest::Contains("number 1"), Error);
 
   std::vector<Camera> named = cameras_called({"images/a.jpg", "x\\images\\b.c.png"});
   name_after_pictures(&named);
@@ -153,11 +166,34 @@ TEST_CASE("names: with and without endings, by path below images, numbers only w
   CHECK(named[2].name == "cam1/1");
 }
 
+TEST_CASE("names of masks: letters of other scripts, in one character or as macOS writes them") {
+  // Composed, then decomposed, as Unicode has it.
+  for (const auto& [whole, parts] : std::vector<std::pair<std::string, std::string>>{
+           {"\u00fc", "u\u0308"},
+           {"\u1ebf", "e\u0302\u0301"},
+           {"\u01b0", "u\u031b"},
+           {"\u0439\u0401", "\u0438\u0306\u0415\u0308"},
+           {"\u304c\u3065\u3070\u3071", "\u304b\u3099\u3064\u3099\u306f\u3099\u306f\u309a"},
+           {"\u30ac\u30d7\u30f4", "\u30ab\u3099\u30d5\u309a\u30a6\u3099"},
+           {"\ud55c\uae00\uac00", "\u1112\u1161\u11ab\u1100\u1173\u11af\u1100\u1161"}}) {
+    CAPTURE(whole);
+    const std::vector<Camera> cameras = cameras_called({"x", whole + "_1", "y"});
+    CHECK(cameras_of_mask(cameras, whole + "_1") == Indices{1});
+    CHECK(cameras_of_mask(cameras, parts + "_1") == Indices{1});
+    CHECK(cameras_of_mask(cameras_called({parts + "_1"}), whole + "_01_mask") == Indices{0});
+  }
+  CHECK(cameras_of_mask(cameras_called({"\u306f", "\u30b7"}), "\u30b7") == Indices{1});
+  CHECK(cameras_of_mask(cameras_called({"a\xff", "b\xe3\x81"}), "b\xe3\x81") == Indices{1});  // no UTF-8
+}
+
 TEST_CASE("names of masks: endings, zeros, accents as macOS writes them") {
   const std::vector<Camera> cameras = cameras_called({"0001", "0010", "caf\xc3\xa9_01", "_mask", "a_mask"});
   CHECK(cameras_of_mask(cameras, "0001_mask") == Indices{0});
   CHECK(cameras_of_mask(cameras, "0001.mask") == Indices{0});
   CHECK(cameras_of_mask(cameras, "00001-mask") == Indices{0});
+  for (const char* name : {"mask_0001", "0001_masks", "0001_seg", "0001_alpha", "0001_MASK"})
+    CHECK(cameras_of_mask(cameras, name) == Indices{0});
+  CHECK(cameras_of_mask(cameras, "CAFE_1") == Indices{2});
   CHECK(cameras_of_mask(cameras, "1") == Indices{0});
   CHECK(cameras_of_mask(cameras, "10") == Indices{1});
   CHECK(cameras_of_mask(cameras, "cafe\xcc\x81_01") == Indices{2});
@@ -195,6 +231,16 @@ TEST_CASE(
   CHECK(found.warnings[0].find("0009.png") != std::string::npos);
   const MaskFolder wanted = load_mask_folder(cameras, {place / "masks", "0002", {}});
   CHECK(wanted.reference.camera.name == "0002");
+  // A photograph beside its mask, with names of the same camera.
+  place.write("masks/0001.jpg", from_hex(kJpeg));
+  const MaskFolder beside = load_mask_folder(cameras, {place / "masks", {}, {}});
+  CHECK(drawn(beside.reference.mask).substr(0, 8) == "....####");
+  REQUIRE(beside.warnings.size() == 2);
+  CHECK(beside.warnings[1].find("0001.jpg\" among them") != std::string::npos);
+  write_png(place / "masks/0001-mask.png", half(4, 3));
+  CHECK_THROWS_WITH_AS(load_mask_folder(cameras, {place / "masks", {}, {}}),
+                       doctest::Contains("another mask"), Error);
+  fs::remove(place / "masks/0001-mask.png");
   write_png(place / "masks/0002.png", half(8, 8));
   CHECK_THROWS_WITH_AS(load_mask_folder(cameras, {place / "masks", {}, {}}), doctest::Contains("8x8"), Error);
 }

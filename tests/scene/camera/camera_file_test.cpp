@@ -138,6 +138,47 @@ TEST_CASE("one bad camera of many is left out with a sentence, where all are bad
   CHECK(warning.find("left out") != std::string::npos);
   write(folder / "cameras.json", "[" + zeros + "," + zeros + "]");
   CHECK(camera_refusal(folder / "cameras.json").find("camera 0") != std::string::npos);
+  // As Python writes what is no number, which JSON does not know.
+  for (const char* word : {"NaN", "Infinity", "-Infinity"}) {
+    std::string bad = zeros;
+    bad.replace(bad.find("1, 2, 3"), 1, word);
+    write(folder / "cameras.json", "[" + bad + R"(, {"img_name": "a NaN \" NaN", )" + good + "]");
+    const std::vector<Camera> left = load_cameras(folder / "cameras.json", &warning);
+    REQUIRE(left.size() == 1);
+    CHECK(left[0].name == "a NaN \" NaN");
+    check_camera(left[0]);
+    CHECK(warning.find("camera 0") != std::string::npos);
+  }
+  std::string as_text = "[{" + good + "]";
+  as_text.replace(as_text.find("640"), 3, "\"640\"");
+  write(folder / "cameras.json", as_text);
+  check_camera(load_cameras(folder / "cameras.json")[0]);
+}
+
+TEST_CASE("COLMAP: images whose lens or pose is none are left out, where others are left") {
+  const Folder folder;
+  const std::string good = std::string("1 ") + kColmapPose + " 1 good.png\n\n";
+  std::string lenses =
+      "1 PINHOLE 640 480 500 510 320 240\n2 OPENCV_FISHEYE 640 480 500 510 320 240 0 0 0 0\n";
+  lenses += "3 EUCM 640 480 500 510\n4 PINHOLE 0 0 500 510 320 240\n";
+  write(folder / "cameras.txt", lenses);
+  std::string warning;
+  const auto check_left_out = [&](const std::string& bad, const std::string& why) {
+    CAPTURE(bad);
+    write(folder / "images.txt", good + bad + "\n\n");
+    const std::vector<Camera> cameras = load_cameras(folder.path, &warning);
+    REQUIRE(cameras.size() == 1);
+    check_camera(cameras[0]);
+    CHECK_MESSAGE(warning.find(why) != std::string::npos, warning);
+  };
+  const std::string pose = std::string("2 ") + kColmapPose;
+  check_left_out(pose + " 2 a.png", "OPENCV_FISHEYE is not close to a pinhole");
+  check_left_out(pose + " 3 a.png", "unknown model EUCM");
+  check_left_out(pose + " 4 a.png", "0 x 0");
+  check_left_out(pose + " 9 a.png", "camera 9, which is missing");
+  check_left_out("2 nan nan nan nan 0 0 0 1 a.png", "\"a.png\" has no usable pose");
+  write(folder / "images.txt", "version https://git-lfs.github.com/spec/v1\n");
+  CHECK(camera_refusal(folder.path).find("git lfs pull") != std::string::npos);
 }
 
 QUICK_CASE("COLMAP", "COLMAP binary, below sparse/0, and cut short") {
@@ -188,7 +229,7 @@ TEST_CASE("transforms.json: lenses far from a pinhole, numbers as text, null, si
           "{" + head + R"("frames": [{"file_path": "images/a", )" + frame + matrix + "}]}");
   };
   const std::string lens = R"("w": 640, "h": 480, "fl_x": 500, "fl_y": 510, )";
-  for (const char* model : {"OPENCV_FISHEYE", "EQUIRECTANGULAR", "orthographic"}) {
+  for (const char* model : {"OPENCV_FISHEYE", "EQUIRECTANGULAR", "orthographic", "FOV", "VR180_L"}) {
     CAPTURE(model);
     for (const bool by_frame : {false, true}) {
       const std::string said = fmt::format(R"("camera_model": "{}", )", model);
@@ -196,8 +237,10 @@ TEST_CASE("transforms.json: lenses far from a pinhole, numbers as text, null, si
       CHECK(camera_refusal(folder / "t.json").find("not close to a pinhole") != std::string::npos);
     }
   }
-  frames(lens + R"("is_fisheye": true, )");
-  CHECK(camera_refusal(folder / "t.json").find("pinhole") != std::string::npos);
+  for (const char* fisheye : {"true", "1"}) {
+    frames(lens + fmt::format("\"is_fisheye\": {}, ", fisheye));
+    CHECK(camera_refusal(folder / "t.json").find("pinhole") != std::string::npos);
+  }
   frames(
       R"("camera_model": "OPENCV", "w": "640", "h": "480", "fl_x": "500", "fl_y": 510, "cx": null, "k1": null, )");
   check_camera(load_cameras(folder / "t.json")[0]);
@@ -253,6 +296,7 @@ QUICK_CASE("Inria cameras", "bad cameras are refused with file and entry") {
   const std::string pose = R"("position": [0, 0, 0], "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]])";
   check("empty.json", "", "empty");
   check("cut.json", "[{\"id\": 0", "not valid JSON at byte");
+  check("page.json", "\n<!DOCTYPE html>", "web page");
   check("other.json", "{\"a\": 1}", "frames");
   check("list.json", "[]", "no cameras");
   check("number.json", "[1]", "camera 0");
@@ -271,6 +315,7 @@ QUICK_CASE("Inria cameras", "bad cameras are refused with file and entry") {
   check("images.txt", "1 0 0 0 0 0 0 0 1 a.png\n\n", "pose");
   check("images.txt", "1 1 0 0\n\n", "line 1");
   check("cameras.txt", "1 PINHOLE 640 480 500\n", "line 1");
+  write(folder / "images.txt", "1 1 0 0 0 0 0 0 1 a.png\n\n");
   check("cameras.txt", "1 OPENCV_FISHEYE 640 480 500 510 320 240 0 0 0 0\n", "pinhole");
 }
 

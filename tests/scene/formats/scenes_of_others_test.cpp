@@ -172,7 +172,9 @@ TEST_CASE(
     CAPTURE(name);
     write(folder / name, "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 123456\n");
     CHECK(mentions(refusal(folder / name), {"pointer of Git LFS", "git lfs pull"}));
-    for (const char* page : {"<!DOCTYPE html><html>", "<html><head>"}) {
+    for (const char* page :
+         {"<!DOCTYPE html><html>", "<html><head>", "\n <HTML>", "\xef\xbb\xbf<!doctype HTML>",
+          "<?xml version=\"1.0\"?><Error><Code>AccessDenied</Code></Error>"}) {
       write(folder / name, page);
       CHECK(mentions(refusal(folder / name), {"web page"}));
     }
@@ -213,6 +215,21 @@ TEST_CASE("gltf: numbers inside the text, signs in names, no scenes, and extensi
   write(folder / "my numbers.bin", numbers);
   put(text);
   check_same(written.cloud, load_scene(folder / "b.gltf"), limits().at("glb").limit);
+
+  fs::create_directories(folder / "below");
+  write(folder / "below/numbers.bin", numbers);
+  for (const char* uri : {"./my%20numbers.bin", "below/numbers.bin"}) {
+    text["buffers"][0]["uri"] = uri;
+    put(text);
+    check_same(written.cloud, load_scene(folder / "b.gltf"), limits().at("glb").limit);
+  }
+  for (const char* uri :
+       {"", "../numbers.bin", "below/../../numbers.bin", "/numbers.bin", "https://a.b/numbers.bin"}) {
+    CAPTURE(uri);
+    text["buffers"][0]["uri"] = uri;
+    put(text);
+    CHECK(mentions(refusal(folder / "b.gltf"), {"another folder"}));
+  }
 
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string packed;
