@@ -15,8 +15,8 @@ void refuse_stand_in(const std::filesystem::path& path, std::string_view content
   if (begin.starts_with("version https://git-lfs"))
     throw Error(path.string(), "is a pointer of Git LFS, not the file", "Fetch the file: git lfs pull");
   constexpr std::string_view kBlankOrMark = " \t\r\n\xef\xbb\xbf";
-  const std::string_view text = std::string_view(begin).substr(
-      std::min(begin.find_first_not_of(kBlankOrMark), begin.size()));
+  const std::string_view text =
+      std::string_view(begin).substr(std::min(begin.find_first_not_of(kBlankOrMark), begin.size()));
   const bool page = std::ranges::any_of(std::array{"<!doctype html", "<html", "<head"},
                                         [&](const char* tag) { return text.starts_with(tag); });
   const bool refusal = text.starts_with("<?xml") && text.find("<error>") != text.npos;

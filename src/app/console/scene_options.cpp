@@ -23,9 +23,11 @@ void SceneOptions::add_to(CLI::App& command, bool with_lod) {
                     "Level of detail of a streamed .sog, 0 the finest: less memory, fewer Gaussians")
         ->check(CLI::Range(0, 100));
   command
-      .add_option("--spz-axes", spz_axes,
-                  "Axes of a .spz: rub (x right, y up, z back, as the format's text says) or ply (as in a "
-                  ".ply, as some editors store them). Without it: as the file or the cameras say, else rub")
+      .add_option(
+          "--spz-axes", spz_axes,
+          "Axes of a .spz: rub (x right, y up, z back, as the format's text says) or ply (as in a "
+          ".ply, as some editors store them). Without it: as the file or the cameras say, or as the scene "
+          "stands, else rub")
       ->check(CLI::IsMember({"ply", "rub"}));
 }
 

@@ -20,7 +20,8 @@ glm::dvec3 point_of_json(const json& list) {
 }
 
 glm::dmat3 axes_of_json(const json& rows) {
-  return glm::transpose(glm::dmat3(point_of_json(rows.at(0)), point_of_json(rows.at(1)), point_of_json(rows.at(2))));
+  return glm::transpose(
+      glm::dmat3(point_of_json(rows.at(0)), point_of_json(rows.at(1)), point_of_json(rows.at(2))));
 }
 
 int side_px(double said) {
@@ -57,8 +58,8 @@ float lens_value(const json& frame, const json& file, const char* name, float ot
 
 // nerfstudio's and COLMAP's names of what is drawn as a pinhole once its distortion is left out.
 bool is_like_pinhole(const std::string& model) {
-  constexpr std::array kLikePinhole = {"",       "pinhole",     "simple_pinhole", "simple_radial", "radial",
-                                  "opencv", "full_opencv", "perspective"};
+  constexpr std::array kLikePinhole = {"",       "pinhole", "simple_pinhole", "simple_radial",
+                                       "radial", "opencv",  "full_opencv",    "perspective"};
   return std::ranges::find(kLikePinhole, model) != kLikePinhole.end();
 }
 

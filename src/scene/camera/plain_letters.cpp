@@ -19,7 +19,7 @@ constexpr std::string_view kVietnamese =
 struct Pair {
   char32_t letter, plain;
 };
-constexpr std::array<Pair, 12> kOthers{{{0x0401, 0x0415},    // Cyrillic Ё, Ї, Ў, Й, capital and small
+constexpr std::array<Pair, 12> kOthers{{{0x0401, 0x0415},  // Cyrillic Ё, Ї, Ў, Й, capital and small
                                         {0x0407, 0x0406},
                                         {0x040e, 0x0423},
                                         {0x0419, 0x0418},
@@ -27,7 +27,7 @@ constexpr std::array<Pair, 12> kOthers{{{0x0401, 0x0415},    // Cyrillic Ё, Ї,
                                         {0x0451, 0x0435},
                                         {0x0457, 0x0456},
                                         {0x045e, 0x0443},
-                                        {0x01a0, 'O'},       // Vietnamese letters with a horn
+                                        {0x01a0, 'O'},  // Vietnamese letters with a horn
                                         {0x01a1, 'o'},
                                         {0x01af, 'U'},
                                         {0x01b0, 'u'}}};
@@ -52,7 +52,8 @@ char32_t plain_letter(char32_t c) {
   };
   if (const char32_t latin = of(kLatin, kFirstLatin)) return latin;
   if (const char32_t vietnamese = of(kVietnamese, kFirstVietnamese)) return vietnamese;
-  if (const auto other = std::ranges::find(kOthers, c, &Pair::letter); other != kOthers.end()) return other->plain;
+  if (const auto other = std::ranges::find(kOthers, c, &Pair::letter); other != kOthers.end())
+    return other->plain;
   return c >= 0x3040 && c <= 0x30ff ? without_voice(c) : c;
 }
 
@@ -81,7 +82,8 @@ std::size_t length_of(std::string_view text) {
   const auto first = static_cast<unsigned char>(text[0]);
   const std::size_t length = (first & 0xe0) == 0xc0 ? 2 : (first & 0xf0) == 0xe0 ? 3 : 0;
   const auto follows = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
-  return text.size() >= length && std::ranges::all_of(text.substr(1, length - (length > 0)), follows) ? length : 0;
+  return text.size() >= length && std::ranges::all_of(text.substr(1, length - (length > 0)), follows) ? length
+                                                                                                      : 0;
 }
 
 }  // namespace

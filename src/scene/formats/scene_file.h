@@ -48,8 +48,9 @@ struct Scene {
 Scene with_cloud(const Scene& scene, GaussianCloud cloud);
 
 struct LoadOptions {
-  std::optional<SpzAxes> spz_axes;  // none: as the file says, else as the cameras see more, else kRub
-  std::vector<Camera> cameras;      // of the capture, if any are known
+  std::optional<SpzAxes>
+      spz_axes;  // none: as the file says, else as the cameras see more, as it stands, else kRub
+  std::vector<Camera> cameras;  // of the capture, if any are known
   unsigned lod = 0;  // of a streamed .sog: of each part the finest level from this one on, else the coarsest
 };
 

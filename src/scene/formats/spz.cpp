@@ -11,6 +11,7 @@
 #include "scene/formats/decode.h"
 #include "scene/formats/spz_layout.h"
 #include "scene/packing/unpack.h"
+#include "scene/raster/guessed_up.h"
 
 namespace splatcut {
 
@@ -140,6 +141,9 @@ void decode_unsaid(const LoadOptions& options, SpzRows* rows, Scene& scene, cons
   } else if (const auto seen = axes_by_cameras(scene.cloud, options.cameras)) {
     why = "the cameras see more of the scene so";
     if (seen != scene.taken_axes) decode_in(*seen, rows, scene, job);
+  } else if (const std::optional<bool> standing = stands(scene.cloud)) {
+    why = "so the scene stands, the other way it is on its head";
+    if (!*standing) decode_in(SpzAxes::kPly, rows, scene, job);
   }
   scene.axes_note =
       fmt::format("The .spz file does not say its axes. Taken: {} ({})", words_for(*scene.taken_axes), why);
@@ -160,15 +164,17 @@ SpzRows rows_for(const spz::Header& header) {
   return rows;
 }
 
-// rows: complete but for the axes. records: the extension block, if there is one.
-void decode(const MappedFile& file, std::span<const std::byte> records, const LoadOptions& options,
+// rows: complete but for the axes. records: the extension block, if there is one. ours: the packing has
+// kOurComment.
+void decode(const MappedFile& file, std::span<const std::byte> records, bool ours, const LoadOptions& options,
             SpzRows rows, Scene& scene, const Job& job) {
   scene.cloud.antialiased = rows.header.flags & spz::kFlagAntialiased;
   if (rows.header.sh_degree > rows.degree)
     scene.left_out =
         fmt::format("Spherical harmonics of degree {} are left out, those up to degree {} are read",
                     rows.header.sh_degree, rows.degree);
-  const auto said = rows.header.flags & spz::kFlagExtensions ? axes_said(file, records) : std::nullopt;
+  auto said = rows.header.flags & spz::kFlagExtensions ? axes_said(file, records) : std::nullopt;
+  if (!said && ours) said = kRightUpBack;
   if (!said) return decode_unsaid(options, &rows, scene, job);
   if (options.spz_axes) return decode_asked(*options.spz_axes, &rows, scene, job);
   decode_in(*said, &rows, scene, job);
@@ -183,8 +189,8 @@ std::size_t attributes_size(const spz::Header& header) {
 
 // data: the attributes of versions 1 to 3, one behind the other.
 void decode_attributes(const MappedFile& file, const spz::Header& header, std::span<const std::byte> data,
-                       std::span<const std::byte> records, const LoadOptions& options, Scene& scene,
-                       const Job& job) {
+                       std::span<const std::byte> records, bool ours, const LoadOptions& options,
+                       Scene& scene, const Job& job) {
   SpzRows rows = rows_for(header);
   const auto row_bytes = spz::attribute_bytes(header.version, header.sh_degree);
   std::size_t begin = 0;
@@ -192,7 +198,7 @@ void decode_attributes(const MappedFile& file, const spz::Header& header, std::s
     rows.attributes[a] = data.subspan(begin, row_bytes[a] * header.points);
     begin += row_bytes[a] * header.points;
   }
-  decode(file, records, options, rows, scene, job);
+  decode(file, records, ours, options, rows, scene, job);
 }
 
 void read_gzip(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
@@ -212,7 +218,7 @@ void read_gzip(const MappedFile& file, const LoadOptions& options, Scene& scene,
   const Bytes data = reader.read(attributes_size(header), job);
   if (job.cancelled()) return;
   const Bytes records = header.flags & spz::kFlagExtensions ? reader.read_rest(kMostExtensionBytes) : Bytes();
-  decode_attributes(file, header, data, records, options, scene, job);
+  decode_attributes(file, header, data, records, reader.comment() == spz::kOurComment, options, scene, job);
 }
 
 void read_raw(const MappedFile& file, const spz::Header& header, const LoadOptions& options, Scene& scene,
@@ -223,7 +229,7 @@ void read_raw(const MappedFile& file, const spz::Header& header, const LoadOptio
     throw Error(file.path().string(),
                 fmt::format("truncated: {} Gaussians take {} bytes, the file ends at byte {}", header.points,
                             wanted + sizeof header, file.bytes().size()));
-  decode_attributes(file, header, data.first(wanted), data.subspan(wanted), options, scene, job);
+  decode_attributes(file, header, data.first(wanted), data.subspan(wanted), false, options, scene, job);
 }
 
 // The packed bytes of each stream. Throws Error for a table that does not fit file and header.
@@ -270,7 +276,7 @@ void read_streams(const MappedFile& file, const LoadOptions& options, Scene& sce
   SpzRows rows = rows_for(header.first);
   for (std::size_t s = 0; s < packed.size(); ++s) rows.attributes[s] = data[s];
   const auto records = file.bytes().subspan(sizeof header, header.table_begin - sizeof header);
-  decode(file, records, options, rows, scene, job);
+  decode(file, records, false, options, rows, scene, job);
 }
 
 void read_spz(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {

@@ -10,7 +10,8 @@
 // v1 to v3 are one gzip stream that begins with Header (older files: the same without gzip). v4 is HeaderV4,
 // extensions, a table of stream sizes, and one zstd stream per attribute.
 // Extensions: records of type, size and content, behind the attributes or, in v4, before the table. The one
-// of Adobe names the axes. Without it they are x right, y up, z back (RUB), says the format's text.
+// of Adobe names the axes. Without it they are x right, y up, z back (RUB), says the format's text, which not
+// all writers do.
 #pragma once
 
 #include <array>
@@ -18,6 +19,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "scene/formats/axes.h"
 #include "scene/formats/losses.h"
@@ -49,6 +51,9 @@ constexpr std::uint32_t kAxesUnspecified = 0, kAxesRightUpBack = 4, kAxesLast = 
 struct AxesRecord {
   std::uint32_t type = kAxesExtension, bytes = 4, axes = kAxesRightUpBack;
 };
+
+// Of gzip, around what is written here: the axes are those of the format's text.
+constexpr std::string_view kOurComment = "splatcut: x right, y up, z back";
 
 constexpr float kColourScale = 0.15f;
 constexpr float kLogScaleSteps = 16.0f, kLogScaleMin = -10.0f;

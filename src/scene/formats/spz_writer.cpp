@@ -1,5 +1,6 @@
-// Writer of .spz, versions 3 (gzip) and 4 (zstd), always in axes x right, y up, z back, which only version 4
-// says: common readers of version 3 take any byte behind the attributes for a damaged file.
+// Writer of .spz, versions 3 (gzip) and 4 (zstd), always in axes x right, y up, z back. Version 4 says so.
+// Common readers of version 3 take any byte behind the attributes for a damaged file: there the comment of
+// gzip's header, which nobody reads, says it to us.
 #include <fmt/format.h>
 #include <zlib.h>
 #include <zstd.h>
@@ -117,6 +118,8 @@ class GzipWriter {
         deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY);
     if (result == Z_MEM_ERROR) throw std::bad_alloc();
     if (result != Z_OK) throw Error("spz", "the gzip writer failed to start");
+    header_.comment = reinterpret_cast<Bytef*>(comment_.data());
+    deflateSetHeader(&stream_, &header_);
   }
   GzipWriter(const GzipWriter&) = delete;
   GzipWriter& operator=(const GzipWriter&) = delete;
@@ -144,6 +147,8 @@ class GzipWriter {
 
   AtomicFile& out_;
   z_stream stream_{};
+  std::string comment_{spz::kOurComment};
+  gz_header header_{};
   std::vector<std::byte> piece_ = std::vector<std::byte>(kPiece);
 };
 

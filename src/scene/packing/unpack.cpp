@@ -39,6 +39,9 @@ GzipReader::GzipReader(const MappedFile& file) : file_(file), in_(file.bytes()) 
   const int result = inflateInit2(&stream_, kGzipOnly);
   if (result == Z_MEM_ERROR) throw std::bad_alloc();
   if (result != Z_OK) throw Error(file.path().string(), "the gzip reader failed to start");
+  header_.comment = reinterpret_cast<Bytef*>(comment_.data());
+  header_.comm_max = kMostComment;
+  inflateGetHeader(&stream_, &header_);
 }
 
 Bytes GzipReader::read(std::size_t count, const Job& job) {

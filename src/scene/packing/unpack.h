@@ -4,10 +4,12 @@
 
 #include <zlib.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/job.h"
@@ -33,6 +35,8 @@ class GzipReader {
 
   // Throws Error where the data end before. Fewer bytes when cancelled.
   Bytes read(std::size_t count, const Job& job);
+  // Of the header, once something was read; cut to kMostComment.
+  std::string comment() const { return comment_.data(); }
   // What is left, but no more than the bytes given.
   Bytes read_rest(std::size_t most);
 
@@ -42,6 +46,9 @@ class GzipReader {
 
   const MappedFile& file_;
   std::span<const std::byte> in_;
+  static constexpr std::size_t kMostComment = 63;
+  std::array<char, kMostComment + 1> comment_{};
+  gz_header header_{};
   z_stream stream_{};
 };
 

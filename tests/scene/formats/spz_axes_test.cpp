@@ -2,6 +2,7 @@
 #include "places.h"
 #include "quick.h"
 #include "scene/formats/axes.h"
+#include "scene/raster/guessed_up.h"
 #include "scene_file_helpers.h"
 
 using namespace splatcut;
@@ -25,6 +26,23 @@ std::string axes_record(std::uint32_t axes) {
 }
 std::string camera_record() {  // of the same vendor, and to be passed over
   return bytes_of(0xadbe0002u) + bytes_of(12u) + std::string(12, '\x07');
+}
+
+// A floor of 20 x 20 Gaussians at y = 1 and a post of 20 on it, y down; on_its_head: turned about x.
+GaussianCloud floor_and_post(bool on_its_head) {
+  GaussianCloud cloud;
+  cloud.resize(420, 0);
+  for (std::size_t g = 0; g < 420; ++g) {
+    const auto i = static_cast<float>(g % 20), j = static_cast<float>(g / 20);
+    cloud.position[g] = g < 400 ? glm::vec3(i - 10, 1, j - 10) * glm::vec3(0.2f, 1, 0.2f)
+                                : glm::vec3(g % 2 ? 0.1f : -0.1f, 0.1f * i - 1, 0);
+    if (on_its_head) cloud.position[g] = kRightUpBack.position(cloud.position[g]);
+    cloud.scale[g] = glm::vec3(0.1f);
+    cloud.rotation[g] = {1, 0, 0, 0};
+    cloud.opacity[g] = 1;
+    cloud.file_row[g] = static_cast<std::uint32_t>(g);
+  }
+  return cloud;
 }
 
 LoadOptions asked(SpzAxes axes) {
@@ -144,7 +162,7 @@ TEST_CASE(
         const auto sh_bytes = 3 * static_cast<std::size_t>(sh_rest_coefficients(degree));
         if (version == 3) CHECK(plain.size() == 16 + 800 * (20 + sh_bytes));
         const Scene got = load_scene(folder / "a.spz");
-        CHECK(got.taken_axes.has_value() == (version == 3));
+        CHECK_FALSE(got.taken_axes);  // ours of version 3: the comment of gzip's header says them
         CHECK(got.cloud.antialiased == antialiased);
         check_same(scene.cloud, got,
                    {1.0f / 8192, 1.01f / 32, 1e-5f, 0.51f / 255, 0.51f / 255 / 0.15f, 0.51f / 128});
@@ -156,7 +174,8 @@ TEST_CASE("spz axes: cameras that see clearly more of the scene one way decide, 
   Scene scene;
   scene.cloud = varied_cloud(2000, 1);
   for (glm::vec3& p : scene.cloud.position) p += glm::vec3(0, 40, 0);
-  save_scene(folder / "a.spz", scene, {}, SceneFormat::kSpz, {3});  // which says nothing
+  save_scene(folder / "a.spz", scene, {}, SceneFormat::kSpz, {3});
+  write(folder / "a.spz", gzip(gunzip(text_of(folder / "a.spz"))));  // which says nothing
 
   LoadOptions options;
   const auto ring = [&](const glm::vec3& centre) {
@@ -190,6 +209,49 @@ TEST_CASE("spz axes: cameras that see clearly more of the scene one way decide, 
   ring({0, -40, 0});
   options.spz_axes = SpzAxes::kRub;
   CHECK(load_scene(folder / "a.spz", options).taken_axes == SpzAxes::kRub);
+}
+
+TEST_CASE("spz axes: where nothing else says them, those in which the scene stands, which can be overruled") {
+  const Folder folder;
+  const fs::path path = folder / "a.spz";
+  for (const bool on_its_head : {false, true}) {
+    CAPTURE(on_its_head);
+    Scene scene;
+    scene.cloud = floor_and_post(on_its_head);
+    CHECK(stands(scene.cloud) == !on_its_head);
+    save_scene(path, scene, {}, SceneFormat::kSpz, {3});
+    // Ours is as it was written, however it stands.
+    const Scene ours = load_scene(path);
+    CHECK_FALSE(ours.taken_axes);
+    CHECK(ours.axes_note.empty());
+    CHECK(stands(ours.cloud) == !on_its_head);
+    const std::string of_others = gunzip(text_of(path));
+    for (const bool packed : {false, true}) {
+      write(path, packed ? gzip(of_others) : of_others);
+      const Scene got = load_scene(path);
+      CHECK(got.taken_axes == (on_its_head ? SpzAxes::kPly : SpzAxes::kRub));
+      CHECK(mentions(got.axes_note, {"the scene stands", on_its_head ? "as in a .ply" : "y up"}));
+      CHECK(stands(got.cloud) == true);
+      CHECK(load_scene(path, asked(SpzAxes::kRub)).taken_axes == SpzAxes::kRub);
+      CHECK(stands(load_scene(path, asked(SpzAxes::kRub)).cloud) == !on_its_head);
+    }
+  }
+  // A floor and a ceiling alike, or one Gaussian, say nothing.
+  GaussianCloud both = floor_and_post(false);
+  for (std::size_t g = 0; g < 400; g += 2) both.position[g].y = -1;
+  CHECK_FALSE(stands(both));
+  both.resize(1, 0);
+  CHECK_FALSE(stands(both));
+  // z up: the ground decides. Discs across z, posts above.
+  for (const float up : {1.0f, -1.0f}) {
+    GaussianCloud yard = floor_and_post(false);
+    for (std::size_t g = 0; g < 420; ++g) {
+      const glm::vec3 p = yard.position[g];
+      yard.position[g] = {p.x, p.z, -up * p.y};
+      yard.scale[g] = g < 400 ? glm::vec3(0.1f, 0.1f, 0.001f) : glm::vec3(0.001f, 0.5f, 0.5f);
+    }
+    CHECK(stands(yard) == (up > 0));
+  }
 }
 
 QUICK_CASE("spz", "files of others: .spz of both kinds beside the .ply or the numbers they were made from") {
