@@ -89,6 +89,10 @@ QUICK_CASE("glb", "corpus: .glb") {
 QUICK_CASE("glb", "corpus: .gltf") {
   check_reader("gltf", fuzz_gltf);
 }
+QUICK_CASE("lcc", "corpus: .lcc") {
+  check_reader("lcc", fuzz_lcc);
+}
+
 QUICK_CASE("ksplat", "corpus: .ksplat") {
   check_reader("ksplat", fuzz_ksplat);
 }

@@ -99,6 +99,19 @@ void write_picture(const char* name, int width) {
   load_and_save(place().write("a.ksplat", bytes));
 }
 
+// The text up to a zero byte, then index.bin, beside files of four Gaussians and one around them.
+[[maybe_unused]] void fuzz_lcc(std::string_view bytes) {
+  static const bool beside = [] {
+    place().write("data.bin", std::string(128, '\x3f'));
+    place().write("shcoef.bin", std::string(256, '\x3f'));
+    place().write("environment.bin", std::string(96, '\x3f'));
+    return true;
+  }();
+  const std::size_t end = std::min(bytes.find('\0'), bytes.size());
+  place().write("index.bin", bytes.substr(std::min(end + 1, bytes.size())));
+  if (beside) load_and_save(place().write("a.lcc", bytes.substr(0, end)));
+}
+
 [[maybe_unused]] void fuzz_json_cameras(std::string_view bytes) {
   std::string warning;
   load_cameras(place().write("a.json", bytes), &warning);

@@ -2,6 +2,7 @@
 //
 // A reading: {count, degree, position [3], covariance [6: xx xy xz yy yz zz], rgb [3, 0 to 1 from f_dc alone],
 // alpha, sh [3 per coefficient, coefficient by coefficient] or null}, in the axes of a .ply: x right, y down, z forward.
+import {writeFileSync} from 'node:fs';
 
 export const COUNT = 96;
 const SH_C0 = 0.28209479177387814;
@@ -28,6 +29,30 @@ export function plyOf(columns, comments = []) {
   const rows = new Float32Array(count * columns.length);
   columns.forEach((column, c) => column.values.forEach((v, row) => { rows[row * columns.length + c] = v; }));
   return Buffer.concat([Buffer.from(header), Buffer.from(rows.buffer)]);
+}
+
+// A scene of XGRIDS in a folder, Gaussians of any bits in two units, with spherical harmonics or without. Without
+// what lies around, which the converter leaves out of a .ply.
+export function writeLcc(folder, withSh) {
+  let state = 12345;
+  const bits = () => (state = Math.imul(state, 1664525) + 1013904223 >>> 0) >>> 8;  // 24 of them
+  const data = Buffer.alloc(32 * COUNT), sh = Buffer.alloc(64 * COUNT), index = Buffer.alloc(40);
+  for (let i = 0; i < COUNT; ++i) {
+    for (let axis = 0; axis < 3; ++axis) data.writeFloatLE(bits() / (1 << 20) - 8, 32 * i + 4 * axis);
+    for (let byte = 12; byte < 32; ++byte) data[32 * i + byte] = bits() % 256;
+    data[32 * i + 15] = 1 + bits() % 254;  // an opacity whose logit is a number
+    for (let byte = 0; byte < 60; ++byte) sh[64 * i + byte] = bits() % 256;
+  }
+  for (const [at, count, begin] of [[4, COUNT - 10, 0], [24, 10, 32 * (COUNT - 10)]]) {
+    index.writeInt32LE(count, at);
+    index.writeBigInt64LE(BigInt(begin), at + 4);
+    index.writeInt32LE(32 * count, at + 12);
+  }
+  const range = (name, least, most) => ({name, min: [least, least, least], max: [most, 2 * most, 3 * most]});
+  const text = {version: '5.0', totalLevel: 1, splats: [COUNT], fileType: withSh ? 'Quality' : 'Portable',
+    attributes: [range('scale', 0.01, 0.5), range('shcoef', -1, 1)]};
+  for (const [name, content] of [['meta.lcc', JSON.stringify(text)], ['index.bin', index], ['data.bin', data], ['shcoef.bin', sh]])
+    writeFileSync(`${folder}/${name}`, content);
 }
 
 export function columnsOfPly(bytes) {

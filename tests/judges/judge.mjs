@@ -1,8 +1,8 @@
 // node judge.mjs SPLATCUT FOLDER: what the program writes is read by the field's own programs, what they write by the
 // program; by value, spherical harmonics of degree 0 to 3. Prints the matrix; ends with 1 where anything differs.
 import {spawnSync} from 'node:child_process';
-import {readFileSync, writeFileSync} from 'node:fs';
-import {columnsOfPly, differences, knownRows, plyOf, readingOfColumns, turned} from './gaussians.mjs';
+import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
+import {columnsOfPly, differences, knownRows, plyOf, readingOfColumns, turned, writeLcc} from './gaussians.mjs';
 import * as readers from './readers.mjs';
 
 const [program, folder] = process.argv.slice(2);
@@ -18,6 +18,7 @@ const STEPS = {
   'their spz': {position: 0.505 / 4096, covariance: 0.075, rgb: BYTE * 1.9, alpha: BYTE, sh: 17 * SH_BYTE},  // SH in 4 and 5 bits
   sog: {position: 0.002, covariance: 0.06, rgb: 0.005, alpha: BYTE, sh: 0.02},
   'their sog': {position: 2e-6, covariance: 1e-5, rgb: 1e-6, alpha: 1e-6, sh: 1e-6},  // against their own reading
+  lcc: {position: 2e-5, covariance: 1e-5, rgb: 1e-6, alpha: 1e-6, sh: 2e-5},  // against their own reading
   ksplat: {position: 0.01, covariance: 0.01, rgb: 2 * BYTE, alpha: 2 * BYTE, sh: 0.01},  // cut off, not rounded
 };
 // A reader may round once more: three.js to bytes.
@@ -89,6 +90,16 @@ for (let degree = 0; degree <= 3; ++degree) {
       return differences(written, readingOfColumns(columnsOfPly(readFileSync(`${path}.ours.ply`))), same(STEPS[format]));
     });
   }
+}
+// Nobody here writes .lcc: one of our own making, as the converter reads it and as we do.
+for (const degree of [0, 3]) {
+  mkdirSync(`${folder}/lcc_${degree}`);
+  writeLcc(`${folder}/lcc_${degree}`, degree > 0);
+  const path = `${folder}/lcc_${degree}/meta.lcc`;
+  await judged(degree, '.lcc read by us and by splat-transform', async () => {
+    convert(path, `${path}.ours.ply`);
+    return differences(await readers.converter(path), readingOfColumns(columnsOfPly(readFileSync(`${path}.ours.ply`))), same(STEPS.lcc));
+  });
 }
 // The mark of antialiased training, there and back.
 const MARK = 'SplatRenderMode: mip', marked = `${folder}/marked.ply`;

@@ -20,7 +20,7 @@ void SceneOptions::add_to(CLI::App& command, bool with_lod) {
   if (with_lod)
     command
         .add_option("--lod", lod,
-                    "Level of detail of a streamed .sog, 0 the finest: less memory, fewer Gaussians")
+                    "Level of detail of a streamed .sog or .lcc, 0 the finest: less memory, fewer Gaussians")
         ->check(CLI::Range(0, 100));
   command
       .add_option(

@@ -7,6 +7,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/lower_case.h"
 #include "core/mapped_file.h"
 #include "scene/formats/foreign_files.h"
 
@@ -27,9 +28,14 @@ SceneFormat format_of(const MappedFile& file) {
 std::filesystem::path in_folder(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(path, ignored)) return path;
-  for (const char* name : {"meta.json", "lod-meta.json"})
+  for (const char* name : {"meta.json", "lod-meta.json", "meta.lcc"})
     if (std::filesystem::exists(path / name, ignored)) return path / name;
-  return path;
+  std::filesystem::path first;  // by name: the order in a folder is the system's
+  for (std::filesystem::directory_iterator at(path, ignored), end; !ignored && at != end;
+       at.increment(ignored))
+    if (lower_case(at->path().extension().string()) == ".lcc" && (first.empty() || at->path() < first))
+      first = at->path();
+  return first.empty() ? path : first;
 }
 
 std::vector<std::uint32_t> kept_in_file_order(const GaussianCloud& cloud,
@@ -111,8 +117,9 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
   scene.format = format_of(file);
   scene.file_bytes = file.bytes().size();
   scene.modified_ns = file.modified_ns();
-  if (options.lod > 0 && scene.format != SceneFormat::kStreamedSog)
-    throw Error(path.string(), "has no levels of detail", "--lod is for streamed scenes (lod-meta.json)");
+  if (options.lod > 0 && !scene.format.has_levels)
+    throw Error(path.string(), "has no levels of detail",
+                "--lod is for streamed scenes (lod-meta.json, .lcc)");
   scene.format.read(file, options, scene, job);
   if (!job.cancelled() && scene.file_rows == 0) throw Error(path.string(), "holds no Gaussians");
   if (!job.cancelled() && scene.cloud.empty())

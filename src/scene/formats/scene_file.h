@@ -51,7 +51,9 @@ struct LoadOptions {
   std::optional<SpzAxes>
       spz_axes;  // none: as the file says, else as the cameras see more, as it stands, else kRub
   std::vector<Camera> cameras;  // of the capture, if any are known
-  unsigned lod = 0;  // of a streamed .sog: of each part the finest level from this one on, else the coarsest
+  // Of a streamed .sog: of each part the finest level from this one on, else the coarsest. Of an .lcc: the
+  // level.
+  unsigned lod = 0;
 };
 
 Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, const Job& job = {});

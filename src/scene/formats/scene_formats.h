@@ -20,6 +20,7 @@
   row(kSpz)                         \
   row(kSog)                         \
   row(kStreamedSog)                 \
+  row(kLcc)                         \
   row(kGlb)                         \
   row(kUsda)                        \
   row(kKsplat)
@@ -49,6 +50,8 @@ struct SceneFormat {
 
   // Of what is written, against ours.
   AxisSigns axes = {};
+
+  bool has_levels = false;  // of detail, of which LoadOptions says one
 
   // By the first bytes. Null: nothing marks such files but their name.
   bool (*recognises)(const MappedFile& file) = nullptr;

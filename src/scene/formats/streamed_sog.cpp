@@ -273,6 +273,7 @@ bool is_streamed_sog(const MappedFile& file) {
 constinit const SceneFormat SceneFormat::kStreamedSog = {
     .name = "streamed sog",
     .extension = "lod-meta.json",
+    .has_levels = true,
     .recognises = is_streamed_sog,
     .read = read_streamed_sog,
 };
