@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/error.h"
 #include "core/mapped_file.h"
 #include "core/stand_in.h"
@@ -51,6 +53,16 @@ nlohmann::json json_of_file(const std::filesystem::path& path) {
 
 std::string json_text(const nlohmann::json& json, int indent) {
   return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::size_t whole_number(const nlohmann::json& value) {
+  constexpr double kMost = 9007199254740992.0;  // up to it doubles are exact
+  if (value.is_number()) {
+    const auto number = value.get<double>();
+    if (number >= 0 && number <= kMost && std::floor(number) == number)
+      return static_cast<std::size_t>(number);
+  }
+  throw nlohmann::json::type_error::create(302, "a whole number is wanted, not " + json_text(value), &value);
 }
 
 bool is_utf8(std::string_view text) {

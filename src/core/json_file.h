@@ -16,6 +16,10 @@ nlohmann::json json_of_file(const std::filesystem::path& path);
 // Bytes that are no UTF-8, as names of files may have, become U+FFFD. indent: -1 for one line.
 std::string json_text(const nlohmann::json& json, int indent = -1);
 
+// An index or a count. Throws json::type_error for what is no whole number from 0 to 2^53: the library would
+// convert any number.
+std::size_t whole_number(const nlohmann::json& value);
+
 bool is_utf8(std::string_view text);
 
 // What is wrong, without what the library calls it.

@@ -10,6 +10,7 @@
 #include "app/work/work_document.h"
 #include "app/work/work_values.h"
 #include "core/error.h"
+#include "core/json_file.h"
 
 namespace splatcut {
 
@@ -137,14 +138,14 @@ SavedSteps history_from(const json& j, const Scene& scene, const Document& docum
   std::vector<ReadArray> read(arrays.size());  // each once, however many steps name it
   const ReadFlags flags = [&](const json& number, std::uint8_t most) -> Flags {
     if (number.is_null()) return nullptr;
-    const json& runs = arrays.at(number.get<std::size_t>());
-    ReadArray& known = read[number.get<std::size_t>()];
+    const json& runs = arrays.at(whole_number(number));
+    ReadArray& known = read[whole_number(number)];
     if (!known.flags) {
       known.flags = flags_from(runs, scene, kHandRest);
       for (const std::uint8_t value : *known.flags) known.largest = std::max(known.largest, value);
     }
     if (known.largest > most)
-      throw Error("history", fmt::format("array {} holds more than {}", number.get<std::size_t>(), most));
+      throw Error("history", fmt::format("array {} holds more than {}", whole_number(number), most));
     return known.flags;
   };
   for (const json& step : steps) {
@@ -153,7 +154,7 @@ SavedSteps history_from(const json& j, const Scene& scene, const Document& docum
       continue;
     }
     std::vector<const json*> own;
-    for (const json& number : step.at("objects")) own.push_back(&objects.at(number.get<std::size_t>()));
+    for (const json& number : step.at("objects")) own.push_back(&objects.at(whole_number(number)));
     out.steps.push_back({step.at("title"), document_from(step, own, flags)});
   }
   return out;

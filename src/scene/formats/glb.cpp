@@ -31,6 +31,10 @@ std::size_t bytes_of_component(int type) {
   return type == kInt8 || type == kUint8 ? 1 : type == kInt16 || type == kUint16 ? 2 : 4;
 }
 
+std::size_t number_or_0(const json& part, const char* name) {
+  return part.contains(name) ? whole_number(part.at(name)) : 0;
+}
+
 // Numbers of an attribute, `width` for each Gaussian.
 struct Accessor {
   const std::byte* data = nullptr;
@@ -79,24 +83,24 @@ Accessor accessor_of(const MappedFile& file, const Gltf& gltf, const json& attri
     throw Error(file.path().string(), fmt::format("the attribute {} {}", name, what));
   };
   if (!attributes.contains(name)) refuse("is missing");
-  const json& about = gltf.text.at("accessors").at(attributes.at(name).get<std::size_t>());
+  const json& about = gltf.text.at("accessors").at(whole_number(attributes.at(name)));
   if (about.contains("sparse") || !about.contains("bufferView"))
     refuse("is sparse or packed, which is not read");
   const std::map<std::string, std::size_t> widths = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
   const auto said = widths.find(about.at("type").get<std::string>());
   if (said == widths.end() || said->second != width) refuse(fmt::format("does not have {} numbers", width));
-  const json& view = gltf.text.at("bufferViews").at(about.at("bufferView").get<std::size_t>());
-  const std::span<const std::byte> buffer = gltf.buffers.at(view.value("buffer", std::size_t{0}));
+  const json& view = gltf.text.at("bufferViews").at(whole_number(about.at("bufferView")));
+  const std::span<const std::byte> buffer = gltf.buffers.at(number_or_0(view, "buffer"));
   Accessor accessor;
-  accessor.type = about.at("componentType").get<int>();
+  accessor.type = static_cast<int>(std::min<std::size_t>(whole_number(about.at("componentType")), 1 << 20));
   accessor.normalised = about.value("normalized", false);
   if (accessor.type != kFloat && (accessor.type < kInt8 || accessor.type > kUint16))
     refuse(fmt::format("has numbers of type {}, which is not read", accessor.type));
   const std::size_t row_bytes = width * bytes_of_component(accessor.type);
-  accessor.stride = view.value("byteStride", row_bytes);
-  const auto count = about.at("count").get<std::size_t>();
+  accessor.stride = view.contains("byteStride") ? whole_number(view.at("byteStride")) : row_bytes;
+  const auto count = whole_number(about.at("count"));
   const auto offset_in = [&](const json& part) {
-    return std::min(part.value("byteOffset", std::size_t{0}), buffer.size() + 1);
+    return std::min(number_or_0(part, "byteOffset"), buffer.size() + 1);
   };
   const std::size_t begin = offset_in(view) + offset_in(about);
   if (*rows == 0) *rows = count;
@@ -242,9 +246,9 @@ class Collector {
       throw Error(file_.path().string(), "its nodes are no tree: one hangs below two, or too deep");
     seen_[node_index] = true;
     const glm::mat4 here = parent * matrix_of(node);
-    if (node.contains("mesh")) add_mesh(node.at("mesh").get<std::size_t>(), here);
+    if (node.contains("mesh")) add_mesh(whole_number(node.at("mesh")), here);
     for (const json& child : node.value("children", json::array()))
-      collect(child.get<std::size_t>(), here, depth + 1);
+      collect(whole_number(child), here, depth + 1);
   }
 
   GltfRows rows;
@@ -275,15 +279,17 @@ std::vector<std::size_t> roots_of(const json& text) {
   if (!text.contains("scenes") || text.at("scenes").empty()) {
     std::vector<bool> below(text.at("nodes").size(), false);
     for (const json& node : text.at("nodes"))
-      for (const json& child : node.value("children", json::array()))
-        below.at(child.get<std::size_t>()) = true;
+      for (const json& child : node.value("children", json::array())) below.at(whole_number(child)) = true;
     std::vector<std::size_t> roots;
     for (std::size_t i = 0; i < below.size(); ++i)
       if (!below[i]) roots.push_back(i);
     return roots;
   }
   const json& scenes = text.at("scenes");
-  return scenes.at(text.value("scene", std::size_t{0})).value("nodes", std::vector<std::size_t>());
+  std::vector<std::size_t> roots;
+  for (const json& node : scenes.at(number_or_0(text, "scene")).value("nodes", json::array()))
+    roots.push_back(whole_number(node));
+  return roots;
 }
 
 void read_glb(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {

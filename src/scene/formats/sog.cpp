@@ -166,8 +166,7 @@ std::size_t count_of(const MappedFile& file, const json& meta) {
   const int version = meta.value("version", 1);
   if (version != 1 && version != 2)
     throw Error(file.path().string(), fmt::format("version {} of .sog is not supported", version));
-  const auto count =
-      (version == 1 ? meta.at("means").at("shape").at(0) : meta.at("count")).get<std::size_t>();
+  const auto count = whole_number(version == 1 ? meta.at("means").at("shape").at(0) : meta.at("count"));
   if (count == 0 || count > std::numeric_limits<std::uint32_t>::max())
     throw Error(file.path().string(), fmt::format("promises {} Gaussians", count));
   return count;

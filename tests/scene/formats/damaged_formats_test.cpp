@@ -80,7 +80,7 @@ QUICK_CASE("sog", "sog: as a folder, inside another folder of the archive, and w
   CHECK(mentions(with("meta.json", "{"), {"meta.json"}));
   CHECK(mentions(with_meta("version", 3), {"version 3"}));
   CHECK(mentions(with_meta("count", 100000), {"pixels for 100000"}));
-  CHECK(mentions(with_meta("count", -1), {"promises"}));
+  CHECK(mentions(with_meta("count", -1), {"whole number"}));
   CHECK(mentions(with_meta("means", 7), {"meta.json"}));
   auto beyond = meta["shN"];
   beyond["codebook"][3] = 1e60;

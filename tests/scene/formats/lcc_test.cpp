@@ -33,7 +33,8 @@ struct Level {
 };
 std::string unit(std::initializer_list<Level> levels) {
   std::string text(4, '\0');  // its place on the ground
-  for (const Level& level : levels) text += bytes_of(level.count) + bytes_of(level.begin) + bytes_of(level.count * 32);
+  for (const Level& level : levels)
+    text += bytes_of(level.count) + bytes_of(level.begin) + bytes_of(level.count * 32);
   return text;
 }
 
@@ -51,17 +52,20 @@ void write_lcc(const Folder& folder, const std::string& type, const std::string&
   std::string harmonics;
   for (int row = 0; row < 4; ++row) harmonics += harmonics_row();
   write(folder / "shcoef.bin", harmonics);
-  write(folder / "environment.bin", row_at({100, 200, 300}, {65535, 0, 0}) + (type == "Portable" ? "" : harmonics_row()));
+  write(folder / "environment.bin",
+        row_at({100, 200, 300}, {65535, 0, 0}) + (type == "Portable" ? "" : harmonics_row()));
 }
 
 std::vector<glm::vec3> positions_in_file_order(const Scene& scene) {
   std::vector<glm::vec3> positions(scene.file_rows);
-  for (std::size_t g = 0; g < scene.cloud.size(); ++g) positions[scene.cloud.file_row[g]] = scene.cloud.position[g];
+  for (std::size_t g = 0; g < scene.cloud.size(); ++g)
+    positions[scene.cloud.file_row[g]] = scene.cloud.position[g];
   return positions;
 }
 
 std::size_t gaussian_of(const Scene& scene, std::uint32_t row) {
-  return static_cast<std::size_t>(std::ranges::find(scene.cloud.file_row, row) - scene.cloud.file_row.begin());
+  return static_cast<std::size_t>(std::ranges::find(scene.cloud.file_row, row) -
+                                  scene.cloud.file_row.begin());
 }
 
 }  // namespace
@@ -88,8 +92,10 @@ QUICK_CASE("lcc", "lcc: known values of the finest level and what lies around, z
   // What is brighter from +z of the file is so from -y here: the coefficient of -y.
   REQUIRE(scene.cloud.sh_degree == 3);
   for (std::size_t i = 0; i < 45; ++i) {
-    CHECK(scene.cloud.sh_rest_of(static_cast<std::uint32_t>(a))[i] == doctest::Approx(i == 0 ? 1 : 0).scale(1e5));
-    CHECK(scene.cloud.sh_rest_of(static_cast<std::uint32_t>(around))[i] == doctest::Approx(i == 0 ? 3 : 0).scale(1e5));
+    CHECK(scene.cloud.sh_rest_of(static_cast<std::uint32_t>(a))[i] ==
+          doctest::Approx(i == 0 ? 1 : 0).scale(1e5));
+    CHECK(scene.cloud.sh_rest_of(static_cast<std::uint32_t>(around))[i] ==
+          doctest::Approx(i == 0 ? 3 : 0).scale(1e5));
   }
 }
 
@@ -116,7 +122,8 @@ TEST_CASE("lcc: a level by its number, the coarsest beyond the last, the folder 
 
 QUICK_CASE("lcc", "lcc: damaged files are refused, each with what is wrong") {
   const Folder folder;
-  const auto check = [&](const char* name, const std::string& content, std::initializer_list<const char*> said) {
+  const auto check = [&](const char* name, const std::string& content,
+                         std::initializer_list<const char*> said) {
     write_lcc(folder, "Quality");
     write(folder / name, content);
     CHECK(mentions(refusal(folder / "a.lcc"), said));
@@ -141,7 +148,8 @@ QUICK_CASE("lcc", "lcc: damaged files are refused, each with what is wrong") {
   check("a.lcc", R"({"totalLevel": 2})", {"attributes"});
   check("a.lcc", R"({"totalLevel": 0, "attributes": []})", {"levels is 0"});
   check("a.lcc", R"({"totalLevel": 2, "attributes": []})", {"no range of scales"});
-  check("a.lcc", R"({"totalLevel": 2, "attributes": [{"name": "scale", "min": [0, 0, 1e30], "max": [1, 1, 1]}]})",
+  check("a.lcc",
+        R"({"totalLevel": 2, "attributes": [{"name": "scale", "min": [0, 0, 1e30], "max": [1, 1, 1]}]})",
         {"goes beyond 1e+15"});
   check("a.lcc", R"({"totalLevel": 2, "attributes": [{"name": "scale", "min": [0], "max": [1, 1, 1]}]})",
         {"not the text of an .lcc"});

@@ -255,6 +255,15 @@ TEST_CASE("gltf: numbers inside the text, signs in names, no scenes, and extensi
   put(text);
   CHECK(mentions(refusal(folder / "b.gltf"), {"needs the extension EXT_meshopt_compression"}));
   text.erase("extensionsRequired");
+  const auto views = text["accessors"][1]["bufferView"];
+  for (const nlohmann::json& wrong : std::vector<nlohmann::json>{1e53, -1, 0.5, "0", nullptr}) {
+    text["accessors"][1]["bufferView"] = wrong;
+    put(text);
+    CHECK(mentions(refusal(folder / "b.gltf"), {"a whole number is wanted, not"}));
+  }
+  text["accessors"][1]["bufferView"] = views.get<double>();  // 1.0 is one
+  put(text);
+  check_same(written.cloud, load_scene(folder / "b.gltf"), limits().at("glb").limit);
   text["bufferViews"][0]["extensions"] = {{"EXT_meshopt_compression", {{"mode", "ATTRIBUTES"}}}};
   put(text);
   CHECK(mentions(refusal(folder / "b.gltf"), {"EXT_meshopt_compression"}));
