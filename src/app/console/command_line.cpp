@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -47,9 +48,27 @@ void on_no_memory() {
   std::abort();
 }
 
+// The library keeps the options that one excludes by their address: help would have another order in each
+// run.
+class OrderedHelp : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = CLI::Formatter::make_option_opts(option);
+    constexpr std::string_view kLabel = " Excludes:";
+    const std::size_t label = text.find(kLabel);
+    if (label == text.npos) return text;
+    std::vector<std::string> names = CLI::detail::split(text.substr(label + kLabel.size() + 1), ' ');
+    std::ranges::sort(names);
+    text.resize(label + kLabel.size());
+    for (const std::string& name : names) text += " " + name;
+    return text;
+  }
+};
+
 int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
   CLI::App program{line.description};
   program.name(line.program);
+  program.formatter(std::make_shared<OrderedHelp>());
   program.footer("Example: " + line.example);
   program.set_version_flag("--version", line.program + " " + version());
   program.require_subcommand(1);
