@@ -138,6 +138,8 @@ double standing_evidence(const GaussianCloud& cloud) {
 }  // namespace
 
 std::optional<bool> stands(const GaussianCloud& cloud) {
+  constexpr std::size_t kFewest = 100;  // of fewer, chance decides
+  if (cloud.size() < kFewest) return {};
   constexpr double kGround = 0.06;   // as prior_of() has it
   constexpr double kEvidence = 0.4;  // of 20 captures that stand with -y up, 16 have more, one less than -0.4
   if (const std::vector<Disc> discs = sampled_discs(cloud); !discs.empty()) {
