@@ -167,7 +167,8 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
     for (const std::string& sentence : doubts(result)) warn(sentence, common.quiet);
     if (result.ambiguous && !common.quiet) to_stderr("--scale takes a smaller or a larger one\n");
     result.stages.insert(result.stages.begin(), {"load", load_ms});
-    const CutoutObject object(*scene, result.labels, args.edges, {chosen.up_world, chosen.given}, job);
+    const CutoutObject object(*scene, result.labels, args.edges,
+                              {chosen.up_world, chosen.given, session.blocks()}, job);
     end_progress();
     stop_if_cancelled(job, "splatcut cut");
     result.stages.push_back({"edges", object.ms()});
@@ -176,7 +177,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
     json = report_json(*scene, result, said, ms_since_start());
     json["edges"] = object.report();
     write_cutout_scenes(folder, *scene, result.labels, object);
-    write_cutout_pictures(folder, scene->cloud, chosen.camera, result, object);
+    write_cutout_pictures(folder, {scene->cloud, nullptr, &session.blocks()}, chosen.camera, result, object);
   } else {
     json = cut_many_objects(many, &session, folder, job);
     end_progress();

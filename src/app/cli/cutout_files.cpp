@@ -9,7 +9,6 @@
 #include "app/console/version.h"
 #include "core/atomic_file.h"
 #include "core/png_file.h"
-#include "scene/raster/rasterizer.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/session/doubts.h"
 
@@ -24,11 +23,10 @@ std::vector<std::uint8_t> inverted(const std::vector<std::uint8_t>& labels) {
 }
 
 // Colour with straight alpha: the cutout on nothing.
-Image<Rgba8> cutout_picture(const GaussianCloud& cloud, const Camera& camera,
-                            std::span<const std::uint8_t> shown) {
+Image<Rgba8> cutout_picture(const Drawer& scene, const Camera& camera, std::span<const std::uint8_t> shown) {
   RasterOptions options;
   options.shown = shown;
-  const RasterOutput out = rasterize(cloud, camera, options);
+  const RasterOutput out = scene.draw(camera, options);
   Image<Rgba8> picture(camera.width_px, camera.height_px);
   for (std::size_t i = 0; i < picture.size(); ++i) {
     const float alpha = out.alpha.pixels()[i];
@@ -52,13 +50,13 @@ void tint(const Mask& mask, Image<Rgb8>* picture) {
   }
 }
 
-Image<Rgb8> tinted_view(const GaussianCloud& cloud, const Camera& camera, const Mask& mask) {
-  Image<Rgb8> picture = rgb8_from_linear(rasterize(cloud, camera).colour);
+Image<Rgb8> tinted_view(const Drawer& scene, const Camera& camera, const Mask& mask) {
+  Image<Rgb8> picture = rgb8_from_linear(scene.draw(camera, {}).colour);
   tint(mask, &picture);
   return picture;
 }
 
-Image<Rgb8> contact_sheet(const GaussianCloud& cloud, const std::vector<ViewReport>& views) {
+Image<Rgb8> contact_sheet(const Drawer& scene, const std::vector<ViewReport>& views) {
   constexpr int kGap = 4;
   const int columns = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(views.size())))));
   const Camera& first = views.front().camera;
@@ -67,7 +65,7 @@ Image<Rgb8> contact_sheet(const GaussianCloud& cloud, const std::vector<ViewRepo
   Image<Rgb8> sheet(columns * (width + kGap) - kGap, rows * (height + kGap) - kGap, Rgb8{24, 24, 24});
   for (std::size_t v = 0; v < views.size(); ++v) {
     const ViewReport& view = views[v];
-    const Image<Rgb8> picture = tinted_view(cloud, view.camera, view.mask);
+    const Image<Rgb8> picture = tinted_view(scene, view.camera, view.mask);
     const int x0 = static_cast<int>(v) % columns * (width + kGap),
               y0 = static_cast<int>(v) / columns * (height + kGap);
     for (int y = 0; y < std::min(height, picture.height()); ++y)
@@ -84,23 +82,23 @@ Image<Rgb8> contact_sheet(const GaussianCloud& cloud, const std::vector<ViewRepo
 
 }  // namespace
 
-void write_cutout_picture(const std::filesystem::path& path, const GaussianCloud& cloud, const Camera& camera,
+void write_cutout_picture(const std::filesystem::path& path, const Drawer& scene, const Camera& camera,
                           std::span<const std::uint8_t> shown) {
-  write_png(path, cutout_picture(cloud, camera, shown));
+  write_png(path, cutout_picture(scene, camera, shown));
 }
 
-void write_object_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
+void write_object_pictures(const OutputFolder& folder, const Drawer& scene, const Camera& camera,
                            const CutResult& report, const CutoutObject& object, const PictureNames& names) {
   object.draw(folder.file(names.object), camera);
-  const Mask seen = thresholded(render_labels(cloud, camera, report.labels), 0.5f);
-  write_png(folder.file(names.tint), tinted_view(cloud, camera, seen));
-  write_png(folder.file(names.masks), contact_sheet(cloud, report.views));
+  const Mask seen = thresholded(render_labels(scene, camera, report.labels), 0.5f);
+  write_png(folder.file(names.tint), tinted_view(scene, camera, seen));
+  write_png(folder.file(names.masks), contact_sheet(scene, report.views));
 }
 
-void write_cutout_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
+void write_cutout_pictures(const OutputFolder& folder, const Drawer& scene, const Camera& camera,
                            const CutResult& report, const CutoutObject& object) {
-  write_object_pictures(folder, cloud, camera, report, object);
-  write_cutout_picture(folder.file("rest.png"), cloud, camera, inverted(report.labels));
+  write_object_pictures(folder, scene, camera, report, object);
+  write_cutout_picture(folder.file("rest.png"), scene, camera, inverted(report.labels));
 }
 
 void write_labels(const std::filesystem::path& path, const Scene& scene,

@@ -10,24 +10,25 @@
 #include "app/cli/cutout_object.h"
 #include "app/console/output_folder.h"
 #include "scene/formats/scene_file.h"
+#include "scene/raster/projected_view.h"
 #include "segment/session/cut_result.h"
 
 namespace splatcut {
 
 // object.png, rest.png, tint.png from `camera`, masks.png of the views.
-void write_cutout_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
+void write_cutout_pictures(const OutputFolder& folder, const Drawer& scene, const Camera& camera,
                            const CutResult& report, const CutoutObject& object);
 
 struct PictureNames {
   std::string object = "object.png", tint = "tint.png", masks = "masks.png";
 };
 // The same without rest.png.
-void write_object_pictures(const OutputFolder& folder, const GaussianCloud& cloud, const Camera& camera,
+void write_object_pictures(const OutputFolder& folder, const Drawer& scene, const Camera& camera,
                            const CutResult& report, const CutoutObject& object,
                            const PictureNames& names = {});
 
 // The Gaussians whose flag in `shown` is 1, all where it is empty, on nothing.
-void write_cutout_picture(const std::filesystem::path& path, const GaussianCloud& cloud, const Camera& camera,
+void write_cutout_picture(const std::filesystem::path& path, const Drawer& scene, const Camera& camera,
                           std::span<const std::uint8_t> shown);
 
 // A byte for each row of the file, 0 for rows that the cloud lacks.

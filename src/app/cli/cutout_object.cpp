@@ -21,10 +21,10 @@ void EdgeOptions::add_to(CLI::App& command) {
 
 CutoutObject::CutoutObject(const Scene& scene, const std::vector<std::uint8_t>& labels,
                            const EdgeOptions& options, const Surroundings& around, const Job& job)
-    : scene_(scene), labels_(labels) {
+    : scene_(scene), drawer_(scene.cloud, nullptr, &around.blocks), labels_(labels) {
   if (!options.clean()) return;
   const auto start = std::chrono::steady_clock::now();
-  clean_ = clean_object({scene.cloud, labels, around.up_world, around.cameras}, {}, job);
+  clean_ = clean_object({drawer_, labels, around.up_world, around.cameras}, {}, job);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   ms_ = took.count();
 }
@@ -40,7 +40,7 @@ void CutoutObject::draw(const std::filesystem::path& path, const Camera& camera)
   if (is_clean())
     write_cutout_picture(path, clean_->cloud, camera, {});
   else
-    write_cutout_picture(path, scene_.cloud, camera, labels_);
+    write_cutout_picture(path, drawer_, camera, labels_);
 }
 
 std::size_t CutoutObject::gaussians() const {

@@ -25,10 +25,11 @@ struct EdgeOptions {
   bool clean() const { return edges == "clean"; }
 };
 
-// Where the object is looked at from while its edges are made clean.
+// What is around the object: where it is looked at from while its edges are made clean.
 struct Surroundings {
   glm::vec3 up_world{0, -1, 0};
   std::vector<Camera> cameras;  // of the capture
+  const CloudBlocks& blocks;    // of the scene, which outlive the object
 };
 
 class CutoutObject {
@@ -50,6 +51,7 @@ class CutoutObject {
   bool is_clean() const { return clean_ && clean_->report.cleaned; }
 
   const Scene& scene_;
+  Drawer drawer_;  // of the scene
   const std::vector<std::uint8_t>& labels_;
   std::optional<CleanObject> clean_;
   double ms_ = 0;

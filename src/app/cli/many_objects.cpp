@@ -99,11 +99,11 @@ json entry_of(const CutObject& object, const CutoutObject& written, std::size_t 
   return entry;
 }
 
-void write_object(const OutputFolder& folder, const Scene& scene, const CutObject& object,
-                  const CutoutObject& written) {
+void write_object(const OutputFolder& folder, const Scene& scene, const Drawer& drawer,
+                  const CutObject& object, const CutoutObject& written) {
   const std::string file = file_name_of(object.seeds->name);
   write_object_files(folder, scene, file, written, object.result.labels);
-  write_object_pictures(folder, scene.cloud, object.camera, object.result, written,
+  write_object_pictures(folder, drawer, object.camera, object.result, written,
                         {file + ".png", file + ".tint.png", file + ".masks.png"});
 }
 
@@ -162,13 +162,14 @@ json cut_many_objects(const ManyObjects& in, Session* session, const OutputFolde
       throw Error(fmt::format("object \"{}\"", object.seeds->name), "was not found: " + object.result.reason);
   }
   const std::vector<std::uint8_t> owner = settle_claims(&objects, scene.cloud.size());
+  const Drawer drawer(scene.cloud, nullptr, &session->blocks());
   json entries = json::array();
   for (const CutObject& object : objects) {
     if (job.cancelled()) return {};
-    const CutoutObject written(scene, object.result.labels, in.edges, {in.chosen.up_world, in.chosen.given},
-                               job);
+    const CutoutObject written(scene, object.result.labels, in.edges,
+                               {in.chosen.up_world, in.chosen.given, session->blocks()}, job);
     if (job.cancelled()) return {};
-    write_object(folder, scene, object, written);
+    write_object(folder, scene, drawer, object, written);
     entries.push_back(entry_of(object, written, entries.size() + 1));
   }
   std::vector<std::uint8_t> rest(owner.size());
@@ -177,7 +178,7 @@ json cut_many_objects(const ManyObjects& in, Session* session, const OutputFolde
   SaveOptions of_rest;
   of_rest.may_be_empty = true;
   save_scene(folder.file("rest.ply"), scene, rest, SceneFormat::kPly, of_rest);
-  write_cutout_picture(folder.file("rest.png"), scene.cloud, in.chosen.camera, rest);
+  write_cutout_picture(folder.file("rest.png"), drawer, in.chosen.camera, rest);
   write_labels(folder.file("labels.u8"), scene, owner);
   return {{"objects", entries},
           {"rest", {{"gaussians", std::ranges::count(rest, 1)}}},

@@ -28,7 +28,8 @@ nlohmann::json write_objects(const Document& document, const OpenedScene& opened
     const std::size_t gaussians = count_flags(labels);
     if (gaussians == 0) continue;
     const std::string name = free_file_name(object.name, &taken);
-    const CutoutObject written(scene, labels, edges, {document.up_world, opened.views().cameras}, job);
+    const CutoutObject written(scene, labels, edges,
+                               {document.up_world, opened.views().cameras, *opened.blocks}, job);
     stop_if_cancelled(job, "splatcut cut");
     write_object_files(folder, scene, name, written, labels);
     objects.push_back({{"name", object.name},

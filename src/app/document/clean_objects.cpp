@@ -15,8 +15,9 @@ std::shared_ptr<const CleanObject> CleanObjects::known(const std::vector<std::ui
 std::shared_ptr<const CleanObject> CleanObjects::made(const std::vector<std::uint8_t>& labels,
                                                       const glm::vec3& up_world, const Job& job) {
   if (auto object = known(labels, up_world)) return object;
-  auto object = std::make_shared<const CleanObject>(
-      clean_object({*scene_->cloud, labels, up_world, scene_->views().cameras}, {}, job));
+  auto object = std::make_shared<const CleanObject>(clean_object(
+      {Drawer(*scene_->cloud, nullptr, scene_->blocks.get()), labels, up_world, scene_->views().cameras}, {},
+      job));
   if (job.cancelled()) return nullptr;
   constexpr std::size_t kMost = 4;
   const std::lock_guard lock(mutex_);

@@ -22,10 +22,10 @@ std::vector<OwnView> agreed_views(const CleanInput& input, const GaussianCloud& 
                                   const OwnViewOptions& options, CleanReport* report, const Job& job) {
   std::vector<OwnView> views;
   const std::vector<Camera> cameras =
-      own_cameras(input.cloud, input.labels, input.up_world, input.cameras, options);
+      own_cameras(input.scene.cloud(), input.labels, input.up_world, input.cameras, options);
   for (std::size_t v = 0; v < cameras.size() && !job.cancelled(); ++v) {
     job.progress("own views", static_cast<double>(v) / static_cast<double>(cameras.size()));
-    OwnView view = own_view(input.cloud, object, input.labels, cameras[v], job);
+    OwnView view = own_view(input.scene, object, input.labels, cameras[v], job);
     if (view.shown_px < kLeastShownPx) continue;
     ++report->views;
     if (view.agreement >= kAgrees) views.push_back(std::move(view));
@@ -66,9 +66,10 @@ void drop_gone(const std::vector<std::uint8_t>& kept, CleanObject* object) {
 
 CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options, const Job& job) {
   CleanObject object;
-  for (std::uint32_t g = 0; g < input.cloud.size(); ++g)
+  const GaussianCloud& cloud = input.scene.cloud();
+  for (std::uint32_t g = 0; g < cloud.size(); ++g)
     if (input.labels[g]) object.gaussian.push_back(g);
-  object.cloud = permuted(input.cloud, object.gaussian);
+  object.cloud = permuted(cloud, object.gaussian);
   CleanReport& report = object.report;
   constexpr std::size_t kLeastGaussians = 8;
   if (object.gaussian.size() < kLeastGaussians) {
@@ -87,7 +88,7 @@ CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options,
   report.uncut = std::ranges::count(kept, 1) == 0 ||
                  own_picture_error(views, object.cloud, kept, job) > kMostLost * as_it_is;
   if (report.uncut) {
-    object.cloud = permuted(input.cloud, object.gaussian);
+    object.cloud = permuted(cloud, object.gaussian);
     std::ranges::fill(kept, 1);
     finish(views, false, &kept, &object, job);
   }

@@ -32,7 +32,7 @@
 namespace splatcut {
 
 struct CleanInput {
-  const GaussianCloud& cloud;            // the scene
+  Drawer scene;                          // with blocks, its drawings pass over what they do not show
   std::span<const std::uint8_t> labels;  // per Gaussian, 1 = object
   glm::vec3 up_world{0, -1, 0};
   std::span<const Camera> cameras;  // of the capture, may be empty

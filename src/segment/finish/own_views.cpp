@@ -78,27 +78,27 @@ Camera fine_enough(const Camera& camera, const ObjectExtent& object, const OwnVi
 
 }  // namespace
 
-OwnView own_view(const GaussianCloud& cloud, const GaussianCloud& object,
-                 std::span<const std::uint8_t> labels, const Camera& camera, const Job& job) {
+OwnView own_view(const Drawer& scene, const GaussianCloud& object, std::span<const std::uint8_t> labels,
+                 const Camera& camera, const Job& job) {
   OwnView view;
   view.camera = camera;
-  view.rect = labelled_rectangle(cloud, camera, labels);
+  view.rect = labelled_rectangle(scene.cloud(), camera, labels);
   if (view.rect.empty()) return view;
   RasterOptions raster;
   raster.roi = view.rect;
-  view.colour = rasterize(cloud, camera, raster, job).colour;
+  view.colour = scene.draw(camera, raster, job).colour;
   raster.colour = false;
   raster.depth = true;
   const RasterOutput alone = rasterize(object, camera, raster, job);
   raster.labels = labels;
-  const RasterOutput scene = rasterize(cloud, camera, raster, job);
+  const RasterOutput within = scene.draw(camera, raster, job);
   view.inside = view.valid = Mask(view.rect.width(), view.rect.height());
   std::size_t both = 0, either = 0;
   for (std::size_t i = 0; i < view.inside.size(); ++i) {
-    const float seen = scene.label_share.pixels()[i], alpha = alone.alpha.pixels()[i];
+    const float seen = within.label_share.pixels()[i], alpha = alone.alpha.pixels()[i];
     const bool inside = seen > kLabelled || (alpha > kSolid && seen > kThin);
     const bool hidden =
-        alpha > kEmpty && alone.expected_depth.pixels()[i] > kNearer * scene.expected_depth.pixels()[i];
+        alpha > kEmpty && alone.expected_depth.pixels()[i] > kNearer * within.expected_depth.pixels()[i];
     if (inside) view.inside.pixels()[i] = kMaskObject;
     view.shown_px += seen > kLabelled;
     const bool own = alpha > kEmpty && seen > kOwn * alpha;

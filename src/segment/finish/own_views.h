@@ -1,7 +1,7 @@
 // An object seen in its own views: where its labels show it within the scene, and where something nearer
 // hides it. No photograph, nothing said by the user: the labels' own picture is the mask.
 //
-// In: the scene's cloud, labels, cameras. Out per camera, in the rectangle around the object:
+// In: the scene, labels, cameras. Out per camera, in the rectangle around the object:
 //   inside = L > .4, or alpha > .5 and L > .15      L: sum of alpha T of the labelled within the scene,
 //   valid  = inside, or alpha < .05,                alpha, depth: of the object alone
 //            or depth <= 1.02 of the scene's and L < .93 alpha
@@ -19,6 +19,7 @@
 #include "core/job.h"
 #include "scene/camera/camera.h"
 #include "scene/cloud/gaussian_cloud.h"
+#include "scene/raster/projected_view.h"
 
 namespace splatcut {
 
@@ -32,8 +33,8 @@ struct OwnView {
 };
 
 // The rectangle is empty where no labelled Gaussian is in view. object: the labelled Gaussians alone.
-OwnView own_view(const GaussianCloud& cloud, const GaussianCloud& object,
-                 std::span<const std::uint8_t> labels, const Camera& camera, const Job& job);
+OwnView own_view(const Drawer& scene, const GaussianCloud& object, std::span<const std::uint8_t> labels,
+                 const Camera& camera, const Job& job);
 
 // Mean squared error of the object drawn alone on black, per channel and pixel inside: against the scene's
 // picture inside, against black outside. kept: per Gaussian of the object, 0 = not drawn.

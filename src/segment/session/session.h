@@ -48,6 +48,7 @@ class Session {
   Session(Session&& other) noexcept;
 
   const SessionScene& scene() const { return scene_; }
+  const CloudBlocks& blocks() const { return *whole_.blocks; }  // of the scene's cloud
 
   // Throws Error for settings that contradict each other, or parts that the scene is not prepared with.
   // Nothing marked, nothing found, cancelled: in `outcome`, with a reason.
