@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/byte_hash.h"
 #include "segment/masks/cv_image.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/session/reference_mask.h"
@@ -82,7 +83,11 @@ struct Session::Local {
 Session::Session(SessionScene scene)
     : scene_(std::move(scene)),
       whole_{scene_.cloud, scene_.blocks ? scene_.blocks : std::make_shared<const CloudBlocks>(*scene_.cloud),
-             scene_.up_world, scene_.photographs} {}
+             scene_.up_world, scene_.photographs} {
+  Hasher hash;
+  hash.add(whole_.blocks->blocks());
+  scene_.prepare.cache.scene = hash.value();
+}
 
 Session::~Session() = default;
 Session::Session(Session&& other) noexcept = default;

@@ -8,6 +8,8 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/atomic_file.h"
@@ -147,6 +149,44 @@ void add_options(const PrepareOptions& o, Hasher* hash) {
     if (weight.prepared) hash->number(weight.get(o.model));
 }
 
+struct KeptFile {
+  std::filesystem::file_time_type used;
+  std::uintmax_t bytes;  // 0 once it is removed
+  std::filesystem::path path;
+};
+
+// What is prepared of any scene, the files used longest ago first. Removes what interrupted writers left.
+std::vector<KeptFile> kept_files(const std::filesystem::path& folder) {
+  std::vector<KeptFile> files;
+  std::error_code failure;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {
+    const bool interrupted =
+        entry.path().extension() == ".part" && entry.path().string().find(kEnding) != std::string::npos;
+    if (!entry.is_regular_file(failure) || (!interrupted && entry.path().extension() != kEnding)) continue;
+    const auto used = entry.last_write_time(failure);
+    constexpr std::chrono::hours kLongestWrite(1);
+    if (failure) continue;
+    if (!interrupted)
+      files.push_back({used, entry.file_size(failure), entry.path()});
+    else if (std::filesystem::file_time_type::clock::now() - used > kLongestWrite)
+      std::filesystem::remove(entry.path(), failure);
+  }
+  std::ranges::sort(files, {}, &KeptFile::used);
+  return files;
+}
+
+// Until they and what stays beside them take no more.
+void remove_oldest(std::span<KeptFile> files, std::uintmax_t most_bytes, std::uintmax_t beside) {
+  std::uintmax_t sum = beside;
+  for (const KeptFile& file : files) sum += file.bytes;
+  std::error_code failure;
+  for (KeptFile& file : files) {
+    if (sum <= most_bytes) return;
+    if (!std::filesystem::remove(file.path, failure)) continue;
+    sum -= std::exchange(file.bytes, 0);
+  }
+}
+
 }  // namespace
 
 std::uint64_t prepared_key(const GaussianCloud& cloud, std::span<const Camera> observing,
@@ -169,8 +209,8 @@ std::uint64_t prepared_key(const GaussianCloud& cloud, std::span<const Camera> o
   return hash.value();
 }
 
-std::filesystem::path prepared_file(const std::filesystem::path& folder, std::uint64_t key) {
-  return folder / fmt::format("{:016x}{}", key, kEnding);
+std::filesystem::path prepared_file(const PreparedCache& cache, std::uint64_t key) {
+  return cache.folder / fmt::format("{:016x}-{:016x}{}", cache.scene, key, kEnding);
 }
 
 std::optional<PreparedScene> read_prepared(const std::filesystem::path& path, std::uint64_t key,
@@ -213,35 +253,16 @@ void write_prepared(const std::filesystem::path& path, std::uint64_t key, const 
   file.commit();
 }
 
-void trim_cache(const std::filesystem::path& folder, std::uintmax_t most_bytes) {
-  struct Kept {
-    std::filesystem::file_time_type used;
-    std::uintmax_t bytes;
-    std::filesystem::path path;
-  };
-  std::vector<Kept> files;
-  std::uintmax_t sum = 0;
-  std::error_code failure;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {
-    const bool interrupted =
-        entry.path().extension() == ".part" && entry.path().string().find(kEnding) != std::string::npos;
-    if (!entry.is_regular_file(failure) || (!interrupted && entry.path().extension() != kEnding)) continue;
-    const auto used = entry.last_write_time(failure);
-    constexpr std::chrono::hours kLongestWrite(1);
-    if (failure) continue;
-    if (interrupted) {
-      if (std::filesystem::file_time_type::clock::now() - used > kLongestWrite)
-        std::filesystem::remove(entry.path(), failure);
-      continue;
-    }
-    files.push_back({used, entry.file_size(failure), entry.path()});
-    sum += files.back().bytes;
-  }
-  std::ranges::sort(files, {}, &Kept::used);
-  for (const Kept& file : files) {
-    if (sum <= most_bytes) return;
-    if (std::filesystem::remove(file.path, failure)) sum -= file.bytes;
-  }
+void trim_cache(const PreparedCache& cache) {
+  std::vector<KeptFile> files = kept_files(cache.folder);
+  const std::string of_scene = fmt::format("{:016x}-", cache.scene);
+  const auto others = std::ranges::stable_partition(
+      files, [&](const KeptFile& file) { return file.path.filename().string().starts_with(of_scene); });
+  const std::span<KeptFile> own(files.begin(), others.begin());
+  if (!own.empty()) remove_oldest(own.first(own.size() - 1), cache.most_bytes_of_scene, own.back().bytes);
+  std::erase_if(files, [](const KeptFile& file) { return file.bytes == 0; });
+  std::ranges::stable_sort(files, {}, &KeptFile::used);
+  remove_oldest(files, cache.most_bytes, 0);
 }
 
 }  // namespace splatcut

@@ -23,8 +23,8 @@ PreparedScene made(const GaussianCloud& cloud, std::span<const Camera> observing
 void keep(const PreparedScene& prepared, const PreparedCache& cache, std::uint64_t key) {
   try {
     std::filesystem::create_directories(cache.folder);
-    write_prepared(prepared_file(cache.folder, key), key, prepared);
-    trim_cache(cache.folder, cache.most_bytes);
+    write_prepared(prepared_file(cache, key), key, prepared);
+    trim_cache(cache);
   } catch (const Error&) {
   } catch (const std::filesystem::filesystem_error&) {
   }
@@ -40,11 +40,11 @@ PreparedScene prepare_scene(const GaussianCloud& cloud, std::span<const Camera> 
   std::uint64_t key = 0;
   auto kept = clock.time("cache", [&] {
     key = prepared_key(cloud, observing, options);
-    return read_prepared(prepared_file(options.cache.folder, key), key, cloud.size());
+    return read_prepared(prepared_file(options.cache, key), key, cloud.size());
   });
   if (kept) {
     std::error_code ignored;  // used now: the last to be removed
-    std::filesystem::last_write_time(prepared_file(options.cache.folder, key),
+    std::filesystem::last_write_time(prepared_file(options.cache, key),
                                      std::filesystem::file_time_type::clock::now(), ignored);
     kept->stages = std::move(stages);
     kept->model = options.model;

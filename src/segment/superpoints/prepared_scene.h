@@ -21,6 +21,8 @@ namespace splatcut {
 struct PreparedCache {
   std::filesystem::path folder;  // empty: nowhere
   std::uintmax_t most_bytes = 2'000'000'000;
+  std::uintmax_t most_bytes_of_scene = 1'000'000'000;  // so that no scene pushes all others out
+  std::uint64_t scene = 0;  // which one its neighbourhoods belong to, for that limit
 };
 
 struct PrepareOptions {

@@ -61,7 +61,7 @@ TEST_CASE("what was written is read again, every array of it") {
   const Folder folder;
   const Example e;
   REQUIRE(e.prepared.parts.trees.size() == 8);
-  const auto file = prepared_file(folder.path, e.key);
+  const auto file = prepared_file({.folder = folder.path}, e.key);
   write_prepared(file, e.key, e.prepared);
   const auto again = read_prepared(file, e.key, e.cloud.size());
   REQUIRE(again);
@@ -76,7 +76,7 @@ QUICK_CASE("prepared cache",
            "a file cut short, with a byte changed anywhere, or with bytes to spare is as good as none") {
   const Folder folder;
   const Example e;
-  const auto file = prepared_file(folder.path, e.key);
+  const auto file = prepared_file({.folder = folder.path}, e.key);
   write_prepared(file, e.key, e.prepared);
   const std::string whole = bytes_of(file);
   std::mt19937 random(7);
@@ -103,7 +103,7 @@ QUICK_CASE("prepared cache",
 QUICK_CASE("prepared cache", "indices that lead outside are refused even with a right checksum") {
   const Folder folder;
   const Example e;
-  const auto file = prepared_file(folder.path, e.key);
+  const auto file = prepared_file({.folder = folder.path}, e.key);
   const auto refused = [&](const auto& damage) {
     PreparedScene wrong = e.prepared;
     damage(wrong);
@@ -181,7 +181,7 @@ TEST_CASE("a full cache loses what was used longest ago, and what is not its own
   put("notes.txt", 4000, 99);
   put("d.prepared.77.part", 400, 2);
   put("e.prepared.78.part", 400, 0);
-  trim_cache(folder.path, 800);
+  trim_cache({.folder = folder.path, .most_bytes = 800});
   const auto there = [&](const char* name) { return std::filesystem::exists(folder.path / name); };
   CHECK_FALSE(there("a.prepared"));
   CHECK(there("b.prepared"));
@@ -189,10 +189,42 @@ TEST_CASE("a full cache loses what was used longest ago, and what is not its own
   CHECK(there("notes.txt"));
   CHECK_FALSE(there("d.prepared.77.part"));
   CHECK(there("e.prepared.78.part"));
-  trim_cache(folder.path, 799);
+  trim_cache({.folder = folder.path, .most_bytes = 799});
   CHECK(there("b.prepared"));
   CHECK_FALSE(there("c.prepared"));
-  trim_cache(folder.path / "missing", 0);
+  trim_cache({.folder = folder.path / "missing", .most_bytes = 0});
+}
+
+TEST_CASE("a scene that fills its part of the cache loses its own files first, but for the last one") {
+  const Folder folder;
+  const auto now = std::filesystem::file_time_type::clock::now();
+  const auto file = [&](std::uint64_t scene, std::uint64_t key) {
+    return prepared_file({.folder = folder.path, .scene = scene}, key);
+  };
+  const auto put = [&](std::uint64_t scene, std::uint64_t key, std::size_t bytes, int hours_ago) {
+    write_bytes(file(scene, key), std::string(bytes, 'x'));
+    std::filesystem::last_write_time(file(scene, key), now - std::chrono::hours(hours_ago));
+  };
+  put(1, 1, 300, 90);  // of another scene, used longest ago of all
+  for (int i = 0; i < 5; ++i) put(2, static_cast<std::uint64_t>(i), 100, 50 - i);
+  const auto left = [&](std::uint64_t scene) {
+    std::set<std::uint64_t> keys;
+    for (std::uint64_t key = 0; key < 5; ++key)
+      if (std::filesystem::exists(file(scene, key))) keys.insert(key);
+    return keys;
+  };
+  PreparedCache cache{.folder = folder.path, .most_bytes = 1000, .most_bytes_of_scene = 250, .scene = 2};
+  trim_cache(cache);
+  CHECK(left(2) == std::set<std::uint64_t>{3, 4});
+  CHECK(left(1) == std::set<std::uint64_t>{1});
+  cache.most_bytes_of_scene = 50;  // less than the last file alone
+  trim_cache(cache);
+  CHECK(left(2) == std::set<std::uint64_t>{4});
+  CHECK(left(1) == std::set<std::uint64_t>{1});
+  cache.most_bytes = 100;
+  trim_cache(cache);
+  CHECK(left(2) == std::set<std::uint64_t>{4});
+  CHECK(left(1).empty());
 }
 
 TEST_CASE("hash: every bit, the length and the order count, on one thread and on all") {
