@@ -16,6 +16,7 @@
 #include "core/json_file.h"
 #include "core/mapped_file.h"
 #include "core/png_file.h"
+#include "scene/cloud/scene_memory.h"
 #include "scene/formats/scene_file.h"
 #include "scene/raster/rasterizer.h"
 
@@ -42,6 +43,7 @@ nlohmann::json info_json(const Scene& scene) {
                          {"file_rows", scene.file_rows},
                          {"gaussians", scene.cloud.size()},
                          {"dropped", scene.dropped},
+                         {"memory_bytes", memory_of_scene(scene.cloud.size(), scene.cloud.sh_degree)},
                          {"sh_degree", scene.cloud.sh_degree},
                          {"bounds_98", {{"min", list(box.min)}, {"max", list(box.max)}}},
                          {"antialiased", scene.cloud.antialiased}};
@@ -50,15 +52,17 @@ nlohmann::json info_json(const Scene& scene) {
 }
 
 void run_info(const SceneArguments& args, const CommonOptions& common) {
-  const Scene scene = args.how.load(args.scene, {}, common.quiet, console_job(common.quiet));
+  const Job job = console_job(common.quiet);
+  const Scene scene = args.how.load(args.scene, {}, common.quiet, job);
   end_progress();
+  stop_if_cancelled(job, "splatcut info");
   const nlohmann::json info = info_json(scene);
   if (args.json) {
     fmt::print("{}\n", json_text(info, 2));
     return;
   }
   for (const auto& [key, value] : info.items())
-    fmt::print("{:<10} {}\n", key, value.is_string() ? value.get<std::string>() : json_text(value));
+    fmt::print("{:<12} {}\n", key, value.is_string() ? value.get<std::string>() : json_text(value));
 }
 
 // Labels in file order, as `cut` writes them, for the Gaussians of the cloud.

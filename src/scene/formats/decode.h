@@ -12,6 +12,7 @@
 
 #include "core/mapped_file.h"
 #include "scene/cloud/morton.h"
+#include "scene/cloud/scene_memory.h"
 #include "scene/formats/scene_file.h"
 #include "scene/packing/unpack.h"
 
@@ -52,6 +53,7 @@ template <class Source>
 void decode_rows(const Source& source, std::size_t rows, int degree, Scene& scene, const Job& job) {
   constexpr std::size_t kGrain = 4096;
   using Range = tbb::blocked_range<std::size_t>;
+  check_memory(scene.path, rows, degree);
   job.progress("reading positions", 0.0);
   std::vector<glm::vec3> positions(rows);
   tbb::parallel_for(Range(0, rows, kGrain), [&](const Range& range) {

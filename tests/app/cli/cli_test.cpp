@@ -466,4 +466,10 @@ TEST_CASE("Ctrl+C ends a run with 1 and leaves nothing half written") {
       CHECK_FALSE(place.exists("stopped"));
       CHECK(place.leftovers().empty());
     }
+  for (const int after_ms : {5, 10, 20, 40}) {
+    CAPTURE(after_ms);
+    const Result result = place.run_interrupted("info large/large.ply --json", after_ms);
+    if (result.code == 1) CHECK_MESSAGE(result.err.find("cancelled") != std::string::npos, result.err);
+    if (result.code == 0) CHECK(json::parse(result.out)["gaussians"] == 300000);  // read whole, never a part
+  }
 }
