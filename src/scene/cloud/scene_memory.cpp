@@ -30,12 +30,12 @@ void check_memory(const std::filesystem::path& file, std::uint64_t gaussians, in
   const std::uint64_t needed = memory_of_scene(gaussians, sh_degree);
   if (!available || needed <= *available) return;
   constexpr double kGb = 1e9;
-  throw Error(file.string(),
-              fmt::format("{} Gaussians of degree {} take {:.1f} GB of memory, and {:.1f} GB are free",
-                          gaussians, sh_degree, static_cast<double>(needed) / kGb,
-                          static_cast<double>(*available) / kGb),
-              "End other programs, take a coarser level (--lod, of a streamed scene), or a file with fewer "
-              "Gaussians or a lower degree of spherical harmonics");
+  throw Error(
+      file.string(),
+      fmt::format("{} Gaussians of degree {} take {:.1f} GB of memory, and {:.1f} GB are free", gaussians,
+                  sh_degree, static_cast<double>(needed) / kGb, static_cast<double>(*available) / kGb),
+      "End other programs, take a coarser level (--lod, of a streamed scene), or a file with fewer "
+      "Gaussians or a lower degree of spherical harmonics");
 }
 
 }  // namespace splatcut

@@ -114,12 +114,16 @@ Place Session::seen_from(const Camera& eye, const glm::vec3& point_world) {
           .eye = eye};
 }
 
+// A splat may show far from its centre: what is hit is no sign that a Gaussian lies near.
 Place Session::first_place(const Camera& eye, const Box& must_hold) const {
   Place place = seen_from(eye, must_hold.centre());
-  const auto gaussians = [&] { return whole_.blocks->count_in(*scene_.cloud, place.cell.box_world()); };
-  for (int i = 0; i < kMostHalvings && gaussians() > scene_.most_gaussians; ++i) {
+  const auto gaussians = [&](const Cell& cell) {
+    return whole_.blocks->count_in(*scene_.cloud, cell.box_world());
+  };
+  while (gaussians(place.cell) == 0) place.cell = cell_around(must_hold.centre(), place.cell.level + 1);
+  for (int i = 0; i < kMostHalvings && gaussians(place.cell) > scene_.most_gaussians; ++i) {
     const Cell half = cell_around(must_hold.centre(), place.cell.level - 1);
-    if (!holds(half, must_hold)) break;
+    if (!holds(half, must_hold) || gaussians(half) == 0) break;
     place.cell = half;
   }
   place.whole = is_whole(place.cell);

@@ -1,0 +1,124 @@
+// A session's first cell is as small as it may be, and grows until what is labelled keeps off its faces. Rooms
+// of random still lifes ask whether it stops too early: the same clicks in cells twice as large and larger.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/counter_rng.h"
+#include "scene/cloud/joined_clouds.h"
+#include "scene/cloud/morton.h"
+#include "scene/still_life/still_life.h"
+#include "segment/session/session.h"
+
+using namespace splatcut;
+
+namespace {
+
+// Rooms apart from each other, so that a cell is seldom the scene.
+struct RandomRooms {
+  std::shared_ptr<const GaussianCloud> cloud;
+  std::vector<CameraStroke> clicks;  // one on each object
+  std::vector<int> object;           // that each click means
+  std::vector<int> of;               // per Gaussian, the object whose surface it is
+
+  explicit RandomRooms(std::uint64_t seed) {
+    constexpr int kRooms = 3, kObjects = 100;
+    CounterRng rng(seed, 7);
+    const auto often = [&](float share) { return rng.between(0, 1) < share; };
+    std::vector<GaussianCloud> rooms;
+    for (int r = 0; r < kRooms; ++r) {
+      StillLifeOptions options;
+      options.gaussians = static_cast<std::size_t>(rng.between(6000, 15000));
+      options.seed = kRooms * seed + static_cast<std::uint64_t>(r);
+      options.sh_degree = 0;
+      options.straddling = often(0.5f);
+      options.skirts = often(0.5f);
+      options.floaters = often(0.5f);
+      options.contact = often(0.3f);
+      options.low_contrast = often(0.3f);
+      LabelledScene room = make_still_life(options);
+      const glm::vec3 step(rng.between(6, 9) * static_cast<float>(r), rng.between(-1, 1), rng.between(-1, 1));
+      for (glm::vec3& position : room.cloud.position) position += step;
+      for (const auto& s : room.seeds) {
+        Camera camera = room.cameras[static_cast<std::size_t>(s.camera)];
+        camera.camera_from_world_translation -= camera.camera_from_world_rotation * step;
+        const auto name = std::ranges::find(room.label_name, s.object) - room.label_name.begin();
+        object.push_back(kObjects * r + static_cast<int>(name));
+        clicks.push_back({camera, click(s.pixel, SeedLabel::kObject)});
+      }
+      for (const std::uint8_t label : room.label) of.push_back(kObjects * r + label);
+      rooms.push_back(std::move(room.cloud));
+    }
+    const GaussianCloud all = joined(std::move(rooms));
+    const std::vector<std::uint32_t> order = morton_order(all.position);
+    cloud = std::make_shared<const GaussianCloud>(permuted(all, order));
+    const std::vector<int> unsorted = std::exchange(of, {});
+    for (const std::uint32_t g : order) of.push_back(unsorted[g]);
+  }
+};
+
+CutResult cut_in(const RandomRooms& rooms, const CameraStroke& click, std::size_t most_gaussians) {
+  Session session({.cloud = rooms.cloud, .most_gaussians = most_gaussians});
+  CutRequest request;
+  request.strokes = {{click.camera, {click.stroke}}};
+  return session.cut(request, preset("fast"));
+}
+
+// Share of what either labels that only one does.
+double difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  std::size_t either = 0, one = 0;
+  for (std::size_t g = 0; g < a.size(); ++g) {
+    either += a[g] || b[g];
+    one += (a[g] != 0) != (b[g] != 0);
+  }
+  return either ? static_cast<double>(one) / static_cast<double>(either) : 0;
+}
+
+}  // namespace
+
+// Where the two differ, one click means one of several parts, and which of them is likeliest turns with the
+// neighbours that a part is weighed beside: over 55 clicks of nine such scenes the small cells were right in .79
+// (IoU with the object), the large ones in .76, and 30 of the 55 labelled the same. Were a cell too small for
+// the object, small ones would lose.
+TEST_CASE("cells: a click labels in a third of the Gaussians what it labels in all of the first cell") {
+  double right_small = 0, right_large = 0;
+  int same = 0, clicks = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const RandomRooms rooms(seed);
+    for (std::size_t i = seed % 3; i < rooms.clicks.size(); i += 3) {
+      CAPTURE(seed);
+      CAPTURE(i);
+      const CutResult large = cut_in(rooms, rooms.clicks[i], rooms.cloud->size());
+      if (large.outcome != Outcome::kDone) continue;
+      const CutResult small = cut_in(rooms, rooms.clicks[i], large.looked_at_gaussians / 3);
+      REQUIRE(small.outcome == Outcome::kDone);
+      if (small.looked_at_gaussians == large.looked_at_gaussians) continue;
+      std::vector<std::uint8_t> truth(rooms.of.size());
+      for (std::size_t g = 0; g < truth.size(); ++g) truth[g] = rooms.of[g] == rooms.object[i];
+      ++clicks;
+      same += difference(small.labels, large.labels) <= 0.01;
+      right_small += 1 - difference(small.labels, truth);
+      right_large += 1 - difference(large.labels, truth);
+    }
+  }
+  CHECK(clicks >= 12);
+  CHECK(same >= 0.6 * clicks);
+  CHECK(right_small / clicks >= right_large / clicks - 0.02);
+}
+
+TEST_CASE("cells: a splat that shows far from its centre is found, though no Gaussian lies where it is hit") {
+  auto cloud = std::make_shared<GaussianCloud>();
+  cloud->resize(1, 0);
+  cloud->position[0] = {0, 0, 4};
+  cloud->scale[0] = glm::vec3(60);
+  cloud->opacity[0] = 0.99f;
+  const Camera camera = look_at({30, 0, 0}, {30, 0, 4}, {0, -1, 0}, 0.9f, 320, 240);
+  Session session({.cloud = cloud});
+  CutRequest request;
+  request.strokes = {{camera, {click({160, 120}, SeedLabel::kObject)}}};
+  const CutResult result = session.cut(request, preset("default"));
+  CHECK(result.labels.size() == 1);
+  CHECK(session.neighbourhoods() == 1);
+}
