@@ -1,5 +1,6 @@
-// A session's first cell is as small as it may be, and grows until what is labelled keeps off its faces. Rooms
-// of random still lifes ask whether it stops too early: the same clicks in cells twice as large and larger.
+// A session's first cell is as small as it may be, and grows until what is labelled keeps off its faces.
+// Rooms of random still lifes ask whether it stops too early: the same clicks in cells twice as large and
+// larger.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -79,9 +80,9 @@ double difference(const std::vector<std::uint8_t>& a, const std::vector<std::uin
 }  // namespace
 
 // Where the two differ, one click means one of several parts, and which of them is likeliest turns with the
-// neighbours that a part is weighed beside: over 55 clicks of nine such scenes the small cells were right in .79
-// (IoU with the object), the large ones in .76, and 30 of the 55 labelled the same. Were a cell too small for
-// the object, small ones would lose.
+// neighbours that a part is weighed beside: over 55 clicks of nine such scenes the small cells were right in
+// .79 (IoU with the object), the large ones in .76, and 30 of the 55 labelled the same. Were a cell too small
+// for the object, small ones would lose.
 TEST_CASE("cells: a click labels in a third of the Gaussians what it labels in all of the first cell") {
   double right_small = 0, right_large = 0;
   int same = 0, clicks = 0;
