@@ -2,8 +2,8 @@
 // without a word.
 //
 // In: how many Gaussians, which degree of spherical harmonics. Out: bytes that loading it and drawing all of
-// it take at their peak, without the mapped file, which the system can drop. Measured from 1.5 to 12 M
-// Gaussians: 82 to 96 bytes each at degree 0 (docs/benchmarks.md).
+// it take at their peak, without the mapped file, which the system can drop. Measured from 2 to 12 M
+// Gaussians: 86 to 94 bytes each at degree 0 (docs/benchmarks.md).
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ struct SurfaceEdge {
   float distance = 0;          // over the spacing
 };
 
-// Each undirected edge of the k-NN lists once, in order of a, b.
+// Each undirected edge of the k-NN lists once, in order of the Gaussian that lists it.
 std::vector<SurfaceEdge> surface_edges(const GaussianCloud& cloud, const SurfaceFeatures& features);
 
 struct Superpoints {

@@ -280,7 +280,8 @@ TEST_CASE("hands: a click that changes nothing is a warning, with what to do") {
   CHECK(last.text.find("changed nothing") != std::string::npos);
 }
 
-TEST_CASE("hands: right after a click + and - step its sizes, as the badges say, and Ctrl grows and shrinks") {
+TEST_CASE(
+    "hands: right after a click + and - step its sizes, as the badges say, and Ctrl grows and shrinks") {
   CHECK(action_for('=', {}) == Action::kPartLarger);
   CHECK(action_for('=', {.shift = true}) == Action::kPartLarger);  // + on many keyboards
   CHECK(action_for('-', {}) == Action::kPartSmaller);
