@@ -321,6 +321,7 @@ struct SaveWork {
   static constexpr bool writes_file = true;
 };
 struct DropAutosave {
+  std::filesystem::path file;  // of work that a crash left
   static constexpr bool at_once = true;
 };
 struct Export {

@@ -3,11 +3,13 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
 
 #include "app/console/kept_inputs.h"
+#include "app/document/words.h"
 #include "app/work/work_history.h"
 #include "core/error.h"
 
@@ -18,7 +20,7 @@ namespace {
 // Changes of the view alone are saved later: the view changes all the time.
 constexpr double kAutosaveAfterSeconds = 2, kAutosaveViewAfterSeconds = 10, kAutosaveAgainSeconds = 30;
 
-std::string work_and_time(const std::filesystem::path& work) {
+LeftWork left_work(const std::filesystem::path& work) {
   std::error_code ignored;  // it may go in this moment
   const auto written = std::chrono::file_clock::to_sys(std::filesystem::last_write_time(work, ignored));
   const std::time_t seconds = std::chrono::system_clock::to_time_t(
@@ -26,10 +28,16 @@ std::string work_and_time(const std::filesystem::path& work) {
   const std::string when = fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(seconds));
   try {
     const std::filesystem::path scene = read_work_file(work).files.front().path;
-    return fmt::format("{}, {}", (scene.parent_path().filename() / scene.filename()).string(), when);
+    return {work, scene,
+            fmt::format("{}, {}", (scene.parent_path().filename() / scene_name(scene)).string(), when)};
   } catch (const Error&) {
-    return when;  // what is wrong with it is said when it is restored
+    return {work, {}, when};  // what is wrong with it is said when it is restored
   }
+}
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  return !a.empty() && !b.empty() && std::filesystem::equivalent(a, b, ignored);
 }
 
 }  // namespace
@@ -37,7 +45,7 @@ std::string work_and_time(const std::filesystem::path& work) {
 SavedWork::SavedWork(Workspace& workspace, Viewport& viewport)
     : ws_(workspace), viewport_(viewport), autosaves_(workspace.options.state_folder) {
   autosaved_serial_ = saved_serial_ = ws_.history.serial();
-  describe_offered();
+  find_offers();
 }
 
 bool SavedWork::unsaved() const {
@@ -46,35 +54,45 @@ bool SavedWork::unsaved() const {
   return (!document.objects.empty() || document.deleted || several) && saved_serial_ != ws_.history.serial();
 }
 
-// What was restored is not offered again while it waits to be saved.
-std::filesystem::path SavedWork::offered() const {
-  const std::filesystem::path left = autosaves_.left_behind();
-  return left == restored_ ? std::filesystem::path() : left;
+// What was restored is not offered again while it waits to be saved. What is known of a file stays: nobody
+// writes it any more.
+void SavedWork::find_offers() {
+  std::vector<LeftWork> found;
+  for (const std::filesystem::path& file : autosaves_.left_behind()) {
+    if (file == restored_) continue;
+    const auto known = std::ranges::find(offers_, file, &LeftWork::file);
+    found.push_back(known == offers_.end() ? left_work(file) : *known);
+  }
+  offers_ = std::move(found);
+  sort_offers();
 }
 
-void SavedWork::describe_offered() {
-  if (autosave_found()) restorable_says_ = work_and_time(offered());
+void SavedWork::sort_offers() {
+  if (!ws_.scene) return;
+  std::ranges::stable_partition(
+      offers_, [&](const LeftWork& left) { return same_file(left.scene, ws_.scene->scene->path); });
 }
 
 void SavedWork::opened(const std::optional<RestoredWork>& work, const std::filesystem::path& file) {
   const bool own = is_work_file(file) && file.parent_path() != ws_.options.state_folder;
   work_path_ = own ? file : std::filesystem::path();
-  if (work && file == offered()) restored_ = file;
+  if (work && std::ranges::find(offers_, file, &LeftWork::file) != offers_.end()) restored_ = file;
   autosaved_serial_ = saved_serial_ = ws_.history.serial();
   autosaved_pose_ = viewport_.camera().kept_pose();
   if (work && !own) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
+  find_offers();
 }
 
 // A program that was killed may hold its autosave for some seconds more.
 void SavedWork::look_for_more(double seconds) {
   constexpr double kEverySeconds = 2, kForSeconds = 60;
-  if (autosave_found() || looked_for_s_ > kForSeconds) return;
+  if (!offers_.empty() || looked_for_s_ > kForSeconds) return;
   const bool now =
       std::floor(looked_for_s_ / kEverySeconds) < std::floor((looked_for_s_ + seconds) / kEverySeconds);
   looked_for_s_ += seconds;
   if (!now) return;
   autosaves_.look_again();
-  describe_offered();
+  find_offers();
 }
 
 void SavedWork::update(double seconds) {
@@ -109,7 +127,7 @@ TaskThread::Work SavedWork::autosaving() {
 void SavedWork::forget_restored(const std::filesystem::path& file) {
   if (file.empty() || file != restored_) return;
   autosaves_.remove(std::exchange(restored_, {}));
-  describe_offered();
+  find_offers();
 }
 
 void SavedWork::keep_unsaved() {
@@ -152,11 +170,12 @@ void SavedWork::perform(const SaveWork& c) {
   });
 }
 
-void SavedWork::perform(const DropAutosave&) {
-  if (!autosave_found()) throw Error("restore", "there is no autosaved work");
-  autosaves_.remove(offered());
+void SavedWork::perform(const DropAutosave& c) {
+  if (std::ranges::find(offers_, c.file, &LeftWork::file) == offers_.end())
+    throw Error("restore", "there is no such work");
+  autosaves_.remove(c.file);
   ws_.say(Message::Kind::kInfo, "The work of last time is gone");
-  describe_offered();
+  find_offers();
 }
 
 }  // namespace splatcut

@@ -15,6 +15,13 @@
 
 namespace splatcut {
 
+// Work that a crash left and that can be restored by opening its file.
+struct LeftWork {
+  std::filesystem::path file;
+  std::filesystem::path scene;  // empty where the file cannot be read
+  std::string says;             // scene and time: "garden/point_cloud.ply, 2026-03-01 18:40"
+};
+
 class SavedWork {
  public:
   SavedWork(Workspace& workspace, Viewport& viewport);
@@ -25,23 +32,22 @@ class SavedWork {
 
   const std::filesystem::path& work_path() const { return work_path_; }  // the user's file; empty: none yet
   bool unsaved() const;
-  // Unsaved work that a crash left is offered until the user restores it, by opening its file, or drops it.
-  bool autosave_found() const { return !offered().empty(); }
-  std::filesystem::path offered() const;  // file of the offered work; empty: none is offered
+  // Unsaved work that crashes left is offered until the user restores it, by opening its file, or drops it:
+  // that of the scene that is open first, then the newest.
+  const std::vector<LeftWork>& offers() const { return offers_; }
   const std::filesystem::path& own_autosave() const { return autosaves_.own(); }
-  // Scene and time of the offered work: "garden/point_cloud.ply, 2026-03-01 18:40".
-  const std::string& autosave_says() const { return restorable_says_; }
 
   // Notes that the workspace has another scene and document. work, file: the work file that they come from,
   // if any.
   void opened(const std::optional<RestoredWork>& work, const std::filesystem::path& file);
   void perform(const SaveWork& c);
-  void perform(const DropAutosave&);
+  void perform(const DropAutosave& c);
 
  private:
   TaskThread::Work autosaving();
   void look_for_more(double seconds);
-  void describe_offered();
+  void find_offers();
+  void sort_offers();
   void forget_restored(const std::filesystem::path& file);
 
   Workspace& ws_;
@@ -50,7 +56,7 @@ class SavedWork {
   Autosaves autosaves_;
   // File that a crash left and that the user opened; it is removed once the work is in another file.
   std::filesystem::path restored_;
-  std::string restorable_says_;
+  std::vector<LeftWork> offers_;
   double looked_for_s_ = 0;
   // Serials of the documents that the autosave and the user's file hold; 0: the file holds none.
   std::uint64_t autosaved_serial_ = 0, saved_serial_ = 0;

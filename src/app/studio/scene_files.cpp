@@ -46,9 +46,10 @@ void SceneFiles::stop_for_loading() {
 
 void SceneFiles::perform(const OpenScene& c) {
   const std::uint64_t serial = next_scene_serial_++;
-  const bool restores = work_.autosave_found() && c.path == work_.offered();
-  ws_.say(Message::Kind::kInfo, restores ? "Restoring the work of last time: " + work_.autosave_says()
-                                         : "Opening " + scene_name(c.path));
+  const auto& offers = work_.offers();
+  const auto left = std::ranges::find(offers, c.path, &LeftWork::file);
+  ws_.say(Message::Kind::kInfo,
+          left == offers.end() ? "Opening " + scene_name(c.path) : "Restoring unsaved work: " + left->says);
   stop_for_loading();
   changing_to_.clear();
   std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes}};

@@ -166,7 +166,7 @@ void objects_panel(UiContext& ui) {
   if (!section(ui, "Objects")) return;
   const auto& objects = ui.studio.document().objects;
   if (objects.empty()) wrapped_muted(ui, "Click an object in the picture: it appears here.");
-  if (objects.empty() && ui.studio.scene() && ui.studio.work().autosave_found()) restore_buttons(ui);
+  if (objects.empty() && ui.studio.scene() && !ui.studio.work().offers().empty()) left_work_list(ui);
   for (const ObjectItem& object : objects) object_row(ui, object);
   action_button(ui, Action::kNewObject, fmt::format("{} New object", icon::kPlus).c_str(), false, -1);
   if (const ObjectItem* active = ui.studio.document().active_object())

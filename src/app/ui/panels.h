@@ -60,7 +60,7 @@ void export_preview(UiContext& ui, const glm::vec2& size_points);
 void turntable_dialog(UiContext& ui);
 void quit_dialog(UiContext& ui);
 void open_anyway_dialog(UiContext& ui);
-void restore_buttons(UiContext& ui);  // for work of last time
+void left_work_list(UiContext& ui);  // work that crashes left
 void recent_list(UiContext& ui);
 void file_dialog(UiContext& ui);  // and what follows from the choice
 void replace_dialog(UiContext& ui);

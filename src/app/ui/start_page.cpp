@@ -9,13 +9,25 @@
 
 namespace splatcut {
 
-void restore_buttons(UiContext& ui) {
-  wrapped_muted(ui, "Not saved last time: " + ui.studio.work().autosave_says());
-  if (button(ui, fmt::format("{} Restore the work of last time", icon::kRefresh).c_str(),
-             "It was saved by itself before the program ended"))
-    ui.ask(OpenScene{ui.studio.work().offered()});  // asks where other work would be lost
-  ImGui::SameLine(0, 4);
-  if (button(ui, icon::kTrash, "Throw that work away")) ui.ask(DropAutosave{});
+// A row for each: the whole row restores it, the button at its end throws it away.
+void left_work_list(UiContext& ui) {
+  constexpr float kThrow = 34;
+  constexpr std::size_t kMostShown = 5;
+  const std::vector<LeftWork>& offers = ui.studio.work().offers();
+  muted_text(ui, "Not saved when the program ended. Click to restore:");
+  for (std::size_t i = 0; i < std::min(offers.size(), kMostShown); ++i) {
+    const LeftWork& left = offers[i];
+    ImGui::PushID(left.file.c_str());
+    const float width = ImGui::GetContentRegionAvail().x - kThrow - 4;
+    if (button(ui, fmt::format("{}  {}", icon::kRefresh, left.says).c_str(),
+               "Strokes, objects and history, saved by themselves", {}, i == 0, width))
+      ui.ask(OpenScene{left.file});  // asks where other work would be lost
+    ImGui::SameLine(0, 4);
+    if (button(ui, icon::kTrash, "Throw that work away", {}, false, kThrow)) ui.ask(DropAutosave{left.file});
+    ImGui::PopID();
+  }
+  if (offers.size() > kMostShown)
+    muted_text(ui, fmt::format("and {} older, offered once these are done with", offers.size() - kMostShown));
 }
 
 void recent_list(UiContext& ui) {
@@ -43,9 +55,9 @@ void start_page(UiContext& ui, const UiRect& area) {
     if (button(ui, "Open the sample scene", "A still life on a table, to try things on"))
       ui.ask(OpenScene{ui.state.sample});
   }
-  if (ui.studio.work().autosave_found()) {
+  if (!ui.studio.work().offers().empty()) {
     ImGui::Dummy({0, 4});
-    restore_buttons(ui);
+    left_work_list(ui);
   }
   if (!ui.state.recent.empty()) {
     ImGui::Dummy({0, 6});

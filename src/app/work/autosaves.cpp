@@ -66,8 +66,10 @@ void Autosaves::hold_own(const std::filesystem::path& folder) {
   }
 }
 
-std::filesystem::path Autosaves::left_behind() const {
-  return left_.empty() ? std::filesystem::path() : left_.back().file;
+std::vector<std::filesystem::path> Autosaves::left_behind() const {
+  std::vector<std::filesystem::path> files;
+  for (const Held& held : left_) files.insert(files.begin(), held.file);
+  return files;
 }
 
 void Autosaves::remove(const std::filesystem::path& file) {

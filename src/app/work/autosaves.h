@@ -20,9 +20,9 @@ class Autosaves {
 
   // File of this program; empty: this program must not write one.
   const std::filesystem::path& own() const { return own_.file; }
-  // The newest file that a crashed program left; empty: there is none. This object holds its lock, so that no
-  // other program offers it.
-  std::filesystem::path left_behind() const;
+  // Files that crashed programs left, the newest first. This object holds their locks, so that no other
+  // program offers them.
+  std::vector<std::filesystem::path> left_behind() const;
   // Looks again for files that crashed programs left: one may have been about to end before.
   void look_again() {
     if (!folder_.empty()) hold_left_behind(folder_);

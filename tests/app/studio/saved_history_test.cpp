@@ -71,7 +71,7 @@ TEST_CASE("saved work: what was done before a crash can be undone after it, and 
     REQUIRE(history.cursor() + 2 == steps.size());
   }  // no leave(): as if it had crashed
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
-  app.studio().apply(OpenScene{app.studio().work().offered()});
+  app.studio().apply(OpenScene{app.studio().work().offers().front().file});
   REQUIRE(app.settle());
   const History& history = app.studio().history();
   CHECK(titles(history) == steps);

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -147,7 +148,7 @@ TEST_CASE("work is saved by itself and offered after a crash") {
     ApplicationOptions options = with_kept_scenes();
     options.studio.state_folder = folder.path();
     HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
-    CHECK_FALSE(app.studio().work().autosave_found());
+    CHECK(app.studio().work().offers().empty());
     opened(app);
     app.click(app.screen_of(kOnApple));
     REQUIRE(app.settle());
@@ -163,8 +164,8 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   ApplicationOptions options = with_kept_scenes();
   options.studio.state_folder = folder.path();
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
-  CHECK(app.studio().work().autosave_found());
-  CHECK(app.studio().work().autosave_says().starts_with("sample/sample.compressed.ply, 20"));
+  CHECK(!app.studio().work().offers().empty());
+  CHECK(app.studio().work().offers().front().says.starts_with("sample/sample.compressed.ply, 20"));
   // Started with a scene and worked on: what is offered is still there.
   opened(app);
   app.click(app.screen_of(kOnOrange));
@@ -174,15 +175,15 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   CHECK(std::filesystem::exists(folder / "autosave.splatcut.json"));
   CHECK(app.studio().work().own_autosave() == folder / "autosave.2.splatcut.json");
   CHECK(std::filesystem::exists(folder / "autosave.2.splatcut.json"));
-  REQUIRE(app.studio().work().autosave_found());
-  app.studio().apply(OpenScene{app.studio().work().offered()});
+  REQUIRE(app.studio().work().offers().size() == 1);
+  const std::string says = app.studio().work().offers().front().says;
+  app.studio().apply(OpenScene{app.studio().work().offers().front().file});
   REQUIRE(app.settle());
   CHECK(same(app.studio().document(), saved));
   CHECK(app.studio().camera().pose() == pose);
-  CHECK(std::ranges::any_of(app.studio().messages(), [&](const Message& m) {
-    return m.text == "Restoring the work of last time: " + app.studio().work().autosave_says();
-  }));
-  CHECK_FALSE(app.studio().work().autosave_found());
+  CHECK(std::ranges::any_of(app.studio().messages(),
+                            [&](const Message& m) { return m.text == "Restoring unsaved work: " + says; }));
+  CHECK(app.studio().work().offers().empty());
   CHECK(app.studio().unsaved());  // it is nowhere else yet
   app.frames(60 * 3);
   REQUIRE(app.settle());
@@ -215,13 +216,13 @@ TEST_CASE("work of a program that a signal ends is offered as it was, without a 
   }
   {  // restored and ended again before it is saved by itself: offered once
     HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
-    app.studio().apply(OpenScene{app.studio().work().offered()});
+    app.studio().apply(OpenScene{app.studio().work().offers().front().file});
     while (!app.studio().scene()) app.frames(1);
     app.studio().keep_unsaved();
   }
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
-  REQUIRE(app.studio().work().autosave_found());
-  const std::filesystem::path offered = app.studio().work().offered();
+  REQUIRE(!app.studio().work().offers().empty());
+  const std::filesystem::path offered = app.studio().work().offers().front().file;
   std::size_t works = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
     works += entry.path().filename().string().ends_with(".splatcut.json");
@@ -251,11 +252,45 @@ TEST_CASE("work of a program that ends a little later is offered, too") {
   options.studio.state_folder = folder.path();
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
   app.frames(60 * 3);
-  CHECK_FALSE(app.studio().work().autosave_found());
+  CHECK(app.studio().work().offers().empty());
   ::close(lock);
   app.frames(60 * 3);
-  CHECK(app.studio().work().autosave_found());
-  CHECK(app.studio().work().autosave_says().starts_with("sample/sample.compressed.ply, 20"));
+  CHECK(!app.studio().work().offers().empty());
+  CHECK(app.studio().work().offers().front().says.starts_with("sample/sample.compressed.ply, 20"));
+}
+
+TEST_CASE("of several works left by crashes, that of the open scene is offered first, then the newest") {
+  const ScratchFolder folder("state_several");
+  const auto left = [&](const char* name, const std::filesystem::path& scene, int hours_ago) {
+    Document document;
+    add_object(&document, name);
+    write_work_file(folder / name, *open_scene(scene), document);
+    std::filesystem::last_write_time(
+        folder / name, std::filesystem::file_time_type::clock::now() - std::chrono::hours(hours_ago));
+  };
+  left("autosave.splatcut.json", kSmallSample, 5);
+  left("autosave.2.splatcut.json", kSample, 3);
+  left("autosave.3.splatcut.json", kSample, 4);
+  ApplicationOptions options = with_kept_scenes();
+  options.studio.state_folder = folder.path();
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  const auto order = [&] {
+    std::string numbers;
+    for (const LeftWork& work : app.studio().work().offers())
+      numbers += work.file == folder / "autosave.splatcut.json"     ? "1"
+                 : work.file == folder / "autosave.2.splatcut.json" ? "2"
+                                                                    : "3";
+    return numbers;
+  };
+  CHECK(order() == "231");
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  CHECK(order() == "123");
+  app.studio().apply(DropAutosave{folder / "autosave.2.splatcut.json"});
+  CHECK(order() == "13");
+  CHECK_FALSE(std::filesystem::exists(folder / "autosave.2.splatcut.json"));
+  app.studio().apply(DropAutosave{folder / "autosave.2.splatcut.json"});
+  CHECK(app.studio().messages().back().kind == Message::Kind::kRefused);
 }
 
 TEST_CASE("work that was saved by itself stays offered where its scene cannot be opened") {
@@ -270,15 +305,15 @@ TEST_CASE("work that was saved by itself stays offered where its scene cannot be
   ApplicationOptions options = with_kept_scenes();
   options.studio.state_folder = folder.path();
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
-  app.studio().apply(OpenScene{app.studio().work().offered()});
+  app.studio().apply(OpenScene{app.studio().work().offers().front().file});
   REQUIRE(app.settle());
   CHECK(app.studio().messages().back().text.find("moved.compressed.ply") != std::string::npos);
-  CHECK(app.studio().work().autosave_found());
+  CHECK(!app.studio().work().offers().empty());
   std::filesystem::rename(folder / "elsewhere", moved);
-  app.studio().apply(OpenScene{app.studio().work().offered()});
+  app.studio().apply(OpenScene{app.studio().work().offers().front().file});
   REQUIRE(app.settle());
   CHECK(app.studio().document().objects.size() == 1);
-  CHECK_FALSE(app.studio().work().autosave_found());
+  CHECK(app.studio().work().offers().empty());
 }
 
 TEST_CASE("work that could not be saved by itself is saved once it can be, without another change") {
@@ -377,11 +412,11 @@ TEST_CASE("two programs save by themselves beside each other, neither offers wha
   Autosaves one(folder.path());
   const Autosaves two(folder.path());
   CHECK(one.own() != two.own());
-  CHECK(one.left_behind() == then_left);  // the newest first
-  CHECK(two.left_behind().empty());       // the other offers them
+  CHECK(one.left_behind() == std::vector{then_left, first_left});  // the newest first
+  CHECK(two.left_behind().empty());                                // the other offers them
   one.remove(then_left);
   CHECK_FALSE(std::filesystem::exists(then_left));
-  CHECK(one.left_behind() == first_left);
+  CHECK(one.left_behind() == std::vector{first_left});
   one.remove(first_left);
   CHECK(one.left_behind().empty());
 }
