@@ -138,7 +138,7 @@ ObjectItem& add_object(Document* document, std::string name) {
 }
 
 void stand_out(Document* document, ObjectId object, const glm::vec3& under) {
-  constexpr float kShows = 0.6f;
+  constexpr float kShows = 0.75f;
   ObjectItem& item = *document->find(object);
   const bool taken = std::ranges::any_of(document->objects, [&](const ObjectItem& other) {
     return other.id != object && other.colour == item.colour;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <thread>
 
 #include "app/console/kept_inputs.h"
@@ -25,11 +26,13 @@ LeftWork left_work(const std::filesystem::path& work) {
   const auto written = std::chrono::file_clock::to_sys(std::filesystem::last_write_time(work, ignored));
   const std::time_t seconds = std::chrono::system_clock::to_time_t(
       std::chrono::time_point_cast<std::chrono::system_clock::duration>(written));
-  const std::string when = fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(seconds));
+  const std::tm then = fmt::localtime(seconds), now = fmt::localtime(std::time(nullptr));
+  const bool today = then.tm_year == now.tm_year && then.tm_yday == now.tm_yday;
+  const std::string when = today ? fmt::format("{:%H:%M}", then) : fmt::format("{:%Y-%m-%d}", then);
   try {
     const std::filesystem::path scene = read_work_file(work).files.front().path;
     return {work, scene,
-            fmt::format("{}, {}", (scene.parent_path().filename() / scene_name(scene)).string(), when)};
+            fmt::format("{}  {}", when, (scene.parent_path().filename() / scene_name(scene)).string())};
   } catch (const Error&) {
     return {work, {}, when};  // what is wrong with it is said when it is restored
   }
@@ -69,8 +72,8 @@ void SavedWork::find_offers() {
 
 void SavedWork::sort_offers() {
   if (!ws_.scene) return;
-  std::ranges::stable_partition(
-      offers_, [&](const LeftWork& left) { return same_file(left.scene, ws_.scene->scene->path); });
+  std::stable_partition(offers_.begin(), offers_.end(),
+                        [&](const LeftWork& left) { return same_file(left.scene, ws_.scene->scene->path); });
 }
 
 void SavedWork::opened(const std::optional<RestoredWork>& work, const std::filesystem::path& file) {

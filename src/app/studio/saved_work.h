@@ -19,7 +19,7 @@ namespace splatcut {
 struct LeftWork {
   std::filesystem::path file;
   std::filesystem::path scene;  // empty where the file cannot be read
-  std::string says;             // scene and time: "garden/point_cloud.ply, 2026-03-01 18:40"
+  std::string says;  // time and scene: "18:40  garden/point_cloud.ply", "2026-03-01  garden/point_cloud.ply"
 };
 
 class SavedWork {

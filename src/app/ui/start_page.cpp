@@ -14,13 +14,14 @@ void left_work_list(UiContext& ui) {
   constexpr float kThrow = 34;
   constexpr std::size_t kMostShown = 5;
   const std::vector<LeftWork>& offers = ui.studio.work().offers();
-  muted_text(ui, "Not saved when the program ended. Click to restore:");
+  wrapped_muted(ui, "Not saved when the program ended. Click to restore:");
   for (std::size_t i = 0; i < std::min(offers.size(), kMostShown); ++i) {
     const LeftWork& left = offers[i];
     ImGui::PushID(left.file.c_str());
     const float width = ImGui::GetContentRegionAvail().x - kThrow - 4;
     if (button(ui, fmt::format("{}  {}", icon::kRefresh, left.says).c_str(),
-               "Strokes, objects and history, saved by themselves", {}, i == 0, width))
+               left.scene.string() + "\nStrokes, objects and history, saved by themselves", {}, i == 0,
+               width))
       ui.ask(OpenScene{left.file});  // asks where other work would be lost
     ImGui::SameLine(0, 4);
     if (button(ui, icon::kTrash, "Throw that work away", {}, false, kThrow)) ui.ask(DropAutosave{left.file});

@@ -256,9 +256,10 @@ void write_prepared(const std::filesystem::path& path, std::uint64_t key, const 
 void trim_cache(const PreparedCache& cache) {
   std::vector<KeptFile> files = kept_files(cache.folder);
   const std::string of_scene = fmt::format("{:016x}-", cache.scene);
-  const auto others = std::ranges::stable_partition(
-      files, [&](const KeptFile& file) { return file.path.filename().string().starts_with(of_scene); });
-  const std::span<KeptFile> own(files.begin(), others.begin());
+  const auto others = std::stable_partition(files.begin(), files.end(), [&](const KeptFile& file) {
+    return file.path.filename().string().starts_with(of_scene);
+  });
+  const std::span<KeptFile> own(files.begin(), others);
   if (!own.empty()) remove_oldest(own.first(own.size() - 1), cache.most_bytes_of_scene, own.back().bytes);
   std::erase_if(files, [](const KeptFile& file) { return file.bytes == 0; });
   std::ranges::stable_sort(files, {}, &KeptFile::used);
