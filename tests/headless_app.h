@@ -25,8 +25,8 @@ namespace splatcut::testing {
 
 inline const std::filesystem::path kSampleFolder = project_folder() + "/assets/sample";
 inline const std::filesystem::path kSample = kSampleFolder / "sample.compressed.ply";
-// The same table of 3,000 Gaussians, seen by the same cameras: for what the hands do, not what is cut. Made
-// by `splatcut-lab make-scene small_sample --gaussians 3000 --format compressed.ply`.
+// The same table in 3,000 Gaussians, with the sample's cameras (a link): for tests of what hands do, not of
+// what is cut. Made by `splatcut-lab make-scene small_sample --gaussians 3000 --format compressed.ply`.
 inline const std::filesystem::path kSmallSample =
     project_folder() + "/tests/data/small_sample/small_sample.compressed.ply";
 

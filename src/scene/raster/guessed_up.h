@@ -27,9 +27,8 @@ glm::vec3 guessed_up(const GaussianCloud& cloud);
 // Whether the scene stands, -y up, or is on its head: things stand wide and with most of their surface low.
 //   evidence = low / 0.1 + ln(spread of the lower third / spread of the upper third) / 0.5
 // low: how far below the middle the mean of y lies, in heights of the scene; spread: standard deviation
-// across y; both weighted by opacity and volume^(2/3). Where a ground lies across z (see above), whether +z
-// is its upper side. None where neither is clear, and
-// of fewer than 100 Gaussians.
+// across y; both weighted by opacity and volume^(2/3). If a ground lies across z (see above), whether +z is
+// its upper side decides. None: neither is clear, or there are fewer than 100 Gaussians.
 std::optional<bool> stands(const GaussianCloud& cloud);
 
 // Of a scene that comes with cameras: the mean up direction of cameras held by a person; where they are
