@@ -225,7 +225,7 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
                      "Weight of the neighbour term in the last cut, 0 to 500: as the window's slider");
   command
       .add_option("--scale", args->scale,
-                  "Next larger (+1, +2, ...) or smaller (-1, ...) part for the first click")
+                  "Next larger (+1, +2, ...) or smaller (-1, ...) part for the first click or box")
       ->check(CLI::Range(-100, 100));
   add_setting_options(command, &args->preset, &args->set);
   command.add_flag("--coarse", args->coarse, "Threshold the likelihood instead of the cut");

@@ -131,8 +131,9 @@ const ClickMeanings* Clicks::meanings(const ObjectItem& object) const {
 
 const ClickMeanings* Clicks::offer() const {
   const ObjectItem* object = ws_.document().active_object();
-  if (!object || object->locked || ws_.view.tool != Tool::kClick || ws_.view.display != DisplayMode::kWhole ||
-      ws_.view.heat || strokes_of(*object) != 1)
+  const bool asks = ws_.view.tool == Tool::kClick || ws_.view.tool == Tool::kBox;
+  if (!object || object->locked || !asks || ws_.view.display != DisplayMode::kWhole || ws_.view.heat ||
+      strokes_of(*object) != 1)
     return nullptr;
   const ClickMeanings* known = meanings(*object);
   return known && known->outlines.size() > 1 && known->key != declined_offer_ ? known : nullptr;

@@ -23,8 +23,8 @@ class Clicks {
   void update();
   void pointer_inside(bool inside) { pointer_inside_ = inside; }  // says if the pointer is in the viewport
 
-  // Meanings of the active object's first click, offered until the object gets another stroke; null: no
-  // offer.
+  // Meanings of the active object's first click or box, offered until the object gets another stroke; null:
+  // no offer.
   const ClickMeanings* offer() const;
   bool decline_offer();  // withdraws the offer; returns false if there is none
   // Sizes next to the one taken, shown for a while after a click or a step of the wheel; null: none are

@@ -77,7 +77,7 @@ std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
   const ClickMeanings* offer = ui.studio.clicks().offer();
   if (!offer) return {};
   constexpr float kPad = 8, kButton = 26;
-  const std::string text = "other meanings of this click  (Esc: keep this one)";
+  const std::string text = "what else this can mean  (Esc: keep this one)";
   const int taken = ui.studio.document().active_object()->choice;
   const auto count = static_cast<float>(offer->outlines.size());
   const ImVec2 words = ImGui::CalcTextSize(text.c_str());

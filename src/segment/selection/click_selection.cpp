@@ -14,16 +14,6 @@ namespace {
 
 constexpr int kReachPx = 4;  // a click beside the scene's edge still hits it
 
-// Per node of the chain: the pixels that would show it.
-std::vector<float> displayed_px(const LeafView& view, const Chain& chain) {
-  std::vector<float> px(chain.nodes.size(), 0);
-  const Image<std::uint32_t> levels = shown_from(view, chain.level);
-  for (const std::uint32_t from : levels.pixels())
-    if (from != kNoLevel) px[from] += 1;
-  for (std::size_t n = 1; n < px.size(); ++n) px[n] += px[n - 1];
-  return px;
-}
-
 glm::ivec2 nearest_pixel(const Camera& camera, const glm::vec2& point) {
   return {std::clamp(static_cast<int>(point.x), 0, camera.width_px - 1),
           std::clamp(static_cast<int>(point.y), 0, camera.height_px - 1)};
@@ -134,16 +124,15 @@ std::span<const Mask> ClickSelection::meanings() const {
   return offers_ ? std::span<const Mask>(offers_->masks) : std::span<const Mask>();
 }
 
-// Offers the likeliest meaning, then those that are nearly as likely and look clearly different.
+// Offers the likeliest meaning, then the next likely ones that look clearly different.
 void ClickSelection::note_offers(const LeafView& view, const Answers& found) {
   Offers offers;
   std::vector<std::vector<std::uint8_t>> taken;  // leaves of each
   for (const Candidate& candidate : found.candidates) {
     if (std::ssize(offers.meant) == kMostMeanings ||
-        candidate.cost > found.candidates.front().cost + model_.doubt)
+        candidate.cost > found.candidates.front().cost + model_.offered)
       break;
-    std::vector<std::uint8_t> leaves(parts_.leaves);
-    for (std::uint32_t l = 0; l < parts_.leaves; ++l) leaves[l] = found.changes(candidate, l);
+    std::vector<std::uint8_t> leaves = leaves_changed(found, candidate);
     if (std::ranges::any_of(taken, [&](const auto& other) { return look_alike(view, other, leaves); }))
       continue;
     offers.meant.push_back(candidate);
@@ -153,44 +142,43 @@ void ClickSelection::note_offers(const LeafView& view, const Answers& found) {
   offers_ = std::make_shared<const Offers>(std::move(offers));
 }
 
-// Applies the chosen meaning and size, and notes which sizes there are.
-void ClickSelection::note_first(const LeafView& view, const Answers& found, Candidate* best) {
+// Notes the meanings and the sizes of the one that is chosen. Returns the leaves of the size that is taken.
+std::vector<std::uint8_t> ClickSelection::first_leaves(const LeafView& view, const Answers& found) {
   note_offers(view, found);
   choice_taken_ = std::min(static_cast<std::size_t>(std::max(choice_, 0)), offers_->meant.size() - 1);
-  if (choice_taken_ > 0) *best = offers_->meant[choice_taken_];
-  constexpr float kNextSize = 1.15f;  // in pixels that show it; less is not told apart
-  const Chain& chain = found.chains[best->chain];
-  const std::vector<float> px = displayed_px(view, chain);
-  std::vector<std::size_t> distinct{best->index};
-  for (std::size_t i = best->index; i-- > 0;)
-    if (px[i] >= kLeastChangePx && px[i] * kNextSize <= px[distinct.front()])
-      distinct.insert(distinct.begin(), i);
-  const std::size_t likeliest = distinct.size() - 1;
-  for (std::size_t i = best->index + 1; i < px.size(); ++i)
-    if (px[i] >= std::max(kLeastChangePx, kNextSize * px[distinct.back()])) distinct.push_back(i);
+  const Candidate& chosen = offers_->meant[choice_taken_];
   constexpr float kAlike = 1.5f;
+  const float chosen_px = found.chains[chosen.chain].changed_px[chosen.index];
   ambiguous_ = std::ranges::any_of(found.candidates, [&](const Candidate& c) {
-    const float folds = found.chains[c.chain].changed_px[c.index] / chain.changed_px[best->index];
-    return c.cost < best->cost + model_.doubt && (folds > kAlike || folds < 1 / kAlike);
+    const float folds = found.chains[c.chain].changed_px[c.index] / chosen_px;
+    return c.cost < chosen.cost + model_.doubt && (folds > kAlike || folds < 1 / kAlike);
   });
-  const auto wanted = static_cast<std::ptrdiff_t>(likeliest) + part_step_;
-  likeliest_size_ = likeliest;
-  sizes_ = distinct.size();
-  size_ = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(wanted, 0, std::ssize(distinct) - 1));
-  best->index = distinct[size_];
-  NextSizes next;
-  if (size_ > 0) next.smaller = shown_at(view, found, *best, distinct[size_ - 1]);
-  if (size_ + 1 < sizes_) next.larger = shown_at(view, found, *best, distinct[size_ + 1]);
-  next_sizes_ = std::make_shared<const NextSizes>(std::move(next));
+  std::vector<PartMeaning> all;
+  for (const std::vector<Candidate>* some : {&found.candidates, &found.unlikely})
+    for (const Candidate& c : *some)
+      all.push_back({static_cast<std::uint32_t>(c.chain), found.chains[c.chain].nodes[c.index], {}, c.cost});
+  return note_sizes(view, part_sizes(parts_, leaves_changed(found, chosen), all, view.leaf_px));
 }
 
-// The candidate in another size of its chain, as the view shows it.
-Mask ClickSelection::shown_at(const LeafView& view, const Answers& found, Candidate candidate,
-                              std::size_t index) const {
-  candidate.index = index;
+// Notes which sizes there are. Returns the leaves of the one that part_step_ asks for.
+std::vector<std::uint8_t> ClickSelection::note_sizes(const LeafView& view, const PartSizes& sizes) {
+  sizes_ = sizes.count;
+  likeliest_size_ = sizes.taken;
+  const auto wanted = static_cast<std::ptrdiff_t>(sizes.taken) + part_step_;
+  size_ = static_cast<std::size_t>(
+      std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(sizes.count) - 1));
+  NextSizes next;
+  if (size_ > 0) next.smaller = shown(view.leaves, view.camera, sizes.leaves(size_ - 1));
+  if (size_ + 1 < sizes_) next.larger = shown(view.leaves, view.camera, sizes.leaves(size_ + 1));
+  next_sizes_ = std::make_shared<const NextSizes>(std::move(next));
+  return sizes.leaves(size_);
+}
+
+std::vector<std::uint8_t> ClickSelection::leaves_changed(const Answers& found,
+                                                         const Candidate& candidate) const {
   std::vector<std::uint8_t> leaves(parts_.leaves);
   for (std::uint32_t l = 0; l < parts_.leaves; ++l) leaves[l] = found.changes(candidate, l);
-  return shown(view.leaves, view.camera, leaves);
+  return leaves;
 }
 
 struct ClickSelection::Asked {
@@ -228,15 +216,14 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool obj
   const std::vector<std::uint32_t> certain_px = disc(view.camera, at, radius_px, least_radius_px);
   Answers found = answers(parts_, selected_, click, model_);
   if (found.candidates.empty()) return false;
-  Candidate best = found.candidates.front();
   std::vector<std::uint8_t> certain(parts_.leaves, 0);
   if (any_) {
     certain = certain_leaves(view, certain_px);
+    change_leaves(leaves_changed(found, found.candidates.front()), certain, click);
   } else {
-    note_first(view, found, &best);
     certain[leaf] = 1;
+    change_leaves(first_leaves(view, found), certain, click);
   }
-  change_leaves(found, best, certain, click);
   if (!any_) selected_.first = std::make_shared<const Answers>(std::move(found));
   any_ = true;
   label();
@@ -245,13 +232,13 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool obj
   return true;
 }
 
-void ClickSelection::change_leaves(const Answers& found, const Candidate& best,
+void ClickSelection::change_leaves(const std::vector<std::uint8_t>& meant,
                                    const std::vector<std::uint8_t>& certain, const Click& click) {
   const std::int8_t sign = click.object ? 1 : -1;
   Change change{.leaves = {}, .object = click.object};
   bool followed = false;
   for (std::uint32_t l = 0; l < parts_.leaves; ++l) {
-    const bool follows = found.changes(best, l) && selected_.said[l] != -sign;
+    const bool follows = meant[l] && selected_.said[l] != -sign;
     if (certain[l]) selected_.said[l] = sign;
     if (!certain[l] && !follows) continue;
     if ((selected_.object[l] != 0) != click.object) {

@@ -30,6 +30,7 @@
 #include "segment/masks/seeds.h"
 #include "segment/selection/candidates.h"
 #include "segment/selection/leaf_view.h"
+#include "segment/selection/part_sizes.h"
 #include "segment/superpoints/part_model.h"
 
 namespace splatcut {
@@ -38,7 +39,7 @@ inline constexpr int kMostMeanings = 3;  // limit of meanings of a first click t
 
 class ClickSelection {
  public:
-  // choice: number of the meaning of the first click to take, 0 the likeliest; see meanings(). part_step:
+  // choice: number of the meaning of the first stroke to take, 0 the likeliest; see meanings(). part_step:
   // number of sizes above (+) or below (-) that meaning's own. Both are clamped to what there is. parts must
   // outlive this.
   ClickSelection(const PartHierarchy& parts, const SelectionModel& model, int part_step = 0, int choice = 0);
@@ -59,19 +60,20 @@ class ClickSelection {
   // Sign per Gaussian that a stroke has decided: +1 object, -1 rest; 0: no stroke has.
   const std::vector<std::int8_t>& said() const { return said_; }
 
-  // Sizes that the first click can mean: their number, the index of the one taken, and that at part_step 0.
+  // Sizes of the first stroke's meaning (part_sizes.h): their number, the index of the one taken, and that at
+  // part_step 0.
   std::size_t sizes() const { return sizes_; }
   std::size_t size() const { return size_; }
   std::size_t likeliest_size() const { return likeliest_size_; }
-  // Masks of the next smaller and the next larger size in the first click's view; empty: there is none.
+  // Masks of the next smaller and the next larger size in the first stroke's view; empty: there is none.
   const Mask& smaller() const { return next_sizes_->smaller; }
   const Mask& larger() const { return next_sizes_->larger; }
   // True if a clearly larger or smaller part was nearly as likely.
   bool ambiguous() const { return ambiguous_; }
 
-  // Masks of the first click's meanings in its view, the likeliest first: those that are nearly as likely as
-  // the best and look clearly different, at most kMostMeanings. Empty before the first click. For a box, the
-  // first is what the trees agree on, and the others are single parts.
+  // Masks of the first click's meanings in its view, the likeliest first: those that are not far less likely
+  // than the best and look clearly different, at most kMostMeanings. Empty before the first click. For a box,
+  // the first is what the trees agree on, and the others are single parts.
   std::span<const Mask> meanings() const;
   std::size_t choice() const { return choice_taken_; }  // index of the meaning that is taken
 
@@ -90,9 +92,10 @@ class ClickSelection {
   std::vector<std::uint32_t> disc(const Camera& camera, const glm::ivec2& at, float radius_px,
                                   float least_radius_px) const;
   void note_offers(const LeafView& view, const Answers& answers);
-  void note_first(const LeafView& view, const Answers& answers, Candidate* best);
-  Mask shown_at(const LeafView& view, const Answers& answers, Candidate candidate, std::size_t index) const;
-  void change_leaves(const Answers& answers, const Candidate& best, const std::vector<std::uint8_t>& certain,
+  std::vector<std::uint8_t> first_leaves(const LeafView& view, const Answers& answers);
+  std::vector<std::uint8_t> note_sizes(const LeafView& view, const PartSizes& sizes);
+  std::vector<std::uint8_t> leaves_changed(const Answers& answers, const Candidate& candidate) const;
+  void change_leaves(const std::vector<std::uint8_t>& meant, const std::vector<std::uint8_t>& certain,
                      const Click& click);
   enum class Pin { kAll, kSaidAlready };
   void pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object, Pin which = Pin::kAll);

@@ -109,7 +109,8 @@ struct SelectionModel {
   float disc_majority = 0.5f;    // of a leaf's or Gaussian's pixels that must lie in the disc
   float least_visible = 0.3f;    // share of a leaf that the view must show for the disc to decide it
   float nearer_majority = 0.5f;  // of trees, for a leaf to follow a correction
-  float doubt = 0.7f;            // ln 2: what is at least half as likely as the likeliest is offered
+  float offered = 4;             // ln 55: what is at least a 55th as likely as the likeliest is offered
+  float doubt = 0.7f;            // ln 2: a part of another size that is half as likely makes it ambiguous
 
   SelectionModel();
   bool operator==(const SelectionModel&) const = default;
@@ -123,11 +124,12 @@ struct MaskToPartsOptions {
 
 struct PartModel {
   // Whoever changes a value raises the version and says here what was searched on what.
+  // Version 11: other meanings are offered down to a 55th of the likelihood, a half before (docs/clicks.md).
   // Version 10: what boxes mean is set by hand, on the scenes of docs/clicks.md and eleven more.
   // Version 9: what a first click means is fitted by `splatcut-lab fit` on the scenes of docs/clicks.md,
   // which shows the fit without each of the captures; what corrections mean is set by hand on the same
   // scenes, last the cost of a click on the rest that takes nearly all of the object (Term::kTakes).
-  static constexpr int kVersion = 10;
+  static constexpr int kVersion = 11;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;

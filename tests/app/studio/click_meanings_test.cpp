@@ -159,7 +159,7 @@ TEST_CASE("clicks: the next sizes show for a while, and are what the wheel takes
     artist.app->handle(WheelTurned{-1, {.shift = true}});
     artist.app->handle(WheelTurned{-1, {.shift = true}});
     REQUIRE(artist.app.settle());
-    CHECK(iou(smaller, artist.shown(artist.labels())) > 0.85);
+    CHECK(iou(smaller, artist.shown(artist.labels())) > 0.8);  // the cut moves its border
   }
   REQUIRE(artist.studio().clicks().sizes());
   CHECK(artist.studio().update(0.1));  // the window goes on drawing while they fade

@@ -22,8 +22,7 @@ TEST_CASE("selection: one size smaller and larger, beyond the last there is none
   CHECK(selection.size() == 2);
 }
 
-TEST_CASE(
-    "selection: what is at least half as likely and shows something else is offered, and can be chosen") {
+TEST_CASE("selection: what is likely enough and shows something else is offered, and can be chosen") {
   // Costs by hand: .09 ln(border / size) is -.65 for the pair, -.06 for all four, 0 for the leaf.
   SelectionModel unsure = borders_alone();
   weight(&unsure.first, Term::kCut) = 0.09f;
