@@ -90,6 +90,22 @@ nlohmann::json zoom_json(const GaussianCloud& cloud, const AnyViewWorld& world,
   return zoom;
 }
 
+// Of the first strokes: what is offered, and the best of that.
+nlohmann::json offers_json(const AnyViewWorld& world, const std::vector<AnyViewStart>& starts, Steps* steps,
+                           const Job& job) {
+  double likeliest = 0, best = 0, offered = 0;
+  for (const AnyViewStart& start : starts) {
+    steps->next();
+    const std::vector<double> iou = iou_of_meanings(world, {start.camera, start.first}, job);
+    if (job.cancelled()) return {};
+    likeliest += iou.front();
+    best += std::ranges::max(iou);
+    offered += static_cast<double>(iou.size());
+  }
+  const auto count = static_cast<double>(starts.size());
+  return {{"likeliest", likeliest / count}, {"best", best / count}, {"offered", offered / count}};
+}
+
 // The case on a copy of its scene, which must outlive it.
 EvaluationCase on_copy(const EvaluationCase& test, const SceneCopy& copy) {
   EvaluationCase there = test;
@@ -197,6 +213,16 @@ void print_sessions(const std::vector<nlohmann::json>& rows) {
   }
 }
 
+void print_offers(const std::vector<nlohmann::json>& rows) {
+  fmt::print("\noffers: the likeliest meaning of the first click, the best that is offered, how many are\n");
+  for (const nlohmann::json& r : rows) {
+    fmt::print("{:<16}", r.value("name", ""));
+    for (const char* what : {"likeliest", "best", "offered"})
+      fmt::print(" {:>6}", text(r, std::string("/offers/") + what, "{:.3f}"));
+    fmt::print("\n");
+  }
+}
+
 void print_zoom(const std::vector<nlohmann::json>& rows) {
   fmt::print("\nzoom: the first click alone from so many times the distance\n{:<16}", "scene");
   for (const float f : kZooms) fmt::print(" {:>6g}", f);
@@ -274,6 +300,7 @@ nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& opt
   const std::size_t sessions_asked = steady.size() * static_cast<std::size_t>(options.draws);
   Steps steps(scene.name,
               sessions_asked + (options.zoom ? kZooms.size() * steady.size() : 0) +
+                  (options.choices ? steady.size() : 0) +
                   kReplayed.size() * steady.size() * static_cast<std::size_t>(options.copies),
               job);
   std::vector<AnyViewSession> sessions;
@@ -289,6 +316,7 @@ nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& opt
     }
   nlohmann::json result = {{"any_view", sessions_json(sessions, options.clicks)}};
   result["any_view"]["views"] = views.size();
+  if (options.choices) result["offers"] = offers_json(world, steady, &steps, silent);
   if (options.zoom) result["zoom"] = zoom_json(*scene.cloud, world, steady, &steps, silent);
   sessions.resize(steady.size());  // of the steady hand
   if (options.copies > 0) result["perturb"] = perturb_json(loaded, views, sessions, options, &steps, job);
@@ -299,6 +327,7 @@ void print_any_view(const nlohmann::json& result) {
   std::vector<nlohmann::json> rows = result.at("scenes");
   rows.push_back(result.at("mean"));
   print_sessions(rows);
+  if (rows.back().contains("offers")) print_offers(rows);
   if (rows.back().contains("zoom")) print_zoom(rows);
   if (rows.back().contains("perturb")) print_copies(rows);
 }

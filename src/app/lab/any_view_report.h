@@ -5,11 +5,13 @@
 // of iou_after_clicks over sessions, the least and the 10th percentile; "most_fall": the largest worst_fall;
 // "views", "clicks", "sessions": [{"start", "draw", "choice", "iou_after", "obeyed", "clicks", "doubts"}]; a
 // box among the clicks has its other corner as "to".
-// NoC: 20 where the IoU is never reached. "zoom": {"0.4", "0.6", "1", "2", "4"}: image IoU of the first click
-// alone with the camera at so many times the distance, mean over starts. "perturb": {"copies", "1" | "3" |
-// "5" | "10": {"median", "least", "spread", "difference", "most_difference"}}: the same clicks on copies of
-// the scene: mean over starts of the IoU's median, least and spread (largest less least) over the copies; the
-// median and the largest of |IoU of a copy - IoU of the scene| over starts and copies.
+// NoC: 20 where the IoU is never reached. "offers": {"likeliest", "best", "offered"}: image IoU of the first
+// stroke's likeliest meaning and of the best that is offered, and how many are; means over starts. "zoom":
+// {"0.4", "0.6", "1", "2", "4"}: image IoU of the first click alone with the camera at so many times the
+// distance, mean over starts. "perturb": {"copies", "1" | "3" | "5" | "10": {"median", "least", "spread",
+// "difference", "most_difference"}}: the same clicks on copies of the scene: mean over starts of the IoU's
+// median, least and spread (largest less least) over the copies; the median and the largest of |IoU of a copy
+// - IoU of the scene| over starts and copies.
 #pragma once
 
 #include <functional>
@@ -36,7 +38,7 @@ struct AnyViewOptions {
   std::function<void(const std::string& name, const Image<Rgb8>& sheet)> on_sheet{};
 };
 
-// {"any_view": ..., and "zoom", "perturb" where asked}. Cancelled: incomplete.
+// {"any_view": ..., and "offers", "zoom", "perturb" where asked}. Cancelled: incomplete.
 nlohmann::json any_view_json(const LoadedCase& loaded, const AnyViewOptions& options, const Job& job);
 
 // "any_view" of these sessions.

@@ -158,6 +158,18 @@ double iou_of_clicks(const AnyViewWorld& world, std::span<const ViewClick> click
   return job.cancelled() ? 0 : mean_iou(world, pictures(world, answer.labels));
 }
 
+std::vector<double> iou_of_meanings(const AnyViewWorld& world, const ViewClick& first, const Job& job) {
+  std::vector<double> found;
+  std::size_t offered = 1;
+  for (int choice = 0; choice < static_cast<int>(offered); ++choice) {
+    const CutAnswer answer = world.cut(std::span(&first, 1), choice, job);
+    if (job.cancelled()) break;
+    offered = std::max(answer.meanings.size(), offered);
+    found.push_back(mean_iou(world, pictures(world, answer.labels)));
+  }
+  return found;
+}
+
 WindowCut::WindowCut(const EvaluationCase& scene, const std::string& preset)
     : session_({borrowed(scene.cloud), {}, scene.up_world, scene.scene_cameras, scene.prepare}),
       settings_(splatcut::preset(preset)) {}

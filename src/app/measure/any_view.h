@@ -83,6 +83,9 @@ AnyViewSession any_view_session(const AnyViewWorld& world, const AnyViewStart& s
 // Mean image IoU over the views of these clicks.
 double iou_of_clicks(const AnyViewWorld& world, std::span<const ViewClick> clicks, const Job& job = {});
 
+// The same of a first stroke by each of its meanings that are offered, the likeliest first.
+std::vector<double> iou_of_meanings(const AnyViewWorld& world, const ViewClick& first, const Job& job = {});
+
 // The cut of the window on one scene: what is prepared, the solver and the views drawn last serve all
 // sessions.
 class WindowCut {

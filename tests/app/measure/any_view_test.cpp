@@ -113,6 +113,22 @@ TEST_CASE("any view: clicks, obedience, falls and clicks to a goal are those cou
   CHECK(j["obeyed"].get<double>() == doctest::Approx(0.8));
 }
 
+TEST_CASE("any view: each meaning that is offered is scored over all views") {
+  const Mask wide = block(2, 1, 5, 3), square = block(4, 2, 3, 3), none(kWidth, kHeight);
+  Toy toy(wide, square);
+  const AnyViewStart start = toy.start_in_1({5.5f, 2.5f});
+  const std::vector<std::pair<Mask, Mask>> by_choice = {{none, square}, {wide, none}, {wide, square}};
+  toy.world.cut = [&](std::span<const ViewClick> clicks, int choice, const Job&) {
+    REQUIRE(clicks.size() == 1);
+    const auto& [a, b] = by_choice.at(static_cast<std::size_t>(choice));
+    CutAnswer answer{.labels = {}, .doubts = {}, .meanings = {square, none, square}};
+    for (const Mask* m : {&a, &b})
+      for (const std::uint8_t p : m->pixels()) answer.labels.push_back(p != 0);
+    return answer;
+  };
+  CHECK(iou_of_meanings(toy.world, {start.camera, start.first}) == std::vector<double>{0.5, 0.5, 1});
+}
+
 TEST_CASE("any view: an offered meaning is taken by what the clicked view shows, and costs a click") {
   const Mask wide = block(2, 1, 5, 3), square = block(4, 2, 3, 3), none(kWidth, kHeight);
   const std::vector<Mask> offered = {block(4, 2, 3, 1), none, square};  // IoU 1/3, 0, 1 in the clicked view
