@@ -54,6 +54,11 @@ Image<Pixel> read_pixels(const std::filesystem::path& path, png_uint_32 format) 
   return image;
 }
 
+Rgb8 rgb8(const glm::vec3& colour) {
+  const glm::vec3 v = glm::clamp(colour, 0.0f, 1.0f) * 255.0f + 0.5f;
+  return {static_cast<std::uint8_t>(v.r), static_cast<std::uint8_t>(v.g), static_cast<std::uint8_t>(v.b)};
+}
+
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Image<Rgb8>& image) {
@@ -82,12 +87,17 @@ Image<std::uint8_t> read_png_grey(const std::filesystem::path& path) {
 
 Image<Rgb8> rgb8_from_linear(const Image<glm::vec3>& colour) {
   Image<Rgb8> out(colour.width(), colour.height());
-  std::transform(colour.pixels().begin(), colour.pixels().end(), out.pixels().begin(),
-                 [](const glm::vec3& c) {
-                   const glm::vec3 v = glm::clamp(c, 0.0f, 1.0f) * 255.0f + 0.5f;
-                   return Rgb8{static_cast<std::uint8_t>(v.r), static_cast<std::uint8_t>(v.g),
-                               static_cast<std::uint8_t>(v.b)};
-                 });
+  std::ranges::transform(colour.pixels(), out.pixels().begin(), rgb8);
+  return out;
+}
+
+Image<Rgba8> rgba8_from_premultiplied(const Image<glm::vec3>& colour, const Image<float>& alpha) {
+  Image<Rgba8> out(colour.width(), colour.height());
+  std::ranges::transform(colour.pixels(), alpha.pixels(), out.pixels().begin(),
+                         [](const glm::vec3& c, float a) {
+                           const Rgb8 rgb = rgb8(a > 0 ? c / a : glm::vec3(0));
+                           return Rgba8{rgb[0], rgb[1], rgb[2], static_cast<std::uint8_t>(a * 255 + 0.5f)};
+                         });
   return out;
 }
 

@@ -20,5 +20,7 @@ Image<std::uint8_t> read_png_grey(const std::filesystem::path& path);
 
 // Clamps to [0, 1] and rounds.
 Image<Rgb8> rgb8_from_linear(const Image<glm::vec3>& colour);
+// Straight alpha of colours that are multiplied by their alpha (0 to 1); black where alpha is 0.
+Image<Rgba8> rgba8_from_premultiplied(const Image<glm::vec3>& colour, const Image<float>& alpha);
 
 }  // namespace splatcut

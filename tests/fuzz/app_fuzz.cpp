@@ -1,7 +1,7 @@
 // Readers above the layer `scene`: what is meant, what is kept, suites.
 #include <cstring>
 
-#include "app/cli/many_objects.h"
+#include "app/cli/cut_objects.h"
 #include "app/cli/segmenter.h"
 #include "app/console/camera_options.h"
 #include "app/console/seeds_file.h"

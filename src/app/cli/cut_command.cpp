@@ -8,8 +8,7 @@
 #include <memory>
 
 #include "app/cli/commands.h"
-#include "app/cli/cutout_files.h"
-#include "app/cli/many_objects.h"
+#include "app/cli/cut_report.h"
 #include "app/cli/object_options.h"
 #include "app/cli/work_cut.h"
 #include "app/console/camera_options.h"
@@ -52,27 +51,6 @@ CutSettings settings_of(const CutArguments& args) {
   return settings;
 }
 
-void print_summary(const CutArguments& args, const Scene& scene, const nlohmann::json& report) {
-  if (report.contains("objects")) {
-    for (const auto& o : report["objects"])
-      fmt::print("{}: {} of {} Gaussians\n", o["file"].get<std::string>(), o["gaussians"].get<std::size_t>(),
-                 scene.cloud.size());
-    fmt::print(
-        "{}: NAME.ply NAME.labels.u8 NAME.png NAME.tint.png NAME.masks.png of each, rest.ply rest.png "
-        "labels.u8 report.json\n",
-        args.output.string());
-    return;
-  }
-  fmt::print("{} of {} Gaussians cut out in {:.0f} ms\n", report["object"]["gaussians"].get<std::size_t>(),
-             scene.cloud.size(), report["total_ms"].get<double>());
-  if (report["edges"].contains("why_kept"))
-    fmt::print("edges are kept: {}\n", report["edges"]["why_kept"].get<std::string>());
-  for (const auto& stage : report["stages"])
-    fmt::print("  {:<16} {:8.0f} ms\n", stage["name"].get<std::string>(), stage["ms"].get<double>());
-  fmt::print("{}: object.ply rest.ply labels.u8 object.png rest.png tint.png masks.png report.json\n",
-             args.output.string());
-}
-
 nlohmann::json settings_json(const CutArguments& args, const ObjectInput& input, const ChosenCamera& chosen,
                              const CutSettings& settings) {
   nlohmann::json json = {
@@ -102,14 +80,45 @@ Session session_of(const std::shared_ptr<const Scene>& scene, const ChosenCamera
                   .prepare = {.observing = {}, .model = {}, .cache = cache}});
 }
 
-CutResult cut_one_object(Session* session, const CutRequest& request, const CutSettings& settings,
-                         const Job& job) {
-  CutResult result = session->cut(request, settings, job);
-  end_progress();
+// The request of the command line, or that of each object of --seeds.
+std::vector<CutObject> objects_of(const CutArguments& args, const ObjectInput& input, const Scene& scene,
+                                  bool quiet, const Job& job, ChosenCamera* chosen) {
+  RequestRemarks remarks;
+  CutRequest request = request_of(input, args.camera, scene.cloud, job, chosen, &remarks);
+  if (!remarks.understood.empty() && !quiet) {
+    end_progress();
+    to_stderr(remarks.understood + "\n");
+  }
+  for (const std::string& remark : remarks.warnings) warn(remark, quiet);
   stop_if_cancelled(job, "splatcut cut");
-  if (result.outcome == Outcome::kNothingFound)
-    throw Error("splatcut cut", "no object was found: " + result.reason);
-  return result;
+  std::vector<CutObject> objects = objects_of(input.objects, *chosen, args.camera);
+  if (objects.empty()) objects.push_back({{}, std::move(request), chosen->camera, {}});
+  for (CutObject& object : objects) {
+    object.request.part_step = args.scale;
+    check_inside(object.request);
+  }
+  return objects;
+}
+
+void warn_of_doubts(const std::vector<CutObject>& objects, bool quiet) {
+  for (const CutObject& object : objects) {
+    const std::string whose = object.name.empty() ? "" : object.name + ": ";
+    for (const std::string& sentence : doubts(object.result)) warn(whose + sentence, quiet);
+    if (object.name.empty() && object.result.ambiguous && !quiet)
+      to_stderr("--scale takes a smaller or a larger one\n");
+  }
+}
+
+std::vector<EdgesReport> write_cutouts(const CutoutFolder& to, const std::vector<CutObject>& objects,
+                                       const Job& job) {
+  std::vector<EdgesReport> edges;
+  for (const CutObject& object : objects) {
+    const ObjectView shown{object.camera, object.result.views};
+    edges.push_back(write_object(to, files_of(object), object.result.labels, &shown, job));
+    end_progress();
+    stop_if_cancelled(job, "splatcut cut");
+  }
+  return edges;
 }
 
 // The work file gives scene, strokes and settings.
@@ -147,56 +156,24 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   warn(chosen.warning, common.quiet);
   const CutSettings settings = settings_of(args);
   if (input.segmenter) end_progress();  // the program prints to the same place
-  RequestRemarks remarks;
-  CutRequest request = request_of(input, args.camera, scene->cloud, job, &chosen, &remarks);
-  request.part_step = args.scale;
-  if (!remarks.understood.empty() && !common.quiet) {
-    end_progress();
-    to_stderr(remarks.understood + "\n");
-  }
-  for (const std::string& remark : remarks.warnings) warn(remark, common.quiet);
-  stop_if_cancelled(job, "splatcut cut");
-  for (const StrokedView& view : request.strokes) check_inside(view.strokes, view.camera);
-  const ManyObjects many{*scene, chosen, args.camera, settings, args.scale, input.objects, args.edges};
-  check_objects(many);
+  std::vector<CutObject> objects = objects_of(args, input, *scene, common.quiet, job, &chosen);
   const nlohmann::json said = settings_json(args, input, chosen, settings);
   Session session = session_of(scene, chosen, prepared_cache(common));
-  nlohmann::json json;
-  if (input.objects.empty()) {
-    CutResult result = cut_one_object(&session, request, settings, job);
-    for (const std::string& sentence : doubts(result)) warn(sentence, common.quiet);
-    if (result.ambiguous && !common.quiet) to_stderr("--scale takes a smaller or a larger one\n");
-    result.stages.insert(result.stages.begin(), {"load", load_ms});
-    const CutoutObject object(*scene, result.labels, args.edges,
-                              {chosen.up_world, chosen.given, session.blocks()}, job);
-    end_progress();
-    stop_if_cancelled(job, "splatcut cut");
-    result.stages.push_back({"edges", object.ms()});
-    if (std::ranges::all_of(result.labels, [](std::uint8_t l) { return l != 0; }))
-      warn("the cut takes the whole scene: rest.ply holds no Gaussians", common.quiet);
-    json = report_json(*scene, result, said, ms_since_start());
-    json["edges"] = object.report();
-    write_cutout_scenes(folder, *scene, result.labels, object);
-    write_cutout_pictures(folder, {scene->cloud, nullptr, &session.blocks()}, chosen.camera, result, object);
-  } else {
-    json = cut_many_objects(many, &session, folder, job);
-    end_progress();
-    stop_if_cancelled(job, "splatcut cut");
-    for (const auto& object : json["objects"])
-      for (const auto& sentence : object["doubts"])
-        warn(fmt::format("{}: {}", object["name"].get<std::string>(), sentence.get<std::string>()),
-             common.quiet);
-    const nlohmann::json load = {{"name", "load"}, {"ms", load_ms}};
-    json["stages"].insert(json["stages"].begin(), load);
-    json.update(run_json(*scene, said, ms_since_start()));
-  }
-  write_text_file(folder.file("report.json"), json_text(json, 2) + "\n");
+  const std::vector<std::uint8_t> owner = cut_objects(&objects, &session, settings, job);
+  end_progress();
+  stop_if_cancelled(job, "splatcut cut");
+  warn_of_doubts(objects, common.quiet);
+  RunReport report{*scene, said, objects, {}, 0, load_ms, ms_since_start()};
+  const CutoutFolder to{folder, *scene, session.blocks(), chosen.up_world, chosen.given, args.edges};
+  report.edges = write_cutouts(to, objects, job);
+  for (const EdgesReport& edges : report.edges) report.total_ms += edges.ms;
+  report.rest = write_rest(to, owner, chosen.camera);
+  if (report.rest == 0) warn("the cut takes the whole scene: rest.ply holds no Gaussians", common.quiet);
+  const std::string text = json_text(report_json(report), 2) + "\n";
+  write_text_file(folder.file("report.json"), text);
   stop_if_cancelled(job, "splatcut cut");
   folder.commit();
-  if (args.json)
-    fmt::print("{}\n", json_text(json, 2));
-  else if (!common.quiet)
-    print_summary(args, *scene, json);
+  if (!common.quiet || args.json) fmt::print("{}", args.json ? text : summary(report, args.output.string()));
 }
 
 }  // namespace

@@ -1,40 +1,28 @@
 #include "app/cli/cutout_files.h"
 
-#include <sys/resource.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/console/version.h"
+#include "app/document/export_plan.h"
 #include "core/atomic_file.h"
 #include "core/png_file.h"
 #include "segment/masks/mask_tools.h"
-#include "segment/session/doubts.h"
 
 namespace splatcut {
 
 namespace {
 
-std::vector<std::uint8_t> inverted(const std::vector<std::uint8_t>& labels) {
-  std::vector<std::uint8_t> out(labels.size());
-  std::ranges::transform(labels, out.begin(), [](std::uint8_t l) { return static_cast<std::uint8_t>(!l); });
-  return out;
-}
-
-// Colour with straight alpha: the cutout on nothing.
-Image<Rgba8> cutout_picture(const Drawer& scene, const Camera& camera, std::span<const std::uint8_t> shown) {
+// The cutout on nothing.
+void write_cutout_picture(const std::filesystem::path& path, const Drawer& scene, const Camera& camera,
+                          std::span<const std::uint8_t> shown) {
   RasterOptions options;
   options.shown = shown;
   const RasterOutput out = scene.draw(camera, options);
-  Image<Rgba8> picture(camera.width_px, camera.height_px);
-  for (std::size_t i = 0; i < picture.size(); ++i) {
-    const float alpha = out.alpha.pixels()[i];
-    const glm::vec3 c = alpha > 0 ? glm::clamp(out.colour.pixels()[i] / alpha, 0.0f, 1.0f) : glm::vec3(0);
-    const auto byte = [](float v) { return static_cast<std::uint8_t>(v * 255 + 0.5f); };
-    picture.pixels()[i] = {byte(c.r), byte(c.g), byte(c.b), byte(alpha)};
-  }
-  return picture;
+  write_png(path, rgba8_from_premultiplied(out.colour, out.alpha));
 }
 
 // The mask in warm orange over the dimmed picture, with a bright outline.
@@ -80,27 +68,7 @@ Image<Rgb8> contact_sheet(const Drawer& scene, const std::vector<ViewReport>& vi
   return sheet;
 }
 
-}  // namespace
-
-void write_cutout_picture(const std::filesystem::path& path, const Drawer& scene, const Camera& camera,
-                          std::span<const std::uint8_t> shown) {
-  write_png(path, cutout_picture(scene, camera, shown));
-}
-
-void write_object_pictures(const OutputFolder& folder, const Drawer& scene, const Camera& camera,
-                           const CutResult& report, const CutoutObject& object, const PictureNames& names) {
-  object.draw(folder.file(names.object), camera);
-  const Mask seen = thresholded(render_labels(scene, camera, report.labels), 0.5f);
-  write_png(folder.file(names.tint), tinted_view(scene, camera, seen));
-  write_png(folder.file(names.masks), contact_sheet(scene, report.views));
-}
-
-void write_cutout_pictures(const OutputFolder& folder, const Drawer& scene, const Camera& camera,
-                           const CutResult& report, const CutoutObject& object) {
-  write_object_pictures(folder, scene, camera, report, object);
-  write_cutout_picture(folder.file("rest.png"), scene, camera, inverted(report.labels));
-}
-
+// A byte for each row of the file, 0 for rows that the cloud lacks.
 void write_labels(const std::filesystem::path& path, const Scene& scene,
                   const std::vector<std::uint8_t>& labels) {
   std::vector<std::uint8_t> in_file_order(scene.file_rows, 0);
@@ -110,65 +78,75 @@ void write_labels(const std::filesystem::path& path, const Scene& scene,
   file.commit();
 }
 
-void write_object_files(const OutputFolder& folder, const Scene& scene, const std::string& name,
-                        const CutoutObject& object, const std::vector<std::uint8_t>& labels) {
-  object.save(folder.file(name + ".ply"));
-  write_labels(folder.file(name + ".labels.u8"), scene, labels);
+}  // namespace
+
+void EdgeOptions::add_to(CLI::App& command) {
+  command
+      .add_option("--edges", edges,
+                  "clean: the object without what the scene around it had hidden, where its views agree; "
+                  "keep: its rows as they are")
+      ->check(CLI::IsMember({"clean", "keep"}))
+      ->capture_default_str();
 }
 
-void write_cutout_scenes(const OutputFolder& folder, const Scene& scene,
-                         const std::vector<std::uint8_t>& labels, const CutoutObject& object) {
-  object.save(folder.file("object.ply"));
-  SaveOptions rest;
-  rest.may_be_empty = true;
-  save_scene(folder.file("rest.ply"), scene, inverted(labels), SceneFormat::kPly, rest);
-  write_labels(folder.file("labels.u8"), scene, labels);
-}
-
-double peak_rss_mb() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-nlohmann::json run_json(const Scene& scene, const nlohmann::json& settings, double total_ms) {
-  return {{"version", version()},
-          {"settings", settings},
-          {"scene",
-           {{"gaussians", scene.cloud.size()}, {"file_rows", scene.file_rows}, {"dropped", scene.dropped}}},
-          {"total_ms", total_ms},
-          {"peak_rss_mb", peak_rss_mb()}};
-}
-
-nlohmann::json object_json(const CutResult& report) {
-  nlohmann::json views = nlohmann::json::array(), stages = nlohmann::json::array();
-  for (const ViewReport& view : report.views) {
-    views.push_back({{"used", view.used}, {"confidence", view.confidence}, {"mask_px", count(view.mask)}});
-    if (!view.reason.empty()) views.back()["reason"] = view.reason;
+nlohmann::json EdgesReport::json() const {
+  nlohmann::json json = {{"edges", clean && clean->cleaned ? "clean" : "keep"}, {"gaussians", gaussians}};
+  if (!clean) return json;
+  json.update({{"views", clean->views}, {"agreed", clean->agreed}, {"ms", ms}});
+  if (!clean->cleaned) {
+    json["why_kept"] = clean->reason;
+    return json;
   }
-  for (const StageTime& stage : report.stages) stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
-  const LookedAt enough = looked_at(report.views);
-  return {{"object", {{"gaussians", std::ranges::count(report.labels, 1)}}},
-          {"views", views},
-          {"enough",
-           {{"views", enough.views},
-            {"pixels", enough.pixels},
-            {"gaussians", report.cut.touched},
-            {"why", report.why_enough}}},
-          {"cut",
-           {{"nodes", report.cut.nodes},
-            {"arcs", report.cut.arcs},
-            {"energy", report.cut.energy},
-            {"flow", report.cut.flow}}},
-          {"doubts", doubts(report)},
-          {"stages", stages}};
+  if (clean->uncut) json["uncut"] = true;
+  json.update({{"left", clean->left},
+               {"split", clean->split},
+               {"made_solid", clean->made_solid},
+               {"recoloured", clean->recoloured}});
+  return json;
 }
 
-nlohmann::json report_json(const Scene& scene, const CutResult& report, const nlohmann::json& settings,
-                           double total_ms) {
-  nlohmann::json json = run_json(scene, settings, total_ms);
-  json.update(object_json(report));
-  return json;
+ObjectFiles files_of_object(const std::string& name) {
+  return {name + ".ply", name + ".labels.u8", name + ".png", name + ".tint.png", name + ".masks.png"};
+}
+
+ObjectFiles files_of_only_object() {
+  return {"object.ply", "", "object.png", "tint.png", "masks.png"};
+}
+
+EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
+                         const std::vector<std::uint8_t>& labels, const ObjectView* shown, const Job& job) {
+  EdgesReport report;
+  std::optional<CleanObject> clean;
+  if (to.edges.clean()) {
+    const auto start = std::chrono::steady_clock::now();
+    clean = clean_object({to.drawer(), labels, to.up_world, to.cameras}, {}, job);
+    report.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    report.clean = clean->report;
+    if (!clean->report.cleaned) clean.reset();
+  }
+  if (job.cancelled()) return report;
+  report.gaussians = save_gaussians(to.folder.file(files.scene), to.scene, labels,
+                                    clean ? &clean->cloud : nullptr, SceneFormat::kPly)
+                         .gaussians;
+  if (!files.labels.empty()) write_labels(to.folder.file(files.labels), to.scene, labels);
+  if (!shown) return report;
+  write_cutout_picture(to.folder.file(files.picture), clean ? Drawer(clean->cloud) : to.drawer(),
+                       shown->camera, clean ? std::span<const std::uint8_t>() : labels);
+  const Mask seen = thresholded(render_labels(to.drawer(), shown->camera, labels), 0.5f);
+  write_png(to.folder.file(files.tint), tinted_view(to.drawer(), shown->camera, seen));
+  write_png(to.folder.file(files.masks), contact_sheet(to.drawer(), shown->views));
+  return report;
+}
+
+std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner, const Camera& camera) {
+  std::vector<std::uint8_t> rest(owner.size());
+  std::ranges::transform(owner, rest.begin(),
+                         [](std::uint8_t o) { return static_cast<std::uint8_t>(o == 0); });
+  const SaveReport saved =
+      save_scene(to.folder.file("rest.ply"), to.scene, rest, SceneFormat::kPly, {.may_be_empty = true});
+  write_cutout_picture(to.folder.file("rest.png"), to.drawer(), camera, rest);
+  write_labels(to.folder.file("labels.u8"), to.scene, owner);
+  return saved.gaussians;
 }
 
 }  // namespace splatcut

@@ -1,57 +1,75 @@
-// The files that `splatcut cut` writes: scenes, labels, pictures, report.
+// The files that `splatcut cut` writes of its objects: scenes, labels, pictures.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "app/cli/cutout_object.h"
 #include "app/console/output_folder.h"
 #include "scene/formats/scene_file.h"
 #include "scene/raster/projected_view.h"
+#include "segment/finish/clean.h"
 #include "segment/session/cut_result.h"
+
+namespace CLI {
+class App;
+}
 
 namespace splatcut {
 
-// object.png, rest.png, tint.png from `camera`, masks.png of the views.
-void write_cutout_pictures(const OutputFolder& folder, const Drawer& scene, const Camera& camera,
-                           const CutResult& report, const CutoutObject& object);
+struct EdgeOptions {
+  std::string edges = "clean";
 
-struct PictureNames {
-  std::string object = "object.png", tint = "tint.png", masks = "masks.png";
+  void add_to(CLI::App& command);  // which must not outlive this
+  bool clean() const { return edges == "clean"; }
 };
-// The same without rest.png.
-void write_object_pictures(const OutputFolder& folder, const Drawer& scene, const Camera& camera,
-                           const CutResult& report, const CutoutObject& object,
-                           const PictureNames& names = {});
 
-// The Gaussians whose flag in `shown` is 1, all where it is empty, on nothing.
-void write_cutout_picture(const std::filesystem::path& path, const Drawer& scene, const Camera& camera,
-                          std::span<const std::uint8_t> shown);
+// What was done to the edges of an object.
+struct EdgesReport {
+  std::optional<CleanReport> clean;  // none: --edges keep
+  std::size_t gaussians = 0;         // written
+  double ms = 0;
 
-// A byte for each row of the file, 0 for rows that the cloud lacks.
-void write_labels(const std::filesystem::path& path, const Scene& scene,
-                  const std::vector<std::uint8_t>& labels);
+  std::string why_kept() const { return clean && !clean->cleaned ? clean->reason : std::string(); }
+  nlohmann::json json() const;  // {"edges": "clean" or "keep", ...}
+};
 
-// NAME.ply and NAME.labels.u8.
-void write_object_files(const OutputFolder& folder, const Scene& scene, const std::string& name,
-                        const CutoutObject& object, const std::vector<std::uint8_t>& labels);
+// The scene that objects are written of, and the folder that they are written to.
+struct CutoutFolder {
+  const OutputFolder& folder;
+  const Scene& scene;
+  const CloudBlocks& blocks;  // of the scene
+  glm::vec3 up_world;         // of the scene, as are the cameras of its capture
+  std::span<const Camera> cameras;
+  const EdgeOptions& edges;
 
-// object.ply, rest.ply (for .ply sources rows unchanged; without Gaussians where all are the object's),
-// labels.u8 in file order.
-void write_cutout_scenes(const OutputFolder& folder, const Scene& scene,
-                         const std::vector<std::uint8_t>& labels, const CutoutObject& object);
+  Drawer drawer() const { return {scene.cloud, nullptr, &blocks}; }
+};
 
-// The report's entries for the whole run: version, settings, scene, time, memory.
-nlohmann::json run_json(const Scene& scene, const nlohmann::json& settings, double total_ms);
-// Its entries for one object: views, cut, stages.
-nlohmann::json object_json(const CutResult& report);
-// Both.
-nlohmann::json report_json(const Scene& scene, const CutResult& report, const nlohmann::json& settings,
-                           double total_ms);
+// Names of an object's files; an empty one is not written.
+struct ObjectFiles {
+  std::string scene, labels, picture, tint, masks;
+};
+ObjectFiles files_of_object(const std::string& name);  // NAME.ply, NAME.labels.u8, NAME.png, ...
+ObjectFiles files_of_only_object();                    // object.ply, object.png, tint.png, masks.png
 
-double peak_rss_mb();
+// How an object is shown in its pictures.
+struct ObjectView {
+  const Camera& camera;
+  const std::vector<ViewReport>& views;  // drawn side by side
+};
+
+// labels: per Gaussian, 1 = object. shown: null where no picture is written. The scene's file holds the
+// object with clean edges where these are asked for and can be had, else its rows as they are. Throws Error
+// as save_scene() does. Cancelled: files are missing.
+EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
+                         const std::vector<std::uint8_t>& labels, const ObjectView* shown, const Job& job);
+
+// rest.ply (without Gaussians where all are an object's), rest.png from `camera`, and labels.u8: `owner` in
+// file order. Returns the number of Gaussians of the rest.
+std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner, const Camera& camera);
 
 }  // namespace splatcut

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/many_objects.h"
+#include "app/cli/cut_objects.h"
 #include "app/cli/segmenter.h"
 #include "app/console/camera_options.h"
 #include "segment/masks/seeds.h"

@@ -16,29 +16,35 @@ namespace splatcut {
 
 namespace {
 
-// Of every object with Gaussians; what report.json says of them.
-nlohmann::json write_objects(const Document& document, const OpenedScene& opened, const EdgeOptions& edges,
-                             const OutputFolder& folder, const Job& job) {
-  const Scene& scene = *opened.scene;
-  nlohmann::json objects = nlohmann::json::array();
-  std::set<std::string> taken;
-  for (const ObjectItem& object : document.objects) {
+struct WrittenObject {
+  std::string name;
+  ObjectFiles files;
+  std::size_t gaussians = 0;
+  EdgesReport edges;
+};
+
+// Writes every object that has Gaussians.
+std::vector<WrittenObject> write_objects(const Document& document, const CutoutFolder& to, const Job& job) {
+  std::vector<WrittenObject> written;
+  visit_objects(document, to.scene.cloud.size(), [&](const ObjectToSave& o) {
     stop_if_cancelled(job, "splatcut cut");
-    const std::vector<std::uint8_t> labels = labels_of(document, object, scene.cloud.size());
-    const std::size_t gaussians = count_flags(labels);
-    if (gaussians == 0) continue;
-    const std::string name = free_file_name(object.name, &taken);
-    const CutoutObject written(scene, labels, edges,
-                               {document.up_world, opened.views().cameras, *opened.blocks}, job);
-    stop_if_cancelled(job, "splatcut cut");
-    write_object_files(folder, scene, name, written, labels);
-    objects.push_back({{"name", object.name},
-                       {"file", name + ".ply"},
-                       {"labels", name + ".labels.u8"},
-                       {"gaussians", gaussians},
-                       {"edges", written.report()}});
-  }
-  return objects;
+    WrittenObject object{o.name, files_of_object(o.file), count_flags(o.labels), {}};
+    object.edges = write_object(to, object.files, o.labels, nullptr, job);
+    written.push_back(std::move(object));
+  });
+  stop_if_cancelled(job, "splatcut cut");
+  return written;
+}
+
+nlohmann::json objects_json(const std::vector<WrittenObject>& objects) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const WrittenObject& o : objects)
+    list.push_back({{"name", o.name},
+                    {"file", o.files.scene},
+                    {"labels", o.files.labels},
+                    {"gaussians", o.gaussians},
+                    {"edges", o.edges.json()}});
+  return list;
 }
 
 }  // namespace
@@ -71,19 +77,20 @@ void run_work_cut(const WorkCutOptions& options) {
   const Document document = computed_again(*scene, std::move(work.document), job, options.cache);
   end_progress();
   stop_if_cancelled(job, "splatcut cut");
-  const nlohmann::json objects = write_objects(document, *scene, options.edges, folder, job);
+  const std::vector<Camera>& cameras = scene->views().cameras;
+  const std::vector<WrittenObject> objects = write_objects(
+      document, {folder, *scene->scene, *scene->blocks, document.up_world, cameras, options.edges}, job);
   if (objects.empty()) throw Error(options.work.string(), "holds no object with any Gaussians");
   const nlohmann::json report = {{"work", options.work.string()},
                                  {"scene", scene->scene->path.string()},
                                  {"preset", document.preset},
-                                 {"objects", objects}};
+                                 {"objects", objects_json(objects)}};
   write_text_file(folder.file("report.json"), json_text(report, 2) + "\n");
   stop_if_cancelled(job, "splatcut cut");
   folder.commit();
   if (options.json) fmt::print("{}\n", json_text(report, 2));
   if (options.quiet || options.json) return;
-  for (const auto& o : objects)
-    fmt::print("{}: {} Gaussians\n", o["name"].get<std::string>(), o["gaussians"].get<std::size_t>());
+  for (const WrittenObject& o : objects) fmt::print("{}: {} Gaussians\n", o.name, o.gaussians);
 }
 
 }  // namespace splatcut

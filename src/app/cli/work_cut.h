@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "app/cli/cutout_object.h"
+#include "app/cli/cutout_files.h"
 #include "app/document/document.h"
 #include "app/document/opened_scene.h"
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
 
 #include "app/console/kept_inputs.h"
 #include "app/console/output_folder.h"
@@ -39,22 +38,16 @@ std::shared_ptr<const CleanObject> clean_edges_of(const std::vector<std::uint8_t
 // is_object: `keep` holds the labels of one.
 void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& keep, bool is_object,
           const std::optional<Similarity>& to, const Exporting& what, ExportReport* report) {
-  const Scene& scene = what.scene;
   const ExportRequest& request = what.request;
   if (count_flags(keep) == 0)
     throw Error(path.filename().string(), "would hold no Gaussians", "Select something first");
-  refuse_written_inputs(path, scene.files);
+  refuse_written_inputs(path, what.scene.files);
   check_output_file(path, request.overwrite);
   const std::shared_ptr<const CleanObject> clean = is_object ? clean_edges_of(keep, what, report) : nullptr;
   if (what.job.cancelled()) return;
-  const SaveOptions how{.z_up = request.placement.up == ExportUp::kPlusZ};
-  const auto written = [&](GaussianCloud cloud) {
-    return save_scene(path, with_cloud(scene, std::move(cloud)), {}, request.format, how);
-  };
-  const SaveReport saved = clean && to ? written(placed(clean->cloud, {}, *to))
-                           : clean     ? written(clean->cloud)
-                           : to        ? written(placed(scene.cloud, keep, *to))
-                                       : save_scene(path, scene, keep, request.format);
+  const SaveReport saved =
+      save_gaussians(path, what.scene, keep, clean ? &clean->cloud : nullptr, request.format, to,
+                     {.z_up = request.placement.up == ExportUp::kPlusZ});
   report->gaussians += saved.gaussians;
   report->bytes += saved.bytes;
   report->loss = saved.loss;
@@ -100,6 +93,24 @@ std::string free_file_name(const std::string& object_name, std::set<std::string>
   return free;
 }
 
+void visit_objects(const Document& document, std::size_t gaussians,
+                   const std::function<void(const ObjectToSave&)>& visit) {
+  std::set<std::string> taken;
+  for (const ObjectItem& item : document.objects) {
+    const std::vector<std::uint8_t> labels = labels_of(document, item, gaussians);
+    if (count_flags(labels) > 0) visit({item.name, free_file_name(item.name, &taken), labels});
+  }
+}
+
+SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
+                          const std::vector<std::uint8_t>& keep, const GaussianCloud* instead,
+                          const SceneFormat& format, const std::optional<Similarity>& to,
+                          const SaveOptions& options) {
+  if (!instead && !to) return save_scene(path, scene, keep, format, options);
+  GaussianCloud cloud = !to ? *instead : instead ? placed(*instead, {}, *to) : placed(scene.cloud, keep, *to);
+  return save_scene(path, with_cloud(scene, std::move(cloud)), {}, format, options);
+}
+
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
                         const ExportRequest& request, CleanObjects* clean, const Job& job) {
   const std::size_t n = scene.cloud.size();
@@ -117,14 +128,11 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
   ExportReport report;
   if (request.what == ExportWhat::kAllObjects) {
     std::filesystem::create_directories(request.path);
-    std::set<std::string> taken;
     const auto to = place(exported(document, object, request.what, n));  // objects stay beside each other
-    for (const ObjectItem& item : document.objects) {
-      const std::vector<std::uint8_t> labels = labels_of(document, item, n);
-      if (count_flags(labels) == 0 || job.cancelled()) continue;
-      const std::string name = free_file_name(item.name, &taken);
-      save(request.path / (name + request.format.extension), labels, true, to, what, &report);
-    }
+    visit_objects(document, n, [&](const ObjectToSave& o) {
+      if (!job.cancelled())
+        save(request.path / (o.file + request.format.extension), o.labels, true, to, what, &report);
+    });
     if (report.files == 0 && !job.cancelled())
       throw Error("export", "no object holds any Gaussians", "Select something first");
     return report;

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -43,6 +45,23 @@ struct ExportReport {
 // gaussians: size of the cloud.
 std::vector<std::uint8_t> exported(const Document& document, ObjectId object, ExportWhat what,
                                    std::size_t gaussians);
+
+// Writes Gaussians of a scene, rows unchanged where the format allows it: those with a flag in `keep` (one
+// per Gaussian, empty: all), or the cloud `instead` (an object with clean edges; null: none) in their place.
+// to: where they are moved to. Throws Error as save_scene() does.
+SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
+                          const std::vector<std::uint8_t>& keep, const GaussianCloud* instead,
+                          const SceneFormat& format, const std::optional<Similarity>& to = {},
+                          const SaveOptions& options = {});
+
+// Calls back for each object that has Gaussians, in the document's order.
+struct ObjectToSave {
+  const std::string& name;
+  const std::string& file;                  // free_file_name(), without an extension
+  const std::vector<std::uint8_t>& labels;  // per Gaussian of the scene, 1 = object
+};
+void visit_objects(const Document& document, std::size_t gaussians,
+                   const std::function<void(const ObjectToSave&)>& visit);
 
 // Writes the files of an export. clean: cache of the same scene; may be null if the request wants no clean
 // edges. Throws Error if there is nothing to export, if a number of the placement is unusable, if the path

@@ -99,19 +99,14 @@ Image<Rgba8> capture(const GaussianCloud& cloud, const Camera& camera, const Fla
   options.low_pass_px2 = limits.low_pass_px2;
   const Flags shown = within_far_plane(cloud, camera, visible, limits.far_plane);
   if (shown) options.shown = *shown;
-  const RasterOutput out = rasterize(cloud, camera, options, job);
-  Image<Rgba8> picture(camera.width_px, camera.height_px);
-  for (std::size_t i = 0; i < picture.size(); ++i) {
-    const float alpha = out.alpha.pixels()[i];
-    const glm::vec3 premultiplied = out.colour.pixels()[i];
-    const glm::vec3 c = transparent ? (alpha > 0 ? premultiplied / alpha : glm::vec3(0))
-                                    : premultiplied + (1 - alpha) * background;
-    const glm::vec3 b = glm::clamp(c, 0.0f, 1.0f) * 255.0f + 0.5f;
-    picture.pixels()[i] = {static_cast<std::uint8_t>(b.r), static_cast<std::uint8_t>(b.g),
-                           static_cast<std::uint8_t>(b.b),
-                           transparent ? static_cast<std::uint8_t>(alpha * 255 + 0.5f) : std::uint8_t{255}};
-  }
-  return picture;
+  RasterOutput out = rasterize(cloud, camera, options, job);
+  if (!transparent)
+    for (std::size_t i = 0; i < out.alpha.size(); ++i) {
+      float& alpha = out.alpha.data()[i];
+      out.colour.data()[i] += (1 - alpha) * background;
+      alpha = 1;
+    }
+  return rgba8_from_premultiplied(out.colour, out.alpha);
 }
 
 bool save_turntable(const GaussianCloud& cloud, const std::vector<Camera>& cameras, const Flags& visible,

@@ -1,11 +1,10 @@
-#include "app/cli/many_objects.h"
+#include "app/cli/cut_objects.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/cutout_files.h"
 #include "app/console/seeds_file.h"
 #include "app/document/export_plan.h"
 #include "core/error.h"
@@ -46,26 +45,22 @@ void check_names(const std::vector<NamedSeeds>& objects, const std::string& wher
 }
 
 // The camera that the object's strokes are seen from.
-Camera camera_for(const ManyObjects& in, const NamedSeeds& object) {
-  if (!object.camera) return in.chosen.camera;
-  if (in.chosen.given.empty())
+Camera camera_for(const NamedSeeds& object, const ChosenCamera& chosen, const CameraOptions& options) {
+  if (!object.camera) return chosen.camera;
+  if (chosen.given.empty())
     throw Error(fmt::format("object \"{}\"", object.name),
                 fmt::format("its camera \"{}\" is not known", *object.camera),
                 "Give the capture's cameras with --cameras");
-  const Camera camera = find_camera(in.chosen.given, *object.camera, in.camera.cameras.string());
-  return in.camera.size.empty() ? camera
-                                : resized(camera, in.chosen.camera.width_px, in.chosen.camera.height_px);
+  const Camera camera = find_camera(chosen.given, *object.camera, options.cameras.string());
+  return options.size.empty() ? camera : resized(camera, chosen.camera.width_px, chosen.camera.height_px);
 }
 
-struct CutObject {
-  const NamedSeeds* seeds;
-  Camera camera;
-  CutResult result;
-  std::size_t found = 0;  // Gaussians, before later objects took theirs
-};
+Error not_found(const CutObject& object) {
+  if (object.name.empty()) return {"splatcut cut", "no object was found: " + object.result.reason};
+  return {fmt::format("object \"{}\"", object.name), "was not found: " + object.result.reason};
+}
 
-// What more than one object claims becomes the last one's. Returns 0 for the rest, 1 for the first object,
-// ...
+// What more than one object claims becomes the last one's.
 std::vector<std::uint8_t> settle_claims(std::vector<CutObject>* objects, std::size_t gaussians) {
   std::vector<std::uint8_t> owner(gaussians, 0);
   for (std::size_t o = 0; o < objects->size(); ++o)
@@ -75,40 +70,14 @@ std::vector<std::uint8_t> settle_claims(std::vector<CutObject>* objects, std::si
     std::vector<std::uint8_t>& labels = (*objects)[o].result.labels;
     (*objects)[o].found = static_cast<std::size_t>(std::ranges::count(labels, 1));
     for (std::size_t g = 0; g < gaussians; ++g) labels[g] = owner[g] == o + 1;
-    if (std::ranges::count(labels, 1) == 0)
-      throw Error(fmt::format("object \"{}\"", (*objects)[o].seeds->name),
+    if (objects->size() > 1 && std::ranges::count(labels, 1) == 0)
+      throw Error(fmt::format("object \"{}\"", (*objects)[o].name),
                   "all of its Gaussians belong to objects after it", "List the smaller object last");
   }
   return owner;
 }
 
-json entry_of(const CutObject& object, const CutoutObject& written, std::size_t index) {
-  const std::string file = file_name_of(object.seeds->name);
-  json entry = object_json(object.result);
-  const auto gaussians = entry["object"]["gaussians"].get<std::size_t>();
-  entry.erase("object");
-  entry.update({{"name", object.seeds->name},
-                {"index", index},
-                {"file", file + ".ply"},
-                {"labels", file + ".labels.u8"},
-                {"camera", object.camera.name},
-                {"gaussians", gaussians},
-                {"left_to_later", object.found - gaussians},
-                {"edges", written.report()},
-                {"ambiguous", object.result.ambiguous}});
-  return entry;
-}
-
-void write_object(const OutputFolder& folder, const Scene& scene, const Drawer& drawer,
-                  const CutObject& object, const CutoutObject& written) {
-  const std::string file = file_name_of(object.seeds->name);
-  write_object_files(folder, scene, file, written, object.result.labels);
-  write_object_pictures(folder, drawer, object.camera, object.result, written,
-                        {file + ".png", file + ".tint.png", file + ".masks.png"});
-}
-
-}  // namespace
-
+// Throws Error for strokes outside of the camera's picture.
 void check_inside(const Strokes& strokes, const Camera& camera) {
   for (const Stroke& stroke : strokes) {
     if (stroke.is_box()) {
@@ -124,6 +93,8 @@ void check_inside(const Strokes& strokes, const Camera& camera) {
                                            camera.width_px, camera.height_px));
   }
 }
+
+}  // namespace
 
 std::vector<NamedSeeds> named_seeds_from_json(const json& seeds, const std::string& where) {
   if (!seeds.is_object() || !seeds.contains("objects")) return {};
@@ -142,47 +113,33 @@ std::vector<NamedSeeds> named_seeds_from_json(const json& seeds, const std::stri
   return objects;
 }
 
-void check_objects(const ManyObjects& in) {
-  for (const NamedSeeds& seeds : in.objects) check_inside(seeds.strokes, camera_for(in, seeds));
+std::vector<CutObject> objects_of(const std::vector<NamedSeeds>& seeds, const ChosenCamera& chosen,
+                                  const CameraOptions& camera) {
+  std::vector<CutObject> objects;
+  for (const NamedSeeds& object : seeds) {
+    const Camera seen_from = camera_for(object, chosen, camera);
+    CutRequest request;
+    request.strokes = {{seen_from, object.strokes}};
+    request.choice = object.choice;
+    objects.push_back({object.name, std::move(request), seen_from, {}});
+  }
+  return objects;
 }
 
-json cut_many_objects(const ManyObjects& in, Session* session, const OutputFolder& folder, const Job& job) {
-  const Scene& scene = in.scene;
-  std::vector<CutObject> objects;
-  for (const NamedSeeds& seeds : in.objects) objects.push_back({&seeds, camera_for(in, seeds), {}});
-  for (CutObject& object : objects) {
+void check_inside(const CutRequest& request) {
+  for (const StrokedView& view : request.strokes) check_inside(view.strokes, view.camera);
+}
+
+std::vector<std::uint8_t> cut_objects(std::vector<CutObject>* objects, Session* session,
+                                      const CutSettings& settings, const Job& job) {
+  std::size_t gaussians = 0;
+  for (CutObject& object : *objects) {
+    object.result = session->cut(object.request, settings, job);
     if (job.cancelled()) return {};
-    CutRequest request;
-    request.strokes = {{object.camera, object.seeds->strokes}};
-    request.choice = object.seeds->choice;
-    request.part_step = in.part_step;
-    object.result = session->cut(request, in.settings, job);
-    if (object.result.outcome == Outcome::kCancelled) return {};
-    if (object.result.outcome == Outcome::kNothingFound)
-      throw Error(fmt::format("object \"{}\"", object.seeds->name), "was not found: " + object.result.reason);
+    if (object.result.outcome == Outcome::kNothingFound) throw not_found(object);
+    gaussians = object.result.labels.size();
   }
-  const std::vector<std::uint8_t> owner = settle_claims(&objects, scene.cloud.size());
-  const Drawer drawer(scene.cloud, nullptr, &session->blocks());
-  json entries = json::array();
-  for (const CutObject& object : objects) {
-    if (job.cancelled()) return {};
-    const CutoutObject written(scene, object.result.labels, in.edges,
-                               {in.chosen.up_world, in.chosen.given, session->blocks()}, job);
-    if (job.cancelled()) return {};
-    write_object(folder, scene, drawer, object, written);
-    entries.push_back(entry_of(object, written, entries.size() + 1));
-  }
-  std::vector<std::uint8_t> rest(owner.size());
-  std::ranges::transform(owner, rest.begin(),
-                         [](std::uint8_t o) { return static_cast<std::uint8_t>(o == 0); });
-  SaveOptions of_rest;
-  of_rest.may_be_empty = true;
-  save_scene(folder.file("rest.ply"), scene, rest, SceneFormat::kPly, of_rest);
-  write_cutout_picture(folder.file("rest.png"), drawer, in.chosen.camera, rest);
-  write_labels(folder.file("labels.u8"), scene, owner);
-  return {{"objects", entries},
-          {"rest", {{"gaussians", std::ranges::count(rest, 1)}}},
-          {"stages", json::array()}};
+  return settle_claims(objects, gaussians);
 }
 
 }  // namespace splatcut

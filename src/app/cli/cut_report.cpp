@@ -1,0 +1,126 @@
+#include "app/cli/cut_report.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/console/version.h"
+#include "app/document/export_plan.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/session/doubts.h"
+
+namespace splatcut {
+
+namespace {
+
+using nlohmann::json;
+
+double peak_rss_mb() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+std::size_t gaussians_of(const CutObject& object) {
+  return static_cast<std::size_t>(std::ranges::count(object.result.labels, 1));
+}
+
+// Views, cut and stages of an object.
+json cut_json(const CutResult& result, const std::vector<StageTime>& times) {
+  json views = json::array(), stages = json::array();
+  for (const ViewReport& view : result.views) {
+    views.push_back({{"used", view.used}, {"confidence", view.confidence}, {"mask_px", count(view.mask)}});
+    if (!view.reason.empty()) views.back()["reason"] = view.reason;
+  }
+  for (const StageTime& stage : times) stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
+  const LookedAt enough = looked_at(result.views);
+  return {{"views", views},
+          {"enough",
+           {{"views", enough.views},
+            {"pixels", enough.pixels},
+            {"gaussians", result.cut.touched},
+            {"why", result.why_enough}}},
+          {"cut",
+           {{"nodes", result.cut.nodes},
+            {"arcs", result.cut.arcs},
+            {"energy", result.cut.energy},
+            {"flow", result.cut.flow}}},
+          {"doubts", doubts(result)},
+          {"stages", stages}};
+}
+
+json entry_json(const CutObject& object, const EdgesReport& edges, std::size_t index) {
+  const ObjectFiles files = files_of(object);
+  json entry = cut_json(object.result, object.result.stages);
+  entry.update({{"name", object.name},
+                {"index", index},
+                {"file", files.scene},
+                {"labels", files.labels},
+                {"camera", object.camera.name},
+                {"gaussians", gaussians_of(object)},
+                {"left_to_later", object.found - gaussians_of(object)},
+                {"edges", edges.json()},
+                {"ambiguous", object.result.ambiguous}});
+  return entry;
+}
+
+// All that a run of one object spent its time on.
+std::vector<StageTime> stages_of_one(const RunReport& report) {
+  std::vector<StageTime> stages = report.objects.front().result.stages;
+  stages.insert(stages.begin(), {"load", report.load_ms});
+  stages.push_back({"edges", report.edges.front().ms});
+  return stages;
+}
+
+}  // namespace
+
+ObjectFiles files_of(const CutObject& object) {
+  return object.name.empty() ? files_of_only_object() : files_of_object(file_name_of(object.name));
+}
+
+json report_json(const RunReport& report) {
+  const Scene& scene = report.scene;
+  json out = {
+      {"version", version()},
+      {"settings", report.settings},
+      {"scene",
+       {{"gaussians", scene.cloud.size()}, {"file_rows", scene.file_rows}, {"dropped", scene.dropped}}},
+      {"total_ms", report.total_ms},
+      {"peak_rss_mb", peak_rss_mb()}};
+  if (report.of_one()) {
+    const CutObject& object = report.objects.front();
+    out.update(cut_json(object.result, stages_of_one(report)));
+    out.update({{"object", {{"gaussians", gaussians_of(object)}}}, {"edges", report.edges.front().json()}});
+    return out;
+  }
+  out.update({{"objects", json::array()},
+              {"rest", {{"gaussians", report.rest}}},
+              {"stages", {{{"name", "load"}, {"ms", report.load_ms}}}}});
+  for (std::size_t o = 0; o < report.objects.size(); ++o)
+    out["objects"].push_back(entry_json(report.objects[o], report.edges[o], o + 1));
+  return out;
+}
+
+std::string summary(const RunReport& report, const std::string& folder) {
+  const std::size_t all = report.scene.cloud.size();
+  std::string text;
+  if (!report.of_one()) {
+    for (const CutObject& o : report.objects)
+      text += fmt::format("{}: {} of {} Gaussians\n", files_of(o).scene, gaussians_of(o), all);
+    return text + folder +
+           ": NAME.ply NAME.labels.u8 NAME.png NAME.tint.png NAME.masks.png of each, rest.ply rest.png "
+           "labels.u8 report.json\n";
+  }
+  text = fmt::format("{} of {} Gaussians cut out in {:.0f} ms\n", gaussians_of(report.objects.front()), all,
+                     report.total_ms);
+  if (const std::string why = report.edges.front().why_kept(); !why.empty())
+    text += fmt::format("edges are kept: {}\n", why);
+  for (const StageTime& stage : stages_of_one(report))
+    text += fmt::format("  {:<16} {:8.0f} ms\n", stage.name, stage.ms);
+  return text + folder +
+         ": object.ply rest.ply labels.u8 object.png rest.png tint.png masks.png report.json\n";
+}
+
+}  // namespace splatcut

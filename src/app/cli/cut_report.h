@@ -1,0 +1,31 @@
+// What `splatcut cut` says of a run: report.json and its lines on the terminal.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "app/cli/cut_objects.h"
+#include "app/cli/cutout_files.h"
+#include "scene/formats/scene_file.h"
+
+namespace splatcut {
+
+struct RunReport {
+  const Scene& scene;
+  const nlohmann::json& settings;
+  const std::vector<CutObject>& objects;  // one without a name, or several with names
+  std::vector<EdgesReport> edges = {};    // of each object
+  std::size_t rest = 0;                   // Gaussians
+  double load_ms = 0, total_ms = 0;       // the time that writing takes does not count
+
+  bool of_one() const { return objects.size() == 1 && objects.front().name.empty(); }
+};
+
+ObjectFiles files_of(const CutObject& object);
+
+nlohmann::json report_json(const RunReport& report);
+// Lines on the objects and their files. folder: the one that the files are in.
+std::string summary(const RunReport& report, const std::string& folder);
+
+}  // namespace splatcut
