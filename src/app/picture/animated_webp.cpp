@@ -1,11 +1,11 @@
 #include "app/picture/animated_webp.h"
 
 #include <webp/encode.h>
+#include <webp/mux.h>
 
 #include <cassert>
 #include <cstdint>
 #include <new>
-#include <string_view>
 
 #include "core/error.h"
 
@@ -13,97 +13,65 @@ namespace splatcut {
 
 namespace {
 
-using Bytes = std::vector<std::byte>;
+// Bytes that libwebp allocated.
+class WebpBytes {
+ public:
+  WebpBytes() { WebPDataInit(&data_); }
+  ~WebpBytes() { WebPDataClear(&data_); }
+  WebpBytes(const WebpBytes&) = delete;
+  WebpBytes& operator=(const WebpBytes&) = delete;
+  WebPData* get() { return &data_; }
 
-void append_number(Bytes* out, std::size_t value, int bytes) {  // little end first
-  for (int i = 0; i < bytes; ++i) out->push_back(static_cast<std::byte>(value >> (8 * i)));
+ private:
+  WebPData data_;
+};
+
+// WebPMux reports a lack of memory like any other fault; the faults besides it are ours.
+void check(WebPMuxError error) {
+  if (error == WEBP_MUX_MEMORY_ERROR) throw std::bad_alloc();
+  assert(error == WEBP_MUX_OK);
 }
 
-void append_name(Bytes* out, std::string_view name) {
-  for (const char c : name) out->push_back(static_cast<std::byte>(c));
-}
-
-void append_chunk(Bytes* out, std::string_view name, std::span<const std::byte> content) {
-  append_name(out, name);
-  append_number(out, content.size(), 4);
-  out->insert(out->end(), content.begin(), content.end());
-  if (content.size() % 2 != 0) out->push_back(std::byte{0});
-}
-
-std::size_t number_at(std::span<const std::byte> bytes, std::size_t at) {
-  std::size_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value |= static_cast<std::size_t>(bytes[at + i]) << (8 * i);
-  return value;
-}
-
-// A file of one picture.
-Bytes still(const Image<Rgba8>& picture) {
+void encode(const Image<Rgba8>& picture, WebPData* still) {
   constexpr float kQuality = 85;
-  std::uint8_t* data = nullptr;
-  const std::size_t size = WebPEncodeRGBA(picture.pixels().data()->data(), picture.width(), picture.height(),
-                                          picture.width() * static_cast<int>(sizeof(Rgba8)), kQuality, &data);
-  if (size == 0) throw Error("webp", "a picture could not be packed", "Take a smaller size");
-  const auto* first = reinterpret_cast<const std::byte*>(data);
-  Bytes out(first, first + size);
-  WebPFree(data);
-  return out;
-}
-
-// What a frame takes over of it: alpha and colours.
-Bytes picture_chunks(std::span<const std::byte> file) {
-  constexpr std::size_t kRiffHeader = 12, kChunkHeader = 8;
-  Bytes out;
-  for (std::size_t at = kRiffHeader; at + kChunkHeader <= file.size();) {
-    const std::string_view name(reinterpret_cast<const char*>(file.data() + at), 4);
-    const std::size_t size = number_at(file, at + 4), whole = kChunkHeader + size + size % 2;
-    if (name == "ALPH" || name == "VP8 " || name == "VP8L") {
-      const auto chunk = file.subspan(at, std::min(whole, file.size() - at));
-      out.insert(out.end(), chunk.begin(), chunk.end());
-    }
-    at += whole;
-  }
-  return out;
+  std::uint8_t* bytes = nullptr;
+  still->size = WebPEncodeRGBA(picture.pixels().data()->data(), picture.width(), picture.height(),
+                               picture.width() * static_cast<int>(sizeof(Rgba8)), kQuality, &bytes);
+  still->bytes = bytes;
+  if (still->size == 0) throw Error("webp", "a picture could not be packed", "Take a smaller size");
 }
 
 }  // namespace
 
+AnimatedWebp::AnimatedWebp(int frame_ms, std::size_t most_bytes)
+    : frame_ms_(frame_ms), most_bytes_(most_bytes), mux_(WebPMuxNew(), WebPMuxDelete) {
+  if (!mux_) throw std::bad_alloc();
+}
+
 void AnimatedWebp::add(const Image<Rgba8>& picture) {
-  assert(width_px_ == 0 || (picture.width() == width_px_ && picture.height() == height_px_));
-  width_px_ = picture.width();
-  height_px_ = picture.height();
-  constexpr std::size_t kReplaces = 2;  // does not blend with the frame before
-  Bytes frame;
-  append_number(&frame, 0, 3);  // from the left, from the top
-  append_number(&frame, 0, 3);
-  append_number(&frame, static_cast<std::size_t>(width_px_ - 1), 3);
-  append_number(&frame, static_cast<std::size_t>(height_px_ - 1), 3);
-  append_number(&frame, static_cast<std::size_t>(frame_ms_), 3);
-  append_number(&frame, kReplaces, 1);
-  const Bytes chunks = picture_chunks(still(picture));
-  frame.insert(frame.end(), chunks.begin(), chunks.end());
-  constexpr std::size_t kHeaders = 64;  // of the file, its chunks and this frame's
-  if (frames_.size() + frame.size() + kHeaders > most_bytes_)
+  constexpr std::size_t kOfFile = 44, kOfFrame = 12;  // headers beside those of the stills: at most
+  WebpBytes still;
+  encode(picture, still.get());
+  frame_bytes_ += still.get()->size + kOfFrame;
+  if (kOfFile + frame_bytes_ > most_bytes_)
     throw Error("webp", "the animation is larger than a file of this kind can be",
                 "Take fewer or smaller pictures");
-  append_chunk(&frames_, "ANMF", frame);
+  WebPMuxFrameInfo frame{};
+  frame.bitstream = *still.get();
+  frame.duration = frame_ms_;
+  frame.id = WEBP_CHUNK_ANMF;
+  frame.blend_method = WEBP_MUX_NO_BLEND;
+  constexpr int kCopies = 1;
+  check(WebPMuxPushFrame(mux_.get(), &frame, kCopies));
 }
 
 std::vector<std::byte> AnimatedWebp::bytes() const {
-  assert(!frames_.empty());
-  constexpr std::size_t kAlphaAndAnimation = 0x12;
-  Bytes size, loop, content;
-  append_number(&size, kAlphaAndAnimation, 4);
-  append_number(&size, static_cast<std::size_t>(width_px_ - 1), 3);
-  append_number(&size, static_cast<std::size_t>(height_px_ - 1), 3);
-  append_number(&loop, 0, 4);  // behind it: nothing
-  append_number(&loop, 0, 2);  // for ever
-  append_name(&content, "WEBP");
-  append_chunk(&content, "VP8X", size);
-  append_chunk(&content, "ANIM", loop);
-  content.insert(content.end(), frames_.begin(), frames_.end());
-  Bytes file;
-  append_chunk(&file, "RIFF", content);
-  return file;
+  const WebPMuxAnimParams for_ever_on_nothing{};
+  check(WebPMuxSetAnimationParams(mux_.get(), &for_ever_on_nothing));
+  WebpBytes file;
+  check(WebPMuxAssemble(mux_.get(), file.get()));
+  const auto* first = reinterpret_cast<const std::byte*>(file.get()->bytes);
+  return {first, first + file.get()->size};
 }
 
 }  // namespace splatcut
