@@ -4,16 +4,13 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "app/document/pointer_drag.h"
+
 namespace splatcut {
 
 namespace {
 
 constexpr float kArrowShare = 0.74f, kScaleShare = 1.2f;  // of the reach: arrows; the way to the square
-constexpr float kEndOn = 0.97f;                           // cosine of an arrow that points at the camera
-
-glm::vec2 pixel_of(const Camera& camera, const glm::vec3& point_world) {
-  return camera.pixel_from_camera(camera.camera_from_world(point_world));
-}
 
 float depth_of(const PlacingHandles& handles, const Camera& camera) {
   return camera.camera_from_world(handles.centre_world).z;
@@ -21,10 +18,6 @@ float depth_of(const PlacingHandles& handles, const Camera& camera) {
 
 float reach_world(const PlacingHandles& handles, const Camera& camera) {
   return handles.reach_px * depth_of(handles, camera) / camera.fy_px;
-}
-
-glm::vec3 ray_through(const Camera& camera, const glm::vec2& pixel) {
-  return glm::normalize(camera.world_from_pixel(pixel, 1) - camera.centre_world());
 }
 
 // Two directions that make a right-handed frame with the axis.
@@ -64,15 +57,6 @@ float distance_to(const std::vector<glm::vec2>& path, const glm::vec2& at) {
     least = std::min(least, glm::distance(path[i] + t * way, at));
   }
   return least;
-}
-
-// How far along a line from the centre the point lies that is nearest to the pixel's ray.
-float distance_along(const PlacingHandles& handles, const glm::vec3& axis, const Camera& camera,
-                     const glm::vec2& pixel) {
-  constexpr float kLeast = 1 - kEndOn * kEndOn;  // the pointer may go where the ray runs along the axis
-  const glm::vec3 ray = ray_through(camera, pixel), way = handles.centre_world - camera.centre_world();
-  const float cosine = glm::dot(axis, ray);
-  return (cosine * glm::dot(ray, way) - glm::dot(axis, way)) / std::max(kLeast, 1 - cosine * cosine);
 }
 
 // Where the pixel's ray meets the ring's plane; none where it grazes the plane or leaves it behind.
@@ -149,16 +133,13 @@ PlacingChange dragged(const PlacingHandles& handles, const PlacingHandle& handle
                       const glm::vec2& to_px, const Camera& camera, bool in_steps) {
   constexpr float kLeastScale = 0.02f, kScaleStep = 0.1f, kTurnStep = glm::pi<float>() / 12;
   PlacingChange change;
-  const float depth = depth_of(handles, camera);
   switch (handle.grip) {
     case PlacingGrip::kMove:
-      change.move_world = camera.world_from_pixel(to_px, depth) - camera.world_from_pixel(from_px, depth);
+      change.move_world = way_at_depth(camera, depth_of(handles, camera), from_px, to_px);
       break;
     case PlacingGrip::kMoveAlong: {
       const glm::vec3& axis = handles.arrow_axes[handle.axis];
-      change.move_world =
-          (distance_along(handles, axis, camera, to_px) - distance_along(handles, axis, camera, from_px)) *
-          axis;
+      change.move_world = way_along(camera, handles.centre_world, axis, from_px, to_px) * axis;
       break;
     }
     case PlacingGrip::kTurn: {

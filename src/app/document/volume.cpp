@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/document/pointer_drag.h"
+
 namespace splatcut {
 
 namespace {
@@ -37,23 +39,6 @@ bool in_front(const Camera& camera, const glm::vec3& point_world) {
   return camera.camera_from_world(point_world).z > 1e-6f;
 }
 
-glm::vec2 pixel_from_world(const Camera& camera, const glm::vec3& point_world) {
-  return camera.pixel_from_camera(camera.camera_from_world(point_world));
-}
-
-// How far a drag in the picture moves a point along a direction of the world, scene units.
-float along(const Camera& camera, const glm::vec3& from_world, const glm::vec3& direction,
-            const glm::vec2& way_px) {
-  const float small = 1e-3f * camera.camera_from_world(from_world).z;
-  const glm::vec2 per_unit =
-      (pixel_from_world(camera, from_world + small * direction) - pixel_from_world(camera, from_world)) /
-      small;
-  const float steep = glm::dot(per_unit, per_unit);
-  const float flat = 0.1f * camera.fy_px / camera.camera_from_world(from_world).z;
-  if (steep < flat * flat) return 0;  // it points at the camera: the drag gives no distance
-  return glm::dot(way_px, per_unit) / steep;
-}
-
 }  // namespace
 
 bool inside(const Volume& volume, const glm::vec3& point_world) {
@@ -68,7 +53,7 @@ std::vector<glm::vec2> handles_px(const Volume& volume, const Camera& camera) {
   for (std::size_t handle = 0; handle < (volume.round ? 2 : kBoxHandles); ++handle) {
     const glm::vec3 at = handle_world(volume, handle, camera);
     if (!in_front(camera, at)) return {};
-    out.push_back(pixel_from_world(camera, at));
+    out.push_back(pixel_of(camera, at));
   }
   return out;
 }
@@ -85,7 +70,7 @@ Edges edges_px(const Volume& volume, const Camera& camera) {
     for (const int bit : {1, 2, 4}) {
       const glm::vec3 from = corner(a), to = corner(a | bit);
       if ((a & bit) == 0 && in_front(camera, from) && in_front(camera, to))
-        out.emplace_back(pixel_from_world(camera, from), pixel_from_world(camera, to));
+        out.emplace_back(pixel_of(camera, from), pixel_of(camera, to));
     }
   return out;
 }
@@ -96,7 +81,7 @@ Volume dragged(const Volume& volume, std::size_t handle, const glm::vec2& from_p
   const glm::vec3 at = handle_world(volume, handle, camera);
   const float depth = camera.camera_from_world(at).z;
   if (handle == 0) {
-    out.centre_world += camera.world_from_pixel(to_px, depth) - camera.world_from_pixel(from_px, depth);
+    out.centre_world += way_at_depth(camera, depth, from_px, to_px);
     return out;
   }
   if (volume.round) {
@@ -106,7 +91,7 @@ Volume dragged(const Volume& volume, std::size_t handle, const glm::vec2& from_p
   }
   const Face face = face_of(handle);
   const float least = kLeastShare * volume.half[face.axis];
-  const float farther = along(camera, at, outward(volume, face), to_px - from_px);
+  const float farther = way_along(camera, at, outward(volume, face), from_px, to_px);
   out.half[face.axis] = std::max(least, volume.half[face.axis] + 0.5f * farther);
   out.centre_world += (out.half[face.axis] - volume.half[face.axis]) * outward(volume, face);
   return out;

@@ -138,6 +138,26 @@ TEST_CASE("placing: what is grabbed follows the pointer, from any side") {
   CHECK(moves > 100);
 }
 
+TEST_CASE("placing: the face of a box follows the pointer, and the face across stays") {
+  const Camera camera = look_at({3, -2, -4}, {0.2f, 0, 0}, {0, -1, 0}, 0.9f, 400, 300);
+  const Volume box{false, {0.1f, 0.2f, -0.1f}, {0.5f, 0.4f, 0.7f}, glm::angleAxis(0.4f, glm::vec3(0, 1, 0))};
+  for (std::size_t handle = 1; handle <= 6; ++handle) {
+    CAPTURE(handle);
+    const int axis = static_cast<int>(handle - 1) / 2;
+    glm::vec3 outward(0);
+    outward[axis] = handle % 2 == 1 ? 1.0f : -1.0f;
+    outward = box.world_from_box * outward;
+    const glm::vec3 face = box.centre_world + box.half[axis] * outward,
+                    across = box.centre_world - box.half[axis] * outward;
+    for (const float farther : {0.6f, -0.3f}) {
+      const glm::vec3 wanted = face + farther * outward;
+      const Volume moved = dragged(box, handle, pixel_of(camera, face), pixel_of(camera, wanted), camera);
+      CHECK(glm::distance(moved.centre_world + moved.half[axis] * outward, wanted) < 1e-4f);
+      CHECK(glm::distance(moved.centre_world - moved.half[axis] * outward, across) < 1e-4f);
+    }
+  }
+}
+
 TEST_CASE("placing: a ring seen from its edge turns with the pointer that runs along it") {
   const PlacingHandles handles{{0, 0, 0}, {}, {{0, 1, 0}}, 80};
   const Camera camera = camera_at_five();
