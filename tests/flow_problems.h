@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "cut_energy.h"
 #include "segment/graphcut/flow_graph.h"
 
 namespace splatcut::testing {

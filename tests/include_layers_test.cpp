@@ -40,7 +40,7 @@ const std::vector<Room> kRooms = {
     {"scene/raster", {"scene/cloud", "scene/camera"}},
     {"scene/packing", {}, {"webp", "zip"}},
     {"scene/formats", {"scene/cloud", "scene/camera", "scene/raster", "scene/packing"}, {"nlohmann"}, 3600},
-    {"scene/still_life", {"scene/cloud", "scene/camera"}},
+    {"scene/still_life", {"scene/cloud", "scene/camera"}, {"nlohmann"}},
     {"segment/graphcut", {"scene/cloud", "scene/camera", "scene/raster"}, {"nanoflann"}},
     {"segment/masks", {"scene/cloud", "scene/camera", "scene/raster", "segment/graphcut"}, {"opencv2/"}},
     {"segment/superpoints", {"scene/cloud", "scene/camera", "scene/raster", "segment/graphcut"}},

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/measure/evaluate.h"
+#include "app/measure/mask_measures.h"
 #include "app/measure/robot_user.h"
 #include "cut_in_view.h"
 #include "scene/raster/rasterizer.h"

@@ -6,6 +6,7 @@
 
 #include "app/measure/evaluate_alone.h"
 #include "app/measure/evaluate_picture.h"
+#include "app/measure/mask_measures.h"
 #include "app/measure/robot_user.h"
 #include "core/error.h"
 #include "segment/masks/mask_tools.h"

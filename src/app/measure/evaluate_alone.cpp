@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/measure/evaluate_picture.h"
+#include "app/measure/mask_measures.h"
 #include "core/error.h"
 #include "core/picture_difference.h"
 #include "core/png_file.h"

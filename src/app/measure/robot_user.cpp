@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/measure/mask_measures.h"
 #include "core/counter_rng.h"
 #include "segment/masks/mask_tools.h"
 

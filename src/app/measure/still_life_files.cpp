@@ -6,9 +6,9 @@
 
 #include "core/atomic_file.h"
 #include "core/json_file.h"
-#include "scene/camera/camera_file.h"
 #include "scene/cloud/morton.h"
 #include "scene/formats/scene_file.h"
+#include "scene/still_life/still_life_cameras.h"
 
 namespace splatcut {
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/lower_case.h"
@@ -227,25 +226,6 @@ std::vector<Camera> load_cameras(const fs::path& path, std::string* warning) {
   std::vector<Camera> cameras = load_any_cameras(path, &remarks);
   if (warning) *warning = remarks.sentence(path);
   return cameras;
-}
-
-void save_inria_cameras(const fs::path& path, const std::vector<Camera>& cameras) {
-  json list = json::array();
-  for (const Camera& camera : cameras) {
-    const glm::mat3& r = camera.camera_from_world_rotation;  // its columns are the rows of world_from_camera
-    const glm::vec3 centre = camera.centre_world();
-    json rows = json::array();
-    for (int i = 0; i < 3; ++i) rows.push_back({r[i].x, r[i].y, r[i].z});
-    json entry = {{"id", list.size()},        {"img_name", camera.name},
-                  {"width", camera.width_px}, {"height", camera.height_px},
-                  {"fx", camera.fx_px},       {"fy", camera.fy_px},
-                  {"rotation", rows},         {"position", {centre.x, centre.y, centre.z}}};
-    // Inria's own files put the principal point in the middle and do not name it.
-    if (camera.cx_px != 0.5f * static_cast<float>(camera.width_px)) entry["cx"] = camera.cx_px;
-    if (camera.cy_px != 0.5f * static_cast<float>(camera.height_px)) entry["cy"] = camera.cy_px;
-    list.push_back(entry);
-  }
-  write_text_file(path, json_text(list, 1) + "\n");
 }
 
 }  // namespace splatcut

@@ -15,6 +15,4 @@ namespace splatcut {
 // through a pinhole); empty otherwise.
 std::vector<Camera> load_cameras(const std::filesystem::path& path, std::string* warning = nullptr);
 
-void save_inria_cameras(const std::filesystem::path& path, const std::vector<Camera>& cameras);
-
 }  // namespace splatcut

@@ -96,9 +96,4 @@ struct RasterOutput {
 RasterOutput rasterize(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options = {},
                        const Job& job = {});
 
-// The same maths one pixel and one Gaussian at a time, slow and readable: the test oracle. Differs from
-// rasterize() by rounding only.
-RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camera,
-                                 const RasterOptions& options = {});
-
 }  // namespace splatcut

@@ -31,17 +31,4 @@ FlowGraph graph_from_edges(std::size_t nodes, std::span<const std::pair<std::uin
   return graph;
 }
 
-std::int64_t cut_energy(const FlowGraph& graph, std::span<const std::int32_t> arc_capacity,
-                        std::span<const std::int64_t> terminal, std::span<const std::uint8_t> source_side) {
-  std::int64_t energy = 0;
-  for (std::size_t node = 0; node < graph.nodes(); ++node) {
-    const std::int64_t b = terminal[node];
-    energy += source_side[node] ? std::max<std::int64_t>(-b, 0) : std::max<std::int64_t>(b, 0);
-    if (!source_side[node]) continue;
-    for (std::uint32_t arc = graph.first_arc[node]; arc < graph.first_arc[node + 1]; ++arc)
-      if (!source_side[graph.head[arc]]) energy += arc_capacity[arc];
-  }
-  return energy;
-}
-
 }  // namespace splatcut

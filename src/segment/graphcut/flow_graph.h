@@ -21,12 +21,4 @@ struct FlowGraph {
 FlowGraph graph_from_edges(std::size_t nodes, std::span<const std::pair<std::uint32_t, std::uint32_t>> edges,
                            std::vector<std::uint32_t>* arc_of_edge = nullptr);
 
-// The energy of a labelling:
-//   sum over arcs from the source side to the rest of capacity
-//   + sum over the rest of max(b, 0) + sum over the source side of max(-b, 0).
-// arc_capacity: per arc, >= 0. terminal: b per node, source arc minus sink arc. source_side: per node, 0
-// or 1.
-std::int64_t cut_energy(const FlowGraph& graph, std::span<const std::int32_t> arc_capacity,
-                        std::span<const std::int64_t> terminal, std::span<const std::uint8_t> source_side);
-
 }  // namespace splatcut

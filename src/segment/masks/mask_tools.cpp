@@ -19,14 +19,6 @@ cv::Mat disc(int radius_px) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius_px + 1, 2 * radius_px + 1});
 }
 
-Mask border_band(const Mask& mask, double band_px) {
-  const Image<float> depth = distance_inside(mask);
-  Mask band(mask.width(), mask.height());
-  for (std::size_t i = 0; i < mask.size(); ++i)
-    band.pixels()[i] = mask.pixels()[i] && depth.pixels()[i] <= band_px ? kMaskObject : 0;
-  return band;
-}
-
 }  // namespace
 
 std::size_t count(const Mask& mask) {
@@ -42,20 +34,6 @@ double iou(const Mask& a, const Mask& b) {
     either += a.pixels()[i] || b.pixels()[i];
   }
   return either ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
-}
-
-double pixel_accuracy(const Mask& a, const Mask& b) {
-  std::size_t equal = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) equal += !a.pixels()[i] == !b.pixels()[i];
-  return a.empty() ? 1.0 : static_cast<double>(equal) / static_cast<double>(a.size());
-}
-
-double boundary_iou(const Mask& a, const Mask& b) {
-  return boundary_iou(a, b, 0.02 * std::hypot(a.width(), a.height()));
-}
-
-double boundary_iou(const Mask& a, const Mask& b, double band_px) {
-  return iou(border_band(a, band_px), border_band(b, band_px));
 }
 
 Mask dilated(const Mask& mask, int radius_px) {
@@ -116,20 +94,6 @@ std::vector<std::vector<glm::vec2>> outlines(const Mask& mask, int least_px) {
     for (const cv::Point& p : border)
       out.back().push_back(glm::vec2(static_cast<float>(p.x), static_cast<float>(p.y)) + 0.5f);
   }
-  return out;
-}
-
-Mask largest_region(const Mask& mask) {
-  cv::Mat region, statistics, centroids;
-  const int regions = cv::connectedComponentsWithStats(as_const_mat(mask), region, statistics, centroids, 8);
-  int best = 0;
-  for (int r = 1; r < regions; ++r)
-    if (best == 0 || statistics.at<int>(r, cv::CC_STAT_AREA) > statistics.at<int>(best, cv::CC_STAT_AREA))
-      best = r;
-  Mask out(mask.width(), mask.height());
-  if (best == 0) return out;
-  for (int y = 0; y < mask.height(); ++y)
-    for (int x = 0; x < mask.width(); ++x) out.at(x, y) = region.at<int>(y, x) == best ? kMaskObject : 0;
   return out;
 }
 

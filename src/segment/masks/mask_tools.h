@@ -15,11 +15,7 @@
 namespace splatcut {
 
 std::size_t count(const Mask& mask);
-double iou(const Mask& a, const Mask& b);             // 1 where both are empty
-double pixel_accuracy(const Mask& a, const Mask& b);  // share of equal pixels
-// IoU of the bands within 2 % of the diagonal of each mask's border (Cheng et al., Boundary IoU, 2021).
-double boundary_iou(const Mask& a, const Mask& b);
-double boundary_iou(const Mask& a, const Mask& b, double band_px);  // of bands that wide
+double iou(const Mask& a, const Mask& b);  // 1 where both are empty
 
 Mask dilated(const Mask& mask, int radius_px);
 Mask eroded(const Mask& mask, int radius_px);
@@ -33,9 +29,6 @@ Image<float> distance_inside(const Mask& mask);
 // Closed outer borders of the 8-connected regions of at least that many pixels, the largest first; points in
 // pixels, centres at +0.5.
 std::vector<std::vector<glm::vec2>> outlines(const Mask& mask, int least_px = 12);
-
-// The largest 8-connected region.
-Mask largest_region(const Mask& mask);
 
 // A rectangle around all pixels that show labelled Gaussians; empty if none is in view.
 PixelRect labelled_rectangle(const GaussianCloud& cloud, const Camera& camera,

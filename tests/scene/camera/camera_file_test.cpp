@@ -1,4 +1,5 @@
 #include "scene/camera/camera_file.h"
+#include "scene/still_life/still_life_cameras.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

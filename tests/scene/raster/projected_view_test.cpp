@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "reference_rasterizer.h"
 #include "synthetic_cloud.h"
 
 using namespace splatcut;

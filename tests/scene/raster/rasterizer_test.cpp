@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "reference_rasterizer.h"
 #include "scene/raster/splat_math.h"
 #include "scene/raster/splat_projection.h"
 #include "scene/raster/tile_grid.h"

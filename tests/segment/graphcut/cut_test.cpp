@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <glm/gtc/quaternion.hpp>
 
+#include "cut_energy.h"
 #include "places.h"
 #include "scene/formats/scene_file.h"
 #include "scene/raster/splat_math.h"

@@ -1,12 +1,15 @@
+// The rasteriser's maths one pixel and one Gaussian at a time, slow and readable: what rasterize() is
+// compared with. Differs from it by rounding only.
+#pragma once
+
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "scene/raster/rasterizer.h"
 #include "scene/raster/splat_math.h"
 
-namespace splatcut {
-
-namespace {
+namespace splatcut::testing {
 
 struct DepthSplat {
   Splat splat;
@@ -14,8 +17,8 @@ struct DepthSplat {
   glm::vec3 colour;
 };
 
-std::vector<DepthSplat> front_to_back(const GaussianCloud& cloud, const Camera& camera,
-                                      const RasterOptions& options) {
+inline std::vector<DepthSplat> front_to_back(const GaussianCloud& cloud, const Camera& camera,
+                                             const RasterOptions& options) {
   std::vector<DepthSplat> splats;
   const glm::vec3 eye_world = camera.centre_world();
   for (std::size_t g = 0; g < cloud.size(); ++g) {
@@ -35,16 +38,14 @@ std::vector<DepthSplat> front_to_back(const GaussianCloud& cloud, const Camera& 
   return splats;
 }
 
-float alpha_at(const Splat& splat, const glm::vec2& pixel) {
+inline float alpha_at(const Splat& splat, const glm::vec2& pixel) {
   const glm::vec2 d = pixel - splat.mean_px;
   const float q = splat.conic.a * d.x * d.x + 2 * splat.conic.b * d.x * d.y + splat.conic.c * d.y * d.y;
   return std::min(kAlphaMax, splat.opacity * std::exp(-0.5f * q));
 }
 
-}  // namespace
-
-RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camera,
-                                 const RasterOptions& options) {
+inline RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camera,
+                                        const RasterOptions& options = {}) {
   const PixelRect roi = options.roi.value_or(PixelRect{0, 0, camera.width_px, camera.height_px});
   RasterOutput out;
   if (options.colour) out.colour = Image<glm::vec3>(roi.width(), roi.height());
@@ -92,4 +93,4 @@ RasterOutput rasterize_reference(const GaussianCloud& cloud, const Camera& camer
   return out;
 }
 
-}  // namespace splatcut
+}  // namespace splatcut::testing
