@@ -1,6 +1,5 @@
-// A 64-bit hash of bytes, for keys and checksums; not for adversaries. Same bits on any number of threads.
-// Four lanes of multiply-and-fold (a 64 x 64 bit product, its halves xored) over pieces of 1 MiB, one after
-// the other or on all cores. Cost: about as long as reading the memory.
+// A 64-bit hash of bytes, for keys and checksums; not for adversaries. XXH3 of libxxhash: the same on every
+// machine. Cost: about as long as reading the memory.
 #pragma once
 
 #include <cstddef>

@@ -19,8 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-// Version 6: a stroke may be a box (its "kind"). Files of version 5 hold none, and are read as they are.
-constexpr int kVersion = 6, kOldestRead = 5;
+// Version 7: the scene's hash is XXH3.
+constexpr int kVersion = 7;
 
 json parse(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -30,7 +30,7 @@ json parse(const std::filesystem::path& path) {
   if (!work.is_object() || !work.contains("splatcut_work"))
     throw Error(path.string(), "is no work file of splatcut");
   const json& version = work["splatcut_work"];
-  if (!version.is_number_integer() || version < kOldestRead || version > kVersion)
+  if (!version.is_number_integer() || version != kVersion)
     throw Error(path.string(),
                 fmt::format("is of version {}, this splatcut reads version {}", json_text(version), kVersion),
                 "Open the scene itself to start anew");

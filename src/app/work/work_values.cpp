@@ -110,7 +110,7 @@ Strokes strokes_from(const json& j) {
     if (label != "object" && label != "rest")
       throw Error("stroke", "the label \"" + label + "\" is unknown", "Use object or rest");
     Stroke stroke{label == "object" ? SeedLabel::kObject : SeedLabel::kRest, s.at("radius_px"), {}};
-    const std::string kind = s.value("kind", "path");
+    const std::string kind = s.at("kind");
     if (kind != "path" && kind != "box")
       throw Error("stroke", "the kind \"" + kind + "\" is unknown", "Use path or box");
     if (kind == "box") stroke.kind = StrokeKind::kBox;

@@ -315,7 +315,7 @@ void write_large_work(const Workplace& place, const std::string& file, const std
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx",
                 static_cast<unsigned long long>(hash_of_file(still_life().place / "made/small.ply")));
-  place.write(file, nlohmann::json{{"splatcut_work", 5},
+  place.write(file, nlohmann::json{{"splatcut_work", 7},
                                    {"scene", {{"path", scene}, {"hash", hash}}},
                                    {"next_id", 256},
                                    {"up", {0, -1, 0}},
