@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "../tests/headless_app.h"
+#include "core/stage_clock.h"
 
 // Where the sample lies, as the tests' headers ask.
 std::string splatcut::testing::project_folder() {
@@ -20,10 +21,6 @@ using namespace splatcut::testing;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 void print(const char* what, double ms) {
   fmt::print("{:<44} {:8.1f} ms\n", what, ms);

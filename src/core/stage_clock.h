@@ -9,6 +9,10 @@
 
 namespace splatcut {
 
+inline double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 struct StageTime {
   std::string name;
   double ms = 0;
@@ -31,9 +35,9 @@ class StageClock {
     std::string_view name;
     std::chrono::steady_clock::time_point start;
     ~Booking() {
-      const auto now = std::chrono::steady_clock::now();
+      const double ms = ms_since(start);
       try {
-        clock->book(name, std::chrono::duration<double, std::milli>(now - start).count());
+        clock->book(name, ms);
       } catch (const std::bad_alloc&) {
         // Without memory the stage goes without its time; an exception may be on its way already.
       }

@@ -20,6 +20,7 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/json_file.h"
+#include "core/stage_clock.h"
 #include "segment/session/doubts.h"
 #include "segment/session/session.h"
 #include "segment/session/settings_table.h"
@@ -144,14 +145,11 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
       console_job(common.quiet);  // first: Ctrl+C must find its handler once there is a folder to remove
   OutputFolder folder(args.output, args.overwrite);
   const auto start = std::chrono::steady_clock::now();
-  const auto ms_since_start = [&] {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  };
   const auto scene =
       std::make_shared<const Scene>(args.how.load(args.scene, args.camera.cameras, common.quiet, job));
   stop_if_cancelled(job, "splatcut cut");
   refuse_written_inputs(args.output, scene->files);
-  const double load_ms = ms_since_start();
+  const double load_ms = ms_since(start);
   ChosenCamera chosen = choose_camera(args.camera, scene->cloud);
   warn(chosen.warning, common.quiet);
   const CutSettings settings = settings_of(args);
@@ -163,7 +161,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   end_progress();
   stop_if_cancelled(job, "splatcut cut");
   warn_of_doubts(objects, common.quiet);
-  RunReport report{*scene, said, objects, {}, 0, load_ms, ms_since_start()};
+  RunReport report{*scene, said, objects, {}, 0, load_ms, ms_since(start)};
   const CutoutFolder to{folder, *scene, session.blocks(), chosen.up_world, chosen.given, args.edges};
   report.edges = write_cutouts(to, objects, job);
   for (const EdgesReport& edges : report.edges) report.total_ms += edges.ms;

@@ -10,6 +10,7 @@
 #include "app/document/export_plan.h"
 #include "core/atomic_file.h"
 #include "core/png_file.h"
+#include "core/stage_clock.h"
 #include "segment/masks/mask_tools.h"
 
 namespace splatcut {
@@ -120,7 +121,7 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
   if (to.edges.clean()) {
     const auto start = std::chrono::steady_clock::now();
     clean = clean_object({to.drawer(), labels, to.up_world, to.cameras}, {}, job);
-    report.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    report.ms = ms_since(start);
     report.clean = clean->report;
     if (!clean->report.cleaned) clean.reset();
   }

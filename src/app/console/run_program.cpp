@@ -66,15 +66,18 @@ class Group {
   pid_t leader_ = -1;
 };
 
-int start_in_group(const std::vector<std::string>& words, pid_t group, pid_t* child) {
+}  // namespace
+
+int start_program(const std::vector<std::string>& words, int output, std::optional<pid_t> group,
+                  pid_t* child) {
   posix_spawn_file_actions_t files;
   posix_spawnattr_t attributes;
   ::posix_spawn_file_actions_init(&files);
   ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
   ::posix_spawnattr_init(&attributes);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  ::posix_spawnattr_setpgroup(&attributes, group);
+  if (group) ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  ::posix_spawnattr_setpgroup(&attributes, group.value_or(0));
   const std::vector<char*> arguments = pointers_to(words);
   const int error = ::posix_spawnp(child, arguments.front(), &files, &attributes, arguments.data(), environ);
   ::posix_spawnattr_destroy(&attributes);
@@ -82,15 +85,13 @@ int start_in_group(const std::vector<std::string>& words, pid_t group, pid_t* ch
   return error;
 }
 
-}  // namespace
-
 ProgramEnd run_program(const std::vector<std::string>& words, const Job& job) {
   using Clock = std::chrono::steady_clock;
   constexpr auto kLook = std::chrono::milliseconds(20), kGrace = std::chrono::milliseconds(2000);
   const Group group;
   pid_t child = 0;
   ProgramEnd end;
-  end.start_error = group.id() < 0 ? errno : start_in_group(words, group.id(), &child);
+  end.start_error = group.id() < 0 ? errno : start_program(words, STDERR_FILENO, group.id(), &child);
   if (end.start_error != 0) return end;
   int status = 0;
   Clock::time_point asked_to_end{};

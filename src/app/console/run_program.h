@@ -1,12 +1,21 @@
-// Runs another program and waits for it.
+// Other programs: started, or run to their end.
 #pragma once
 
+#include <sys/types.h>
+
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/job.h"
 
 namespace splatcut {
+
+// Starts a program, which is looked up on PATH, with arguments; no shell reads them. It reads nothing.
+// output: descriptor that it prints to. group: process group that it joins; none: that of this process.
+// Returns errno if it cannot be started, else 0 and its process in `child`.
+int start_program(const std::vector<std::string>& words, int output, std::optional<pid_t> group,
+                  pid_t* child);
 
 struct ProgramEnd {
   int start_error = 0;  // errno where it could not be started

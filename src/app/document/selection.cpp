@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/ranks.h"
 #include "scene/raster/rasterizer.h"
 #include "scene/raster/splat_math.h"
 #include "segment/masks/seeds.h"
@@ -180,14 +181,9 @@ Histogram histogram(std::span<const float> values, int bins) {
   Histogram out;
   out.share.assign(static_cast<std::size_t>(bins), 0);
   if (values.empty()) return out;
-  std::vector<float> sorted(values.begin(), values.end());
-  const auto quantile = [&](double q) {
-    const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(sorted.size() - 1));
-    std::nth_element(sorted.begin(), at, sorted.end());
-    return *at;
-  };
-  out.low = quantile(0.001);
-  out.high = std::max(quantile(0.999), out.low + 1e-6f);
+  std::vector<float> by_rank(values.begin(), values.end());
+  out.low = quantile(&by_rank, 0.001);
+  out.high = std::max(quantile(&by_rank, 0.999), out.low + 1e-6f);
   for (const float v : values) {
     const float t = (v - out.low) / (out.high - out.low) * static_cast<float>(bins);
     if (t >= 0 && t <= static_cast<float>(bins))

@@ -9,6 +9,7 @@
 #include "app/measure/mask_measures.h"
 #include "app/measure/robot_user.h"
 #include "core/error.h"
+#include "core/stage_clock.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/session/doubts.h"
 
@@ -73,8 +74,7 @@ SceneScore evaluate_left_out(const EvaluationCase& scene, const EvaluationOption
     const auto start = std::chrono::steady_clock::now();
     const CutResult result = session.cut(request, settings, job);
     if (job.cancelled()) return mean;
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    mean.total_ms += share * took.count();
+    mean.total_ms += share * ms_since(start);
     const ImageScore images = score_images(left_out, result.labels);
     mean.image_iou += share * images.iou;
     mean.accuracy += share * images.accuracy;
@@ -203,8 +203,7 @@ SceneScore evaluate(const EvaluationCase& scene, const EvaluationOptions& option
       request_with(scene, options, scribbles_alone ? strokes : first_strokes(strokes, options.clicks));
   const auto start = std::chrono::steady_clock::now();
   const CutResult result = timed.cut(request, options.settings, job);
-  score.total_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  score.total_ms = ms_since(start);
   score.stages = result.stages;
   score.enough = looked_at(result.views);
   score.nodes_touched = result.cut.touched;

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/picture_difference.h"
 #include "core/png_file.h"
+#include "core/stage_clock.h"
 #include "scene/raster/rasterizer.h"
 #include "segment/masks/mask_tools.h"
 
@@ -158,8 +159,7 @@ CutoutScore score_cutout(const EvaluationCase& scene, const std::vector<std::uin
   const auto start = std::chrono::steady_clock::now();
   const CleanObject clean =
       clean_object({*scene.cloud, labels, scene.up_world, scene.scene_cameras}, {}, job);
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-  score.clean_ms = took.count();
+  score.clean_ms = ms_since(start);
   if (job.cancelled()) return score;
   score.clean = score_alone(scene, clean.cloud);
   score.cleaned = clean.report.cleaned ? 1 : 0;

@@ -5,6 +5,8 @@
 #include <glm/gtc/constants.hpp>
 #include <vector>
 
+#include "core/ranks.h"
+
 namespace splatcut {
 
 namespace {
@@ -38,14 +40,6 @@ glm::quat looking(const glm::vec3& forward, const glm::vec3& up, const glm::vec3
   x = glm::normalize(x);
   const glm::vec3 y = glm::cross(z, x);
   return glm::normalize(glm::quat_cast(glm::transpose(glm::mat3(x, y, z))));
-}
-
-// share: in [0, 1]. values: at least one; their order changes.
-float quantile(std::vector<float>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::ranges::nth_element(values, at);
-  return *at;
 }
 
 }  // namespace
@@ -186,7 +180,7 @@ void CameraController::frame(std::span<const glm::vec3> points_world, const Came
     }
     float filled = 0;
     for (int axis = 0; axis < 2; ++axis) {
-      const float low = quantile(slopes[axis], 0.01), high = quantile(slopes[axis], 0.99);
+      const float low = quantile(&slopes[axis], 0.01), high = quantile(&slopes[axis], 0.99);
       middle[axis] += 0.5f * (low + high) * target.distance;
       filled = std::max(filled, (high - low) / wanted[axis]);
     }

@@ -4,15 +4,12 @@
 
 #include <chrono>
 
+#include "core/stage_clock.h"
 #include "scene/raster/rasterizer.h"
 
 namespace splatcut {
 
 namespace {
-
-double drawn_ms(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 bool same_views(const FrameRequest& a, const FrameRequest& b) {
   if (a.scene != b.scene || a.panes.size() != b.panes.size() || a.limits != b.limits) return false;
@@ -54,7 +51,7 @@ std::shared_ptr<Frame> frame_of(const GaussianCloud& cloud, const Camera& camera
   frame->alpha = std::move(out.alpha);
   frame->depth = std::move(out.median_depth);
   frame->first_hit = std::move(out.first_hit);
-  frame->raster_ms = drawn_ms(start);
+  frame->raster_ms = ms_since(start);
   return frame;
 }
 
@@ -154,7 +151,7 @@ std::optional<FrameResult> FrameThread::draw(const FrameRequest& request, const 
     result.pictures.push_back(shaded(*kept.frame, pane.style));
     result.shown.push_back(pane.shown);
   }
-  result.ms = drawn_ms(start);
+  result.ms = ms_since(start);
   return result;
 }
 

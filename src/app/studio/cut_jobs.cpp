@@ -8,15 +8,12 @@
 #include "app/document/words.h"
 #include "app/studio/cut_pictures.h"
 #include "core/error.h"
+#include "core/stage_clock.h"
 #include "segment/session/doubts.h"
 
 namespace splatcut {
 
 namespace {
-
-double ms_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 // The message after a cut: the size of the object, and what the last step changed.
 std::string what_changed(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after,

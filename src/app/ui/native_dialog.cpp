@@ -1,7 +1,6 @@
 #include "app/ui/native_dialog.h"
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,8 +8,6 @@
 #include <cstdlib>
 
 #include "app/console/run_program.h"
-
-extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX asks for it
 
 namespace splatcut {
 
@@ -59,17 +56,10 @@ void NativeDialog::close() {
 bool NativeDialog::ask(const FileQuestion& question) {
   close();
   text_.clear();
-  std::vector<std::string> command = native_dialog_command(question);
+  const std::vector<std::string> command = native_dialog_command(question);
   int ends[2];
   if (command.empty() || ::pipe2(ends, O_CLOEXEC) != 0) return false;
-  std::vector<char*> arguments;
-  for (std::string& word : command) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  const int failed = ::posix_spawnp(&child_, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
+  const int failed = start_program(command, ends[1], {}, &child_);
   ::close(ends[1]);
   output_ = ends[0];
   ::fcntl(output_, F_SETFL, O_NONBLOCK);

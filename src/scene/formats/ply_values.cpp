@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/median.h"
+#include "core/ranks.h"
 
 namespace splatcut {
 

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/lower_case.h"
+#include "core/spoken_list.h"
 
 namespace splatcut {
 
@@ -22,16 +23,6 @@ std::vector<std::string_view> endings_of(const SceneFormat& format) {
   std::vector<std::string_view> endings = {format.extension, format.also};
   std::erase(endings, "");
   return endings;
-}
-
-std::string joined(const std::vector<std::string>& words, std::string_view conjunction) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool last = i + 1 == words.size();
-    if (i > 0) text += last ? fmt::format(" {} ", conjunction) : ", ";
-    text += words[i];
-  }
-  return text;
 }
 
 struct Ending {
@@ -108,7 +99,7 @@ std::vector<std::string> extensions_of(std::span<const SceneFormat> formats) {
 std::string spoken_extensions(std::span<const SceneFormat> formats, std::string_view conjunction) {
   std::vector<std::string> extensions;
   for (const SceneFormat& format : formats) extensions.emplace_back(format.extension);
-  return joined(extensions, conjunction);
+  return spoken_list(extensions, conjunction);
 }
 
 std::vector<std::string> names_of(std::span<const SceneFormat> formats) {

@@ -12,7 +12,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "core/median.h"
+#include "core/ranks.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/spz_layout.h"
 

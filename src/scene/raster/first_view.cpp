@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "core/median.h"
+#include "core/ranks.h"
 #include "scene/raster/rasterizer.h"
 
 namespace splatcut {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/spoken_list.h"
 
 namespace splatcut {
 
@@ -55,13 +56,9 @@ std::span<const Preset> presets() {
 }
 
 std::string preset_names() {
-  std::string names;
-  for (const Preset& preset : kPresets)
-    names += std::string(names.empty()                       ? ""
-                         : &preset == std::end(kPresets) - 1 ? " or "
-                                                             : ", ") +
-             preset.name;
-  return names;
+  std::vector<std::string> names;
+  for (const Preset& preset : kPresets) names.emplace_back(preset.name);
+  return spoken_list(names);
 }
 
 CutSettings preset(const std::string& name) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/spoken_list.h"
 
 namespace splatcut {
 
@@ -68,21 +69,19 @@ Names<Row> choices_of(const std::vector<Row>& rows) {
 
 // "lift: labels of the cut rendered into the next view; warp: masks through depth; ..."
 std::string sentence_of(const std::vector<Propagator>& rows) {
-  std::string sentence;
-  for (const Propagator& row : rows)
-    sentence += fmt::format("{}{}: {}", sentence.empty() ? "" : "; ", row.name, row.sentence);
-  return sentence;
+  std::vector<std::string> sentences;
+  for (const Propagator& row : rows) sentences.push_back(fmt::format("{}: {}", row.name, row.sentence));
+  return fmt::format("{}", fmt::join(sentences, "; "));
 }
 
 template <class Value, class Field>
 Setting choice(std::string name, SettingFor whom, Names<Value> names, Field field, std::string sentence) {
-  std::string words;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    words += std::string(i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + std::string(names[i].first);
+  std::vector<std::string> words;
+  for (const auto& [word, value] : names) words.emplace_back(word);
   return {std::move(name),
           whom,
           std::move(sentence),
-          words,
+          spoken_list(words),
           [=](std::string_view text, CutSettings* s) {
             const auto it = std::ranges::find(names, text, &std::pair<std::string_view, Value>::first);
             if (it == names.end()) return false;
@@ -207,10 +206,10 @@ std::vector<Setting> make_table() {
 const Setting& found(std::string_view name) {
   const auto it = std::ranges::find(settings_table(), name, &Setting::name);
   if (it != settings_table().end()) return *it;
-  std::string names;
-  for (const Setting& setting : settings_table()) names += (names.empty() ? "" : ", ") + setting.name;
+  std::vector<std::string> names;
+  for (const Setting& setting : settings_table()) names.push_back(setting.name);
   throw Error(fmt::format("setting \"{}\"", name), "there is no such setting",
-              "Take NAME=VALUE with one of " + names);
+              fmt::format("Take NAME=VALUE with one of {}", fmt::join(names, ", ")));
 }
 
 }  // namespace

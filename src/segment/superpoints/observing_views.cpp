@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/median.h"
+#include "core/ranks.h"
 #include "scene/raster/rasterizer.h"
 #include "segment/superpoints/orbit.h"
 

@@ -5,6 +5,8 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/ranks.h"
+
 namespace splatcut {
 
 ObjectExtent object_extent(const GaussianCloud& cloud, std::span<const std::uint8_t> labels) {
@@ -63,11 +65,6 @@ std::vector<Camera> on_circle(const Camera& reference, const Circle& circle, con
   return cameras;
 }
 
-float quantile(std::vector<float> values, double share) {
-  std::ranges::sort(values);
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
-
 // Directions from the object, within the angles from which it was photographed, on two turns outward from the
 // reference.
 std::vector<Camera> on_spiral(const Camera& reference, const glm::vec3& up, const ObjectExtent& object,
@@ -81,7 +78,7 @@ std::vector<Camera> on_spiral(const Camera& reference, const glm::vec3& up, cons
     upwards.push_back(std::abs(glm::dot(from, above)));
   }
   constexpr double kMost = 0.9;  // of the photographs stand nearer than the spiral's outer end
-  const float reach_x = quantile(sideways, kMost), reach_y = quantile(upwards, kMost);
+  const float reach_x = quantile(&sideways, kMost), reach_y = quantile(&upwards, kMost);
   const float distance = options.distance_sizes * 2 * object.radius;
   std::vector<Camera> cameras;
   for (int i = 1; i <= options.views; ++i) {
@@ -115,7 +112,7 @@ std::vector<Camera> cameras_around(const Camera& reference, const glm::vec3& up_
   std::vector<float> elevation;
   for (const Camera& camera : given)
     elevation.push_back(circle_of(camera, up, object.centre_world).elevation_rad);
-  circle.elevation_rad = quantile(elevation, 0.5);
+  circle.elevation_rad = quantile(&elevation, 0.5);
   return on_circle(reference, circle, object, options);
 }
 

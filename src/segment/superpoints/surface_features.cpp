@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "core/ranks.h"
 #include "scene/raster/splat_math.h"
 #include "segment/graphcut/k_nearest.h"
 
@@ -43,18 +44,12 @@ float largest_sigma(const glm::vec3& scale) {
   return std::max({scale.x, scale.y, scale.z});
 }
 
-float quantile_of(std::vector<float> values, float q) {
-  if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<float>(values.size() - 1));
-  std::ranges::nth_element(values, at);
-  return *at;
-}
-
 std::vector<std::uint32_t> core_of(const GaussianCloud& cloud, const Observation& seen, bool observed,
                                    const SurfaceOptions& options) {
   std::vector<float> size(cloud.size());
   for_each_index(cloud.size(), [&](std::size_t g) { size[g] = largest_sigma(cloud.scale[g]); });
-  const float too_large = quantile_of(size, options.size_quantile);
+  std::vector<float> by_rank = size;
+  const float too_large = quantile(&by_rank, options.size_quantile);
   std::vector<std::uint32_t> core;
   for (std::uint32_t g = 0; g < cloud.size(); ++g)
     if (cloud.opacity[g] > options.least_opacity && size[g] <= too_large &&
