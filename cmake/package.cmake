@@ -2,14 +2,14 @@
 # shaders and fonts, so that the prefix is the user's choice at any time.
 include(GNUInstallDirs)
 set(packaging ${PROJECT_SOURCE_DIR}/packaging)
-set(written ${PROJECT_BINARY_DIR}/packaging)  # by the program (src/app) and below
+set(written ${PROJECT_BINARY_DIR}/packaging)  # by src/app and below
 
 install(TARGETS splatcut RUNTIME)
 install(FILES ${packaging}/splatcut.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 install(FILES ${packaging}/splatcut.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
 install(FILES ${packaging}/splatcut.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
-install(FILES ${written}/splatcut.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-install(FILES ${written}/splatcut.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME splatcut)
+install(FILES ${written}/splatcut.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+install(FILES ${packaging}/splatcut.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME splatcut)
 install(FILES assets/sample/sample.compressed.ply assets/sample/cameras.json DESTINATION ${CMAKE_INSTALL_DATADIR}/splatcut/sample)
 install(FILES ${written}/copyright CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

@@ -17,12 +17,12 @@ struct Command {
   void (*add)(CLI::App& program, const CommonOptions& common);
 };
 
-// In the order of --help. describe comes last: it describes the commands before it.
+// In the order of --help.
 constexpr std::array kCommands = {
     Command{"info", add_info_command},   Command{"render", add_render_command},
     Command{"cut", add_cut_command},     Command{"convert", add_convert_command},
     Command{"merge", add_merge_command}, Command{"compare", add_compare_command},
-    Command{"view", add_view_command},   Command{"describe", add_describe_command}};
+    Command{"view", add_view_command}};
 
 bool is_scene(const std::string& word) {
   return has_scene_extension(word) || word.ends_with(".splatcut.json");

@@ -12,7 +12,5 @@ void add_merge_command(CLI::App& program, const CommonOptions& common);
 void add_cut_command(CLI::App& program, const CommonOptions& common);
 void add_compare_command(CLI::App& program, const CommonOptions& common);
 void add_view_command(CLI::App& program, const CommonOptions& common);
-// Hidden, for the build: the manual page and the completion of all commands that were added before.
-void add_describe_command(CLI::App& program, const CommonOptions& common);
 
 }  // namespace splatcut
