@@ -15,7 +15,8 @@ namespace splatcut::testing {
 // arc_capacity: per arc, >= 0. terminal: b per node, source arc minus sink arc. source_side: per node, 0
 // or 1.
 inline std::int64_t cut_energy(const FlowGraph& graph, std::span<const std::int32_t> arc_capacity,
-                        std::span<const std::int64_t> terminal, std::span<const std::uint8_t> source_side) {
+                               std::span<const std::int64_t> terminal,
+                               std::span<const std::uint8_t> source_side) {
   std::int64_t energy = 0;
   for (std::size_t node = 0; node < graph.nodes(); ++node) {
     const std::int64_t b = terminal[node];

@@ -15,9 +15,9 @@ void save_inria_cameras(const std::filesystem::path& path, const std::vector<Cam
     nlohmann::json rows = nlohmann::json::array();
     for (int i = 0; i < 3; ++i) rows.push_back({r[i].x, r[i].y, r[i].z});
     nlohmann::json entry = {{"id", list.size()},        {"img_name", camera.name},
-                  {"width", camera.width_px}, {"height", camera.height_px},
-                  {"fx", camera.fx_px},       {"fy", camera.fy_px},
-                  {"rotation", rows},         {"position", {centre.x, centre.y, centre.z}}};
+                            {"width", camera.width_px}, {"height", camera.height_px},
+                            {"fx", camera.fx_px},       {"fy", camera.fy_px},
+                            {"rotation", rows},         {"position", {centre.x, centre.y, centre.z}}};
     // Inria's own files put the principal point in the middle and do not name it.
     if (camera.cx_px != 0.5f * static_cast<float>(camera.width_px)) entry["cx"] = camera.cx_px;
     if (camera.cy_px != 0.5f * static_cast<float>(camera.height_px)) entry["cy"] = camera.cy_px;
