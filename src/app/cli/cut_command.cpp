@@ -150,7 +150,7 @@ void run_cut(const CutArguments& args, const CommonOptions& common) {
   stop_if_cancelled(job, "splatcut cut");
   refuse_written_inputs(args.output, scene->files);
   const double load_ms = ms_since(start);
-  ChosenCamera chosen = choose_camera(args.camera, scene->cloud);
+  ChosenCamera chosen = choose_camera(args.camera, scene->cloud, scene->origin);
   warn(chosen.warning, common.quiet);
   const CutSettings settings = settings_of(args);
   if (input.segmenter) end_progress();  // the program prints to the same place

@@ -82,13 +82,15 @@ ObjectFiles files_of(const CutObject& object) {
 
 json report_json(const RunReport& report) {
   const Scene& scene = report.scene;
-  json out = {
-      {"version", version()},
-      {"settings", report.settings},
-      {"scene",
-       {{"gaussians", scene.cloud.size()}, {"file_rows", scene.file_rows}, {"dropped", scene.dropped}}},
-      {"total_ms", report.total_ms},
-      {"peak_rss_mb", peak_rss_mb()}};
+  json out = {{"version", version()},
+              {"settings", report.settings},
+              {"scene",
+               {{"gaussians", scene.cloud.size()},
+                {"file_rows", scene.file_rows},
+                {"dropped", scene.dropped},
+                {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}}}},
+              {"total_ms", report.total_ms},
+              {"peak_rss_mb", peak_rss_mb()}};
   if (report.of_one()) {
     const CutObject& object = report.objects.front();
     out.update(cut_json(object.result, stages_of_one(report)));

@@ -38,7 +38,9 @@ std::vector<Scene> load_all(const MergeArguments& args, bool quiet, const Job& j
   std::vector<Scene> scenes;
   for (std::size_t i = 0; i < args.scenes.size(); ++i) {
     const std::filesystem::path& path = args.scenes[i];
-    scenes.push_back(args.how.load(path, {}, quiet, part_of(job, i, args.scenes.size()), path.string()));
+    const auto origin = i == 0 ? std::nullopt : std::optional(scenes.front().origin);
+    scenes.push_back(
+        args.how.load(path, {}, quiet, part_of(job, i, args.scenes.size()), path.string(), origin));
     stop_if_cancelled(job, "splatcut merge");
   }
   return scenes;

@@ -36,7 +36,8 @@ struct SceneArguments {
 
 nlohmann::json info_json(const Scene& scene) {
   const Box box = robust_bounds(scene.cloud.position);
-  const auto list = [](const glm::vec3& v) { return nlohmann::json{v.x, v.y, v.z}; };
+  const auto list = [](const glm::dvec3& v) { return nlohmann::json{v.x, v.y, v.z}; };
+  const auto in_file = [&](const glm::vec3& v) { return list(glm::dvec3(v) + scene.origin); };
   nlohmann::json info = {{"file", scene.path.string()},
                          {"format", scene.format.name},
                          {"file_bytes", scene.file_bytes},
@@ -45,8 +46,9 @@ nlohmann::json info_json(const Scene& scene) {
                          {"dropped", scene.dropped},
                          {"memory_bytes", memory_of_scene(scene.cloud.size(), scene.cloud.sh_degree)},
                          {"sh_degree", scene.cloud.sh_degree},
-                         {"bounds_98", {{"min", list(box.min)}, {"max", list(box.max)}}},
+                         {"bounds_98", {{"min", in_file(box.min)}, {"max", in_file(box.max)}}},
                          {"antialiased", scene.cloud.antialiased}};
+  if (scene.origin != glm::dvec3(0)) info["origin"] = list(scene.origin);
   if (scene.taken_axes) info["spz_axes"] = name_of(*scene.taken_axes);
   return info;
 }
@@ -140,7 +142,7 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
   const Job job = console_job(common.quiet);
   const Scene scene = args.how.load(args.scene, args.camera.cameras, common.quiet, job);
   refuse_written_inputs(args.output, scene.files);
-  const ChosenCamera chosen = choose_camera(args.camera, scene.cloud);
+  const ChosenCamera chosen = choose_camera(args.camera, scene.cloud, scene.origin);
   warn(chosen.warning, common.quiet);
   RasterOptions options;
   options.background = parse_vec3(args.background, "--background");

@@ -91,22 +91,23 @@ void CameraOptions::add_to(CLI::App& command) {
   command.add_option("--size", size, "Picture size WxH");
 }
 
-glm::vec3 parse_vec3(const std::string& text, const std::string& where) {
-  glm::vec3 v;
+glm::dvec3 parse_vec3(const std::string& text, const std::string& where) {
+  glm::dvec3 v;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%f,%f,%f%c", &v.x, &v.y, &v.z, &rest) != 3 ||
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &v.x, &v.y, &v.z, &rest) != 3 ||
       !std::isfinite(v.x + v.y + v.z))
     throw Error(where + " " + text, "is not a point", "Write it as x,y,z");
   return v;
 }
 
-ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cloud) {
+ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cloud,
+                           const glm::dvec3& origin) {
   ChosenCamera chosen;
   if (!options.camera.empty() && options.cameras.empty())
     throw Error("--camera " + options.camera, "names a camera, but none are given",
                 "Give them with --cameras");
   if (!options.cameras.empty()) {
-    chosen.given = load_cameras(options.cameras, &chosen.warning);
+    chosen.given = load_cameras(options.cameras, &chosen.warning, origin);
     if (chosen.given.empty()) throw Error(options.cameras.string(), "holds no camera");
     chosen.up_world = common_up(chosen.given);
     if (!any_sees(chosen.given, cloud))
@@ -125,8 +126,8 @@ ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cl
   if (!options.position.empty() || !options.target.empty()) {
     if (options.position.empty() || options.target.empty())
       throw Error("camera", "--camera-pos and --camera-target belong together", "Give both");
-    const glm::vec3 position = parse_vec3(options.position, "--camera-pos"),
-                    target = parse_vec3(options.target, "--camera-target");
+    const glm::vec3 position = parse_vec3(options.position, "--camera-pos") - origin,
+                    target = parse_vec3(options.target, "--camera-target") - origin;
     chosen.camera = look_at(position, target, up_for(options, target - position, chosen.up_world), fov_y_rad,
                             width, height);
   } else if (!chosen.given.empty()) {

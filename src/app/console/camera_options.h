@@ -33,9 +33,11 @@ struct ChosenCamera {
   std::string warning;        // a sentence about those cameras, or empty
 };
 
-// Throws Error for a camera that cannot be made.
-ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cloud);
+// Throws Error for a camera that cannot be made. origin: taken off all positions that are given, as off those
+// of the scene (Scene::origin).
+ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cloud,
+                           const glm::dvec3& origin = glm::dvec3(0));
 
-glm::vec3 parse_vec3(const std::string& text, const std::string& where);
+glm::dvec3 parse_vec3(const std::string& text, const std::string& where);
 
 }  // namespace splatcut

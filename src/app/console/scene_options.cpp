@@ -32,8 +32,9 @@ void SceneOptions::add_to(CLI::App& command, bool with_lod) {
 }
 
 Scene SceneOptions::load(const std::filesystem::path& scene, const std::filesystem::path& cameras, bool quiet,
-                         const Job& job, std::string_view called) const {
-  LoadOptions options{axes(), {}, lod};
+                         const Job& job, std::string_view called,
+                         const std::optional<glm::dvec3>& origin) const {
+  LoadOptions options{axes(), {}, lod, origin};
   if (!cameras.empty()) options.cameras = load_cameras(cameras);
   Scene loaded = load_scene(scene, options, job);
   if (!options.spz_axes && !loaded.axes_note.empty()) {

@@ -24,9 +24,10 @@ struct SceneOptions {
 
   // cameras: file or folder of --cameras, which helps to tell the axes of a .spz, or empty. Where they had to
   // be guessed, and where something is left out, a sentence on stderr says so. called: what it begins with
-  // where the scene is one of several.
+  // where the scene is one of several, which have the origin of the first.
   Scene load(const std::filesystem::path& scene, const std::filesystem::path& cameras, bool quiet,
-             const Job& job, std::string_view called = {}) const;
+             const Job& job, std::string_view called = {},
+             const std::optional<glm::dvec3>& origin = {}) const;
 };
 
 // Of SaveOptions, for commands that write a scene.

@@ -108,7 +108,9 @@ SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
                           const SaveOptions& options) {
   if (!instead && !to) return save_scene(path, scene, keep, format, options);
   GaussianCloud cloud = !to ? *instead : instead ? placed(*instead, {}, *to) : placed(scene.cloud, keep, *to);
-  return save_scene(path, with_cloud(scene, std::move(cloud)), {}, format, options);
+  Scene placed_scene = with_cloud(scene, std::move(cloud));
+  if (to && to->origin != glm::vec3(0)) placed_scene.origin = glm::dvec3(0);  // recentred
+  return save_scene(path, placed_scene, {}, format, options);
 }
 
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,

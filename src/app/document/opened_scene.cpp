@@ -38,8 +38,9 @@ FileViews views_of(const Scene& scene, const Box& bounds, std::vector<Camera> ca
 
 Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::vector<std::string>* remarks) {
   std::vector<Camera> cameras = cameras_near(file->path);
-  Scene scene = load_scene(file->path, {file->spz_axes, cameras}, job);
+  Scene scene = load_scene(file->path, {file->spz_axes, cameras, 0, file->origin}, job);
   if (job.cancelled()) return scene;
+  if (scene.origin != glm::dvec3(0)) cameras = cameras_near(file->path, scene.origin);
   const SceneSource* known = before ? before->file(file->id) : nullptr;
   const std::uint64_t hash = hash_of_file(scene.path);
   if (known && known->hash != hash)
@@ -49,6 +50,7 @@ Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::ve
     if (!known && !remark.empty()) remarks->push_back(remark);
   file->path = scene.path;
   file->spz_axes = scene.taken_axes;
+  file->origin = scene.origin;
   file->hash = hash;
   file->file_rows = scene.file_rows;
   file->gaussians = scene.cloud.size();
@@ -87,13 +89,13 @@ std::vector<std::uint8_t> gaussians_of(const OpenedScene& scene, std::uint32_t f
   return own;
 }
 
-std::vector<Camera> cameras_near(const std::filesystem::path& scene) {
+std::vector<Camera> cameras_near(const std::filesystem::path& scene, const glm::dvec3& origin) {
   std::filesystem::path folder = std::filesystem::absolute(scene).parent_path();
   for (int level = 0; level < 3; ++level) {
     for (const char* name : {"cameras.json", "transforms.json", "sparse/0"}) {
       if (!std::filesystem::exists(folder / name)) continue;
       try {
-        return load_cameras(folder / name);
+        return load_cameras(folder / name, nullptr, origin);
       } catch (const Error&) {
         // A file of that name with other content must not keep the scene from opening.
       }
@@ -110,6 +112,7 @@ std::shared_ptr<OpenedScene> open_scene(std::vector<SceneSource> files, const Jo
   auto opened = std::make_shared<OpenedScene>();
   std::vector<Scene> scenes;
   for (SceneSource& file : files) {
+    if (!file.origin) file.origin = files.front().origin;
     scenes.push_back(load(&file, before, job, &opened->remarks));
     if (job.cancelled()) return opened;
     if (file.place != ScenePlace{})

@@ -43,7 +43,8 @@ std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const
 Session session_on(const OpenedScene& scene, const PreparedCache& cache = {});
 
 // Capture cameras that lie beside a scene: cameras.json, transforms.json or a COLMAP folder (sparse/0) in its
-// folder or one of the two above. Empty if there are none that can be read.
-std::vector<Camera> cameras_near(const std::filesystem::path& scene);
+// folder or one of the two above. Empty if there are none that can be read. origin: as in load_cameras().
+std::vector<Camera> cameras_near(const std::filesystem::path& scene,
+                                 const glm::dvec3& origin = glm::dvec3(0));
 
 }  // namespace splatcut

@@ -40,6 +40,8 @@ struct SceneSource {
   // Axes to read a .spz with, as in LoadOptions. After loading: the axes taken, if the file does not say
   // them.
   std::optional<SpzAxes> spz_axes;
+  // Taken off positions, as in LoadOptions; after loading: that of the scene, which is the first file's.
+  std::optional<glm::dvec3> origin;
   ScenePlace place;  // place in the scene; the first file always stays where its coordinates say
 
   // Loading sets the rest.

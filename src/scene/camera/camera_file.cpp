@@ -47,7 +47,7 @@ json json_of_regular_file(const fs::path& path) {
   return has_nan ? parse_json(path, without_nan(text)) : parse_json(path, text);
 }
 
-Camera inria_camera(const json& entry) {
+Camera inria_camera(const json& entry, const glm::dvec3& origin) {
   Camera camera;
   const json name = entry.value("img_name", json(""));
   camera.name = name.is_string() ? name.get<std::string>() : json_text(name);
@@ -58,7 +58,7 @@ Camera inria_camera(const json& entry) {
   camera.fy_px = static_cast<float>(number("fy"));
   camera.cx_px = static_cast<float>(number_in(entry, "cx").value_or(0.5 * camera.width_px));
   camera.cy_px = static_cast<float>(number_in(entry, "cy").value_or(0.5 * camera.height_px));
-  if (!set_pose(camera, axes_of_json(entry.at("rotation")), point_of_json(entry.at("position"))))
+  if (!set_pose(camera, axes_of_json(entry.at("rotation")), point_of_json(entry.at("position")) - origin))
     throw std::domain_error("\"rotation\" or \"position\" is not a pose");
   return camera;
 }
@@ -89,12 +89,15 @@ std::vector<Camera> each_entry(const fs::path& path, const json& list, const cha
   return cameras;
 }
 
-std::vector<Camera> load_json_cameras(const fs::path& path, CameraRemarks* remarks) {
+std::vector<Camera> load_json_cameras(const fs::path& path, const glm::dvec3& origin,
+                                      CameraRemarks* remarks) {
   const json file = json_of_regular_file(path);
-  if (file.is_array()) return each_entry(path, file, "camera", inria_camera, remarks);
+  if (file.is_array())
+    return each_entry(
+        path, file, "camera", [&](const json& entry) { return inria_camera(entry, origin); }, remarks);
   if (file.is_object() && file.contains("frames") && file["frames"].is_array()) {
     const auto read = [&](const json& frame) {
-      const Camera camera = transforms_camera(path, file, frame);
+      const Camera camera = transforms_camera(path, file, frame, origin);
       remarks->add_shift(corner_shift_px(camera, transforms_distortion(file, frame)));
       return camera;
     };
@@ -171,14 +174,14 @@ void refuse_other_programs(const fs::path& path) {
                 "Export COLMAP there: File > Export > Export Cameras, type Colmap");
 }
 
-std::vector<Camera> load_any_cameras(const fs::path& path, CameraRemarks* remarks) {
+std::vector<Camera> load_any_cameras(const fs::path& path, const glm::dvec3& origin, CameraRemarks* remarks) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) throw Error(path.string(), "there is no such file or folder");
   if (fs::is_directory(path, ignored)) {
     for (const char* folder : kColmapFolders)
-      if (has_colmap_cameras(path / folder)) return load_colmap_cameras(path / folder, remarks);
+      if (has_colmap_cameras(path / folder)) return load_colmap_cameras(path / folder, origin, remarks);
     for (const char* name : {"cameras.json", "transforms.json"})
-      if (fs::exists(path / name, ignored)) return load_json_cameras(path / name, remarks);
+      if (fs::exists(path / name, ignored)) return load_json_cameras(path / name, origin, remarks);
     throw Error(
         path.string(),
         "the folder has no cameras: cameras.json, transforms.json and COLMAP's cameras and images are "
@@ -187,12 +190,12 @@ std::vector<Camera> load_any_cameras(const fs::path& path, CameraRemarks* remark
   }
   refuse_other_programs(path);
   const bool colmap = path.extension() == ".bin" || path.extension() == ".txt";
-  if (!colmap) return load_json_cameras(path, remarks);
+  if (!colmap) return load_json_cameras(path, origin, remarks);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!has_colmap_cameras(folder))
     throw Error(path.string(),
                 "cameras and images of COLMAP are wanted beside each other, both .bin or both .txt");
-  return load_colmap_cameras(folder, remarks);
+  return load_colmap_cameras(folder, origin, remarks);
 }
 
 }  // namespace
@@ -221,9 +224,9 @@ std::string CameraRemarks::sentence(const fs::path& path) const {
   return text;
 }
 
-std::vector<Camera> load_cameras(const fs::path& path, std::string* warning) {
+std::vector<Camera> load_cameras(const fs::path& path, std::string* warning, const glm::dvec3& origin) {
   CameraRemarks remarks;
-  std::vector<Camera> cameras = load_any_cameras(path, &remarks);
+  std::vector<Camera> cameras = load_any_cameras(path, origin, &remarks);
   if (warning) *warning = remarks.sentence(path);
   return cameras;
 }

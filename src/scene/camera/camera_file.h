@@ -13,6 +13,9 @@ namespace splatcut {
 // By name and content. Throws Error naming file and entry.
 // warning, if given: a sentence where the lenses are distorted, which is left out here (everything is drawn
 // through a pinhole); empty otherwise.
-std::vector<Camera> load_cameras(const std::filesystem::path& path, std::string* warning = nullptr);
+// origin: taken off their positions before these are rounded to 32 bits, as off those of the scene
+// (Scene::origin).
+std::vector<Camera> load_cameras(const std::filesystem::path& path, std::string* warning = nullptr,
+                                 const glm::dvec3& origin = glm::dvec3(0));
 
 }  // namespace splatcut

@@ -98,8 +98,8 @@ void add_lens(const fs::path& path, std::uint32_t id, const LensModel* model, st
 // A camera per image, by name: the order in the file is that of a hash table.
 class Cameras {
  public:
-  Cameras(fs::path path, Lenses lenses, CameraRemarks* remarks)
-      : path_(std::move(path)), lenses_(std::move(lenses)), remarks_(remarks) {}
+  Cameras(fs::path path, Lenses lenses, const glm::dvec3& origin, CameraRemarks* remarks)
+      : path_(std::move(path)), lenses_(std::move(lenses)), origin_(origin), remarks_(remarks) {}
 
   void add(const Pose& pose) {
     if (const auto wrong = lenses_.wrong.find(pose.lens); wrong != lenses_.wrong.end())
@@ -114,7 +114,7 @@ class Cameras {
     const glm::dmat3 world_from_camera =
         glm::transpose(glm::mat3_cast(glm::normalize(pose.camera_from_world)));
     if (!(glm::length(pose.camera_from_world) > 0) ||
-        !set_pose(camera, world_from_camera, -(world_from_camera * pose.translation)))
+        !set_pose(camera, world_from_camera, -(world_from_camera * pose.translation) - origin_))
       return remarks_->leave_out(
           Error(path_.string(), fmt::format("image \"{}\" has no usable pose", pose.name)));
     cameras_.push_back(std::move(camera));
@@ -129,6 +129,7 @@ class Cameras {
  private:
   fs::path path_;
   Lenses lenses_;
+  glm::dvec3 origin_;
   CameraRemarks* remarks_;
   std::vector<Camera> cameras_;
 };
@@ -182,10 +183,11 @@ Lenses read_lenses_bin(const fs::path& path, CameraRemarks* remarks) {
   return lenses;
 }
 
-std::vector<Camera> read_images_bin(const fs::path& path, Lenses lenses, CameraRemarks* remarks) {
+std::vector<Camera> read_images_bin(const fs::path& path, Lenses lenses, const glm::dvec3& origin,
+                                    CameraRemarks* remarks) {
   constexpr std::uint64_t kPointBytes = 24;
   BinaryReader in(path);
-  Cameras cameras(path, std::move(lenses), remarks);
+  Cameras cameras(path, std::move(lenses), origin, remarks);
   const auto count = in.read<std::uint64_t>();
   for (std::uint64_t i = 0; i < count; ++i) {
     Pose pose;
@@ -266,9 +268,10 @@ bool is_line_of_points(const std::string& line) {
 }
 
 // An image's points follow in a line of their own, which may be empty; scripts leave that line out.
-std::vector<Camera> read_images_txt(const fs::path& path, Lenses lenses, CameraRemarks* remarks) {
+std::vector<Camera> read_images_txt(const fs::path& path, Lenses lenses, const glm::dvec3& origin,
+                                    CameraRemarks* remarks) {
   std::istringstream in(text_of(path));
-  Cameras cameras(path, std::move(lenses), remarks);
+  Cameras cameras(path, std::move(lenses), origin, remarks);
   std::string line;
   bool points = false;  // may follow
   for (int number = 1; std::getline(in, line); ++number) {
@@ -305,10 +308,13 @@ bool has_colmap_cameras(const fs::path& folder) {
   return has_pair(folder, ".bin") || has_pair(folder, ".txt");
 }
 
-std::vector<Camera> load_colmap_cameras(const fs::path& folder, CameraRemarks* remarks) {
+std::vector<Camera> load_colmap_cameras(const fs::path& folder, const glm::dvec3& origin,
+                                        CameraRemarks* remarks) {
   if (has_pair(folder, ".bin"))
-    return read_images_bin(folder / "images.bin", read_lenses_bin(folder / "cameras.bin", remarks), remarks);
-  return read_images_txt(folder / "images.txt", read_lenses_txt(folder / "cameras.txt", remarks), remarks);
+    return read_images_bin(folder / "images.bin", read_lenses_bin(folder / "cameras.bin", remarks), origin,
+                           remarks);
+  return read_images_txt(folder / "images.txt", read_lenses_txt(folder / "cameras.txt", remarks), origin,
+                         remarks);
 }
 
 }  // namespace splatcut

@@ -89,7 +89,8 @@ glm::ivec2 size_of_picture(const fs::path& beside, const fs::path& picture) {
 
 }  // namespace
 
-Camera transforms_camera(const fs::path& path, const json& file, const json& frame) {
+Camera transforms_camera(const fs::path& path, const json& file, const json& frame,
+                         const glm::dvec3& origin) {
   Camera camera;
   check_model(frame, file);
   std::string picture = frame.value("file_path", std::string());
@@ -118,7 +119,7 @@ Camera transforms_camera(const fs::path& path, const json& file, const json& fra
   axes[2] = -axes[2];
   const glm::dvec3 centre(matrix.at(0).at(3).get<double>(), matrix.at(1).at(3).get<double>(),
                           matrix.at(2).at(3).get<double>());
-  if (!set_pose(camera, axes, centre)) throw std::domain_error("\"transform_matrix\" is not a pose");
+  if (!set_pose(camera, axes, centre - origin)) throw std::domain_error("\"transform_matrix\" is not a pose");
   return camera;
 }
 

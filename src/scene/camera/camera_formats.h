@@ -35,14 +35,15 @@ class CameraRemarks {
   std::string first_;
 };
 
-// folder holds cameras and images, both .bin or both .txt (.bin is preferred).
-std::vector<Camera> load_colmap_cameras(const std::filesystem::path& folder, CameraRemarks* remarks);
+// folder holds cameras and images, both .bin or both .txt (.bin is preferred). origin: as in load_cameras().
+std::vector<Camera> load_colmap_cameras(const std::filesystem::path& folder, const glm::dvec3& origin,
+                                        CameraRemarks* remarks);
 bool has_colmap_cameras(const std::filesystem::path& folder);
 
 // The frame of a transforms.json. path: of the file, beside which its pictures are. Throws json::exception or
 // domain_error, whose words are about the frame.
 Camera transforms_camera(const std::filesystem::path& path, const nlohmann::json& file,
-                         const nlohmann::json& frame);
+                         const nlohmann::json& frame, const glm::dvec3& origin);
 Distortion transforms_distortion(const nlohmann::json& file, const nlohmann::json& frame);
 
 // A number, which some tools write as text; none where it is missing or null. Throws domain_error for other

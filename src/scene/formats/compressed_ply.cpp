@@ -229,6 +229,7 @@ Losses compressed_ply_losses(const Scene& scene, std::span<const std::uint32_t> 
       "positions are rounded to 11 bits within groups of 256 Gaussians, whose order changes, all other "
       "values to 8 to 11 bits");
   losses.add(clamped_sh(scene.cloud, gaussians, kShBytes));
+  losses.add(origin_left_out(scene));
   losses.add(properties_left_out(scene));
   return losses;
 }

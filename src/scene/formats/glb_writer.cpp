@@ -111,6 +111,7 @@ void add_sh(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians
 
 Losses glb_losses(const Scene& scene) {
   Losses losses;
+  losses.add(origin_left_out(scene));
   losses.add(properties_left_out(scene));
   losses.add(antialiasing_left_out(scene));
   return losses;

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <numeric>
 
+#include "scene/formats/far_origin.h"
+
 namespace splatcut {
 
 namespace {
@@ -67,6 +69,12 @@ std::string properties_left_out(const Scene& scene) {
   if (others.empty()) return {};
   if (others.size() == 1) return fmt::format("the property \"{}\" is left out", others[0]);
   return fmt::format("{} properties are left out, \"{}\" among them", others.size(), others[0]);
+}
+
+std::string origin_left_out(const Scene& scene) {
+  return scene.origin == glm::dvec3(0)
+             ? ""
+             : fmt::format("positions are those of the source less {}", spoken(scene.origin));
 }
 
 std::string antialiasing_left_out(const Scene& scene) {

@@ -34,6 +34,8 @@ std::string clamped_sh(const GaussianCloud& cloud, std::span<const std::uint32_t
 
 // For formats that cannot hold them.
 std::string properties_left_out(const Scene& scene);
+// For formats whose positions have 32 bits or less.
+std::string origin_left_out(const Scene& scene);
 // For formats that cannot say it.
 std::string antialiasing_left_out(const Scene& scene);
 

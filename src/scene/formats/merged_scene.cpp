@@ -41,6 +41,7 @@ Scene described(const std::vector<Scene>& scenes) {
   Scene whole;
   whole.path = scenes.front().path;
   whole.format = scenes.front().format;
+  whole.origin = scenes.front().origin;
   for (const Scene& scene : scenes) {
     whole.file_rows += scene.file_rows;
     whole.dropped += scene.dropped;

@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
+#include "scene/formats/far_origin.h"
 #include "scene/formats/losses.h"
 #include "scene/formats/ply_header.h"
 #include "scene/formats/ply_text.h"
@@ -51,6 +52,7 @@ struct PlyRows {
   bool rest_in_sequence = false;  // f_rest_0, f_rest_1, ... stand side by side as floats
   float colour_scale = 0;         // not 0: the file has colours instead of f_dc; times this they are 0 to 1
   bool linear_colours = false;
+  glm::dvec3 origin{0};                 // taken off positions
   const PlyProperty* filter = nullptr;  // of the 3D filter, scene units
 
   float value(const std::byte* row, std::size_t field) const {
@@ -59,6 +61,14 @@ struct PlyRows {
   }
   glm::vec3 vec3(const std::byte* row, std::size_t field) const {
     return {value(row, field), value(row, field + 1), value(row, field + 2)};
+  }
+  // Where nothing is taken off, as the bits stand there.
+  glm::vec3 place(const std::byte* row) const {
+    if constexpr (kFloats) return vec3(row, kX);
+    const auto from_origin = [&](std::size_t axis) {
+      return load_as_double(row + offset[axis], type[axis]) - origin[static_cast<int>(axis)];
+    };
+    return glm::vec3(from_origin(0), from_origin(1), from_origin(2));
   }
   glm::quat rotation(const std::byte* row) const {
     return {value(row, kRotation), value(row, kRotation + 1), value(row, kRotation + 2),
@@ -93,7 +103,7 @@ struct PlyRows {
     const bool good = norm_squared > 0 && std::isfinite(norm_squared) && !std::isnan(value(row, kOpacity)) &&
                       logs.x < kMaxLogScale && logs.y < kMaxLogScale && logs.z < kMaxLogScale &&
                       is_finite(vec3(row, kDc)) && std::isfinite(filter_size(row)) && rest_is_finite(row);
-    return good ? vec3(row, kX) : kDroppedRow;
+    return good ? place(row) : kDroppedRow;
   }
   void decode(std::size_t index, GaussianCloud& cloud, std::size_t g) const {
     const std::byte* row = data + index * row_bytes;
@@ -209,6 +219,7 @@ void read_rows(const MappedFile& file, const PlyElement& vertex, const std::byte
                Scene& scene, const Job& job) {
   PlyRows<kFloats> rows = bind<kFloats>(file.path(), vertex);
   rows.linear_colours = linear_colours;
+  rows.origin = scene.origin;
   rows.data = data;
   if (vertex.count > std::numeric_limits<std::uint32_t>::max())
     throw Error(file.path().string(), fmt::format("{} Gaussians are more than can be handled", vertex.count));
@@ -228,7 +239,7 @@ void read_text(const MappedFile& file, const PlyHeader& header, const PlyElement
                 "is text and names a space of colours, which is only read from a binary .ply",
                 "Convert the file to binary_little_endian");
   job.progress("reading text", 0.0);
-  PlyTextRows rows = read_text_rows(file, header, vertex, job);
+  PlyTextRows rows = read_text_rows(file, header, vertex, scene.origin, job);
   if (job.cancelled()) return;
   if (has_colours_only(vertex)) {
     const float scale = colour_scale_of(vertex.find(kColourNames[0])->type);
@@ -263,10 +274,34 @@ void read_binary(const MappedFile& file, const PlyHeader& header, const PlyEleme
     read_rows<true>(file, vertex, data, linear, scene, job);
   else
     read_rows<false>(file, vertex, data, linear, scene, job);
-  if (!job.cancelled()) scene.oddity = rounded_positions(vertex, scene.cloud);
 }
 
-void read_ply(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
+void read_vertices(const MappedFile& file, const PlyHeader& header, const PlyElement& vertex, Scene& scene,
+                   const Job& job) {
+  if (header.ascii)
+    read_text(file, header, vertex, scene, job);
+  else
+    read_binary(file, header, vertex, scene, job);
+}
+
+// A second time where the first look says that an origin is to be taken off.
+void read_doubles(const MappedFile& file, const PlyHeader& header, const PlyElement& vertex,
+                  const LoadOptions& options, Scene& scene, const Job& job) {
+  scene.origin = options.origin.value_or(glm::dvec3(0));
+  read_vertices(file, header, vertex, scene, job);
+  if (!options.origin) scene.origin = far_origin(scene.cloud);
+  if (options.origin || scene.origin == glm::dvec3(0)) {
+    scene.oddity = rounded_positions(scene.cloud);
+    return;
+  }
+  read_vertices(file, header, vertex, scene, job);
+  scene.oddity = fmt::format(
+      "{} is taken off its positions, which 32 bits do not hold, and off those of cameras; a .ply gets it "
+      "back",
+      spoken(scene.origin));
+}
+
+void read_ply(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
   const PlyHeader header = parse_ply_header(file.path(), file.bytes());
   const PlyElement& vertex = vertex_of(file.path(), header);
   refuse_other_ply(file.path(), vertex);
@@ -275,10 +310,10 @@ void read_ply(const MappedFile& file, const LoadOptions&, Scene& scene, const Jo
   scene.cloud.antialiased = header.antialiased();
   if (rest_of(vertex) == kRestOfDegree4)
     scene.left_out = "Spherical harmonics of degree 4 are left out, those up to degree 3 are read";
-  if (header.ascii)
-    read_text(file, header, vertex, scene, job);
+  if (required_property(file.path(), vertex, "x").type == PlyType::kFloat64)
+    read_doubles(file, header, vertex, options, scene, job);
   else
-    read_binary(file, header, vertex, scene, job);
+    read_vertices(file, header, vertex, scene, job);
 }
 
 Losses ply_losses(const Scene& scene, bool rows_copied) {
@@ -292,15 +327,16 @@ std::string write_ply(AtomicFile& out, const Scene& scene, std::span<const std::
   if (scene.rows_can_be_copied)
     write_ply_subset(out, scene, gaussians);
   else
-    write_ply_rows(out, scene.cloud, gaussians);
+    write_ply_rows(out, scene, gaussians);
   return ply_losses(scene, scene.rows_can_be_copied).sentence();
 }
 
 std::uint64_t ply_row_bytes(const Scene& scene, bool rows_copied) {
   if (rows_copied && scene.file_rows > 0) return scene.file_bytes / scene.file_rows;
+  const std::size_t more = scene.origin != glm::dvec3(0) ? 3 * (sizeof(double) - sizeof(float)) : 0;
   const auto floats = 3 + 3 + 3 + scene.cloud.sh_stride() + 1 + 3 +
                       4;  // position, normal, f_dc, rest, opacity, scale, rotation
-  return floats * sizeof(float);
+  return floats * sizeof(float) + more;
 }
 
 FormatPlan plan_ply(const Scene& scene, std::size_t gaussians, bool moved) {

@@ -30,14 +30,17 @@ std::string_view next_word(std::string_view* text) {
   return word;
 }
 
-bool parse_number(std::string_view word, float* value) {
+// The number less what is taken off it.
+bool parse_number(std::string_view word, double off, float* value) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   const char* last = word.data() + word.size();
-  const auto [end, failure] = std::from_chars(word.data(), last, *value);
-  if (failure != std::errc::result_out_of_range) return failure == std::errc() && end == last;
-  double wide = 0;  // beyond what a float holds: infinite, or 0
+  if (off == 0) {
+    const auto [end, failure] = std::from_chars(word.data(), last, *value);
+    if (failure != std::errc::result_out_of_range) return failure == std::errc() && end == last;
+  }
+  double wide = 0;  // where off is 0, beyond what a float holds: infinite, or 0
   const auto [wide_end, wide_failure] = std::from_chars(word.data(), last, wide);
-  *value = static_cast<float>(wide);
+  *value = static_cast<float>(wide - off);
   return wide_failure == std::errc() && wide_end == last;
 }
 
@@ -50,10 +53,18 @@ PlyElement with_floats(PlyElement element) {
   return element;
 }
 
+// By column.
+std::vector<double> taken_off(const PlyElement& element, const glm::dvec3& origin) {
+  std::vector<double> off;
+  for (const PlyProperty& p : element.properties)
+    off.push_back(p.name == "x" ? origin.x : p.name == "y" ? origin.y : p.name == "z" ? origin.z : 0);
+  return off;
+}
+
 }  // namespace
 
 PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, const PlyElement& element,
-                           const Job& job) {
+                           const glm::dvec3& origin, const Job& job) {
   const auto refuse = [&](const std::string& what) { throw Error(file.path().string(), what); };
   if (element.has_list || element.properties.empty())
     refuse(fmt::format("list properties in the element \"{}\" are not supported", element.name));
@@ -68,6 +79,7 @@ PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, cons
   if (element.count > (text.size() + 1) / 2 / columns)  // a digit and a blank for each number
     refuse(fmt::format("truncated: {} rows of {} numbers do not fit into {} bytes", element.count, columns,
                        text.size()));
+  const std::vector<double> off = taken_off(element, origin);
   PlyTextRows rows{with_floats(element), std::vector<float>(element.count * columns)};
   constexpr std::size_t kBetweenLooks = 1 << 16;
   for (std::size_t i = 0; i < rows.values.size(); ++i) {
@@ -75,7 +87,7 @@ PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, cons
     const std::string_view word = next_word(&text);
     const std::string& property = element.properties[i % columns].name;
     if (word.empty()) refuse(fmt::format("truncated: row {} ends before \"{}\"", i / columns, property));
-    if (!parse_number(word, &rows.values[i]))
+    if (!parse_number(word, off[i % columns], &rows.values[i]))
       refuse(fmt::format("row {}: \"{}\" is no number, for the property \"{}\"", i / columns,
                          word.substr(0, 40), property));
   }

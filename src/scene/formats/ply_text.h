@@ -1,6 +1,7 @@
 // The rows of an ASCII .ply. Internal to src/scene/formats.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "core/job.h"
@@ -13,9 +14,9 @@ struct PlyTextRows {
   std::vector<float> values;  // row by row
 };
 
-// Throws Error for rows that are missing, lists, and words that are no numbers. Memory: at most four bytes
-// for two of the file. Incomplete when cancelled.
+// origin: taken off x, y and z. Throws Error for rows that are missing, lists, and words that are no numbers.
+// Memory: at most four bytes for two of the file. Incomplete when cancelled.
 PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, const PlyElement& element,
-                           const Job& job);
+                           const glm::dvec3& origin, const Job& job);
 
 }  // namespace splatcut

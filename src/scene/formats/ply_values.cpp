@@ -1,16 +1,16 @@
 #include "scene/formats/ply_values.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <vector>
-
-#include "core/ranks.h"
 
 namespace splatcut {
+
+double load_as_double(const std::byte* at, PlyType type) {
+  if (type != PlyType::kFloat64) return load_as_float(at, type);
+  double value = 0;
+  std::memcpy(&value, at, sizeof value);
+  return value;
+}
 
 float load_as_float(const std::byte* at, PlyType type) {
   switch (type) {
@@ -47,26 +47,6 @@ void fuse_filter(float filter, glm::vec3* scale, float* opacity) {
   for (int axis = 0; axis < 3; ++axis)
     if (fused[axis] > 0) *opacity *= (*scale)[axis] / fused[axis];
   *scale = fused;
-}
-
-std::string rounded_positions(const PlyElement& vertex, const GaussianCloud& cloud) {
-  const PlyProperty* x = vertex.find("x");
-  if (!x || x->type != PlyType::kFloat64 || cloud.empty()) return {};
-  const Box box = robust_bounds(cloud.position);
-  const glm::vec3 far = glm::max(glm::abs(box.min), glm::abs(box.max));
-  const float step = std::max({far.x, far.y, far.z}) * std::numeric_limits<float>::epsilon();
-  std::vector<float> sizes(cloud.size());
-  std::ranges::transform(cloud.scale, sizes.begin(), [](const glm::vec3& s) {
-    return std::max({s.x, s.y, s.z});
-  });
-  const float size = median(sizes);
-  constexpr float kVisible = 0.1f;  // of a Gaussian's size
-  if (step <= kVisible * size) return {};
-  return fmt::format(
-      "Its positions, up to {:.3g} in double numbers, are rounded to {:.2g}, beside Gaussians of {:.2g}: "
-      "move "
-      "the scene near the origin in the program that wrote it",
-      std::max({far.x, far.y, far.z}), step, size);
 }
 
 }  // namespace splatcut

@@ -4,9 +4,7 @@
 #include <cstddef>
 #include <cstring>
 #include <glm/glm.hpp>
-#include <string>
 
-#include "scene/cloud/gaussian_cloud.h"
 #include "scene/formats/ply_header.h"
 
 namespace splatcut {
@@ -18,15 +16,12 @@ float load_as_float(const std::byte* at) {
   return static_cast<float>(value);
 }
 float load_as_float(const std::byte* at, PlyType type);
+double load_as_double(const std::byte* at, PlyType type);
 
 glm::vec3 srgb_from_linear(const glm::vec3& linear);
 
 // filter_3D of Mip-Splatting (Yu et al. 2024), scene units: the Gaussian is blurred by what its training
 // could resolve, and as much fainter as it is larger.
 void fuse_filter(float filter, glm::vec3* scale, float* opacity);
-
-// A sentence where positions in double are rounded, in 32 bits, by more than a tenth of the middle Gaussian's
-// size; else empty.
-std::string rounded_positions(const PlyElement& vertex, const GaussianCloud& cloud);
 
 }  // namespace splatcut

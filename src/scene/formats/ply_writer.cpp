@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/error.h"
@@ -44,11 +46,13 @@ float log_scale(float scale) {
   return std::log(std::max(scale, kSmallest));
 }
 
-std::string header_for(std::size_t count, const GaussianCloud& cloud) {
+std::string header_for(std::size_t count, const GaussianCloud& cloud, bool is_far) {
   std::string header = fmt::format("ply\nformat binary_little_endian 1.0\n{}element vertex {}\n",
                                    antialiasing_comment(cloud.antialiased), count);
+  for (const char* name : {"x", "y", "z"})
+    header += fmt::format("property {} {}\n", is_far ? "double" : "float", name);
   const auto add = [&](const std::string& name) { header += "property float " + name + "\n"; };
-  for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"}) add(name);
+  for (const char* name : {"nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"}) add(name);
   for (std::size_t i = 0; i < cloud.sh_stride(); ++i) add(fmt::format("f_rest_{}", i));
   for (const char* name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
     add(name);
@@ -88,17 +92,25 @@ void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::
   refuse_changed(MappedFile(scene.path), scene);                        // while its rows were copied
 }
 
-void write_ply_rows(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
-  const std::string header = header_for(gaussians.size(), cloud);
+void write_ply_rows(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians) {
+  const GaussianCloud& cloud = scene.cloud;
+  const bool is_far = scene.origin != glm::dvec3(0);
+  const std::string header = header_for(gaussians.size(), cloud, is_far);
   out.write(std::as_bytes(std::span(header)));
   std::vector<float> buffer;
-  buffer.reserve(kBufferBytes / sizeof(float) + 17 + cloud.sh_stride());
+  buffer.reserve(kBufferBytes / sizeof(float) + 20 + cloud.sh_stride());
   const auto add = [&](auto... values) { (buffer.push_back(values), ...); };
   for (const std::uint32_t g : gaussians) {
     const glm::vec3 &p = cloud.position[g], &dc = cloud.f_dc[g], &s = cloud.scale[g];
     const glm::quat& q = cloud.rotation[g];
     const std::span<const float> rest = cloud.sh_rest_of(g);
-    add(p.x, p.y, p.z, 0.0f, 0.0f, 0.0f, dc.x, dc.y, dc.z);
+    if (is_far) {
+      const auto halves = std::bit_cast<std::array<float, 6>>(glm::dvec3(p) + scene.origin);
+      buffer.insert(buffer.end(), halves.begin(), halves.end());
+    } else {
+      add(p.x, p.y, p.z);
+    }
+    add(0.0f, 0.0f, 0.0f, dc.x, dc.y, dc.z);
     buffer.insert(buffer.end(), rest.begin(), rest.end());
     add(logit(cloud.opacity[g]), log_scale(s.x), log_scale(s.y), log_scale(s.z), q.w, q.x, q.y, q.z);
     if (buffer.size() * sizeof(float) < kBufferBytes) continue;

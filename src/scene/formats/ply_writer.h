@@ -11,7 +11,7 @@ namespace splatcut {
 // Rows as they stand in the source file, which is a binary .ply.
 void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians);
 
-// Encoded from the cloud, in the layout of Kerbl et al.
-void write_ply_rows(AtomicFile& out, const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians);
+// Encoded from the cloud, in the layout of Kerbl et al.; positions in double where the scene has an origin.
+void write_ply_rows(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians);
 
 }  // namespace splatcut

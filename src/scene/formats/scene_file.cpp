@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/lower_case.h"
 #include "core/mapped_file.h"
+#include "scene/formats/far_origin.h"
 #include "scene/formats/foreign_files.h"
 
 namespace splatcut {
@@ -105,6 +106,7 @@ Scene with_cloud(const Scene& scene, GaussianCloud cloud) {
   other.format = scene.format;
   other.file_rows = scene.file_rows;
   other.other_properties = scene.other_properties;
+  other.origin = scene.origin;
   other.cloud = std::move(cloud);
   return other;
 }
@@ -128,6 +130,7 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
         fmt::format("none of the {} Gaussians is usable: each has NaN, a zero rotation, or lies beyond 1e15",
                     scene.file_rows));
   if (job.cancelled()) return scene;
+  if (options.origin && scene.origin != *options.origin) take_off(*options.origin, &scene);
   scene.cloud.near_plane = near_plane_of(scene.cloud);
   check_size(scene);
   if (const std::string odd = oddity_of(scene.cloud); !odd.empty())

@@ -30,8 +30,10 @@ struct Scene {
   std::filesystem::path path;                // where it came from; reopened to copy rows
   std::vector<std::filesystem::path> files;  // all that were read: path, then buffers, pictures, pieces
   SceneFormat format = SceneFormat::kPly;
-  std::size_t file_rows = 0;     // Gaussians in the file, dropped ones included
-  std::size_t dropped = 0;       // rows left out: NaN, zero quaternion, beyond 1e15 units
+  std::size_t file_rows = 0;  // Gaussians in the file, dropped ones included
+  std::size_t dropped = 0;    // rows left out: NaN, zero quaternion, beyond 1e15 units
+  glm::dvec3 origin{
+      0};  // taken off positions that 32 bits do not hold: the file's are those of the cloud + it
   std::uint64_t file_bytes = 0;  // with modified_ns: to notice that the file changed since
   std::int64_t modified_ns = 0;
   bool rows_can_be_copied = false;            // to a .ply, byte for byte from path
@@ -54,6 +56,10 @@ struct LoadOptions {
   // Of a streamed .sog: of each part the finest level from this one on, else the coarsest. Of an .lcc: the
   // level.
   unsigned lod = 0;
+  // Scene::origin, of another scene that this one stands beside. Without it: whole units in the middle of a
+  // .ply whose positions are in double, where 32 bits would move the middle Gaussian by more than 1/100 of
+  // its size, and half as much off from there; else 0.
+  std::optional<glm::dvec3> origin = {};
 };
 
 Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, const Job& job = {});

@@ -187,6 +187,7 @@ Losses sog_losses(const Scene& scene, std::size_t gaussians) {
     losses.add(gaussians > kMostPalette
                    ? fmt::format("spherical harmonics of 8 bits are drawn from {} sets", kMostPalette)
                    : "spherical harmonics have 8 bits");
+  losses.add(origin_left_out(scene));
   losses.add(properties_left_out(scene));
   return losses;
 }

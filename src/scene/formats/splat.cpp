@@ -71,6 +71,7 @@ Losses splat_losses(const Scene& scene, std::span<const std::uint32_t> gaussians
                            scene.cloud.sh_degree));
   losses.add("colours, opacities and rotations are rounded to 8 bits");
   losses.add(clamped_colours(scene.cloud, gaussians, kColours));
+  losses.add(origin_left_out(scene));
   losses.add(properties_left_out(scene));
   losses.add(antialiasing_left_out(scene));
   return losses;

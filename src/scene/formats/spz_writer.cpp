@@ -202,6 +202,7 @@ Losses spz_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) 
   losses.add(clamped_colours(cloud, gaussians, spz::kColourRange));
   losses.add(clamped_log_scales(cloud, gaussians, spz::kLogScaleRange));
   losses.add(clamped_sh(cloud, gaussians, spz::kShByteRange));
+  losses.add(origin_left_out(scene));
   losses.add(properties_left_out(scene));
   return losses;
 }

@@ -104,6 +104,7 @@ std::array<float, 3> coefficient(const GaussianCloud& cloud, std::uint32_t g, st
 
 Losses usda_losses(const Scene& scene) {
   Losses losses;
+  losses.add(origin_left_out(scene));
   losses.add(properties_left_out(scene));
   losses.add(antialiasing_left_out(scene));
   return losses;

@@ -1,5 +1,6 @@
 // The program itself, run in folders of its own: exit codes, sentences, files, bytes.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -149,6 +150,44 @@ TEST_CASE("cameras that see nothing of the scene are said, those that see some o
   };
   CHECK(looking("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]").empty());
   CHECK(looking("[[-1, 0, 0], [0, 1, 0], [0, 0, -1]]").find("see nothing of the scene") != std::string::npos);
+}
+
+TEST_CASE(
+    "a scene on a map is cut as it is near 0, 0, 0, by cameras of the map, and its files are on the map") {
+  const Workplace place;
+  constexpr glm::dvec3 kMap{500000, 100, 4500000};
+  Scene scene;
+  scene.cloud = random_cloud(300, 5, 0, 0.3f);
+  for (float& opacity : scene.cloud.opacity) opacity = 0.8f;
+  for (std::size_t g = 0; g < 300; g += 2) scene.cloud.position[g].x += 2;  // two balls beside each other
+  scene.file_rows = scene.cloud.size();
+  save_scene(place / "near.ply", scene, {}, SceneFormat::kPly);
+  Scene far = with_cloud(scene, scene.cloud);
+  far.origin = kMap;
+  save_scene(place / "far.ply", far, {}, SceneFormat::kPly);
+  const auto cut = [&](const std::string& name, const glm::dvec3& middle) {
+    const auto at = [&](double z) { return fmt::format("{},{},{}", middle.x + 1, middle.y, middle.z + z); };
+    const Result result =
+        place.run(fmt::format("cut {0}.ply --camera-pos {1} --camera-target {2} --camera-up 0,-1,0 --size "
+                              "96x72 --click 30,36 --edges keep -o {0}",
+                              name, at(-5), at(0)));
+    REQUIRE_MESSAGE(result.code == 0, result.err);
+    return result.err;
+  };
+  cut("near", {0, 0, 0});
+  CHECK(cut("far", kMap).find("is taken off its positions") != std::string::npos);
+  CHECK(place.text("far/labels.u8") == place.text("near/labels.u8"));
+  CHECK(place.text("far/object.png") == place.text("near/object.png"));
+  CHECK(place.text("far/object.ply").find("property double x") != std::string::npos);
+  const json report = json::parse(place.text("far/report.json"));
+  const glm::dvec3 origin{report["scene"]["origin"][0], report["scene"]["origin"][1],
+                          report["scene"]["origin"][2]};
+  CHECK(glm::length(origin - kMap) < 2);
+  const json info = json::parse(place.run("info --json --quiet far.ply").out);
+  CHECK(info["origin"] == report["scene"]["origin"]);
+  CHECK(info["bounds_98"]["min"][0].get<double>() > 499998);
+  CHECK(place.run("merge far/object.ply far/rest.ply -o all.ply").code == 0);
+  CHECK(json::parse(place.run("info --json --quiet all.ply").out)["bounds_98"] == info["bounds_98"]);
 }
 
 TEST_CASE("a pixel that is said to be object and rest is said") {

@@ -143,28 +143,6 @@ TEST_CASE("ply: an element of no rows takes no bytes, numbers of text may have a
   CHECK(mentions(refusal(folder / "d.ply"), {"no number"}));
 }
 
-TEST_CASE("ply: positions in double that are rounded by more than the Gaussians are fine are said") {
-  const Folder folder;
-  const auto far_ply = [](double x) {
-    std::string text =
-        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
-        "property double z\n";
-    for (const char* name : {"f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2",
-                             "rot_0", "rot_1", "rot_2", "rot_3"})
-      text += fmt::format("property float {}\n", name);
-    text += "end_header\n";
-    for (int row = 0; row < 3; ++row) {
-      for (const double v : {x + row, 0.0, 0.0}) text += bytes_of(v);
-      for (const float v : {0.f, 0.f, 0.f, 0.f, -3.f, -3.f, -3.f, 1.f, 0.f, 0.f, 0.f}) text += bytes_of(v);
-    }
-    return text;
-  };
-  write(folder / "far.ply", far_ply(4500000));
-  CHECK(mentions(load_scene(folder / "far.ply").oddity, {"double", "4.5e+06", "near the origin"}));
-  write(folder / "near.ply", far_ply(100));
-  CHECK(load_scene(folder / "near.ply").oddity.empty());
-}
-
 TEST_CASE(
     "what stands in place of a file is said: pointers of Git LFS, web pages, other data in gzip, nothing") {
   const Folder folder;
