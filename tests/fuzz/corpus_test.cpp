@@ -92,6 +92,9 @@ QUICK_CASE("glb", "corpus: .gltf") {
 QUICK_CASE("lcc", "corpus: .lcc") {
   check_reader("lcc", fuzz_lcc);
 }
+QUICK_CASE("lcc2", "corpus: .lcc2") {
+  check_reader("lcc2", fuzz_lcc2);
+}
 
 QUICK_CASE("ksplat", "corpus: .ksplat") {
   check_reader("ksplat", fuzz_ksplat);

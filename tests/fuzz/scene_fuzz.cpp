@@ -62,7 +62,8 @@ void write_picture(const char* name, int width) {
 }
 
 // Gaussians in a row.
-[[maybe_unused]] void write_sog(const char* name, std::size_t gaussians, int degree) {
+[[maybe_unused]] void write_piece(const char* name, std::size_t gaussians, int degree,
+                                  const SceneFormat& format) {
   Scene scene;
   scene.cloud.resize(gaussians, degree);
   for (std::size_t g = 0; g < gaussians; ++g) {
@@ -72,14 +73,14 @@ void write_picture(const char* name, int width) {
     scene.cloud.opacity[g] = 0.5f;
     scene.cloud.file_row[g] = static_cast<std::uint32_t>(g);
   }
-  save_scene(place().folder() / name, scene, {}, SceneFormat::kSog);
+  save_scene(place().folder() / name, scene, {}, format);
 }
 
 // The index of a streamed scene, with pieces that it can name.
 [[maybe_unused]] void fuzz_streamed_sog_text(std::string_view bytes) {
   static const bool beside = [] {
-    write_sog("a.sog", 8, 1);
-    write_sog("b.sog", 5, 0);
+    write_piece("a.sog", 8, 1, SceneFormat::kSog);
+    write_piece("b.sog", 5, 0, SceneFormat::kSog);
     return true;
   }();
   if (beside) load_and_save(place().write("lod-meta.json", bytes));
@@ -110,6 +111,17 @@ void write_picture(const char* name, int width) {
   const std::size_t end = std::min(bytes.find('\0'), bytes.size());
   place().write("index.bin", bytes.substr(std::min(end + 1, bytes.size())));
   if (beside) load_and_save(place().write("a.lcc", bytes.substr(0, end)));
+}
+
+// The text, with pieces that it can name.
+[[maybe_unused]] void fuzz_lcc2(std::string_view bytes) {
+  static const bool beside = [] {
+    write_piece("a.sog", 8, 1, SceneFormat::kSog);
+    write_piece("b.sog", 5, 0, SceneFormat::kSog);
+    write_piece("c.spz", 6, 2, SceneFormat::kSpz);
+    return true;
+  }();
+  if (beside) load_and_save(place().write("a.lcc2", bytes));
 }
 
 [[maybe_unused]] void fuzz_json_cameras(std::string_view bytes) {

@@ -36,6 +36,7 @@ void run_view(ViewArguments args) {
                          : args.renderer == "cpu" ? RendererChoice::kCpu
                                                   : RendererChoice::kAuto;
   args.window.spz_axes = args.how.axes();
+  args.window.lod = args.how.lod;
   if (args.frame_times) args.window.frame_times = &std::cout;
   constexpr bool kQuiet = true;
   args.window.stop = console_job(kQuiet).stop;
@@ -51,7 +52,7 @@ void add_view_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("scene", args->window.open, "Scene file or .splatcut.json");
   command.add_option("more", args->window.added,
                      "Further scenes in the same window, each in its own coordinates");
-  args->how.add_to(command, false);
+  args->how.add_to(command);
   command
       .add_option("--renderer", args->renderer,
                   "auto, gl or cpu: auto takes the CPU where OpenGL is software")

@@ -16,12 +16,12 @@ void say(std::string_view called, const std::string& sentence, bool quiet) {
 
 }  // namespace
 
-void SceneOptions::add_to(CLI::App& command, bool with_lod) {
-  if (with_lod)
-    command
-        .add_option("--lod", lod,
-                    "Level of detail of a streamed .sog or .lcc, 0 the finest: less memory, fewer Gaussians")
-        ->check(CLI::Range(0, 100));
+void SceneOptions::add_to(CLI::App& command) {
+  command
+      .add_option("--lod", lod,
+                  "Level of detail of a streamed .sog, .lcc or .lcc2, 0 the finest: less memory, fewer "
+                  "Gaussians")
+      ->check(CLI::Range(0, 100));
   command
       .add_option(
           "--spz-axes", spz_axes,
@@ -34,7 +34,7 @@ void SceneOptions::add_to(CLI::App& command, bool with_lod) {
 Scene SceneOptions::load(const std::filesystem::path& scene, const std::filesystem::path& cameras, bool quiet,
                          const Job& job, std::string_view called,
                          const std::optional<glm::dvec3>& origin) const {
-  LoadOptions options{axes(), {}, lod, origin};
+  LoadOptions options{axes(), {}, lod.value_or(0), origin};
   if (!cameras.empty()) options.cameras = load_cameras(cameras);
   Scene loaded = load_scene(scene, options, job);
   if (!options.spz_axes && !loaded.axes_note.empty()) {

@@ -15,11 +15,10 @@ class App;
 namespace splatcut {
 
 struct SceneOptions {
-  std::string spz_axes;  // ply, rub, or empty
-  unsigned lod = 0;      // of LoadOptions
+  std::string spz_axes;         // ply, rub, or empty
+  std::optional<unsigned> lod;  // of LoadOptions
 
-  // with_lod: the command draws and writes what it loads, it does not open a window.
-  void add_to(CLI::App& command, bool with_lod = true);
+  void add_to(CLI::App& command);
   std::optional<SpzAxes> axes() const { return spz_axes_from_name(spz_axes); }
 
   // cameras: file or folder of --cameras, which helps to tell the axes of a .spz, or empty. Where they had to

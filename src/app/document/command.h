@@ -303,6 +303,8 @@ struct OpenScene {
   std::filesystem::path path;                     // a scene or a work file
   std::optional<SpzAxes> spz_axes = {};           // axes as in LoadOptions; a work file holds its own
   std::vector<std::filesystem::path> added = {};  // further scenes, see AddScene
+  // Level of detail, as in LoadOptions; without it the finest that the free memory holds.
+  std::optional<unsigned> lod = {};
   static constexpr bool at_once = true;
 };
 struct AddScene {

@@ -1,5 +1,7 @@
 #include "app/document/opened_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 
@@ -7,6 +9,7 @@
 #include "core/byte_hash.h"
 #include "core/error.h"
 #include "scene/camera/camera_file.h"
+#include "scene/cloud/scene_memory.h"
 #include "scene/formats/merged_scene.h"
 #include "scene/raster/first_view.h"
 #include "scene/raster/guessed_up.h"
@@ -36,9 +39,26 @@ FileViews views_of(const Scene& scene, const Box& bounds, std::vector<Camera> ca
   return views;
 }
 
+// The level of detail to read, where none is asked for: the finest that the free memory holds.
+void choose_level(SceneSource* file, std::vector<std::string>* remarks) {
+  file->levels = levels_of(file->path);
+  const std::vector<std::uint64_t>& counts = file->levels.gaussians;
+  if (counts.size() < 2 || file->lod) return;
+  const std::optional<std::uint64_t> available = available_memory();
+  file->lod = available ? finest_level(file->levels, *available) : 0;
+  constexpr double kGb = 1e9;
+  remarks->push_back(fmt::format(
+      "Level of detail {} of {} is read, 0 the finest: the finest that the free memory holds ({:.1f} GB of "
+      "{:.1f}). View has the others",
+      *file->lod, counts.size(),
+      static_cast<double>(memory_of_scene(counts[*file->lod], file->levels.sh_degree)) / kGb,
+      static_cast<double>(available.value_or(0)) / kGb));
+}
+
 Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::vector<std::string>* remarks) {
   std::vector<Camera> cameras = cameras_near(file->path);
-  Scene scene = load_scene(file->path, {file->spz_axes, cameras, 0, file->origin}, job);
+  choose_level(file, remarks);
+  Scene scene = load_scene(file->path, {file->spz_axes, cameras, file->lod.value_or(0), file->origin}, job);
   if (job.cancelled()) return scene;
   if (scene.origin != glm::dvec3(0)) cameras = cameras_near(file->path, scene.origin);
   const SceneSource* known = before ? before->file(file->id) : nullptr;
@@ -46,7 +66,9 @@ Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::ve
   if (known && known->hash != hash)
     throw Error(scene.path.string(), "was changed by another program since it was opened", "Open it again");
   const bool asked = file->spz_axes.has_value();
-  for (const std::string& remark : {scene.left_out, scene.oddity, asked ? std::string() : scene.axes_note})
+  const bool said = file->levels.gaussians.size() > 1;  // that levels are left out
+  for (const std::string& remark :
+       {said ? std::string() : scene.left_out, scene.oddity, asked ? std::string() : scene.axes_note})
     if (!known && !remark.empty()) remarks->push_back(remark);
   file->path = scene.path;
   file->spz_axes = scene.taken_axes;

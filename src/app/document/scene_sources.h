@@ -40,6 +40,8 @@ struct SceneSource {
   // Axes to read a .spz with, as in LoadOptions. After loading: the axes taken, if the file does not say
   // them.
   std::optional<SpzAxes> spz_axes;
+  // Level of detail to read, of a file that has several; after loading: the level read.
+  std::optional<unsigned> lod;
   // Taken off positions, as in LoadOptions; after loading: that of the scene, which is the first file's.
   std::optional<glm::dvec3> origin;
   ScenePlace place;  // place in the scene; the first file always stays where its coordinates say
@@ -47,6 +49,7 @@ struct SceneSource {
   // Loading sets the rest.
   std::uint64_t hash = 0;  // hash_of_file(); in a work file the hash that the file must have
   std::size_t file_rows = 0, gaussians = 0;
+  SceneLevels levels;  // none of a file that has one
   std::shared_ptr<const FileViews> views;
   Box bounds;  // framed_bounds() of the file before it is placed; `place` turns and scales about its middle
 };

@@ -52,7 +52,7 @@ void SceneFiles::perform(const OpenScene& c) {
           left == offers.end() ? "Opening " + scene_name(c.path) : "Restoring unsaved work: " + left->says);
   stop_for_loading();
   changing_to_.clear();
-  std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes}};
+  std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes, .lod = c.lod}};
   for (const std::filesystem::path& added : c.added) files.push_back({.path = added});
   ws_.tasks.submit(
       TaskKind::kLoad, [this, path = c.path, files, serial, id = next_file_id_](const Job& job) mutable {

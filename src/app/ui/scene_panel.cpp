@@ -5,8 +5,10 @@
 #include <glm/gtc/constants.hpp>
 
 #include "app/document/document_edits.h"
+#include "app/document/words.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
+#include "scene/cloud/scene_memory.h"
 
 namespace splatcut {
 
@@ -42,6 +44,37 @@ void axes_row(UiContext& ui) {
     ui.ask(OpenScene{scene->path, other});
 }
 
+void slider_row(const char* label, const char* tip, const std::function<void()>& slider) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  ImGui::SameLine(92);
+  ImGui::SetNextItemWidth(-1);
+  slider();
+  tooltip(tip);
+}
+
+// Of a scene that has levels of detail: the one that is open, and the others.
+void level_row(UiContext& ui) {
+  const SceneSource* file = ui.studio.scene() ? &ui.studio.scene()->files.front() : nullptr;
+  if (!file || file->levels.gaussians.size() < 2) return;
+  const auto said = [&](unsigned level) {
+    constexpr double kGb = 1e9;
+    const std::uint64_t count = file->levels.gaussians[level];
+    return fmt::format("{}: {} Gaussians, {:.1f} GB", level, grouped(count),
+                       static_cast<double>(memory_of_scene(count, file->levels.sh_degree)) / kGb);
+  };
+  const unsigned open =
+      std::min<unsigned>(file->lod.value_or(0), static_cast<unsigned>(file->levels.gaussians.size()) - 1);
+  slider_row("Detail",
+             "Level of detail, 0 the finest; another one loads the file again, and work begins anew", [&] {
+               if (!ImGui::BeginCombo("##detail", said(open).c_str())) return;
+               for (unsigned level = 0; level < file->levels.gaussians.size(); ++level)
+                 if (ImGui::Selectable(said(level).c_str(), level == open) && level != open)
+                   ui.ask(OpenScene{file->path, file->spz_axes, {}, level});
+               ImGui::EndCombo();
+             });
+}
+
 void backdrop_buttons(UiContext& ui) {
   ImGui::Dummy({0, 0});
   for (std::size_t i = 0; i < backdrops().size(); ++i) {
@@ -54,15 +87,6 @@ void backdrop_buttons(UiContext& ui) {
       ui.ask(SetBackdrop{i});
     ImGui::PopStyleVar();
   }
-}
-
-void slider_row(const char* label, const char* tip, const std::function<void()>& slider) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(label);
-  ImGui::SameLine(92);
-  ImGui::SetNextItemWidth(-1);
-  slider();
-  tooltip(tip);
 }
 
 }  // namespace
@@ -112,6 +136,7 @@ void scene_panel(UiContext& ui) {
   tooltip(tip_of(Action::kRings) + "\nTheir outlines at two standard deviations; of many some, evenly");
   if (ImGui::Checkbox("Grid on the ground", &view.grid)) ui.ask(SetView{view});
   tooltip(tip_of(Action::kGrid));
+  level_row(ui);
   axes_row(ui);
   up_buttons(ui);
   const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;

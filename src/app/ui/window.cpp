@@ -350,7 +350,8 @@ void run_window(const WindowOptions& options) {
     install_clipboard(window.handle);
     glfwSetWindowUserPointer(window.handle, &loop);
     install_callbacks(window.handle);
-    if (!options.open.empty()) app.studio().apply(OpenScene{options.open, options.spz_axes, options.added});
+    if (!options.open.empty())
+      app.studio().apply(OpenScene{options.open, options.spz_axes, options.added, options.lod});
     run_loop(loop, &keeper, options.stop,
              options.frame_times ? std::optional<FrameLog>(options.frame_times) : std::nullopt);
     if (options.stop.stop_requested())

@@ -47,6 +47,7 @@ json source_json(const SceneSource& file, const std::filesystem::path& work) {
   json source = {{"path", place}, {"hash", fmt::format("{:016x}", file.hash)}, {"gaussians", file.gaussians}};
   if (!is_utf8(place)) source["path_bytes"] = std::vector<std::uint8_t>(place.begin(), place.end());
   if (file.spz_axes) source["spz_axes"] = name_of(*file.spz_axes);
+  if (file.lod.value_or(0) > 0) source["lod"] = *file.lod;
   if (file.origin && *file.origin != glm::dvec3(0))
     source["origin"] = {file.origin->x, file.origin->y, file.origin->z};
   if (file.place != ScenePlace{})
@@ -68,6 +69,7 @@ SceneSource source_from(const json& said, const std::filesystem::path& work) {
   if (std::from_chars(hash.data(), hash.data() + hash.size(), file.hash, 16).ec != std::errc())
     throw Error(work.string(), "does not say which scene it belongs to: its \"hash\" is no number");
   file.spz_axes = spz_axes_from_name(said.value("spz_axes", ""));
+  file.lod = said.value("lod", 0u);                         // older work holds none
   const json origin = said.value("origin", json{0, 0, 0});  // older work holds none
   file.origin = {origin.at(0).get<double>(), origin.at(1).get<double>(), origin.at(2).get<double>()};
   if (!said.contains("place")) return file;

@@ -38,8 +38,6 @@ constexpr Foreign kForeign[] = {
     {".usda", "#usda", "is a USD file, which is written here, not read", kExport},
     {".splatv", "\x4b\x67\x00\x00"sv, "is a moving scene (.splatv), which is not read",
      "Export one moment of it as .ply"},
-    {".lcc2", "", "is a scene of XGRIDS of the second kind (LCC2), which is not read",
-     "Export .lcc or .ply from there, or give one of its pieces (.sog, .spz)"},
     {".rad", "RAD0", "is a streamed scene of Spark, which is not read", "Give the scene that it was made of"},
     {".ckpt", "", "is a checkpoint of a training, not a scene",
      "Run ns-export gaussian-splat and give its .ply"},

@@ -25,8 +25,8 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "scene/cloud/quantise.h"
-#include "scene/cloud/spherical_harmonics.h"
 #include "scene/formats/decode.h"
+#include "scene/formats/lcc_axes.h"
 
 namespace splatcut {
 
@@ -65,7 +65,6 @@ LccRange range_of(const fs::path& path, const json& attribute) {
 }
 
 LccMeta meta_of(const MappedFile& file) {
-  constexpr std::size_t kMostLevels = 64;
   const json text =
       parse_json(file.path(), {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()});
   const auto attribute = [&](const char* name) -> const json* {
@@ -79,9 +78,9 @@ LccMeta meta_of(const MappedFile& file) {
   };
   LccMeta meta;
   const json& levels = text.at("totalLevel");
-  if (!levels.is_number_unsigned() || levels == 0u || levels > kMostLevels)
+  if (!levels.is_number_unsigned() || levels == 0u || levels > SceneLevels::kMost)
     refuse_lcc(file.path(),
-               fmt::format("its number of levels is {}, not 1 to {}", json_text(levels), kMostLevels));
+               fmt::format("its number of levels is {}, not 1 to {}", json_text(levels), SceneLevels::kMost));
   meta.levels = levels.get<std::size_t>();
   const json* scale = attribute("scale");
   if (!scale) refuse_lcc(file.path(), "has no range of scales");
@@ -116,12 +115,6 @@ glm::quat lcc_rotation(std::uint32_t bits) {
   }
   xyzw[largest] = std::sqrt(std::max(0.0f, 1 - sum));
   return glm::normalize(glm::quat(xyzw[3], xyzw[0], xyzw[1], xyzw[2]));
-}
-
-// From the file's axes to ours: a quarter turn about x.
-const glm::quat kLccUpright(0.70710678f, 0.70710678f, 0, 0);
-glm::vec3 lcc_turned(const glm::vec3& p) {
-  return {p.x, -p.z, p.y};
 }
 
 // A source of decode_rows().
@@ -252,12 +245,31 @@ void read_lcc_parts(const MappedFile& file, const LoadOptions& options, Scene& s
   decode_rows(rows, rows.count, degree, scene, job);
 }
 
-void read_lcc(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
+template <class Read>
+auto of_lcc(const MappedFile& file, const Read& read) {
   try {
-    read_lcc_parts(file, options, scene, job);
+    return read();
   } catch (const json::exception& error) {
     refuse_lcc(file.path(), fmt::format("is not the text of an .lcc ({})", fault_of(error)));
   }
+}
+
+void read_lcc(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
+  of_lcc(file, [&] { read_lcc_parts(file, options, scene, job); });
+}
+
+SceneLevels levels_of_lcc(const MappedFile& file) {
+  return of_lcc(file, [&] {
+    const LccMeta meta = meta_of(file);
+    SceneLevels levels{std::vector<std::uint64_t>(meta.levels), meta.harmonics ? 3 : 0};
+    Scene ignored;
+    const std::unique_ptr<MappedFile> index = beside(file, "index.bin", false, &ignored);
+    const std::size_t unit_bytes = 4 + 16 * meta.levels;
+    for (std::size_t unit = 0; unit + unit_bytes <= index->bytes().size(); unit += unit_bytes)
+      for (std::size_t level = 0; level < meta.levels; ++level)
+        levels.gaussians[level] += load<std::uint32_t>(index->bytes().data() + unit + 4 + 16 * level);
+    return levels;
+  });
 }
 
 }  // namespace
@@ -265,7 +277,7 @@ void read_lcc(const MappedFile& file, const LoadOptions& options, Scene& scene, 
 constinit const SceneFormat SceneFormat::kLcc = {
     .name = "lcc",
     .extension = ".lcc",
-    .has_levels = true,
+    .levels = levels_of_lcc,
     .read = read_lcc,
 };
 

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/lower_case.h"
 #include "core/mapped_file.h"
+#include "scene/cloud/scene_memory.h"
 #include "scene/formats/far_origin.h"
 #include "scene/formats/foreign_files.h"
 
@@ -29,12 +30,13 @@ SceneFormat format_of(const MappedFile& file) {
 std::filesystem::path in_folder(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(path, ignored)) return path;
-  for (const char* name : {"meta.json", "lod-meta.json", "meta.lcc"})
+  for (const char* name : {"meta.json", "lod-meta.json", "meta.lcc", "meta.lcc2"})
     if (std::filesystem::exists(path / name, ignored)) return path / name;
   std::filesystem::path first;  // by name: the order in a folder is the system's
   for (std::filesystem::directory_iterator at(path, ignored), end; !ignored && at != end;
        at.increment(ignored))
-    if (lower_case(at->path().extension().string()) == ".lcc" && (first.empty() || at->path() < first))
+    if (lower_case(at->path().extension().string()).starts_with(".lcc") &&
+        (first.empty() || at->path() < first))
       first = at->path();
   return first.empty() ? path : first;
 }
@@ -119,9 +121,9 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
   scene.format = format_of(file);
   scene.file_bytes = file.bytes().size();
   scene.modified_ns = file.modified_ns();
-  if (options.lod > 0 && !scene.format.has_levels)
+  if (options.lod > 0 && !scene.format.levels)
     throw Error(path.string(), "has no levels of detail",
-                "--lod is for streamed scenes (lod-meta.json, .lcc)");
+                "--lod is for streamed scenes (lod-meta.json, .lcc, .lcc2)");
   scene.format.read(file, options, scene, job);
   if (!job.cancelled() && scene.file_rows == 0) throw Error(path.string(), "holds no Gaussians");
   if (!job.cancelled() && scene.cloud.empty())
@@ -136,6 +138,20 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
   if (const std::string odd = oddity_of(scene.cloud); !odd.empty())
     scene.oddity += (scene.oddity.empty() ? "" : ". ") + odd;
   return scene;
+}
+
+SceneLevels levels_of(const std::filesystem::path& path) {
+  const MappedFile file(in_folder(path));
+  const SceneFormat format = format_of(file);
+  return format.levels ? format.levels(file) : SceneLevels{};
+}
+
+unsigned finest_level(const SceneLevels& levels, std::uint64_t memory_bytes) {
+  unsigned level = 0;
+  while (level + 1 < levels.gaussians.size() &&
+         memory_of_scene(levels.gaussians[level], levels.sh_degree) > memory_bytes)
+    ++level;
+  return level;
 }
 
 Scene load_scene(const std::filesystem::path& path, const Job& job) {

@@ -54,13 +54,18 @@ struct LoadOptions {
       spz_axes;  // none: as the file says, else as the cameras see more, as it stands, else kRub
   std::vector<Camera> cameras;  // of the capture, if any are known
   // Of a streamed .sog: of each part the finest level from this one on, else the coarsest. Of an .lcc: the
-  // level.
+  // level. Of an .lcc2: of each part this level, or the finest that it has where that is coarser.
   unsigned lod = 0;
   // Scene::origin, of another scene that this one stands beside. Without it: whole units in the middle of a
   // .ply whose positions are in double, where 32 bits would move the middle Gaussian by more than 1/100 of
   // its size, and half as much off from there; else 0.
   std::optional<glm::dvec3> origin = {};
 };
+
+// The levels of detail of a scene that has several; of others none. Throws Error.
+SceneLevels levels_of(const std::filesystem::path& path);
+// The finest that memory_of_scene() says to fit, else the coarsest.
+unsigned finest_level(const SceneLevels& levels, std::uint64_t memory_bytes);
 
 Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, const Job& job = {});
 Scene load_scene(const std::filesystem::path& path, const Job& job = {});

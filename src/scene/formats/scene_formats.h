@@ -21,6 +21,7 @@
   row(kSog)                         \
   row(kStreamedSog)                 \
   row(kLcc)                         \
+  row(kLcc2)                        \
   row(kGlb)                         \
   row(kUsda)                        \
   row(kKsplat)
@@ -42,6 +43,13 @@ struct FormatPlan {
   std::string kept, lost;  // sentences; lost is empty where nothing is
 };
 
+// Of a scene that is stored at several levels of detail.
+struct SceneLevels {
+  static constexpr unsigned kMost = 64;
+  std::vector<std::uint64_t> gaussians;  // of each level, 0 the finest, as far as the index says it
+  int sh_degree = 0;                     // of spherical harmonics, as the index or the first piece says it
+};
+
 // One row. A value that is copied freely; rows are equal where their names are.
 struct SceneFormat {
   const char* name = "";       // in reports and on the command line: "compressed.ply"
@@ -51,10 +59,11 @@ struct SceneFormat {
   // Of what is written, against ours.
   AxisSigns axes = {};
 
-  bool has_levels = false;  // of detail, of which LoadOptions says one
-
   // By the first bytes. Null: nothing marks such files but their name.
   bool (*recognises)(const MappedFile& file) = nullptr;
+
+  // Levels of detail, of which LoadOptions says one. Reads the index alone. Throws Error. Null: there is one.
+  SceneLevels (*levels)(const MappedFile& file) = nullptr;
 
   // Fills cloud (Morton order), file_rows, dropped and what else a Scene says of its file. Throws Error for
   // bad content. Null: the format is only written.

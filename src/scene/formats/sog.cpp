@@ -200,11 +200,21 @@ SogRows rows_of(const MappedFile& file, const Job& job) {
   return rows;
 }
 
+template <class Read>
+auto of_sog(const MappedFile& file, const Read& read) {
+  try {
+    return read();
+  } catch (const json::exception& error) {
+    throw Error(file.path().string(),
+                fmt::format("its meta.json is not that of a .sog ({})", fault_of(error)));
+  }
+}
+
 void read_sog(const MappedFile& file, const LoadOptions&, Scene& scene, const Job& job) {
   job.progress("unpacking pictures", 0.0);
   const SogRows rows = read_sog_rows(file, job);
   scene.cloud.antialiased = rows.antialiased;
-  rows.add_files(&scene);
+  for (const auto& [path, bytes] : rows.packed) scene.files.push_back(path);
   if (!job.cancelled()) decode_rows(rows, rows.count, rows.degree, scene, job);
 }
 
@@ -253,10 +263,6 @@ std::uint64_t SogRows::packed_bytes() const {
   return bytes;
 }
 
-void SogRows::add_files(Scene* scene) const {
-  for (const auto& [path, file_bytes] : packed) scene->files.push_back(path);
-}
-
 std::uint64_t SogRows::unpacked_bytes() const {
   std::uint64_t pixels = 0;
   for (const Image<Rgba8>* picture : {&low, &high, &quats, &scales, &sh0, &centroids, &labels})
@@ -265,12 +271,14 @@ std::uint64_t SogRows::unpacked_bytes() const {
 }
 
 SogRows read_sog_rows(const MappedFile& file, const Job& job) {
-  try {
-    return rows_of(file, job);
-  } catch (const json::exception& error) {
-    throw Error(file.path().string(),
-                fmt::format("its meta.json is not that of a .sog ({})", fault_of(error)));
-  }
+  return of_sog(file, [&] { return rows_of(file, job); });
+}
+
+int degree_of_sog(const MappedFile& file) {
+  return of_sog(file, [&] {
+    const json meta = SogFiles(file).meta();
+    return meta.contains("shN") ? std::clamp(meta.at("shN").value("bands", 3), 1, 3) : 0;
+  });
 }
 
 constinit const SceneFormat SceneFormat::kSog = {

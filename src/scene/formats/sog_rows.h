@@ -35,7 +35,6 @@ struct SogRows {
   void decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const;
 
   std::uint64_t packed_bytes() const;
-  void add_files(Scene* scene) const;    // those of `packed`
   std::uint64_t unpacked_bytes() const;  // of the pictures that were read so far
 };
 
@@ -43,5 +42,8 @@ struct SogRows {
 // .sog, for pictures with fewer pixels than Gaussians, and for what check_expansion() refuses
 // of all its pictures together.
 SogRows read_sog_rows(const MappedFile& file, const Job& job);
+
+// The degree that its text says; 3 where it does not.
+int degree_of_sog(const MappedFile& file);
 
 }  // namespace splatcut

@@ -9,78 +9,75 @@
 #include "core/error.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
-#include "scene/formats/spz_layout.h"
+#include "scene/formats/spz_rows.h"
 #include "scene/packing/unpack.h"
 #include "scene/raster/guessed_up.h"
 
 namespace splatcut {
 
+float SpzRows::coordinate(std::size_t row, std::size_t axis) const {
+  if (header.version == 1) return half_to_float(load<std::uint16_t>(at(0, row, 6) + 2 * axis));
+  const std::byte* b = at(0, row, 9) + 3 * axis;
+  const auto byte = [&](std::size_t i) { return std::to_integer<std::uint32_t>(b[i]); };
+  const auto fixed = static_cast<std::int32_t>(byte(0) << 8 | byte(1) << 16 | byte(2) << 24) >> 8;
+  return std::ldexp(static_cast<float>(fixed), -header.fractional_bits);
+}
+
+glm::vec3 SpzRows::position(std::size_t row) const {
+  return axes.position({coordinate(row, 0), coordinate(row, 1), coordinate(row, 2)});
+}
+
+std::array<float, 4> SpzRows::file_rotation(std::size_t row) const {
+  std::array<float, 4> q{};
+  float sum = 0;
+  if (header.version < 3) {
+    const std::byte* b = at(4, row, 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      q[i] = byte_at(b + i) / 127.5f - 1.0f;
+      sum += q[i] * q[i];
+    }
+    q[3] = std::sqrt(std::max(0.0f, 1.0f - sum));
+    return q;
+  }
+  std::uint32_t v = load<std::uint32_t>(at(4, row, 4));
+  const std::uint32_t largest = v >> 30;
+  for (std::uint32_t i = 4; i-- > 0;) {
+    if (i == largest) continue;
+    q[i] = from_steps(v, 9) * std::sqrt(0.5f) * (v >> 9 & 1 ? -1.0f : 1.0f);
+    sum += q[i] * q[i];
+    v >>= 10;
+  }
+  q[largest] = std::sqrt(std::max(0.0f, 1.0f - sum));
+  return q;
+}
+
+void SpzRows::decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const {
+  const std::array<float, 4> q = file_rotation(row);
+  cloud.rotation[g] = glm::normalize(axes.rotation({q[3], q[0], q[1], q[2]}));
+  cloud.opacity[g] = byte_at(at(1, row, 1)) / 255.0f;
+  const std::byte *colour = at(2, row, 3), *scale = at(3, row, 3);
+  for (int c = 0; c < 3; ++c) {
+    cloud.f_dc[g][c] = (byte_at(colour + c) / 255.0f - 0.5f) / spz::kColourScale;
+    cloud.scale[g][c] = std::exp(byte_at(scale + c) / spz::kLogScaleSteps + spz::kLogScaleMin);
+  }
+  const auto own = static_cast<std::size_t>(sh_rest_coefficients(degree));
+  const std::size_t all = cloud.sh_stride() / 3;
+  const std::byte* sh = at(5, row, sh_bytes);
+  float* rest = cloud.sh_rest.data() + g * cloud.sh_stride();
+  for (std::size_t k = 0; k < own; ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      rest[c * all + k] = (byte_at(sh + 3 * k + c) - 128.0f) / 128.0f * sh_signs[k];
+}
+
+std::uint64_t SpzRows::unpacked_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const Bytes& part : unpacked) bytes += part.size();
+  return bytes;
+}
+
 namespace {
 
 constexpr int kMaxFileDegree = 4, kMaxDegree = 3;  // v4 allows the first, the second is read
-
-struct SpzRows {
-  spz::Header header;
-  AxisSigns axes = kRightUpBack;
-  std::array<float, 15> sh_signs = kRightUpBack.sh();
-  std::array<std::span<const std::byte>, spz::kAttributes> attributes;
-  std::size_t sh_bytes = 0;
-  int degree = 0;  // at most kMaxDegree
-
-  const std::byte* at(int attribute, std::size_t row, std::size_t bytes) const {
-    return attributes[static_cast<std::size_t>(attribute)].data() + row * bytes;
-  }
-  float coordinate(std::size_t row, std::size_t axis) const {
-    if (header.version == 1) return half_to_float(load<std::uint16_t>(at(0, row, 6) + 2 * axis));
-    const std::byte* b = at(0, row, 9) + 3 * axis;
-    const auto byte = [&](std::size_t i) { return std::to_integer<std::uint32_t>(b[i]); };
-    const auto fixed = static_cast<std::int32_t>(byte(0) << 8 | byte(1) << 16 | byte(2) << 24) >> 8;
-    return std::ldexp(static_cast<float>(fixed), -header.fractional_bits);
-  }
-  glm::vec3 position(std::size_t row) const {
-    return axes.position({coordinate(row, 0), coordinate(row, 1), coordinate(row, 2)});
-  }
-  // x y z w in the file's axes.
-  std::array<float, 4> file_rotation(std::size_t row) const {
-    std::array<float, 4> q{};
-    float sum = 0;
-    if (header.version < 3) {
-      const std::byte* b = at(4, row, 3);
-      for (std::size_t i = 0; i < 3; ++i) {
-        q[i] = byte_at(b + i) / 127.5f - 1.0f;
-        sum += q[i] * q[i];
-      }
-      q[3] = std::sqrt(std::max(0.0f, 1.0f - sum));
-      return q;
-    }
-    std::uint32_t v = load<std::uint32_t>(at(4, row, 4));
-    const std::uint32_t largest = v >> 30;
-    for (std::uint32_t i = 4; i-- > 0;) {
-      if (i == largest) continue;
-      q[i] = from_steps(v, 9) * std::sqrt(0.5f) * (v >> 9 & 1 ? -1.0f : 1.0f);
-      sum += q[i] * q[i];
-      v >>= 10;
-    }
-    q[largest] = std::sqrt(std::max(0.0f, 1.0f - sum));
-    return q;
-  }
-  void decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const {
-    const std::array<float, 4> q = file_rotation(row);
-    cloud.rotation[g] = glm::normalize(axes.rotation({q[3], q[0], q[1], q[2]}));
-    cloud.opacity[g] = byte_at(at(1, row, 1)) / 255.0f;
-    const std::byte *colour = at(2, row, 3), *scale = at(3, row, 3);
-    for (int c = 0; c < 3; ++c) {
-      cloud.f_dc[g][c] = (byte_at(colour + c) / 255.0f - 0.5f) / spz::kColourScale;
-      cloud.scale[g][c] = std::exp(byte_at(scale + c) / spz::kLogScaleSteps + spz::kLogScaleMin);
-    }
-    const auto coefficients = static_cast<std::size_t>(sh_rest_coefficients(degree));
-    const std::byte* sh = at(5, row, sh_bytes);
-    float* rest = cloud.sh_rest.data() + g * 3 * coefficients;
-    for (std::size_t k = 0; k < coefficients; ++k)
-      for (std::size_t c = 0; c < 3; ++c)
-        rest[c * coefficients + k] = (byte_at(sh + 3 * k + c) - 128.0f) / 128.0f * sh_signs[k];
-  }
-};
 
 void check_header(const MappedFile& file, const spz::Header& header) {
   const auto refuse = [&](const std::string& what) { throw Error(file.path().string(), what); };
@@ -125,7 +122,7 @@ const char* words_for(SpzAxes axes) {
 void decode_in(const AxisSigns& axes, SpzRows* rows, Scene& scene, const Job& job) {
   rows->axes = axes;
   rows->sh_signs = axes.sh();
-  decode_rows(*rows, rows->header.points, rows->degree, scene, job);
+  decode_rows(*rows, rows->count, rows->degree, scene, job);
 }
 void decode_in(SpzAxes axes, SpzRows* rows, Scene& scene, const Job& job) {
   decode_in(axes == SpzAxes::kPly ? AxisSigns{} : kRightUpBack, rows, scene, job);
@@ -156,28 +153,27 @@ void decode_asked(SpzAxes axes, SpzRows* rows, Scene& scene, const Job& job) {
       fmt::format("The .spz file says its axes, but others were asked for. Taken: {}", words_for(axes));
 }
 
-SpzRows rows_for(const spz::Header& header) {
-  SpzRows rows;
-  rows.header = header;
-  rows.sh_bytes = spz::attribute_bytes(header.version, header.sh_degree)[5];
-  rows.degree = std::min<int>(header.sh_degree, kMaxDegree);
-  return rows;
-}
-
-// rows: complete but for the axes. records: the extension block, if there is one. ours: the packing has
-// kOurComment.
-void decode(const MappedFile& file, std::span<const std::byte> records, bool ours, const LoadOptions& options,
-            SpzRows rows, Scene& scene, const Job& job) {
-  scene.cloud.antialiased = rows.header.flags & spz::kFlagAntialiased;
+void decode(const MappedFile& file, const LoadOptions& options, SpzRows& rows, Scene& scene, const Job& job) {
+  scene.cloud.antialiased = rows.antialiased;
   if (rows.header.sh_degree > rows.degree)
     scene.left_out =
         fmt::format("Spherical harmonics of degree {} are left out, those up to degree {} are read",
                     rows.header.sh_degree, rows.degree);
-  auto said = rows.header.flags & spz::kFlagExtensions ? axes_said(file, records) : std::nullopt;
-  if (!said && ours) said = kRightUpBack;
+  auto said = rows.header.flags & spz::kFlagExtensions ? axes_said(file, rows.extensions) : std::nullopt;
+  if (!said && rows.ours) said = kRightUpBack;
   if (!said) return decode_unsaid(options, &rows, scene, job);
   if (options.spz_axes) return decode_asked(*options.spz_axes, &rows, scene, job);
   decode_in(*said, &rows, scene, job);
+}
+
+SpzRows rows_for(const spz::Header& header) {
+  SpzRows rows;
+  rows.header = header;
+  rows.count = header.points;
+  rows.antialiased = header.flags & spz::kFlagAntialiased;
+  rows.sh_bytes = spz::attribute_bytes(header.version, header.sh_degree)[5];
+  rows.degree = std::min<int>(header.sh_degree, kMaxDegree);
+  return rows;
 }
 
 std::size_t attributes_size(const spz::Header& header) {
@@ -188,24 +184,20 @@ std::size_t attributes_size(const spz::Header& header) {
 }
 
 // data: the attributes of versions 1 to 3, one behind the other.
-void decode_attributes(const MappedFile& file, const spz::Header& header, std::span<const std::byte> data,
-                       std::span<const std::byte> records, bool ours, const LoadOptions& options,
-                       Scene& scene, const Job& job) {
-  SpzRows rows = rows_for(header);
-  const auto row_bytes = spz::attribute_bytes(header.version, header.sh_degree);
+void set_attributes(std::span<const std::byte> data, SpzRows* rows) {
+  const auto row_bytes = spz::attribute_bytes(rows->header.version, rows->header.sh_degree);
   std::size_t begin = 0;
   for (std::size_t a = 0; a < row_bytes.size(); ++a) {
-    rows.attributes[a] = data.subspan(begin, row_bytes[a] * header.points);
-    begin += row_bytes[a] * header.points;
+    rows->attributes[a] = data.subspan(begin, row_bytes[a] * rows->count);
+    begin += row_bytes[a] * rows->count;
   }
-  decode(file, records, ours, options, rows, scene, job);
 }
 
-void read_gzip(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
+SpzRows rows_of_gzip(const MappedFile& file, const Job& job) {
   constexpr std::size_t kMostExtensionBytes = 1 << 16;
   GzipReader reader(file);
   const Bytes begin_of_data = reader.read(sizeof(spz::Header), job);
-  if (job.cancelled()) return;
+  if (job.cancelled()) return {};
   const auto header = load<spz::Header>(begin_of_data.data());
   if (header.magic != spz::kMagic)
     throw Error(file.path().string(), "is packed by gzip, and what is inside is no .spz",
@@ -214,22 +206,26 @@ void read_gzip(const MappedFile& file, const LoadOptions& options, Scene& scene,
   if (header.version > 3)
     throw Error(file.path().string(), fmt::format("version {} inside gzip data", header.version));
   check_expansion(file.path(), file.bytes().size(), attributes_size(header));
-  job.progress("unpacking", 0.0);
-  const Bytes data = reader.read(attributes_size(header), job);
-  if (job.cancelled()) return;
-  const Bytes records = header.flags & spz::kFlagExtensions ? reader.read_rest(kMostExtensionBytes) : Bytes();
-  decode_attributes(file, header, data, records, reader.comment() == spz::kOurComment, options, scene, job);
+  SpzRows rows = rows_for(header);
+  rows.unpacked.push_back(reader.read(attributes_size(header), job));
+  if (job.cancelled()) return rows;
+  set_attributes(rows.unpacked[0], &rows);
+  if (header.flags & spz::kFlagExtensions) rows.extensions = reader.read_rest(kMostExtensionBytes);
+  rows.ours = reader.comment() == spz::kOurComment;
+  return rows;
 }
 
-void read_raw(const MappedFile& file, const spz::Header& header, const LoadOptions& options, Scene& scene,
-              const Job& job) {
+SpzRows rows_as_they_are(const MappedFile& file, const spz::Header& header) {
   const std::span<const std::byte> data = file.bytes().subspan(sizeof header);
   const std::size_t wanted = attributes_size(header);
   if (data.size() < wanted)
     throw Error(file.path().string(),
                 fmt::format("truncated: {} Gaussians take {} bytes, the file ends at byte {}", header.points,
                             wanted + sizeof header, file.bytes().size()));
-  decode_attributes(file, header, data.first(wanted), data.subspan(wanted), false, options, scene, job);
+  SpzRows rows = rows_for(header);
+  set_attributes(data.first(wanted), &rows);
+  rows.extensions.assign(data.begin() + static_cast<std::ptrdiff_t>(wanted), data.end());
+  return rows;
 }
 
 // The packed bytes of each stream. Throws Error for a table that does not fit file and header.
@@ -259,38 +255,40 @@ std::vector<std::span<const std::byte>> packed_streams(const MappedFile& file, c
   return packed;
 }
 
-void read_streams(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
+SpzRows rows_of_streams(const MappedFile& file, const Job& job) {
   if (file.bytes().size() < sizeof(spz::HeaderV4))
     throw Error(file.path().string(),
                 fmt::format("truncated: the header reaches beyond byte {}", file.bytes().size()));
   const auto header = load<spz::HeaderV4>(file.bytes().data());
   const auto packed = packed_streams(file, header);
   check_expansion(file.path(), file.bytes().size(), attributes_size(header.first));
-  job.progress("unpacking", 0.0);
   const auto row_bytes = spz::attribute_bytes(header.first.version, header.first.sh_degree);
-  std::array<Bytes, spz::kAttributes> data;
-  tbb::parallel_for(std::size_t{0}, packed.size(), [&](std::size_t s) {
-    data[s] = unpack_zstd(file, packed[s], row_bytes[s] * header.first.points, s, job);
-  });
-  if (job.cancelled()) return;
   SpzRows rows = rows_for(header.first);
-  for (std::size_t s = 0; s < packed.size(); ++s) rows.attributes[s] = data[s];
+  rows.unpacked.resize(packed.size());
+  tbb::parallel_for(std::size_t{0}, packed.size(), [&](std::size_t s) {
+    rows.unpacked[s] = unpack_zstd(file, packed[s], row_bytes[s] * header.first.points, s, job);
+  });
+  for (std::size_t s = 0; s < packed.size(); ++s) rows.attributes[s] = rows.unpacked[s];
   const auto records = file.bytes().subspan(sizeof header, header.table_begin - sizeof header);
-  decode(file, records, false, options, rows, scene, job);
+  rows.extensions.assign(records.begin(), records.end());
+  return rows;
 }
 
-void read_spz(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
-  constexpr std::byte kGzipFirst{0x1f};
-  if (file.bytes()[0] == kGzipFirst) return read_gzip(file, options, scene, job);
+constexpr std::byte kGzipFirst{0x1f};
+
+spz::Header plain_header(const MappedFile& file) {
   if (file.bytes().size() < sizeof(spz::Header))
     throw Error(file.path().string(),
                 fmt::format("truncated: the header reaches beyond byte {}", file.bytes().size()));
   const auto header = load<spz::Header>(file.bytes().data());
   check_header(file, header);
-  if (header.version == 4)
-    read_streams(file, options, scene, job);
-  else
-    read_raw(file, header, options, scene, job);
+  return header;
+}
+
+void read_spz(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
+  job.progress("unpacking", 0.0);
+  SpzRows rows = read_spz_rows(file, job);
+  if (!job.cancelled()) decode(file, options, rows, scene, job);
 }
 
 bool is_spz(const MappedFile& file) {
@@ -307,6 +305,19 @@ FormatPlan plan_spz(const Scene& scene, std::size_t gaussians, bool) {
 }
 
 }  // namespace
+
+SpzRows read_spz_rows(const MappedFile& file, const Job& job) {
+  if (file.bytes()[0] == kGzipFirst) return rows_of_gzip(file, job);
+  const spz::Header header = plain_header(file);
+  return header.version == 4 ? rows_of_streams(file, job) : rows_as_they_are(file, header);
+}
+
+int degree_of_spz(const MappedFile& file) {
+  if (file.bytes()[0] != kGzipFirst) return std::min<int>(plain_header(file).sh_degree, kMaxDegree);
+  GzipReader reader(file);
+  const Bytes header = reader.read(sizeof(spz::Header), {});
+  return std::min<int>(load<spz::Header>(header.data()).sh_degree, kMaxDegree);
+}
 
 constinit const SceneFormat SceneFormat::kSpz = {
     .name = "spz",

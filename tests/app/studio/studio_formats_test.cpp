@@ -5,6 +5,7 @@
 
 #include "headless_app.h"
 #include "scene_file_helpers.h"
+#include "synthetic_cloud.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -60,6 +61,102 @@ TEST_CASE(
   app.press_item("###open_anyway", {"Open"});
   REQUIRE(app.settle());
   CHECK(scene().taken_axes == SpzAxes::kPly);
+}
+
+TEST_CASE(
+    "formats: of levels of detail the finest that memory holds is opened and said, another one can be had") {
+  const Folder folder;
+  for (const auto& [name, gaussians] : {std::pair{"0.sog", 2000u}, {"1.sog", 200u}}) {
+    Scene piece;
+    piece.cloud = random_cloud(gaussians, 3, 1);
+    save_scene(folder / name, piece, {}, SceneFormat::kSog);
+  }
+  const fs::path path = folder / "scene.lcc2";
+  write(
+      path,
+      R"({"totalSplats": 2200, "totalLevels": 2, "lodSplats": [2000, 200], "root": {"splatFiles": ["0.sog", "1.sog"],
+      "child": [{"data": {"3dgs": {"name": 1}}, "child": [{"data": {"3dgs": {"name": 0}}}]}]}})");
+  HeadlessApp app(1100, 760);
+  app.open(folder.path);
+  REQUIRE(app.settle());
+  const auto gaussians = [&] { return app.studio().scene()->cloud->size(); };
+  CHECK(gaussians() == 2000);
+  const auto said = [&](std::string_view part) {
+    return std::ranges::any_of(app.studio().messages(), [&](const Message& message) {
+      return message.text.find(part) != std::string::npos;
+    });
+  };
+  CHECK(said("Level of detail 0 of 2 is read"));
+  app.press_item("side/scroll", {"View"});
+  app.press_item("side/scroll", {"##detail"});
+  app.press_item("##Combo_00", {"1: 200 Gaussians, 0.0 GB"});
+  REQUIRE(app.settle());
+  CHECK(gaussians() == 200);
+  const fs::path work = folder / "coarse.splatcut.json";
+  app.studio().apply(SaveWork{work});
+  REQUIRE(app.settle());
+  app.open(path);
+  REQUIRE(app.settle());
+  CHECK(gaussians() == 2000);
+  app.open(work);
+  REQUIRE(app.settle());
+  CHECK(gaussians() == 200);
+}
+
+TEST_CASE("formats: a scene on a map is worked on near 0, 0, 0, with its cameras, and exported on the map") {
+  const Folder folder;
+  constexpr glm::dvec3 kMap{500000, 100, 4500000};
+  const auto save_at = [&](const char* name, const glm::dvec3& place, unsigned seed) {
+    Scene scene;
+    scene.cloud = random_cloud(300, seed, 1);
+    scene.origin = place;
+    save_scene(folder / name, scene, {}, SceneFormat::kPly);
+    return folder / name;
+  };
+  const fs::path first = save_at("a.ply", kMap, 3), second = save_at("b.ply", kMap + glm::dvec3(8, 0, 0), 4);
+  write(
+      folder / "cameras.json",
+      R"([{"img_name": "a", "width": 96, "height": 72, "fx": 90, "fy": 90, "position": [500000.25, 100, 4499995],
+             "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}])");
+  HeadlessApp app(1100, 760);
+  Studio& studio = app.studio();
+  app.open(first);
+  REQUIRE(app.settle());
+  const glm::dvec3 origin = studio.scene()->scene->origin;
+  REQUIRE(glm::length(origin - kMap) < 2);
+  REQUIRE(studio.scene()->views().cameras.size() == 1);
+  CHECK(glm::length(glm::dvec3(studio.scene()->views().cameras[0].centre_world()) + origin -
+                    glm::dvec3(500000.25, 100, 4499995)) < 1e-5);
+  studio.apply(AddScene{second});
+  REQUIRE(app.settle());
+  CHECK(studio.scene()->scene->origin == origin);
+  const auto all = [&] { return studio.scene()->cloud->position; };
+  const std::vector<glm::vec3> both = all();
+  // Without the first file, and from saved work, it stays where it was.
+  studio.apply(RemoveScene{studio.scene()->files.back().id});
+  studio.apply(AddScene{second});
+  REQUIRE(app.settle());
+  const fs::path work = folder / "map.splatcut.json";
+  studio.apply(SaveWork{work});
+  REQUIRE(app.settle());
+  app.open(work);
+  REQUIRE(app.settle());
+  CHECK(all() == both);
+  CHECK(studio.scene()->scene->origin == origin);
+  ExportRequest request;
+  request.what = ExportWhat::kScene;
+  request.path = folder / "out.ply";
+  studio.apply(Export{request});
+  request.path = folder / "middle.ply";
+  request.placement.origin = ExportOrigin::kCentre;
+  studio.apply(Export{request});
+  REQUIRE(app.settle());
+  const Scene out = load_scene(folder / "out.ply", {.origin = origin});
+  REQUIRE(out.cloud.size() == 600);
+  CHECK(out.cloud.position == both);
+  CHECK(text_of(folder / "out.ply").find("property double x") != std::string::npos);
+  CHECK(text_of(folder / "middle.ply").find("property float x") != std::string::npos);
+  CHECK(load_scene(folder / "middle.ply").origin == glm::dvec3(0));
 }
 
 TEST_CASE("formats: every written format can be exported, with its ending, and loads again") {

@@ -12,8 +12,8 @@ namespace {
 
 constexpr glm::dvec3 kMap{500000, -3, 4500000};  // the middle of the file's Gaussians, up to a unit
 
-const std::vector<std::string> kOthers = {"f_dc_0",  "f_dc_1",  "f_dc_2", "opacity", "scale_0", "scale_1",
-                                          "scale_2", "rot_0",   "rot_1",  "rot_2",   "rot_3"};
+const std::vector<std::string> kOthers = {"f_dc_0",  "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1",
+                                          "scale_2", "rot_0",  "rot_1",  "rot_2",   "rot_3"};
 
 // 25 Gaussians on a diagonal, 0.1 units from each other, of sizes exp(-3).
 glm::dvec3 true_place(int row) {
@@ -159,8 +159,8 @@ TEST_CASE("far: cameras on a map stand before the scene once the same is taken o
   fs::create_directories(folder / "colmap");
   write(folder / "colmap/cameras.txt", "1 PINHOLE 96 72 90 90 48 36\n");
   // A third of a turn about (1, 1, 1), world to camera: (x, y, z) becomes (y, z, x).
-  write(folder / "colmap/images.txt",
-        fmt::format("1 0.5 -0.5 -0.5 -0.5 {:.6f} {:.6f} {:.6f} 1 a.png\n\n", -centre.y, -centre.z, -centre.x));
+  write(folder / "colmap/images.txt", fmt::format("1 0.5 -0.5 -0.5 -0.5 {:.6f} {:.6f} {:.6f} 1 a.png\n\n",
+                                                  -centre.y, -centre.z, -centre.x));
   const std::string place = fmt::format("{:.6f}, {:.6f}, {:.6f}", centre.x, centre.y, centre.z);
   write(folder / "cameras.json",
         R"([{"img_name": "a", "width": 96, "height": 72, "fx": 90, "fy": 90, "position": [)" + place +

@@ -110,6 +110,8 @@ TEST_CASE("lcc: a level by its number, the coarsest beyond the last, the folder 
     CHECK(positions_in_file_order(scene) == std::vector<glm::vec3>{{10, -12, 11}, {100, -300, 200}});
     CHECK(scene.left_out == "Of its 2 levels of detail, level 1 is read, 0 the finest");
   }
+  CHECK(levels_of(folder.path).gaussians == std::vector<std::uint64_t>{3, 1});
+  CHECK(levels_of(folder.path).sh_degree == 3);
   write_lcc(folder, "");  // as older files are: the range says that there are spherical harmonics
   CHECK(load_scene(folder / "a.lcc").cloud.sh_degree == 3);
   write_lcc(folder, "Portable");

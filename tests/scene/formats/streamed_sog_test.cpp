@@ -162,6 +162,12 @@ TEST_CASE("streamed sog: a coarser level where a leaf has one, else the coarsest
   CHECK(load_scene(made.path, options).cloud.size() == 40 + 300 + 100 + 100 + 50);
   options.lod = 100;
   CHECK(load_scene(made.path, options).cloud.size() == 40 + 300 + 50 + 60 + 50);
+  const SceneLevels levels = levels_of(made.path);  // without the environment, 50
+  CHECK(levels.gaussians.size() == 11);             // as one leaf has a level 10
+  CHECK(levels.gaussians[0] == 800);
+  CHECK(levels.gaussians[1] == 540);
+  CHECK(levels.gaussians[10] == 450);
+  CHECK(levels.sh_degree == 1);
   CHECK_THROWS_WITH_AS(load_scene(made.path / "d.sog", options), doctest::Contains("no levels of detail"),
                        Error);
 }
