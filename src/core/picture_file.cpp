@@ -78,6 +78,7 @@ struct JpegFailure {
   jpeg_error_mgr manager;  // first: the library hands it back
   std::jmp_buf back;
   char message[JMSG_LENGTH_MAX];
+  bool is_cmyk;
 };
 
 [[noreturn]] void on_jpeg_failure(j_common_ptr info) {
@@ -105,7 +106,8 @@ bool decode_jpeg(std::string_view bytes, JpegFailure* failure, Rgba8* pixels, in
   jpeg_create_decompress(&info);
   jpeg_mem_src(&info, begin_of(bytes), bytes.size());
   jpeg_read_header(&info, TRUE);
-  info.out_color_space = JCS_RGB;
+  failure->is_cmyk = info.jpeg_color_space == JCS_CMYK || info.jpeg_color_space == JCS_YCCK;
+  info.out_color_space = JCS_RGB;  // where they are CMYK, the library refuses
   jpeg_start_decompress(&info);
   const bool as_said =
       static_cast<int>(info.output_width) == width && static_cast<int>(info.output_height) == height;
@@ -142,9 +144,11 @@ Picture read_jpeg(const std::filesystem::path& path, std::string_view bytes) {
   picture.lossy = true;
   std::vector<std::uint8_t> row(3 * static_cast<std::size_t>(size->x));
   JpegFailure failure{};
-  if (!decode_jpeg(bytes, &failure, picture.pixels.data(), size->x, size->y, row.data()))
-    refuse_damaged(path, *failure.message ? failure.message : "its size is another than it says");
-  return picture;
+  if (decode_jpeg(bytes, &failure, picture.pixels.data(), size->x, size->y, row.data())) return picture;
+  if (failure.is_cmyk)
+    throw Error(path.string(), "has the colours of print (CMYK), which are not read",
+                "Save it with RGB colours, or as PNG");
+  refuse_damaged(path, *failure.message ? failure.message : "its size is another than it says");
 }
 
 Picture read_any_webp(const std::filesystem::path& path, std::string_view bytes) {

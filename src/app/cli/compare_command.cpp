@@ -39,7 +39,7 @@ std::string shortfall(const CompareArguments& args, const PictureDifference& d) 
 
 void run_compare(const CompareArguments& args, const CommonOptions& common) {
   if (!args.diff.empty()) {
-    refuse_scene_name(args.diff);
+    refuse_name_of_png(args.diff);
     refuse_written_inputs(args.diff, {args.a, args.b});
     check_output_file(args.diff, args.overwrite);
   }

@@ -136,7 +136,7 @@ void write_depth(const std::filesystem::path& path, const Image<float>& depth) {
 }
 
 void run_render(const SceneArguments& args, const CommonOptions& common) {
-  refuse_scene_name(args.output);
+  refuse_name_of_png(args.output);
   refuse_written_inputs(args.output, {args.scene, args.camera.cameras, args.labels});
   check_output_file(args.output, args.overwrite);
   const Job job = console_job(common.quiet);

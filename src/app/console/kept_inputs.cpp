@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "core/error.h"
+#include "core/lower_case.h"
 #include "scene/formats/scene_formats.h"
 
 namespace splatcut {
@@ -54,6 +58,17 @@ void refuse_scene_name(const fs::path& picture) {
     throw Error(picture.string(),
                 fmt::format("is the name of a scene ({}), and a picture is to be written", format->extension),
                 "Choose a name that ends with .png");
+}
+
+void refuse_name_of_png(const fs::path& picture) {
+  refuse_scene_name(picture);
+  constexpr std::array kOthers = {".jpg", ".jpeg", ".webp", ".bmp",  ".gif", ".tif", ".tiff",
+                                  ".exr", ".tga",  ".heic", ".avif", ".pdf", ".svg"};
+  const std::string ending = lower_case(picture.extension().string());
+  if (std::ranges::find(kOthers, ending) != kOthers.end())
+    throw Error(picture.string(),
+                fmt::format("is the name of another kind of picture ({}), and a PNG is written", ending),
+                "Choose a name that ends with .png, and convert it");
 }
 
 }  // namespace splatcut

@@ -15,5 +15,7 @@ void refuse_written_inputs(const std::filesystem::path& output,
 
 // Throws Error where a picture would be written under the ending of a scene.
 void refuse_scene_name(const std::filesystem::path& picture);
+// The same for a PNG, also of other kinds of pictures.
+void refuse_name_of_png(const std::filesystem::path& picture);
 
 }  // namespace splatcut

@@ -16,9 +16,12 @@ void MaskOptions::add_to(CLI::App& command, bool with_truth) {
   const Setting& as_set = *std::ranges::find(settings_table(), "views.propagate", &Setting::name);
   command.add_option("--propagate", propagate, as_set.sentence);
   command.add_option("--refine", refine, "What settles masks in the other views: none, grabcut or pixelcut");
-  command.add_option("--views", views,
-                     "Most views around the object, 0 to 400; else by the preset: default none after clicks, "
-                     "12 with a mask");
+  constexpr int kMostViews = 400;  // of the setting
+  command
+      .add_option("--views", views,
+                  "Most views around the object, 0 to 400; else by the preset: default none after clicks, "
+                  "12 with a mask")
+      ->check(CLI::Range(0, kMostViews));
   command.add_flag("--parts-only", parts_only, "The parts are the answer: no other views, no graph cut");
 }
 

@@ -40,7 +40,7 @@ void Exports::perform(const Export& c) {
 
 void Exports::perform(const SaveSnapshot& c) {
   ws_.require_scene();
-  refuse_scene_name(c.path);
+  refuse_name_of_png(c.path);
   refuse_written_inputs(c.path, ws_.scene->scene->files);
   ws_.tasks.submit(
       TaskKind::kExport, [this, c, camera = viewport_.pane_camera(), visible = viewport_.shown(0),

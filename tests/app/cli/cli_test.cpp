@@ -39,7 +39,9 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   CHECK(place.run("--version").code == 0);
   CHECK(place.run("cut --help").code == 0);
   for (const char* usage : {"fly", "cut", "info", "render a.ply", "cut a.ply -o b --no-such-option",
-                            "info a.ply --threads -1", "render a.ply -o a.png --lowpass -1"})
+                            "info a.ply --threads -1", "render a.ply -o a.png --lowpass -1",
+                            "cut a.ply -o b --click 1,1 --views -1", "cut a.ply -o b --click 1,1 --views 401",
+                            "info a.ply --lod -1", "cut a.ply -o b --click 1,1 --scale -101"})
     CHECK_MESSAGE(place.run(usage).code == 2, usage);
   // NaN is no number, 255 no share of 1; what is out of range is said as it was given.
   const std::string view = "render " + life.scene + " --size 8x8 -o a.png ";
@@ -92,7 +94,6 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused("eval made/suite.json -o cut --preset slow", {"slow", presets});
   refused(life.cut("-o cut --click 1,1 --refine foo"), {"views.refine", "foo", "none, grabcut or pixelcut"});
   refused(life.cut("-o cut --click 1,1 --first-mask foo"), {"foo", "parts, grabcut, pixelcut"});
-  refused(life.cut("-o cut --click 1,1 --views 401"), {"views.most", "401", "from -1 to 400"});
   refused(life.cut("-o cut --click 1,1 --smoothness -1"), {"smoothness", "-1", "from 0 to 500"});
   place.write("w.splatcut.json", "{}");
   for (const char* beside : {"made/small.ply", "--click 1,1", "--preset best", "--set trim=0", "--coarse",

@@ -9,6 +9,7 @@
 
 #include "app/console/mask_folder.h"
 #include "core/error.h"
+#include "core/picture_file.h"
 #include "core/png_file.h"
 #include "program_runner.h"
 #include "scene/camera/camera_names.h"
@@ -37,6 +38,10 @@ const char* const kJpeg =
     "141d1a1f1e1d1a1c1c20242e2720222c231c1c2837292c30313434341f27393d38323c2e333432ffc0000b08000800100101"
     "1100ffc40014000100000000000000000000000000000008ffc40014100100000000000000000000000000000000ffda0008"
     "010100003f003f9fefffd9";
+
+// 2 x 2 pixels of four colours, as far as their beginning; the pixels are missing.
+const char* const kCmykJpeg =
+    "ffd8ffc00014080002000204011100021100031100041100ffda000e0401000200030004000000003f00";
 
 template <class Pixel>
 Image<Pixel> image_of(int width, const std::vector<Pixel>& pixels) {
@@ -133,6 +138,13 @@ TEST_CASE("mask file: PNG of a palette by its indices, of 16 bits by its numbers
   CHECK_THROWS_WITH_AS(read_mask(place / "pointer.png"), doctest::Contains("git lfs pull"), Error);
   place.write("text.png", "no picture");
   CHECK_THROWS_WITH_AS(read_mask(place / "text.png"), doctest::Contains("neither PNG"), Error);
+}
+
+TEST_CASE("mask file: a JPEG in the colours of print is refused with what to do") {
+  const Workplace place;
+  place.write("a.jpg", from_hex(kCmykJpeg));
+  CHECK_THROWS_WITH_AS(read_picture(place / "a.jpg"), doctest::Contains("CMYK"), Error);
+  CHECK_THROWS_WITH_AS(read_picture(place / "a.jpg"), doctest::Contains("RGB"), Error);
 }
 
 TEST_CASE("names: with and without endings, by path below images, numbers only where they are written so") {
