@@ -3,7 +3,7 @@
 # stop the configuration.
 set(quick_labels
   # readers of files of others: every scene format by its name (held by scene_formats_test.cpp), cameras, the rest
-  "ply" "compressed.ply" "splat" "spz" "sog" "streamed sog" "lcc" "lcc2" "glb" "ksplat"
+  "ply" "compressed.ply" "splat" "spz" "sog" "streamed sog" "lcc" "lcc2" "rad" "glb" "ksplat"
   "Inria cameras" "transforms" "COLMAP" "PNG" "JSON" "seeds" "suite" "work file" "prepared cache" "settings" "command line"
   # threads of ours, and loops of TBB that write one array
   "task thread" "frame thread" "depth sorter" "loops"

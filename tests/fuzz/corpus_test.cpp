@@ -96,6 +96,10 @@ QUICK_CASE("lcc2", "corpus: .lcc2") {
   check_reader("lcc2", fuzz_lcc2);
 }
 
+QUICK_CASE("rad", "corpus: .rad") {
+  check_reader("rad", fuzz_rad);
+}
+
 QUICK_CASE("ksplat", "corpus: .ksplat") {
   check_reader("ksplat", fuzz_ksplat);
 }

@@ -124,6 +124,11 @@ void write_picture(const char* name, int width) {
   if (beside) load_and_save(place().write("a.lcc2", bytes));
 }
 
+// Not packed: in what deflate packs hardly a bit can be changed.
+[[maybe_unused]] void fuzz_rad(std::string_view bytes) {
+  load_and_save(place().write("a.rad", bytes));
+}
+
 [[maybe_unused]] void fuzz_json_cameras(std::string_view bytes) {
   std::string warning;
   load_cameras(place().write("a.json", bytes), &warning);

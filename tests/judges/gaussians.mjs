@@ -3,6 +3,7 @@
 // A reading: {count, degree, position [3], covariance [6: xx xy xz yy yz zz], rgb [3, 0 to 1 from f_dc alone],
 // alpha, sh [3 per coefficient, coefficient by coefficient] or null}, in the axes of a .ply: x right, y down, z forward.
 import {writeFileSync} from 'node:fs';
+import {deflateRawSync} from 'node:zlib';
 
 export const COUNT = 96;
 const SH_C0 = 0.28209479177387814;
@@ -53,6 +54,107 @@ export function writeLcc(folder, withSh) {
     attributes: [range('scale', 0.01, 0.5), range('shcoef', -1, 1)]};
   for (const [name, content] of [['meta.lcc', JSON.stringify(text)], ['index.bin', index], ['data.bin', data], ['shcoef.bin', sh]])
     writeFileSync(`${folder}/${name}`, content);
+}
+
+// The second kind, of two levels: piece 0 in two ranges, and piece 1, which is coarser; in a folder where these are.
+export function writeLcc2(folder, pieces, counts) {
+  const node = (name, start, count, child) => ({data: {'3dgs': {name, start, count}}, ...(child && {child})});
+  const fine = {0: node(0, 0, 60), 1: node(0, 60, counts[0] - 60)};
+  const text = {totalSplats: counts[0] + counts[1], totalLevels: 2, lodSplats: counts, splatType: pieces[0].slice(-4),
+    root: {splatFiles: pieces, child: [node(1, 0, counts[1], fine)]}};
+  writeFileSync(`${folder}/meta.lcc2`, JSON.stringify(text));
+}
+
+export function halfOf(value) {
+  const [v] = Float32Array.of(Math.abs(value)), sign = value < 0 || Object.is(value, -0) ? 0x8000 : 0;
+  const exponent = Math.max(-14, Math.floor(Math.log2(v || 2 ** -30))), step = 2 ** (exponent - 10);
+  const steps = Math.round(v / step);
+  return sign | (steps < 1024 ? steps : (exponent + 15 << 10) + steps - 1024);
+}
+export function fromHalf(bits) {
+  const exponent = bits >> 10 & 31, fraction = bits & 1023;
+  return (bits & 0x8000 ? -1 : 1) * (exponent === 0 ? fraction * 2 ** -24 : (1024 + fraction) * 2 ** (exponent - 25));
+}
+
+// How .rad stores values of several components, all of the first one before those of the second.
+const planes = (values, width) => Array.from({length: width}, (_, d) => values.filter((_, i) => i % width === d)).flat();
+const inSteps = (values, least, most, steps) => values.map((v) => Math.max(0, Math.min(steps, Math.round((v - least) / (most - least) * steps))));
+const differencesOf = (bytes, run) => bytes.map((b, i) => b - (i % run ? bytes[i - 1] : 0) & 255);
+const splitBytes = (buffer, size) => Buffer.concat(Array.from({length: size}, (_, b) => buffer.filter((_, i) => i % size === b)));
+const asFloats = (values) => Buffer.from(Float32Array.from(values).buffer);
+const asHalves = (values) => Buffer.from(Uint16Array.from(values, halfOf).buffer);
+const ENCODED = {  // (values, all of the first component first; how many of each) to bytes and bounds
+  f32: (v) => [asFloats(v)], f16: (v) => [asHalves(v)],
+  f32_lebytes: (v) => [splitBytes(asFloats(v), 4)], f16_lebytes: (v) => [splitBytes(asHalves(v), 2)],
+  r8: (v) => [Buffer.from(inSteps(v, -1, 2, 255)), {min: -1, max: 2}],
+  r8_delta: (v, n) => [Buffer.from(differencesOf(inSteps(v, -1, 2, 255), n)), {min: -1, max: 2}],
+  s8: (v) => [Buffer.from(v.map((x) => Math.round(x / 0.5 * 127) & 255)), {min: -0.5, max: 0.5}],
+  s8_delta: (v, n) => [Buffer.from(differencesOf(v.map((x) => Math.round(x / 0.5 * 127) & 255), n)), {min: -0.5, max: 0.5}],
+  ln_f16: (v) => [asHalves(v.map(Math.log))],
+  ln_0r8: (v) => [Buffer.from(inSteps(v.map(Math.log), -12, 9, 254).map((s) => s + 1)), {min: -12, max: 9}],
+};
+// A rotation of three bytes: where its axis meets an octahedron, unfolded, and its angle.
+function octOf([w, x, y, z]) {
+  const angle = 2 * Math.acos(Math.min(1, w)), sum = Math.abs(x) + Math.abs(y) + Math.abs(z) || 1, sign = (v) => v < 0 ? -1 : 1;
+  let [u, v] = [x / sum, y / sum];
+  if (z < 0) [u, v] = [(1 - Math.abs(v)) * sign(u), (1 - Math.abs(u)) * sign(v)];
+  return [...inSteps([u, v], -1, 1, 255), ...inSteps([angle], 0, Math.PI, 255)];
+}
+
+// A scene of Spark. rows: {centre, alpha, rgb, scale: [..]; rotation: [w x y z ..]; sh: [1 to 3: [..]]}, component by
+// component of each. variant: which of the encodings. tree: {counts, starts} of children. In chunks of that size.
+export function radOf(rows, variant, tree, chunkSize = 65536) {
+  const pick = (...names) => names[variant % names.length], count = rows.alpha.length, chunks = [];
+  const padded = (b) => Buffer.concat([b, Buffer.alloc((8 - b.length % 8) % 8)]);
+  const withText = (mark, text) => {
+    const bytes = Buffer.from(JSON.stringify(text)), head = Buffer.from(`${mark}    `);
+    head.writeUInt32LE(bytes.length, 4);
+    return Buffer.concat([head, padded(bytes)]);
+  };
+  for (let base = 0; base < count; base += chunkSize) {
+    const n = Math.min(chunkSize, count - base), properties = [], payload = [];
+    let offset = 0;
+    const add = (property, encoding, bytes, bounds) => {
+      const packed = deflateRawSync(bytes);
+      properties.push({offset, bytes: packed.length, property, encoding, compression: 'gz', ...bounds});
+      payload.push(padded(packed));
+      offset += payload.at(-1).length;
+    };
+    const values = (property, encoding, all, width) =>
+      add(property, encoding, ...ENCODED[encoding](planes(all.slice(width * base, width * (base + n)), width), n));
+    values('center', pick('f32', 'f32_lebytes', 'f16', 'f16_lebytes'), rows.centre, 3);
+    values('alpha', pick('r8', 'f32', 'f16'), rows.alpha, 1);
+    values('rgb', pick('r8_delta', 'r8', 'f32', 'f16'), rows.rgb, 3);
+    values('scales', pick('ln_0r8', 'ln_f16', 'f32'), rows.scale, 3);
+    const rotations = Array.from({length: n}, (_, i) => rows.rotation.slice(4 * (base + i), 4 * (base + i + 1)));
+    const rotation = pick('oct88r8', 'f32', 'f16');
+    if (rotation === 'oct88r8') add('orientation', rotation, Buffer.from(rotations.map(octOf).flat()));
+    else values('orientation', rotation, [...Array(3 * base).fill(0), ...rotations.flatMap((q) => q.slice(1))], 3);
+    rows.sh.forEach((all, d) => values(`sh${d + 1}`, pick('s8', 's8_delta', 'f32', 'f16', 'r8'), all, 6 * d + 9));
+    if (tree) add('child_count', 'u16', Buffer.from(Uint16Array.from(tree.counts.slice(base, base + n)).buffer));
+    if (tree) add('child_start', 'u32', Buffer.from(Uint32Array.from(tree.starts.slice(base, base + n)).buffer));
+    const size = Buffer.alloc(8);
+    size.writeBigUInt64LE(BigInt(offset));
+    chunks.push(Buffer.concat([withText('RADC', {version: 1, base, count: n, payloadBytes: offset, maxSh: rows.sh.length,
+      ...(tree && {lodTree: true}), properties}), size, ...payload]));
+  }
+  let offset = 0;
+  const ranges = chunks.map((chunk) => ({offset: (offset += chunk.length) - chunk.length, bytes: chunk.length}));
+  return Buffer.concat([withText('RAD0', {version: 1, type: 'gsplat', count, maxSh: rows.sh.length, ...(tree && {lodTree: true}), chunkSize,
+    allChunkBytes: offset, chunks: ranges}), ...chunks]);
+}
+export function radRowsOf(columns) {
+  const named = Object.fromEntries(columns.map((c) => [c.name, c.values])), reading = readingOfColumns(columns), count = reading.count;
+  const rows = {centre: reading.position, alpha: reading.alpha, rgb: reading.rgb, scale: [], rotation: [], sh: []};
+  const each = coefficients(reading.degree);
+  for (let d = 1; d <= reading.degree; ++d)
+    rows.sh.push(reading.sh.filter((_, i) => Math.floor(i / 3) % each >= coefficients(d - 1) && Math.floor(i / 3) % each < coefficients(d)));
+  for (let i = 0; i < count; ++i) {
+    rows.scale.push(...[0, 1, 2].map((c) => Math.exp(named[`scale_${c}`][i])));
+    const q = [0, 1, 2, 3].map((c) => named[`rot_${c}`][i]), length = Math.hypot(...q) * (q[0] < 0 ? -1 : 1);
+    rows.rotation.push(...q.map((v) => v / length));
+  }
+  return rows;
 }
 
 export function columnsOfPly(bytes) {

@@ -2,7 +2,7 @@
 // program; by value, spherical harmonics of degree 0 to 3. Prints the matrix; ends with 1 where anything differs.
 import {spawnSync} from 'node:child_process';
 import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
-import {columnsOfPly, differences, knownRows, plyOf, readingOfColumns, turned, writeLcc} from './gaussians.mjs';
+import {COUNT, columnsOfPly, differences, knownRows, plyOf, readingOfColumns, radOf, radRowsOf, turned, writeLcc, writeLcc2} from './gaussians.mjs';
 import * as readers from './readers.mjs';
 
 const [program, folder] = process.argv.slice(2);
@@ -19,6 +19,7 @@ const STEPS = {
   sog: {position: 0.002, covariance: 0.06, rgb: 0.005, alpha: BYTE, sh: 0.02},
   'their sog': {position: 2e-6, covariance: 1e-5, rgb: 1e-6, alpha: 1e-6, sh: 1e-6},  // against their own reading
   lcc: {position: 2e-5, covariance: 1e-5, rgb: 1e-6, alpha: 1e-6, sh: 2e-5},  // against their own reading
+  rad: {position: 1e-6, covariance: 0.02, rgb: 0.001, alpha: 0.001, sh: 0.51 / 31},  // against Spark's reading, in its halves
   ksplat: {position: 0.01, covariance: 0.01, rgb: 2 * BYTE, alpha: 2 * BYTE, sh: 0.01},  // cut off, not rounded
 };
 // A reader may round once more: three.js to bytes.
@@ -101,6 +102,38 @@ for (const degree of [0, 3]) {
     return differences(await readers.converter(path), readingOfColumns(columnsOfPly(readFileSync(`${path}.ours.ply`))), same(STEPS.lcc));
   });
 }
+// Nor .lcc2: pieces that the converter wrote, under a text of our own making, level by level.
+for (const degree of [0, 3])
+  for (const [ending, options] of [['sog', []], ['3.spz', ['--spz-version', '3']], ['4.spz', ['--spz-version', '4']]]) {
+    const below = `${folder}/lcc2_${degree}_${ending}`, coarse = 20, kind = ending.slice(-3);
+    mkdirSync(below);
+    const few = knownRows(degree).map(({name, values}) => ({name, values: values.slice(0, coarse)}));
+    writeFileSync(`${below}/few.ply`, plyOf(few));
+    readers.splatTransform(`${folder}/known_${degree}.ply`, `${below}/0.${kind}`, options);
+    readers.splatTransform(`${below}/few.ply`, `${below}/1.${kind}`, options);
+    writeLcc2(below, [`0.${kind}`, `1.${kind}`], [COUNT, coarse]);
+    const path = `${below}/meta.lcc2`;
+    for (const level of [0, 1])
+      await judged(degree, `.lcc2 of .${ending}, level ${level}, read by us and by splat-transform`, async () => {
+        convert(path, `${path}.ours.ply`, ['--lod', String(level)]);
+        return differences(await readers.converter(path, ['-L', String(level)]), readingOfColumns(columnsOfPly(readFileSync(`${path}.ours.ply`))), same(STEPS.lcc));
+      });
+  }
+// .rad of our own making, in every encoding that it has, and with the tree that Spark makes; as Spark reads it.
+for (const degree of [0, 1, 2, 3])
+  for (const variant of [0, 1, 2, 3, 4, 'a tree']) {
+    const path = `${folder}/made_${degree}_${variant}.rad`, rows = radRowsOf(knownRows(degree));
+    writeFileSync(path, radOf(rows, Number.isInteger(variant) ? variant : 1));
+    await judged(degree, `.rad, encodings ${variant}, read by us and by Spark`, async () => {
+      if (variant === 'a tree') {
+        const [merged, tree] = await readers.sparkTree(path);
+        writeFileSync(path, radOf(merged, 1, tree));
+      }
+      convert(path, `${path}.ours.ply`);
+      const ours = readingOfColumns(columnsOfPly(readFileSync(`${path}.ours.ply`)));
+      return ours.count === COUNT ? differences(await readers.spark(path), ours, STEPS.rad) : [`${ours.count} Gaussians`];
+    });
+  }
 // The mark of antialiased training, there and back.
 const MARK = 'SplatRenderMode: mip', marked = `${folder}/marked.ply`;
 writeFileSync(marked, plyOf(knownRows(0), [MARK]));

@@ -10,7 +10,7 @@ import {KSPLATLoader} from 'three/addons/loaders/KSPLATLoader.js';
 import {SPLATLoader} from 'three/addons/loaders/SPLATLoader.js';
 import {USDAParser} from 'three/addons/loaders/usd/USDAParser.js';
 import {SPZLoader} from 'three/addons/loaders/SPZLoader.js';
-import {coefficients, columnsOfPly, covariance, readingOfColumns} from './gaussians.mjs';
+import {coefficients, columnsOfPly, covariance, fromHalf, readingOfColumns} from './gaussians.mjs';
 
 const SH_C0 = 0.28209479177387814;
 const arrayBuffer = (path) => { const b = readFileSync(path); return b.buffer.slice(b.byteOffset, b.byteOffset + b.byteLength); };
@@ -121,8 +121,8 @@ export function splatTransform(from, to, options = []) {
   if (end.status !== 0) throw new Error(`splat-transform ${from} ${to}: ${end.stderr || end.stdout || end.error}`);
 }
 
-export async function converter(path) {
-  splatTransform(path, `${path}.theirs.ply`);
+export async function converter(path, options = []) {
+  splatTransform(path, `${path}.theirs.ply`, options);
   return readingOfColumns(columnsOfPly(readFileSync(`${path}.theirs.ply`)));
 }
 
@@ -132,4 +132,88 @@ export async function writeKsplat(ply, path, level, degree) {
   const {PlyLoader} = await import('./gaussian-splats-3d.mjs');
   const buffer = await PlyLoader.loadFromFileData(arrayBuffer(ply), 0, level, true, degree);
   writeFileSync(path, Buffer.from(buffer.bufferData));
+}
+
+// Spark's worker, which is a text in its module, and speaks by messages.
+let sparkAnswers;
+async function askSpark(name, args) {
+  if (!sparkAnswers) {
+    const text = readFileSync(new URL('node_modules/@sparkjsdev/spark/dist/spark.module.js', import.meta.url), 'utf8');
+    const worker = text.split('\n').find((line) => line.startsWith('const jsContent = ')).slice('const jsContent = '.length).replace(/;\s*$/, '');
+    const module = await WebAssembly.compile(Buffer.from(text.match(/decode64\("(AGFzbQ[^"]+)"/)[1], 'base64'));
+    const listeners = new Set(), waiting = {};
+    globalThis.self = {addEventListener: (_, f) => listeners.add(f), removeEventListener: (_, f) => listeners.delete(f),
+      postMessage: (message) => { if (!message.status) waiting.done(message); }};
+    new Function(new Function(`return ${worker}`)())();
+    const send = (data) => [...listeners].forEach((f) => f({data}));
+    send({name: 'init-wasm', module});
+    sparkAnswers = (data) => new Promise((done) => { waiting.done = done; send(data); });
+  }
+  const said = console.log;
+  console.log = () => {};  // it counts
+  const {error, result} = await sparkAnswers({id: 1, name, args});
+  console.log = said;
+  if (error) throw new Error(String(error));
+  return result.lodSplats ?? result;
+}
+
+// What it keeps of each: halves, logarithms of sizes, rotations in 32 bits. Harmonics in 7, 8 and 6 bits, from its packed
+// form (the other one cuts off what is above a power of two).
+const SH_BITS = [7, 8, 6];
+function rowsOfSpark({numSplats, extArrays: [a, b]}, bands = []) {
+  const degree = bands.length;
+  const rows = {centre: [], alpha: [], rgb: [], scale: [], rotation: [], sh: Array.from({length: degree}, () => [])};
+  const centres = new Float32Array(a.buffer, a.byteOffset, a.length);
+  const harmonic = (words, at, bits) => {
+    const value = Number(BigInt.asIntN(bits, words.reduceRight((sum, word) => sum << 32n | BigInt(word), 0n) >> BigInt(at * bits)));
+    return value / (2 ** (bits - 1) - 1);
+  };
+  for (let i = 0; i < numSplats; ++i) {
+    rows.centre.push(...centres.subarray(4 * i, 4 * i + 3));
+    rows.alpha.push(fromHalf(a[4 * i + 3] & 0xffff));
+    const halves = [0, 1, 2].flatMap((w) => [fromHalf(b[4 * i + w] & 0xffff), fromHalf(b[4 * i + w] >>> 16)]);
+    rows.rgb.push(...halves.slice(0, 3));
+    rows.scale.push(...halves.slice(3).map(Math.exp));
+    const word = b[4 * i + 3], u = (word & 1023) / 1023 * 2 - 1, v = (word >>> 10 & 1023) / 1023 * 2 - 1, half = (word >>> 20) / 4095 * Math.PI / 2;
+    const z = 1 - Math.abs(u) - Math.abs(v), below = Math.max(0, -z), axis = [u - (u < 0 ? -below : below), v - (v < 0 ? -below : below), z];
+    rows.rotation.push(Math.cos(half), ...axis.map((c) => c / Math.hypot(...axis) * Math.sin(half)));
+    bands.forEach((band, d) => {
+      const each = d === 0 ? 2 : 4, words = [...band.subarray(each * i, each * (i + 1))];
+      for (let at = 0; at < 6 * d + 9; ++at) rows.sh[d].push(harmonic(words, at, SH_BITS[d]));
+    });
+  }
+  return rows;
+}
+
+function readingOfRadRows(rows, taken) {
+  const reading = {count: taken.length, degree: rows.sh.length, position: [], covariance: [], rgb: [], alpha: [], sh: []};
+  for (const i of taken) {
+    const of = (values, width) => values.slice(width * i, width * (i + 1));
+    reading.position.push(...of(rows.centre, 3));
+    reading.covariance.push(...covariance(of(rows.rotation, 4), of(rows.scale, 3)));
+    reading.rgb.push(...of(rows.rgb, 3));
+    reading.alpha.push(...of(rows.alpha, 1));
+    rows.sh.forEach((sh, d) => reading.sh.push(...of(sh, 6 * d + 9)));
+  }
+  return reading;
+}
+
+const readSpark = async (path, form = 'loadExtSplats') =>
+  askSpark(form, {fileBytes: new Uint8Array(readFileSync(path)), fileType: 'rad', pathName: path});
+const childrenOf = ({numSplats, extra: {lodTree}}) => ({counts: Array.from({length: numSplats}, (_, i) => lodTree[4 * i + 2]),
+  starts: Array.from({length: numSplats}, (_, i) => lodTree[4 * i + 3])});
+
+// All Gaussians of a .rad, or the leaves of its tree.
+export async function spark(path) {
+  const read = await readSpark(path), all = Array.from({length: read.numSplats}, (_, i) => i);
+  const tree = read.extra.lodTree && childrenOf(read);
+  const {extra} = await readSpark(path, 'loadPackedSplats'), bands = [extra.sh1, extra.sh2, extra.sh3].filter((band) => band);
+  return readingOfRadRows(rowsOfSpark(read, bands), tree ? all.filter((i) => tree.counts[i] === 0) : all);
+}
+
+// The tree that it makes of the Gaussians of a .rad: rows and children as radOf() wants them.
+export async function sparkTree(path) {
+  const {numSplats, extArrays, extra} = await readSpark(path);
+  const made = await askSpark('tinyLodExtSplats', {numSplats, extArrays, extra});
+  return [rowsOfSpark(made), childrenOf(made)];
 }

@@ -19,7 +19,7 @@ void say(std::string_view called, const std::string& sentence, bool quiet) {
 void SceneOptions::add_to(CLI::App& command) {
   command
       .add_option("--lod", lod,
-                  "Level of detail of a streamed .sog, .lcc or .lcc2, 0 the finest: less memory, fewer "
+                  "Level of detail of a streamed .sog, .lcc, .lcc2 or .rad, 0 the finest: less memory, fewer "
                   "Gaussians")
       ->check(CLI::Range(0, 100));
   command

@@ -38,7 +38,7 @@ constexpr Foreign kForeign[] = {
     {".usda", "#usda", "is a USD file, which is written here, not read", kExport},
     {".splatv", "\x4b\x67\x00\x00"sv, "is a moving scene (.splatv), which is not read",
      "Export one moment of it as .ply"},
-    {".rad", "RAD0", "is a streamed scene of Spark, which is not read", "Give the scene that it was made of"},
+    {".radc", "RADC", "is a piece of a scene of Spark", "Give its .rad"},
     {".ckpt", "", "is a checkpoint of a training, not a scene",
      "Run ns-export gaussian-splat and give its .ply"},
     {".pt", "", "is a checkpoint of a training, not a scene",

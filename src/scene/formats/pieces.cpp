@@ -19,16 +19,6 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-// A name in the index as a path in its folder, the same for all spellings.
-fs::path path_in_folder(const MappedFile& file, const std::string& name) {
-  const fs::path path = fs::path(name).lexically_normal();
-  const bool inside =
-      !path.is_absolute() && !path.empty() && *path.begin() != ".." && name.find('\0') == std::string::npos;
-  if (!inside)
-    refuse_index(file, fmt::format("names the piece {}, which is not in its folder", json_text(name)));
-  return path;
-}
-
 // Each Gaussian once: so few bytes cannot stand for many.
 void check_overlaps(const PieceIndex& index) {
   std::vector<PieceRange> sorted = index.ranges();
@@ -76,8 +66,7 @@ struct PieceRows {
   ShTurn turn{glm::mat3_cast(kLccUpright)};
 
   const Piece& piece_of_row(std::size_t* row) const {
-    const PieceRange& range =
-        *std::prev(std::ranges::upper_bound(ranges, *row, {}, &PieceRange::first_row));
+    const PieceRange& range = *std::prev(std::ranges::upper_bound(ranges, *row, {}, &PieceRange::first_row));
     *row = range.offset + *row - range.first_row;
     return pieces[range.piece];
   }
@@ -108,9 +97,7 @@ class PieceBounds {
     check_expansion(path_, packed_, unpacked_);
   }
   // Also where a piece without spherical harmonics takes those of another.
-  void check_cloud(const PieceRows& rows) const {
-    check_cloud_size(path_, packed_, rows.count, rows.degree);
-  }
+  void check_cloud(const PieceRows& rows) const { check_cloud_size(path_, packed_, rows.count, rows.degree); }
 
  private:
   fs::path path_;
@@ -141,9 +128,9 @@ void number_rows(const PieceIndex& index, PieceRows* rows) {
     const std::size_t all = rows->pieces[range.piece].count();
     if (range.count >= PieceIndex::kToTheEnd) range.count = all - std::min(all, range.offset);
     if (range.count == 0 || range.offset + range.count > all)
-      refuse_index(index.file(), fmt::format("a leaf shows the Gaussians {} to {} of {}, which has {}",
-                                             range.offset, range.offset + range.count,
-                                             index.pieces()[range.piece].string(), all));
+      refuse_index(index.file(),
+                   fmt::format("a leaf shows the Gaussians {} to {} of {}, which has {}", range.offset,
+                               range.offset + range.count, index.pieces()[range.piece].string(), all));
     range.first_row = rows->count;
     rows->count += range.count;
   }
@@ -176,6 +163,15 @@ PieceRows rows_of_pieces(const PieceIndex& index, const Job& job) {
 
 void refuse_index(const MappedFile& file, const std::string& what) {
   throw Error(file.path().string(), what, "Write it again with the program that made it");
+}
+
+fs::path path_in_folder(const MappedFile& file, const std::string& name) {
+  const fs::path path = fs::path(name).lexically_normal();
+  const bool inside =
+      !path.is_absolute() && !path.empty() && *path.begin() != ".." && name.find('\0') == std::string::npos;
+  if (!inside)
+    refuse_index(file, fmt::format("names the piece {}, which is not in its folder", json_text(name)));
+  return path;
 }
 
 std::size_t piece_number(const MappedFile& file, const json& value, const char* what, const char* whose) {

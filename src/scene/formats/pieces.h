@@ -17,6 +17,10 @@ namespace splatcut {
 
 [[noreturn]] void refuse_index(const MappedFile& file, const std::string& what);
 
+// A name that an index has as a path in its folder, the same for all spellings. Throws Error for one that
+// leaves it.
+std::filesystem::path path_in_folder(const MappedFile& file, const std::string& name);
+
 // Gaussians of a piece, never none.
 struct PieceRange {
   std::size_t piece = 0, offset = 0, count = 0, first_row = 0;
@@ -51,9 +55,9 @@ class PieceIndex {
 // Axes of the pieces' numbers: those of a .ply, or those of .lcc.
 enum class PieceAxes { kPly, kLcc };
 
-// Reads what the index shows; rows are numbered in its order, the degree of spherical harmonics is the highest
-// of the pieces. Throws Error for a Gaussian that is shown twice, for ranges beyond their pieces, and for
-// pieces that are missing, damaged, or together more than check_expansion() allows.
+// Reads what the index shows; rows are numbered in its order, the degree of spherical harmonics is the
+// highest of the pieces. Throws Error for a Gaussian that is shown twice, for ranges beyond their pieces, and
+// for pieces that are missing, damaged, or together more than check_expansion() allows.
 void read_pieces(const PieceIndex& index, PieceAxes axes, Scene& scene, const Job& job);
 
 // The degree that a piece says, as far as its text or header does without being unpacked.

@@ -123,7 +123,7 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
   scene.modified_ns = file.modified_ns();
   if (options.lod > 0 && !scene.format.levels)
     throw Error(path.string(), "has no levels of detail",
-                "--lod is for streamed scenes (lod-meta.json, .lcc, .lcc2)");
+                "--lod is for streamed scenes (lod-meta.json, .lcc, .lcc2, .rad)");
   scene.format.read(file, options, scene, job);
   if (!job.cancelled() && scene.file_rows == 0) throw Error(path.string(), "holds no Gaussians");
   if (!job.cancelled() && scene.cloud.empty())

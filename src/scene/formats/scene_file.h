@@ -55,6 +55,7 @@ struct LoadOptions {
   std::vector<Camera> cameras;  // of the capture, if any are known
   // Of a streamed .sog: of each part the finest level from this one on, else the coarsest. Of an .lcc: the
   // level. Of an .lcc2: of each part this level, or the finest that it has where that is coarser.
+  // Of a .rad: so many steps of its tree above the deepest leaf, or a leaf where one is above.
   unsigned lod = 0;
   // Scene::origin, of another scene that this one stands beside. Without it: whole units in the middle of a
   // .ply whose positions are in double, where 32 bits would move the middle Gaussian by more than 1/100 of

@@ -22,6 +22,7 @@
   row(kStreamedSog)                 \
   row(kLcc)                         \
   row(kLcc2)                        \
+  row(kRad)                         \
   row(kGlb)                         \
   row(kUsda)                        \
   row(kKsplat)

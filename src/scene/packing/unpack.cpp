@@ -34,14 +34,17 @@ void check_expansion(const std::filesystem::path& path, std::uint64_t packed_byt
                           packed_bytes, unpacked_bytes));
 }
 
-GzipReader::GzipReader(const MappedFile& file) : file_(file), in_(file.bytes()) {
-  constexpr int kGzipOnly = 16 + MAX_WBITS;
-  const int result = inflateInit2(&stream_, kGzipOnly);
-  if (result == Z_MEM_ERROR) throw std::bad_alloc();
-  if (result != Z_OK) throw Error(file.path().string(), "the gzip reader failed to start");
+GzipReader::GzipReader(const MappedFile& file) : GzipReader(file.path(), file.bytes(), 16 + MAX_WBITS) {
   header_.comment = reinterpret_cast<Bytef*>(comment_.data());
   header_.comm_max = kMostComment;
   inflateGetHeader(&stream_, &header_);
+}
+
+GzipReader::GzipReader(std::filesystem::path path, std::span<const std::byte> data, int window_bits)
+    : path_(std::move(path)), in_(data) {
+  const int result = inflateInit2(&stream_, window_bits);
+  if (result == Z_MEM_ERROR) throw std::bad_alloc();
+  if (result != Z_OK) throw Error(path_.string(), "the gzip reader failed to start");
 }
 
 Bytes GzipReader::read(std::size_t count, const Job& job) {
@@ -68,9 +71,8 @@ Bytes GzipReader::read_rest(std::size_t most) {
 }
 
 void GzipReader::throw_truncated(std::size_t done) const {
-  throw Error(file_.path().string(),
-              fmt::format("truncated: the gzip data ends at byte {} after {} unpacked bytes",
-                          file_.bytes().size() - in_.size(), done));
+  throw Error(path_.string(), fmt::format("truncated: the gzip data ends at byte {} after {} unpacked bytes",
+                                          size_ - in_.size(), done));
 }
 
 std::size_t GzipReader::read_some(std::span<std::byte> out) {
@@ -86,8 +88,7 @@ std::size_t GzipReader::read_some(std::span<std::byte> out) {
   if (written > 0) return written;
   if (result == Z_OK || result == Z_STREAM_END || result == Z_BUF_ERROR) return 0;
   if (result == Z_MEM_ERROR) throw std::bad_alloc();
-  throw Error(file_.path().string(),
-              fmt::format("the gzip data is damaged at byte {}", file_.bytes().size() - in_.size()));
+  throw Error(path_.string(), fmt::format("the gzip data is damaged at byte {}", size_ - in_.size()));
 }
 
 Bytes unpack_zstd(const MappedFile& file, std::span<const std::byte> packed, std::size_t size,

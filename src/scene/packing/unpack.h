@@ -25,10 +25,12 @@ using Bytes = std::vector<std::byte>;
 void check_expansion(const std::filesystem::path& path, std::uint64_t packed_bytes,
                      std::uint64_t unpacked_bytes);
 
-// One gzip stream. Throws Error for data that are damaged.
+// One gzip stream, or one of deflate. Throws Error for data that are damaged.
 class GzipReader {
  public:
   explicit GzipReader(const MappedFile& file);
+  // path: of the file that the data are from. window_bits: as inflateInit2() wants them.
+  GzipReader(std::filesystem::path path, std::span<const std::byte> data, int window_bits);
   GzipReader(const GzipReader&) = delete;
   GzipReader& operator=(const GzipReader&) = delete;
   ~GzipReader() { inflateEnd(&stream_); }
@@ -44,8 +46,9 @@ class GzipReader {
   [[noreturn]] void throw_truncated(std::size_t done) const;
   std::size_t read_some(std::span<std::byte> out);  // 0 at the end of the data
 
-  const MappedFile& file_;
+  std::filesystem::path path_;
   std::span<const std::byte> in_;
+  std::size_t size_ = in_.size();
   static constexpr std::size_t kMostComment = 63;
   std::array<char, kMostComment + 1> comment_{};
   gz_header header_{};

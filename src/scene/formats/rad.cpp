@@ -1,0 +1,525 @@
+// Reader of .rad (Spark). "RAD0", bytes of a text (32 bits), the text, zeros to a multiple of 8, chunks. The
+// text says count (Gaussians of all levels), maxSh, and of each chunk where it begins behind the text, or the
+// name of the file (.radc) beside that it is. A chunk: "RADC", its text likewise, the bytes of what follows
+// (64 bits), and properties, each from a multiple of 8 on and packed by deflate. All values of the first
+// component stand before those of the second, but for rotations of three bytes:
+//   center       x y z;  rgb  what f_dc shows;  alpha  opacity;  scales  standard deviations
+//   orientation  x y z of a quaternion whose w is not negative; or oct88r8: its axis as a point of an
+//   octahedron,
+//                u v, and its angle, 0 to pi
+//   sh1 to sh3   9, 15 and 21 components, coefficient by coefficient
+//   child_count, child_start  a tree: the children of each Gaussian, which is all of them merged; leaves have
+//   none
+// Encodings: f32, f16; both _lebytes: all first bytes before all second ones; r8 (from min to max) and
+// r8_delta (differences of those bytes); s8 (-max to max over 127 steps) and s8_delta; ln_f16, ln_0r8:
+// logarithms, of which 0 is no size. Axes are those of the scene that it was made of, taken for those of a
+// .ply.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/json_file.h"
+#include "scene/cloud/quantise.h"
+#include "scene/formats/decode.h"
+#include "scene/formats/pieces.h"
+
+namespace splatcut {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+enum class RadEncoding {
+  kNone,
+  kF32,
+  kF16,
+  kF32Bytes,
+  kF16Bytes,
+  kR8,
+  kS8,
+  kLnF16,
+  kLn0R8,
+  kOct,
+  kU16,
+  kU32
+};
+
+struct RadEncodingName {
+  const char* name;
+  RadEncoding encoding;
+  std::size_t bytes;  // of a value
+  bool differences = false;
+};
+constexpr std::array<RadEncodingName, 13> kRadEncodings{{{"f32", RadEncoding::kF32, 4},
+                                                         {"f16", RadEncoding::kF16, 2},
+                                                         {"f32_lebytes", RadEncoding::kF32Bytes, 4},
+                                                         {"f16_lebytes", RadEncoding::kF16Bytes, 2},
+                                                         {"r8", RadEncoding::kR8, 1},
+                                                         {"r8_delta", RadEncoding::kR8, 1, true},
+                                                         {"s8", RadEncoding::kS8, 1},
+                                                         {"s8_delta", RadEncoding::kS8, 1, true},
+                                                         {"ln_f16", RadEncoding::kLnF16, 2},
+                                                         {"ln_0r8", RadEncoding::kLn0R8, 1},
+                                                         {"oct88r8", RadEncoding::kOct, 1},
+                                                         {"u16", RadEncoding::kU16, 2},
+                                                         {"u32", RadEncoding::kU32, 4}}};
+
+enum RadField : std::size_t {
+  kCentre,
+  kAlpha,
+  kRgb,
+  kScales,
+  kOrientation,
+  kSh1,
+  kSh2,
+  kSh3,
+  kChildren,
+  kFirstChild,
+  kRadFields
+};
+struct RadFieldName {
+  const char* name;
+  std::size_t components;
+  bool needed;
+  std::array<RadEncoding, 4> may;  // and kNone where there are fewer
+};
+using enum RadEncoding;
+constexpr std::array<RadFieldName, kRadFields> kRadNames{
+    {{"center", 3, true, {kF32, kF16, kF32Bytes, kF16Bytes}},
+     {"alpha", 1, true, {kF32, kF16, kR8}},
+     {"rgb", 3, true, {kF32, kF16, kR8}},
+     {"scales", 3, true, {kF32, kLnF16, kLn0R8}},
+     {"orientation", 3, true, {kF32, kF16, kOct}},
+     {"sh1", 9, false, {kF32, kF16, kR8, kS8}},
+     {"sh2", 15, false, {kF32, kF16, kR8, kS8}},
+     {"sh3", 21, false, {kF32, kF16, kR8, kS8}},
+     {"child_count", 1, false, {kU16}},
+     {"child_start", 1, false, {kU32}}}};
+
+// One property of a chunk, unpacked.
+struct RadValues {
+  RadEncoding encoding = RadEncoding::kNone;
+  float least = 0, most = 0;
+  std::size_t count = 0, components = 0;
+  Bytes bytes;  // empty: the chunk has no such property
+
+  float at(std::size_t i, std::size_t component) const;
+  std::uint32_t whole(std::size_t i) const {
+    return encoding == RadEncoding::kU16 ? load<std::uint16_t>(bytes.data() + 2 * i)
+                                         : load<std::uint32_t>(bytes.data() + 4 * i);
+  }
+  std::uint8_t byte(std::size_t plane, std::size_t i) const {
+    return std::to_integer<std::uint8_t>(bytes[plane * count + i]);
+  }
+};
+
+float RadValues::at(std::size_t i, std::size_t component) const {
+  const std::size_t place = component * count + i;
+  const auto joined = [&](std::uint32_t n) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t b = 0; b < n; ++b)
+      bits |= static_cast<std::uint32_t>(byte(b * components + component, i)) << (8 * b);
+    return bits;
+  };
+  switch (encoding) {
+    case RadEncoding::kF32:
+      return load<float>(bytes.data() + 4 * place);
+    case RadEncoding::kF16:
+      return half_to_float(load<std::uint16_t>(bytes.data() + 2 * place));
+    case RadEncoding::kF32Bytes:
+      return std::bit_cast<float>(joined(4));
+    case RadEncoding::kF16Bytes:
+      return half_to_float(static_cast<std::uint16_t>(joined(2)));
+    case RadEncoding::kR8:
+      return static_cast<float>(byte(component, i)) / 255.0f * (most - least) + least;
+    case RadEncoding::kS8:
+      return static_cast<float>(static_cast<std::int8_t>(byte(component, i))) / 127.0f * most;
+    case RadEncoding::kLnF16:
+      return std::exp(half_to_float(load<std::uint16_t>(bytes.data() + 2 * place)));
+    case RadEncoding::kLn0R8: {
+      const std::uint8_t step = byte(component, i);
+      return step == 0 ? 0.0f : std::exp(least + static_cast<float>(step - 1) / 254.0f * (most - least));
+    }
+    default:
+      return 0;
+  }
+}
+
+struct RadChunk {
+  std::size_t first = 0, count = 0;
+  std::array<RadValues, kRadFields> fields;
+};
+
+// x y z w.
+std::array<float, 4> rad_rotation(const RadValues& values, std::size_t i) {
+  if (values.encoding != RadEncoding::kOct) {
+    const float x = values.at(i, 0), y = values.at(i, 1), z = values.at(i, 2);
+    return {x, y, z, std::sqrt(std::max(0.0f, 1 - x * x - y * y - z * z))};
+  }
+  const auto step = [&](std::size_t c) { return std::to_integer<int>(values.bytes[3 * i + c]); };
+  glm::vec3 axis(static_cast<float>(step(0)) / 255.0f * 2 - 1, static_cast<float>(step(1)) / 255.0f * 2 - 1,
+                 0);
+  axis.z = 1 - std::abs(axis.x) - std::abs(axis.y);
+  const float below = std::max(0.0f, -axis.z);
+  axis.x += axis.x >= 0 ? -below : below;
+  axis.y += axis.y >= 0 ? -below : below;
+  axis = glm::normalize(axis);
+  constexpr float kHalfPi = 1.57079633f;
+  const float half_angle = static_cast<float>(step(2)) / 255.0f * kHalfPi, s = std::sin(half_angle);
+  return {axis.x * s, axis.y * s, axis.z * s, std::cos(half_angle)};
+}
+
+// A source of decode_rows(): the Gaussians of one level of detail.
+struct RadRows {
+  std::vector<RadChunk> chunks;
+  std::vector<std::uint32_t> taken;  // of all Gaussians; empty: all
+  std::size_t count = 0;
+  int degree = 0;
+
+  const RadChunk& chunk_of(std::size_t* row) const {
+    if (!taken.empty()) *row = taken[*row];
+    const RadChunk& chunk = *std::prev(std::ranges::upper_bound(chunks, *row, {}, &RadChunk::first));
+    *row -= chunk.first;
+    return chunk;
+  }
+  static glm::vec3 vec3(const RadValues& values, std::size_t i) {
+    return {values.at(i, 0), values.at(i, 1), values.at(i, 2)};
+  }
+  glm::vec3 position(std::size_t row) const {
+    const RadChunk& chunk = chunk_of(&row);
+    const std::array<float, 4> q = rad_rotation(chunk.fields[kOrientation], row);
+    const glm::vec3 scale = vec3(chunk.fields[kScales], row);
+    constexpr float kLargest = 5e34f;  // a variance beyond overflows
+    bool good = is_finite(vec3(chunk.fields[kRgb], row)) && glm::clamp(scale, 0.0f, kLargest) == scale &&
+                std::isfinite(q[0] + q[1] + q[2] + q[3]) && !std::isnan(chunk.fields[kAlpha].at(row, 0));
+    for (int band = 1; band <= degree; ++band) {
+      const RadValues& sh = chunk.fields[kSh1 + static_cast<std::size_t>(band) - 1];
+      for (std::size_t c = 0; good && c < sh.components; ++c) good = std::isfinite(sh.at(row, c));
+    }
+    return good ? vec3(chunk.fields[kCentre], row) : kDroppedRow;
+  }
+  void decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const {
+    const RadChunk& chunk = chunk_of(&row);
+    cloud.f_dc[g] = f_dc_from_colour(vec3(chunk.fields[kRgb], row));
+    cloud.opacity[g] = std::clamp(chunk.fields[kAlpha].at(row, 0), 0.0f, 1.0f);
+    cloud.scale[g] = vec3(chunk.fields[kScales], row);
+    const std::array<float, 4> q = rad_rotation(chunk.fields[kOrientation], row);
+    cloud.rotation[g] = glm::normalize(glm::quat(q[3], q[0], q[1], q[2]));
+    float* rest = cloud.sh_rest.data() + g * cloud.sh_stride();
+    const std::size_t all = cloud.sh_stride() / 3;
+    std::size_t k = 0;
+    for (int band = 1; band <= degree; ++band) {
+      const RadValues& sh = chunk.fields[kSh1 + static_cast<std::size_t>(band) - 1];
+      for (std::size_t c = 0; c < sh.components; ++c) rest[c % 3 * all + k + c / 3] = sh.at(row, c);
+      k += sh.components / 3;
+    }
+  }
+};
+
+[[noreturn]] void refuse_rad(const fs::path& path, const std::string& what) {
+  throw Error(path.string(), what, "Write it again, or give the scene that it was made of");
+}
+
+// Bytes of a file, from front to back.
+class RadBytes {
+ public:
+  RadBytes(const fs::path& path, std::span<const std::byte> bytes) : path_(path), left_(bytes) {}
+
+  std::span<const std::byte> take(std::uint64_t count) {
+    if (count > left_.size())
+      refuse_rad(path_, fmt::format("truncated: {} bytes are wanted where {} are left", count, left_.size()));
+    const auto taken = left_.first(count);
+    left_ = left_.subspan(count);
+    return taken;
+  }
+  // Behind a mark of four letters.
+  json text(std::string_view mark) {
+    const auto head = take(8);
+    if (std::string_view(reinterpret_cast<const char*>(head.data()), 4) != mark)
+      refuse_rad(path_, fmt::format("the mark \"{}\" is missing", mark));
+    const auto bytes = take(load<std::uint32_t>(head.data() + 4));
+    take(std::min<std::size_t>((8 - bytes.size() % 8) % 8, left_.size()));
+    return parse_json(path_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+  std::span<const std::byte> left() const { return left_; }
+
+ private:
+  const fs::path& path_;
+  std::span<const std::byte> left_;
+};
+
+const RadEncodingName& encoding_of(const fs::path& path, const json& said, const RadFieldName& name) {
+  const auto found = std::ranges::find(kRadEncodings, said.at("encoding").get<std::string>(),
+                                       [](const RadEncodingName& e) { return std::string(e.name); });
+  if (found == kRadEncodings.end() || std::ranges::find(name.may, found->encoding) == name.may.end())
+    refuse_rad(path, fmt::format("the encoding {} of \"{}\" is not read", json_text(said.at("encoding")),
+                                 name.name));
+  return *found;
+}
+
+Bytes unpacked_values(const fs::path& path, const json& said, std::span<const std::byte> packed,
+                      std::size_t wanted, const Job& job) {
+  const json packing = said.value("compression", json());
+  if (packing == "gz") return GzipReader(path, packed, -MAX_WBITS).read(wanted, job);
+  if (!packing.is_null()) refuse_rad(path, fmt::format("the packing {} is not read", json_text(packing)));
+  if (packed.size() < wanted)
+    refuse_rad(path, fmt::format("truncated: {} has {} of {} bytes", json_text(said.at("property")),
+                                 packed.size(), wanted));
+  return {packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(wanted)};
+}
+
+// Of each component, which has so many values.
+void sum_differences(std::size_t count, Bytes* bytes) {
+  for (std::size_t i = 0; i < bytes->size(); ++i)
+    if (i % count != 0)
+      (*bytes)[i] =
+          static_cast<std::byte>(std::to_integer<int>((*bytes)[i]) + std::to_integer<int>((*bytes)[i - 1]));
+}
+
+// What the texts say, where the chunks are, and how much was unpacked of how much.
+class RadFile {
+ public:
+  explicit RadFile(const MappedFile& file) : file_(file), bytes_(file.path(), file.bytes()) {
+    meta_ = bytes_.text("RAD0");
+    if (meta_.at("version") != 1 || meta_.value("type", "gsplat") != "gsplat")
+      refuse_rad(file.path(),
+                 fmt::format("its version is {}, and its type {}; 1 and \"gsplat\" are read",
+                             json_text(meta_.at("version")), json_text(meta_.value("type", json()))));
+    count_ = whole_number(meta_.at("count"));
+    if (count_ == 0 || count_ > std::numeric_limits<std::uint32_t>::max())
+      refuse_rad(file.path(), fmt::format("promises {} Gaussians", count_));
+    packed_ = file.bytes().size();
+  }
+  std::size_t count() const { return count_; }
+  int said_degree() const {
+    return static_cast<int>(std::min<std::size_t>(3, whole_number(meta_.value("maxSh", json(0)))));
+  }
+  // Incomplete when cancelled. only_tree: of each chunk the tree alone.
+  std::vector<RadChunk> chunks(bool only_tree, const Job& job);
+  const std::vector<fs::path>& others() const { return others_; }  // files of chunks
+  std::uint64_t packed() const { return packed_; }
+
+ private:
+  RadChunk chunk(const fs::path& path, std::span<const std::byte> bytes, std::size_t first, bool only_tree,
+                 const Job& job);
+  RadValues values(const fs::path& path, const json& said, RadField field, std::size_t count,
+                   std::span<const std::byte> payload, const Job& job);
+
+  const MappedFile& file_;
+  RadBytes bytes_;
+  json meta_;
+  std::size_t count_ = 0;
+  std::uint64_t packed_ = 0, unpacked_ = 0;
+  std::vector<fs::path> others_;
+};
+
+std::vector<RadChunk> RadFile::chunks(bool only_tree, const Job& job) {
+  std::vector<RadChunk> all;
+  std::size_t first = 0;
+  const json& list = meta_.at("chunks");
+  for (const json& said : list) {
+    job.progress("unpacking", static_cast<double>(all.size()) / static_cast<double>(list.size()));
+    const std::size_t offset = whole_number(said.at("offset")), size = whole_number(said.at("bytes"));
+    std::unique_ptr<MappedFile> beside;
+    std::span<const std::byte> from = bytes_.left();
+    if (said.contains("filename")) {
+      const fs::path name = path_in_folder(file_, said.at("filename").get<std::string>());
+      beside = std::make_unique<MappedFile>(file_.path().parent_path() / name);
+      from = beside->bytes();
+      others_.push_back(beside->path());
+      packed_ += from.size();
+    }
+    const fs::path& path = beside ? beside->path() : file_.path();
+    if (offset > from.size() || size > from.size() - offset)
+      refuse_rad(path, fmt::format("truncated: a chunk has {} bytes from byte {} on", size, offset));
+    all.push_back(chunk(path, from.subspan(offset, size), first, only_tree, job));
+    if (job.cancelled()) return all;
+    first += all.back().count;
+  }
+  if (first != count_)
+    refuse_rad(file_.path(), fmt::format("its chunks hold {} Gaussians, not {}", first, count_));
+  return all;
+}
+
+RadChunk RadFile::chunk(const fs::path& path, std::span<const std::byte> bytes, std::size_t first,
+                        bool only_tree, const Job& job) {
+  RadBytes in(path, bytes);
+  const json text = in.text("RADC");
+  RadChunk chunk;
+  chunk.first = first;
+  chunk.count = whole_number(text.at("count"));
+  if (text.at("version") != 1 || whole_number(text.at("base")) != first || chunk.count == 0 ||
+      chunk.count > count_ - first)
+    refuse_rad(path, fmt::format("a chunk does not hold the Gaussians from {} on, of {}", first, count_));
+  const auto payload = in.take(load<std::uint64_t>(in.take(8).data()));
+  for (const json& said : text.at("properties")) {
+    const auto known = std::ranges::find(kRadNames, said.at("property").get<std::string>(),
+                                         [](const RadFieldName& f) { return std::string(f.name); });
+    if (known == kRadNames.end()) {
+      if (said.at("property") == "sh_label")
+        refuse_rad(path, "its spherical harmonics are shared (sh_label), which is not read");
+      continue;
+    }
+    const auto field = static_cast<RadField>(known - kRadNames.begin());
+    if (only_tree && field != kChildren && field != kFirstChild) continue;
+    chunk.fields[field] = values(path, said, field, chunk.count, payload, job);
+  }
+  for (std::size_t f = 0; f < kRadFields && !only_tree; ++f)
+    if (kRadNames[f].needed && chunk.fields[f].bytes.empty())
+      refuse_rad(path, fmt::format("a chunk has no property \"{}\"", kRadNames[f].name));
+  return chunk;
+}
+
+RadValues RadFile::values(const fs::path& path, const json& said, RadField field, std::size_t count,
+                          std::span<const std::byte> payload, const Job& job) {
+  const RadFieldName& name = kRadNames[field];
+  const RadEncodingName& encoding = encoding_of(path, said, name);
+  RadValues values;
+  values.encoding = encoding.encoding;
+  values.count = count;
+  values.components = name.components;
+  values.most = said.value("max", 1.0f);
+  values.least = said.value("min", 0.0f);
+  const std::size_t offset = whole_number(said.at("offset")), size = whole_number(said.at("bytes"));
+  if (offset > payload.size() || size > payload.size() - offset)
+    refuse_rad(path, fmt::format("truncated: \"{}\" has {} bytes from byte {} on", name.name, size, offset));
+  const std::size_t wanted = encoding.bytes * name.components * count;
+  unpacked_ += wanted;
+  check_expansion(file_.path(), packed_, unpacked_);
+  values.bytes = unpacked_values(path, said, payload.subspan(offset, size), wanted, job);
+  if (encoding.differences && !job.cancelled()) sum_differences(count, &values.bytes);
+  return values;
+}
+
+constexpr std::uint8_t kUnreached = 255;
+
+// Steps from the root, which is the first Gaussian, to each of a tree. None where there is no tree.
+std::vector<std::uint8_t> rad_depths(const fs::path& path, const std::vector<RadChunk>& chunks,
+                                     std::size_t count) {
+  if (std::ranges::any_of(chunks, [](const RadChunk& c) {
+        return c.fields[kChildren].bytes.empty() || c.fields[kFirstChild].bytes.empty();
+      }))
+    return {};
+  std::vector<std::uint8_t> depths(count, kUnreached);
+  std::vector<std::uint32_t> reached = {0};
+  reached.reserve(count);
+  depths[0] = 0;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const std::size_t node = reached[i];
+    const RadChunk& chunk = *std::prev(std::ranges::upper_bound(chunks, node, {}, &RadChunk::first));
+    const std::uint64_t children = chunk.fields[kChildren].whole(node - chunk.first),
+                        begin = chunk.fields[kFirstChild].whole(node - chunk.first);
+    if (children == 0) continue;
+    if (begin + children > count || depths[node] + 1 >= kUnreached)
+      refuse_rad(path,
+                 fmt::format("Gaussian {} has {} children from {} on, of {}", node, children, begin, count));
+    for (std::uint64_t child = begin; child < begin + children; ++child) {
+      if (depths[child] != kUnreached)
+        refuse_rad(path, fmt::format("Gaussian {} is reached twice in its tree", child));
+      depths[child] = static_cast<std::uint8_t>(depths[node] + 1);
+      reached.push_back(static_cast<std::uint32_t>(child));
+    }
+  }
+  return depths;
+}
+
+bool has_children(const std::vector<RadChunk>& chunks, std::size_t node) {
+  const RadChunk& chunk = *std::prev(std::ranges::upper_bound(chunks, node, {}, &RadChunk::first));
+  return chunk.fields[kChildren].whole(node - chunk.first) > 0;
+}
+
+// Level 0: the leaves. Level N: N steps nearer to the root than the deepest leaf, and leaves above.
+std::vector<std::uint32_t> rad_level(const std::vector<RadChunk>& chunks,
+                                     const std::vector<std::uint8_t>& depths, unsigned deepest,
+                                     unsigned level) {
+  const unsigned depth = deepest - std::min(level, deepest);
+  std::vector<std::uint32_t> taken;
+  for (std::size_t node = 0; node < depths.size(); ++node)
+    if (depths[node] == depth || (depths[node] < depth && !has_children(chunks, node)))
+      taken.push_back(static_cast<std::uint32_t>(node));
+  return taken;
+}
+
+unsigned deepest_of(const std::vector<std::uint8_t>& depths) {
+  unsigned deepest = 0;
+  for (const std::uint8_t depth : depths)
+    if (depth != kUnreached) deepest = std::max<unsigned>(deepest, depth);
+  return deepest;
+}
+
+template <class Read>
+auto of_rad(const MappedFile& file, const Read& read) {
+  try {
+    RadFile rad(file);
+    return read(rad);
+  } catch (const json::exception& error) {
+    refuse_rad(file.path(), fmt::format("its text is not that of a .rad ({})", fault_of(error)));
+  }
+}
+
+int degree_of(const std::vector<RadChunk>& chunks) {
+  int degree = 3;
+  for (const RadChunk& chunk : chunks)
+    for (int band = degree; band >= 1; --band)
+      if (chunk.fields[kSh1 + static_cast<std::size_t>(band) - 1].bytes.empty()) degree = band - 1;
+  return degree;
+}
+
+void read_rad(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) {
+  of_rad(file, [&](RadFile& rad) {
+    RadRows rows;
+    rows.chunks = rad.chunks(false, job);
+    if (job.cancelled()) return;
+    rows.count = rad.count();
+    rows.degree = degree_of(rows.chunks);
+    const std::vector<std::uint8_t> depths = rad_depths(file.path(), rows.chunks, rows.count);
+    if (const unsigned deepest = deepest_of(depths); deepest > 0) {
+      const unsigned level = std::min(options.lod, deepest);
+      rows.taken = rad_level(rows.chunks, depths, deepest, level);
+      rows.count = rows.taken.size();
+      scene.left_out =
+          fmt::format("Of its {} levels of detail, level {} is read, 0 the finest", deepest + 1, level);
+      if (level > 0) scene.left_out += "; opacities of merged Gaussians above 1 are read as 1";
+    }
+    check_cloud_size(file.path(), rad.packed(), rows.count, rows.degree);
+    scene.files.insert(scene.files.end(), rad.others().begin(), rad.others().end());
+    decode_rows(rows, rows.count, rows.degree, scene, job);
+  });
+}
+
+SceneLevels levels_of_rad(const MappedFile& file) {
+  return of_rad(file, [&](RadFile& rad) {
+    const std::vector<RadChunk> chunks = rad.chunks(true, {});
+    const std::vector<std::uint8_t> depths = rad_depths(file.path(), chunks, rad.count());
+    const unsigned deepest = deepest_of(depths);
+    SceneLevels levels{{}, rad.said_degree()};
+    for (unsigned level = 0; deepest > 0 && level <= deepest; ++level)
+      levels.gaussians.push_back(rad_level(chunks, depths, deepest, level).size());
+    return levels;
+  });
+}
+
+bool is_rad(const MappedFile& file) {
+  return begins_with(file, "RAD0");
+}
+
+}  // namespace
+
+constinit const SceneFormat SceneFormat::kRad = {
+    .name = "rad",
+    .extension = ".rad",
+    .recognises = is_rad,
+    .levels = levels_of_rad,
+    .read = read_rad,
+};
+
+}  // namespace splatcut
