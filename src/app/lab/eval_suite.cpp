@@ -99,7 +99,8 @@ void fill_case(const nlohmann::json& entry, const std::filesystem::path& folder,
   test.cloud = &loaded->scene.cloud;
   std::vector<Camera> cameras;
   if (entry.contains("cameras"))
-    cameras = load_cameras(folder / entry.at("cameras").get<std::string>(), &loaded->warning);
+    cameras =
+        load_cameras(folder / entry.at("cameras").get<std::string>(), &loaded->warning, loaded->scene.origin);
   test.scene_cameras = cameras;
   const std::vector<nlohmann::json> references = references_json(entry);
   const auto camera_of = [&](const nlohmann::json& view) {
