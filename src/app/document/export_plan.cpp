@@ -45,8 +45,10 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   check_output_file(path, request.overwrite);
   const std::shared_ptr<const CleanObject> clean = is_object ? clean_edges_of(keep, what, report) : nullptr;
   if (what.job.cancelled()) return;
+  std::optional<MovedTo> moved;
+  if (to) moved = {*to, request.placement.origin == ExportOrigin::kScene};
   const SaveReport saved =
-      save_gaussians(path, what.scene, keep, clean ? &clean->cloud : nullptr, request.format, to,
+      save_gaussians(path, what.scene, keep, clean ? &clean->cloud : nullptr, request.format, moved,
                      {.z_up = request.placement.up == ExportUp::kPlusZ});
   report->gaussians += saved.gaussians;
   report->bytes += saved.bytes;
@@ -104,13 +106,14 @@ void visit_objects(const Document& document, std::size_t gaussians,
 
 SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
                           const std::vector<std::uint8_t>& keep, const GaussianCloud* instead,
-                          const SceneFormat& format, const std::optional<Similarity>& to,
+                          const SceneFormat& format, const std::optional<MovedTo>& to,
                           const SaveOptions& options) {
   if (!instead && !to) return save_scene(path, scene, keep, format, options);
-  GaussianCloud cloud = !to ? *instead : instead ? placed(*instead, {}, *to) : placed(scene.cloud, keep, *to);
-  Scene placed_scene = with_cloud(scene, std::move(cloud));
-  if (to && to->origin != glm::vec3(0)) placed_scene.origin = glm::dvec3(0);  // recentred
-  return save_scene(path, placed_scene, {}, format, options);
+  Scene other = with_cloud(scene, !to       ? *instead
+                                  : instead ? placed(*instead, {}, to->by)
+                                            : placed(scene.cloud, keep, to->by));
+  if (to && !to->adds_origin) other.origin = glm::dvec3(0);
+  return save_scene(path, other, {}, format, options);
 }
 
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,

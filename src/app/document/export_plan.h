@@ -46,12 +46,18 @@ struct ExportReport {
 std::vector<std::uint8_t> exported(const Document& document, ObjectId object, ExportWhat what,
                                    std::size_t gaussians);
 
+// Where Gaussians are moved to, and whether the scene's origin (scene_file.h) is added to that.
+struct MovedTo {
+  Similarity by;
+  bool adds_origin = true;
+};
+
 // Writes Gaussians of a scene, rows unchanged where the format allows it: those with a flag in `keep` (one
 // per Gaussian, empty: all), or the cloud `instead` (an object with clean edges; null: none) in their place.
 // to: where they are moved to. Throws Error as save_scene() does.
 SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
                           const std::vector<std::uint8_t>& keep, const GaussianCloud* instead,
-                          const SceneFormat& format, const std::optional<Similarity>& to = {},
+                          const SceneFormat& format, const std::optional<MovedTo>& to = {},
                           const SaveOptions& options = {});
 
 // Calls back for each object that has Gaussians, in the document's order.
