@@ -19,11 +19,11 @@ using namespace splatcut::testing;
 
 namespace {
 
-struct Folder {
+struct CacheFolder {
   std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("splatcut_cache_test_" + std::to_string(::getpid()));
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
+  CacheFolder() { std::filesystem::create_directories(path); }
+  ~CacheFolder() { std::filesystem::remove_all(path); }
 };
 
 bool same(const PreparedScene& a, const PreparedScene& b) {
@@ -58,7 +58,7 @@ struct Example {
 }  // namespace
 
 TEST_CASE("what was written is read again, every array of it") {
-  const Folder folder;
+  const CacheFolder folder;
   const Example e;
   REQUIRE(e.prepared.parts.trees.size() == 8);
   const auto file = prepared_file({.folder = folder.path}, e.key);
@@ -74,7 +74,7 @@ TEST_CASE("what was written is read again, every array of it") {
 
 QUICK_CASE("prepared cache",
            "a file cut short, with a byte changed anywhere, or with bytes to spare is as good as none") {
-  const Folder folder;
+  const CacheFolder folder;
   const Example e;
   const auto file = prepared_file({.folder = folder.path}, e.key);
   write_prepared(file, e.key, e.prepared);
@@ -101,7 +101,7 @@ QUICK_CASE("prepared cache",
 }
 
 QUICK_CASE("prepared cache", "indices that lead outside are refused even with a right checksum") {
-  const Folder folder;
+  const CacheFolder folder;
   const Example e;
   const auto file = prepared_file({.folder = folder.path}, e.key);
   const auto refused = [&](const auto& damage) {
@@ -150,7 +150,7 @@ TEST_CASE("the key changes with all that the preparation depends on") {
 
 QUICK_CASE("prepared cache",
            "prepare_scene fills the cache and reads from it, a cancelled run leaves nothing") {
-  const Folder folder;
+  const CacheFolder folder;
   const Example e;
   PrepareOptions options;
   options.cache.folder = folder.path / "made" / "here";
@@ -169,7 +169,7 @@ QUICK_CASE("prepared cache",
 }
 
 TEST_CASE("a full cache loses what was used longest ago, and what is not its own stays") {
-  const Folder folder;
+  const CacheFolder folder;
   const auto now = std::filesystem::file_time_type::clock::now();
   const auto put = [&](const std::string& name, std::size_t bytes, int hours_ago) {
     write_bytes(folder.path / name, std::string(bytes, 'x'));
@@ -196,7 +196,7 @@ TEST_CASE("a full cache loses what was used longest ago, and what is not its own
 }
 
 TEST_CASE("a scene that fills its part of the cache loses its own files first, but for the last one") {
-  const Folder folder;
+  const CacheFolder folder;
   const auto now = std::filesystem::file_time_type::clock::now();
   const auto file = [&](std::uint64_t scene, std::uint64_t key) {
     return prepared_file({.folder = folder.path, .scene = scene}, key);
