@@ -62,11 +62,17 @@ OnScreen placement_of(const Camera& camera, const Camera& now, const OnScreen& p
   return {place.origin + shift * place.points_per_pixel, factor * place.points_per_pixel};
 }
 
-void draw_click(ImDrawList& list, const ImVec2& at, bool object) {
-  list.AddCircleFilled(at, 6.5f, IM_COL32(0, 0, 0, 150));
-  list.AddCircleFilled(at, 5, object ? kObjectInk : kRestInk);
-  list.AddLine({at.x - 2.5f, at.y}, {at.x + 2.5f, at.y}, IM_COL32(10, 20, 10, 255), 1.5f);
-  if (object) list.AddLine({at.x, at.y - 2.5f}, {at.x, at.y + 2.5f}, IM_COL32(10, 20, 10, 255), 1.5f);
+ImU32 faded(ImU32 ink, float opacity) {
+  const auto alpha = static_cast<ImU32>(opacity * static_cast<float>(ink >> IM_COL32_A_SHIFT));
+  return (ink & ~IM_COL32_A_MASK) | alpha << IM_COL32_A_SHIFT;
+}
+
+void draw_click(ImDrawList& list, const ImVec2& at, bool object, float opacity) {
+  const ImU32 sign = faded(IM_COL32(10, 20, 10, 255), opacity);
+  list.AddCircleFilled(at, 6.5f, faded(IM_COL32(0, 0, 0, 150), opacity));
+  list.AddCircleFilled(at, 5, faded(object ? kObjectInk : kRestInk, opacity));
+  list.AddLine({at.x - 2.5f, at.y}, {at.x + 2.5f, at.y}, sign, 1.5f);
+  if (object) list.AddLine({at.x, at.y - 2.5f}, {at.x, at.y + 2.5f}, sign, 1.5f);
 }
 
 // An isolated object is not painted over, unless it is being repaired.
@@ -124,28 +130,30 @@ void dashed(ImDrawList& list, const std::vector<ImVec2>& path, ImU32 ink, float 
 
 }  // namespace
 
-// Strokes are kept per view: they show where the camera stands as it did when they were drawn.
+// Strokes are kept per view: they show where the camera stands as it did when they were drawn. They fade
+// where the object is looked at alone.
 void draw_strokes(const UiContext& ui, const UiRect& area) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const OnScreen place = on_screen(ui, area);
   const ObjectItem* object = ui.studio.document().active_object();
   if (!object || !strokes_wanted(ui.studio.view())) return;
   const Camera now = ui.studio.viewport().pane_camera();
+  const float opacity = ui.studio.view().display == DisplayMode::kIsolate ? 0.35f : 1;
   for (const StrokedView& view : object->views) {
     if (!same_pose(view.camera, now)) continue;
     const OnScreen there = placement_of(view.camera, now, place);
     for (const Stroke& stroke : view.strokes) {
       const bool is_object = stroke.label == SeedLabel::kObject;
       if (stroke.is_click()) {
-        draw_click(list, there(stroke.points_px.front()), is_object);
+        draw_click(list, there(stroke.points_px.front()), is_object, opacity);
         continue;
       }
-      const ImU32 ink = is_object ? kObjectInk : kRestInk;
+      const ImU32 ink = faded(is_object ? kObjectInk : kRestInk, opacity);
       if (stroke.is_box()) {
         list.AddRect(there(stroke.points_px[0]), there(stroke.points_px[1]), ink, 0, 0, 2);
         continue;
       }
-      smooth_path(list, placed(stroke.points_px, there), (ink & 0x00ffffffu) | 0x90000000u,
+      smooth_path(list, placed(stroke.points_px, there), faded(ink, 0.56f),
                   std::max(2.0f, 2 * stroke.radius_px * there.points_per_pixel));
     }
   }

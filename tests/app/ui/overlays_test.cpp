@@ -92,3 +92,20 @@ TEST_CASE("overlays: the grid shows in the window, in no picture that is saved")
   CHECK(snapshot("with.png") == saved_level);
   std::filesystem::remove_all(folder);
 }
+
+TEST_CASE("overlays: strokes fade where the object is looked at alone") {
+  constexpr glm::ivec2 kOffSign{-2, -2};  // from the middle of a click's dot, beside its plus
+  Hands hands(true);
+  const glm::ivec2 at = glm::ivec2(hands.app.screen_of(kOnApple)) + kOffSign;
+  const auto ink = [&] {
+    hands.app.move({5, kHandsHeight - 5});
+    REQUIRE(hands.app.settle());
+    const Rgb8 pixel = hands.app.picture().at(at.x, at.y);
+    return glm::ivec3(pixel[0], pixel[1], pixel[2]);
+  };
+  const auto far_from_ink = [&] { return glm::length(glm::vec3(ink() - glm::ivec3(90, 220, 120))); };
+  CHECK(far_from_ink() < 3);
+  hands.app.key('I');
+  REQUIRE(hands.studio().view().tool == Tool::kClick);
+  CHECK(far_from_ink() > 40);
+}
