@@ -46,13 +46,7 @@ void choose_level(SceneSource* file, std::vector<std::string>* remarks) {
   if (counts.size() < 2 || file->lod) return;
   const std::optional<std::uint64_t> available = available_memory();
   file->lod = available ? finest_level(file->levels, *available) : 0;
-  constexpr double kGb = 1e9;
-  remarks->push_back(fmt::format(
-      "Level of detail {} of {} is read, 0 the finest: the finest that the free memory holds ({:.1f} GB of "
-      "{:.1f}). View has the others",
-      *file->lod, counts.size(),
-      static_cast<double>(memory_of_scene(counts[*file->lod], file->levels.sh_degree)) / kGb,
-      static_cast<double>(available.value_or(0)) / kGb));
+  remarks->push_back(remark_on_level(file->levels, *file->lod, available));
 }
 
 Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::vector<std::string>* remarks) {
@@ -109,6 +103,21 @@ std::vector<std::uint8_t> gaussians_of(const OpenedScene& scene, std::uint32_t f
     break;
   }
   return own;
+}
+
+std::string remark_on_level(const SceneLevels& levels, unsigned level,
+                            const std::optional<std::uint64_t>& free_bytes) {
+  const auto gb = [](std::uint64_t bytes) {
+    return fmt::format("{:.1f} GB", 1e-9 * static_cast<double>(bytes));
+  };
+  const std::uint64_t needed = memory_of_scene(levels.gaussians[level], levels.sh_degree);
+  std::string why;
+  if (free_bytes && needed <= *free_bytes)
+    why = fmt::format(": the finest that the free memory holds ({} of {})", gb(needed), gb(*free_bytes));
+  else if (free_bytes)
+    why = fmt::format(", the coarsest: it takes {} where {} are free", gb(needed), gb(*free_bytes));
+  return fmt::format("Level of detail {} of {} is read, 0 the finest{}. View has the others", level,
+                     levels.gaussians.size(), why);
 }
 
 std::vector<Camera> cameras_near(const std::filesystem::path& scene, const glm::dvec3& origin) {

@@ -239,9 +239,7 @@ void read_lcc_parts(const MappedFile& file, const LoadOptions& options, Scene& s
     if (*each) bytes += (*each)->bytes().size();
   const int degree = meta.harmonics ? 3 : 0;
   check_cloud_size(file.path(), bytes, rows.count, degree);
-  if (meta.levels > 1)
-    scene.left_out =
-        fmt::format("Of its {} levels of detail, level {} is read, 0 the finest", meta.levels, level);
+  if (meta.levels > 1) scene.left_out = level_read(meta.levels, level);
   decode_rows(rows, rows.count, degree, scene, job);
 }
 

@@ -147,9 +147,7 @@ void read_lcc2(const MappedFile& file, const LoadOptions& options, Scene& scene,
     if (index.pieces().empty())
       refuse_index(file, fmt::format("its level of detail {} holds no Gaussians", level));
     add_surroundings(said, &index);
-    if (said.levels > 1)
-      scene.left_out =
-          fmt::format("Of its {} levels of detail, level {} is read, 0 the finest", said.levels, level);
+    if (said.levels > 1) scene.left_out = level_read(said.levels, level);
     read_pieces(index, PieceAxes::kLcc, scene, job);
   });
 }

@@ -1,19 +1,23 @@
-// Reader of .rad (Spark). "RAD0", bytes of a text (32 bits), the text, zeros to a multiple of 8, chunks. The
-// text says count (Gaussians of all levels), maxSh, and of each chunk where it begins behind the text, or the
-// name of the file (.radc) beside that it is. A chunk: "RADC", its text likewise, the bytes of what follows
-// (64 bits), and properties, each from a multiple of 8 on and packed by deflate. All values of the first
-// component stand before those of the second, but for rotations of three bytes:
-//   center       x y z;  rgb  what f_dc shows;  alpha  opacity;  scales  standard deviations
-//   orientation  x y z of a quaternion whose w is not negative; or oct88r8: its axis as a point of an
-//   octahedron,
-//                u v, and its angle, 0 to pi
+// Reader of .rad, the format of Spark.
+//
+// The file: the mark "RAD0", the length of a JSON text (32 bits), the text, zeros up to a multiple of 8, then
+// chunks. The text says `count` (Gaussians of all levels of detail), `maxSh`, and for each chunk where it
+// begins after the text, or the name of a file beside this one (.radc) that holds it. A chunk: the mark
+// "RADC", its own text in the same way, the length of its data (64 bits), and the data: properties, each
+// beginning at a multiple of 8 and packed by deflate. A property stores all values of its first component,
+// then all of the second, and so on. Properties:
+//   center       position x y z
+//   rgb, alpha   colour that f_dc shows; opacity
+//   scales       standard deviations
+//   orientation  x y z of a quaternion whose w is at least 0. Encoded as oct88r8, three bytes a Gaussian: its
+//                axis as a point u v of an octahedron, and its angle from 0 to pi
 //   sh1 to sh3   9, 15 and 21 components, coefficient by coefficient
-//   child_count, child_start  a tree: the children of each Gaussian, which is all of them merged; leaves have
-//   none
-// Encodings: f32, f16; both _lebytes: all first bytes before all second ones; r8 (from min to max) and
-// r8_delta (differences of those bytes); s8 (-max to max over 127 steps) and s8_delta; ln_f16, ln_0r8:
-// logarithms, of which 0 is no size. Axes are those of the scene that it was made of, taken for those of a
-// .ply.
+//   child_count, child_start
+//                a tree of levels of detail: a Gaussian stands for its children, which are merged in it
+// Encodings of numbers: f32 and f16; both with _lebytes: first all lowest bytes, last all highest; r8: from
+// `min` to `max` in 255 steps; s8: from -`max` to `max` in 127 steps each way; both with _delta: each byte is
+// the difference from the one before; ln_f16 and ln_0r8: logarithms, where 0 in ln_0r8 means size 0.
+// Positions have the axes of the scene that the file was made of; they are read as those of a .ply.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -229,7 +233,7 @@ struct RadRows {
   throw Error(path.string(), what, "Write it again, or give the scene that it was made of");
 }
 
-// Bytes of a file, from front to back.
+// Reads bytes of a file from front to back.
 class RadBytes {
  public:
   RadBytes(const fs::path& path, std::span<const std::byte> bytes) : path_(path), left_(bytes) {}
@@ -241,7 +245,7 @@ class RadBytes {
     left_ = left_.subspan(count);
     return taken;
   }
-  // Behind a mark of four letters.
+  // Reads a text that follows a mark of four letters.
   json text(std::string_view mark) {
     const auto head = take(8);
     if (std::string_view(reinterpret_cast<const char*>(head.data()), 4) != mark)
@@ -277,7 +281,7 @@ Bytes unpacked_values(const fs::path& path, const json& said, std::span<const st
   return {packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(wanted)};
 }
 
-// Of each component, which has so many values.
+// Turns differences into values. count: number of values of each component.
 void sum_differences(std::size_t count, Bytes* bytes) {
   for (std::size_t i = 0; i < bytes->size(); ++i)
     if (i % count != 0)
@@ -285,7 +289,7 @@ void sum_differences(std::size_t count, Bytes* bytes) {
           static_cast<std::byte>(std::to_integer<int>((*bytes)[i]) + std::to_integer<int>((*bytes)[i - 1]));
 }
 
-// What the texts say, where the chunks are, and how much was unpacked of how much.
+// Opened file: its text, its chunks, and a limit on how much they may unpack to.
 class RadFile {
  public:
   explicit RadFile(const MappedFile& file) : file_(file), bytes_(file.path(), file.bytes()) {
@@ -303,10 +307,10 @@ class RadFile {
   int said_degree() const {
     return static_cast<int>(std::min<std::size_t>(3, whole_number(meta_.value("maxSh", json(0)))));
   }
-  // Incomplete when cancelled. only_tree: of each chunk the tree alone.
+  // Reads all chunks. only_tree: reads their tree alone. If cancelled, the list is incomplete.
   std::vector<RadChunk> chunks(bool only_tree, const Job& job);
   const std::vector<fs::path>& others() const { return others_; }  // files of chunks
-  std::uint64_t packed() const { return packed_; }
+  std::uint64_t packed() const { return packed_; }                 // bytes of all files
 
  private:
   RadChunk chunk(const fs::path& path, std::span<const std::byte> bytes, std::size_t first, bool only_tree,
@@ -402,7 +406,7 @@ RadValues RadFile::values(const fs::path& path, const json& said, RadField field
 
 constexpr std::uint8_t kUnreached = 255;
 
-// Steps from the root, which is the first Gaussian, to each of a tree. None where there is no tree.
+// Number of steps from the root, the first Gaussian, to each Gaussian. Empty if there is no tree.
 std::vector<std::uint8_t> rad_depths(const fs::path& path, const std::vector<RadChunk>& chunks,
                                      std::size_t count) {
   if (std::ranges::any_of(chunks, [](const RadChunk& c) {
@@ -437,7 +441,8 @@ bool has_children(const std::vector<RadChunk>& chunks, std::size_t node) {
   return chunk.fields[kChildren].whole(node - chunk.first) > 0;
 }
 
-// Level 0: the leaves. Level N: N steps nearer to the root than the deepest leaf, and leaves above.
+// Gaussians of a level of detail. Level 0 is the leaves. Level N is the Gaussians N steps above the deepest
+// leaf, and the leaves above those.
 std::vector<std::uint32_t> rad_level(const std::vector<RadChunk>& chunks,
                                      const std::vector<std::uint8_t>& depths, unsigned deepest,
                                      unsigned level) {
@@ -486,8 +491,7 @@ void read_rad(const MappedFile& file, const LoadOptions& options, Scene& scene, 
       const unsigned level = std::min(options.lod, deepest);
       rows.taken = rad_level(rows.chunks, depths, deepest, level);
       rows.count = rows.taken.size();
-      scene.left_out =
-          fmt::format("Of its {} levels of detail, level {} is read, 0 the finest", deepest + 1, level);
+      scene.left_out = level_read(deepest + 1, level);
       if (level > 0) scene.left_out += "; opacities of merged Gaussians above 1 are read as 1";
     }
     check_cloud_size(file.path(), rad.packed(), rows.count, rows.degree);

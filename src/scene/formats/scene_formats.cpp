@@ -115,4 +115,8 @@ std::filesystem::path with_extension(const std::filesystem::path& path, const Sc
   return path.parent_path() / (name + format.extension);
 }
 
+std::string level_read(std::size_t levels, std::size_t level) {
+  return fmt::format("Of its {} levels of detail, level {} is read, 0 the finest", levels, level);
+}
+
 }  // namespace splatcut

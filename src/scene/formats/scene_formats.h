@@ -44,12 +44,16 @@ struct FormatPlan {
   std::string kept, lost;  // sentences; lost is empty where nothing is
 };
 
-// Of a scene that is stored at several levels of detail.
+// What a file says of its levels of detail.
 struct SceneLevels {
   static constexpr unsigned kMost = 64;
-  std::vector<std::uint64_t> gaussians;  // of each level, 0 the finest, as far as the index says it
-  int sh_degree = 0;                     // of spherical harmonics, as the index or the first piece says it
+  std::vector<std::uint64_t>
+      gaussians;      // number of each level, 0 the finest; 0 where the file does not say it
+  int sh_degree = 0;  // degree of spherical harmonics
 };
+
+// Sentence for Scene::left_out: which of several levels of detail was read.
+std::string level_read(std::size_t levels, std::size_t level);
 
 // One row. A value that is copied freely; rows are equal where their names are.
 struct SceneFormat {

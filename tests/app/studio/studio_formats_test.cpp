@@ -4,6 +4,7 @@
 #include <set>
 
 #include "headless_app.h"
+#include "scene/cloud/scene_memory.h"
 #include "scene_file_helpers.h"
 #include "synthetic_cloud.h"
 
@@ -23,6 +24,18 @@ fs::path unsaid_sample(const Folder& folder) {
 }
 
 }  // namespace
+
+TEST_CASE("formats: of a level of detail it is only said to fit the memory if it does") {
+  const SceneLevels levels{{20'000'000, 5'000'000}, 0};
+  const std::uint64_t coarse = memory_of_scene(5'000'000, 0);
+  CHECK(remark_on_level(levels, 1, coarse).find("the finest that the free memory holds") !=
+        std::string::npos);
+  const std::string tight = remark_on_level(levels, 1, coarse - 1);
+  CHECK(tight.find("the coarsest: it takes") != std::string::npos);
+  CHECK(tight.find("holds") == std::string::npos);
+  CHECK(remark_on_level(levels, 0, {}) ==
+        "Level of detail 0 of 2 is read, 0 the finest. View has the others");
+}
 
 TEST_CASE(
     "formats: the window says which axes it took of a .spz, takes the other, and saved work keeps them") {
