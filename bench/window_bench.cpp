@@ -213,7 +213,9 @@ int main(int argc, char** argv) {
   fmt::print("  {} Gaussians\n", s.gaussians_of(s.document().active));
   for (const StageTime& stage : run()->stages) fmt::print("  {:<42} {:8.1f} ms\n", stage.name, stage.ms);
   longest = {};
-  app.key('3');
+  ViewState scribbling = s.view();  // a key would choose another meaning of the click
+  scribbling.tool = ToolId::kScribble;
+  s.apply(SetView{scribbling});
   app.move(at);
   app.press(PointerButton::kLeft);
   app.move(at + glm::vec2(9, 5));

@@ -232,17 +232,21 @@ void Clicks::refresh_hover() {
   });
 }
 
-// Where nothing else is done and no object is begun, the neighbourhood of what the picture shows in its
-// middle is prepared.
-void Clicks::make_middle_ready() {
+// Where nothing else is done and no object is begun, what a first click needs is built: where the pointer
+// rests, then in the neighbourhood of what the picture shows in its middle.
+void Clicks::make_ready() {
   const ObjectItem* active = ws_.document().active_object();
   if (!asks_ahead() || !ws_.tasks.idle() || (active && any_mark(*active))) return;
   const Camera camera = viewport_.pane_camera();
-  if (ready_ && same_camera(*ready_, camera)) return;
-  ready_ = camera;
-  const glm::vec2 middle = 0.5f * glm::vec2(camera.width_px, camera.height_px);
-  if (!viewport_.pick(middle)) return;
-  CameraStroke stroke{camera, click(middle, SeedLabel::kObject), viewport_.seen(0)};
+  if (!ready_.camera || !same_camera(*ready_.camera, camera)) ready_ = {camera, {}, {}};
+  const glm::vec2 middle_px = 0.5f * glm::vec2(camera.width_px, camera.height_px);
+  const bool for_pointer = hover_ && ready_.pointer_px != hover_->pixel;
+  std::optional<glm::vec2>& last_px = for_pointer ? ready_.pointer_px : ready_.middle_px;
+  const glm::vec2 at_px = for_pointer ? hover_->pixel : middle_px;
+  if (last_px == at_px) return;
+  last_px = at_px;
+  if (!viewport_.pick(at_px)) return;
+  CameraStroke stroke{camera, click(at_px, SeedLabel::kObject), viewport_.seen(0)};
   stroke.stroke.radius_px *= viewport_.pixels_per_point();
   ws_.tasks.submit(TaskKind::kReady,
                    [stroke, session = ws_.session, settings = cut_settings(ws_.document(), ObjectItem{})](
@@ -257,12 +261,12 @@ void Clicks::show_hover(const Flags& change, bool rest) {
 void Clicks::update() {
   if (std::exchange(cuts_done_, cuts_.done()) != cuts_.done()) note_sizes();
   refresh_hover();
-  make_middle_ready();
+  make_ready();
 }
 
 void Clicks::reset() {
   hover_.reset();
-  ready_.reset();
+  ready_ = {};
   declined_offer_.clear();
 }
 

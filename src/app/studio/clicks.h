@@ -46,6 +46,11 @@ class Clicks {
 
  private:
   // A question to the worker about the click under the pointer.
+  // Places of the picture that were prepared for a first click, those asked for last.
+  struct Ready {
+    std::optional<Camera> camera;
+    std::optional<glm::vec2> pointer_px, middle_px;
+  };
   struct HoverAsk {
     std::uint64_t document = 0, view = 0;  // serials of the document and of the view
     Camera camera;
@@ -63,7 +68,7 @@ class Clicks {
   std::optional<HoverAsk> hover_wanted() const;
   bool asks_ahead() const;
   void refresh_hover();
-  void make_middle_ready();
+  void make_ready();
   void show_hover(const Flags& change, bool rest);
   void combine_with(const CameraStroke& stroke, SetOperation operation, const std::string& title);
   void note_sizes();
@@ -73,10 +78,10 @@ class Clicks {
   const CutJobs& cuts_;
   Edits& edits_;
   std::optional<HoverAsk> hover_;  // question that was asked last; its answer may be shown already
-  std::optional<Camera> ready_;    // camera whose middle was prepared for a click last
-  std::string declined_offer_;     // ClickMeanings::key of the offer that was declined last
-  double stepped_s_ = -1e9;        // clock time of the last choice of a size, or click that found some
-  std::uint64_t cuts_done_ = 0;    // CutJobs::done() at the last update()
+  Ready ready_;
+  std::string declined_offer_;   // ClickMeanings::key of the offer that was declined last
+  double stepped_s_ = -1e9;      // clock time of the last choice of a size, or click that found some
+  std::uint64_t cuts_done_ = 0;  // CutJobs::done() at the last update()
   bool pointer_inside_ = false;
 };
 

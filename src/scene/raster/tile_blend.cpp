@@ -26,6 +26,7 @@ struct Workspace {
   SortSpace sort_space;
   Chunk chunk;
   TileGroups groups;
+  PixelLists listed;
   TilePixels pixels;
   BlockLists lists;
   TileLists found;  // on their way into TileBlend::lists
@@ -51,8 +52,10 @@ HWY_INLINE void add_planes(V weight, int at, int i, std::size_t planes, const Ti
 // Blends the listed splats of a chunk into the block with the corner (x0, y0). True when no pixel of it can
 // change any more.
 template <Paint kPaint, bool kDepth, Sums kSums>
-bool blend_block(float x0, float y0, int block, const std::int32_t* list, int count, TilePixels* pixels,
-                 Chunk* chunk, TileGroups* groups, std::size_t planes) {
+bool blend_block(float x0, float y0, int block, const std::int32_t* list, int count, std::size_t planes,
+                 float least_listed, Workspace* work) {
+  TilePixels* pixels = &work->pixels;
+  Chunk* chunk = &work->chunk;
   const int begin = block * kBlockPixels;
   const bool some_object = kSums == Sums::kMask && pixels->object_pixels[block] != 0,
              whole_pixels = kSums == Sums::kMask && pixels->whole_pixels;
@@ -100,14 +103,10 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
       const V after = hn::Sub(before, weight);
       transmittance[v] = after;
       clearest = hn::Max(clearest, after);
-      if constexpr (kPaint == Paint::kGroups) {
-        if (chunk->group[i] != kNoGroup && !hn::AllFalse(kF, counts)) {
-          alignas(64) float lane[kWidth];
-          hn::Store(weight, kF, lane);
-          for (int l = 0; l < kWidth; ++l)
-            if (lane[l] > 0) groups->add(begin + v * kWidth + l, chunk->group[i], lane[l]);
-        }
-      }
+      if constexpr (kPaint == Paint::kGroups)
+        if (chunk->group[i] >= 0) work->groups.add(begin + v * kWidth, chunk->group[i], weight);
+      if constexpr (kPaint == Paint::kGaussians)
+        work->listed.add(begin + v * kWidth, gaussian, weight, least_listed);
       if constexpr (kPaint == Paint::kLabel) red[v] = fma(weight, hn::Set(kF, chunk->label[i]), red[v]);
       if constexpr (kPaint == Paint::kColour) {
         red[v] = fma(weight, hn::Set(kF, s.red), red[v]);
@@ -159,7 +158,7 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
 // Blends the chunk into every block that still lets light through. known: null, or its lists of an earlier
 // drawing.
 template <Paint kPaint, bool kDepth, Sums kSums>
-void blend_chunk(int tile_x, int tile_y, ListReader* known, bool keep_lists, std::size_t planes,
+void blend_chunk(int tile_x, int tile_y, ListReader* known, bool keep_lists, const RasterOptions& options,
                  Workspace* work) {
   constexpr std::uint32_t kRowOfBlocks = (1u << kBlocksAcross) - 1;
   TilePixels& pixels = work->pixels;
@@ -177,11 +176,15 @@ void blend_chunk(int tile_x, int tile_y, ListReader* known, bool keep_lists, std
       if (!(alive >> b & 1)) continue;
       const int block = row * kBlocksAcross + b;
       if (blend_block<kPaint, kDepth, kSums>(x0 + static_cast<float>(b * kBlockPx), y0, block,
-                                             work->lists.splat[b].data(), work->lists.count[b], &pixels,
-                                             &work->chunk, &work->groups, planes))
+                                             work->lists.splat[b].data(), work->lists.count[b],
+                                             options.sum_planes.size(), options.least_listed_weight, work))
         pixels.alive &= ~(1u << block);
     }
   }
+}
+
+void find_groups(std::span<const std::uint32_t> group_of, TileGroups* groups, Chunk* chunk) {
+  for (int i = 0; i < chunk->size; ++i) chunk->group[i] = groups->place_of(group_of[chunk->gaussian[i]]);
 }
 
 void store_sums(const Chunk& chunk, const std::uint32_t* order, PairSums* sums) {
@@ -215,7 +218,8 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   const std::size_t first = grid.first_entry[static_cast<std::size_t>(tile)];
   const TileEntry* entries = grid.entries.data() + first;
   start_pixels(what, tile_x, tile_y, &work.pixels);
-  if constexpr (kPaint == Paint::kGroups) work.groups.count.fill(0);
+  if constexpr (kPaint == Paint::kGroups) work.groups.clear();
+  if constexpr (kPaint == Paint::kGroups || kPaint == Paint::kGaussians) work.listed.count.fill(0);
   const std::span<const std::uint32_t> order = drawn_order(grid, tile, what.shown, &work.sort_space);
   TileLists* lists =
       what.lists && what.shown.empty() ? &(*what.lists)[static_cast<std::size_t>(tile)] : nullptr;
@@ -232,15 +236,17 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   while (done < order.size() && work.pixels.alive != 0) {
     const std::size_t size = std::min<std::size_t>(kChunk, order.size() - done);
     gather(what, entries, order.subspan(done, size), !known, &work.chunk);
-    blend_chunk<kPaint, kDepth, kSums>(tile_x, tile_y, known ? &*known : nullptr, keep_lists,
-                                       what.options.sum_planes.size(), &work);
+    if constexpr (kPaint == Paint::kGroups) find_groups(what.options.groups, &work.groups, &work.chunk);
+    blend_chunk<kPaint, kDepth, kSums>(tile_x, tile_y, known ? &*known : nullptr, keep_lists, what.options,
+                                       &work);
     if constexpr (kSums == Sums::kMask) store_sums(work.chunk, order.data() + done, what.pair_sums + first);
     if constexpr (kSums == Sums::kPlanes) store_planes(what, first, order.data() + done, work.chunk);
     done += size;
   }
   if constexpr (kSums == Sums::kMask)
     for (; done < order.size(); ++done) what.pair_sums[first + order[done]] = {0, 0};
-  store_pixels<kPaint, kDepth>(what, tile_x, tile_y, work.pixels, work.groups, out);
+  if constexpr (kPaint == Paint::kGroups) work.groups.list(what.options.least_listed_weight, &work.listed);
+  store_pixels<kPaint, kDepth>(what, tile_x, tile_y, work.pixels, &work.listed, out);
   if (keep_lists) *lists = {work.found.splat, work.found.count, true};
 }
 
@@ -255,6 +261,7 @@ DrawTile draw_tile_with(bool depth, bool sums) {
 void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
   const DrawTile masked = (what.options.colour            ? draw_tile_with<Paint::kColour>
                            : !what.options.groups.empty() ? draw_tile_with<Paint::kGroups>
+                           : what.options.list_gaussians  ? draw_tile_with<Paint::kGaussians>
                            : !what.options.labels.empty()
                                ? draw_tile_with<Paint::kLabel>
                                : draw_tile_with<Paint::kNone>)(what.options.depth, what.pair_sums != nullptr);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "scene/raster/tile_blend.h"
@@ -19,7 +20,7 @@ namespace splatcut {
 namespace HWY_NAMESPACE {
 
 // What is summed up per pixel beside the transmittance.
-enum class Paint { kNone, kLabel, kColour, kGroups };
+enum class Paint { kNone, kLabel, kColour, kGroups, kGaussians };
 
 // What is summed up per splat.
 enum class Sums { kNone, kMask, kPlanes };
@@ -35,26 +36,70 @@ struct TilePixels {
   std::uint32_t alive = 0;    // bit b: some pixel of block b can still change
 };
 
-// What each pixel of a tile has got from each group so far, groups in the order in which they were met.
-struct TileGroups {
+// Weights listed per pixel of a tile.
+struct PixelLists {
   static constexpr int kMost = 48;  // of a pixel; further ones take the place of the least
   std::array<std::array<GroupWeight, kMost>, kTilePixels> of;
   std::array<int, kTilePixels> count;
 
-  void add(int pixel, std::uint32_t group, float weight) {
+  void add(int pixel, const GroupWeight& more) {
     auto& list = of[static_cast<std::size_t>(pixel)];
     int& n = count[static_cast<std::size_t>(pixel)];
-    for (int i = n; i-- > 0;)
-      if (list[static_cast<std::size_t>(i)].group == group) {
-        list[static_cast<std::size_t>(i)].weight += weight;
-        return;
-      }
     if (n < kMost) {
-      list[static_cast<std::size_t>(n++)] = {group, weight};
+      list[static_cast<std::size_t>(n++)] = more;
       return;
     }
-    auto least = std::ranges::min_element(list, {}, &GroupWeight::weight);
-    if (least->weight < weight) *least = {group, weight};
+    auto least_of_all = std::ranges::min_element(list, {}, &GroupWeight::weight);
+    if (least_of_all->weight < more.weight) *least_of_all = more;
+  }
+
+  // Lists the lanes that reach `least`; those begin at that pixel.
+  void add(int pixel, std::uint32_t group, V weight, float least) {
+    if (hn::AllTrue(kF, hn::Lt(weight, hn::Set(kF, least)))) return;
+    alignas(64) std::array<float, kWidth> lane;
+    hn::Store(weight, kF, lane.data());
+    for (int l = 0; l < kWidth; ++l)
+      if (lane[static_cast<std::size_t>(l)] >= least)
+        add(pixel + l, {group, lane[static_cast<std::size_t>(l)]});
+  }
+
+  std::span<GroupWeight> at(int pixel) {
+    return std::span(of[static_cast<std::size_t>(pixel)])
+        .first(static_cast<std::size_t>(count[static_cast<std::size_t>(pixel)]));
+  }
+};
+
+// What the pixels of a tile have got from each group so far.
+struct TileGroups {
+  struct Weights {
+    alignas(64) std::array<float, kTilePixels> of;
+  };
+  std::vector<std::uint32_t> met;   // groups of the tile's splats
+  std::vector<Weights> weight;      // of those; what is beyond them is memory kept
+  std::vector<std::int32_t> place;  // in `met`, by group; -1: not met
+
+  void clear() {
+    for (const std::uint32_t group : met) place[group] = -1;
+    met.clear();
+  }
+  std::int32_t place_of(std::uint32_t group) {
+    if (group == kNoGroup) return -1;
+    if (group >= place.size()) place.resize(group + std::size_t{1}, -1);
+    if (place[group] >= 0) return place[group];
+    place[group] = static_cast<std::int32_t>(met.size());
+    met.push_back(group);
+    if (met.size() > weight.size()) weight.emplace_back();
+    weight[met.size() - 1].of.fill(0);
+    return place[group];
+  }
+  void add(int pixel, std::int32_t at, V more) {
+    float* sum = &weight[static_cast<std::size_t>(at)].of[static_cast<std::size_t>(pixel)];
+    hn::Store(hn::Add(hn::Load(kF, sum), more), kF, sum);
+  }
+  void list(float least, PixelLists* lists) const {
+    for (std::size_t k = 0; k < met.size(); ++k)
+      for (int pixel = 0; pixel < kTilePixels; pixel += kWidth)
+        lists->add(pixel, met[k], hn::Load(kF, &weight[k].of[static_cast<std::size_t>(pixel)]), least);
   }
 };
 
@@ -83,20 +128,17 @@ inline void start_pixels(const TileBlend& what, int tile_x, int tile_y, TilePixe
   }
 }
 
-// What is worth keeping of a pixel's groups, heaviest first, ties by number.
-inline void store_groups(const TileGroups& groups, int i, float least, std::vector<GroupWeight>* to) {
-  to->clear();
-  const auto& list = groups.of[static_cast<std::size_t>(i)];
-  for (int k = 0; k < groups.count[static_cast<std::size_t>(i)]; ++k)
-    if (list[static_cast<std::size_t>(k)].weight >= least) to->push_back(list[static_cast<std::size_t>(k)]);
-  std::ranges::sort(*to, [](const GroupWeight& a, const GroupWeight& b) {
+// Ties by number.
+inline std::uint32_t group_of(std::span<GroupWeight> list) {
+  std::ranges::sort(list, [](const GroupWeight& a, const GroupWeight& b) {
     return a.weight != b.weight ? a.weight > b.weight : a.group < b.group;
   });
+  return group_of_pixel(list);
 }
 
 template <Paint kPaint, bool kDepth>
 inline void store_pixels(const TileBlend& what, int tile_x, int tile_y, const TilePixels& pixels,
-                         const TileGroups& groups, RasterOutput* to) {
+                         PixelLists* lists, RasterOutput* to) {
   RasterOutput& out = *to;
   for (int i = 0; i < kTilePixels; ++i) {
     const int block = i / kBlockPixels, p = i % kBlockPixels;
@@ -105,8 +147,11 @@ inline void store_pixels(const TileBlend& what, int tile_x, int tile_y, const Ti
     if (!out.alpha.contains(x, y)) continue;
     const float transmittance = pixels.transmittance[i];
     out.alpha.at(x, y) = 1 - transmittance;
-    if constexpr (kPaint == Paint::kGroups)
-      store_groups(groups, i, what.options.least_group_weight, &out.groups.at(x, y));
+    if constexpr (kPaint == Paint::kGroups) out.group.at(x, y) = group_of(lists->at(i));
+    if constexpr (kPaint == Paint::kGaussians) {
+      const std::span<const GroupWeight> list = lists->at(i);
+      out.gaussians.at(x, y).assign(list.begin(), list.end());
+    }
     if constexpr (kPaint == Paint::kLabel) out.label_share.at(x, y) = pixels.red[i];
     if constexpr (kPaint == Paint::kColour)
       out.colour.at(x, y) =

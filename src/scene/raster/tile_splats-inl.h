@@ -35,8 +35,8 @@ struct Chunk {
   // The ellipse alpha >= 1/255: at height dy it reaches from tilt dy - w to tilt dy + w,
   // w = sqrt(width2 - slope dy^2), and farthest at dy = +-tip.
   alignas(64) std::array<float, kCapacity> x, y, tilt, width2, slope, tip;
-  std::array<float, kCapacity> label;  // 0 or 1
-  std::array<std::uint32_t, kCapacity> group;
+  std::array<float, kCapacity> label;         // 0 or 1
+  std::array<std::int32_t, kCapacity> group;  // its place in TileGroups, or -1
   // Sums of the tile so far, lane by lane, 2^-16 pixel.
   alignas(64) std::array<std::int32_t, kCapacity * kWidth> total, inside;
   alignas(64) std::array<std::array<std::int32_t, kCapacity * kWidth>, PlaneSums::kMost> plane;
@@ -122,8 +122,6 @@ inline void gather(const TileBlend& what, const TileEntry* entries, std::span<co
   if (ellipses) derive_ellipses(chunk);
   if (!what.options.labels.empty())
     for (int i = 0; i < count; ++i) chunk->label[i] = what.options.labels[chunk->gaussian[i]] ? 1.0f : 0.0f;
-  if (!what.options.groups.empty())
-    for (int i = 0; i < count; ++i) chunk->group[i] = what.options.groups[chunk->gaussian[i]];
   if (what.pair_sums) {
     std::fill_n(chunk->total.begin(), count * kWidth, 0);
     std::fill_n(chunk->inside.begin(), count * kWidth, 0);

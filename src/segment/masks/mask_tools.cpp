@@ -73,6 +73,13 @@ PixelRect grown(const PixelRect& rect, int margin_px, int width, int height) {
           std::min(width, rect.x1 + margin_px), std::min(height, rect.y1 + margin_px)};
 }
 
+int width_to_see(const Mask& mask, int side_px, int most_width_px) {
+  const double side = std::sqrt(static_cast<double>(count(mask)));
+  if (side == 0 || side >= side_px || mask.width() >= most_width_px) return mask.width();
+  const double steps = std::ceil(2 * std::log2(side_px / side));
+  return std::min(most_width_px, static_cast<int>(std::ceil(mask.width() * std::exp2(steps / 2))));
+}
+
 Image<float> distance_inside(const Mask& mask) {
   cv::Mat framed, distance;
   cv::copyMakeBorder(as_const_mat(mask), framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);

@@ -23,6 +23,11 @@ Mask resized_mask(const Mask& mask, int width_px, int height_px);  // the neares
 PixelRect bounds(const Mask& mask);                                // empty where the mask is
 PixelRect grown(const PixelRect& rect, int margin_px, int width, int height);  // clipped to the picture
 
+// Width of a picture in which a mask that is small has at least side_px as the square root of its pixels: its
+// own times a power of sqrt(2), so that masks of about one size ask for one picture, most_width_px at most;
+// its own where it is large enough, or empty.
+int width_to_see(const Mask& mask, int side_px, int most_width_px);
+
 // Distance of each object pixel to the nearest other pixel or to the frame, px.
 Image<float> distance_inside(const Mask& mask);
 

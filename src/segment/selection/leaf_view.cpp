@@ -16,15 +16,13 @@ constexpr float kLeastGaussianWeight = 0.004f, kLeastLeafWeight = 0.02f;
 
 PixelWeights flat(const Image<std::vector<GroupWeight>>& lists) {
   PixelWeights out;
-  std::size_t entries = 0;
-  for (const auto& list : lists.pixels()) entries += list.size();
-  out.entry.reserve(entries);
   out.first.reserve(lists.size() + 1);
   out.first.push_back(0);
-  for (const auto& list : lists.pixels()) {
-    out.entry.insert(out.entry.end(), list.begin(), list.end());
-    out.first.push_back(static_cast<std::uint32_t>(out.entry.size()));
-  }
+  for (const auto& list : lists.pixels())
+    out.first.push_back(out.first.back() + static_cast<std::uint32_t>(list.size()));
+  out.entry.resize(out.first.back());
+  for_each_index(lists.size(),
+                 [&](std::size_t i) { std::ranges::copy(lists.pixels()[i], &out.entry[out.first[i]]); });
   return out;
 }
 
@@ -38,13 +36,17 @@ void add_to(std::vector<GroupWeight>* sums, std::uint32_t group, float weight) {
 
 // Replaces each pixel's Gaussians by their leaves.
 void sum_by_leaf(const PartHierarchy& parts, Image<std::vector<GroupWeight>>* lists) {
-  for_each_index(lists->size(), [&](std::size_t i) {
+  for_chunks(lists->size(), [&](std::size_t begin, std::size_t end) {
     std::vector<GroupWeight> sums;
-    for (const GroupWeight& w : lists->pixels()[i])
-      if (parts.leaf_of[w.group] != kNoPart) add_to(&sums, parts.leaf_of[w.group], w.weight);
-    std::erase_if(sums, [](const GroupWeight& w) { return w.weight < kLeastLeafWeight; });
-    std::ranges::stable_sort(sums, std::ranges::greater(), &GroupWeight::weight);
-    lists->pixels()[i] = std::move(sums);
+    for (std::size_t i = begin; i < end; ++i) {
+      std::vector<GroupWeight>& list = lists->pixels()[i];
+      sums.clear();
+      for (const GroupWeight& w : list)
+        if (parts.leaf_of[w.group] != kNoPart) add_to(&sums, parts.leaf_of[w.group], w.weight);
+      std::erase_if(sums, [](const GroupWeight& w) { return w.weight < kLeastLeafWeight; });
+      std::ranges::stable_sort(sums, std::ranges::greater(), &GroupWeight::weight);
+      list.assign(sums.begin(), sums.end());  // no longer than it was
+    }
   });
 }
 
@@ -98,16 +100,14 @@ LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera,
 
 LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera, const Job& job,
                    const SeenGaussians& seen) {
-  std::vector<std::uint32_t> each(drawer.cloud().size());
-  for (std::uint32_t g = 0; g < each.size(); ++g) each[g] = g;
   RasterOptions raster;
   raster.colour = false;
   raster.depth = true;
-  raster.groups = each;
+  raster.list_gaussians = true;
   if (seen) raster.shown = *seen;
-  raster.least_group_weight = kLeastGaussianWeight;
+  raster.least_listed_weight = kLeastGaussianWeight;
   RasterOutput drawn = drawer.draw(camera, raster, job);
-  LeafView view = leaf_view_of(parts, camera, std::move(drawn.groups), std::move(drawn.expected_depth));
+  LeafView view = leaf_view_of(parts, camera, std::move(drawn.gaussians), std::move(drawn.expected_depth));
   view.whole = seen == nullptr;
   view.alone_px = alone_px(drawer.cloud(), camera);
   return view;
@@ -116,7 +116,7 @@ LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camer
 LeafPicture picture_of(const LeafView& view) {
   LeafPicture picture{Image<std::uint32_t>(view.camera.width_px, view.camera.height_px, kNoPart), view.depth};
   for (std::size_t i = 0; i < picture.leaf.size(); ++i)
-    picture.leaf.pixels()[i] = leaf_of_pixel(view.leaves.at(i));
+    picture.leaf.pixels()[i] = group_of_pixel(view.leaves.at(i));
   return picture;
 }
 

@@ -17,7 +17,7 @@
 
 namespace splatcut {
 
-// Lists of weights, one per pixel, row by row: entries first[i] to first[i + 1] - 1 belong to pixel i,
+// Lists of weights, one per pixel, row by row: entries first[i] to first[i + 1] - 1 belong to pixel i, leaves
 // heaviest first.
 struct PixelWeights {
   std::vector<std::uint32_t> first;  // start of each list, one more than there are pixels
@@ -41,7 +41,7 @@ struct LeafView {
 LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera,
                    const Job& job = {}, const SeenGaussians& seen = {});
 
-// Makes a view from known lists. gaussians: per pixel the weights of its Gaussians, heaviest first.
+// Makes a view from known lists. gaussians: per pixel the weights of its Gaussians.
 LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera,
                       Image<std::vector<GroupWeight>> gaussians, Image<float> depth);
 

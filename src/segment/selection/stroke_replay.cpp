@@ -1,7 +1,6 @@
 #include "segment/selection/stroke_replay.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "segment/masks/mask_tools.h"
 
@@ -45,25 +44,30 @@ const LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& sai
   return &views_.front().view;
 }
 
+// What is small in the view is looked at with more pixels: by what is selected already, else by what the
+// stroke selects.
 std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, const ClickSelection& before,
                                                           const CameraStroke& said, const Job& job) {
-  const auto attempt = [&](const LeafView& seen) {
-    auto next = std::make_shared<ClickSelection>(before);
-    const float factor = static_cast<float>(seen.camera.width_px) / static_cast<float>(said.camera.width_px);
-    const Stroke stroke = scaled({said.stroke}, factor).front();
-    next->apply(seen, stroke);
-    return std::shared_ptr<const ClickSelection>(std::move(next));
+  const auto width_to_see_it = [&](const Mask& mask) {
+    return width_to_see(mask, options_.least_object_px, said.camera.width_px);
   };
-  const LeafView* seen = view(drawer, said, options_.work_width_px, job);
-  if (!seen) return nullptr;
-  auto next = attempt(*seen);
-  const double side =
-      std::sqrt(static_cast<double>(count(shown(seen->gaussians, seen->camera, next->labels()))));
-  if (side == 0 || side >= options_.least_object_px || seen->camera.width_px >= said.camera.width_px)
-    return next;
-  const int wider = static_cast<int>(std::ceil(seen->camera.width_px * options_.least_object_px / side));
-  seen = view(drawer, said, std::min(wider, said.camera.width_px), job);
-  return seen ? attempt(*seen) : nullptr;
+  const Camera camera = limited_to_width(said.camera, options_.work_width_px);
+  const Mask shown_before = before.any()
+                                ? thresholded(render_labels(drawer, camera, before.labels(), job), 0.5f)
+                                : Mask(camera.width_px, camera.height_px);
+  int width_px = width_to_see_it(shown_before);
+  const bool settled = count(shown_before) > 0;
+  while (!job.cancelled()) {
+    const LeafView* seen = view(drawer, said, width_px, job);
+    if (!seen) return nullptr;
+    auto next = std::make_shared<ClickSelection>(before);
+    const float factor = static_cast<float>(width_px) / static_cast<float>(said.camera.width_px);
+    next->apply(*seen, scaled({said.stroke}, factor).front());
+    if (settled || width_px > camera.width_px) return next;
+    width_px = width_to_see_it(shown(seen->gaussians, seen->camera, next->labels()));
+    if (width_px == camera.width_px) return next;
+  }
+  return nullptr;
 }
 
 const ClickSelection& StrokeReplay::replay(const Drawer& drawer, std::span<const CameraStroke> strokes,

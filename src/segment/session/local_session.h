@@ -74,6 +74,12 @@ class LocalSession {
   // The graph with the settings' number of neighbours, built at the first cut. Cancelled: must not be used.
   const FlowGraph& graph(const CutSettings& settings, const Job& job = {});
 
+  // Builds ahead what a first cut with the settings needs.
+  void make_ready(const CutSettings& settings, const Job& job = {}) {
+    CutSolver& ready = solver(settings, job);
+    if (!job.cancelled()) ready.make_ready();
+  }
+
  private:
   struct Kept {  // a cut from the reference
     std::string key;

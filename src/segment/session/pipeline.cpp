@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
+#include <utility>
 
 #include "core/stage_clock.h"
 #include "segment/graphcut/likelihood.h"
@@ -71,7 +71,7 @@ class Run {
   }
   void solve(CutPhase phase = CutPhase::kViews);
   void use(ViewReport view, ViewPicture picture = {});
-  bool too_small(const Mask& mask, const Camera& camera);
+  bool too_small(const Mask& mask);
   std::vector<Camera> cameras_to_look_from(const ObjectExtent& extent) const;
   void add_given_views();
   void add_view(const Camera& camera, const glm::vec3& object_centre_world);
@@ -123,19 +123,15 @@ void Run::use(ViewReport view, ViewPicture picture) {
 }
 
 // If so, sets the width to look at the view again with more pixels; done at most once.
-bool Run::too_small(const Mask& mask, const Camera& camera) {
-  const int full_px = task_.reference.camera.width_px;
-  const double side = std::sqrt(static_cast<double>(count(mask)));
-  if (side == 0 || side >= settings_.least_object_px || camera.width_px >= full_px) return false;
-  work_width_px_ =
-      std::min(full_px, static_cast<int>(std::ceil(camera.width_px * settings_.least_object_px / side)));
-  return true;
+bool Run::too_small(const Mask& mask) {
+  const int width_px = width_to_see(mask, settings_.least_object_px, task_.reference.camera.width_px);
+  return std::exchange(work_width_px_, std::max(work_width_px_, width_px)) < width_px;
 }
 
 void Run::reference_view() {
   Camera camera = limited_to_width(task_.reference.camera, work_width_px_);
   std::optional<ReferenceMask> found = reference_mask(task_, camera, &result_);
-  if (found && too_small(found->mask, camera)) {
+  if (found && too_small(found->mask)) {
     camera = limited_to_width(task_.reference.camera, work_width_px_);
     found = reference_mask(task_, camera, &result_);
   }

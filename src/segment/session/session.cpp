@@ -352,7 +352,10 @@ std::vector<float> Session::likelihood_of(const CutRequest& request, const CutSe
 
 void Session::make_ready(const CameraStroke& click, const CutSettings& settings, const Job& job) {
   make_lab_ready();
-  if (by_parts(settings)) place_of_strokes(request_of({&click, 1}, {}), settings, job);
+  if (!by_parts(settings)) return;
+  const std::optional<Place> place = place_of_strokes(request_of({&click, 1}, {}), settings, job);
+  Local* there = place ? local(*place, settings, job) : nullptr;
+  if (there) there->session.make_ready(settings, job);
 }
 
 std::vector<GivenView> Session::look_around(const CutRequest& request, const CutResult& result,

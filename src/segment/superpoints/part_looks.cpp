@@ -122,15 +122,9 @@ std::vector<std::vector<PartLooks>> looks_in(const PartHierarchy& parts, const L
   return looks;
 }
 
-std::uint32_t leaf_of_pixel(std::span<const GroupWeight> leaves) {
-  constexpr float kCovered = 0.5f;
-  float all = 0;
-  for (const GroupWeight& w : leaves) all += w.weight;
-  return all >= kCovered ? leaves.front().group : kNoPart;
-}
-
 void look_at_parts(const Drawer& drawer, std::span<const Camera> views, PartHierarchy* parts,
                    const Job& job) {
+  static_assert(kNoPart == kNoGroup);
   RasterOptions raster;
   raster.colour = false;
   raster.depth = true;
@@ -139,10 +133,7 @@ void look_at_parts(const Drawer& drawer, std::span<const Camera> views, PartHier
   for (const Camera& camera : views) {
     if (job.cancelled()) return;
     RasterOutput drawn = drawer.draw(camera, raster, job);
-    LeafPicture picture{Image<std::uint32_t>(camera.width_px, camera.height_px, kNoPart),
-                        std::move(drawn.expected_depth)};
-    for (std::size_t i = 0; i < picture.leaf.size(); ++i)
-      picture.leaf.pixels()[i] = leaf_of_pixel(drawn.groups.pixels()[i]);
+    const LeafPicture picture{std::move(drawn.group), std::move(drawn.expected_depth)};
     const auto looks = looks_in(*parts, picture);
     for_each_index(looks.size(), [&](std::size_t t) {
       for (std::size_t node = 0; node < looks[t].size(); ++node)

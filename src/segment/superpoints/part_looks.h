@@ -43,9 +43,6 @@ struct LeafPicture {
 // Per tree and node.
 std::vector<std::vector<PartLooks>> looks_in(const PartHierarchy& parts, const LeafPicture& picture);
 
-// The pixel's leaf of most weight, where what is there covers half of the pixel. leaves: heaviest first.
-std::uint32_t leaf_of_pixel(std::span<const GroupWeight> leaves);
-
 // Draws the views and fills the looks of every tree. Cancelled: incomplete.
 void look_at_parts(const Drawer& drawer, std::span<const Camera> views, PartHierarchy* parts,
                    const Job& job = {});

@@ -111,6 +111,20 @@ TEST_CASE("masks: the pixel cut follows a jump of depth where colours are equal,
   CHECK(obeys.at(50, 61) == kMaskObject);
 }
 
+TEST_CASE("masks: how wide a picture shows enough of what is small, by hand") {
+  Mask mask(100, 80);
+  CHECK(width_to_see(mask, 48, 1000) == 100);  // nothing is shown
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 20; ++x) mask.at(x, y) = kMaskObject;
+  CHECK(width_to_see(mask, 20, 1000) == 100);
+  CHECK(width_to_see(mask, 21, 1000) == 142);  // one step of sqrt(2)
+  CHECK(width_to_see(mask, 28, 1000) == 142);
+  CHECK(width_to_see(mask, 29, 1000) == 200);
+  CHECK(width_to_see(mask, 160, 1000) == 800);
+  CHECK(width_to_see(mask, 160, 500) == 500);
+  CHECK(width_to_see(mask, 160, 100) == 100);
+}
+
 TEST_CASE("masks: a grown band reaches further outside, not further inside") {
   const Mask truth = disc(120, 90, 60, 45, 30), prior = disc(120, 90, 60, 45, 24);
   const Image<Rgb8> picture = painted(truth, 9);

@@ -307,6 +307,20 @@ TEST_CASE("session: a preview is what the next click makes of the parts, and lea
             .after.empty());
 }
 
+TEST_CASE("session: what a click needs and is made ready is not made again") {
+  const auto [request, settings] = click_on("mug");
+  const CameraStroke first{request.strokes.front().camera, request.strokes.front().strokes.front()};
+  Session session = fresh_session();
+  session.make_ready(first, settings);
+  std::set<std::string, std::less<>> stages;
+  const Job watched{.stop = {},
+                    .on_progress = [&](std::string_view stage, double) { stages.emplace(stage); }};
+  CHECK(session.cut(request, settings, watched).labels == fresh_session().cut(request, settings).labels);
+  CHECK(stages.contains("first mask"));
+  CHECK_FALSE(stages.contains("parts"));
+  CHECK_FALSE(stages.contains("graph"));
+}
+
 TEST_CASE("session: things of one colour that touch are parted by three corrections") {
   StillLifeOptions options;
   options.gaussians = 40000;

@@ -136,9 +136,9 @@ TEST_CASE("part looks: a jump of depth") {
 
 TEST_CASE("part looks: a pixel is the leaf's that makes most of it, if anything does") {
   using List = std::vector<GroupWeight>;
-  CHECK(leaf_of_pixel(List{{7, 0.4f}, {3, 0.2f}}) == 7);
-  CHECK(leaf_of_pixel(List{{7, 0.3f}, {3, 0.1f}}) == kNoPart);
-  CHECK(leaf_of_pixel(List{}) == kNoPart);
+  CHECK(group_of_pixel(List{{7, 0.4f}, {3, 0.2f}}) == 7);
+  CHECK(group_of_pixel(List{{7, 0.3f}, {3, 0.1f}}) == kNoPart);
+  CHECK(group_of_pixel(List{}) == kNoPart);
 }
 
 }  // namespace splatcut
