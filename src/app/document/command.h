@@ -308,8 +308,9 @@ struct OpenScene {
   static constexpr bool at_once = true;
 };
 struct AddScene {
-  std::filesystem::path path;  // a scene, which stands where its own coordinates say
+  std::filesystem::path path;  // a scene
   std::optional<SpzAxes> spz_axes = {};
+  std::optional<glm::vec3> onto_world = {};  // point to stand on, upright; none: its own coordinates hold
 };
 struct PlaceScene {
   std::uint32_t file;  // SceneSource::id of any file but the first

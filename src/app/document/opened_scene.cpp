@@ -146,6 +146,10 @@ std::shared_ptr<OpenedScene> open_scene(std::vector<SceneSource> files, const Jo
     if (!file.origin) file.origin = files.front().origin;
     scenes.push_back(load(&file, before, job, &opened->remarks));
     if (job.cancelled()) return opened;
+    if (file.onto)
+      file.place = stood_on(file, stood_upright(file, file.place, file.onto->up_world),
+                            file.onto->point_world, file.onto->up_world);
+    file.onto.reset();
     if (file.place != ScenePlace{})
       scenes.back().cloud = placed(scenes.back().cloud, {}, similarity_of(file));
   }

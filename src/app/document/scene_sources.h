@@ -25,6 +25,11 @@ struct ScenePlace {
   bool operator==(const ScenePlace&) const = default;
 };
 
+// Where a file that is added comes to stand, upright.
+struct StandsOn {
+  glm::vec3 point_world, up_world;
+};
+
 // Views of a file's scene, in the file's own coordinates.
 struct FileViews {
   std::vector<Camera> cameras;   // capture cameras found beside the file; may be empty
@@ -45,6 +50,7 @@ struct SceneSource {
   // Taken off positions, as in LoadOptions; after loading: that of the scene, which is the first file's.
   std::optional<glm::dvec3> origin;
   ScenePlace place;  // place in the scene; the first file always stays where its coordinates say
+  std::optional<StandsOn> onto = {};  // loading sets the place by it
 
   // Loading sets the rest.
   std::uint64_t hash = 0;  // hash_of_file(); in a work file the hash that the file must have

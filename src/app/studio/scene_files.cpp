@@ -28,7 +28,7 @@ std::string described(const OpenedScene& opened) {
 
 bool same_files(const std::vector<SceneSource>& a, const std::vector<SceneSource>& b) {
   return std::ranges::equal(a, b, [](const SceneSource& left, const SceneSource& right) {
-    return left.id == right.id && left.place == right.place;
+    return left.id == right.id && (left.onto || left.place == right.place);
   });
 }
 
@@ -100,16 +100,19 @@ void SceneFiles::perform(const AddScene& c) {
     throw Error(c.path.filename().string(), "is saved work, not a scene", "Open it, or add the scene itself");
   std::vector<SceneSource> files = wanted_files();
   files.push_back({.id = next_file_id_++, .path = c.path, .spz_axes = c.spz_axes});
+  if (c.onto_world) files.back().onto = StandsOn{*c.onto_world, ws_.document().up_world};
   const std::string name = scene_name(c.path);
-  change_files(std::move(files), "Adding " + name, name + " added; place it under Files");
+  change_files(std::move(files), "Adding " + name,
+               name + " added; place it under Files" + (c.onto_world ? ", also as in its own file" : ""));
 }
 
 void SceneFiles::perform(const PlaceScene& c) {
   std::vector<SceneSource> files = wanted_files();
   SceneSource& file = added_file(&files, c.file);
   check(c.place, file.path);
-  if (file.place == c.place) return;
+  if (file.place == c.place && !file.onto) return;
   file.place = c.place;
+  file.onto.reset();
   const std::string name = scene_name(file.path);
   change_files(std::move(files), "Placing " + name, name + " placed");
 }

@@ -257,6 +257,12 @@ std::optional<PickedPoint> Viewport::pick(const glm::vec2& pixel) const {
   return PickedPoint{camera.world_from_pixel(pixel, frame->depth.at(x, y)), frame->first_hit.at(x, y)};
 }
 
+glm::vec3 Viewport::looked_at_world() const {
+  const Camera camera = pane_camera();
+  const auto hit = pick(0.5f * glm::vec2(camera.width_px, camera.height_px));
+  return hit ? hit->position_world : camera_.pivot_world();
+}
+
 std::optional<PickedPoint> Viewport::hit_in(const Camera& camera, const glm::vec2& pixel,
                                             const Flags& visible_set) const {
   const glm::vec2 size(camera.width_px, camera.height_px);

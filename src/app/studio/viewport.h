@@ -87,6 +87,8 @@ class Viewport {
   // Picks the surface under a pixel of the pressed pane; none: nothing is there. The last picture answers if
   // it shows this view; else the one pixel is drawn.
   std::optional<PickedPoint> pick(const glm::vec2& pixel) const;
+  // The point in the middle of the picture; where nothing is there, the one that the view turns around.
+  glm::vec3 looked_at_world() const;
   // Picks the surface under a pixel of any camera. visible: flags of the Gaussians that count; null: all.
   std::optional<PickedPoint> hit_in(const Camera& camera, const glm::vec2& pixel, const Flags& visible) const;
   // Camera z of the surface under a pixel, scene units, from the last picture; none: unknown. While the view

@@ -56,7 +56,7 @@ void use(UiContext& ui, const std::filesystem::path& path) {
     case FilePurpose::kOpen:
       return ui.ask(OpenScene{path});
     case FilePurpose::kAdd:
-      return ui.ask(AddScene{path});
+      return ui.ask(AddScene{path, {}, ui.studio.viewport().looked_at_world()});
     case FilePurpose::kSaveWork:
       return ui.ask(SaveWork{path});
     case FilePurpose::kSnapshot:

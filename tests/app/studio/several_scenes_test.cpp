@@ -222,6 +222,36 @@ TEST_CASE("several scenes: a placed file stands where the numbers say, what was 
   CHECK(differ <= count_flags(apple) / 100);
 }
 
+TEST_CASE("several scenes: an added file comes to stand upright on what one looks at") {
+  const ScratchFolder folder("several_onto");
+  Hands hands;
+  Studio& studio = hands.studio();
+  const auto a = small_scene(folder, "a.ply", 1), b = small_scene(folder, "b.ply", 2);
+  const glm::vec3 seen = studio.viewport().looked_at_world(), beside = seen + glm::vec3(1, 0, 0.5f);
+  const Camera camera = studio.viewport().pane_camera();
+  const glm::vec2 middle(0.5f * static_cast<float>(camera.width_px),
+                         0.5f * static_cast<float>(camera.height_px));
+  CHECK(glm::distance(camera.pixel_from_camera(camera.camera_from_world(seen)), middle) < 0.5f);
+  const auto stands_on = [&](const SceneSource& file, const glm::vec3& point) {
+    const glm::vec3 up = studio.document().up_world;
+    return file.place == stood_on(file, stood_upright(file, {}, up), point, up);
+  };
+  studio.apply(AddScene{a, {}, seen});
+  studio.apply(AddScene{b, {}, beside});  // while the first is read
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.scene()->files.size() == 3);
+  const SceneSource first = studio.scene()->files[1], second = studio.scene()->files[2];
+  CHECK(stands_on(first, seen));
+  CHECK(stands_on(second, beside));
+  studio.apply(PlaceScene{first.id, {}});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.scene()->files[1].place == ScenePlace{});
+  CHECK(studio.scene()->files[2].place == second.place);
+  studio.apply(Undo{});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.scene()->files[1].place == first.place);
+}
+
 TEST_CASE("several scenes: asked for in haste, cancelled, refused") {
   const ScratchFolder folder("several_haste");
   Hands hands;
