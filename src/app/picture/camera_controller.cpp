@@ -152,9 +152,9 @@ void CameraController::approach(const glm::vec3& point_world, float share) {
   orbit_centre_ = point_world;
 }
 
-void CameraController::frame(std::span<const glm::vec3> points_world, const Camera& camera,
-                             float covered_bottom_px) {
-  if (points_world.empty()) return;
+Framing CameraController::framing(std::span<const glm::vec3> points_world, const Camera& camera,
+                                  float covered_bottom_px,
+                                  const glm::quat& camera_from_world_rotation) const {
   constexpr float kFilled = 0.8f;
   constexpr std::size_t kMostPoints = 20000;
   constexpr int kRounds = 6;  // perspective moves and scales the silhouette a little less in each
@@ -162,7 +162,8 @@ void CameraController::frame(std::span<const glm::vec3> points_world, const Came
   const float free = std::max(0.3f * height, height - covered_bottom_px);
   const glm::vec2 wanted = kFilled * glm::vec2(width / camera.fx_px, free / camera.fy_px);
   CameraPose target = pose_;
-  const glm::mat3 camera_from_world = glm::mat3_cast(pose_.camera_from_world);
+  target.camera_from_world = camera_from_world_rotation;
+  const glm::mat3 camera_from_world = glm::mat3_cast(camera_from_world_rotation);
   std::vector<glm::vec3> points;  // in the camera's axes
   const std::size_t step = 1 + (points_world.size() - 1) / kMostPoints;
   for (std::size_t i = 0; i < points_world.size(); i += step)
@@ -186,12 +187,34 @@ void CameraController::frame(std::span<const glm::vec3> points_world, const Came
     }
     target.distance = std::max(least, target.distance * std::max(filled, 1e-3f));
   }
-  const glm::mat3 axes = world_from_camera(pose_);
+  const glm::mat3 axes = world_from_camera(target);
   const float lower = 0.5f * (height - free) * target.distance / camera.fy_px;
   const glm::vec3 middle_world = axes * middle;
   target.position_world = middle_world - target.distance * axes[2] + lower * axes[1];
-  start(target);
-  orbit_centre_ = middle_world;
+  return {target, middle_world};
+}
+
+void CameraController::frame(const Framing& framing) {
+  start(framing.pose);
+  orbit_centre_ = framing.middle_world;
+}
+
+std::vector<glm::quat> CameraController::directions_around() const {
+  const glm::mat3 axes = world_from_camera(pose_);
+  std::vector<std::pair<float, glm::quat>> around;  // by the cosine of the angle
+  for (const float down_deg : {0.0f, 20.0f, 40.0f, -20.0f})
+    for (const float aside_deg : {0.0f, 22.0f, -22.0f, 44.0f, -44.0f}) {
+      const glm::quat down = glm::angleAxis(-glm::radians(down_deg), axes[0]),
+                      aside = glm::angleAxis(glm::radians(aside_deg), up_world_);
+      const glm::vec3 forward = aside * (down * axes[2]);
+      const float cosine = glm::dot(forward, axes[2]);
+      if (cosine >= std::cos(glm::radians(45.0f)) && cosine < std::cos(glm::radians(10.0f)))
+        around.emplace_back(cosine, looking(forward, up_world_, axes[0]));
+    }
+  std::ranges::stable_sort(around, std::ranges::greater(), [](const auto& side) { return side.first; });
+  std::vector<glm::quat> rotations;
+  for (const auto& [cosine, rotation] : around) rotations.push_back(rotation);
+  return rotations;
 }
 
 void CameraController::frame(const Box& box) {
@@ -263,16 +286,16 @@ void CameraController::finish_transition() {
   target_.reset();
 }
 
-Camera CameraController::camera(int width_px, int height_px) const {
+Camera camera_at(const CameraPose& pose, int width_px, int height_px) {
   Camera camera;
   camera.width_px = width_px;
   camera.height_px = height_px;
-  camera.fy_px = 0.5f * static_cast<float>(height_px) / std::tan(0.5f * pose_.fov_y_rad);
+  camera.fy_px = 0.5f * static_cast<float>(height_px) / std::tan(0.5f * pose.fov_y_rad);
   camera.fx_px = camera.fy_px;
   camera.cx_px = 0.5f * static_cast<float>(width_px);
   camera.cy_px = 0.5f * static_cast<float>(height_px);
-  camera.camera_from_world_rotation = glm::mat3_cast(pose_.camera_from_world);
-  camera.camera_from_world_translation = -(camera.camera_from_world_rotation * pose_.position_world);
+  camera.camera_from_world_rotation = glm::mat3_cast(pose.camera_from_world);
+  camera.camera_from_world_translation = -(camera.camera_from_world_rotation * pose.position_world);
   return camera;
 }
 

@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "app/document/camera_pose.h"
 #include "scene/camera/camera.h"
@@ -23,6 +24,14 @@ struct Flight {
   float speed = 1;  // speed over the usual one
   bool moving() const { return right != 0 || down != 0 || forward != 0; }
 };
+
+// A camera pose that shows points, and their middle.
+struct Framing {
+  CameraPose pose;
+  glm::vec3 middle_world{0};
+};
+
+Camera camera_at(const CameraPose& pose, int width_px, int height_px);
 
 class CameraController {
  public:
@@ -44,10 +53,14 @@ class CameraController {
   // Else orbit() turns around the pivot.
   void set_orbit_centre(const glm::vec3& point_world) { orbit_centre_ = point_world; }
   void frame(const Box& box);  // lets the box fill the picture, from the same direction
-  // Lets the points fill four fifths of the part of the picture above its lowest covered_bottom_px pixels, in
-  // camera's pixels, and moves their silhouette to the middle of that part; from the same direction. The
-  // outermost hundredth of the points on each side does not count. No points: nothing moves.
-  void frame(std::span<const glm::vec3> points_world, const Camera& camera, float covered_bottom_px);
+  void frame(const Framing& framing);
+  // The pose in which the points, one or more, fill four fifths of the part of the picture above its lowest
+  // covered_bottom_px pixels, in camera's pixels, with their silhouette in the middle of that part. The
+  // outermost hundredth of the points on each side does not count.
+  Framing framing(std::span<const glm::vec3> points_world, const Camera& camera, float covered_bottom_px,
+                  const glm::quat& camera_from_world) const;
+  // Directions up to 45 degrees from the present one, upright, the nearest first: rotations of the camera.
+  std::vector<glm::quat> directions_around() const;
   void frame_scene() { frame(scene_); }
   void go_to(const Camera& camera);                   // takes its exact pose and field of view
   void look_along(const glm::vec3& direction_world);  // looks at the pivot along the direction
@@ -63,7 +76,7 @@ class CameraController {
   CameraPose kept_pose() const;  // pose for files: its pivot has the depth of the orbit centre
   const glm::vec3& up_world() const { return up_world_; }
   glm::vec3 pivot_world() const;
-  Camera camera(int width_px, int height_px) const;
+  Camera camera(int width_px, int height_px) const { return camera_at(pose_, width_px, height_px); }
   float scene_size() const { return scene_size_; }  // diagonal of the scene's bounds, scene units
 
  private:

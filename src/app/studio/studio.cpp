@@ -21,6 +21,7 @@ Studio::Studio(const StudioOptions& options)
            [this](std::function<void()> next) { edits_.in_turn(std::move(next), Edits::OnCancel::kStays); }}),
       exports_(ws_, viewport_),
       clean_edges_(ws_, viewport_, cuts_),
+      free_sides_(ws_, viewport_),
       tasks_(options.wake, options.inline_tasks),
       quick_(options.wake, options.inline_tasks) {
   tasks_.on_error =

@@ -19,6 +19,7 @@
 #include "app/studio/cut_jobs.h"
 #include "app/studio/edits.h"
 #include "app/studio/exports.h"
+#include "app/studio/free_sides.h"
 #include "app/studio/scene_files.h"
 #include "app/studio/viewport.h"
 #include "app/studio/workspace.h"
@@ -131,6 +132,7 @@ class Studio {
   SceneFiles files_;
   Exports exports_;
   CleanEdges clean_edges_;
+  FreeSides free_sides_;
   std::set<int> held_keys_;
   std::vector<std::function<void()>> held_pointer_;
   double brush_repeated_s_ = -1e9;

@@ -138,7 +138,7 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kRings, without_scene, [](S& s) { s.turn_over(&ViewState::rings); }},
       {Action::kGrid, without_scene, [](S& s) { s.turn_over(&ViewState::grid); }},
       {Action::kBackdrop, without_scene, [](S& s) { s.apply(NextBackdrop{}); }},
-      {Action::kFrameObject, without_gaussians, [](S& s) { s.viewport_.frame_object(); }, kWaits},
+      {Action::kFrameObject, without_gaussians, [](S& s) { s.free_sides_.frame(); }, kWaits},
       {Action::kFrameScene, without_scene, [](S& s) { s.camera().frame_scene(); }},
       {Action::kNextCamera, without_cameras, [](S& s) { s.step_camera(1); }},
       {Action::kPreviousCamera, without_cameras, [](S& s) { s.step_camera(-1); }},

@@ -49,7 +49,8 @@ void run_in_background(const std::function<void()>& work) {
 }  // namespace
 
 bool asked_for(TaskKind kind) {
-  return kind != TaskKind::kHover && kind != TaskKind::kReady && kind != TaskKind::kStyle;
+  return kind != TaskKind::kHover && kind != TaskKind::kReady && kind != TaskKind::kStyle &&
+         kind != TaskKind::kSides;
 }
 
 TaskThread::TaskThread(std::function<void()> wake, bool inline_work)

@@ -30,6 +30,7 @@ enum class TaskKind {
   kStyle,
   kHover,
   kReady,  // prepares a click that may come
+  kSides,  // looks for sides from which less hides an object
   kExport,
   kSave,
   kAutosave

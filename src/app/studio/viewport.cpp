@@ -118,10 +118,6 @@ std::vector<glm::vec3> Viewport::object_positions() const {
   return positions;
 }
 
-void Viewport::frame_object() {
-  camera_.frame(object_positions(), pane_camera(), covered_bottom_px_);
-}
-
 void Viewport::turn_about_object() {
   if (const std::vector<glm::vec3> positions = object_positions(); !positions.empty())
     camera_.set_orbit_centre(robust_bounds(positions).centre());

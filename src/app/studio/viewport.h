@@ -35,7 +35,9 @@ class Viewport {
   // Camera and panes.
   CameraController& camera() { return camera_; }
   const CameraController& camera() const { return camera_; }
-  Camera pane_camera() const;  // camera of each pane: two panes show the same view
+  float covered_bottom_px() const { return covered_bottom_px_; }
+  std::vector<glm::vec3> object_positions() const;  // of the active object's Gaussians
+  Camera pane_camera() const;                       // camera of each pane: two panes show the same view
   int panes() const { return std::max(1, styles_.panes); }  // number of panes that are shown
   int pane_at(const glm::vec2& pixel) const;                // pane under the pixel; during a drag, the drag's
   // Pane in which a drag goes on; 1 is the right one.
@@ -45,7 +47,6 @@ class Viewport {
   int pressed_pane() const { return panes() == 2 ? pressed_pane_ : 0; }
   glm::vec2 in_pane(const glm::vec2& pixel) const;  // position within the pane that pane_at() names
   float pixels_per_point() const { return pixels_per_point_; }
-  void frame_object();
   void turn_about_object();  // makes the middle of the active object what the view turns around
   bool moving() const;       // true: the view moves, or did a moment ago
 
@@ -97,7 +98,6 @@ class Viewport {
   ToolContext tool_context(const glm::vec2& pixel);
 
  private:
-  std::vector<glm::vec3> object_positions() const;  // of the active object's Gaussians
   void request_styles();
   void request_picture();
   void take_picture();

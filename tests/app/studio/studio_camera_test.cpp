@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hands.h"
+#include "scene/raster/rasterizer.h"
 #include "segment/masks/mask_tools.h"
 
 using namespace splatcut;
@@ -192,6 +193,58 @@ TEST_CASE("hands: F frames the object in what thumbnails leave free") {
   }
   CHECK(static_cast<double>(inside) > 0.97 * static_cast<double>(all));
   CHECK(bottom - top > 0.4f * (lowest - view.min.y));
+}
+
+namespace {
+
+// The share of the active object's pixels that the rest of the scene covers in the present view.
+double covered_share(Hands& hands) {
+  const GaussianCloud& cloud = *hands.studio().scene()->cloud;
+  const Camera camera = limited_to_width(hands.studio().viewport().pane_camera(), 200);
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  const Mask seen = thresholded(render_labels({cloud, nullptr}, camera, labels), 0.5f);
+  RasterOptions alone;
+  alone.shown = labels;
+  const Mask whole = thresholded(rasterize(cloud, camera, alone).alpha, 0.5f);
+  return 1 - static_cast<double>(count(seen)) / static_cast<double>(count(whole));
+}
+
+}  // namespace
+
+TEST_CASE("hands: where something stands before the object, F again looks from a side where less does") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  const auto frame = [&] {
+    hands.app.key('F');
+    REQUIRE(hands.app.settle());
+    return studio.camera().pose();
+  };
+  frame();
+  CHECK(hands.said().find("F again") == std::string::npos);
+  CameraPose worst = studio.camera().pose();
+  double most = 0;
+  for (int turn = 0; turn < 24; ++turn) {
+    studio.camera().orbit(
+        {turn == 0 ? 0.0f : 43.6f, turn == 0 ? -60.0f : 0.0f});  // 15 degrees, low above the table
+    if (const double covered = covered_share(hands); covered > most) {
+      most = covered;
+      worst = studio.camera().pose();
+    }
+  }
+  REQUIRE(most > 0.4);
+  studio.camera().set_pose(worst);
+  REQUIRE(hands.app.settle());
+  const CameraPose first = frame();
+  const double before = covered_share(hands);
+  REQUIRE(before > 0.3);
+  CHECK(hands.said().find("Something stands before Object 1: F again") == 0);
+  const glm::vec3 forward = studio.viewport().pane_camera().forward_world();
+  CHECK(frame() != first);
+  CHECK(covered_share(hands) < before - 0.1);
+  CHECK(glm::dot(studio.viewport().pane_camera().forward_world(), forward) > std::cos(glm::radians(46.0f)));
+  studio.camera().set_pose(worst);  // an offer is for the view in which it was made
+  REQUIRE(hands.app.settle());
+  CHECK(frame() == first);
 }
 
 TEST_CASE("hands: while a flight key is held the wheel changes the speed, else it goes nearer") {

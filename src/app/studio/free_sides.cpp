@@ -1,0 +1,73 @@
+#include "app/studio/free_sides.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "scene/raster/rasterizer.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr int kWidthPx = 160;  // of the pictures that are compared
+
+double sum(const Image<float>& image) {
+  return std::accumulate(image.pixels().begin(), image.pixels().end(), 0.0);
+}
+
+// The share of the object's picture that others hide.
+double hidden_share(const OpenedScene& scene, const std::vector<std::uint8_t>& labels, const Camera& camera,
+                    const Job& job) {
+  RasterOptions options;
+  options.colour = false;
+  options.labels = labels;
+  options.blocks = scene.blocks.get();
+  const double seen = sum(rasterize(*scene.cloud, camera, options, job).label_share);
+  options.shown = labels;
+  const double alone = sum(rasterize(*scene.cloud, camera, options, job).label_share);
+  return alone > 0 ? 1 - seen / alone : 0;
+}
+
+}  // namespace
+
+void FreeSides::frame() {
+  CameraController& camera = viewport_.camera();
+  camera.finish_transition();
+  const std::optional<Offer> offer = std::exchange(offer_, std::nullopt);
+  if (offer && offer->from == camera.pose()) return camera.frame(offer->side);
+  const ObjectItem* object = ws_.document().active_object();
+  const std::vector<glm::vec3> positions = viewport_.object_positions();
+  if (!object || positions.empty()) return;
+  const Camera pane = viewport_.pane_camera();
+  const auto framed = [&](const glm::quat& rotation) {
+    return camera.framing(positions, pane, viewport_.covered_bottom_px(), rotation);
+  };
+  std::vector<Framing> sides = {framed(camera.pose().camera_from_world)};
+  for (const glm::quat& rotation : camera.directions_around()) sides.push_back(framed(rotation));
+  camera.frame(sides.front());
+  if (ws_.view.display != DisplayMode::kWhole) return;
+  const int height_px = std::max(1, kWidthPx * pane.height_px / std::max(1, pane.width_px));
+  ws_.tasks.submit(TaskKind::kSides, [this, sides, height_px, name = object->name, scene = ws_.scene,
+                                      labels = ws_.labels.labels(ws_.document(), *object, ws_.gaussians())](
+                                         const Job& job) {
+    constexpr double kMuch = 0.25, kBetter = 0.15, kAsGood = 0.03;
+    std::vector<double> hidden;
+    for (const Framing& side : sides) {
+      hidden.push_back(hidden_share(*scene, *labels, camera_at(side.pose, kWidthPx, height_px), job));
+      if (job.cancelled() || hidden.front() < kMuch) return;
+    }
+    const double least = std::ranges::min(hidden);
+    if (least > hidden.front() - kBetter) return;
+    const auto best = static_cast<std::size_t>(  // the nearest of those as good
+        std::ranges::find_if(hidden, [&](double h) { return h <= least + kAsGood; }) - hidden.begin());
+    ws_.tasks.post([this, scene, name, offered = Offer{sides.front().pose, sides[best]}] {
+      if (scene != ws_.scene) return;
+      offer_ = offered;
+      ws_.say(Message::Kind::kInfo,
+              fmt::format("Something stands before {}: F again looks from a side where less does", name));
+    });
+  });
+}
+
+}  // namespace splatcut

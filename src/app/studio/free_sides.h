@@ -1,0 +1,29 @@
+// Frames the object (F), and where something stands before it offers to look from a side where less does: the
+// next F, while the view has not moved. Sides are looked for on the worker.
+#pragma once
+
+#include <optional>
+
+#include "app/studio/viewport.h"
+#include "app/studio/workspace.h"
+
+namespace splatcut {
+
+class FreeSides {
+ public:
+  FreeSides(Workspace& workspace, Viewport& viewport) : ws_(workspace), viewport_(viewport) {}
+
+  void frame();
+
+ private:
+  struct Offer {
+    CameraPose from;
+    Framing side;
+  };
+
+  Workspace& ws_;
+  Viewport& viewport_;
+  std::optional<Offer> offer_;
+};
+
+}  // namespace splatcut
