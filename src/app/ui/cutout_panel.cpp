@@ -20,10 +20,11 @@ void quality_choice(UiContext& ui) {
   for (const Preset& preset : presets()) {
     if (preset.of_paper && now == preset.name) of_paper = preset.title;
     if (preset.of_paper) continue;
+    if (preset.name != presets().front().name) same_line_if_fits(preset.title, 2);
     if (button(ui, preset.title, preset.sentence, {}, now == preset.name)) ui.ask(SetPreset{preset.name});
-    ImGui::SameLine(0, 2);
   }
   const std::string label = fmt::format("{} {}", of_paper ? of_paper : "Advanced", icon::kDown);
+  same_line_if_fits(label.c_str(), 2);
   if (button(ui, label.c_str(), "For comparison with the paper", {}, of_paper != nullptr))
     ImGui::OpenPopup("advanced");
   ImGui::PopStyleVar();

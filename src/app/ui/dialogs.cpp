@@ -323,12 +323,14 @@ void help_page(UiContext& ui) {
   centre_next_window({std::min(1060.0f, screen.x - 40), std::min(720.0f, screen.y - 40)});
   if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
   ImGui::BeginChild("keys", {0, -40});
-  ImGui::Columns(3, "groups", false);
+  constexpr float kColumnWidth = 300;
+  const int columns = std::clamp(static_cast<int>(ImGui::GetContentRegionAvail().x / kColumnWidth), 1, 3);
+  ImGui::Columns(columns, "groups", false);
   for (const char* group : {"File", "Edit", "Selection"}) key_group(ui, group);
-  ImGui::NextColumn();
+  if (columns > 1) ImGui::NextColumn();
   key_group(ui, "Tools");
   pointer_help(ui);
-  ImGui::NextColumn();
+  if (columns > 2) ImGui::NextColumn();
   for (const char* group : {"Display", "Camera"}) key_group(ui, group);
   ImGui::Columns(1);
   ImGui::EndChild();

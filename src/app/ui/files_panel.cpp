@@ -57,17 +57,15 @@ void placing(UiContext& ui, const SceneSource& file) {
              false, -1))
     ui.ask(PlaceScene{file.id, stood_upright(file, place, ui.studio.document().up_world)});
   if (done) ui.ask(PlaceScene{file.id, place});
-  const float third = (ImGui::GetContentRegionAvail().x - 8) / 3;
-  if (button(ui, "Bring here", "Stands it on the point that the view turns around", {}, false, third))
+  ButtonRow row({"Bring here", "As in file", "Take out"});
+  if (button(ui, "Bring here", "Stands it on the point that the view turns around", {}, false, row.next()))
     ui.ask(PlaceScene{
         file.id, stood_on(file, place, ui.studio.camera().pivot_world(), ui.studio.document().up_world)});
-  ImGui::SameLine(0, 4);
   if (button(ui, "As in file", "Back to its own coordinates",
-             file.place == ScenePlace{} ? "It stands there" : "", false, third))
+             file.place == ScenePlace{} ? "It stands there" : "", false, row.next()))
     ui.ask(PlaceScene{file.id, {}});
-  ImGui::SameLine(0, 4);
   if (button(ui, "Take out", "The window's scene goes on without it; the file stays as it is", {}, false,
-             third))
+             row.next()))
     ui.ask(RemoveScene{file.id});
 }
 

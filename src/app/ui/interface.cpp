@@ -12,7 +12,13 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kTopHeight = 46, kToolsWidth = 54, kSideWidth = 316, kStatus = 30, kStrip = 96;
+constexpr float kTopHeight = 46, kToolsWidth = 54, kUsualSideWidth = 316, kStatus = 30, kStrip = 96;
+
+// A third of a small window, so that the picture keeps the most of it.
+float side_width(const glm::vec2& window_size) {
+  constexpr float kSmallWindow = 880;
+  return window_size.x < kSmallWindow ? std::round(window_size.x / 3) : kUsualSideWidth;
+}
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings |
@@ -103,7 +109,7 @@ UiRect Interface::viewport() const {
     return std::round(v * theme_.pixels_per_point) / theme_.pixels_per_point;
   };
   return {{kToolsWidth, kTopHeight},
-          {whole(std::max(kToolsWidth + 1, size_points_.x - kSideWidth)),
+          {whole(std::max(kToolsWidth + 1, size_points_.x - side_width(size_points_))),
            whole(std::max(kTopHeight + 1, bottom))}};
 }
 
@@ -153,8 +159,8 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   }
   fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatus}}, p,
               kFixed | ImGuiWindowFlags_NoScrollWithMouse, {8, 8}, [&] { tool_column(ui); });
-  fixed_panel("side", {{size.x - kSideWidth, kTopHeight}, {size.x, size.y - kStatus}}, p, kFixed, {12, 8},
-              [&] {
+  fixed_panel("side", {{size.x - side_width(size), kTopHeight}, {size.x, size.y - kStatus}}, p, kFixed,
+              {12, 8}, [&] {
                 ImGui::BeginChild("scroll", {0, 0});
                 objects_panel(ui);
                 cutout_panel(ui);
@@ -183,7 +189,7 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   if (!dialog_open()) {
     line({0, kTopHeight}, {size.x, kTopHeight}, p);
     line({kToolsWidth, kTopHeight}, {kToolsWidth, size.y - kStatus}, p);
-    line({size.x - kSideWidth, kTopHeight}, {size.x - kSideWidth, size.y - kStatus}, p);
+    line({size.x - side_width(size), kTopHeight}, {size.x - side_width(size), size.y - kStatus}, p);
     line({0, size.y - kStatus}, {size.x, size.y - kStatus}, p);
   }
   file_dialog(ui);

@@ -51,7 +51,8 @@ void draw_ground_grid(const UiContext& ui, const UiRect& area, int pane);
 // The file that is chosen in the files panel: where it would stand, and handles that move it.
 void draw_placed_file(UiContext& ui, const UiRect& area);
 void draw_cursor_sign(const UiContext& ui, const UiRect& area);  // what a press would do to the selection
-UiRect axes_gizmo(UiContext& ui, const UiRect& area);            // which takes clicks: look along an axis
+inline constexpr float kAxesWidth = 98;                // that axes_gizmo() takes, its margin counted; points
+UiRect axes_gizmo(UiContext& ui, const UiRect& area);  // which takes clicks: look along an axis
 
 void help_page(UiContext& ui);
 void export_dialog(UiContext& ui);

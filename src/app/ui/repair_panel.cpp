@@ -24,17 +24,15 @@ constexpr PropertyName kProperties[] = {
 constexpr int kColourProperty = PropertyChoice::kColourProperty, kBins = 48;
 
 void pair_of(UiContext& ui, Action left, const char* left_label, Action right, const char* right_label) {
-  const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
-  action_button(ui, left, left_label, false, half);
-  ImGui::SameLine(0, 4);
-  action_button(ui, right, right_label, false, half);
+  ButtonRow row({left_label, right_label});
+  action_button(ui, left, left_label, false, row.next());
+  action_button(ui, right, right_label, false, row.next());
 }
 
 void floater_buttons(UiContext& ui) {
   const Studio& s = ui.studio;
-  const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
-  action_button(ui, Action::kFloaters, "Show floaters", s.viewport().floaters_shown(), half);
-  ImGui::SameLine(0, 4);
+  ButtonRow row({"Show floaters", "Remove them"});
+  action_button(ui, Action::kFloaters, "Show floaters", s.viewport().floaters_shown(), row.next());
   const std::string reason = !s.viewport().floaters_shown()      ? "Show them first"
                              : s.viewport().floater_count() == 0 ? "There are none"
                                                                  : "";
@@ -42,7 +40,7 @@ void floater_buttons(UiContext& ui) {
              s.viewport().floaters_shown() && s.viewport().floater_count()
                  ? fmt::format("Remove {}", grouped(s.viewport().floater_count())).c_str()
                  : "Remove them",
-             "Takes the small far clusters out of the selection", reason, false, half))
+             "Takes the small far clusters out of the selection", reason, false, row.next()))
     ui.ask(EditSelection{SelectionEdit::kRemoveFloaters});
 }
 
@@ -139,8 +137,8 @@ void property_selection(UiContext& ui) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Select by");
   for (int i = 0; i < std::ssize(kProperties); ++i) {
-    if (i > 0) ImGui::SameLine(0, 2);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6, 4});
+    if (i > 0) same_line_if_fits(kProperties[i].name, 2);
     if (button(ui, kProperties[i].name, kProperties[i].tip, {}, choice.property == i)) choice.property = i;
     ImGui::PopStyleVar();
   }
@@ -162,14 +160,12 @@ void property_selection(UiContext& ui) {
   };
   const ObjectItem* active = ui.studio.document().active_object();
   const std::string reason = active && active->locked ? active->name + " is locked" : "";
-  const float third = (ImGui::GetContentRegionAvail().x - 8) / 3;
-  if (button(ui, "Add", "Add what lies in the range to the selection", reason, false, third))
+  ButtonRow row({"Add", "Remove", "Keep only"});
+  if (button(ui, "Add", "Add what lies in the range to the selection", reason, false, row.next()))
     ask(SetOperation::kAdd);
-  ImGui::SameLine(0, 4);
-  if (button(ui, "Remove", "Take what lies in the range out of the selection", reason, false, third))
+  if (button(ui, "Remove", "Take what lies in the range out of the selection", reason, false, row.next()))
     ask(SetOperation::kRemove);
-  ImGui::SameLine(0, 4);
-  if (button(ui, "Keep only", "Keep only what lies in the range", reason, false, third))
+  if (button(ui, "Keep only", "Keep only what lies in the range", reason, false, row.next()))
     ask(SetOperation::kIntersect);
   const ImVec2 range_to(range_from.x + ImGui::GetContentRegionAvail().x, ImGui::GetItemRectMax().y);
   const bool in_window = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
@@ -184,11 +180,10 @@ void repair_panel(UiContext& ui) {
   pair_of(ui, Action::kGrow, "Grow", Action::kShrink, "Shrink");
   pair_of(ui, Action::kInvert, "Invert", Action::kLargestPart, "Largest part");
   floater_buttons(ui);
-  const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
-  action_button(ui, Action::kDelete, "Delete from scene", false, half);
-  ImGui::SameLine(0, 4);
+  ButtonRow row({"Delete from scene", "Restore deleted"});
+  action_button(ui, Action::kDelete, "Delete from scene", false, row.next());
   if (button(ui, "Restore deleted", "Brings everything back that was deleted from the scene",
-             ui.studio.document().deleted ? "" : "Nothing is deleted", false, half))
+             ui.studio.document().deleted ? "" : "Nothing is deleted", false, row.next()))
     ui.ask(RestoreDeleted{});
   if (ui.studio.scene()) property_selection(ui);
 }

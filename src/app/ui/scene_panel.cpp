@@ -24,8 +24,11 @@ void up_buttons(UiContext& ui) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Up");
   for (const Axis& axis : axes) {
-    ImGui::SameLine(0, axis.name == axes[0].name ? 74.0f : 2.0f);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {5, 4});
+    if (axis.name == axes[0].name)
+      ImGui::SameLine(0, 74);
+    else
+      same_line_if_fits(axis.name, 2);
     const bool on = glm::dot(ui.studio.document().up_world, axis.direction) > 0.9999f;
     if (button(ui, axis.name, "Turns the scene so that this axis points up", {}, on))
       ui.ask(SetUp{axis.direction});
@@ -79,9 +82,13 @@ void backdrop_buttons(UiContext& ui) {
   ImGui::Dummy({0, 0});
   for (std::size_t i = 0; i < backdrops().size(); ++i) {
     const Backdrop& backdrop = backdrops()[i];
-    ImGui::SameLine(0, i == 0 ? -1.0f : 2.0f);
-    if (i == 0) ImGui::SetCursorPosX(14);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6, 4});
+    if (i == 0) {
+      ImGui::SameLine();
+      ImGui::SetCursorPosX(14);
+    } else {
+      same_line_if_fits(backdrop.name, 2);
+    }
     if (button(ui, backdrop.name, tip_of(Action::kBackdrop), {},
                shows(backdrop, ui.studio.document(), ui.studio.view())))
       ui.ask(SetBackdrop{i});
@@ -139,13 +146,11 @@ void scene_panel(UiContext& ui) {
   level_row(ui);
   axes_row(ui);
   up_buttons(ui);
-  const float half = (ImGui::GetContentRegionAvail().x - 4) / 2;
-  action_button(ui, Action::kFrameScene, "Frame scene", false, half);
-  ImGui::SameLine(0, 4);
-  action_button(ui, Action::kFrameObject, "Frame object", false, half);
-  action_button(ui, Action::kPreviousCamera, "Previous camera", false, half);
-  ImGui::SameLine(0, 4);
-  action_button(ui, Action::kNextCamera, "Next camera", false, half);
+  ButtonRow frame({"Frame scene", "Frame object"}), step({"Previous camera", "Next camera"});
+  action_button(ui, Action::kFrameScene, "Frame scene", false, frame.next());
+  action_button(ui, Action::kFrameObject, "Frame object", false, frame.next());
+  action_button(ui, Action::kPreviousCamera, "Previous camera", false, step.next());
+  action_button(ui, Action::kNextCamera, "Next camera", false, step.next());
   turntable_button(ui, fmt::format("{} Turntable", icon::kFilm).c_str(), -1);
 }
 

@@ -98,6 +98,7 @@ void draw_cursor_sign(const UiContext& ui, const UiRect& area) {
 
 UiRect axes_gizmo(UiContext& ui, const UiRect& area) {
   constexpr float kRadius = 34, kMargin = 12, kBall = 9;
+  static_assert(kAxesWidth == kMargin + 2 * (kRadius + kBall));
   const ImVec2 middle = {area.max.x - kMargin - kRadius - kBall, area.min.y + kMargin + kRadius + kBall};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Camera camera = ui.studio.viewport().pane_camera();

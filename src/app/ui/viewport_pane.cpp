@@ -211,9 +211,14 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     pane_label(ui, {area.min.x + 12, top}, label);
   }
   const float below_label = panes == 2 || mode_label(studio) ? 40.0f : 0.0f;
-  if (const auto rect = offer_line(ui, {area.min.x + 12, top + below_label})) covered.push_back(*rect);
-  if (const auto rect = nearer_line(ui, {area.min.x + 12, top + below_label})) covered.push_back(*rect);
-  covered.push_back(axes_gizmo(ui, {{area.min.x, area.min.y + covered_top(ui)}, area.max}));
+  float above_axes = area.min.y + covered_top(ui);
+  for (const auto& line : {offer_line(ui, {area.min.x + 12, top + below_label}),
+                           nearer_line(ui, {area.min.x + 12, top + below_label})}) {
+    if (!line) continue;
+    covered.push_back(*line);
+    if (line->max.x > area.max.x - kAxesWidth) above_axes = line->max.y;
+  }
+  covered.push_back(axes_gizmo(ui, {{area.min.x, above_axes}, area.max}));
   if (const auto rect = first_run_hint(ui, area, bottom)) {
     covered.push_back(*rect);
     if (rect->max.y > 0.5f * (area.min.y + area.max.y))

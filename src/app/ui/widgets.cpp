@@ -102,6 +102,28 @@ void muted_text(UiContext& ui, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+ButtonRow::ButtonRow(std::initializer_list<const char*> labels) {
+  constexpr float kSpacing = 4;
+  const float all = ImGui::GetContentRegionAvail().x, count = static_cast<float>(labels.size());
+  width_ = (all - kSpacing * (count - 1)) / count;
+  const auto fits = [&](const char* label) {
+    return ImGui::CalcTextSize(label, nullptr, true).x + ImGui::GetStyle().FramePadding.x <= width_;
+  };
+  beside_ = std::ranges::all_of(labels, fits);
+  if (!beside_) width_ = all;
+}
+
+float ButtonRow::next() {
+  if (std::exchange(begun_, true) && beside_) ImGui::SameLine(0, 4);
+  return width_;
+}
+
+void same_line_if_fits(const char* label, float spacing) {
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x,
+              width = ImGui::CalcTextSize(label, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x;
+  if (ImGui::GetItemRectMax().x + spacing + width <= right) ImGui::SameLine(0, spacing);
+}
+
 void wrapped_muted(UiContext& ui, const std::string& text) {
   ImGui::PushTextWrapPos(0);
   muted_text(ui, text);

@@ -36,6 +36,18 @@ inline constexpr ImGuiSliderFlags kTypedLength =
 
 bool tolerance_slider(float* share);  // of colours, in percent; true where it changed
 
+// Equal buttons in a row, or each in a row of its own where some label does not fit.
+class ButtonRow {
+ public:
+  explicit ButtonRow(std::initializer_list<const char*> labels);
+  float next();  // width of the next button, which comes into its place
+
+ private:
+  float width_ = 0;
+  bool beside_ = true, begun_ = false;
+};
+void same_line_if_fits(const char* label, float spacing);  // for a button with the label
+
 void tooltip(const std::string& text);  // of the last item
 void muted_text(UiContext& ui, const std::string& text);
 void wrapped_muted(UiContext& ui, const std::string& text);

@@ -240,3 +240,31 @@ TEST_CASE("ui: the address of a file that is dragged out is one that other progr
   CHECK(file_uri("/a b/ä%.ply") == "file:///a%20b/%C3%A4%25.ply");
   CHECK(file_uri("/plain-1_2.~/x.ply") == "file:///plain-1_2.~/x.ply");
 }
+
+TEST_CASE("ui: in a window of 640 by 480 the panel takes a third and cuts no button off") {
+  constexpr float kWidth = 640, kHeight = 480;
+  HeadlessApp app(static_cast<int>(kWidth), static_cast<int>(kHeight));
+  app.interface_state().hint_wanted = false;
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.click(app.screen_of(kOnApple));
+  REQUIRE(app.settle());
+  const float side = app->interface().viewport().max.x;
+  CHECK(kWidth - side <= kWidth / 3 + 1);
+  for (const char* title : {"Repair by hand", "View", "Files"}) app.press_item("side/scroll", {title});
+  app.frames(2);
+  std::size_t seen = 0;
+  for (const ShownItem& item : app.interface_state().items) {
+    if (item.name == "picture") continue;
+    CAPTURE(item.name);
+    CHECK(item.max.x <= kWidth);
+    seen += item.min.x >= side;
+  }
+  CHECK(seen > 20);  // of all sections
+  app.press_item("side/scroll", {"Files"});
+  app.key(key::kF1);
+  app.frames(2);
+  const UiRect page = app.window("Keys and pointer");
+  CHECK(page.max.x <= kWidth);
+  CHECK(page.max.y <= kHeight);
+}
