@@ -242,9 +242,11 @@ void Clicks::make_ready() {
   const glm::vec2 middle_px = 0.5f * glm::vec2(camera.width_px, camera.height_px);
   const bool for_pointer = hover_ && ready_.pointer_px != hover_->pixel;
   std::optional<glm::vec2>& last_px = for_pointer ? ready_.pointer_px : ready_.middle_px;
-  const glm::vec2 at_px = for_pointer ? hover_->pixel : middle_px;
-  if (last_px == at_px) return;
-  last_px = at_px;
+  const glm::vec2 place_px = for_pointer ? hover_->pixel : middle_px;
+  if (last_px == place_px) return;
+  last_px = place_px;
+  const glm::vec2 at_px =
+      for_pointer ? ws_.tools.pointer_px() : middle_px;  // as the hover asked and a click would
   if (!viewport_.pick(at_px)) return;
   CameraStroke stroke{camera, click(at_px, SeedLabel::kObject), viewport_.seen(0)};
   stroke.stroke.radius_px *= viewport_.pixels_per_point();

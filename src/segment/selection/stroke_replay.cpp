@@ -73,16 +73,20 @@ std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, 
 const ClickSelection& StrokeReplay::replay(const Drawer& drawer, std::span<const CameraStroke> strokes,
                                            const ReplayOptions& options, const Job& job) {
   const std::vector<CameraStroke> order = in_replay_order(strokes);
+  if (options != options_) {
+    done_.clear();
+    after_.clear();
+    options_ = options;
+  }
   std::size_t same = 0;
-  if (options == options_)
-    while (same < std::min(order.size(), done_.size()) && same_stroke(order[same], done_[same])) ++same;
+  while (same < std::min(order.size(), done_.size()) && same_stroke(order[same], done_[same])) ++same;
   if (same > 0 && !after_[same - 1]) same = 0;
-  options_ = options;
+  last_ = same > 0
+              ? after_[same - 1]
+              : std::make_shared<ClickSelection>(parts_, options.model, options.part_step, options.choice);
+  if (same == order.size()) return *last_;  // what was replayed after that stays known
   done_.resize(same);
   after_.resize(same);
-  last_ = same > 0
-              ? after_.back()
-              : std::make_shared<ClickSelection>(parts_, options.model, options.part_step, options.choice);
   for (std::size_t i = same; i < order.size(); ++i) {
     auto next = after(drawer, *last_, order[i], job);
     if (!next) break;  // cancelled
