@@ -4,9 +4,9 @@
 set(quick_labels
   # readers of files of others: every scene format by its name (held by scene_formats_test.cpp), cameras, the rest
   "ply" "compressed.ply" "splat" "spz" "sog" "streamed sog" "lcc" "lcc2" "rad" "glb" "ksplat"
-  "Inria cameras" "transforms" "COLMAP" "PNG" "JSON" "seeds" "suite" "work file" "prepared cache" "settings" "command line"
+  "Inria cameras" "transforms" "COLMAP" "PNG" "JSON" "seeds" "suite" "work file" "prepared cache" "settings" "command line" "jobs" "requests"
   # threads of ours, and loops of TBB that write one array
-  "task thread" "frame thread" "depth sorter" "loops"
+  "task thread" "frame thread" "depth sorter" "mailbox" "loops"
   # index arithmetic
   "max flow")
 

@@ -20,7 +20,8 @@ struct Command {
 // In the order of --help.
 constexpr std::array kCommands = {
     Command{"info", add_info_command},   Command{"render", add_render_command},
-    Command{"cut", add_cut_command},     Command{"convert", add_convert_command},
+    Command{"cut", add_cut_command},     Command{"batch", add_batch_command},
+    Command{"serve", add_serve_command}, Command{"convert", add_convert_command},
     Command{"merge", add_merge_command}, Command{"compare", add_compare_command},
     Command{"view", add_view_command}};
 

@@ -29,6 +29,20 @@ void write_pixels(const std::filesystem::path& path, const void* pixels, int wid
   file.commit();
 }
 
+std::string bytes_of(const void* pixels, int width, int height, png_uint_32 format) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(width);
+  png.height = static_cast<png_uint_32>(height);
+  png.format = format;
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(png), '\0');
+  png_alloc_size_t size = bytes.size();
+  if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, nullptr))
+    throw Error("picture", fmt::format("cannot be written as PNG ({})", png.message));
+  bytes.resize(size);
+  return bytes;
+}
+
 template <class Pixel>
 Image<Pixel> read_pixels(const std::filesystem::path& path, png_uint_32 format) {
   constexpr png_uint_32 kMaxSide = 1 << 15;
@@ -75,6 +89,14 @@ void write_png(const std::filesystem::path& path, const Image<std::uint8_t>& gre
 
 void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& grey16) {
   write_pixels(path, grey16.data(), grey16.width(), grey16.height(), PNG_FORMAT_LINEAR_Y);
+}
+
+std::string png_bytes(const Image<Rgb8>& image) {
+  return bytes_of(image.data(), image.width(), image.height(), PNG_FORMAT_RGB);
+}
+
+std::string png_bytes(const Image<Rgba8>& image) {
+  return bytes_of(image.data(), image.width(), image.height(), PNG_FORMAT_RGBA);
 }
 
 Image<Rgb8> read_png_rgb(const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <string>
 
 #include "core/image.h"
 
@@ -13,6 +14,10 @@ void write_png(const std::filesystem::path& path, const Image<Rgb8>& image);
 void write_png(const std::filesystem::path& path, const Image<Rgba8>& image);
 void write_png(const std::filesystem::path& path, const Image<std::uint8_t>& grey);
 void write_png(const std::filesystem::path& path, const Image<std::uint16_t>& grey16);
+
+// The same bytes in memory.
+std::string png_bytes(const Image<Rgb8>& image);
+std::string png_bytes(const Image<Rgba8>& image);
 
 // Any PNG as 8-bit RGB, or as 8-bit grey. Throw Error when it is missing, no PNG or damaged.
 Image<Rgb8> read_png_rgb(const std::filesystem::path& path);

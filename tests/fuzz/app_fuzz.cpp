@@ -1,8 +1,10 @@
 // Readers above the layer `scene`: what is meant, what is kept, suites.
 #include <cstring>
 
+#include "app/cli/batch_results.h"
 #include "app/cli/cut_objects.h"
 #include "app/cli/segmenter.h"
+#include "app/cli/serve_conversation.h"
 #include "app/console/camera_options.h"
 #include "app/console/seeds_file.h"
 #include "app/lab/eval_suite.h"
@@ -37,6 +39,24 @@ const Scene& small_scene() {
   const nlohmann::json json = parse_json("seeds.json", bytes);
   for (const NamedSeeds& seeds : named_seeds_from_json(json, "seeds.json")) draw_seeds(seeds.strokes, 40, 30);
   draw_seeds(strokes_from_json(json, "seeds.json"), 40, 30);
+}
+
+[[maybe_unused]] void fuzz_jobs(std::string_view bytes) {
+  for (const BatchJob& job : jobs_of_part(read_jobs(place().write("jobs.jsonl", bytes)), 0, 2))
+    standing_result(place().folder() / job.name, job);
+}
+
+// A result that a batch left, or somebody in its place.
+[[maybe_unused]] void fuzz_result(std::string_view bytes) {
+  place().write(kResultFile, bytes);
+  BatchJob job;
+  job.asked = {{"scene", "a.ply"}};
+  if (!standing_result(place().folder(), job) && listed_files(place().folder()).is_null())
+    throw Error(kResultFile, "is no result");
+}
+
+[[maybe_unused]] void fuzz_request(std::string_view bytes) {
+  Conversation().answer(request_from(bytes), {});
 }
 
 [[maybe_unused]] void fuzz_work(std::string_view bytes) {

@@ -118,6 +118,15 @@ QUICK_CASE("PNG", "corpus: .png") {
 QUICK_CASE("seeds", "corpus: seeds") {
   check_reader("seeds", fuzz_seeds);
 }
+QUICK_CASE("jobs", "corpus: lists of jobs") {
+  check_reader("jobs", fuzz_jobs);
+}
+QUICK_CASE("jobs", "corpus: results of jobs") {
+  check_reader("result", fuzz_result);
+}
+QUICK_CASE("requests", "corpus: requests to serve") {
+  check_reader("request", fuzz_request);
+}
 QUICK_CASE("suite", "corpus: suites") {
   check_reader("suite", fuzz_suite);
 }

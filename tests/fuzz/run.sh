@@ -7,7 +7,7 @@ seconds=${1:?how many seconds each}
 shift
 readers=("$@")
 [ ${#readers[@]} -gt 0 ] || readers=(ply splat spz sog sog_text streamed_sog_text glb gltf lcc lcc2 rad ksplat json_cameras colmap_bin colmap_txt png picture cache seeds work suite
-  words)
+  words jobs result request)
 at="the build"
 # Ended by a signal or a command that failed, it must not look as if nothing had been found.
 trap '[ "$at" = "the end" ] || echo "run.sh stopped in $at: not all readers were tried" >&2' EXIT
@@ -22,7 +22,7 @@ for reader in "${readers[@]}"; do
   mkdir -p "grown/$reader"
   case $reader in
     ply) dict=ply ;;
-    json_cameras | seeds | work | suite | sog_text | streamed_sog_text | gltf | lcc | lcc2 | rad) dict=json ;;
+    json_cameras | seeds | result | request | work | suite | sog_text | streamed_sog_text | gltf | lcc | lcc2 | rad) dict=json ;;
     *) dict= ;;
   esac
   most=4096

@@ -10,6 +10,8 @@ void add_render_command(CLI::App& program, const CommonOptions& common);
 void add_convert_command(CLI::App& program, const CommonOptions& common);
 void add_merge_command(CLI::App& program, const CommonOptions& common);
 void add_cut_command(CLI::App& program, const CommonOptions& common);
+void add_batch_command(CLI::App& program, const CommonOptions& common);
+void add_serve_command(CLI::App& program, const CommonOptions& common);
 void add_compare_command(CLI::App& program, const CommonOptions& common);
 void add_view_command(CLI::App& program, const CommonOptions& common);
 

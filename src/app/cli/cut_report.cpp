@@ -28,7 +28,7 @@ std::size_t gaussians_of(const CutObject& object) {
 }
 
 // Views, cut and stages of an object.
-json cut_json(const CutResult& result, const std::vector<StageTime>& times) {
+json cut_json(const CutResult& result, const std::vector<StageTime>& times, bool with_times) {
   json views = json::array(), stages = json::array();
   for (const ViewReport& view : result.views) {
     views.push_back({{"used", view.used}, {"confidence", view.confidence}, {"mask_px", count(view.mask)}});
@@ -36,24 +36,25 @@ json cut_json(const CutResult& result, const std::vector<StageTime>& times) {
   }
   for (const StageTime& stage : times) stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
   const LookedAt enough = looked_at(result.views);
-  return {{"views", views},
-          {"enough",
-           {{"views", enough.views},
-            {"pixels", enough.pixels},
-            {"gaussians", result.cut.touched},
-            {"why", result.why_enough}}},
-          {"cut",
-           {{"nodes", result.cut.nodes},
-            {"arcs", result.cut.arcs},
-            {"energy", result.cut.energy},
-            {"flow", result.cut.flow}}},
-          {"doubts", doubts(result)},
-          {"stages", stages}};
+  json out = {{"views", views},
+              {"enough",
+               {{"views", enough.views},
+                {"pixels", enough.pixels},
+                {"gaussians", result.cut.touched},
+                {"why", result.why_enough}}},
+              {"cut",
+               {{"nodes", result.cut.nodes},
+                {"arcs", result.cut.arcs},
+                {"energy", result.cut.energy},
+                {"flow", result.cut.flow}}},
+              {"doubts", doubts(result)}};
+  if (with_times) out["stages"] = stages;
+  return out;
 }
 
-json entry_json(const CutObject& object, const EdgesReport& edges, std::size_t index) {
+json entry_json(const CutObject& object, const EdgesReport& edges, std::size_t index, bool times) {
   const ObjectFiles files = files_of(object);
-  json entry = cut_json(object.result, object.result.stages);
+  json entry = cut_json(object.result, object.result.stages, times);
   entry.update({{"name", object.name},
                 {"index", index},
                 {"file", files.scene},
@@ -61,7 +62,7 @@ json entry_json(const CutObject& object, const EdgesReport& edges, std::size_t i
                 {"camera", object.camera.name},
                 {"gaussians", gaussians_of(object)},
                 {"left_to_later", object.found - gaussians_of(object)},
-                {"edges", edges.json()},
+                {"edges", edges.json(times)},
                 {"ambiguous", object.result.ambiguous}});
   return entry;
 }
@@ -88,32 +89,29 @@ json report_json(const RunReport& report) {
                {{"gaussians", scene.cloud.size()},
                 {"file_rows", scene.file_rows},
                 {"dropped", scene.dropped},
-                {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}}}},
-              {"total_ms", report.total_ms},
-              {"peak_rss_mb", peak_rss_mb()}};
+                {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}}}}};
+  if (report.times) out.update({{"total_ms", report.total_ms}, {"peak_rss_mb", peak_rss_mb()}});
   if (report.of_one()) {
     const CutObject& object = report.objects.front();
-    out.update(cut_json(object.result, stages_of_one(report)));
-    out.update({{"object", {{"gaussians", gaussians_of(object)}}}, {"edges", report.edges.front().json()}});
+    out.update(cut_json(object.result, stages_of_one(report), report.times));
+    out.update({{"object", {{"gaussians", gaussians_of(object)}}},
+                {"edges", report.edges.front().json(report.times)}});
     return out;
   }
-  out.update({{"objects", json::array()},
-              {"rest", {{"gaussians", report.rest}}},
-              {"stages", {{{"name", "load"}, {"ms", report.load_ms}}}}});
+  out.update({{"objects", json::array()}, {"rest", {{"gaussians", report.rest}}}});
+  if (report.times) out["stages"] = {{{"name", "load"}, {"ms", report.load_ms}}};
   for (std::size_t o = 0; o < report.objects.size(); ++o)
-    out["objects"].push_back(entry_json(report.objects[o], report.edges[o], o + 1));
+    out["objects"].push_back(entry_json(report.objects[o], report.edges[o], o + 1, report.times));
   return out;
 }
 
-std::string summary(const RunReport& report, const std::string& folder) {
+std::string summary(const RunReport& report) {
   const std::size_t all = report.scene.cloud.size();
   std::string text;
   if (!report.of_one()) {
     for (const CutObject& o : report.objects)
       text += fmt::format("{}: {} of {} Gaussians\n", files_of(o).scene, gaussians_of(o), all);
-    return text + folder +
-           ": NAME.ply NAME.labels.u8 NAME.png NAME.tint.png NAME.masks.png of each, rest.ply rest.png "
-           "labels.u8 report.json\n";
+    return text;
   }
   text = fmt::format("{} of {} Gaussians cut out in {:.0f} ms\n", gaussians_of(report.objects.front()), all,
                      report.total_ms);
@@ -121,8 +119,7 @@ std::string summary(const RunReport& report, const std::string& folder) {
     text += fmt::format("edges are kept: {}\n", why);
   for (const StageTime& stage : stages_of_one(report))
     text += fmt::format("  {:<16} {:8.0f} ms\n", stage.name, stage.ms);
-  return text + folder +
-         ": object.ply rest.ply labels.u8 object.png rest.png tint.png masks.png report.json\n";
+  return text;
 }
 
 }  // namespace splatcut

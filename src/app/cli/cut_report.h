@@ -18,6 +18,7 @@ struct RunReport {
   std::vector<EdgesReport> edges = {};    // of each object
   std::size_t rest = 0;                   // Gaussians
   double load_ms = 0, total_ms = 0;       // the time that writing takes does not count
+  bool times = true;                      // milliseconds and memory are told
 
   bool of_one() const { return objects.size() == 1 && objects.front().name.empty(); }
 };
@@ -25,7 +26,6 @@ struct RunReport {
 ObjectFiles files_of(const CutObject& object);
 
 nlohmann::json report_json(const RunReport& report);
-// Lines on the objects and their files. folder: the one that the files are in.
-std::string summary(const RunReport& report, const std::string& folder);
+std::string summary(const RunReport& report);  // lines on the objects
 
 }  // namespace splatcut

@@ -17,15 +17,6 @@ namespace splatcut {
 
 namespace {
 
-// The cutout on nothing.
-void write_cutout_picture(const std::filesystem::path& path, const Drawer& scene, const Camera& camera,
-                          std::span<const std::uint8_t> shown) {
-  RasterOptions options;
-  options.shown = shown;
-  const RasterOutput out = scene.draw(camera, options);
-  write_png(path, rgba8_from_premultiplied(out.colour, out.alpha));
-}
-
 // The mask in warm orange over the dimmed picture, with a bright outline.
 void tint(const Mask& mask, Image<Rgb8>* picture) {
   const Mask core = eroded(mask, 1);
@@ -39,7 +30,7 @@ void tint(const Mask& mask, Image<Rgb8>* picture) {
   }
 }
 
-Image<Rgb8> tinted_view(const Drawer& scene, const Camera& camera, const Mask& mask) {
+Image<Rgb8> tinted_by_mask(const Drawer& scene, const Camera& camera, const Mask& mask) {
   Image<Rgb8> picture = rgb8_from_linear(scene.draw(camera, {}).colour);
   tint(mask, &picture);
   return picture;
@@ -54,7 +45,7 @@ Image<Rgb8> contact_sheet(const Drawer& scene, const std::vector<ViewReport>& vi
   Image<Rgb8> sheet(columns * (width + kGap) - kGap, rows * (height + kGap) - kGap, Rgb8{24, 24, 24});
   for (std::size_t v = 0; v < views.size(); ++v) {
     const ViewReport& view = views[v];
-    const Image<Rgb8> picture = tinted_view(scene, view.camera, view.mask);
+    const Image<Rgb8> picture = tinted_by_mask(scene, view.camera, view.mask);
     const int x0 = static_cast<int>(v) % columns * (width + kGap),
               y0 = static_cast<int>(v) / columns * (height + kGap);
     for (int y = 0; y < std::min(height, picture.height()); ++y)
@@ -69,31 +60,46 @@ Image<Rgb8> contact_sheet(const Drawer& scene, const std::vector<ViewReport>& vi
   return sheet;
 }
 
-// A byte for each row of the file, 0 for rows that the cloud lacks.
-void write_labels(const std::filesystem::path& path, const Scene& scene,
-                  const std::vector<std::uint8_t>& labels) {
-  std::vector<std::uint8_t> in_file_order(scene.file_rows, 0);
-  for (std::size_t g = 0; g < labels.size(); ++g) in_file_order[scene.cloud.file_row[g]] = labels[g];
-  AtomicFile file(path);
-  file.write(std::as_bytes(std::span(in_file_order)));
-  file.commit();
+// The header of a numpy array of bytes, version 1.0 of the format: magic, version, length, a dictionary of
+// Python, and blanks up to a line's end, 64 bytes or a multiple of them in all.
+std::string npy_header(std::size_t count) {
+  constexpr std::size_t kAlignment = 64;
+  const std::string magic("\x93NUMPY\x01\0", 8);
+  std::string text = "{'descr': '|u1', 'fortran_order': False, 'shape': (" + std::to_string(count) + ",), }";
+  const std::size_t length = magic.size() + 2 + text.size() + 1;
+  text.append((kAlignment - length % kAlignment) % kAlignment, ' ');
+  text += '\n';
+  const auto low = static_cast<char>(text.size() & 0xff), high = static_cast<char>(text.size() >> 8);
+  return magic + low + high + text;
 }
 
 }  // namespace
 
-void EdgeOptions::add_to(CLI::App& command) {
+void CutoutOptions::add_to(CLI::App& command) {
   command
       .add_option("--edges", edges,
                   "clean: the object without what the scene around it had hidden, where its views agree; "
                   "keep: its rows as they are")
       ->check(CLI::IsMember({"clean", "keep"}))
       ->capture_default_str();
+  command
+      .add_option("--write", write,
+                  "Which files: object, rest, labels, npy (labels.npy for numpy), pictures; several with "
+                  "commas. Without it: all but npy")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"object", "rest", "labels", "npy", "pictures"}));
 }
 
-nlohmann::json EdgesReport::json() const {
+bool CutoutOptions::writes(std::string_view what) const {
+  return std::ranges::find(write, what) != write.end();
+}
+
+nlohmann::json EdgesReport::json(bool times) const {
   nlohmann::json json = {{"edges", clean && clean->cleaned ? "clean" : "keep"}, {"gaussians", gaussians}};
   if (!clean) return json;
-  json.update({{"views", clean->views}, {"agreed", clean->agreed}, {"ms", ms}});
+  json.update({{"views", clean->views}, {"agreed", clean->agreed}});
+  if (times) json["ms"] = ms;
   if (!clean->cleaned) {
     json["why_kept"] = clean->reason;
     return json;
@@ -114,11 +120,38 @@ ObjectFiles files_of_only_object() {
   return {"object.ply", "", "object.png", "tint.png", "masks.png"};
 }
 
+Image<Rgba8> cutout_picture(const Drawer& scene, const Camera& camera, std::span<const std::uint8_t> shown) {
+  RasterOptions options;
+  options.shown = shown;
+  const RasterOutput out = scene.draw(camera, options);
+  return rgba8_from_premultiplied(out.colour, out.alpha);
+}
+
+Image<Rgb8> tinted_picture(const Drawer& scene, const Camera& camera,
+                           const std::vector<std::uint8_t>& labels) {
+  return tinted_by_mask(scene, camera, thresholded(render_labels(scene, camera, labels), 0.5f));
+}
+
+std::string labels_in_file_order(const Scene& scene, const std::vector<std::uint8_t>& labels) {
+  std::string bytes(scene.file_rows, '\0');
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    bytes[scene.cloud.file_row[g]] = static_cast<char>(labels[g]);
+  return bytes;
+}
+
+void write_labels(const std::filesystem::path& path, const Scene& scene,
+                  const std::vector<std::uint8_t>& labels) {
+  const std::string bytes = labels_in_file_order(scene, labels);
+  write_text_file(path, path.extension() == ".npy" ? npy_header(bytes.size()) + bytes : bytes);
+}
+
 EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
                          const std::vector<std::uint8_t>& labels, const ObjectView* shown, const Job& job) {
+  const bool scene = to.options.writes("object"), pictures = shown && to.options.writes("pictures");
   EdgesReport report;
+  report.gaussians = static_cast<std::size_t>(std::ranges::count(labels, 1));
   std::optional<CleanObject> clean;
-  if (to.edges.clean()) {
+  if (to.options.clean() && (scene || pictures)) {
     const auto start = std::chrono::steady_clock::now();
     clean = clean_object({to.drawer(), labels, to.up_world, to.cameras}, {}, job);
     report.ms = ms_since(start);
@@ -126,15 +159,17 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
     if (!clean->report.cleaned) clean.reset();
   }
   if (job.cancelled()) return report;
-  report.gaussians = save_gaussians(to.folder.file(files.scene), to.scene, labels,
-                                    clean ? &clean->cloud : nullptr, SceneFormat::kPly)
-                         .gaussians;
-  if (!files.labels.empty()) write_labels(to.folder.file(files.labels), to.scene, labels);
-  if (!shown) return report;
-  write_cutout_picture(to.folder.file(files.picture), clean ? Drawer(clean->cloud) : to.drawer(),
-                       shown->camera, clean ? std::span<const std::uint8_t>() : labels);
-  const Mask seen = thresholded(render_labels(to.drawer(), shown->camera, labels), 0.5f);
-  write_png(to.folder.file(files.tint), tinted_view(to.drawer(), shown->camera, seen));
+  if (scene)
+    report.gaussians = save_gaussians(to.folder.file(files.scene), to.scene, labels,
+                                      clean ? &clean->cloud : nullptr, SceneFormat::kPly)
+                           .gaussians;
+  if (!files.labels.empty() && to.options.writes("labels"))
+    write_labels(to.folder.file(files.labels), to.scene, labels);
+  if (!pictures) return report;
+  write_png(to.folder.file(files.picture),
+            cutout_picture(clean ? Drawer(clean->cloud) : to.drawer(), shown->camera,
+                           clean ? std::span<const std::uint8_t>() : labels));
+  write_png(to.folder.file(files.tint), tinted_picture(to.drawer(), shown->camera, labels));
   write_png(to.folder.file(files.masks), contact_sheet(to.drawer(), shown->views));
   return report;
 }
@@ -143,11 +178,14 @@ std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& 
   std::vector<std::uint8_t> rest(owner.size());
   std::ranges::transform(owner, rest.begin(),
                          [](std::uint8_t o) { return static_cast<std::uint8_t>(o == 0); });
-  const SaveReport saved =
-      save_scene(to.folder.file("rest.ply"), to.scene, rest, SceneFormat::kPly, {.may_be_empty = true});
-  write_cutout_picture(to.folder.file("rest.png"), to.drawer(), camera, rest);
-  write_labels(to.folder.file("labels.u8"), to.scene, owner);
-  return saved.gaussians;
+  if (to.options.writes("rest")) {
+    save_scene(to.folder.file("rest.ply"), to.scene, rest, SceneFormat::kPly, {.may_be_empty = true});
+    if (to.options.writes("pictures"))
+      write_png(to.folder.file("rest.png"), cutout_picture(to.drawer(), camera, rest));
+  }
+  if (to.options.writes("labels")) write_labels(to.folder.file("labels.u8"), to.scene, owner);
+  if (to.options.writes("npy")) write_labels(to.folder.file("labels.npy"), to.scene, owner);
+  return static_cast<std::size_t>(std::ranges::count(rest, 1));
 }
 
 }  // namespace splatcut

@@ -6,9 +6,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/console/output_folder.h"
+#include "core/image.h"
 #include "scene/formats/scene_file.h"
 #include "scene/raster/projected_view.h"
 #include "segment/finish/clean.h"
@@ -20,11 +22,13 @@ class App;
 
 namespace splatcut {
 
-struct EdgeOptions {
+struct CutoutOptions {
   std::string edges = "clean";
+  std::vector<std::string> write = {"object", "rest", "labels", "pictures"};
 
   void add_to(CLI::App& command);  // which must not outlive this
   bool clean() const { return edges == "clean"; }
+  bool writes(std::string_view what) const;
 };
 
 // What was done to the edges of an object.
@@ -34,7 +38,7 @@ struct EdgesReport {
   double ms = 0;
 
   std::string why_kept() const { return clean && !clean->cleaned ? clean->reason : std::string(); }
-  nlohmann::json json() const;  // {"edges": "clean" or "keep", ...}
+  nlohmann::json json(bool times = true) const;  // {"edges": "clean" or "keep", ...}
 };
 
 // The scene that objects are written of, and the folder that they are written to.
@@ -44,7 +48,7 @@ struct CutoutFolder {
   const CloudBlocks& blocks;  // of the scene
   glm::vec3 up_world;         // of the scene, as are the cameras of its capture
   std::span<const Camera> cameras;
-  const EdgeOptions& edges;
+  const CutoutOptions& options;
 
   Drawer drawer() const { return {scene.cloud, nullptr, &blocks}; }
 };
@@ -62,14 +66,26 @@ struct ObjectView {
   const std::vector<ViewReport>& views;  // drawn side by side
 };
 
+// What is shown of the scene on nothing. shown: per Gaussian, 1 = shown; empty: all.
+Image<Rgba8> cutout_picture(const Drawer& scene, const Camera& camera, std::span<const std::uint8_t> shown);
+// The object in warm orange over the dimmed scene.
+Image<Rgb8> tinted_picture(const Drawer& scene, const Camera& camera,
+                           const std::vector<std::uint8_t>& labels);
+
+// A byte for each row of the file that the scene was read from, 0 for rows that the scene lacks. A path that
+// ends with .npy holds them as numpy does, else the bytes alone.
+std::string labels_in_file_order(const Scene& scene, const std::vector<std::uint8_t>& labels);
+void write_labels(const std::filesystem::path& path, const Scene& scene,
+                  const std::vector<std::uint8_t>& labels);
+
 // labels: per Gaussian, 1 = object. shown: null where no picture is written. The scene's file holds the
 // object with clean edges where these are asked for and can be had, else its rows as they are. Throws Error
 // as save_scene() does. Cancelled: files are missing.
 EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
                          const std::vector<std::uint8_t>& labels, const ObjectView* shown, const Job& job);
 
-// rest.ply (without Gaussians where all are an object's), rest.png from `camera`, and labels.u8: `owner` in
-// file order. Returns the number of Gaussians of the rest.
+// rest.ply (without Gaussians where all are an object's), rest.png from `camera`, labels.u8 and labels.npy:
+// `owner` in file order; of these, what the options name. Returns the number of Gaussians of the rest.
 std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner, const Camera& camera);
 
 }  // namespace splatcut

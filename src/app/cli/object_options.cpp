@@ -14,10 +14,11 @@ namespace splatcut {
 
 namespace {
 
-// The file is read once: it may be a pipe.
+// The file is read once: it may be a pipe. The text itself may stand in its place.
 void read_seeds(const std::filesystem::path& file, ObjectInput* input) {
-  const nlohmann::json seeds = json_of_file(file);
-  const std::string where = file.string();
+  const bool is_text = file.native().starts_with('{');
+  const std::string where = is_text ? "seeds" : file.string();
+  const nlohmann::json seeds = is_text ? parse_json(where, file.native()) : json_of_file(file);
   input->objects = named_seeds_from_json(seeds, where);
   if (!input->objects.empty()) return;
   input->strokes = strokes_from_json(seeds, where);
@@ -49,8 +50,8 @@ void ObjectOptions::add_to(CLI::App& command) {
       "may be repeated; clicks correct it");
   CLI::Option* by_seeds =
       command.add_option("--seeds", seeds,
-                         "JSON file with clicks, boxes and scribbles, or with several objects "
-                         "of them: what two claim is the later one's");
+                         "JSON file (or its text) with clicks, boxes and scribbles, or with several "
+                         "objects of them: what two claim is the later one's");
   CLI::Option* by_mask = command.add_option(
       "--mask", mask, "Mask of the reference view: white, alpha, any colour on black, ids (PNG, JPEG, WebP)");
   CLI::Option* by_masks = command.add_option(

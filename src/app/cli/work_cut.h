@@ -17,7 +17,7 @@ Document computed_again(const OpenedScene& scene, Document document, const Job& 
 
 struct WorkCutOptions {
   std::filesystem::path work, output;
-  EdgeOptions edges;
+  CutoutOptions cutout;
   bool overwrite = false, json = false, quiet = false;
   PreparedCache cache;
 };

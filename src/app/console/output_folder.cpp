@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "core/error.h"
@@ -113,6 +114,13 @@ OutputFolder::OutputFolder(const fs::path& path, bool overwrite)
 
 OutputFolder::~OutputFolder() {
   remove_unfinished();
+}
+
+std::vector<std::string> OutputFolder::names() const {
+  std::vector<std::string> names;
+  for (const fs::path& name : names_in(fresh_)) names.push_back(name.string());
+  std::ranges::sort(names);
+  return names;
 }
 
 std::uint64_t OutputFolder::number_in_lock() const {

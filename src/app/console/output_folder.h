@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/atomic_file.h"
 
@@ -31,6 +32,7 @@ class OutputFolder {
   ~OutputFolder();  // without commit() all is as before
 
   std::filesystem::path file(const std::string& name) const { return fresh_ / name; }
+  std::vector<std::string> names() const;  // of the files so far, in order
 
   // Throws Error where it cannot be done: a name that is a folder in OUT, for one. Nothing is lost then.
   void commit();

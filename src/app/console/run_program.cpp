@@ -68,12 +68,15 @@ class Group {
 
 }  // namespace
 
-int start_program(const std::vector<std::string>& words, int output, std::optional<pid_t> group,
-                  pid_t* child) {
+int start_program(const std::vector<std::string>& words, int output, std::optional<pid_t> group, pid_t* child,
+                  std::optional<int> input) {
   posix_spawn_file_actions_t files;
   posix_spawnattr_t attributes;
   ::posix_spawn_file_actions_init(&files);
-  ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  if (input)
+    ::posix_spawn_file_actions_adddup2(&files, *input, STDIN_FILENO);
+  else
+    ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   ::posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
   ::posix_spawnattr_init(&attributes);
   if (group) ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);

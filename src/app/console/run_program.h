@@ -11,11 +11,12 @@
 
 namespace splatcut {
 
-// Starts a program, which is looked up on PATH, with arguments; no shell reads them. It reads nothing.
-// output: descriptor that it prints to. group: process group that it joins; none: that of this process.
-// Returns errno if it cannot be started, else 0 and its process in `child`.
-int start_program(const std::vector<std::string>& words, int output, std::optional<pid_t> group,
-                  pid_t* child);
+// Starts a program, which is looked up on PATH, with arguments; no shell reads them. output: descriptor that
+// it prints to. group: process group that it joins, 0 for one of its own; none: that of this process. input:
+// descriptor that it reads from; none: it reads nothing. Returns errno if it cannot be started, else 0 and
+// its process in `child`.
+int start_program(const std::vector<std::string>& words, int output, std::optional<pid_t> group, pid_t* child,
+                  std::optional<int> input = {});
 
 struct ProgramEnd {
   int start_error = 0;  // errno where it could not be started

@@ -15,7 +15,8 @@ using namespace splatcut::testing;
 
 namespace {
 
-const char* const kCommands[] = {"info", "render", "cut", "convert", "merge", "compare", "view"};
+const char* const kCommands[] = {"info",    "render", "cut",     "batch", "serve",
+                                 "convert", "merge",  "compare", "view"};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

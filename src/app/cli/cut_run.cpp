@@ -1,0 +1,161 @@
+#include "app/cli/cut_run.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+
+#include "app/cli/cut_report.h"
+#include "app/console/console.h"
+#include "app/console/kept_inputs.h"
+#include "app/console/setting_options.h"
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/json_file.h"
+#include "core/stage_clock.h"
+#include "segment/session/settings_table.h"
+
+namespace splatcut {
+
+namespace {
+
+nlohmann::json settings_json(const CutArguments& args, const ObjectInput& input, const ChosenCamera& chosen,
+                             const CutSettings& settings) {
+  nlohmann::json said = {
+      {"preset", args.preset},
+      {"reference", chosen.camera.name},
+      {"views", settings.orbit.views},
+      {"work_width_px", settings.work_width_px},
+      {"neighbours", settings.neighbours},
+      {"lambda", settings.last_lambda()},
+      {"set", args.set},
+      {"coarse", settings.cut.coarse},
+      {"first_mask", args.masks.first_mask.empty() ? "as the preset" : args.masks.first_mask},
+      {"scale", args.scale},
+      {"parts_only", settings.parts_only},
+      {"values", values_json(settings)}};
+  if (!input.mask.empty()) said["mask"] = input.mask.string();
+  if (!input.masks_folder.empty()) said["masks"] = input.masks_folder.string();
+  if (input.segmenter) said.update({{"text", input.segmenter->text}, {"segmenter", input.segmenter->words}});
+  return said;
+}
+
+// The request of the options, or that of each object of --seeds.
+std::vector<CutObject> objects_of(const CutArguments& args, const ObjectInput& input, const Scene& scene,
+                                  const CutRunOptions& options, const Job& job, ChosenCamera* chosen) {
+  RequestRemarks remarks;
+  CutRequest request = request_of(input, args.camera, scene.cloud, job, chosen, &remarks);
+  if (!remarks.understood.empty() && !options.quiet) {
+    end_progress();
+    to_stderr(remarks.understood + "\n");
+  }
+  for (const std::string& remark : remarks.warnings) options.warn(remark);
+  stop_if_cancelled(job, "splatcut cut");
+  std::vector<CutObject> objects = objects_of(input.objects, *chosen, args.camera);
+  if (objects.empty()) objects.push_back({{}, std::move(request), chosen->camera, {}});
+  for (CutObject& object : objects) {
+    object.request.part_step = args.scale;
+    check_inside(object.request);
+  }
+  return objects;
+}
+
+std::vector<EdgesReport> write_cutouts(const CutoutFolder& to, const std::vector<CutObject>& objects,
+                                       const Job& job) {
+  std::vector<EdgesReport> edges;
+  for (const CutObject& object : objects) {
+    const ObjectView shown{object.camera, object.result.views};
+    edges.push_back(write_object(to, files_of(object), object.result.labels, &shown, job));
+    end_progress();
+    stop_if_cancelled(job, "splatcut cut");
+  }
+  return edges;
+}
+
+}  // namespace
+
+void CutArguments::add_to(CLI::App& command) {
+  command.add_option("scene", scene, "Scene file");
+  how.add_to(command);
+  camera.add_to(command);
+  object.add_to(command);
+  cutout.add_to(command);
+  masks.add_to(command, false);
+  command.get_option("--parts-only")->excludes("--masks");
+  command.add_option("--smoothness", smoothness,
+                     "Weight of the neighbour term in the last cut, 0 to 500: as the window's slider");
+  command
+      .add_option("--scale", scale,
+                  "Next larger (+1, +2, ...) or smaller (-1, ...) part for the first click or box")
+      ->check(CLI::Range(-100, 100));
+  add_setting_options(command, &preset, &set);
+  command.add_flag("--coarse", coarse, "Threshold the likelihood instead of the cut");
+}
+
+CutSettings CutArguments::settings() const {
+  CutSettings settings = splatcut::preset(preset);
+  if (smoothness) set_setting("smoothness", fmt::format("{}", *smoothness), &settings);
+  settings.cut.coarse = coarse;
+  masks.apply(&settings);
+  for (const std::string& assignment : set) set_setting(assignment, &settings);
+  return settings;
+}
+
+std::vector<std::filesystem::path> CutArguments::inputs() const {
+  return {scene, camera.cameras, object.seeds, object.mask, object.masks_folder};
+}
+
+std::string CutArguments::scene_key() const {
+  return json_text({scene.string(), how.spz_axes, how.lod.value_or(0), camera.cameras.string(), camera.up});
+}
+
+SharedScene::SharedScene(const CutArguments& args, PreparedCache cache, bool quiet, const Job& job)
+    : key_(args.scene_key()), cache_(std::move(cache)) {
+  const auto start = std::chrono::steady_clock::now();
+  scene_ = std::make_shared<const Scene>(args.how.load(args.scene, args.camera.cameras, quiet, job));
+  load_ms_ = ms_since(start);
+}
+
+Session& SharedScene::session(const ChosenCamera& chosen) {
+  if (!session_)
+    session_.emplace(SessionScene{.cloud = {scene_, &scene_->cloud},
+                                  .up_world = chosen.up_world,
+                                  .photographs = chosen.given,
+                                  .prepare = {.observing = {}, .model = {}, .cache = cache_}});
+  return *session_;
+}
+
+CutRun run_cut_in(SharedScene* shared, const CutArguments& args, const ObjectInput& input,
+                  const OutputFolder& folder, const CutRunOptions& options, const Job& job) {
+  const auto start = std::chrono::steady_clock::now();
+  const Scene& scene = shared->scene();
+  ChosenCamera chosen = choose_camera(args.camera, scene.cloud, scene.origin);
+  if (!chosen.warning.empty()) options.warn(chosen.warning);
+  const CutSettings settings = args.settings();
+  if (input.segmenter) end_progress();  // the program prints to the same place
+  std::vector<CutObject> objects = objects_of(args, input, scene, options, job, &chosen);
+  const nlohmann::json said = settings_json(args, input, chosen, settings);
+  Session& session = shared->session(chosen);
+  const std::vector<std::uint8_t> owner = cut_objects(&objects, &session, settings, job);
+  end_progress();
+  stop_if_cancelled(job, "splatcut cut");
+  RunReport report{scene,
+                   said,
+                   objects,
+                   {},
+                   0,
+                   shared->load_ms(),
+                   shared->load_ms() + ms_since(start),
+                   options.times};
+  const CutoutFolder to{folder, scene, session.blocks(), chosen.up_world, chosen.given, args.cutout};
+  report.edges = write_cutouts(to, objects, job);
+  for (const EdgesReport& edges : report.edges) report.total_ms += edges.ms;
+  report.rest = write_rest(to, owner, chosen.camera);
+  if (report.rest == 0) options.warn("the cut takes the whole scene: the rest holds no Gaussians");
+  CutRun run{report_json(report), summary(report), std::move(objects)};
+  write_text_file(folder.file("report.json"), json_text(run.report, 2) + "\n");
+  stop_if_cancelled(job, "splatcut cut");
+  return run;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,289 @@
+// A conversation with `splatcut serve`: the same objects as `cut`, a reply a request, nothing else on stdout.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "cut_program.h"
+
+using namespace splatcut::testing;
+using nlohmann::json;
+
+namespace {
+
+json request(const char* what, json fields = json::object()) {
+  fields["do"] = what;
+  return fields;
+}
+
+struct Said {
+  int code = 0;
+  std::string err;
+  std::map<json, json> replies;  // by id, which is the number of the request's line
+  std::size_t lines = 0, progress = 0;
+};
+
+// `feed`: shell commands that write the requests.
+Said heard(const std::string& feed) {
+  const Workplace& place = still_life().place;
+  place.write("talk.sh", "(" + feed + ") | " + splatcut_program() + " serve\n");
+  const Result result = place.run_program("/bin/bash", "talk.sh");
+  Said said{result.code, result.err, {}};
+  std::istringstream in(result.out);
+  for (std::string line; std::getline(in, line);) {
+    const json reply = json::parse(line);  // throws where a line is something else
+    if (reply.contains("progress")) {
+      ++said.progress;
+      continue;
+    }
+    ++said.lines;
+    REQUIRE(reply.contains("id"));
+    REQUIRE(reply["ok"].is_boolean());
+    CHECK(reply.contains("error") != reply["ok"].get<bool>());
+    if (!reply["id"].is_null()) CHECK(said.replies.emplace(reply["id"], reply).second);
+  }
+  return said;
+}
+
+Said talk(const std::vector<json>& requests) {
+  std::string lines;
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    json numbered = requests[i];
+    numbered["id"] = i;
+    lines += numbered.dump() + "\n";
+  }
+  still_life().place.write("requests.jsonl", lines);
+  return heard("cat requests.jsonl");
+}
+
+json opened() {
+  return request("open", {{"scene", still_life().scene},
+                          {"cameras", (still_life().place / "made/cameras.json").string()}});
+}
+
+json click_on(const std::string& thing, const char* label = "object") {
+  const std::string at = still_life().click_on(thing);
+  return request("click", {{"x", std::stoi(at)}, {"y", std::stoi(at.substr(at.find(',') + 1))}, {"label", label}});
+}
+
+std::string bytes_of_base64(const std::string& text) {
+  still_life().place.write("a.base64", text);
+  still_life().place.write("decode.sh", "base64 -d a.base64 >a.bytes\n");
+  REQUIRE(still_life().place.run_program("/bin/bash", "decode.sh").code == 0);
+  return still_life().place.text("a.bytes");
+}
+
+}  // namespace
+
+TEST_CASE("serve: a conversation cuts what `cut` cuts, and takes it back") {
+  const Workplace& place = still_life().place;
+  const std::string two = "--click " + still_life().click_on("apple") + " --click " + still_life().click_on("mug") + ":rest";
+  REQUIRE(place.run(still_life().cut("--click " + still_life().click_on("apple") + " -o one_click")).code == 0);
+  REQUIRE(place.run(still_life().cut("--click " + still_life().click_on("apple") + " --edges keep --write pictures -o as_is")).code == 0);
+  CHECK(place.files_in("as_is") == std::set<std::string>{"masks.png", "object.png", "report.json", "tint.png"});
+  REQUIRE(place.run(still_life().cut(two + " --edges keep -o two_clicks")).code == 0);
+  REQUIRE(place.run(still_life().cut(two + " --scale 1 -o larger")).code == 0);
+  const Said said = talk({
+      request("click", {{"x", 1}, {"y", 1}}),                                          // 0: no scene
+      opened(),                                                                        // 1
+      request("settings", {{"preset", "fast"}}),                                       // 2
+      request("labels"),                                                               // 3: no object
+      click_on("apple"),                                                               // 4
+      request("labels"),                                                               // 5
+      request("preview", {{"what", "object"}, {"path", "served.png"}}),                // 6
+      request("export", {{"path", "served.ply"}}),                                     // 7
+      click_on("mug", "rest"),                                                         // 8
+      request("labels", {{"path", "served.npy"}}),                                     // 9
+      request("export", {{"path", "served.ply"}, {"edges", "keep"}}),                  // 10: is there
+      request("export", {{"path", "kept.ply"}, {"edges", "keep"}}),                    // 11
+      request("export", {{"path", "rest.ply"}, {"what", "rest"}}),                     // 12
+      request("size", {{"step", 1}}),                                                  // 13
+      request("labels", {{"path", "larger.u8"}}),                                      // 14
+      request("undo"),                                                                 // 15
+      request("undo"),                                                                 // 16
+      request("labels"),                                                               // 17
+      request("click", {{"x", 5000}, {"y", 1}}),                                       // 18: outside
+      request("labels"),                                                               // 19: as before it
+      request("preview", {{"width", 100}}),                                            // 20
+      request("camera", {{"camera", 3}, {"size", "504x378"}}),                         // 21
+      request("camera", {{"camera", "no such"}}),                                      // 22
+      request("export", {{"path", still_life().scene}, {"overwrite", true}}),          // 23: an input
+      request("preview", {{"path", "a.ply"}}),                                         // 24
+      request("undo"),                                                                 // 25
+      request("undo"),                                                                 // 26: nothing left
+      request("clear"),                                                                // 27
+      request("close"),                                                                // 28
+      request("click", {{"x", 1}, {"y", 1}}),                                          // 29
+      request("describe"),                                                             // 30
+      request("quit"),                                                                 // 31
+      request("describe"),                                                             // 32: never read
+  });
+  CHECK(said.code == 0);
+  CHECK(said.err.empty());
+  CHECK(said.lines == 32);
+  for (const auto& [id, reply] : said.replies) {
+    const bool fails = std::set<int>{0, 3, 10, 18, 22, 23, 24, 26, 29}.contains(id.get<int>());
+    CHECK_MESSAGE(reply["ok"] == !fails, reply.dump());
+    if (fails) CHECK(reply["error"].get<std::string>().ends_with("."));
+  }
+  CHECK(said.replies.at(1)["cameras"].size() == 24);
+  CHECK(said.replies.at(1)["camera"]["name"] == "view_00");
+  CHECK(said.replies.at(21)["camera"]["size"] == json{504, 378});
+  const std::string one = place.text("one_click/labels.u8");
+  CHECK(bytes_of_base64(said.replies.at(5)["labels"]) == one);
+  CHECK(bytes_of_base64(said.replies.at(17)["labels"]) == one);
+  CHECK(bytes_of_base64(said.replies.at(19)["labels"]) == one);
+  CHECK(said.replies.at(4)["doubts"] == json::parse(place.text("one_click/report.json"))["doubts"]);
+  CHECK(place.text("served.png") == place.text("as_is/object.png"));
+  CHECK(place.text("served.ply") == place.text("one_click/object.ply"));
+  CHECK(place.text("served.npy").substr(128) == place.text("two_clicks/labels.u8"));
+  CHECK(place.text("kept.ply") == place.text("two_clicks/object.ply"));
+  CHECK(place.text("rest.ply") == place.text("two_clicks/rest.ply"));
+  CHECK(place.text("larger.u8") == place.text("larger/labels.u8"));
+  CHECK(said.replies.at(20)["width"] == 100);
+  CHECK(bytes_of_base64(said.replies.at(20)["png"]).starts_with("\x89PNG"));
+  CHECK(said.replies.at(30)["protocol"] == 1);
+  CHECK(place.run("serve --schema").out == said.replies.at(30)["schema"].dump(2) + "\n");
+}
+
+TEST_CASE("serve: every option of cut is a field of one request, or left out on purpose") {
+  const json schema = json::parse(still_life().place.run("serve --schema").out);
+  std::multiset<std::string> fields;
+  for (const json& kind : schema["oneOf"]) {
+    CHECK(kind["description"].get<std::string>().size() > 10);
+    CHECK(kind["additionalProperties"] == false);
+    for (const auto& [name, field] : kind["properties"].items()) fields.insert(name);
+  }
+  // What serve has requests for, what asks the file system for the object, and what a folder of files needs.
+  const std::set<std::string> left_out = {"help",  "click",     "box",  "scale",  "seeds", "mask",     "masks",
+                                          "text",  "segmenter", "work", "output", "write", "overwrite", "json"};
+  std::istringstream help(still_life().place.run("cut --help").out);
+  int options = 0;
+  for (std::string line; std::getline(help, line);) {
+    const std::size_t start = line.find("--");
+    if (!line.starts_with("  -") || start > 5) continue;
+    const std::string name = line.substr(start + 2, line.find_first_of(" {", start) - start - 2);
+    ++options;
+    if (!left_out.contains(name)) CHECK_MESSAGE(fields.count(name) == 1, name);
+  }
+  CHECK(options > 25);
+}
+
+TEST_CASE("serve: 200 lines that are no requests have a reply each, and the program lives") {
+  const std::vector<std::string> good = {
+      opened().dump(),
+      R"({"id": 1, "do": "click", "x": 512, "y": 384, "label": "object"})",
+      R"({"id": "a", "do": "scribble", "points": [[1, 2], [3, 4]], "radius_px": 3})",
+      R"({"do": "box", "corners": [[1, 2], [30, 40]]})",
+      R"({"do": "camera", "camera-pos": [0, 1, 2], "camera-target": "0,0,0", "size": "64x48"})",
+      R"({"do": "settings", "set": ["views.most=3"], "parts-only": true})",
+      R"({"do": "preview", "what": "tint", "width": 32})",
+      R"({"do": "size", "step": 1})",
+      R"({"do": "choice", "choice": 2})",
+  };
+  std::mt19937 random(11);
+  const auto any = [&](std::size_t below) { return static_cast<std::size_t>(random() % below); };
+  std::string lines = opened().dump() + "\n";
+  for (int i = 0; i < 200; ++i) {
+    std::string line = good[any(good.size())];
+    for (std::size_t changes = 1 + any(4); changes > 0; --changes) {
+      const std::size_t at = any(line.size());
+      const char byte = static_cast<char>(random());
+      switch (any(4)) {
+        case 0:
+          line[at] = byte == '\n' ? 'x' : byte;
+          break;
+        case 1:
+          line.erase(at, 1 + any(6));
+          break;
+        case 2:
+          line.insert(at, std::string(1 + any(3), "{[\"0-,:}"[any(8)]));
+          break;
+        default:
+          line.resize(at);
+      }
+      if (line.find_first_not_of(" \r\t") == std::string::npos) line = "x";
+    }
+    lines += line + "\n";
+  }
+  lines += R"({"id": "last", "do": "describe"})";
+  still_life().place.write("requests.jsonl", lines);
+  const Workplace& place = still_life().place;
+  place.write("talk.sh", splatcut_program() + " serve <requests.jsonl\n");
+  const Result result = place.run_program("/bin/bash", "talk.sh");
+  CHECK(result.code == 0);
+  int replies = 0, refused = 0;
+  json last;
+  std::istringstream in(result.out);
+  for (std::string line; std::getline(in, line);) {
+    const json reply = json::parse(line);
+    if (reply.contains("progress")) continue;
+    ++replies;
+    refused += !reply["ok"].get<bool>();
+    last = reply;
+  }
+  CHECK(replies == 202);
+  CHECK(refused > 150);
+  CHECK(last["id"] == "last");
+  CHECK(last["ok"] == true);
+}
+
+TEST_CASE("serve: a request is cancelled, and the next one is answered as if it had not been") {
+  const Workplace& place = still_life().place;
+  json open = opened(), cut = click_on("plant"), cancel = request("cancel", {{"request", 2}});
+  open["id"] = 1;
+  cut["id"] = 2;
+  cancel["id"] = 3;
+  json again = cut;
+  again["id"] = 4;
+  place.write("requests.jsonl", open.dump() + "\n" + cut.dump() + "\n" + cancel.dump() + "\n" + again.dump() + "\n");
+  const Said said = heard("cat requests.jsonl");  // all of it is there before the scene is open
+  CHECK(said.code == 0);
+  CHECK(said.replies.at(3) == json{{"id", 3}, {"ok", true}, {"cancelled", true}});
+  CHECK(said.replies.at(2)["ok"] == false);
+  CHECK(said.replies.at(2)["error"].get<std::string>().find("cancelled") != std::string::npos);
+  CHECK(said.replies.at(4)["ok"] == true);
+  CHECK(said.replies.at(4)["gaussians"] > 100);
+}
+
+TEST_CASE("serve: a signal, the end of stdin and a client that is gone end it, whatever it does") {
+  const Workplace& place = still_life().place;
+  json open = opened();
+  place.write("requests.jsonl", open.dump() + "\n" + click_on("books").dump() + "\n");
+  place.write("end.sh", splatcut_program() +
+                            " serve --no-cache < <(cat requests.jsonl; sleep 20) & served=$!\n"
+                            "sleep 0.3; kill -TERM $served; wait $served; echo code $?\n");
+  const Result ended = place.run_program("/bin/bash", "end.sh");
+  CHECK(ended.out.find("code 1") != std::string::npos);
+  CHECK(ended.err.find("ended by a signal") != std::string::npos);
+  CHECK(heard("true").code == 0);
+  CHECK(heard("true").lines == 0);
+  place.write("gone.sh", "cat requests.jsonl | (" + splatcut_program() + " serve; echo $? >gone.txt) | head -c 1 >/dev/null\n");
+  place.run_program("/bin/bash", "gone.sh");
+  CHECK(std::stoi(place.text("gone.txt")) <= 1);
+}
+
+TEST_CASE("serve: the Python of docs/serve.md does what it says") {
+  const Workplace& place = still_life().place;
+  std::ifstream in(project_folder() + "/docs/serve.md");
+  std::string script;
+  bool inside = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```")) inside = line == "```python";
+    else if (inside) script += line + "\n";
+  }
+  CHECK(std::ranges::count(script, '\n') <= 45);
+  place.write("serve.py", script);
+  std::string spot = still_life().click_on("apple");
+  spot[spot.find(',')] = ' ';
+  place.write("python.sh", "python3 serve.py " + still_life().scene + " " + spot + " " + splatcut_program() + "\n");
+  const Result result = place.run_program("/bin/bash", "python.sh");
+  CHECK_MESSAGE(result.code == 0, result.err);
+  CHECK(result.out.find("20000 Gaussians in the scene") != std::string::npos);
+  CHECK(result.out.find("rows of 20000 are the object's") != std::string::npos);
+  CHECK(place.text("preview.png").starts_with("\x89PNG"));
+  CHECK(place.text("object.ply").starts_with("ply"));
+}
