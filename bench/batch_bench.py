@@ -4,10 +4,11 @@ processes together; then kills a batch at random moments and compares what is th
 
     bench/batch_bench.py JOBS.jsonl [SPLATCUT [KILLS]]
 
-Prints CSV. Every row begins with an empty cache. Jobs in the same scene share its cache also as single commands."""
+Prints CSV: wall and CPU seconds (the second also where the machine does other work). Every row begins with an empty cache. Jobs in the same scene share its cache also as single commands."""
 import json
 import os
 import random
+import resource
 import shutil
 import signal
 import subprocess
@@ -35,6 +36,11 @@ def words_of(job):
         several = isinstance(value, list) and key in ("click", "box", "set", "write") and not isinstance(value[0], (int, float))
         for one in value if several else [value]:
             yield f"--{key}=" + (",".join(map(str, one)) if isinstance(one, list) else json.dumps(one) if isinstance(one, dict) else str(one))
+
+
+def cpu_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def tree_kb():
@@ -69,7 +75,7 @@ def measure(name, commands_in_turn, at_once=1):
 
     watcher = threading.Thread(target=watch)
     watcher.start()
-    start = time.monotonic()
+    start, cpu = time.monotonic(), cpu_seconds()
     running = []
     for command in commands_in_turn:
         running.append(subprocess.Popen(command, env=environment, cwd=jobs.parent, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
@@ -77,7 +83,7 @@ def measure(name, commands_in_turn, at_once=1):
             for process in running:
                 process.wait()
             running = []
-    print(f"{name},{time.monotonic() - start:.1f},{most[0] / 1024:.0f}", flush=True)
+    print(f"{name},{time.monotonic() - start:.1f},{cpu_seconds() - cpu:.1f},{most[0] / 1024:.0f}", flush=True)
     ended.set()
     watcher.join()
 
@@ -108,7 +114,7 @@ def batch(folder, *more):
 
 def main():
     listed = [json.loads(line) for line in jobs.read_text().splitlines() if line.strip() and not line.startswith("#")]
-    print(f"way ({len(listed)} jobs),seconds,peak_mb")
+    print(f"way ({len(listed)} jobs),seconds,cpu_seconds,peak_mb")
     measure("one batch", [batch("one")])
     measure("one batch one thread", [batch("one_thread", "--threads", "1")])
     measure("two workers of one thread", [batch("two", "--jobs", "2", "--threads", "2")])

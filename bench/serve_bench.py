@@ -36,7 +36,7 @@ def resident_mb():
 
 
 conversation = [("open", {"scene": scene}), ("click", {"x": x, "y": y}), ("click", {"x": x + 12, "y": y}),
-                ("size", {"step": 1}), ("preview", {"width": 640}), ("labels", {})]
+                ("size", {"step": 1}), ("preview", {"width": 640}), ("labels", {}), ("camera", {})]
 print("request,first_s,again_s,next_spot_s")
 first = [(do, ask(do, **fields)) for do, fields in conversation]
 ask("clear")

@@ -55,7 +55,8 @@ Part shard_of(const std::string& shard) {
 class Pipe {
  public:
   Pipe() {
-    if (::pipe2(ends_, O_CLOEXEC) != 0) throw Error("splatcut batch", std::string("no pipe (") + std::strerror(errno) + ")");
+    if (::pipe2(ends_, O_CLOEXEC) != 0)
+      throw Error("splatcut batch", std::string("no pipe (") + std::strerror(errno) + ")");
   }
   Pipe(const Pipe&) = delete;
   Pipe& operator=(const Pipe&) = delete;
@@ -78,7 +79,8 @@ class Worker {
  public:
   explicit Worker(const std::vector<std::string>& words) {
     const int failure = start_program(words, said_[1], 0, &process_, told_[0]);
-    if (failure != 0) throw Error("splatcut batch", std::string("no worker can be started (") + std::strerror(failure) + ")");
+    if (failure != 0)
+      throw Error("splatcut batch", std::string("no worker can be started (") + std::strerror(failure) + ")");
     told_.close(0);
     said_.close(1);
   }
@@ -129,7 +131,7 @@ class Worker {
     while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;
     process_ = 0;
     if (!WIFSIGNALED(status)) return fmt::format("its process ended with code {}", WEXITSTATUS(status));
-    if (WTERMSIG(status) == SIGKILL) return "its process was killed, as the system does where memory runs out";
+    if (WTERMSIG(status) == SIGKILL) return "its process was killed, as where memory runs out";
     return fmt::format("its process ended by signal {}", WTERMSIG(status));
   }
 
@@ -179,9 +181,16 @@ class Batch {
 
  private:
   std::vector<std::string> worker_words() const {
-    const int cores = common_.threads > 0 ? common_.threads : static_cast<int>(std::thread::hardware_concurrency());
-    std::vector<std::string> words = {"/proc/self/exe", "batch", "/dev/null", "-o", options_.output.string(), "--worker",
-                                      "--threads", std::to_string(std::max(1, cores / options_.workers))};
+    const int cores =
+        common_.threads > 0 ? common_.threads : static_cast<int>(std::thread::hardware_concurrency());
+    std::vector<std::string> words = {"/proc/self/exe",
+                                      "batch",
+                                      "/dev/null",
+                                      "-o",
+                                      options_.output.string(),
+                                      "--worker",
+                                      "--threads",
+                                      std::to_string(std::max(1, cores / options_.workers))};
     if (options_.overwrite) words.emplace_back("--overwrite");
     if (common_.quiet) words.emplace_back("--quiet");
     if (!common_.cache) words.emplace_back("--no-cache");
@@ -191,14 +200,18 @@ class Batch {
   // One of the worker's scene, else the first of a scene that no worker has, else one of the scene with most
   // jobs left.
   BatchJob next_for(const std::string& scene_key) {
-    const auto has_key = [](const std::string& key) { return [&key](const BatchJob& job) { return job.scene_key == key; }; };
+    const auto has_key = [](const std::string& key) {
+      return [&key](const BatchJob& job) { return job.scene_key == key; };
+    };
     auto next = std::ranges::find_if(waiting_, has_key(scene_key));
     if (next == waiting_.end())
       next = std::ranges::find_if(waiting_, [&](const BatchJob& job) {
         return std::ranges::none_of(workers_, [&](const auto& w) { return w.scene_key() == job.scene_key; });
       });
     if (next == waiting_.end())
-      next = std::ranges::max_element(waiting_, {}, [&](const BatchJob& job) { return std::ranges::count_if(waiting_, has_key(job.scene_key)); });
+      next = std::ranges::max_element(waiting_, {}, [&](const BatchJob& job) {
+        return std::ranges::count_if(waiting_, has_key(job.scene_key));
+      });
     BatchJob job = std::move(*next);
     waiting_.erase(next);
     return job;
@@ -214,9 +227,11 @@ class Batch {
   void add(const nlohmann::json& result, const Job& job) {
     results_->add(result);
     if (result.contains("error"))
-      warn(fmt::format("{}: {}", result["job"].get<std::string>(), unstopped(result["error"])), common_.quiet);
+      warn(fmt::format("{}: {}", result["job"].get<std::string>(), unstopped(result["error"])),
+           common_.quiet);
     const std::size_t done = results_->size();
-    job.progress(fmt::format("{} of {} jobs", done, all_), static_cast<double>(done) / static_cast<double>(all_));
+    job.progress(fmt::format("{} of {} jobs", done, all_),
+                 static_cast<double>(done) / static_cast<double>(all_));
   }
 
   static std::string unstopped(std::string sentence) {
@@ -269,18 +284,21 @@ class Batch {
 void run_batch(const BatchOptions& options, const CommonOptions& common) {
   if (options.worker) return run_batch_worker(options.output, options.overwrite, common);
   const Part part = shard_of(options.shard);
-  refuse_written_inputs(options.output, {options.jobs});
+  const std::string ending = options.shard.empty() ? "" : fmt::format(".{}-of-{}", part.index, part.of);
+  for (const std::filesystem::path& file : result_files(options.output, ending))
+    refuse_written_inputs(file, {options.jobs});
   std::vector<BatchJob> jobs = jobs_of_part(read_jobs(options.jobs), part.index, part.of);
   std::signal(SIGPIPE, SIG_IGN);  // a worker that ended is told so by its output
   const Job job = console_job(common.quiet);
-  BatchResults results(options.output, options.shard.empty() ? "" : fmt::format(".{}-of-{}", part.index, part.of));
+  BatchResults results(options.output, ending);
   Batch batch(options, common, &results);
   const std::size_t count = jobs.size();
   batch.plan(std::move(jobs));
   batch.run(job);
   end_progress();
   if (job.cancelled())
-    throw Error("splatcut batch", fmt::format("cancelled, {} of {} jobs are done", results.size() - results.failed(), count),
+    throw Error("splatcut batch",
+                fmt::format("cancelled, {} of {} jobs are done", results.size() - results.failed(), count),
                 "The same command goes on");
   results.finish();
   if (!common.quiet)
@@ -295,14 +313,27 @@ void run_batch(const BatchOptions& options, const CommonOptions& common) {
 
 void add_batch_command(CLI::App& program, const CommonOptions& common) {
   auto args = std::make_shared<BatchOptions>();
-  CLI::App& command = *program.add_subcommand("batch", "Cut a list of objects, a line of JSON each, and go on where it ended");
+  CLI::App& command = *program.add_subcommand(
+      "batch", "Cut a list of objects, a line of JSON each, and go on where it ended");
   command.footer("Example: splatcut batch jobs.jsonl -o cutouts --jobs 2");
-  command.add_option("jobs", args->jobs, "File with a job a line: {\"name\": \"lamp\", \"scene\": \"room.ply\", \"click\": \"512,384\"}, the options of cut by their names")->required();
-  command.add_option("-o,--output", args->output, "Folder to write, with a folder for each job; what stands there is not done again")->required();
+  command
+      .add_option("jobs", args->jobs,
+                  "File with a job a line: {\"name\": \"lamp\", \"scene\": \"room.ply\", \"click\": "
+                  "\"512,384\"}, the options of cut by their names")
+      ->required();
+  command
+      .add_option("-o,--output", args->output,
+                  "Folder to write, with a folder for each job; what stands there is not done again")
+      ->required();
   constexpr int kMostWorkers = 256;
-  command.add_option("--jobs", args->workers, "Jobs that are done at once, each with its share of the threads and a scene of its own in memory")->check(CLI::Range(1, kMostWorkers));
+  command
+      .add_option(
+          "--jobs", args->workers,
+          "Jobs that are done at once, each with its share of the threads and a scene of its own in memory")
+      ->check(CLI::Range(1, kMostWorkers));
   command.add_option("--shard", args->shard, "I/N: only part I, from 0 to N-1, of N parts of the list");
-  command.add_flag("--overwrite", args->overwrite, "Do every job again, and write into folders that are there");
+  command.add_flag("--overwrite", args->overwrite,
+                   "Do every job again, and write into folders that are there");
   command.add_flag("--worker", args->worker)->group("");  // of a batch alone
   command.callback([args, &common] { run_batch(*args, common); });
 }

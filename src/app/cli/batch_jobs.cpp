@@ -54,7 +54,12 @@ std::string name_of_job(const nlohmann::json& asked, std::size_t line) {
 }
 
 BatchJob job_of(std::string_view text, std::size_t line) {
-  BatchJob job{.name = fmt::format("job_{:05}", line), .line = line, .asked = {}, .scene_key = {}, .scene = {}, .error = {}};
+  BatchJob job{.name = fmt::format("job_{:05}", line),
+               .line = line,
+               .asked = {},
+               .scene_key = {},
+               .scene = {},
+               .error = {}};
   const std::string where = fmt::format("line {}", line);
   try {
     job.asked = parse_json(where, text);
@@ -94,7 +99,8 @@ void read_arguments(const nlohmann::json& asked, const std::string& where, CutAr
   for (const auto& [key, value] : asked.items()) {
     if (key == "name" || key == "scene") continue;
     const CLI::Option* option = options.get_option_no_throw("--" + key);
-    if (!option) throw Error(where, fmt::format("\"{}\" is no option of a cut", key), "splatcut cut --help lists them");
+    if (!option)
+      throw Error(where, fmt::format("\"{}\" is no option of a cut", key), "splatcut cut --help lists them");
     const std::vector<std::string> more = words_of(*option, value, fmt::format("{}: \"{}\"", where, key));
     words.insert(words.end(), more.begin(), more.end());
   }
@@ -129,7 +135,9 @@ std::vector<BatchJob> jobs_of_part(std::vector<BatchJob> jobs, std::size_t part,
   std::map<std::string, std::size_t> first;  // line at which a scene first stands
   for (const BatchJob& job : jobs) first.try_emplace(job.scene_key, job.line);
   std::ranges::stable_sort(jobs, {}, [&](const BatchJob& job) { return first.at(job.scene_key); });
-  const auto border = [&](std::size_t i) { return jobs.begin() + static_cast<std::ptrdiff_t>(i * jobs.size() / parts); };
+  const auto border = [&](std::size_t i) {
+    return jobs.begin() + static_cast<std::ptrdiff_t>(i * jobs.size() / parts);
+  };
   return {border(part), border(part + 1)};
 }
 

@@ -24,7 +24,8 @@ struct BatchJob {
   std::string error;  // why it is no job; empty: it is one
 };
 
-// Throws Error where the file cannot be read or holds no job. A line that is no job becomes one with an error.
+// Throws Error where the file cannot be read or holds no job. A line that is no job becomes one with an
+// error.
 std::vector<BatchJob> read_jobs(const std::filesystem::path& path);
 
 // The jobs in the order in which they are done: scene after scene, each where its first job stands. part of

@@ -43,7 +43,9 @@ bool is_result(const nlohmann::json& result) {
   const auto number = [](const nlohmann::json& v) { return v.is_number(); };
   const auto list = [](const nlohmann::json& v) { return v.is_array(); };
   const auto any = [](const nlohmann::json&) { return true; };
-  const auto object = [&](const nlohmann::json& v) { return has(v, "gaussians", number) && has(v, "doubts", list); };
+  const auto object = [&](const nlohmann::json& v) {
+    return has(v, "gaussians", number) && has(v, "doubts", list);
+  };
   return has(result, "job", text) && has(result, "scene", text) && has(result, "seconds", number) &&
          has(result, "asked", any) && has(result, "files", list) && has(result, "objects", list) &&
          std::ranges::all_of(result.at("files"), text) && std::ranges::all_of(result.at("objects"), object);
@@ -85,8 +87,13 @@ nlohmann::json failed_result(const BatchJob& job, const std::string& error, doub
           {"seconds", rounded_seconds(ms)}};
 }
 
-BatchResults::BatchResults(std::filesystem::path folder, const std::string& ending)
-    : lines_path_(folder / ("results" + ending + ".jsonl")), table_path_(folder / ("summary" + ending + ".csv")) {
+std::array<std::filesystem::path, 2> result_files(const std::filesystem::path& folder,
+                                                  const std::string& ending) {
+  return {folder / ("results" + ending + ".jsonl"), folder / ("summary" + ending + ".csv")};
+}
+
+BatchResults::BatchResults(const std::filesystem::path& folder, const std::string& ending)
+    : paths_(result_files(folder, ending)) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure) throw Error(folder.string(), "cannot be created (" + failure.message() + ")");
@@ -103,15 +110,15 @@ void BatchResults::stands(const nlohmann::json& result) {
 }
 
 void BatchResults::begin() {
-  write_text_file(lines_path_, lines(), PowerCut::kMayLeaveNone);
-  file_ = std::fopen(lines_path_.c_str(), "abe");
-  if (!file_) throw cannot_write(lines_path_);
+  write_text_file(paths_[0], lines(), PowerCut::kMayLeaveNone);
+  file_ = std::fopen(paths_[0].c_str(), "abe");
+  if (!file_) throw cannot_write(paths_[0]);
 }
 
 void BatchResults::add(const nlohmann::json& result) {
   const std::string line = line_of(result);
   if (std::fwrite(line.data(), 1, line.size(), file_) != line.size() || std::fflush(file_) != 0)
-    throw cannot_write(lines_path_);
+    throw cannot_write(paths_[0]);
   failed_ += result.contains("error");
   stands(result);
 }
@@ -132,17 +139,18 @@ std::string BatchResults::table() const {
         gaussians += object.at("gaussians").get<std::size_t>();
         doubts += object.at("doubts").size();
       }
-    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", cell(result.value("job", "")), line,
-                        cell(result.value("scene", "")), result.contains("error") ? "failed" : "done", objects,
-                        gaussians, doubts, result.value("seconds", 0.0), cell(result.value("error", "")));
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{}\n", cell(result.value("job", "")), line,
+                    cell(result.value("scene", "")), result.contains("error") ? "failed" : "done", objects,
+                    gaussians, doubts, result.value("seconds", 0.0), cell(result.value("error", "")));
   }
   return text;
 }
 
 void BatchResults::finish() {
   std::fclose(std::exchange(file_, nullptr));
-  write_text_file(lines_path_, lines());
-  write_text_file(table_path_, table());
+  write_text_file(paths_[0], lines());
+  write_text_file(paths_[1], table());
 }
 
 }  // namespace splatcut

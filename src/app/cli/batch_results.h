@@ -2,10 +2,11 @@
 // each as it ends, and DIR/summary.csv.
 //
 // A job's folder appears as a whole, with its result in it: what stands there is done, however the batch
-// ended. The lines are made of it anew at the start, and put in the order of the list at the end. Of two runs,
-// killed between or not, they differ in "seconds" alone.
+// ended. The lines are made of it anew at the start, and put in the order of the list at the end. Of two
+// runs, killed between or not, they differ in "seconds" alone.
 #pragma once
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -30,11 +31,15 @@ nlohmann::json listed_files(const std::filesystem::path& folder);
 double rounded_seconds(double ms);
 nlohmann::json failed_result(const BatchJob& job, const std::string& error, double ms);
 
+// The lines and the table in a folder. ending: of their names, "" or ".0-of-2".
+std::array<std::filesystem::path, 2> result_files(const std::filesystem::path& folder,
+                                                  const std::string& ending);
+
 class BatchResults {
  public:
-  // ending: of the files' names, "" or ".0-of-2". Throws Error where they cannot be written, or where another
+  // Throws Error where they cannot be written, or where another
   // batch writes them.
-  BatchResults(std::filesystem::path folder, const std::string& ending);
+  BatchResults(const std::filesystem::path& folder, const std::string& ending);
   BatchResults(const BatchResults&) = delete;
   BatchResults& operator=(const BatchResults&) = delete;
   ~BatchResults();
@@ -46,13 +51,13 @@ class BatchResults {
 
   std::size_t size() const { return results_.size(); }
   std::size_t failed() const { return failed_; }
-  const std::filesystem::path& path() const { return lines_path_; }
+  const std::filesystem::path& path() const { return paths_[0]; }
 
  private:
   std::string lines() const;
   std::string table() const;
 
-  std::filesystem::path lines_path_, table_path_;
+  std::array<std::filesystem::path, 2> paths_;  // result_files()
   std::optional<HeldFile> lock_;
   std::FILE* file_ = nullptr;
   std::map<std::size_t, nlohmann::json> results_;  // by line of the list

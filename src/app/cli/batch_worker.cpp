@@ -41,14 +41,16 @@ BatchJob job_from(const nlohmann::json& line) {
 nlohmann::json cut_objects_json(const std::vector<CutObject>& objects) {
   nlohmann::json list = nlohmann::json::array();
   for (const CutObject& object : objects) {
-    list.push_back({{"gaussians", std::ranges::count(object.result.labels, 1)}, {"doubts", doubts(object.result)}});
+    list.push_back(
+        {{"gaussians", std::ranges::count(object.result.labels, 1)}, {"doubts", doubts(object.result)}});
     if (!object.name.empty()) list.back()["name"] = object.name;
   }
   return list;
 }
 
 // What an earlier result of ours listed and the new one does not.
-void remove_old(const std::filesystem::path& folder, const nlohmann::json& before, const nlohmann::json& files) {
+void remove_old(const std::filesystem::path& folder, const nlohmann::json& before,
+                const nlohmann::json& files) {
   std::error_code ignored;
   for (const nlohmann::json& file : before)
     if (std::ranges::find(files, file) == files.end())
@@ -73,7 +75,9 @@ nlohmann::json do_job(const BatchJob& job, BatchWorker* worker) {
   refuse_written_inputs(folder, worker->scene->scene().files);
   nlohmann::json warnings = nlohmann::json::array();
   const CutRun run = run_cut_in(&*worker->scene, args, input, out,
-                                {.quiet = true, .times = false, .warn = [&](const std::string& sentence) { warnings.push_back(sentence); }},
+                                {.quiet = true,
+                                 .times = false,
+                                 .warn = [&](const std::string& sentence) { warnings.push_back(sentence); }},
                                 worker->job);
   nlohmann::json result = {{"job", job.name},
                            {"line", job.line},
@@ -98,7 +102,8 @@ nlohmann::json handed(const BatchJob& job) {
 }
 
 void run_batch_worker(const std::filesystem::path& folder, bool overwrite, const CommonOptions& common) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // its parent's folder is soon another's; where it ended already, so does stdin
+  ::prctl(PR_SET_PDEATHSIG,
+          SIGKILL);  // its parent's folder is soon another's; where it ended already, so does stdin
   BatchWorker worker{folder, overwrite, common, console_job(true)};
   for (std::string line; std::getline(std::cin, line);) {
     const BatchJob job = job_from(parse_json("stdin", line));

@@ -37,18 +37,16 @@ json cut_json(const CutResult& result, const std::vector<StageTime>& times, bool
   for (const StageTime& stage : times) stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
   const LookedAt enough = looked_at(result.views);
   json out = {{"views", views},
-              {"enough",
-               {{"views", enough.views},
-                {"pixels", enough.pixels},
-                {"gaussians", result.cut.touched},
-                {"why", result.why_enough}}},
+              {"enough", {{"views", enough.views}, {"pixels", enough.pixels}, {"why", result.why_enough}}},
               {"cut",
                {{"nodes", result.cut.nodes},
                 {"arcs", result.cut.arcs},
                 {"energy", result.cut.energy},
                 {"flow", result.cut.flow}}},
               {"doubts", doubts(result)}};
-  if (with_times) out["stages"] = stages;
+  if (!with_times) return out;
+  out["enough"]["gaussians"] = result.cut.touched;  // fewer where the session cut there before
+  out["stages"] = stages;
   return out;
 }
 

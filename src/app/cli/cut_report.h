@@ -18,7 +18,7 @@ struct RunReport {
   std::vector<EdgesReport> edges = {};    // of each object
   std::size_t rest = 0;                   // Gaussians
   double load_ms = 0, total_ms = 0;       // the time that writing takes does not count
-  bool times = true;                      // milliseconds and memory are told
+  bool times = true;                      // time, memory and what else depends on earlier cuts is told
 
   bool of_one() const { return objects.size() == 1 && objects.front().name.empty(); }
 };

@@ -60,6 +60,15 @@ std::vector<CutObject> objects_of(const CutArguments& args, const ObjectInput& i
   return objects;
 }
 
+// What the numbers of labels and of object_id stand for.
+nlohmann::json object_names(const std::vector<CutObject>& objects) {
+  nlohmann::json names = nlohmann::json::array();
+  for (const CutObject& object : objects)
+    names.push_back(
+        {{"object_id", names.size() + 1}, {"name", object.name.empty() ? "object" : object.name}});
+  return {{"objects", names}};
+}
+
 std::vector<EdgesReport> write_cutouts(const CutoutFolder& to, const std::vector<CutObject>& objects,
                                        const Job& job) {
   std::vector<EdgesReport> edges;
@@ -139,19 +148,15 @@ CutRun run_cut_in(SharedScene* shared, const CutArguments& args, const ObjectInp
   const std::vector<std::uint8_t> owner = cut_objects(&objects, &session, settings, job);
   end_progress();
   stop_if_cancelled(job, "splatcut cut");
-  RunReport report{scene,
-                   said,
-                   objects,
-                   {},
-                   0,
-                   shared->load_ms(),
-                   shared->load_ms() + ms_since(start),
+  RunReport report{scene,        said, objects, {}, 0, shared->load_ms(), shared->load_ms() + ms_since(start),
                    options.times};
   const CutoutFolder to{folder, scene, session.blocks(), chosen.up_world, chosen.given, args.cutout};
   report.edges = write_cutouts(to, objects, job);
   for (const EdgesReport& edges : report.edges) report.total_ms += edges.ms;
   report.rest = write_rest(to, owner, chosen.camera);
   if (report.rest == 0) options.warn("the cut takes the whole scene: the rest holds no Gaussians");
+  if (args.cutout.writes("objects"))
+    write_text_file(folder.file("objects.json"), json_text(object_names(objects), 2) + "\n");
   CutRun run{report_json(report), summary(report), std::move(objects)};
   write_text_file(folder.file("report.json"), json_text(run.report, 2) + "\n");
   stop_if_cancelled(job, "splatcut cut");

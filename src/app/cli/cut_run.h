@@ -1,8 +1,8 @@
 // One cut, from options to a folder of files. `splatcut cut` does one in a scene of its own, `splatcut batch`
 // many, of which those of one scene share what is loaded and prepared.
 //
-// The files depend on the options and on the files that these name, whatever was cut in the scene before.
-// Seconds and memory in report.json alone differ; `times` leaves them out.
+// The files depend on the options and on the files that these name, whatever was cut in the scene before. In
+// report.json time, memory and the Gaussians that a cut passed over differ; `times` leaves them out.
 #pragma once
 
 #include <filesystem>
@@ -65,7 +65,7 @@ class SharedScene {
 
 struct CutRunOptions {
   bool quiet = false;  // progress is not interrupted by what a folder of masks was understood as
-  bool times = true;   // seconds and memory stand in the report
+  bool times = true;   // the report says what depends on earlier cuts, too
   std::function<void(const std::string& sentence)> warn;  // of all but doubts about the results
 };
 

@@ -84,11 +84,11 @@ void CutoutOptions::add_to(CLI::App& command) {
       ->capture_default_str();
   command
       .add_option("--write", write,
-                  "Which files: object, rest, labels, npy (labels.npy for numpy), pictures; several with "
-                  "commas. Without it: all but npy")
+                  "Which files: object, rest, labels, pictures, npy (labels.npy for numpy), objects (all in "
+                  "objects.ply, numbered as object_id); several with commas. Without it: the first four")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"object", "rest", "labels", "npy", "pictures"}));
+      ->check(CLI::IsMember({"object", "rest", "labels", "pictures", "npy", "objects"}));
 }
 
 bool CutoutOptions::writes(std::string_view what) const {
@@ -184,6 +184,8 @@ std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& 
       write_png(to.folder.file("rest.png"), cutout_picture(to.drawer(), camera, rest));
   }
   if (to.options.writes("labels")) write_labels(to.folder.file("labels.u8"), to.scene, owner);
+  if (to.options.writes("objects"))
+    save_scene(to.folder.file("objects.ply"), to.scene, owner, SceneFormat::kPly, {.object_ids = owner});
   if (to.options.writes("npy")) write_labels(to.folder.file("labels.npy"), to.scene, owner);
   return static_cast<std::size_t>(std::ranges::count(rest, 1));
 }

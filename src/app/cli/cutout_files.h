@@ -84,8 +84,9 @@ void write_labels(const std::filesystem::path& path, const Scene& scene,
 EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
                          const std::vector<std::uint8_t>& labels, const ObjectView* shown, const Job& job);
 
-// rest.ply (without Gaussians where all are an object's), rest.png from `camera`, labels.u8 and labels.npy:
-// `owner` in file order; of these, what the options name. Returns the number of Gaussians of the rest.
+// Of these, what the options name: rest.ply (without Gaussians where all are an object's), rest.png from
+// `camera`, labels.u8 and labels.npy (`owner` in file order), objects.ply (all objects, rows as they are,
+// each with its owner as object_id). Returns the number of Gaussians of the rest.
 std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner, const Camera& camera);
 
 }  // namespace splatcut

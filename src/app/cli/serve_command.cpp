@@ -60,7 +60,8 @@ void run_serve(const CommonOptions& common) {
 
 void add_serve_command(CLI::App& program, const CommonOptions& common) {
   auto schema = std::make_shared<bool>(false);
-  CLI::App& command = *program.add_subcommand("serve", "Answer requests in JSON, a line each, on stdin and stdout");
+  CLI::App& command =
+      *program.add_subcommand("serve", "Answer requests in JSON, a line each, on stdin and stdout");
   command.footer("Example: splatcut serve --schema");
   command.add_flag("--schema", *schema, "Print which requests there are, as a JSON Schema, and end");
   command.callback([schema, &common] {

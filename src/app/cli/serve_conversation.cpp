@@ -13,6 +13,7 @@
 #include "app/console/setting_options.h"
 #include "app/console/version.h"
 #include "app/document/export_plan.h"
+#include "core/base64.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/png_file.h"
@@ -26,20 +27,6 @@ namespace {
 
 void refuse_cancelled(const Job& job) {
   if (job.cancelled()) throw Error("request", "was cancelled, nothing was changed");
-}
-
-std::string base64_of(std::string_view bytes) {
-  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned word = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k > bytes.size() ? '=' : kLetters[word >> (18 - 6 * k) & 63U];
-  }
-  return text;
 }
 
 // The options of a kind that a request gives, in place of those said before.
@@ -154,10 +141,14 @@ nlohmann::json Conversation::open(const nlohmann::json& request, const Job& job)
       Opened{std::move(said), std::move(args), std::move(scene), std::move(chosen), settings});
   const Scene& loaded = opened_->scene.scene();
   nlohmann::json reply = camera_json(), remarks = nlohmann::json::array(), cameras = nlohmann::json::array();
-  for (const std::string& remark : {loaded.left_out, loaded.oddity, loaded.axes_note, opened_->chosen.warning})
+  for (const std::string& remark :
+       {loaded.left_out, loaded.oddity, loaded.axes_note, opened_->chosen.warning})
     if (!remark.empty()) remarks.push_back(remark);
   for (const Camera& camera : opened_->chosen.given) cameras.push_back(camera.name);
-  reply.update({{"gaussians", loaded.cloud.size()}, {"rows", loaded.file_rows}, {"cameras", cameras}, {"remarks", remarks}});
+  reply.update({{"gaussians", loaded.cloud.size()},
+                {"rows", loaded.file_rows},
+                {"cameras", cameras},
+                {"remarks", remarks}});
   return reply;
 }
 
@@ -165,7 +156,9 @@ nlohmann::json Conversation::camera_json() {
   const Camera& camera = opened().chosen.camera;
   const glm::dvec3 at = glm::dvec3(camera.centre_world()) + opened().scene.scene().origin;
   return {{"camera",
-           {{"name", camera.name}, {"size", {camera.width_px, camera.height_px}}, {"position", {at.x, at.y, at.z}}}}};
+           {{"name", camera.name},
+            {"size", {camera.width_px, camera.height_px}},
+            {"position", {at.x, at.y, at.z}}}}};
 }
 
 nlohmann::json Conversation::look(const RequestKind& kind, const nlohmann::json& request) {
@@ -176,7 +169,8 @@ nlohmann::json Conversation::look(const RequestKind& kind, const nlohmann::json&
   open.said = std::move(said);
   open.args = std::move(args);
   nlohmann::json reply = camera_json();
-  reply["remarks"] = open.chosen.warning.empty() ? nlohmann::json::array() : nlohmann::json{open.chosen.warning};
+  reply["remarks"] =
+      open.chosen.warning.empty() ? nlohmann::json::array() : nlohmann::json{open.chosen.warning};
   return reply;
 }
 
@@ -229,7 +223,8 @@ nlohmann::json Conversation::stroke(const Strokes& strokes, const Job& job) {
 nlohmann::json Conversation::step(Step made, const Job& job) {
   constexpr std::size_t kMostSteps = 1000;
   if (steps_.size() == kMostSteps)
-    throw Error("request", fmt::format("an object takes {} steps and no more", kMostSteps), "Send clear or undo");
+    throw Error("request", fmt::format("an object takes {} steps and no more", kMostSteps),
+                "Send clear or undo");
   std::vector<Step> steps = steps_;
   steps.push_back(std::move(made));
   cut(std::move(steps), opened().settings, job);
@@ -308,7 +303,8 @@ nlohmann::json Conversation::labels(const nlohmann::json& request) {
     return reply;
   }
   if (const SceneFormat* format = find_format(path))
-    throw Error(path.string(), fmt::format("is the name of a scene ({})", format->extension), "export writes those");
+    throw Error(path.string(), fmt::format("is the name of a scene ({})", format->extension),
+                "export writes those");
   check_output(path, request);
   write_labels(path, scene, labels);
   reply["path"] = path.string();
@@ -329,15 +325,20 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
   if (rest)
     for (std::uint8_t& flag : keep) flag = !flag;
   std::optional<CleanObject> clean;
-  if (wants_clean) clean = clean_object({open.drawer(), keep, open.chosen.up_world, open.chosen.given}, {}, job);
+  if (wants_clean)
+    clean = clean_object({open.drawer(), keep, open.chosen.up_world, open.chosen.given}, {}, job);
   refuse_cancelled(job);
   const bool cleaned = clean && clean->report.cleaned;
   std::optional<MovedTo> to;
   if (placement != ExportPlacement{})
     to = {similarity_of(placement, scene.cloud, keep, open.chosen.up_world, format.axes),
           placement.origin == ExportOrigin::kScene};
-  const SaveReport saved = save_gaussians(path, scene, keep, cleaned ? &clean->cloud : nullptr, format, to, {.z_up = placement.up == ExportUp::kPlusZ});
-  nlohmann::json reply = {{"gaussians", saved.gaussians}, {"bytes", saved.bytes}, {"edges", cleaned ? "clean" : "keep"}, {"path", path.string()}};
+  const SaveReport saved = save_gaussians(path, scene, keep, cleaned ? &clean->cloud : nullptr, format, to,
+                                          {.z_up = placement.up == ExportUp::kPlusZ});
+  nlohmann::json reply = {{"gaussians", saved.gaussians},
+                          {"bytes", saved.bytes},
+                          {"edges", cleaned ? "clean" : "keep"},
+                          {"path", path.string()}};
   if (!saved.loss.empty()) reply["loss"] = saved.loss;
   if (wants_clean && !cleaned) reply["why_kept"] = clean->report.reason;
   return reply;

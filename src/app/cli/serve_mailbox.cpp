@@ -26,7 +26,8 @@ nlohmann::json id_of(const nlohmann::json& request) {
 
 // The id that a request to cancel names; none for other requests, and for one that is wrong.
 std::optional<nlohmann::json> cancelled_by(const WaitingRequest& waiting) {
-  if (!waiting.error.empty() || !waiting.request.is_object() || waiting.request.value("do", nlohmann::json()) != "cancel")
+  if (!waiting.error.empty() || !waiting.request.is_object() ||
+      waiting.request.value("do", nlohmann::json()) != "cancel")
     return {};
   try {
     checked_kind(waiting.request);

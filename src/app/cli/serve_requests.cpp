@@ -17,54 +17,106 @@ namespace {
 
 using enum FieldType;
 
-const RequestField kPath{"path", kText, false, "File to write; without it the reply holds the bytes as base64"};
+const RequestField kPath{"path", kText, false,
+                         "File to write; without it the reply holds the bytes as base64"};
 const RequestField kReplaces{"overwrite", kSwitch, false, "A file of that name is replaced"};
-const RequestField kLabel{"label", kText, false, "Whether it marks the object (default) or the rest", {"object", "rest"}};
+const RequestField kLabel{
+    "label", kText, false, "Whether it marks the object (default) or the rest", {"object", "rest"}};
 constexpr const char* kObjectReply =
     "gaussians of the object; size, sizes, choice and choices of the first click; doubts, a sentence each";
 
 const std::vector<RequestKind>& kinds() {
   static const std::vector<RequestKind> table = {
-      {Ask::kOpen, "open", "Opens a scene in place of the one that is open",
+      {Ask::kOpen,
+       "open",
+       "Opens a scene in place of the one that is open",
        {{"scene", kText, true, "Scene file"}},
        {"cameras", "camera-up", "spz-axes", "lod"},
        "gaussians, rows of the file, cameras by name, remarks, and the camera as in the reply to camera"},
-      {Ask::kCamera, "camera", "Looks from another camera: without fields from the one that cut would take", {},
+      {Ask::kCamera,
+       "camera",
+       "Looks from another camera: without fields from the one that cut would take",
+       {},
        {"camera", "camera-pos", "camera-target", "camera-fov", "size"},
        "camera: name, size, position, remarks"},
-      {Ask::kSettings, "settings", "Cuts by other settings: without fields by the program's own", {},
+      {Ask::kSettings,
+       "settings",
+       "Cuts by other settings: without fields by the program's own",
+       {},
        {"preset", "set", "smoothness", "views", "first-mask", "propagate", "refine", "parts-only", "coarse"},
        "values of all settings; those of the object where there is one"},
-      {Ask::kClick, "click", "Clicks a pixel of the camera",
-       {{"x", kNumber, true, "Pixels from the left"}, {"y", kNumber, true, "Pixels from the top"}, kLabel}, {}, kObjectReply},
-      {Ask::kScribble, "scribble", "Draws along points of the camera",
-       {{"points", kList, true, "[[x, y], ...] in pixels"}, {"radius_px", kNumber, false, "Half of its width, 3 by default"}, kLabel},
-       {}, kObjectReply},
-      {Ask::kBox, "box", "Draws a box around what is meant", {{"corners", kList, true, "[[x0, y0], [x1, y1]] in pixels"}, kLabel}, {},
+      {Ask::kClick,
+       "click",
+       "Clicks a pixel of the camera",
+       {{"x", kNumber, true, "Pixels from the left"}, {"y", kNumber, true, "Pixels from the top"}, kLabel},
+       {},
        kObjectReply},
-      {Ask::kSize, "size", "Takes a larger or smaller part for the first click",
-       {{"step", kWhole, true, "0 the likeliest, 1 the next larger, -1 the next smaller, ..."}}, {}, kObjectReply},
-      {Ask::kChoice, "choice", "Takes another meaning of the first click",
-       {{"choice", kWhole, true, "1 the likeliest, up to choices of the reply"}}, {}, kObjectReply},
+      {Ask::kScribble,
+       "scribble",
+       "Draws along points of the camera",
+       {{"points", kList, true, "[[x, y], ...] in pixels"},
+        {"radius_px", kNumber, false, "Half of its width, 3 by default"},
+        kLabel},
+       {},
+       kObjectReply},
+      {Ask::kBox,
+       "box",
+       "Draws a box around what is meant",
+       {{"corners", kList, true, "[[x0, y0], [x1, y1]] in pixels"}, kLabel},
+       {},
+       kObjectReply},
+      {Ask::kSize,
+       "size",
+       "Takes a larger or smaller part for the first click",
+       {{"step", kWhole, true, "0 the likeliest, 1 the next larger, -1 the next smaller, ..."}},
+       {},
+       kObjectReply},
+      {Ask::kChoice,
+       "choice",
+       "Takes another meaning of the first click",
+       {{"choice", kWhole, true, "1 the likeliest, up to choices of the reply"}},
+       {},
+       kObjectReply},
       {Ask::kUndo, "undo", "Takes back the last click, scribble, box, size or choice", {}, {}, kObjectReply},
       {Ask::kClear, "clear", "Begins another object", {}, {}, "nothing"},
-      {Ask::kPreview, "preview", "Draws the camera's picture as PNG",
-       {{"what", kText, false, "The object tinted (default), the scene, the object alone or the rest", {"tint", "scene", "object", "rest"}},
-        {"width", kWhole, false, "At most so many pixels wide"}, kPath, kReplaces},
-       {}, "width, height; png (base64) or path"},
-      {Ask::kLabels, "labels", "A byte per row of the scene file, 1 for the object",
-       {{"path", kText, false, "File to write, for numpy where it ends with .npy; without it the reply holds the bytes as base64"}, kReplaces},
-       {}, "rows, gaussians; labels (base64) or path"},
-      {Ask::kExport, "export", "Writes the object or the rest as a scene file; its ending is the format",
+      {Ask::kPreview,
+       "preview",
+       "Draws the camera's picture as PNG",
+       {{"what",
+         kText,
+         false,
+         "The object tinted (default), the scene, the object alone or the rest",
+         {"tint", "scene", "object", "rest"}},
+        {"width", kWhole, false, "At most so many pixels wide"},
+        kPath,
+        kReplaces},
+       {},
+       "width, height; png (base64) or path"},
+      {Ask::kLabels,
+       "labels",
+       "A byte per row of the scene file, 1 for the object",
+       {{"path", kText, false,
+         "File to write, for numpy where it ends with .npy; without it the reply holds the bytes as base64"},
+        kReplaces},
+       {},
+       "rows, gaussians; labels (base64) or path"},
+      {Ask::kExport,
+       "export",
+       "Writes the object or the rest as a scene file; its ending is the format",
        {{"path", kText, true, "File to write"},
         {"what", kText, false, "The object (default) or the rest", {"object", "rest"}},
         {"origin", kText, false, "What becomes 0, 0, 0", {"scene", "centre", "foot"}},
         {"up", kText, false, "Where up points in the file", {"scene", "+y", "-y", "+z"}},
         {"scale", kNumber, false, "Factor of all lengths"},
         kReplaces},
-       {"edges"}, "gaussians, bytes, edges, loss of the format, path"},
-      {Ask::kCancel, "cancel", "Stops a request that is running or waiting, which then replies that it was cancelled",
-       {{"request", kList, true, "Its id"}}, {}, "cancelled: whether it was found"},
+       {"edges"},
+       "gaussians, bytes, edges, loss of the format, path"},
+      {Ask::kCancel,
+       "cancel",
+       "Stops a request that is running or waiting, which then replies that it was cancelled",
+       {{"request", kList, true, "Its id"}},
+       {},
+       "cancelled: whether it was found"},
       {Ask::kClose, "close", "Closes the scene", {}, {}, "nothing"},
       {Ask::kQuit, "quit", "Ends the program once all requests before it are answered", {}, {}, "nothing"},
       {Ask::kDescribe, "describe", "Says which requests there are", {}, {}, "protocol, version, schema"},
@@ -107,7 +159,8 @@ void check_field(const RequestKind& kind, const RequestField& field, const nlohm
   if (kind.ask == Ask::kCancel) return;  // an id is text or a number
   if (!is_of(field.type, value))
     throw Error(where, fmt::format("\"{}\" is not {}", field.name, type_name(field.type).in_words));
-  if (!field.values.empty() && std::ranges::find(field.values, value.get<std::string>()) == field.values.end())
+  if (!field.values.empty() &&
+      std::ranges::find(field.values, value.get<std::string>()) == field.values.end())
     throw Error(where, fmt::format("\"{}\" is {}", field.name, json_text(value)),
                 "It takes " + spoken_list(field.values));
 }
@@ -117,7 +170,8 @@ nlohmann::json schema_of(const RequestKind& kind, const CLI::App& cut) {
   nlohmann::json required = {"do"};
   for (const RequestField& field : kind.fields) {
     nlohmann::json one = {{"description", field.sentence}};
-    one["type"] = kind.ask == Ask::kCancel ? nlohmann::json{"string", "integer"} : nlohmann::json(type_name(field.type).in_schema);
+    one["type"] = kind.ask == Ask::kCancel ? nlohmann::json{"string", "integer"}
+                                           : nlohmann::json(type_name(field.type).in_schema);
     if (!field.values.empty()) one["enum"] = field.values;
     fields[field.name] = one;
     if (field.required) required.push_back(field.name);
@@ -125,10 +179,12 @@ nlohmann::json schema_of(const RequestKind& kind, const CLI::App& cut) {
   for (const std::string& name : kind.cut_options) {
     const CLI::Option* option = cut.get_option("--" + name);
     fields[name] = {{"description", option->get_description()}};
-    fields[name]["type"] = option->get_expected_max() == 0 ? nlohmann::json("boolean") : nlohmann::json{"string", "number", "array"};
+    fields[name]["type"] = option->get_expected_max() == 0 ? nlohmann::json("boolean")
+                                                           : nlohmann::json{"string", "number", "array"};
   }
-  return {{"title", kind.name},     {"description", kind.sentence}, {"type", "object"},  {"properties", fields},
-          {"required", required}, {"additionalProperties", false}, {"x-reply", kind.reply}};
+  return {{"title", kind.name},   {"description", kind.sentence}, {"type", "object"},
+          {"properties", fields}, {"required", required},         {"additionalProperties", false},
+          {"x-reply", kind.reply}};
 }
 
 }  // namespace
@@ -153,9 +209,12 @@ const RequestKind& checked_kind(const nlohmann::json& request) {
   const auto kind = std::ranges::find(kinds(), asked->get<std::string>(), &RequestKind::name);
   if (kind == kinds().end()) throw Error("request", fmt::format("\"do\" is {}", json_text(*asked)), names());
   for (const auto& [key, value] : request.items()) {
-    if (key == "id" || key == "do" || std::ranges::find(kind->cut_options, key) != kind->cut_options.end()) continue;
-    const auto field = std::ranges::find_if(kind->fields, [&key = key](const RequestField& f) { return f.name == key; });
-    if (field == kind->fields.end()) throw Error(kind->name, fmt::format("has no field \"{}\"", key), "describe lists them");
+    if (key == "id" || key == "do" || std::ranges::find(kind->cut_options, key) != kind->cut_options.end())
+      continue;
+    const auto field =
+        std::ranges::find_if(kind->fields, [&key = key](const RequestField& f) { return f.name == key; });
+    if (field == kind->fields.end())
+      throw Error(kind->name, fmt::format("has no field \"{}\"", key), "describe lists them");
     check_field(*kind, *field, value);
   }
   for (const RequestField& field : kind->fields)

@@ -323,11 +323,11 @@ Losses ply_losses(const Scene& scene, bool rows_copied) {
 }
 
 std::string write_ply(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
-                      const SaveOptions&) {
+                      const SaveOptions& options) {
   if (scene.rows_can_be_copied)
-    write_ply_subset(out, scene, gaussians);
+    write_ply_subset(out, scene, gaussians, options.object_ids);
   else
-    write_ply_rows(out, scene, gaussians);
+    write_ply_rows(out, scene, gaussians, options.object_ids);
   return ply_losses(scene, scene.rows_can_be_copied).sentence();
 }
 

@@ -17,14 +17,22 @@ namespace {
 
 constexpr std::size_t kBufferBytes = 1 << 20;
 
-// The header text of the source with another vertex count; all other lines stay as they are.
-std::string header_with_count(std::string_view header, std::size_t count) {
+constexpr std::string_view kIdProperty = "property uchar object_id\n";
+
+// The header text of the source with another vertex count, and with object_id as the last property of a
+// vertex if asked for; all other lines stay as they are.
+std::string header_with_count(std::string_view header, std::size_t count, bool with_ids) {
   std::string out;
+  bool in_vertex = false;
   for (std::size_t begin = 0; begin < header.size();) {
     const std::size_t end = header.find('\n', begin) + 1;
     const std::string_view line = header.substr(begin, end - begin);
     const std::vector<std::string_view> words = words_of(line);
+    const bool leaves = in_vertex && !words.empty() && (words[0] == "element" || words[0] == "end_header");
+    if (leaves && with_ids) out += kIdProperty;
+    if (leaves) in_vertex = false;
     if (words.size() == 3 && words[0] == "element" && words[1] == "vertex") {
+      in_vertex = true;
       out += fmt::format("element vertex {}{}", count, line.ends_with("\r\n") ? "\r\n" : "\n");
     } else {
       out += line;
@@ -46,7 +54,7 @@ float log_scale(float scale) {
   return std::log(std::max(scale, kSmallest));
 }
 
-std::string header_for(std::size_t count, const GaussianCloud& cloud, bool is_far) {
+std::string header_for(std::size_t count, const GaussianCloud& cloud, bool is_far, bool with_ids) {
   std::string header = fmt::format("ply\nformat binary_little_endian 1.0\n{}element vertex {}\n",
                                    antialiasing_comment(cloud.antialiased), count);
   for (const char* name : {"x", "y", "z"})
@@ -56,6 +64,7 @@ std::string header_for(std::size_t count, const GaussianCloud& cloud, bool is_fa
   for (std::size_t i = 0; i < cloud.sh_stride(); ++i) add(fmt::format("f_rest_{}", i));
   for (const char* name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
     add(name);
+  if (with_ids) header += kIdProperty;
   return header + "end_header\n";
 }
 
@@ -66,15 +75,19 @@ void refuse_changed(const MappedFile& source, const Scene& scene) {
 
 }  // namespace
 
-void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians) {
+void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
+                      std::span<const std::uint8_t> object_ids) {
   const MappedFile source(scene.path);
   refuse_changed(source, scene);
   const PlyHeader header = parse_ply_header(scene.path, source.bytes());
   const PlyElement* vertex = header.find("vertex");
   if (!vertex) throw Error(scene.path.string(), "the header has no element \"vertex\"");
+  if (!object_ids.empty() && vertex->find("object_id"))
+    throw Error(scene.path.string(), "has a property object_id already, where objects are to be numbered");
   const std::span<const std::byte> rows = element_bytes(scene.path, source.bytes(), *vertex);
-  const std::string text = header_with_count(
-      {reinterpret_cast<const char*>(source.bytes().data()), header.bytes}, gaussians.size());
+  const std::string text =
+      header_with_count({reinterpret_cast<const char*>(source.bytes().data()), header.bytes},
+                        gaussians.size(), !object_ids.empty());
   out.write(std::as_bytes(std::span(text)));
   out.write(source.bytes().subspan(header.bytes, vertex->data_begin - header.bytes));
   const std::size_t row_bytes = vertex->row_bytes;
@@ -83,6 +96,7 @@ void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::
   for (const std::uint32_t g : gaussians) {
     const auto row = rows.subspan(scene.cloud.file_row[g] * row_bytes, row_bytes);
     buffer.insert(buffer.end(), row.begin(), row.end());
+    if (!object_ids.empty()) buffer.push_back(std::byte{object_ids[g]});
     if (buffer.size() < kBufferBytes) continue;
     out.write(buffer);
     buffer.clear();
@@ -92,32 +106,38 @@ void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::
   refuse_changed(MappedFile(scene.path), scene);                        // while its rows were copied
 }
 
-void write_ply_rows(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians) {
+void write_ply_rows(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
+                    std::span<const std::uint8_t> object_ids) {
   const GaussianCloud& cloud = scene.cloud;
   const bool is_far = scene.origin != glm::dvec3(0);
-  const std::string header = header_for(gaussians.size(), cloud, is_far);
+  const std::string header = header_for(gaussians.size(), cloud, is_far, !object_ids.empty());
   out.write(std::as_bytes(std::span(header)));
-  std::vector<float> buffer;
-  buffer.reserve(kBufferBytes / sizeof(float) + 20 + cloud.sh_stride());
-  const auto add = [&](auto... values) { (buffer.push_back(values), ...); };
+  std::vector<std::byte> buffer;
+  buffer.reserve(kBufferBytes + (20 + cloud.sh_stride()) * sizeof(float));
+  std::vector<float> row;
+  const auto add = [&](auto... values) { (row.push_back(values), ...); };
   for (const std::uint32_t g : gaussians) {
     const glm::vec3 &p = cloud.position[g], &dc = cloud.f_dc[g], &s = cloud.scale[g];
     const glm::quat& q = cloud.rotation[g];
     const std::span<const float> rest = cloud.sh_rest_of(g);
+    row.clear();
     if (is_far) {
       const auto halves = std::bit_cast<std::array<float, 6>>(glm::dvec3(p) + scene.origin);
-      buffer.insert(buffer.end(), halves.begin(), halves.end());
+      row.insert(row.end(), halves.begin(), halves.end());
     } else {
       add(p.x, p.y, p.z);
     }
     add(0.0f, 0.0f, 0.0f, dc.x, dc.y, dc.z);
-    buffer.insert(buffer.end(), rest.begin(), rest.end());
+    row.insert(row.end(), rest.begin(), rest.end());
     add(logit(cloud.opacity[g]), log_scale(s.x), log_scale(s.y), log_scale(s.z), q.w, q.x, q.y, q.z);
-    if (buffer.size() * sizeof(float) < kBufferBytes) continue;
-    out.write(std::as_bytes(std::span(buffer)));
+    const auto bytes = std::as_bytes(std::span(row));
+    buffer.insert(buffer.end(), bytes.begin(), bytes.end());
+    if (!object_ids.empty()) buffer.push_back(std::byte{object_ids[g]});
+    if (buffer.size() < kBufferBytes) continue;
+    out.write(buffer);
     buffer.clear();
   }
-  out.write(std::as_bytes(std::span(buffer)));
+  out.write(buffer);
 }
 
 }  // namespace splatcut

@@ -8,10 +8,14 @@
 
 namespace splatcut {
 
+// object_ids: of SaveOptions.
+
 // Rows as they stand in the source file, which is a binary .ply.
-void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians);
+void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
+                      std::span<const std::uint8_t> object_ids = {});
 
 // Encoded from the cloud, in the layout of Kerbl et al.; positions in double where the scene has an origin.
-void write_ply_rows(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians);
+void write_ply_rows(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
+                    std::span<const std::uint8_t> object_ids = {});
 
 }  // namespace splatcut

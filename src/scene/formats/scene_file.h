@@ -75,6 +75,7 @@ struct SaveOptions {
   int spz_version = 3;        // 3, which every reader of .spz knows, or 4, which is smaller
   bool may_be_empty = false;  // a .ply without Gaussians is written rather than refused
   bool z_up = false;          // what a .usda says of its axes, which else have y up
+  std::span<const std::uint8_t> object_ids = {};  // per Gaussian: a .ply says them as property object_id
 };
 
 struct SaveReport {

@@ -85,7 +85,8 @@ TEST_CASE("batch: a job's files are those of the cut with the same options, and 
                              {"seeds", {{"clicks", {{{"x", x / 2}, {"y", y / 2}}}}}}}}));
   const Result wrong = place.run("batch two.jsonl -o two");
   CHECK(wrong.code == 1);
-  CHECK(results_in("two/results.jsonl")[0]["error"].get<std::string>().find("clean.trim") != std::string::npos);
+  CHECK(results_in("two/results.jsonl")[0]["error"].get<std::string>().find("clean.trim") !=
+        std::string::npos);
   CHECK_FALSE(place.exists("two/apple"));
   std::string text = place.text("two.jsonl");
   text.replace(text.find(",\"clean.trim=1\""), std::string(",\"clean.trim=1\"").size(), "");
@@ -94,10 +95,12 @@ TEST_CASE("batch: a job's files are those of the cut with the same options, and 
   REQUIRE_MESSAGE(first.code == 0, first.err);
   CHECK(first.out.find("2 jobs: 1 done before, 1 done, 0 failed") != std::string::npos);
 
-  REQUIRE(place.run(still_life().cut("--click " + apple + " --set views.most=2 --scale -1 -o alone")).code == 0);
+  REQUIRE(place.run(still_life().cut("--click " + apple + " --set views.most=2 --scale -1 -o alone")).code ==
+          0);
   std::set<std::string> names = place.files_in("alone");
   for (const std::string& name : names)
-    if (name != "report.json") CHECK_MESSAGE(place.text("two/apple/" + name) == place.text("alone/" + name), name);
+    if (name != "report.json")
+      CHECK_MESSAGE(place.text("two/apple/" + name) == place.text("alone/" + name), name);
   names.insert("result.json");
   CHECK(place.files_in("two/apple") == names);
   const json report = json::parse(place.text("alone/report.json"));
@@ -108,9 +111,10 @@ TEST_CASE("batch: a job's files are those of the cut with the same options, and 
 
   CHECK(place.files_in("two/job_00004") ==
         std::set<std::string>{"labels.npy", "labels.u8", "report.json", "result.json"});
-  REQUIRE(place.run(still_life().cut("--parts-only --size 504x378 --seeds {\"clicks\":[{\"x\":" +
-                                     std::to_string(x / 2) + ",\"y\":" + std::to_string(y / 2) +
-                                     "}]} --write labels -o parts"))
+  REQUIRE(place
+              .run(still_life().cut(
+                  "--parts-only --size 504x378 --seeds {\"clicks\":[{\"x\":" + std::to_string(x / 2) +
+                  ",\"y\":" + std::to_string(y / 2) + "}]} --write labels -o parts"))
               .code == 0);
   CHECK(place.files_in("parts") == std::set<std::string>{"labels.u8", "report.json"});
   const std::string labels = place.text("parts/labels.u8");
@@ -118,7 +122,8 @@ TEST_CASE("batch: a job's files are those of the cut with the same options, and 
   const std::string npy = place.text("two/job_00004/labels.npy");  // by numpy's description of its format
   REQUIRE(npy.size() == 128 + labels.size());
   CHECK(npy.substr(0, 10) == std::string("\x93NUMPY\x01\x00\x76\x00", 10));
-  CHECK(npy.substr(10, 118) == "{'descr': '|u1', 'fortran_order': False, 'shape': (20000,), }" + std::string(56, ' ') + "\n");
+  CHECK(npy.substr(10, 118) ==
+        "{'descr': '|u1', 'fortran_order': False, 'shape': (20000,), }" + std::string(56, ' ') + "\n");
   CHECK(npy.substr(128) == labels);
 
   const std::vector<json> results = results_in("two/results.jsonl");
@@ -128,7 +133,8 @@ TEST_CASE("batch: a job's files are those of the cut with the same options, and 
   CHECK(results[0]["objects"][0]["gaussians"] == report["object"]["gaussians"]);
   CHECK(results[0]["objects"][0]["doubts"] == report["doubts"]);
   CHECK(results[1]["files"] == json{"labels.npy", "labels.u8", "report.json"});
-  CHECK(place.text("two/summary.csv").find("\napple,3," + still_life().scene + ",done,1,") != std::string::npos);
+  CHECK(place.text("two/summary.csv").find("\napple,3," + still_life().scene + ",done,1,") !=
+        std::string::npos);
 
   const auto before = bytes_below("two");
   const std::string with_seconds = place.text("two/results.jsonl");
@@ -144,6 +150,10 @@ TEST_CASE("batch: what is no job fails with a sentence, and the others are done"
   const Workplace& place = still_life().place;
   place.make_folder("mixed/taken");
   place.write("mixed/taken/mine.txt", "mine");
+  place.write("ends_its_parent.sh", "kill -9 $PPID\n");
+  json ends =
+      job_on("plant", {{"text", "a plant"}, {"segmenter", "sh ends_its_parent.sh {image} {text} {mask}"}});
+  ends.erase("click");
   const std::vector<std::pair<std::string, const char*>> lines = {
       {"{\"scene\": ", "not valid JSON"},
       {"[1, 2]", "no object"},
@@ -157,25 +167,31 @@ TEST_CASE("batch: what is no job fails with a sentence, and the others are done"
       {job_on("apple", {{"name", "taken"}}).dump(), "no result of a batch"},
       {job_on("mug").dump(), nullptr},
       {job_on("mug").dump(), "the folder mug is that of line 11"},
+      {ends.dump(), "its process was killed"},
+      {job_on("books", {{"write", "labels"}}).dump(), nullptr},
   };
   std::string text;
   for (const auto& line : lines) text += line.first + "\n";
   place.write("mixed.jsonl", text);
   const Result result = place.run("batch mixed.jsonl -o mixed --jobs 2");
   CHECK(result.code == 1);
-  CHECK(result.err.find("11 of 12 jobs failed") != std::string::npos);
+  CHECK(result.err.find("12 of 14 jobs failed") != std::string::npos);
   const std::vector<json> results = results_in("mixed/results.jsonl");
   REQUIRE(results.size() == lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     CAPTURE(results[i].dump());
     CHECK(results[i]["line"] == i + 1);
     REQUIRE(results[i].contains("error") == (lines[i].second != nullptr));
-    if (lines[i].second) CHECK(results[i]["error"].get<std::string>().find(lines[i].second) != std::string::npos);
+    if (lines[i].second)
+      CHECK(results[i]["error"].get<std::string>().find(lines[i].second) != std::string::npos);
   }
-  CHECK(place.files_in("mixed") == std::set<std::string>{"mug", "taken", "results.jsonl", "summary.csv"});
+  CHECK(place.files_in("mixed") ==
+        std::set<std::string>{"books", "mug", "taken", "results.jsonl", "summary.csv"});
   CHECK(place.text("mixed/taken/mine.txt") == "mine");
   CHECK(place.run("batch mixed.jsonl -o mixed --shard 2/2").err.find("--shard") != std::string::npos);
   CHECK(place.run("batch mixed.jsonl -o mixed --shard 1").code == 1);
+  CHECK(place.run("batch mixed/results.jsonl -o mixed").err.find("is what is read here") !=
+        std::string::npos);
   place.write("empty.jsonl", "\n# nothing\n");
   CHECK(place.run("batch empty.jsonl -o empty").err.find("holds no job") != std::string::npos);
   CHECK_FALSE(place.exists("empty"));
@@ -194,7 +210,8 @@ TEST_CASE("batch: a job that was changed is done again, and files of its old res
         std::set<std::string>{"labels.u8", "notes.txt", "report.json", "result.json"});
   std::filesystem::remove(place / "change/apple/labels.u8");  // what lacks a file is not done
   CHECK(place.run("batch change.jsonl -o change").out.find("0 done before, 1 done") != std::string::npos);
-  CHECK(place.run("batch change.jsonl -o change --overwrite").out.find("0 done before, 1 done") != std::string::npos);
+  CHECK(place.run("batch change.jsonl -o change --overwrite").out.find("0 done before, 1 done") !=
+        std::string::npos);
 }
 
 TEST_CASE("batch: shards, workers and kills at any moment change nothing of what is there in the end") {
@@ -219,15 +236,27 @@ TEST_CASE("batch: shards, workers and kills at any moment change nothing of what
   for (const char* part : {"0", "1"})
     REQUIRE(place.run(std::string("batch list.jsonl -o parts_of_it --shard ") + part + "/2").code == 0);
   for (const int part : {0, 1}) {
-    const std::vector<json> results = results_in("parts_of_it/results." + std::to_string(part) + "-of-2.jsonl");
+    const std::vector<json> results =
+        results_in("parts_of_it/results." + std::to_string(part) + "-of-2.jsonl");
     CHECK(results.size() == 4);
-    for (const json& result : results) CHECK(result["scene"] == jobs[static_cast<std::size_t>(part)]["scene"]);
+    for (const json& result : results)
+      CHECK(result["scene"] == jobs[static_cast<std::size_t>(part)]["scene"]);
   }
   const Result collected = place.run("batch list.jsonl -o parts_of_it");
   CHECK(collected.out.find("8 done before, 0 done") != std::string::npos);
   auto parts = bytes_below("parts_of_it");
-  CHECK(std::erase_if(parts, [](const auto& file) { return file.first.find("-of-2") != std::string::npos; }) == 4);
+  CHECK(std::erase_if(parts,
+                      [](const auto& file) { return file.first.find("-of-2") != std::string::npos; }) == 4);
   CHECK(parts == whole);
+
+  // In three parts each scene lies in two: no job's files know which were done before it.
+  for (const char* part : {"2", "0", "1"})
+    REQUIRE(place.run(std::string("batch list.jsonl -o thirds --shard ") + part + "/3").code == 0);
+  REQUIRE(place.run("batch list.jsonl -o thirds").code == 0);
+  auto thirds = bytes_below("thirds");
+  std::erase_if(thirds, [](const auto& file) { return file.first.find("-of-3") != std::string::npos; });
+  for (const auto& [name, bytes] : whole) CHECK_MESSAGE(thirds[name] == bytes, name);
+  CHECK(thirds.size() == whole.size());
 
   std::mt19937 random(7);
   int ended = 0;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base64.h"
 #include "quick.h"
 
 using namespace splatcut;
@@ -50,7 +51,8 @@ class Client {
 
 }  // namespace
 
-QUICK_CASE("mailbox", "mailbox: requests in their order, lines that are none among them, pieces of lines joined") {
+QUICK_CASE("mailbox",
+           "mailbox: requests in their order, lines that are none among them, pieces of lines joined") {
   Client client;
   ReplyWriter replies(client.output());
   Mailbox mailbox(client.input(), &replies, {});
@@ -78,7 +80,9 @@ QUICK_CASE("mailbox", "mailbox: what runs and what waits is cancelled at once, w
   client.say("{\"id\": 1, \"do\": \"undo\"}\n{\"id\": 2, \"do\": \"undo\"}\n{\"id\": 3, \"do\": \"undo\"}\n");
   const auto first = mailbox.next();
   CHECK_FALSE(first->stop.stop_requested());
-  client.say("{\"id\": \"c\", \"do\": \"cancel\", \"request\": 1}\n{\"id\": \"d\", \"do\": \"cancel\", \"request\": 3}\n");
+  client.say(
+      "{\"id\": \"c\", \"do\": \"cancel\", \"request\": 1}\n{\"id\": \"d\", \"do\": \"cancel\", \"request\": "
+      "3}\n");
   CHECK(client.hear() == json{{"id", "c"}, {"ok", true}, {"cancelled", true}});
   CHECK(client.hear() == json{{"id", "d"}, {"ok", true}, {"cancelled", true}});
   CHECK(first->stop.stop_requested());
@@ -110,6 +114,13 @@ QUICK_CASE("mailbox", "mailbox: a stop ends the wait, whether requests are read,
     while (mailbox.next()) continue;
     later.join();
   }
+}
+
+QUICK_CASE("requests", "base64: the examples of RFC 4648") {
+  const std::vector<std::pair<std::string, std::string>> examples = {
+      {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : examples) CHECK(base64_of(bytes) == text);
+  CHECK(base64_of("\xff\xef\xbe") == "/+++");
 }
 
 QUICK_CASE("mailbox", "replies: lines of several threads are whole, and a client that is gone is noticed") {

@@ -66,7 +66,8 @@ json opened() {
 
 json click_on(const std::string& thing, const char* label = "object") {
   const std::string at = still_life().click_on(thing);
-  return request("click", {{"x", std::stoi(at)}, {"y", std::stoi(at.substr(at.find(',') + 1))}, {"label", label}});
+  return request("click",
+                 {{"x", std::stoi(at)}, {"y", std::stoi(at.substr(at.find(',') + 1))}, {"label", label}});
 }
 
 std::string bytes_of_base64(const std::string& text) {
@@ -80,46 +81,52 @@ std::string bytes_of_base64(const std::string& text) {
 
 TEST_CASE("serve: a conversation cuts what `cut` cuts, and takes it back") {
   const Workplace& place = still_life().place;
-  const std::string two = "--click " + still_life().click_on("apple") + " --click " + still_life().click_on("mug") + ":rest";
-  REQUIRE(place.run(still_life().cut("--click " + still_life().click_on("apple") + " -o one_click")).code == 0);
-  REQUIRE(place.run(still_life().cut("--click " + still_life().click_on("apple") + " --edges keep --write pictures -o as_is")).code == 0);
-  CHECK(place.files_in("as_is") == std::set<std::string>{"masks.png", "object.png", "report.json", "tint.png"});
+  const std::string two =
+      "--click " + still_life().click_on("apple") + " --click " + still_life().click_on("mug") + ":rest";
+  REQUIRE(place.run(still_life().cut("--click " + still_life().click_on("apple") + " -o one_click")).code ==
+          0);
+  REQUIRE(place
+              .run(still_life().cut("--click " + still_life().click_on("apple") +
+                                    " --edges keep --write pictures -o as_is"))
+              .code == 0);
+  CHECK(place.files_in("as_is") ==
+        std::set<std::string>{"masks.png", "object.png", "report.json", "tint.png"});
   REQUIRE(place.run(still_life().cut(two + " --edges keep -o two_clicks")).code == 0);
   REQUIRE(place.run(still_life().cut(two + " --scale 1 -o larger")).code == 0);
   const Said said = talk({
-      request("click", {{"x", 1}, {"y", 1}}),                                          // 0: no scene
-      opened(),                                                                        // 1
-      request("settings", {{"preset", "fast"}}),                                       // 2
-      request("labels"),                                                               // 3: no object
-      click_on("apple"),                                                               // 4
-      request("labels"),                                                               // 5
-      request("preview", {{"what", "object"}, {"path", "served.png"}}),                // 6
-      request("export", {{"path", "served.ply"}}),                                     // 7
-      click_on("mug", "rest"),                                                         // 8
-      request("labels", {{"path", "served.npy"}}),                                     // 9
-      request("export", {{"path", "served.ply"}, {"edges", "keep"}}),                  // 10: is there
-      request("export", {{"path", "kept.ply"}, {"edges", "keep"}}),                    // 11
-      request("export", {{"path", "rest.ply"}, {"what", "rest"}}),                     // 12
-      request("size", {{"step", 1}}),                                                  // 13
-      request("labels", {{"path", "larger.u8"}}),                                      // 14
-      request("undo"),                                                                 // 15
-      request("undo"),                                                                 // 16
-      request("labels"),                                                               // 17
-      request("click", {{"x", 5000}, {"y", 1}}),                                       // 18: outside
-      request("labels"),                                                               // 19: as before it
-      request("preview", {{"width", 100}}),                                            // 20
-      request("camera", {{"camera", 3}, {"size", "504x378"}}),                         // 21
-      request("camera", {{"camera", "no such"}}),                                      // 22
-      request("export", {{"path", still_life().scene}, {"overwrite", true}}),          // 23: an input
-      request("preview", {{"path", "a.ply"}}),                                         // 24
-      request("undo"),                                                                 // 25
-      request("undo"),                                                                 // 26: nothing left
-      request("clear"),                                                                // 27
-      request("close"),                                                                // 28
-      request("click", {{"x", 1}, {"y", 1}}),                                          // 29
-      request("describe"),                                                             // 30
-      request("quit"),                                                                 // 31
-      request("describe"),                                                             // 32: never read
+      request("click", {{"x", 1}, {"y", 1}}),                                  // 0: no scene
+      opened(),                                                                // 1
+      request("settings", {{"preset", "fast"}}),                               // 2
+      request("labels"),                                                       // 3: no object
+      click_on("apple"),                                                       // 4
+      request("labels"),                                                       // 5
+      request("preview", {{"what", "object"}, {"path", "served.png"}}),        // 6
+      request("export", {{"path", "served.ply"}}),                             // 7
+      click_on("mug", "rest"),                                                 // 8
+      request("labels", {{"path", "served.npy"}}),                             // 9
+      request("export", {{"path", "served.ply"}, {"edges", "keep"}}),          // 10: is there
+      request("export", {{"path", "kept.ply"}, {"edges", "keep"}}),            // 11
+      request("export", {{"path", "rest.ply"}, {"what", "rest"}}),             // 12
+      request("size", {{"step", 1}}),                                          // 13
+      request("labels", {{"path", "larger.u8"}}),                              // 14
+      request("undo"),                                                         // 15
+      request("undo"),                                                         // 16
+      request("labels"),                                                       // 17
+      request("click", {{"x", 5000}, {"y", 1}}),                               // 18: outside
+      request("labels"),                                                       // 19: as before it
+      request("preview", {{"width", 100}}),                                    // 20
+      request("camera", {{"camera", 3}, {"size", "504x378"}}),                 // 21
+      request("camera", {{"camera", "no such"}}),                              // 22
+      request("export", {{"path", still_life().scene}, {"overwrite", true}}),  // 23: an input
+      request("preview", {{"path", "a.ply"}}),                                 // 24
+      request("undo"),                                                         // 25
+      request("undo"),                                                         // 26: nothing left
+      request("clear"),                                                        // 27
+      request("close"),                                                        // 28
+      request("click", {{"x", 1}, {"y", 1}}),                                  // 29
+      request("describe"),                                                     // 30
+      request("quit"),                                                         // 31
+      request("describe"),                                                     // 32: never read
   });
   CHECK(said.code == 0);
   CHECK(said.err.empty());
@@ -158,8 +165,9 @@ TEST_CASE("serve: every option of cut is a field of one request, or left out on 
     for (const auto& [name, field] : kind["properties"].items()) fields.insert(name);
   }
   // What serve has requests for, what asks the file system for the object, and what a folder of files needs.
-  const std::set<std::string> left_out = {"help",  "click",     "box",  "scale",  "seeds", "mask",     "masks",
-                                          "text",  "segmenter", "work", "output", "write", "overwrite", "json"};
+  const std::set<std::string> left_out = {"help",   "click", "box",       "scale",     "seeds",
+                                          "mask",   "masks", "text",      "segmenter", "work",
+                                          "output", "write", "overwrite", "json"};
   std::istringstream help(still_life().place.run("cut --help").out);
   int options = 0;
   for (std::string line; std::getline(help, line);) {
@@ -239,7 +247,8 @@ TEST_CASE("serve: a request is cancelled, and the next one is answered as if it 
   cancel["id"] = 3;
   json again = cut;
   again["id"] = 4;
-  place.write("requests.jsonl", open.dump() + "\n" + cut.dump() + "\n" + cancel.dump() + "\n" + again.dump() + "\n");
+  place.write("requests.jsonl",
+              open.dump() + "\n" + cut.dump() + "\n" + cancel.dump() + "\n" + again.dump() + "\n");
   const Said said = heard("cat requests.jsonl");  // all of it is there before the scene is open
   CHECK(said.code == 0);
   CHECK(said.replies.at(3) == json{{"id", 3}, {"ok", true}, {"cancelled", true}});
@@ -261,7 +270,8 @@ TEST_CASE("serve: a signal, the end of stdin and a client that is gone end it, w
   CHECK(ended.err.find("ended by a signal") != std::string::npos);
   CHECK(heard("true").code == 0);
   CHECK(heard("true").lines == 0);
-  place.write("gone.sh", "cat requests.jsonl | (" + splatcut_program() + " serve; echo $? >gone.txt) | head -c 1 >/dev/null\n");
+  place.write("gone.sh", "cat requests.jsonl | (" + splatcut_program() +
+                             " serve; echo $? >gone.txt) | head -c 1 >/dev/null\n");
   place.run_program("/bin/bash", "gone.sh");
   CHECK(std::stoi(place.text("gone.txt")) <= 1);
 }
@@ -272,14 +282,17 @@ TEST_CASE("serve: the Python of docs/serve.md does what it says") {
   std::string script;
   bool inside = false;
   for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("```")) inside = line == "```python";
-    else if (inside) script += line + "\n";
+    if (line.starts_with("```"))
+      inside = line == "```python";
+    else if (inside)
+      script += line + "\n";
   }
   CHECK(std::ranges::count(script, '\n') <= 45);
   place.write("serve.py", script);
   std::string spot = still_life().click_on("apple");
   spot[spot.find(',')] = ' ';
-  place.write("python.sh", "python3 serve.py " + still_life().scene + " " + spot + " " + splatcut_program() + "\n");
+  place.write("python.sh",
+              "python3 serve.py " + still_life().scene + " " + spot + " " + splatcut_program() + "\n");
   const Result result = place.run_program("/bin/bash", "python.sh");
   CHECK_MESSAGE(result.code == 0, result.err);
   CHECK(result.out.find("20000 Gaussians in the scene") != std::string::npos);

@@ -175,3 +175,48 @@ TEST_CASE("files of objects that cannot be used are refused") {
           .dump());
   refused("cut " + still_life().scene + " --seeds objects.json", {}, {"\"apple\"", "--cameras"});
 }
+
+TEST_CASE("several objects: one file holds them all, each row as it is and with the number of its object") {
+  const Workplace& place = still_life().place;
+  place.write("pair.json", json{{"objects",
+                                 {{{"name", "red apple"}, {"clicks", one_click("apple")}},
+                                  {{"name", "mug"}, {"clicks", one_click("mug")}}}}}
+                               .dump());
+  const std::string cut =
+      " " + still_life().camera + " --preset fast --seeds pair.json --write labels,objects ";
+  REQUIRE(place.run("cut " + still_life().scene + cut + "-o pair").code == 0);
+  CHECK(place.files_in("pair") == std::set<std::string>{"labels.u8", "mug.labels.u8", "objects.json",
+                                                        "objects.ply", "red_apple.labels.u8", "report.json"});
+  CHECK(json::parse(place.text("pair/objects.json")) ==
+        json{{"objects", {{{"object_id", 1}, {"name", "red apple"}}, {{"object_id", 2}, {"name", "mug"}}}}});
+  const auto rows_of = [](const std::string& file, std::size_t* row_bytes) {
+    const std::size_t start = file.find("end_header\n") + 11;
+    const std::size_t count = std::stoul(file.substr(file.find("element vertex ") + 15));
+    *row_bytes = (file.size() - start) / count;
+    return file.substr(start);
+  };
+  const auto check = [&](const std::string& folder, const std::string& scene) {
+    const std::string labels = place.text(folder + "/labels.u8"), file = place.text(folder + "/objects.ply");
+    const std::size_t at = file.find("property uchar object_id\nend_header\n");
+    REQUIRE(at != std::string::npos);  // last, so that programs that count columns find theirs
+    std::size_t bytes = 0, own_bytes = 0, row = 0;
+    const std::string rows = rows_of(file, &bytes), all = rows_of(place.text(scene), &own_bytes);
+    CHECK(bytes == own_bytes + 1);
+    for (std::size_t g = 0; g < labels.size(); ++g) {
+      if (labels[g] == '\0') continue;
+      REQUIRE(rows.substr(row, own_bytes) == all.substr(g * own_bytes, own_bytes));
+      REQUIRE(rows[row + own_bytes] == labels[g]);
+      row += bytes;
+    }
+    CHECK(row == rows.size());
+  };
+  check("pair", "made/small.ply");
+  // From a format whose rows are written anew; `convert` writes the same values.
+  REQUIRE(place.run("convert " + still_life().scene + " -o pair.splat").code == 0);
+  REQUIRE(place.run("convert pair.splat -o pair_again.ply").code == 0);
+  REQUIRE(place.run("cut pair.splat" + cut + "-o pair_anew").code == 0);
+  check("pair_anew", "pair_again.ply");
+  // The file is a scene; an object of it would be numbered twice.
+  CHECK(place.run("info pair/objects.ply").code == 0);
+  refused("cut pair/objects.ply" + cut, {}, {"object_id already"});
+}
