@@ -21,6 +21,7 @@
 #include "app/cli/commands.h"
 #include "app/console/console.h"
 #include "app/console/kept_inputs.h"
+#include "app/console/output_folder.h"
 #include "app/console/run_program.h"
 #include "core/error.h"
 #include "core/json_file.h"
@@ -257,9 +258,20 @@ class Batch {
       }
       if (ended) {
         const std::string why = worker->wait();
-        if (worker->job()) add(failed_result(*worker->job(), sentence_of(Error("the job", why)), 0), job);
+        if (worker->job()) {
+          clear_after(*worker->job());
+          add(failed_result(*worker->job(), sentence_of(Error("the job", why)), 0), job);
+        }
       }
       worker = ended ? workers_.erase(worker) : std::next(worker);
+    }
+  }
+
+  // Takes back what a process that is gone has half done.
+  void clear_after(const BatchJob& job) const {
+    try {
+      const OutputFolder cleared(options_.output / job.name, true);  // as any next writer of it would
+    } catch (const Error&) {  // what cannot be reached now is set right by the next run
     }
   }
 

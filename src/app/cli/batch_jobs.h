@@ -16,7 +16,7 @@
 
 namespace splatcut {
 
-struct BatchJob {
+struct BatchJob {        // NOLINT(bugprone-exception-escape): moving JSON throws nothing
   std::string name;      // of its folder, too
   std::size_t line = 0;  // in the file, from 1
   nlohmann::json asked;  // the line
