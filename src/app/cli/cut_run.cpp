@@ -7,7 +7,6 @@
 
 #include "app/cli/cut_report.h"
 #include "app/console/console.h"
-#include "app/console/kept_inputs.h"
 #include "app/console/setting_options.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
