@@ -74,11 +74,12 @@ nlohmann::json do_job(const BatchJob& job, BatchWorker* worker) {
   }
   refuse_written_inputs(folder, worker->scene->scene().files);
   nlohmann::json warnings = nlohmann::json::array();
-  const CutRun run = run_cut_in(&*worker->scene, args, input, out,
-                                {.quiet = true,
-                                 .times = false,
-                                 .warn = [&](const std::string& sentence) { warnings.push_back(sentence); }},
-                                worker->job);
+  const FinishedCut run =
+      run_cut_in(&*worker->scene, args, input, out,
+                 {.quiet = true,
+                  .times = false,
+                  .warn = [&](const std::string& sentence) { warnings.push_back(sentence); }},
+                 worker->job);
   nlohmann::json result = {{"job", job.name},
                            {"line", job.line},
                            {"scene", args.scene.string()},

@@ -64,7 +64,7 @@ void run_cut(const CutCommand& command, const CommonOptions& common) {
       .quiet = common.quiet,
       .warn = [&](const std::string& sentence) { warn(sentence, common.quiet); },
   };
-  const CutRun run = run_cut_in(&scene, args, input, folder, how, job);
+  const FinishedCut run = run_cut_in(&scene, args, input, folder, how, job);
   warn_of_doubts(run.objects, common.quiet);
   const std::vector<std::string> files = folder.names();
   folder.commit();

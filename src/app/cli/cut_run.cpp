@@ -133,8 +133,8 @@ Session& SharedScene::session(const ChosenCamera& chosen) {
   return *session_;
 }
 
-CutRun run_cut_in(SharedScene* shared, const CutArguments& args, const ObjectInput& input,
-                  const OutputFolder& folder, const CutRunOptions& options, const Job& job) {
+FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const ObjectInput& input,
+                       const OutputFolder& folder, const CutRunOptions& options, const Job& job) {
   const auto start = std::chrono::steady_clock::now();
   const Scene& scene = shared->scene();
   ChosenCamera chosen = choose_camera(args.camera, scene.cloud, scene.origin);
@@ -156,7 +156,7 @@ CutRun run_cut_in(SharedScene* shared, const CutArguments& args, const ObjectInp
   if (report.rest == 0) options.warn("the cut takes the whole scene: the rest holds no Gaussians");
   if (args.cutout.writes("objects"))
     write_text_file(folder.file("objects.json"), json_text(object_names(objects), 2) + "\n");
-  CutRun run{report_json(report), summary(report), std::move(objects)};
+  FinishedCut run{report_json(report), summary(report), std::move(objects)};
   write_text_file(folder.file("report.json"), json_text(run.report, 2) + "\n");
   stop_if_cancelled(job, "splatcut cut");
   return run;

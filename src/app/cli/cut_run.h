@@ -69,7 +69,7 @@ struct CutRunOptions {
   std::function<void(const std::string& sentence)> warn;  // of all but doubts about the results
 };
 
-struct CutRun {
+struct FinishedCut {
   nlohmann::json report;
   std::string summary;             // lines for the terminal
   std::vector<CutObject> objects;  // with their results
@@ -77,7 +77,7 @@ struct CutRun {
 
 // Writes the files of a cut into `folder`, report.json among them; commit() is left to the caller. input: of
 // args.object. Throws Error where nothing is found, or where it is cancelled.
-CutRun run_cut_in(SharedScene* scene, const CutArguments& args, const ObjectInput& input,
-                  const OutputFolder& folder, const CutRunOptions& options, const Job& job);
+FinishedCut run_cut_in(SharedScene* scene, const CutArguments& args, const ObjectInput& input,
+                       const OutputFolder& folder, const CutRunOptions& options, const Job& job);
 
 }  // namespace splatcut

@@ -16,6 +16,17 @@ std::string gaussians_text(std::size_t n) {
   return grouped(n) + (n == 1 ? " Gaussian" : " Gaussians");
 }
 
+std::string length_format(float length) {
+  const float size = std::abs(length);
+  if (!(size > 0)) return "%.0f";
+  if (size < 1e-4f || size >= 1e9f) return "%.2e";
+  return fmt::format("%.{}f", std::max(0, 2 - static_cast<int>(std::floor(std::log10(size)))));
+}
+
+std::string ms_text(double ms) {
+  return ms < 1000 ? fmt::format("{:.0f} ms", ms) : fmt::format("{:.1f} s", ms / 1000);
+}
+
 std::string length_text(float length) {
   const float size = std::abs(length);
   if (!(size > 0)) return "0";

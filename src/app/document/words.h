@@ -16,5 +16,9 @@ std::string scene_name(const std::filesystem::path& scene);
 
 // A length of the scene with three figures: "0.0235", "12.4", "1,250". Scene units.
 std::string length_text(float length);
+// printf's format for the length where it can be typed, with three figures.
+std::string length_format(float length);
+
+std::string ms_text(double ms);  // "740 ms", "2.4 s"
 
 }  // namespace splatcut

@@ -111,10 +111,9 @@ void export_choices(UiContext& ui) {
   }
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Format");
-  bool first = true;
   for (const SceneFormat& format : written_formats()) {
+    const bool first = format == written_formats().front();
     ImGui::SameLine(first ? 90.0f : 0.0f, first ? -1.0f : 2.0f);
-    first = false;
     if (button(ui, format.extension, format.name, {}, choice.format == format)) {
       choice.format = format;
       if (choice.what != ExportWhat::kAllObjects) choice.path = with_extension(choice.path, format).string();
@@ -323,8 +322,7 @@ void help_page(UiContext& ui) {
   centre_next_window({std::min(1060.0f, screen.x - 40), std::min(720.0f, screen.y - 40)});
   if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
   ImGui::BeginChild("keys", {0, -40});
-  constexpr float kColumnWidth = 300;
-  const int columns = std::clamp(static_cast<int>(ImGui::GetContentRegionAvail().x / kColumnWidth), 1, 3);
+  const int columns = std::clamp(static_cast<int>(ImGui::GetContentRegionAvail().x / 300), 1, 3);
   ImGui::Columns(columns, "groups", false);
   for (const char* group : {"File", "Edit", "Selection"}) key_group(ui, group);
   if (columns > 1) ImGui::NextColumn();

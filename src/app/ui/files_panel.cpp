@@ -36,8 +36,7 @@ bool scale_number(float* scale) {
   ImGui::TextUnformatted("Scale");
   ImGui::SameLine(64);
   ImGui::SetNextItemWidth((ImGui::GetContentRegionAvail().x - 8) / 3);
-  constexpr float kLeast = 1e-3f, kMost = 1e3f;
-  ImGui::DragFloat("##scale", scale, 0.01f, kLeast, kMost, "%.4g times",
+  ImGui::DragFloat("##scale", scale, 0.01f, 1e-3f, 1e3f, "%.4g times",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat);
   const bool done = ImGui::IsItemDeactivatedAfterEdit();
   tooltip("About the middle of the file. Drag, or click and type.");
@@ -46,9 +45,9 @@ bool scale_number(float* scale) {
 
 void placing(UiContext& ui, const SceneSource& file) {
   ScenePlace& place = ui.state.placing.place;
-  constexpr float kStep = 0.001f;  // of the scene's size
+  // A thousandth of the scene's size a step.
   bool done = three_numbers("Move", "By how much it stands elsewhere, in scene units", &place.move,
-                            kStep * ui.studio.camera().scene_size(), "%.4g");
+                            0.001f * ui.studio.camera().scene_size(), "%.4g");
   done |= three_numbers("Turn", "About this axis of the scene, around the middle of the file, in degrees",
                         &place.turn_deg, 0.5f, "%.1f");
   done |= scale_number(&place.scale);

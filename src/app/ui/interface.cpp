@@ -16,8 +16,7 @@ constexpr float kTopHeight = 46, kToolsWidth = 54, kUsualSideWidth = 316, kStatu
 
 // A third of a small window, so that the picture keeps the most of it.
 float side_width(const glm::vec2& window_size) {
-  constexpr float kSmallWindow = 880;
-  return window_size.x < kSmallWindow ? std::round(window_size.x / 3) : kUsualSideWidth;
+  return window_size.x < 880 ? std::round(window_size.x / 3) : kUsualSideWidth;
 }
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |

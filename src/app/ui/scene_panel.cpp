@@ -25,10 +25,7 @@ void up_buttons(UiContext& ui) {
   ImGui::TextUnformatted("Up");
   for (const Axis& axis : axes) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {5, 4});
-    if (axis.name == axes[0].name)
-      ImGui::SameLine(0, 74);
-    else
-      same_line_if_fits(axis.name, 2);
+    axis.name == axes[0].name ? ImGui::SameLine(0, 74) : same_line_if_fits(axis.name, 2);
     const bool on = glm::dot(ui.studio.document().up_world, axis.direction) > 0.9999f;
     if (button(ui, axis.name, "Turns the scene so that this axis points up", {}, on))
       ui.ask(SetUp{axis.direction});
@@ -79,16 +76,11 @@ void level_row(UiContext& ui) {
 }
 
 void backdrop_buttons(UiContext& ui) {
-  ImGui::Dummy({0, 0});
+  ImGui::SetCursorPosX(14);
   for (std::size_t i = 0; i < backdrops().size(); ++i) {
     const Backdrop& backdrop = backdrops()[i];
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6, 4});
-    if (i == 0) {
-      ImGui::SameLine();
-      ImGui::SetCursorPosX(14);
-    } else {
-      same_line_if_fits(backdrop.name, 2);
-    }
+    if (i > 0) same_line_if_fits(backdrop.name, 2);
     if (button(ui, backdrop.name, tip_of(Action::kBackdrop), {},
                shows(backdrop, ui.studio.document(), ui.studio.view())))
       ui.ask(SetBackdrop{i});

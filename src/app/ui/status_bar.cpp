@@ -63,9 +63,8 @@ void status_bar(UiContext& ui) {
     ImGui::TextUnformatted(fmt::format("{}: {}", active->name, what).c_str());
   }
   const std::string right = right_text(ui);
-  constexpr float kBetween = 24, kMargin = 12;
-  const float x = ImGui::GetWindowWidth() - ImGui::CalcTextSize(right.c_str()).x - kMargin;
-  if (x < ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + kBetween) return;  // what is done comes first
+  const float x = ImGui::GetWindowWidth() - ImGui::CalcTextSize(right.c_str()).x - 12;
+  if (x < ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + 24) return;  // what is done comes first
   ImGui::SameLine(x);
   muted_text(ui, right);
   tooltip(picture_times(ui.studio));

@@ -214,9 +214,8 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   float above_axes = area.min.y + covered_top(ui);
   for (const auto& line : {offer_line(ui, {area.min.x + 12, top + below_label}),
                            nearer_line(ui, {area.min.x + 12, top + below_label})}) {
-    if (!line) continue;
-    covered.push_back(*line);
-    if (line->max.x > area.max.x - kAxesWidth) above_axes = line->max.y;
+    if (line) covered.push_back(*line);
+    if (line && line->max.x > area.max.x - kAxesWidth) above_axes = line->max.y;
   }
   covered.push_back(axes_gizmo(ui, {{area.min.x, above_axes}, area.max}));
   if (const auto rect = first_run_hint(ui, area, bottom)) {

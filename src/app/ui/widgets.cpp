@@ -8,10 +8,6 @@
 
 namespace splatcut {
 
-std::string ms_text(double ms) {
-  return ms < 1000 ? fmt::format("{:.0f} ms", ms) : fmt::format("{:.1f} s", ms / 1000);
-}
-
 std::string tip_of(Action action) {
   const std::string keys = keys_of(action);
   return keys.empty() ? name_of(action) : fmt::format("{}  ({})", name_of(action), keys);
@@ -34,13 +30,6 @@ bool escape_pressed() {
 bool typing_beside(const char* label) {
   const ImGuiID typed = ImGui::GetIO().WantTextInput ? ImGui::GetActiveID() : 0;
   return typed != 0 && typed != ImGui::GetID(label);
-}
-
-std::string length_format(float length) {
-  const float size = std::abs(length);
-  if (!(size > 0)) return "%.0f";
-  if (size < 1e-4f || size >= 1e9f) return "%.2e";
-  return fmt::format("%.{}f", std::max(0, 2 - static_cast<int>(std::floor(std::log10(size)))));
 }
 
 bool tolerance_slider(float* share) {
@@ -106,10 +95,10 @@ ButtonRow::ButtonRow(std::initializer_list<const char*> labels) {
   constexpr float kSpacing = 4;
   const float all = ImGui::GetContentRegionAvail().x, count = static_cast<float>(labels.size());
   width_ = (all - kSpacing * (count - 1)) / count;
-  const auto fits = [&](const char* label) {
-    return ImGui::CalcTextSize(label, nullptr, true).x + ImGui::GetStyle().FramePadding.x <= width_;
-  };
-  beside_ = std::ranges::all_of(labels, fits);
+  const float padding = ImGui::GetStyle().FramePadding.x;
+  beside_ = std::ranges::all_of(labels, [&](const char* label) {
+    return ImGui::CalcTextSize(label, nullptr, true).x + padding <= width_;
+  });
   if (!beside_) width_ = all;
 }
 

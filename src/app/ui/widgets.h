@@ -29,8 +29,6 @@ bool escape_pressed();  // leaves a dialog; a key that closed the one before say
 // on to the dialog. Asked before the fields are made.
 bool typing_beside(const char* label);
 
-// As ImGui shows a length that can be typed: with three figures, like length_text().
-std::string length_format(float length);
 inline constexpr ImGuiSliderFlags kTypedLength =
     ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
 
@@ -54,7 +52,6 @@ void wrapped_muted(UiContext& ui, const std::string& text);
 void wrapped_warning(UiContext& ui, const std::string& text);
 bool section(UiContext& ui, const char* title, bool open = true);
 
-std::string ms_text(double ms);     // "740 ms", "2.4 s"
 std::string tip_of(Action action);  // "Undo (Ctrl+Z)"
 ImVec4 colour_of(const Rgb8& c);
 

@@ -124,7 +124,7 @@ json add_sh0(const SogInput& in, SogPictures* pictures) {
   return {{"codebook", codebook}, {"files", {"sh0.webp"}}};
 }
 
-Image<Rgba8> centroid_picture(const Palette& palette, std::size_t coefficients, const Codebook& codebook) {
+Image<Rgba8> centroid_picture(const RowPalette& palette, std::size_t coefficients, const Codebook& codebook) {
   const std::size_t entries = palette.size(3 * coefficients);
   Image<Rgba8> image(static_cast<int>(sog::kCentroidsPerRow * coefficients),
                      static_cast<int>((entries + sog::kCentroidsPerRow - 1) / sog::kCentroidsPerRow),
@@ -145,7 +145,7 @@ json add_shn(const SogInput& in, SogPictures* pictures) {
     const std::span<const float> rest = in.cloud.sh_rest_of(g);
     rows.insert(rows.end(), rest.begin(), rest.end());
   }
-  const Palette palette = palette_of(rows, stride, kMostPalette);
+  const RowPalette palette = palette_of(rows, stride, kMostPalette);
   const Codebook codebook = codebook_of(palette.entries);
   pictures->add("shN_centroids", centroid_picture(palette, stride / 3, codebook));
   Image<Rgba8>& labels = pictures->add("shN_labels", picture_for(in.size()));

@@ -164,7 +164,7 @@ std::uint8_t nearest_in(const Codebook& codebook, float value) {
   return static_cast<std::uint8_t>(value - codebook[i - 1] <= codebook[i] - value ? i - 1 : i);
 }
 
-Palette palette_of(std::span<const float> values, std::size_t width, std::size_t most) {
+RowPalette palette_of(std::span<const float> values, std::size_t width, std::size_t most) {
   PaletteRows rows{values, width, std::vector<std::uint32_t>(values.size() / width)};
   std::iota(rows.order.begin(), rows.order.end(), 0u);
   std::priority_queue<Kind> kinds;
@@ -181,7 +181,7 @@ Palette palette_of(std::span<const float> values, std::size_t width, std::size_t
     kinds.push(kind_of(rows, kind.begin, middle));
     kinds.push(kind_of(rows, middle, kind.end));
   }
-  Palette palette;
+  RowPalette palette;
   palette.entry_of.resize(rows.order.size());
   for (const Kind& kind : done) {
     const auto entry = static_cast<std::uint32_t>(palette.size(width));

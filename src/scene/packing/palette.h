@@ -16,7 +16,7 @@ Codebook codebook_of(std::vector<float> values);
 std::uint8_t nearest_in(const Codebook& codebook, float value);
 
 // Rows that share an entry, and the entries, which are means of their rows.
-struct Palette {
+struct RowPalette {
   std::vector<std::uint32_t> entry_of;  // of each row
   std::vector<float> entries;           // row-major, as wide as the rows
   std::size_t size(std::size_t width) const { return width ? entries.size() / width : 0; }
@@ -25,6 +25,6 @@ struct Palette {
 // mean of its widest spread, that of the largest squared error first, as colour pictures are reduced
 // (Heckbert 1982, Wu 1991). Rows that are equal share an entry; with no more different rows than `most`, each
 // is its own. O(n width log most).
-Palette palette_of(std::span<const float> rows, std::size_t width, std::size_t most);
+RowPalette palette_of(std::span<const float> rows, std::size_t width, std::size_t most);
 
 }  // namespace splatcut

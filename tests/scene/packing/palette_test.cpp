@@ -62,12 +62,12 @@ TEST_CASE("palette: different rows up to the most are kept, beyond it rows share
   std::vector<float> rows;
   for (int i = 0; i < 3000; ++i)
     for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(random() % 4) / 3.0f - 0.1f);
-  const Palette exact = palette_of(rows, 3, 64);
+  const RowPalette exact = palette_of(rows, 3, 64);
   CHECK(exact.size(3) == 64);
   for (std::size_t i = 0; i < 3000; ++i)
     for (std::size_t k = 0; k < 3; ++k) REQUIRE(exact.entries[3 * exact.entry_of[i] + k] == rows[3 * i + k]);
 
-  const Palette few = palette_of(rows, 3, 8);
+  const RowPalette few = palette_of(rows, 3, 8);
   REQUIRE(few.size(3) == 8);
   double error = 0;
   for (std::size_t i = 0; i < 3000; ++i)
