@@ -149,10 +149,11 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   stop_if_cancelled(job, "splatcut cut");
   RunReport report{scene,        said, objects, {}, 0, shared->load_ms(), shared->load_ms() + ms_since(start),
                    options.times};
-  const CutoutFolder to{folder, scene, session.blocks(), chosen.up_world, chosen.given, args.cutout};
+  const CutoutFolder to{folder, scene, session.blocks(), chosen.up_world, chosen.given, args.cutout,
+                        args.cutout.writes("rest")};
   report.edges = write_cutouts(to, objects, job);
   for (const EdgesReport& edges : report.edges) report.total_ms += edges.ms;
-  report.rest = write_rest(to, owner, chosen.camera);
+  report.rest = write_rest(to, owner, report.edges, chosen.camera);
   if (report.rest == 0) options.warn("the cut takes the whole scene: the rest holds no Gaussians");
   if (args.cutout.writes("objects"))
     write_text_file(folder.file("objects.json"), json_text(object_names(objects), 2) + "\n");

@@ -11,6 +11,7 @@
 #include "core/atomic_file.h"
 #include "core/png_file.h"
 #include "core/stage_clock.h"
+#include "scene/cloud/joined_clouds.h"
 #include "segment/masks/mask_tools.h"
 
 namespace splatcut {
@@ -73,6 +74,17 @@ std::string npy_header(std::size_t count) {
   return magic + low + high + text;
 }
 
+RestChanges changes_of(std::span<const EdgesReport> objects) {
+  RestChanges all;
+  for (const EdgesReport& object : objects) {
+    if (!object.rest) continue;
+    const RestChanges& one = *object.rest;
+    all.ghosts.insert(all.ghosts.end(), one.ghosts.begin(), one.ghosts.end());
+    all.given_back = all.given_back.empty() ? one.given_back : joined({all.given_back, one.given_back});
+  }
+  return all;
+}
+
 }  // namespace
 
 void CutoutOptions::add_to(CLI::App& command) {
@@ -109,6 +121,7 @@ nlohmann::json EdgesReport::json(bool times) const {
                {"split", clean->split},
                {"made_solid", clean->made_solid},
                {"recoloured", clean->recoloured}});
+  if (rest) json.update({{"ghosts", rest->ghosts.size()}, {"given_back", rest->given_back.size()}});
   return json;
 }
 
@@ -151,11 +164,12 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
   EdgesReport report;
   report.gaussians = static_cast<std::size_t>(std::ranges::count(labels, 1));
   std::optional<CleanObject> clean;
-  if (to.options.clean() && (scene || pictures)) {
+  if (to.options.clean() && (scene || pictures || to.rest)) {
     const auto start = std::chrono::steady_clock::now();
-    clean = clean_object({to.drawer(), labels, to.up_world, to.cameras}, {}, job);
+    clean = clean_object({to.drawer(), labels, to.up_world, to.cameras, to.rest}, {}, job);
     report.ms = ms_since(start);
     report.clean = clean->report;
+    if (to.rest) report.rest = std::move(clean->rest);
     if (!clean->report.cleaned) clean.reset();
   }
   if (job.cancelled()) return report;
@@ -174,20 +188,29 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
   return report;
 }
 
-std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner, const Camera& camera) {
+std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner,
+                       std::span<const EdgesReport> objects, const Camera& camera) {
   std::vector<std::uint8_t> rest(owner.size());
   std::ranges::transform(owner, rest.begin(),
                          [](std::uint8_t o) { return static_cast<std::uint8_t>(o == 0); });
+  std::size_t gaussians = static_cast<std::size_t>(std::ranges::count(rest, 1));
   if (to.options.writes("rest")) {
-    save_scene(to.folder.file("rest.ply"), to.scene, rest, SceneFormat::kPly, {.may_be_empty = true});
-    if (to.options.writes("pictures"))
-      write_png(to.folder.file("rest.png"), cutout_picture(to.drawer(), camera, rest));
+    const RestChanges changes = changes_of(objects);
+    gaussians = save_rest(to.folder.file("rest.ply"), to.scene, rest, changes, SceneFormat::kPly, {},
+                          {.may_be_empty = true})
+                    .gaussians;
+    if (to.options.writes("pictures")) {
+      const bool as_it_was = changes.ghosts.empty() && changes.given_back.size() == 0;
+      write_png(to.folder.file("rest.png"),
+                as_it_was ? cutout_picture(to.drawer(), camera, rest)
+                          : cutout_picture(Drawer(rest_of(to.scene.cloud, rest, changes)), camera, {}));
+    }
   }
   if (to.options.writes("labels")) write_labels(to.folder.file("labels.u8"), to.scene, owner);
   if (to.options.writes("objects"))
     save_scene(to.folder.file("objects.ply"), to.scene, owner, SceneFormat::kPly, {.object_ids = owner});
   if (to.options.writes("npy")) write_labels(to.folder.file("labels.npy"), to.scene, owner);
-  return static_cast<std::size_t>(std::ranges::count(rest, 1));
+  return gaussians;
 }
 
 }  // namespace splatcut

@@ -35,6 +35,7 @@ struct CutoutOptions {
 struct EdgesReport {
   std::optional<CleanReport> clean;  // none: --edges keep
   std::size_t gaussians = 0;         // written
+  std::optional<RestChanges> rest;   // where rest.ply is written, too
   double ms = 0;
 
   std::string why_kept() const { return clean && !clean->cleaned ? clean->reason : std::string(); }
@@ -49,6 +50,7 @@ struct CutoutFolder {
   glm::vec3 up_world;         // of the scene, as are the cameras of its capture
   std::span<const Camera> cameras;
   const CutoutOptions& options;
+  bool rest = false;  // whether write_rest() follows and writes it
 
   Drawer drawer() const { return {scene.cloud, nullptr, &blocks}; }
 };
@@ -86,7 +88,9 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
 
 // Of these, what the options name: rest.ply (without Gaussians where all are an object's), rest.png from
 // `camera`, labels.u8 and labels.npy (`owner` in file order), objects.ply (all objects, rows as they are,
-// each with its owner as object_id). Returns the number of Gaussians of the rest.
-std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner, const Camera& camera);
+// each with its owner as object_id). objects: what was done to them changes the rest. Returns the number of
+// Gaussians of the rest.
+std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner,
+                       std::span<const EdgesReport> objects, const Camera& camera);
 
 }  // namespace splatcut

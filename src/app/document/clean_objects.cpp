@@ -15,15 +15,25 @@ std::shared_ptr<const CleanObject> CleanObjects::known(const std::vector<std::ui
 std::shared_ptr<const CleanObject> CleanObjects::made(const std::vector<std::uint8_t>& labels,
                                                       const glm::vec3& up_world, const Job& job) {
   if (auto object = known(labels, up_world)) return object;
-  auto object = std::make_shared<const CleanObject>(clean_object(
-      {Drawer(*scene_->cloud, nullptr, scene_->blocks.get()), labels, up_world, scene_->views().cameras}, {},
-      job));
+  auto object = std::make_shared<const CleanObject>(computed(labels, up_world, false, job));
   if (job.cancelled()) return nullptr;
   constexpr std::size_t kMost = 4;
   const std::lock_guard lock(mutex_);
   kept_.push_back({labels, up_world, object});
   if (kept_.size() > kMost) kept_.pop_front();
   return object;
+}
+
+RestChanges CleanObjects::rest_without(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world,
+                                       const Job& job) const {
+  return computed(labels, up_world, true, job).rest;
+}
+
+CleanObject CleanObjects::computed(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world,
+                                   bool rest, const Job& job) const {
+  return clean_object({Drawer(*scene_->cloud, nullptr, scene_->blocks.get()), labels, up_world,
+                       scene_->views().cameras, rest},
+                      {}, job);
 }
 
 }  // namespace splatcut

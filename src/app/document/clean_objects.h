@@ -27,8 +27,14 @@ class CleanObjects {
   // Returns the cached object, or computes it with clean_object() and keeps it; null if cancelled.
   std::shared_ptr<const CleanObject> made(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world,
                                           const Job& job);
+  // Computes what the rest of the scene loses and gets back without the object; nothing is kept.
+  RestChanges rest_without(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world,
+                           const Job& job) const;
 
  private:
+  CleanObject computed(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world, bool rest,
+                       const Job& job) const;
+
   struct Kept {
     std::vector<std::uint8_t> labels;
     glm::vec3 up_world;

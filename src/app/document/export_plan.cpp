@@ -35,21 +35,28 @@ std::shared_ptr<const CleanObject> clean_edges_of(const std::vector<std::uint8_t
   return object;
 }
 
-// is_object: `keep` holds the labels of one.
-void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& keep, bool is_object,
-          const std::optional<Similarity>& to, const Exporting& what, ExportReport* report) {
+// object: the labels of the one that `keep` holds, or that it is the rest of; null: of none.
+void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& keep,
+          const std::vector<std::uint8_t>* object, const std::optional<Similarity>& to, const Exporting& what,
+          ExportReport* report) {
   const ExportRequest& request = what.request;
   if (count_flags(keep) == 0)
     throw Error(path.filename().string(), "would hold no Gaussians", "Select something first");
   refuse_written_inputs(path, what.scene.files);
   check_output_file(path, request.overwrite);
-  const std::shared_ptr<const CleanObject> clean = is_object ? clean_edges_of(keep, what, report) : nullptr;
+  const bool is_rest = request.what == ExportWhat::kRest;
+  const std::shared_ptr<const CleanObject> clean =
+      object && !is_rest ? clean_edges_of(*object, what, report) : nullptr;
+  RestChanges changes;
+  if (object && is_rest && request.clean_edges)
+    changes = what.clean->rest_without(*object, what.up_world, what.job);
   if (what.job.cancelled()) return;
   std::optional<MovedTo> moved;
   if (to) moved = {*to, request.placement.origin == ExportOrigin::kScene};
+  const SaveOptions options{.z_up = request.placement.up == ExportUp::kPlusZ};
   const SaveReport saved =
-      save_gaussians(path, what.scene, keep, clean ? &clean->cloud : nullptr, request.format, moved,
-                     {.z_up = request.placement.up == ExportUp::kPlusZ});
+      clean ? save_gaussians(path, what.scene, keep, &clean->cloud, request.format, moved, options)
+            : save_rest(path, what.scene, keep, changes, request.format, moved, options);
   report->gaussians += saved.gaussians;
   report->bytes += saved.bytes;
   report->loss = saved.loss;
@@ -116,6 +123,19 @@ SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
   return save_scene(path, other, {}, format, options);
 }
 
+SaveReport save_rest(const std::filesystem::path& path, const Scene& scene, std::vector<std::uint8_t> keep,
+                     const RestChanges& changes, const SceneFormat& format, const std::optional<MovedTo>& to,
+                     SaveOptions options) {
+  if (!changes.given_back.empty() &&
+      (to || format.name != SceneFormat::kPly.name || !scene.rows_can_be_changed)) {
+    const GaussianCloud rest = rest_of(scene.cloud, keep, changes);
+    return save_gaussians(path, scene, {}, &rest, format, to, options);
+  }
+  for (const std::uint32_t g : changes.ghosts) keep[g] = 0;
+  if (!changes.given_back.empty()) options.changed_rows = &changes.given_back;
+  return save_gaussians(path, scene, keep, nullptr, format, to, options);
+}
+
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
                         const ExportRequest& request, CleanObjects* clean, const Job& job) {
   const std::size_t n = scene.cloud.size();
@@ -136,7 +156,7 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
     const auto to = place(exported(document, object, request.what, n));  // objects stay beside each other
     visit_objects(document, n, [&](const ObjectToSave& o) {
       if (!job.cancelled())
-        save(request.path / (o.file + request.format.extension), o.labels, true, to, what, &report);
+        save(request.path / (o.file + request.format.extension), o.labels, &o.labels, to, what, &report);
     });
     if (report.files == 0 && !job.cancelled())
       throw Error("export", "no object holds any Gaussians", "Select something first");
@@ -148,7 +168,10 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
   if (request.what != ExportWhat::kScene && !document.find(object))
     throw Error("export", "no object is chosen", "Click an object first");
   const std::vector<std::uint8_t> keep = exported(document, object, request.what, n);
-  save(request.path, keep, request.what == ExportWhat::kObject, place(keep), what, &report);
+  std::vector<std::uint8_t> labels;
+  if (const ObjectItem* item = document.find(object)) labels = labels_of(document, *item, n);
+  save(request.path, keep, request.what == ExportWhat::kScene ? nullptr : &labels, place(keep), what,
+       &report);
   return report;
 }
 

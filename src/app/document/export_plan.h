@@ -30,7 +30,7 @@ struct ExportRequest {
   std::filesystem::path path;  // a file; for kAllObjects a folder
   bool overwrite = false;
   ExportPlacement placement = {};
-  bool clean_edges = false;  // true: objects are written with clean edges; kRest and kScene never are
+  bool clean_edges = false;  // objects are written with clean edges, kRest as forget.h has it
 };
 
 struct ExportReport {
@@ -59,6 +59,11 @@ SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
                           const std::vector<std::uint8_t>& keep, const GaussianCloud* instead,
                           const SceneFormat& format, const std::optional<MovedTo>& to = {},
                           const SaveOptions& options = {});
+
+// The same for the rest of a scene, of which ghosts are left out, and with what was given back.
+SaveReport save_rest(const std::filesystem::path& path, const Scene& scene, std::vector<std::uint8_t> keep,
+                     const RestChanges& changes, const SceneFormat& format,
+                     const std::optional<MovedTo>& to = {}, SaveOptions options = {});
 
 // Calls back for each object that has Gaussians, in the document's order.
 struct ObjectToSave {

@@ -22,6 +22,26 @@ nlohmann::json alone_json(const AloneScore& s) {
           {"alpha_error", s.alpha_error}};
 }
 
+nlohmann::json rest_json(const RestScore& s) {
+  return {{"ring_psnr_db", s.ring_psnr_db}, {"ghost_gradient", s.ghost_gradient}};
+}
+
+std::vector<nlohmann::json> rows_and_mean(const nlohmann::json& result) {
+  std::vector<nlohmann::json> rows = result.at("scenes");
+  rows.push_back(result.at("mean"));
+  return rows;
+}
+
+void print_rest(const nlohmann::json& result) {
+  fmt::print("\n{:<16} {:<5} {:>6} {:>9}\n", "rest", "edges", "ring", "gradient");
+  for (const nlohmann::json& row : rows_and_mean(result))
+    for (const auto& [key, edges] : {std::pair{"rest", "keep"}, std::pair{"clean_rest", "clean"}})
+      if (row.contains(key))
+        fmt::print("{:<16} {:<5} {:>6.2f} {:>9.2f}\n", row.value("name", ""), edges,
+                   row.at(key).at("ring_psnr_db").get<double>(),
+                   row.at(key).at("ghost_gradient").get<double>());
+}
+
 }  // namespace
 
 nlohmann::json cutout_json(const CutoutScore& s) {
@@ -34,17 +54,18 @@ nlohmann::json cutout_json(const CutoutScore& s) {
                 {"split", s.report.split},
                 {"made_solid", s.report.made_solid},
                 {"recoloured", s.report.recoloured}});
+  nlohmann::json clean_rest = rest_json(s.clean_rest);
+  clean_rest.update({{"ghosts", s.ghosts}, {"given_back", s.given_back}});
   return {{"alone", alone_json(s.kept)},
           {"clean", clean},
-          {"rest", {{"ring_psnr_db", s.rest.ring_psnr_db}, {"ghost_gradient", s.rest.ghost_gradient}}}};
+          {"rest", rest_json(s.rest)},
+          {"clean_rest", clean_rest}};
 }
 
 void print_alone(const nlohmann::json& result) {
   fmt::print("\n{:<16} {:<5} {:>6} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6}\n", "alone", "edges",
              "IoU", "b 2px", "b 2%", "black", "magenta", "SSIM", "halo", "miss", "alpha");
-  std::vector<nlohmann::json> rows = result.at("scenes");
-  rows.push_back(result.at("mean"));
-  for (const nlohmann::json& row : rows)
+  for (const nlohmann::json& row : rows_and_mean(result))
     for (const auto& [key, edges] : {std::pair{"alone", "keep"}, std::pair{"clean", "clean"}}) {
       if (!row.contains(key)) continue;
       const auto of = [&row, &key = key](const char* name) { return row.at(key).at(name).get<double>(); };
@@ -54,6 +75,7 @@ void print_alone(const nlohmann::json& result) {
           of("psnr_black_db"), of("psnr_magenta_db"), of("ssim"), of("halo"), of("missing"),
           of("alpha_error"));
     }
+  print_rest(result);
 }
 
 }  // namespace splatcut

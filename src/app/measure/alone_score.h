@@ -29,11 +29,12 @@ struct RestScore {
 
 // One cutout, or the mean of some.
 struct CutoutScore {
-  AloneScore kept, clean;  // its Gaussians as they are, and with clean edges
-  RestScore rest;
-  double cleaned = 0;  // share of the cutouts that were cleaned
+  AloneScore kept, clean;      // its Gaussians as they are, and with clean edges
+  RestScore rest, clean_rest;  // the scene's others as they are, and as forget.h has them
+  double cleaned = 0;          // share of the cutouts that were cleaned
   double clean_ms = 0;
   CleanReport report;  // of the last one
+  std::size_t ghosts = 0, given_back = 0;
 };
 
 // to += share * more, number by number; the report becomes that of `more`.

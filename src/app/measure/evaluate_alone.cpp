@@ -137,33 +137,32 @@ AloneScore score_alone(const EvaluationCase& scene, const GaussianCloud& object)
   });
 }
 
-RestScore score_rest(const EvaluationCase& scene, const std::vector<std::uint8_t>& shown) {
+RestScore score_rest(const EvaluationCase& scene, const GaussianCloud& rest) {
   return mean_over_views<RestScore>(scene, [&](std::size_t v) {
     const Camera& camera = scene.test_views[v];
     return score_rest_view(scene.truth_masks[v], rasterize(*scene.cloud, camera).colour,
-                           drawn_alone(*scene.cloud, camera, shown).colour);
+                           rasterize(rest, camera).colour);
   });
 }
 
 CutoutScore score_cutout(const EvaluationCase& scene, const std::vector<std::uint8_t>& labels,
                          const Job& job) {
   CutoutScore score;
-  std::vector<std::uint32_t> object;
   std::vector<std::uint8_t> rest(labels.size());
-  for (std::uint32_t g = 0; g < labels.size(); ++g) {
-    if (labels[g]) object.push_back(g);
-    rest[g] = labels[g] ? 0 : 1;
-  }
-  score.kept = score_alone(scene, permuted(*scene.cloud, object));
-  score.rest = score_rest(scene, rest);
+  std::ranges::transform(labels, rest.begin(), [](std::uint8_t l) { return l == 0 ? 1 : 0; });
+  score.kept = score_alone(scene, rest_of(*scene.cloud, labels, {}));
+  score.rest = score_rest(scene, rest_of(*scene.cloud, rest, {}));
   const auto start = std::chrono::steady_clock::now();
   const CleanObject clean =
-      clean_object({*scene.cloud, labels, scene.up_world, scene.scene_cameras}, {}, job);
+      clean_object({*scene.cloud, labels, scene.up_world, scene.scene_cameras, true}, {}, job);
   score.clean_ms = ms_since(start);
   if (job.cancelled()) return score;
   score.clean = score_alone(scene, clean.cloud);
+  score.clean_rest = score_rest(scene, rest_of(*scene.cloud, rest, clean.rest));
   score.cleaned = clean.report.cleaned ? 1 : 0;
   score.report = clean.report;
+  score.ghosts = clean.rest.ghosts.size();
+  score.given_back = clean.rest.given_back.size();
   return score;
 }
 
@@ -183,9 +182,12 @@ void add_share(const CutoutScore& more, double share, CutoutScore* to) {
   add_share(more.kept, share, &to->kept);
   add_share(more.clean, share, &to->clean);
   add_share(more.rest, share, &to->rest);
+  add_share(more.clean_rest, share, &to->clean_rest);
   to->cleaned += share * more.cleaned;
   to->clean_ms += share * more.clean_ms;
   to->report = more.report;
+  to->ghosts = more.ghosts;
+  to->given_back = more.given_back;
 }
 
 }  // namespace splatcut

@@ -11,8 +11,8 @@ namespace splatcut {
 // object: its Gaussians and no others. Throws Error where the truth shows in none of the test views.
 AloneScore score_alone(const EvaluationCase& scene, const GaussianCloud& object);
 
-// shown: per Gaussian of the scene, 1 = in the rest. Throws as above.
-RestScore score_rest(const EvaluationCase& scene, const std::vector<std::uint8_t>& shown);
+// rest: what is left of the scene without the object. Throws as above.
+RestScore score_rest(const EvaluationCase& scene, const GaussianCloud& rest);
 
 // labels: per Gaussian of the scene, 1 = object. Throws as above. Cancelled: unspecified.
 CutoutScore score_cutout(const EvaluationCase& scene, const std::vector<std::uint8_t>& labels,

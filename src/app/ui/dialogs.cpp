@@ -184,7 +184,8 @@ void placement_choices(UiContext& ui) {
   if (button(ui, icon::kUndo, "Back to where it stands in the scene")) p = {};
 }
 
-bool cleans_edges(const UiContext& ui) {
+// Rows of objects are then written anew; the rest keeps its own.
+bool cleans_objects(const UiContext& ui) {
   const ExportWhat what = ui.state.exporting.what;
   return ui.studio.view().clean_edges && (what == ExportWhat::kObject || what == ExportWhat::kAllObjects);
 }
@@ -192,7 +193,7 @@ bool cleans_edges(const UiContext& ui) {
 // Made once for each choice: it looks at all Gaussians.
 const FormatPlan& export_plan(UiContext& ui, std::size_t gaussians) {
   ExportChoice& choice = ui.state.exporting;
-  const bool moved = choice.placement != ExportPlacement{} || cleans_edges(ui);
+  const bool moved = choice.placement != ExportPlacement{} || cleans_objects(ui);
   std::string key =
       fmt::format("{} {} {} {}", ui.studio.scene()->serial, gaussians, choice.format.name, moved);
   if (choice.plan_key != key) {
@@ -305,8 +306,8 @@ void export_dialog(UiContext& ui) {
   const bool pressed = button(ui, "Export", "Write the file  (Enter)", reason, reason.empty(), 110);
   const bool done = pressed || (reason.empty() && !typing && enter_pressed());
   if (done)
-    ui.ask(
-        Export{{choice.what, choice.format, target, choice.overwrite, choice.placement, cleans_edges(ui)}});
+    ui.ask(Export{{choice.what, choice.format, target, choice.overwrite, choice.placement,
+                   ui.studio.view().clean_edges}});
   if (done || cancelled) {
     ui.state.export_open = false;
     choice.trouble.clear();

@@ -306,6 +306,7 @@ void read_ply(const MappedFile& file, const LoadOptions& options, Scene& scene, 
   const PlyElement& vertex = vertex_of(file.path(), header);
   refuse_other_ply(file.path(), vertex);
   scene.rows_can_be_copied = !header.ascii;
+  scene.rows_can_be_changed = !header.ascii && can_change_rows(vertex);
   scene.other_properties = other_properties(vertex);
   scene.cloud.antialiased = header.antialiased();
   if (rest_of(vertex) == kRestOfDegree4)
@@ -325,7 +326,7 @@ Losses ply_losses(const Scene& scene, bool rows_copied) {
 std::string write_ply(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
                       const SaveOptions& options) {
   if (scene.rows_can_be_copied)
-    write_ply_subset(out, scene, gaussians, options.object_ids);
+    write_ply_subset(out, scene, gaussians, options);
   else
     write_ply_rows(out, scene, gaussians, options.object_ids);
   return ply_losses(scene, scene.rows_can_be_copied).sentence();

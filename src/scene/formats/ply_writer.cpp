@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 #include "core/error.h"
 #include "core/mapped_file.h"
@@ -68,6 +71,39 @@ std::string header_for(std::size_t count, const GaussianCloud& cloud, bool is_fa
   return header + "end_header\n";
 }
 
+using RowValues = std::array<std::pair<const char*, double>, 11>;
+
+RowValues values_of_row(const GaussianCloud& cloud, std::size_t g, const glm::dvec3& origin) {
+  const glm::dvec3 p = glm::dvec3(cloud.position[g]) + origin;
+  const glm::vec3& s = cloud.scale[g];
+  const glm::quat& q = cloud.rotation[g];
+  return {{{"x", p.x},
+           {"y", p.y},
+           {"z", p.z},
+           {"opacity", logit(cloud.opacity[g])},
+           {"scale_0", log_scale(s.x)},
+           {"scale_1", log_scale(s.y)},
+           {"scale_2", log_scale(s.z)},
+           {"rot_0", q.w},
+           {"rot_1", q.x},
+           {"rot_2", q.y},
+           {"rot_3", q.z}}};
+}
+
+void set_value(const PlyProperty& property, double value, std::span<std::byte> row) {
+  const auto narrow = static_cast<float>(value);
+  if (property.type == PlyType::kFloat64)
+    std::memcpy(&row[property.offset], &value, sizeof value);
+  else
+    std::memcpy(&row[property.offset], &narrow, sizeof narrow);
+}
+
+void change_row(const GaussianCloud& to, std::size_t g, const PlyElement& vertex, const glm::dvec3& origin,
+                std::span<std::byte> row) {
+  for (const auto& [name, value] : values_of_row(to, g, origin)) set_value(*vertex.find(name), value, row);
+  if (const PlyProperty* filter = vertex.find("filter_3D")) set_value(*filter, 0, row);  // it is in the size
+}
+
 void refuse_changed(const MappedFile& source, const Scene& scene) {
   if (source.bytes().size() != scene.file_bytes || source.modified_ns() != scene.modified_ns)
     throw Error(scene.path.string(), "the file changed since it was loaded", "Load it again");
@@ -75,8 +111,23 @@ void refuse_changed(const MappedFile& source, const Scene& scene) {
 
 }  // namespace
 
+bool can_change_rows(const PlyElement& vertex) {
+  const auto is_fraction = [](const PlyProperty* p) {
+    return p && (p->type == PlyType::kFloat32 || p->type == PlyType::kFloat64);
+  };
+  GaussianCloud any;
+  any.resize(1, 0);
+  const PlyProperty* filter = vertex.find("filter_3D");
+  return (!filter || is_fraction(filter)) &&
+         std::ranges::all_of(values_of_row(any, 0, {}),
+                             [&](const auto& v) { return is_fraction(vertex.find(v.first)); });
+}
+
 void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
-                      std::span<const std::uint8_t> object_ids) {
+                      const SaveOptions& options) {
+  const std::span<const std::uint8_t> object_ids = options.object_ids;
+  const GaussianCloud* changed = options.changed_rows;
+  assert(object_ids.empty() || !changed);
   const MappedFile source(scene.path);
   refuse_changed(source, scene);
   const PlyHeader header = parse_ply_header(scene.path, source.bytes());
@@ -87,19 +138,27 @@ void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::
   const std::span<const std::byte> rows = element_bytes(scene.path, source.bytes(), *vertex);
   const std::string text =
       header_with_count({reinterpret_cast<const char*>(source.bytes().data()), header.bytes},
-                        gaussians.size(), !object_ids.empty());
+                        gaussians.size() + (changed ? changed->size() : 0), !object_ids.empty());
   out.write(std::as_bytes(std::span(text)));
   out.write(source.bytes().subspan(header.bytes, vertex->data_begin - header.bytes));
   const std::size_t row_bytes = vertex->row_bytes;
   std::vector<std::byte> buffer;
   buffer.reserve(kBufferBytes + row_bytes);
-  for (const std::uint32_t g : gaussians) {
-    const auto row = rows.subspan(scene.cloud.file_row[g] * row_bytes, row_bytes);
+  const auto add_row = [&](std::uint32_t file_row) {
+    if (buffer.size() >= kBufferBytes) {
+      out.write(buffer);
+      buffer.clear();
+    }
+    const auto row = rows.subspan(file_row * row_bytes, row_bytes);
     buffer.insert(buffer.end(), row.begin(), row.end());
+  };
+  for (const std::uint32_t g : gaussians) {
+    add_row(scene.cloud.file_row[g]);
     if (!object_ids.empty()) buffer.push_back(std::byte{object_ids[g]});
-    if (buffer.size() < kBufferBytes) continue;
-    out.write(buffer);
-    buffer.clear();
+  }
+  for (std::size_t c = 0; changed && c < changed->size(); ++c) {
+    add_row(changed->file_row[c]);
+    change_row(*changed, c, *vertex, scene.origin, std::span(buffer).last(row_bytes));
   }
   out.write(buffer);
   out.write(source.bytes().subspan(vertex->data_begin + rows.size()));  // elements after the Gaussians

@@ -4,15 +4,19 @@
 #include <span>
 
 #include "core/atomic_file.h"
+#include "scene/formats/ply_header.h"
 #include "scene/formats/scene_file.h"
 
 namespace splatcut {
 
 // object_ids: of SaveOptions.
 
-// Rows as they stand in the source file, which is a binary .ply.
+// Rows as they stand in the source file, which is a binary .ply, with object ids or with changed rows.
 void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
-                      std::span<const std::uint8_t> object_ids = {});
+                      const SaveOptions& options);
+
+// Whether a row holds all that a changed one sets, as fractions.
+bool can_change_rows(const PlyElement& vertex);
 
 // Encoded from the cloud, in the layout of Kerbl et al.; positions in double where the scene has an origin.
 void write_ply_rows(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,

@@ -165,11 +165,12 @@ SaveReport save_scene(const std::filesystem::path& path, const Scene& scene,
     throw Error(path.string(), fmt::format("{} is only read, not written", format.extension),
                 "Choose " + spoken_extensions(written_formats(), "or"));
   const std::vector<std::uint32_t> kept = kept_in_file_order(scene.cloud, keep);
+  assert(!options.changed_rows || (scene.rows_can_be_changed && format.name == SceneFormat::kPly.name));
   if (kept.empty() && !options.may_be_empty)
     throw Error(path.string(), "nothing is selected: a scene without Gaussians is not written");
   AtomicFile out(path);
   SaveReport report;
-  report.gaussians = kept.size();
+  report.gaussians = kept.size() + (options.changed_rows ? options.changed_rows->size() : 0);
   report.loss = format.write(out, scene, kept, options);
   report.bytes = out.bytes_written();
   out.commit();

@@ -37,6 +37,7 @@ struct Scene {
   std::uint64_t file_bytes = 0;  // with modified_ns: to notice that the file changed since
   std::int64_t modified_ns = 0;
   bool rows_can_be_copied = false;            // to a .ply, byte for byte from path
+  bool rows_can_be_changed = false;           // copied, place, size, turn and opacity set anew
   std::vector<std::string> other_properties;  // columns of a .ply that say nothing of Gaussians
   std::string left_out;                       // a sentence on what was not read of it, or empty
   std::string oddity;                         // a sentence on values that no training produces, or empty
@@ -76,6 +77,9 @@ struct SaveOptions {
   bool may_be_empty = false;  // a .ply without Gaussians is written rather than refused
   bool z_up = false;          // what a .usda says of its axes, which else have y up
   std::span<const std::uint8_t> object_ids = {};  // per Gaussian: a .ply says them as property object_id
+  // To a .ply whose rows can be changed: written last, each as the row of its file_row with its own place,
+  // size, turn and opacity.
+  const GaussianCloud* changed_rows = nullptr;
 };
 
 struct SaveReport {

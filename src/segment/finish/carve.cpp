@@ -1,11 +1,12 @@
 #include "segment/finish/carve.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "core/parallel.h"
 #include "scene/raster/rasterizer.h"
 #include "scene/raster/splat_math.h"
-#include "segment/finish/half_gaussian.h"
 #include "segment/masks/mask_tools.h"
 
 namespace splatcut {
@@ -81,16 +82,24 @@ glm::vec3 normal_of(const OwnView& view, const GaussianCloud& object, std::size_
   return (s.c * x - s.b * y) * row_x + (s.a * y - s.b * x) * row_y;  // by Sigma2^-1, up to a factor
 }
 
-void split(const OwnView& view, const PlaneSums& sums, std::size_t g, GaussianCloud* object) {
+SolidGaussian one_of(const GaussianCloud& cloud, std::size_t g) {
+  return {cloud.position[g], cloud.scale[g], cloud.rotation[g], cloud.opacity[g]};
+}
+
+// The inner part stays in the object; returns the outer one.
+std::optional<SolidGaussian> split(const OwnView& view, const PlaneSums& sums, std::size_t g,
+                                   GaussianCloud* object) {
   const glm::dvec2 in_px = inwards_px(view, sums, g);
-  if (in_px == glm::dvec2(0, 0)) return;
-  const SolidGaussian half =
-      half_gaussian({object->position[g], object->scale[g], object->rotation[g], object->opacity[g]},
-                    normal_of(view, *object, g, in_px), share_inside(sums, g));
+  if (in_px == glm::dvec2(0, 0)) return {};
+  const SolidGaussian whole = one_of(*object, g);
+  const glm::vec3 normal = normal_of(view, *object, g, in_px);
+  const double inside = share_inside(sums, g);
+  const SolidGaussian half = half_gaussian(whole, normal, inside);
   object->position[g] = half.mean;
   object->scale[g] = half.scale;
   object->rotation[g] = half.rotation;
   object->opacity[g] = half.opacity;
+  return half_gaussian(whole, -normal, 1 - inside);
 }
 
 }  // namespace
@@ -101,7 +110,9 @@ CarveReport carve(std::span<const OwnView> views, GaussianCloud* object, std::ve
   const std::size_t n = object->size();
   PlaneSums pooled(n, kFar + 1);
   for (const OwnView& view : views) add_sums(view, *object, *kept, &pooled, job);
+  CarveReport report;
   std::vector<std::uint8_t> was_split(n, 0);
+  std::vector<std::optional<SolidGaussian>> outer(n);
   const std::vector<std::uint8_t> before = *kept;
   for (std::size_t g = 0; g < n; ++g)
     if (sticks_out(pooled, g, 0) && share_inside(pooled, g) < kMostlyOut) (*kept)[g] = 0;
@@ -116,15 +127,18 @@ CarveReport carve(std::span<const OwnView> views, GaussianCloud* object, std::ve
       if (inside < kSliver) {
         if (share_inside(pooled, g) < kMostlyIn) (*kept)[g] = 0;
       } else if (inside < kWhole) {
-        split(views[v], sums, g, object);
+        outer[g] = split(views[v], sums, g, object);
         was_split[g] = 1;
       }
     });
+    for (std::uint32_t g = 0; g < n; ++g)
+      if (const auto part = std::exchange(outer[g], {})) report.cut_off.push_back({g, *part});
   }
-  CarveReport report;
-  for (std::size_t g = 0; g < n; ++g) {
-    report.left += before[g] && !(*kept)[g];
+  for (std::uint32_t g = 0; g < n; ++g) {
     report.split += (*kept)[g] && was_split[g];
+    if (!before[g] || (*kept)[g]) continue;
+    ++report.left;
+    report.cut_off.push_back({g, one_of(*object, g)});
   }
   return report;
 }

@@ -7,8 +7,8 @@
 //   view by view     A > .3 px, F / A > .05: leaves where w < .05 and w of all views < .75; cut where
 //                    .05 <= w < .93, along the projected line across which its inner and outer part lie, at
 //                    the depth that leaves w inside (half_gaussian.h)
-// Only the inner part is kept: the outer half of a splat at the border is a floater. Cost: two drawings of
-// the object a view.
+// Only the inner part is kept: the outer half of a splat at the border is a floater, alone. It may be the
+// scene's, see forget.h. Cost: two drawings of the object a view.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,20 @@
 #include <vector>
 
 #include "core/job.h"
+#include "segment/finish/half_gaussian.h"
 #include "segment/finish/own_views.h"
 
 namespace splatcut {
 
+// What the object lost: the outer part of a Gaussian that was cut, or one that left.
+struct CutOff {
+  std::uint32_t of = 0;  // its index in the object
+  SolidGaussian part;
+};
+
 struct CarveReport {
   std::size_t left = 0, split = 0;  // Gaussians
+  std::vector<CutOff> cut_off;      // by view, then by Gaussian; those that left come last
 };
 
 // kept: per Gaussian of the object, those that leave get 0.

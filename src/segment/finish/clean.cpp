@@ -42,15 +42,16 @@ std::string why_not(const CleanReport& report) {
       report.agreed, report.views);
 }
 
-// Steps 1 to 3, or the last two alone; `kept` says what left.
-void finish(std::span<const OwnView> views, bool cuts, std::vector<std::uint8_t>* kept, CleanObject* object,
-            const Job& job) {
+// Steps 1 to 3, or the last two alone; `kept` says what left. Returns what was cut off.
+std::vector<CutOff> finish(std::span<const OwnView> views, bool cuts, std::vector<std::uint8_t>* kept,
+                           CleanObject* object, const Job& job) {
   CleanReport& report = object->report;
-  const CarveReport carved = cuts ? carve(views, &object->cloud, kept, job) : CarveReport{};
+  CarveReport carved = cuts ? carve(views, &object->cloud, kept, job) : CarveReport{};
   report.left = carved.left;
   report.split = carved.split;
   report.made_solid = make_solid(views, *kept, &object->cloud, job);
   report.recoloured = recolour(views, *kept, &object->cloud, job);
+  return std::move(carved.cut_off);
 }
 
 void drop_gone(const std::vector<std::uint8_t>& kept, CleanObject* object) {
@@ -84,14 +85,15 @@ CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options,
   std::vector<std::uint8_t> kept(object.cloud.size(), 1);
   job.progress("clean edges", 0);
   const double as_it_is = own_picture_error(views, object.cloud, kept, job);
-  finish(views, true, &kept, &object, job);
+  std::vector<CutOff> cut_off = finish(views, true, &kept, &object, job);
   report.uncut = std::ranges::count(kept, 1) == 0 ||
                  own_picture_error(views, object.cloud, kept, job) > kMostLost * as_it_is;
   if (report.uncut) {
     object.cloud = permuted(cloud, object.gaussian);
     std::ranges::fill(kept, 1);
-    finish(views, false, &kept, &object, job);
+    cut_off = finish(views, false, &kept, &object, job);
   }
+  if (input.rest) object.rest = forget(input.scene, input.labels, object.gaussian, views, cut_off, job);
   report.cleaned = !job.cancelled();
   drop_gone(kept, &object);
   return object;

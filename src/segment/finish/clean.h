@@ -6,7 +6,8 @@
 //   1. lets leave what its own pictures do not show, and cuts what sticks out of them (carve.h)
 //   2. makes solid what lets a background through (solid.h)
 //   3. fits colours to the scene's own pictures (recolour.h).
-// No Gaussian is added; labels and the scene stay as they are.
+// No Gaussian is added; labels and the scene stay as they are. What the rest of the scene loses and gets back
+// where it is written without the object: forget.h.
 //
 // The guard: a view counts where the object alone and its labels within the scene agree in .95 of their
 // pixels. Labels that are not yet right show it there: fewer than 6 such views, or fewer than half of those
@@ -17,7 +18,7 @@
 //
 // Constants were chosen on six captures with masks of photographs and held on others: docs/edges.md.
 // Same input, same bits, on any number of threads. Cost: two drawings of the scene and eleven of the object
-// a view. Cancelled: the result is unspecified.
+// a view, and of the scene nine more with the rest. Cancelled: the result is unspecified.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +28,7 @@
 
 #include "core/job.h"
 #include "scene/cloud/gaussian_cloud.h"
+#include "segment/finish/forget.h"
 #include "segment/finish/own_views.h"
 
 namespace splatcut {
@@ -36,6 +38,7 @@ struct CleanInput {
   std::span<const std::uint8_t> labels;  // per Gaussian, 1 = object
   glm::vec3 up_world{0, -1, 0};
   std::span<const Camera> cameras;  // of the capture, may be empty
+  bool rest = false;                // whether CleanObject::rest is wanted
 };
 
 struct CleanReport {
@@ -49,6 +52,8 @@ struct CleanReport {
 struct CleanObject {
   GaussianCloud cloud;                  // the object's Gaussians, those that left not among them
   std::vector<std::uint32_t> gaussian;  // per Gaussian of `cloud`, its index in the scene, ascending
+  RestChanges rest;                     // what else leaves the scene with the object, or stays in it; none
+                                        // where it is not cleaned
   CleanReport report;
 };
 

@@ -1,6 +1,7 @@
 // cut --edges: what is written of an object.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -19,22 +20,23 @@ std::string rows_of(const std::string& ply) {
 
 }  // namespace
 
-TEST_CASE("cut --edges keep writes the object's rows byte for byte") {
+TEST_CASE("cut --edges keep writes the rows of object and rest byte for byte") {
   const StillLife& life = still_life();
   const Workplace& place = life.place;
   REQUIRE(place.run(life.cut("--click " + life.click + " --edges keep -o edges_kept")).code == 0);
   const std::string labels = place.text("edges_kept/labels.u8"), rows = rows_of(place.text("made/small.ply"));
   const std::size_t row_bytes = rows.size() / labels.size();
-  std::string expected;
+  std::string object, rest;
   for (std::size_t row = 0; row < labels.size(); ++row)
-    if (labels[row]) expected += rows.substr(row * row_bytes, row_bytes);
-  CHECK(rows_of(place.text("edges_kept/object.ply")) == expected);
+    (labels[row] ? object : rest) += rows.substr(row * row_bytes, row_bytes);
+  CHECK(rows_of(place.text("edges_kept/object.ply")) == object);
+  CHECK(rows_of(place.text("edges_kept/rest.ply")) == rest);
   const json edges = json::parse(place.text("edges_kept/report.json"))["edges"];
   CHECK(edges["edges"] == "keep");
   CHECK_FALSE(edges.contains("why_kept"));
 }
 
-TEST_CASE("cut makes edges clean, says what it did, and changes neither labels nor rest") {
+TEST_CASE("cut makes edges clean, says what it did, and does not change labels") {
   const StillLife& life = still_life();
   const Workplace& place = life.place;
   const std::string click = "--click " + life.click_on("mug");
@@ -47,10 +49,45 @@ TEST_CASE("cut makes edges clean, says what it did, and changes neither labels n
   CHECK(edges["gaussians"] == written);
   CHECK(report["object"]["gaussians"] == written + edges["left"].get<std::size_t>());
   CHECK(edges["recoloured"] > 0);
-  for (const char* same : {"labels.u8", "rest.ply", "rest.png", "tint.png", "masks.png"})
+  for (const char* same : {"labels.u8", "tint.png", "masks.png"})
     CHECK(place.text(std::string("edges_clean/") + same) ==
           place.text(std::string("edges_as_they_are/") + same));
   CHECK(place.text("edges_clean/object.ply") != place.text("edges_as_they_are/object.ply"));
+}
+
+TEST_CASE(
+    "cut: ghosts leave the rest with the object, other rows stay byte for byte, what is given back follows") {
+  const StillLife& life = still_life();
+  const Workplace& place = life.place;
+  REQUIRE(place.run("make-scene hard -o hard --gaussians 20000 --straddling --skirts").code == 0);
+  const json seeds = json::parse(place.text("hard/seeds.json"));
+  std::size_t changed = 0;
+  for (const json& thing : seeds["objects"]) {
+    const std::string name = thing["object"];
+    if (name != "orange" && name != "mug" && name != "apple") continue;
+    const json& at = thing["clicks"][0];
+    REQUIRE(place
+                .run("cut " + (place / "hard/hard.ply").string() + " --cameras " +
+                     (place / "hard/cameras.json").string() + " --camera 0 --preset fast --click " +
+                     at["x"].dump() + "," + at["y"].dump() + " -o hard_" + name)
+                .code == 0);
+    const json edges = json::parse(place.text("hard_" + name + "/report.json"))["edges"];
+    if (edges["edges"] != "clean") continue;
+    const std::string labels = place.text("hard_" + name + "/labels.u8"),
+                      rows = rows_of(place.text("hard/hard.ply")),
+                      rest = rows_of(place.text("hard_" + name + "/rest.ply"));
+    const std::size_t row_bytes = rows.size() / labels.size(), ghosts = edges["ghosts"],
+                      back = edges["given_back"],
+                      unlabelled = static_cast<std::size_t>(std::ranges::count(labels, '\0'));
+    changed += ghosts + back;
+    REQUIRE(rest.size() == row_bytes * (unlabelled - ghosts + back));
+    std::size_t found = 0;
+    for (std::size_t row = 0; row < labels.size() && found < unlabelled - ghosts; ++row)
+      if (!labels[row] && rest.compare(found * row_bytes, row_bytes, rows, row * row_bytes, row_bytes) == 0)
+        ++found;
+    CHECK(found == unlabelled - ghosts);
+  }
+  CHECK(changed > 0);
 }
 
 TEST_CASE("cut --edges: the same bytes on one thread and on three, and a wrong word is refused") {
@@ -60,6 +97,7 @@ TEST_CASE("cut --edges: the same bytes on one thread and on three, and a wrong w
   for (const char* threads : {"1", "3"})
     REQUIRE(place.run(life.cut(click + " --threads " + threads + " -o edges_on_" + threads)).code == 0);
   CHECK(place.text("edges_on_1/object.ply") == place.text("edges_on_3/object.ply"));
+  CHECK(place.text("edges_on_1/rest.ply") == place.text("edges_on_3/rest.ply"));
   CHECK(place.text("edges_on_1/object.png") == place.text("edges_on_3/object.png"));
   CHECK(place.run(life.cut(click + " --edges sharp -o edges_wrong")).code == 2);
 }

@@ -11,9 +11,9 @@
 
 #include "app/measure/evaluate_alone.h"
 #include "scene/raster/splat_math.h"
-#include "scene/still_life/still_life.h"
 #include "segment/finish/half_gaussian.h"
 #include "synthetic_cloud.h"
+#include "thing_of_still_life.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -66,38 +66,6 @@ double largest(const glm::dmat3& m) {
     for (int j = 0; j < 3; ++j) most = std::max(most, std::abs(m[i][j]));
   return most;
 }
-
-// A scene of the generator, one of its things as the object.
-struct Thing {
-  LabelledScene scene;
-  EvaluationCase test;
-
-  Thing(const StillLifeOptions& options, const std::string& name) : scene(make_still_life(options)) {
-    const auto label = std::ranges::find(scene.label_name, name) - scene.label_name.begin();
-    test.name = name;
-    test.cloud = &scene.cloud;
-    for (std::size_t g = 0; g < scene.label.size(); ++g) {
-      test.truth_labels.push_back(scene.label[g] == label);
-      test.own_labels.push_back(test.truth_labels[g] & scene.own[g]);
-    }
-    for (std::size_t c = 1; c < scene.cameras.size(); c += 6)
-      test.test_views.push_back(limited_to_width(scene.cameras[c], 320));
-    test.reference = test.test_views.front();
-    render_truth(&test);
-  }
-
-  CleanObject clean(const std::vector<std::uint8_t>& labels, const Job& job = {}) const {
-    return clean_object({scene.cloud, labels, {0, -1, 0}, scene.cameras}, {}, job);
-  }
-  CleanObject clean() const { return clean(test.truth_labels); }
-
-  GaussianCloud as_labelled() const {
-    std::vector<std::uint32_t> order;
-    for (std::uint32_t g = 0; g < scene.cloud.size(); ++g)
-      if (test.truth_labels[g]) order.push_back(g);
-    return permuted(scene.cloud, order);
-  }
-};
 
 StillLifeOptions hard_edges(bool skirts = true) {
   StillLifeOptions options;
@@ -243,7 +211,7 @@ TEST_CASE("clean edges: a cancelled job cleans nothing") {
   const Thing thing(hard_edges(), "orange");
   std::stop_source stop;
   stop.request_stop();
-  CHECK_FALSE(thing.clean(thing.test.truth_labels, {stop.get_token(), {}}).report.cleaned);
+  CHECK_FALSE(thing.clean(thing.test.truth_labels, false, {stop.get_token(), {}}).report.cleaned);
 }
 
 TEST_CASE("clean edges: one Gaussian, and none, are left as they are") {
