@@ -149,8 +149,8 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   stop_if_cancelled(job, "splatcut cut");
   RunReport report{scene,        said, objects, {}, 0, shared->load_ms(), shared->load_ms() + ms_since(start),
                    options.times};
-  const CutoutFolder to{folder, scene, session.blocks(), chosen.up_world, chosen.given, args.cutout,
-                        args.cutout.writes("rest")};
+  const CutoutFolder to{folder,       scene,       session.blocks(),          chosen.up_world,
+                        chosen.given, args.cutout, args.cutout.writes("rest")};
   report.edges = write_cutouts(to, objects, job);
   for (const EdgesReport& edges : report.edges) report.total_ms += edges.ms;
   report.rest = write_rest(to, owner, report.edges, chosen.camera);

@@ -169,7 +169,7 @@ class Ring {
 void keep_what_surrounds(const Drawer& scene, std::span<const std::uint8_t> labels,
                          std::span<const OwnView> views, std::vector<std::uint32_t>* ghosts, const Job& job) {
   constexpr int kRounds = 3;
-  constexpr double kMostGrowth = 1e-5;
+  constexpr double kMostGrowth = 2e-6;
   if (ghosts->empty()) return;
   std::vector<std::uint8_t> rest(labels.size());
   std::ranges::transform(labels, rest.begin(), [](std::uint8_t l) { return l == 0 ? 1 : 0; });

@@ -166,6 +166,26 @@ TEST_CASE("hands: an object is exported with clean edges, placed or not, or with
   CHECK(hands.said().find("edges clean") == std::string::npos);  // of the last one, whose rows were kept
 }
 
+TEST_CASE("hands: the rest is exported without ghosts, or with all its rows") {
+  const ScratchFolder folder("rest");
+  Hands hands = hands_on_sample();
+  take_what_touches_it(hands);
+  const OpenedScene& scene = *hands.studio().scene();
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  const RestChanges changes =
+      clean_object({*scene.cloud, labels, hands.studio().document().up_world, scene.views().cameras, true})
+          .rest;
+  REQUIRE(changes.ghosts.size() + changes.given_back.size() > 0);
+  const std::size_t all = scene.cloud->size() - hands.selected();
+  const auto exported_as = [&](const char* name, bool edges) {
+    hands.studio().apply(Export{{ExportWhat::kRest, SceneFormat::kPly, folder / name, false, {}, edges}});
+    REQUIRE(hands.app.settle());
+    return load_scene(folder / name).cloud.size();
+  };
+  CHECK(exported_as("rest.ply", true) == all - changes.ghosts.size() + changes.given_back.size());
+  CHECK(exported_as("kept.ply", false) == all);
+}
+
 TEST_CASE("hands: alone, the object is drawn with clean edges, beside itself as it is, or as it is") {
   Hands hands = hands_on_sample();
   take_what_touches_it(hands);

@@ -11,7 +11,7 @@ using namespace splatcut::testing;
 namespace {
 
 constexpr std::size_t kRowBytes = 1 + 3 * 8 + 12 * 4;
-const std::vector<std::string> kFloats = {"opacity", "scale_0", "scale_1", "scale_2", "rot_0",    "rot_1",
+const std::vector<std::string> kFloats = {"opacity", "scale_0", "scale_1", "scale_2", "rot_0",  "rot_1",
                                           "rot_2",   "rot_3",   "f_dc_0",  "f_dc_1",  "f_dc_2", "filter_3D"};
 
 // Two rows, with a column of no Gaussian, positions in double, and the 3D filter of Mip-Splatting.
@@ -45,7 +45,8 @@ QUICK_CASE("ply", "ply: changed rows keep all but place, size, turn and opacity 
   write(folder / "odd.ply", text);
   const Scene scene = load_scene(folder / "odd.ply");
   REQUIRE(scene.rows_can_be_changed);
-  GaussianCloud changed = permuted(scene.cloud, std::vector<std::uint32_t>{scene.cloud.file_row[0] == 1 ? 0u : 1u});
+  GaussianCloud changed =
+      permuted(scene.cloud, std::vector<std::uint32_t>{scene.cloud.file_row[0] == 1 ? 0u : 1u});
   changed.position[0] = {7, 8, 9};
   changed.scale[0] = {0.5f, 0.25f, 0.125f};
   changed.rotation[0] = {0, 0, 1, 0};

@@ -36,7 +36,8 @@ std::vector<std::uint8_t> with_some_missed(const Thing& thing, std::set<std::uin
 
 }  // namespace
 
-TEST_CASE("forget: what a cut missed of an object leaves with it, and nothing that was never its own") {
+TEST_CASE(
+    "forget: of what a cut missed of an object, what nobody sees around it leaves, and nothing of others") {
   StillLifeOptions options;
   options.gaussians = 20000;
   const Thing thing(options, "orange");
@@ -46,9 +47,8 @@ TEST_CASE("forget: what a cut missed of an object leaves with it, and nothing th
   REQUIRE(object.report.cleaned);
   const std::vector<std::uint32_t>& ghosts = object.rest.ghosts;
   CHECK(std::ranges::is_sorted(ghosts));
-  const auto planted =
-      std::ranges::count_if(ghosts, [&](std::uint32_t g) { return missed.contains(g); });
-  CHECK(static_cast<double>(planted) > 0.5 * static_cast<double>(missed.size()));
+  const auto planted = std::ranges::count_if(ghosts, [&](std::uint32_t g) { return missed.contains(g); });
+  CHECK(static_cast<double>(planted) > 0.33 * static_cast<double>(missed.size()));
   CHECK(static_cast<double>(planted) > 0.9 * static_cast<double>(ghosts.size()));
   CHECK(std::ranges::none_of(ghosts, [&](std::uint32_t g) { return labels[g] != 0; }));
 }
