@@ -7,10 +7,10 @@
 // more than .9, and its label is what M / A > .5 says.
 //   given back  what carve.h took off the object and whose 8 nearest sure ones are mostly the rest's
 //   ghosts      of the rest, in the object's box, M / A > .5 or A < .5 px, and most of their 8 nearest sure
-//               ones are the object's; but for those that what surrounds the object needs: the rest is drawn with
-//               and without the ghosts, e = by how much its squared error against the scene grows by their
-//               leaving, per pixel up to 8 px outside of the mask. Where the mean of e over all that a ghost
-//               shows is above 2e-6, it stays. Three rounds, as fewer then leave beside the others.
+//               ones are the object's; but for those that what surrounds the object needs: the rest is drawn
+//               with and without the ghosts, e = by how much its squared error against the scene grows by
+//               their leaving, per pixel up to 8 px outside of the mask. Where the mean of e over all that a
+//               ghost shows is above 2e-6, it stays. Three rounds, as fewer then leave beside the others.
 // Cost: three drawings of the scene a view and two a round, a k-d tree over the sure ones.
 #pragma once
 
