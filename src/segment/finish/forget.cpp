@@ -166,21 +166,15 @@ class Ring {
   Mask ring_;
 };
 
-void keep_what_surrounds(const Drawer& scene, std::span<const std::uint8_t> labels,
-                         std::span<const OwnView> views, std::vector<std::uint32_t>* ghosts, const Job& job) {
+void keep_what_surrounds(std::span<const Ring> rings, const std::vector<std::uint8_t>& rest,
+                         std::vector<std::uint32_t>* ghosts, const Job& job) {
   constexpr int kRounds = 3;
   constexpr double kMostGrowth = 2e-6;
-  if (ghosts->empty()) return;
-  std::vector<std::uint8_t> rest(labels.size());
-  std::ranges::transform(labels, rest.begin(), [](std::uint8_t l) { return l == 0 ? 1 : 0; });
-  std::vector<Ring> rings;
-  for (const OwnView& view : views)
-    if (!job.cancelled()) rings.emplace_back(scene, view, rest, job);
-  for (int round = 0; round < kRounds && !job.cancelled(); ++round) {
+  for (int round = 0; round < kRounds && !ghosts->empty() && !job.cancelled(); ++round) {
     job.progress("ghosts", static_cast<double>(round) / kRounds);
     std::vector<std::uint8_t> without = rest;
     for (const std::uint32_t g : *ghosts) without[g] = 0;
-    PlaneSums sums(labels.size(), kRingPlanes);
+    PlaneSums sums(rest.size(), kRingPlanes);
     for (const Ring& ring : rings) ring.add_growth(without, &sums, job);
     std::erase_if(*ghosts, [&](std::uint32_t g) {
       return sums.at(g, kRingGrowth) > kMostGrowth * sums.at(g, kRingShown);
@@ -215,17 +209,25 @@ GaussianCloud given_back(const GaussianCloud& cloud, std::span<const std::uint32
 RestChanges forget(const Drawer& scene, std::span<const std::uint8_t> labels,
                    std::span<const std::uint32_t> object, std::span<const OwnView> views,
                    std::span<const CutOff> cut_off, const Job& job) {
+  // A view is drawn several times in a row: projected once, unless blocks out of it spare more than that.
+  constexpr std::size_t kMostProjected = 1'000'000;
   const GaussianCloud& cloud = scene.cloud();
+  KeptViews last(cloud, 0);
+  const Drawer drawer = cloud.size() <= kMostProjected ? Drawer(cloud, &last) : scene;
+  std::vector<std::uint8_t> rest(labels.size());
+  std::ranges::transform(labels, rest.begin(), [](std::uint8_t l) { return l == 0 ? 1 : 0; });
   Seen seen(cloud.size());
+  std::vector<Ring> rings;
   for (std::size_t v = 0; v < views.size() && !job.cancelled(); ++v) {
     job.progress("the rest", static_cast<double>(v) / static_cast<double>(views.size()));
-    add_view(scene, views[v], &seen, job);
+    rings.emplace_back(drawer, views[v], rest, job);
+    add_view(drawer, views[v], &seen, job);
   }
   if (job.cancelled()) return {};
   const Neighbours sure(cloud, labels, seen);
   RestChanges changes{in_the_midst(cloud, labels, object, seen, sure, job),
                       given_back(cloud, object, cut_off, sure, job)};
-  keep_what_surrounds(scene, labels, views, &changes.ghosts, job);
+  keep_what_surrounds(rings, rest, &changes.ghosts, job);
   return changes;
 }
 
