@@ -31,6 +31,10 @@ void refuse_beside_work(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->count() > 0; })) {
     const std::string name = option->get_name();
     constexpr std::array kMayStand = {"--work", "--output", "--edges", "--write", "--json", "--overwrite"};
+    constexpr std::array kOfACut = {"--origin", "--up", "--scale-by"};
+    if (std::ranges::find(kOfACut, name) != kOfACut.end())
+      throw Error("--work", fmt::format("cannot go with {}: its objects are written where they are", name),
+                  "Place them in the window's export, or leave the option out");
     if (std::ranges::find(kMayStand, name) == kMayStand.end())
       throw Error("--work", fmt::format("cannot go with {}: the work file says that", name),
                   "Change the work in the window, or leave the option out");

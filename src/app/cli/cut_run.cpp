@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 
+#include "app/cli/cut_placing.h"
 #include "app/cli/cut_report.h"
 #include "app/console/console.h"
 #include "app/console/setting_options.h"
@@ -144,13 +145,19 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   std::vector<CutObject> objects = objects_of(args, input, scene, options, job, &chosen);
   const nlohmann::json said = settings_json(args, input, chosen, settings);
   Session& session = shared->session(chosen);
+  const ExportPlacement placement =
+      placement_of(args.cutout, {scene.cloud, nullptr, &session.blocks()}, chosen.camera, job);
+  stop_if_cancelled(job, "splatcut cut");
   const std::vector<std::uint8_t> owner = cut_objects(&objects, &session, settings, job);
   end_progress();
   stop_if_cancelled(job, "splatcut cut");
   RunReport report{scene,        said, objects, {}, 0, shared->load_ms(), shared->load_ms() + ms_since(start),
                    options.times};
-  const CutoutFolder to{folder,       scene,       session.blocks(),          chosen.up_world,
-                        chosen.given, args.cutout, args.cutout.writes("rest")};
+  CutoutFolder to{folder,       scene,       session.blocks(),          chosen.up_world,
+                  chosen.given, args.cutout, args.cutout.writes("rest")};
+  if (placement != ExportPlacement{})
+    to.to = {similarity_of(placement, scene.cloud, owner, chosen.up_world),
+             placement.origin == ExportOrigin::kScene};
   report.edges = write_cutouts(to, objects, job);
   for (const EdgesReport& edges : report.edges) report.total_ms += edges.ms;
   report.rest = write_rest(to, owner, report.edges, chosen.camera);
@@ -158,6 +165,7 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   if (args.cutout.writes("objects"))
     write_text_file(folder.file("objects.json"), json_text(object_names(objects), 2) + "\n");
   FinishedCut run{report_json(report), summary(report), std::move(objects)};
+  run.report["placed"] = {{"origin", args.cutout.origin}, {"up", args.cutout.up}, {"scale", placement.scale}};
   write_text_file(folder.file("report.json"), json_text(run.report, 2) + "\n");
   stop_if_cancelled(job, "splatcut cut");
   return run;

@@ -101,6 +101,18 @@ void CutoutOptions::add_to(CLI::App& command) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember({"object", "rest", "labels", "pictures", "npy", "objects"}));
+  command
+      .add_option("--origin", origin,
+                  "What becomes 0, 0, 0 of the written Gaussians: scene (as it is), centre or foot of the "
+                  "object, or of all objects together")
+      ->check(CLI::IsMember(std::vector<std::string>(kOriginNames.begin(), kOriginNames.end())))
+      ->capture_default_str();
+  command.add_option("--up", up, "Where up points in the written files: scene (as it is), +y, -y or +z")
+      ->check(CLI::IsMember(std::vector<std::string>(kUpNames.begin(), kUpNames.end())))
+      ->capture_default_str();
+  command.add_option("--scale-by", known_length,
+                     "x0,y0,x1,y1,metres: the written Gaussians in metres, by what lies between the surface "
+                     "at two pixels of the reference view");
 }
 
 bool CutoutOptions::writes(std::string_view what) const {
@@ -175,7 +187,7 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
   if (job.cancelled()) return report;
   if (scene)
     report.gaussians = save_gaussians(to.folder.file(files.scene), to.scene, labels,
-                                      clean ? &clean->cloud : nullptr, SceneFormat::kPly)
+                                      clean ? &clean->cloud : nullptr, SceneFormat::kPly, to.to)
                            .gaussians;
   if (!files.labels.empty() && to.options.writes("labels"))
     write_labels(to.folder.file(files.labels), to.scene, labels);
@@ -196,7 +208,7 @@ std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& 
   std::size_t gaussians = static_cast<std::size_t>(std::ranges::count(rest, 1));
   if (to.options.writes("rest")) {
     const RestChanges changes = changes_of(objects);
-    gaussians = save_rest(to.folder.file("rest.ply"), to.scene, rest, changes, SceneFormat::kPly, {},
+    gaussians = save_rest(to.folder.file("rest.ply"), to.scene, rest, changes, SceneFormat::kPly, to.to,
                           {.may_be_empty = true})
                     .gaussians;
     if (to.options.writes("pictures")) {
@@ -208,7 +220,8 @@ std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& 
   }
   if (to.options.writes("labels")) write_labels(to.folder.file("labels.u8"), to.scene, owner);
   if (to.options.writes("objects"))
-    save_scene(to.folder.file("objects.ply"), to.scene, owner, SceneFormat::kPly, {.object_ids = owner});
+    save_gaussians(to.folder.file("objects.ply"), to.scene, owner, nullptr, SceneFormat::kPly, to.to,
+                   {.object_ids = owner});
   if (to.options.writes("npy")) write_labels(to.folder.file("labels.npy"), to.scene, owner);
   return gaussians;
 }

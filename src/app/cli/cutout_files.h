@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/console/output_folder.h"
+#include "app/document/export_plan.h"
 #include "core/image.h"
 #include "scene/formats/scene_file.h"
 #include "scene/raster/projected_view.h"
@@ -25,6 +26,9 @@ namespace splatcut {
 struct CutoutOptions {
   std::string edges = "clean";
   std::vector<std::string> write = {"object", "rest", "labels", "pictures"};
+
+  std::string origin = "scene", up = "scene";  // of the written Gaussians: export_placement.h
+  std::string known_length;                    // "x0,y0,x1,y1,metres", or empty
 
   void add_to(CLI::App& command);  // which must not outlive this
   bool clean() const { return edges == "clean"; }
@@ -50,7 +54,8 @@ struct CutoutFolder {
   glm::vec3 up_world;         // of the scene, as are the cameras of its capture
   std::span<const Camera> cameras;
   const CutoutOptions& options;
-  bool rest = false;  // whether write_rest() follows and writes it
+  bool rest = false;               // whether write_rest() follows and writes it
+  std::optional<MovedTo> to = {};  // where all written Gaussians are moved to
 
   Drawer drawer() const { return {scene.cloud, nullptr, &blocks}; }
 };

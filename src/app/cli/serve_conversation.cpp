@@ -49,15 +49,8 @@ const RequestKind& kind_of(Ask ask) {
 }
 
 ExportPlacement placement_of(const nlohmann::json& request) {
-  ExportPlacement placement;
-  const std::string origin = request.value("origin", "scene"), up = request.value("up", "scene");
-  placement.origin = origin == "centre" ? ExportOrigin::kCentre
-                     : origin == "foot" ? ExportOrigin::kFoot
-                                        : ExportOrigin::kScene;
-  placement.up = up == "+y"   ? ExportUp::kPlusY
-                 : up == "-y" ? ExportUp::kMinusY
-                 : up == "+z" ? ExportUp::kPlusZ
-                              : ExportUp::kScene;
+  ExportPlacement placement =
+      placement_by_name(request.value("origin", "scene"), request.value("up", "scene"));
   placement.scale = request.value("scale", 1.0f);
   if (!(placement.scale > 0) || !std::isfinite(placement.scale))
     throw Error("export", "\"scale\" is not larger than 0");

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/cli/cut_run.h"
+#include "app/document/export_placement.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/spoken_list.h"
@@ -105,8 +106,8 @@ const std::vector<RequestKind>& kinds() {
        "Writes the object or the rest as a scene file; its ending is the format",
        {{"path", kText, true, "File to write"},
         {"what", kText, false, "The object (default) or the rest", {"object", "rest"}},
-        {"origin", kText, false, "What becomes 0, 0, 0", {"scene", "centre", "foot"}},
-        {"up", kText, false, "Where up points in the file", {"scene", "+y", "-y", "+z"}},
+        {"origin", kText, false, "What becomes 0, 0, 0", {kOriginNames.begin(), kOriginNames.end()}},
+        {"up", kText, false, "Where up points in the file", {kUpNames.begin(), kUpNames.end()}},
         {"scale", kNumber, false, "Factor of all lengths"},
         kReplaces},
        {"edges"},

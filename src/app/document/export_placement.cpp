@@ -2,9 +2,12 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
+#include "core/error.h"
 #include "scene/cloud/spherical_harmonics.h"
 
 namespace splatcut {
@@ -25,7 +28,23 @@ glm::vec3 file_up(ExportUp up, const glm::vec3& up_world, const AxisSigns& axes)
   return glm::normalize(up_world);
 }
 
+template <std::size_t N>
+std::size_t index_of(std::string_view word, const std::array<const char*, N>& words, const char* where,
+                     const char* takes) {
+  const auto at = std::ranges::find(words, word);
+  if (at == words.end()) throw Error(where, "is \"" + std::string(word) + "\"", takes);
+  return static_cast<std::size_t>(at - words.begin());
+}
+
 }  // namespace
+
+ExportPlacement placement_by_name(std::string_view origin, std::string_view up) {
+  ExportPlacement placement;
+  placement.origin =
+      static_cast<ExportOrigin>(index_of(origin, kOriginNames, "origin", "It takes scene, centre or foot"));
+  placement.up = static_cast<ExportUp>(index_of(up, kUpNames, "up", "It takes scene, +y, -y or +z"));
+  return placement;
+}
 
 glm::quat turn_between(const glm::vec3& from, const glm::vec3& to) {
   const glm::vec3 a = glm::normalize(from), b = glm::normalize(to);

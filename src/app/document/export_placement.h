@@ -7,8 +7,10 @@
 // pass, about 1 us a Gaussian of degree 3.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "app/document/placing_handles.h"
 #include "scene/cloud/gaussian_cloud.h"
@@ -30,6 +32,12 @@ struct ExportPlacement {
   glm::vec3 move{0};   // translation after all else, scene units
   bool operator==(const ExportPlacement&) const = default;
 };
+
+// The words that options and requests have for them, in the order of the enumerators.
+inline constexpr std::array<const char*, 3> kOriginNames = {"scene", "centre", "foot"};
+inline constexpr std::array<const char*, 4> kUpNames = {"scene", "+y", "-y", "+z"};
+// Throws Error for a word that is none of them.
+ExportPlacement placement_by_name(std::string_view origin, std::string_view up);
 
 // Similarity transform p' = scale rotation (p - origin) + move.
 struct Similarity {

@@ -120,7 +120,12 @@ SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
                                   : instead ? placed(*instead, {}, to->by)
                                             : placed(scene.cloud, keep, to->by));
   if (to && !to->adds_origin) other.origin = glm::dvec3(0);
-  return save_scene(path, other, {}, format, options);
+  std::vector<std::uint8_t> ids;  // of the Gaussians that are kept
+  for (std::size_t g = 0; g < options.object_ids.size(); ++g)
+    if (keep.empty() || keep[g]) ids.push_back(options.object_ids[g]);
+  SaveOptions of_other = options;
+  of_other.object_ids = ids;
+  return save_scene(path, other, {}, format, of_other);
 }
 
 SaveReport save_rest(const std::filesystem::path& path, const Scene& scene, std::vector<std::uint8_t> keep,

@@ -1,0 +1,77 @@
+// cut writes its Gaussians in metres by a known length, and upright on its foot.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cut_program.h"
+
+using namespace splatcut::testing;
+using nlohmann::json;
+
+namespace {
+
+json info(const std::string& file) {
+  const Result result = still_life().place.run("info " + file + " --json");
+  REQUIRE_MESSAGE(result.code == 0, result.err);
+  return json::parse(result.out);
+}
+
+double side(const json& info, int axis) {
+  return info["bounds_98"]["max"][axis].get<double>() - info["bounds_98"]["min"][axis].get<double>();
+}
+
+std::string cut_apple(const std::string& rest) {
+  return still_life().cut("--click " + still_life().click_on("apple") +
+                          " --edges keep --write object,rest,objects,labels " + rest);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "cut --scale-by: all files are as much larger as the report says, and twice the metres is twice as "
+    "large") {
+  const Workplace& place = still_life().place;
+  const std::string ends = still_life().click_on("apple") + "," + still_life().click_on("mug");
+  REQUIRE(place.run(cut_apple("-o as_it_is")).code == 0);
+  for (const char* metres : {"1", "2"}) {
+    const Result result = place.run(cut_apple("--scale-by " + ends + "," + metres + " -o metres_" + metres));
+    REQUIRE_MESSAGE(result.code == 0, result.err);
+  }
+  const auto scale = [&](const std::string& folder) {
+    return json::parse(place.text(folder + "/report.json"))["placed"]["scale"].get<double>();
+  };
+  CHECK(scale("as_it_is") == 1);
+  CHECK(scale("metres_2") == doctest::Approx(2 * scale("metres_1")));
+  for (const char* file : {"/object.ply", "/rest.ply", "/objects.ply"}) {
+    const json was = info(std::string("as_it_is") + file), is = info(std::string("metres_2") + file);
+    CHECK(is["gaussians"] == was["gaussians"]);
+    for (const char* end : {"min", "max"})
+      for (int axis = 0; axis < 3; ++axis)  // about 0, 0, 0
+        CHECK(is["bounds_98"][end][axis].get<double>() ==
+              doctest::Approx(scale("metres_2") * was["bounds_98"][end][axis].get<double>()).epsilon(1e-4));
+  }
+  CHECK(place.text("metres_2/objects.ply").find("object_id") != std::string::npos);
+  CHECK(place.text("metres_2/labels.u8") == place.text("as_it_is/labels.u8"));
+}
+
+TEST_CASE("cut --origin foot --up +z: the object stands on the ground, in the middle") {
+  const Workplace& place = still_life().place;
+  REQUIRE(place.run(cut_apple("--origin foot --up +z -o standing")).code == 0);
+  const json is = info("standing/object.ply");
+  const double tall = side(is, 2);
+  CHECK(std::abs(is["bounds_98"]["min"][2].get<double>()) < 0.02 * tall);
+  for (int axis = 0; axis < 2; ++axis)
+    CHECK(std::abs(is["bounds_98"]["min"][axis].get<double>() + is["bounds_98"]["max"][axis].get<double>()) <
+          0.02 * tall);
+}
+
+TEST_CASE("cut --scale-by: what is no known length is refused in words") {
+  const std::string at = still_life().click_on("apple");
+  refused(cut_apple("--scale-by " + at + ",1"), {}, {"--scale-by", "no known length"});
+  refused(cut_apple("--scale-by " + at + ",1,2,3x"), {}, {"--scale-by", "no known length"});
+  refused(cut_apple("--scale-by " + at + ",1,2,0"), {}, {"--scale-by", "not larger than 0"});
+  refused(cut_apple("--scale-by " + at + "," + at + ",1"), {}, {"--scale-by", "the same place"});
+  refused(cut_apple("--scale-by " + at + ",90000,2,1"), {}, {"--scale-by", "outside of the"});
+  refused(cut_apple("--origin foot --up x"), {}, {"--up"}, 2);
+}
