@@ -31,7 +31,7 @@ struct SceneArguments {
   int spz_version = SaveOptions{}.spz_version;
   std::string what = "colour", background = "0,0,0";
   float low_pass_px2 = kLowPassPx2;
-  bool json = false, overwrite = false;
+  bool all_cameras = false, json = false, overwrite = false;
 };
 
 nlohmann::json info_json(const Scene& scene) {
@@ -135,10 +135,54 @@ void write_depth(const std::filesystem::path& path, const Image<float>& depth) {
   write_png(path, grey);
 }
 
+// One view, as --what says.
+void draw_view(const SceneArguments& args, const GaussianCloud& cloud, const Camera& camera,
+               const RasterOptions& options, const std::filesystem::path& output, const Job& job) {
+  const auto drawn = [&](auto whole, const auto& of_strip) {
+    draw_strips(cloud, camera, options, job,
+                [&](const RasterOutput& strip, int y0) { put(of_strip(strip), y0, &whole); });
+    end_progress();
+    stop_if_cancelled(job, "splatcut render");
+    return whole;
+  };
+  const int width = camera.width_px, height = camera.height_px;
+  if (args.what == "depth")
+    write_depth(output, drawn(Image<float>(width, height),
+                              [](const RasterOutput& strip) { return strip.expected_depth; }));
+  else if (args.what == "alpha")
+    write_png(output, drawn(Image<std::uint8_t>(width, height),
+                            [](const RasterOutput& strip) { return grey_of(strip.alpha); }));
+  else
+    write_png(output, drawn(Image<Rgb8>(width, height),
+                            [](const RasterOutput& strip) { return rgb8_from_linear(strip.colour); }));
+}
+
+// CAMERA.png for each camera, so that `cut --masks` finds them; in folders where the names have some.
+void draw_all_cameras(const SceneArguments& args, const GaussianCloud& cloud, const ChosenCamera& chosen,
+                      const RasterOptions& options, const Job& job) {
+  OutputFolder folder(args.output, args.overwrite);
+  for (const Camera& given : chosen.given) {
+    const std::filesystem::path name = std::filesystem::path(given.name + ".png").lexically_normal();
+    if (given.name.empty() || name.is_absolute() || *name.begin() == "..")
+      throw Error(args.camera.cameras.string(),
+                  fmt::format("the camera \"{}\" has no name for a file", given.name));
+    const std::filesystem::path file = folder.file(name.string());
+    if (std::filesystem::exists(file))
+      throw Error(args.camera.cameras.string(), fmt::format("two cameras are called \"{}\"", given.name));
+    std::filesystem::create_directories(file.parent_path());
+    const Camera camera =
+        args.camera.size.empty() ? given : resized(given, chosen.camera.width_px, chosen.camera.height_px);
+    draw_view(args, cloud, camera, options, file, job);
+  }
+  folder.commit();
+}
+
 void run_render(const SceneArguments& args, const CommonOptions& common) {
-  refuse_name_of_png(args.output);
+  if (!args.all_cameras) {
+    refuse_name_of_png(args.output);
+    check_output_file(args.output, args.overwrite);
+  }
   refuse_written_inputs(args.output, {args.scene, args.camera.cameras, args.labels});
-  check_output_file(args.output, args.overwrite);
   const Job job = console_job(common.quiet);
   const Scene scene = args.how.load(args.scene, args.camera.cameras, common.quiet, job);
   refuse_written_inputs(args.output, scene.files);
@@ -154,26 +198,16 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
     for (const std::uint8_t l : load_labels(args.labels, scene)) colours.emplace_back(l ? 1.0f : 0.0f);
     options.colour_override = colours;
   }
-  const Camera& camera = chosen.camera;
   const bool depth = args.what == "depth", alpha = args.what == "alpha";
-  say_memory(camera, depth ? sizeof(float) + sizeof(std::uint16_t) : alpha ? 1 : sizeof(Rgb8), common.quiet);
-  const auto drawn = [&](auto whole, const auto& of_strip) {
-    draw_strips(scene.cloud, camera, options, job,
-                [&](const RasterOutput& strip, int y0) { put(of_strip(strip), y0, &whole); });
-    end_progress();
-    stop_if_cancelled(job, "splatcut render");
-    return whole;
-  };
-  const int width = camera.width_px, height = camera.height_px;
-  if (depth)
-    write_depth(args.output, drawn(Image<float>(width, height),
-                                   [](const RasterOutput& strip) { return strip.expected_depth; }));
-  else if (alpha)
-    write_png(args.output, drawn(Image<std::uint8_t>(width, height),
-                                 [](const RasterOutput& strip) { return grey_of(strip.alpha); }));
+  say_memory(chosen.camera,
+             depth   ? sizeof(float) + sizeof(std::uint16_t)
+             : alpha ? 1
+                     : sizeof(Rgb8),
+             common.quiet);
+  if (args.all_cameras)
+    draw_all_cameras(args, scene.cloud, chosen, options, job);
   else
-    write_png(args.output, drawn(Image<Rgb8>(width, height),
-                                 [](const RasterOutput& strip) { return rgb8_from_linear(strip.colour); }));
+    draw_view(args, scene.cloud, chosen.camera, options, args.output, job);
   if (!common.quiet) fmt::print("{}\n", args.output.string());
 }
 
@@ -227,7 +261,13 @@ void add_render_command(CLI::App& program, const CommonOptions& common) {
                               "viewers",
                               kLowPassPx2, kWebLowPassPx2))
       ->check(within(0, 100));
-  command.add_option("-o,--output", args->output, "PNG to write")->required();
+  command
+      .add_flag("--all-cameras", args->all_cameras,
+                "Draw what each camera of --cameras sees, as CAMERA.png in the folder of --output")
+      ->needs("--cameras")
+      ->excludes("--camera")
+      ->excludes("--camera-pos");
+  command.add_option("-o,--output", args->output, "PNG to write; with --all-cameras a folder")->required();
   command.add_flag("--overwrite", args->overwrite, "Replace an existing file");
   command.callback([args, &common] { run_render(*args, common); });
 }

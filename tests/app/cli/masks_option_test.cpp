@@ -125,3 +125,17 @@ TEST_CASE("masks that cannot be used are refused, with the file and the reason, 
   refused("cut " + still_life().scene + " --cameras twins.json --masks bad" + kSize, {},
           {"2 cameras", "view_00"});
 }
+
+TEST_CASE("render --all-cameras: a mask for each camera, the same as one by one") {
+  const Workplace& place = still_life().place;
+  const std::string one = apple_mask(0);
+  const std::string how = "render " + still_life().scene + " " + still_life().cameras + kSize +
+                          " --what labels --labels apple.labels.u8";
+  const Result result = place.run(how + " --all-cameras -o masks_of_all");
+  REQUIRE_MESSAGE(result.code == 0, result.err);
+  const json cameras = json::parse(place.text("made/cameras.json"));
+  CHECK(place.files_in("masks_of_all").size() == cameras.size());
+  CHECK(place.text("masks_of_all/view_00.png") == place.text(one));
+  CHECK(place.run(how + " --all-cameras -o masks_of_all").code == 1);  // it is there
+  CHECK(place.run(cut_with(kSize) + " --masks masks_of_all -o by_all").code == 0);
+}
