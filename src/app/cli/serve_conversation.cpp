@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/cli/batch_jobs.h"
+#include "app/cli/cut_placing.h"
 #include "app/console/kept_inputs.h"
 #include "app/console/seeds_file.h"
 #include "app/console/setting_options.h"
@@ -310,10 +311,14 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
   const std::filesystem::path path = request.at("path").get<std::string>();
   const SceneFormat format = output_format_from_name(path);
   check_output(path, request);
-  const ExportPlacement placement = placement_of(request);
-  const bool rest = request.value("what", "object") == "rest";
-  nlohmann::json said = with_options(open.said, kind_of(Ask::kExport), request);
-  const bool wants_clean = !rest && arguments_of(said, "export").cutout.clean();
+  const CutArguments args = arguments_of(with_options(open.said, kind_of(Ask::kExport), request), "export");
+  ExportPlacement placement = placement_of(request);
+  if (!args.cutout.known_length.empty()) {
+    if (request.contains("scale"))
+      throw Error("export", "has both \"scale\" and \"scale-by\"", "Leave one out");
+    placement.scale = placement_of(args.cutout, open.drawer(), open.chosen.camera, job).scale;
+  }
+  const bool rest = request.value("what", "object") == "rest", wants_clean = !rest && args.cutout.clean();
   std::vector<std::uint8_t> keep = object().labels;
   if (rest)
     for (std::uint8_t& flag : keep) flag = !flag;

@@ -110,7 +110,7 @@ const std::vector<RequestKind>& kinds() {
         {"up", kText, false, "Where up points in the file", {kUpNames.begin(), kUpNames.end()}},
         {"scale", kNumber, false, "Factor of all lengths"},
         kReplaces},
-       {"edges"},
+       {"edges", "scale-by"},
        "gaussians, bytes, edges, loss of the format, path"},
       {Ask::kCancel,
        "cancel",
