@@ -111,8 +111,10 @@ const std::map<Action, Check> kChecks = {
     {Action::kShrink, selected([](auto now, auto before, auto) { return now < before; })},
     {Action::kLargestPart, selected([](auto now, auto before, auto) { return now > 0 && now <= before; })},
     {Action::kFloaters,
-     [](HeadlessApp& app, const Before& b) {
-       return app.studio().viewport().floaters_shown() != b.floaters;
+     [](HeadlessApp& app, const Before& b) {  // shown until it turns out that there are none
+       const auto& messages = app.studio().messages();
+       return app.studio().viewport().floaters_shown() != b.floaters ||
+              (!messages.empty() && messages.back().text == "Nothing floats apart from the object");
      }},
     {Action::kSeeThrough, view_changed(&ViewState::see_through)},
     {Action::kDelete,
