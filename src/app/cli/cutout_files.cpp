@@ -1,5 +1,6 @@
 #include "app/cli/cutout_files.h"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -134,6 +135,8 @@ nlohmann::json EdgesReport::json(bool times) const {
                {"made_solid", clean->made_solid},
                {"recoloured", clean->recoloured}});
   if (rest) json.update({{"ghosts", rest->ghosts.size()}, {"given_back", rest->given_back.size()}});
+  if (large_rest)
+    json["rest"] = fmt::format("as it is: the scene has more than {} Gaussians", kMostToForgetIn);
   return json;
 }
 
@@ -181,7 +184,8 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
     clean = clean_object({to.drawer(), labels, to.up_world, to.cameras, to.rest}, {}, job);
     report.ms = ms_since(start);
     report.clean = clean->report;
-    if (to.rest) report.rest = std::move(clean->rest);
+    report.large_rest = to.rest && labels.size() > kMostToForgetIn;
+    if (to.rest && !report.large_rest) report.rest = std::move(clean->rest);
     if (!clean->report.cleaned) clean.reset();
   }
   if (job.cancelled()) return report;

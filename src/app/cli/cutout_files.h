@@ -40,6 +40,7 @@ struct EdgesReport {
   std::optional<CleanReport> clean;  // none: --edges keep
   std::size_t gaussians = 0;         // written
   std::optional<RestChanges> rest;   // where rest.ply is written, too
+  bool large_rest = false;           // it is written, but as it is: see kMostToForgetIn
   double ms = 0;
 
   std::string why_kept() const { return clean && !clean->cleaned ? clean->reason : std::string(); }

@@ -24,6 +24,10 @@
 
 namespace splatcut {
 
+// The rest of a scene of more Gaussians stays as it is: sums over all of them, and a copy where rows cannot
+// be changed, would take more time and memory than the cut.
+inline constexpr std::size_t kMostToForgetIn = 2'000'000;
+
 struct RestChanges {
   std::vector<std::uint32_t> ghosts;  // indices in the scene, ascending: leave with the object
   GaussianCloud given_back;           // file_row: of the Gaussian that each was or was a part of
