@@ -318,21 +318,24 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
       throw Error("export", "has both \"scale\" and \"scale-by\"", "Leave one out");
     placement.scale = placement_of(args.cutout, open.drawer(), open.chosen.camera, job).scale;
   }
-  const bool rest = request.value("what", "object") == "rest", wants_clean = !rest && args.cutout.clean();
-  std::vector<std::uint8_t> keep = object().labels;
+  const bool rest = request.value("what", "object") == "rest", wants_clean = args.cutout.clean();
+  const std::vector<std::uint8_t>& labels = object().labels;
+  std::vector<std::uint8_t> keep = labels;
   if (rest)
     for (std::uint8_t& flag : keep) flag = !flag;
   std::optional<CleanObject> clean;
   if (wants_clean)
-    clean = clean_object({open.drawer(), keep, open.chosen.up_world, open.chosen.given}, {}, job);
+    clean = clean_object({open.drawer(), labels, open.chosen.up_world, open.chosen.given, rest}, {}, job);
   refuse_cancelled(job);
   const bool cleaned = clean && clean->report.cleaned;
   std::optional<MovedTo> to;
   if (placement != ExportPlacement{})
     to = {similarity_of(placement, scene.cloud, keep, open.chosen.up_world, format.axes),
           placement.origin == ExportOrigin::kScene};
-  const SaveReport saved = save_gaussians(path, scene, keep, cleaned ? &clean->cloud : nullptr, format, to,
-                                          {.z_up = placement.up == ExportUp::kPlusZ});
+  const SaveOptions how{.z_up = placement.up == ExportUp::kPlusZ};
+  const SaveReport saved =
+      rest ? save_rest(path, scene, keep, cleaned ? clean->rest : RestChanges(), format, to, how)
+           : save_gaussians(path, scene, keep, cleaned ? &clean->cloud : nullptr, format, to, how);
   nlohmann::json reply = {{"gaussians", saved.gaussians},
                           {"bytes", saved.bytes},
                           {"edges", cleaned ? "clean" : "keep"},

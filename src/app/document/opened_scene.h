@@ -42,12 +42,12 @@ std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const
 // Makes a session on the scene. The cameras beside its first file observe what the user clicks.
 Session session_on(const OpenedScene& scene, const PreparedCache& cache = {});
 
-// Capture cameras that lie beside a scene: cameras.json, transforms.json or a COLMAP folder (sparse/0) in its
-// folder or one of the two above. Empty if there are none that can be read. origin: as in load_cameras().
 // Sentence about the level of detail that was chosen, and why. free_bytes: free memory; none: not known.
 std::string remark_on_level(const SceneLevels& levels, unsigned level,
                             const std::optional<std::uint64_t>& free_bytes);
 
+// Capture cameras that lie beside a scene: cameras.json, transforms.json or a COLMAP folder (sparse/0) in its
+// folder or one of the two above. Empty if there are none that can be read. origin: as in load_cameras().
 std::vector<Camera> cameras_near(const std::filesystem::path& scene,
                                  const glm::dvec3& origin = glm::dvec3(0));
 
