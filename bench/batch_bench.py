@@ -133,7 +133,7 @@ def main():
     ended = 0
     for _ in range(kills):
         process = subprocess.Popen(batch("killed", "--jobs", "2"), env=environment, cwd=jobs.parent, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(random.uniform(0.05, 2.5))
+        time.sleep(random.uniform(0.05, 1.2))
         ended += process.poll() is None
         process.send_signal(random.choice([signal.SIGKILL, signal.SIGTERM, signal.SIGINT]))
         process.wait()

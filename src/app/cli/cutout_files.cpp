@@ -12,6 +12,7 @@
 #include "core/atomic_file.h"
 #include "core/png_file.h"
 #include "core/stage_clock.h"
+#include "scene/cloud/convex_hull.h"
 #include "scene/cloud/joined_clouds.h"
 #include "segment/masks/mask_tools.h"
 
@@ -75,6 +76,16 @@ std::string npy_header(std::size_t count) {
   return magic + low + high + text;
 }
 
+// Beside the object's .ply: in the same place.
+void write_hull(const CutoutFolder& to, const std::string& file, const GaussianCloud& cloud,
+                std::span<const std::uint8_t> keep) {
+  ConvexHull hull = convex_hull(cloud, keep);
+  if (to.to)
+    for (glm::vec3& corner : hull.corners) corner = moved(corner, to.to->by);
+  const bool adds_origin = !to.to || to.to->adds_origin;
+  write_text_file(to.folder.file(file), obj_text(hull, adds_origin ? to.scene.origin : glm::dvec3(0)));
+}
+
 RestChanges changes_of(std::span<const EdgesReport> objects) {
   RestChanges all;
   for (const EdgesReport& object : objects) {
@@ -98,10 +109,11 @@ void CutoutOptions::add_to(CLI::App& command) {
   command
       .add_option("--write", write,
                   "Which files: object, rest, labels, pictures, npy (labels.npy for numpy), objects (all in "
-                  "objects.ply, numbered as object_id); several with commas. Without it: the first four")
+                  "objects.ply, numbered as object_id), hull (convex, of each object, as .obj); several with "
+                  "commas. Without it: the first four")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"object", "rest", "labels", "pictures", "npy", "objects"}));
+      ->check(CLI::IsMember({"object", "rest", "labels", "pictures", "npy", "objects", "hull"}));
   command
       .add_option("--origin", origin,
                   "What becomes 0, 0, 0 of the written Gaussians: scene (as it is), centre or foot of the "
@@ -141,11 +153,12 @@ nlohmann::json EdgesReport::json(bool times) const {
 }
 
 ObjectFiles files_of_object(const std::string& name) {
-  return {name + ".ply", name + ".labels.u8", name + ".png", name + ".tint.png", name + ".masks.png"};
+  return {name + ".ply", name + ".hull.obj", name + ".labels.u8",
+          name + ".png", name + ".tint.png", name + ".masks.png"};
 }
 
 ObjectFiles files_of_only_object() {
-  return {"object.ply", "", "object.png", "tint.png", "masks.png"};
+  return {"object.ply", "object.hull.obj", "", "object.png", "tint.png", "masks.png"};
 }
 
 Image<Rgba8> cutout_picture(const Drawer& scene, const Camera& camera, std::span<const std::uint8_t> shown) {
@@ -175,11 +188,12 @@ void write_labels(const std::filesystem::path& path, const Scene& scene,
 
 EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
                          const std::vector<std::uint8_t>& labels, const ObjectView* shown, const Job& job) {
-  const bool scene = to.options.writes("object"), pictures = shown && to.options.writes("pictures");
+  const bool scene = to.options.writes("object"), hull = to.options.writes("hull"),
+             pictures = shown && to.options.writes("pictures");
   EdgesReport report;
   report.gaussians = static_cast<std::size_t>(std::ranges::count(labels, 1));
   std::optional<CleanObject> clean;
-  if (to.options.clean() && (scene || pictures || to.rest)) {
+  if (to.options.clean() && (scene || hull || pictures || to.rest)) {
     const auto start = std::chrono::steady_clock::now();
     clean = clean_object({to.drawer(), labels, to.up_world, to.cameras, to.rest}, {}, job);
     report.ms = ms_since(start);
@@ -193,6 +207,9 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
     report.gaussians = save_gaussians(to.folder.file(files.scene), to.scene, labels,
                                       clean ? &clean->cloud : nullptr, SceneFormat::kPly, to.to)
                            .gaussians;
+  if (hull)
+    write_hull(to, files.hull, clean ? clean->cloud : to.scene.cloud,
+               clean ? std::span<const std::uint8_t>() : labels);
   if (!files.labels.empty() && to.options.writes("labels"))
     write_labels(to.folder.file(files.labels), to.scene, labels);
   if (!pictures) return report;

@@ -63,10 +63,10 @@ struct CutoutFolder {
 
 // Names of an object's files; an empty one is not written.
 struct ObjectFiles {
-  std::string scene, labels, picture, tint, masks;
+  std::string scene, hull, labels, picture, tint, masks;
 };
-ObjectFiles files_of_object(const std::string& name);  // NAME.ply, NAME.labels.u8, NAME.png, ...
-ObjectFiles files_of_only_object();                    // object.ply, object.png, tint.png, masks.png
+ObjectFiles files_of_object(const std::string& name);  // NAME.ply, NAME.hull.obj, NAME.png, ...
+ObjectFiles files_of_only_object();                    // object.ply, object.hull.obj, object.png, ...
 
 // How an object is shown in its pictures.
 struct ObjectView {

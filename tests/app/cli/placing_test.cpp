@@ -1,8 +1,10 @@
 // cut writes its Gaussians in metres by a known length, and upright on its foot.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cut_program.h"
 
@@ -17,13 +19,23 @@ json info(const std::string& file) {
   return json::parse(result.out);
 }
 
+// Largest and smallest along an axis of the corners of an .obj.
+std::pair<double, double> range(const std::string& obj, int axis) {
+  std::istringstream lines(obj);
+  std::pair<double, double> range{1e9, -1e9};
+  std::string word;
+  for (double at[3]; lines >> word >> at[0] >> at[1] >> at[2];)
+    if (word == "v") range = {std::min(range.first, at[axis]), std::max(range.second, at[axis])};
+  return range;
+}
+
 double side(const json& info, int axis) {
   return info["bounds_98"]["max"][axis].get<double>() - info["bounds_98"]["min"][axis].get<double>();
 }
 
 std::string cut_apple(const std::string& rest) {
   return still_life().cut("--click " + still_life().click_on("apple") +
-                          " --edges keep --write object,rest,objects,labels " + rest);
+                          " --edges keep --write object,rest,objects,labels,hull " + rest);
 }
 
 }  // namespace
@@ -61,6 +73,13 @@ TEST_CASE("cut --origin foot --up +z: the object stands on the ground, in the mi
   const json is = info("standing/object.ply");
   const double tall = side(is, 2);
   CHECK(std::abs(is["bounds_98"]["min"][2].get<double>()) < 0.02 * tall);
+  const std::string hull = place.text("standing/object.hull.obj");
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [least, most] = range(hull, axis);
+    CHECK(least < is["bounds_98"]["min"][axis].get<double>());
+    CHECK(most > is["bounds_98"]["max"][axis].get<double>());
+    CHECK(most - least < 1.1 * side(is, axis));
+  }
   for (int axis = 0; axis < 2; ++axis)
     CHECK(std::abs(is["bounds_98"]["min"][axis].get<double>() + is["bounds_98"]["max"][axis].get<double>()) <
           0.02 * tall);
