@@ -43,7 +43,7 @@ const std::vector<Room> kRooms = {
      {"scene/cloud", "scene/camera", "scene/raster", "scene/packing"},
      {"nlohmann"},
      4300},  // a file a format
-    {"scene/still_life", {"scene/cloud", "scene/camera"}, {"nlohmann"}},
+    {"scene/still_life", {"scene/cloud", "scene/camera", "scene/raster"}, {"nlohmann"}},
     {"segment/graphcut", {"scene/cloud", "scene/camera", "scene/raster"}, {"nanoflann"}},
     {"segment/masks", {"scene/cloud", "scene/camera", "scene/raster", "segment/graphcut"}, {"opencv2/"}},
     {"segment/superpoints", {"scene/cloud", "scene/camera", "scene/raster", "segment/graphcut"}},

@@ -86,15 +86,25 @@ void write_hull(const CutoutFolder& to, const std::string& file, const GaussianC
   write_text_file(to.folder.file(file), obj_text(hull, adds_origin ? to.scene.origin : glm::dvec3(0)));
 }
 
+// What was invented comes last.
 RestChanges changes_of(std::span<const EdgesReport> objects) {
   RestChanges all;
-  for (const EdgesReport& object : objects) {
-    if (!object.rest) continue;
-    const RestChanges& one = *object.rest;
-    all.ghosts.insert(all.ghosts.end(), one.ghosts.begin(), one.ghosts.end());
-    all.given_back = all.given_back.empty() ? one.given_back : joined({all.given_back, one.given_back});
-  }
+  const auto add = [&](const std::vector<std::uint32_t>& leave, const GaussianCloud& come) {
+    all.ghosts.insert(all.ghosts.end(), leave.begin(), leave.end());
+    if (!come.empty()) all.given_back = all.given_back.empty() ? come : joined({all.given_back, come});
+  };
+  for (const EdgesReport& object : objects)
+    if (object.rest) add(object.rest->ghosts, object.rest->given_back);
+  for (const EdgesReport& object : objects)
+    if (object.fill) add(object.fill->replaced, object.fill->clones);
   return all;
+}
+
+nlohmann::json fill_json(const SurfacePatch& patch) {
+  if (!patch.why_not.empty()) return {{"filled", false}, {"why_not", patch.why_not}};
+  return {{"filled", true},         {"invented", patch.clones.size()},
+          {"pieces", patch.pieces}, {"replaced", patch.replaced.size()},
+          {"area", patch.area},     {"rim_error", patch.rim_error}};
 }
 
 }  // namespace
@@ -105,6 +115,13 @@ void CutoutOptions::add_to(CLI::App& command) {
                   "clean: the object without what the scene around it had hidden, where its views agree; "
                   "keep: its rows as they are")
       ->check(CLI::IsMember({"clean", "keep"}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--fill", fill,
+          "surface: the hole that the object leaves in a flat surface is filled with a copy of the surface "
+          "beside it, in rest.ply; none: it stays")
+      ->check(CLI::IsMember({"none", "surface"}))
       ->capture_default_str();
   command
       .add_option("--write", write,
@@ -134,6 +151,7 @@ bool CutoutOptions::writes(std::string_view what) const {
 
 nlohmann::json EdgesReport::json(bool times) const {
   nlohmann::json json = {{"edges", clean && clean->cleaned ? "clean" : "keep"}, {"gaussians", gaussians}};
+  if (fill) json["fill"] = fill_json(*fill);
   if (!clean) return json;
   json.update({{"views", clean->views}, {"agreed", clean->agreed}});
   if (times) json["ms"] = ms;
@@ -202,6 +220,10 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
     if (to.rest && !report.large_rest) report.rest = std::move(clean->rest);
     if (!clean->report.cleaned) clean.reset();
   }
+  if (to.rest && to.options.fill == "surface")
+    report.fill =
+        fill_surface(to.drawer(), labels, report.rest ? report.rest->ghosts : std::vector<std::uint32_t>(),
+                     to.up_world, to.cameras, job);
   if (job.cancelled()) return report;
   if (scene)
     report.gaussians = save_gaussians(to.folder.file(files.scene), to.scene, labels,

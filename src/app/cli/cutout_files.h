@@ -15,6 +15,7 @@
 #include "scene/formats/scene_file.h"
 #include "scene/raster/projected_view.h"
 #include "segment/finish/clean.h"
+#include "segment/finish/fill.h"
 #include "segment/session/cut_result.h"
 
 namespace CLI {
@@ -24,7 +25,7 @@ class App;
 namespace splatcut {
 
 struct CutoutOptions {
-  std::string edges = "clean";
+  std::string edges = "clean", fill = "none";
   std::vector<std::string> write = {"object", "rest", "labels", "pictures"};
 
   std::string origin = "scene", up = "scene";  // of the written Gaussians: export_placement.h
@@ -40,6 +41,7 @@ struct EdgesReport {
   std::optional<CleanReport> clean;  // none: --edges keep
   std::size_t gaussians = 0;         // written
   std::optional<RestChanges> rest;   // where rest.ply is written, too
+  std::optional<SurfacePatch> fill;  // where that is asked for, too
   bool large_rest = false;           // it is written, but as it is: see kMostToForgetIn
   double ms = 0;
 

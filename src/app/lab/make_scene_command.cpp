@@ -59,6 +59,8 @@ void add_make_scene_command(CLI::App& program, const CommonOptions& common) {
   command.add_flag("--occluder", options.occluder, "A board in front of the mug");
   command.add_flag("--low-contrast", options.low_contrast, "Objects in the colour of the table");
   command.add_flag("--contact", options.contact, "Objects that touch");
+  command.add_flag("--hidden-missing", options.hidden_missing, "Without what no camera sees");
+  command.add_option("--without", options.without, "Without that object, all else in its place");
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
   command.callback([args, &common] { run_make_scene(*args, common); });
 }

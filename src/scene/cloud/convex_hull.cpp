@@ -52,8 +52,8 @@ glm::vec3 support_point(const GaussianCloud& cloud, const std::vector<std::uint3
   return farthest;
 }
 
-// A thin thing has few corners for each of its long sides where directions are spread evenly: they are spread in
-// the frame in which its box is a cube.
+// A thin thing has few corners for each of its long sides where directions are spread evenly: they are spread
+// in the frame in which its box is a cube.
 std::vector<glm::vec3> support_points(const GaussianCloud& cloud, const std::vector<std::uint32_t>& seen,
                                       int directions) {
   std::vector<glm::vec3> positions;
@@ -75,8 +75,8 @@ class Hull {
     char triangles[] = "qhull Qt Pp";  // without hints
     qh_zero(&qhull_, said_);
     const bool keeps_points = false;
-    found_ = qh_new_qhull(&qhull_, 3, static_cast<int>(points->size()), &points->front().x, keeps_points, triangles,
-                          nullptr, said_) == qh_ERRnone;
+    found_ = qh_new_qhull(&qhull_, 3, static_cast<int>(points->size()), &points->front().x, keeps_points,
+                          triangles, nullptr, said_) == qh_ERRnone;
   }
   Hull(const Hull&) = delete;
   Hull& operator=(const Hull&) = delete;

@@ -1,13 +1,14 @@
 // The convex hull of Gaussians, few corners for a physics engine.
 //
-// In: a cloud and flags of the Gaussians to keep. Out: corners and triangles in the cloud's frame and units. The
-// hull is that of ellipsoids, one standard deviation large: for directions spread over the sphere, the point of
-// all ellipsoids that lies farthest (the support point, c + S d / sqrt(d S d) with S the covariance), and Qhull's
-// triangles around these points. So it lies within the hull of the ellipsoids, touches it in each direction, and
-// has no more corners than directions. Gaussians of an opacity below a tenth have no say: dust that nobody sees
-// would make the hull larger.
+// In: a cloud and flags of the Gaussians to keep. Out: corners and triangles in the cloud's frame and units.
+// The hull is that of ellipsoids, one standard deviation large: for directions spread over the sphere, the
+// point of all ellipsoids that lies farthest (the support point, c + S d / sqrt(d S d) with S the
+// covariance), and Qhull's triangles around these points. So it lies within the hull of the ellipsoids,
+// touches it in each direction, and has no more corners than directions. Gaussians of an opacity below a
+// tenth have no say: dust that nobody sees would make the hull larger.
 //
-// Source: C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The Quickhull Algorithm for Convex Hulls, 1996 (libqhull).
+// Source: C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The Quickhull Algorithm for Convex Hulls, 1996
+// (libqhull).
 #pragma once
 
 #include <array>
@@ -28,8 +29,8 @@ struct ConvexHull {
 
 constexpr int kHullDirections = 250;  // engines commonly hold 255 corners
 
-// keep: 0 or 1 per Gaussian, empty: all. Throws Error where there is no volume: fewer than four Gaussians that
-// can be seen and are points, or all in a plane.
+// keep: 0 or 1 per Gaussian, empty: all. Throws Error where there is no volume: fewer than four Gaussians
+// that can be seen and are points, or all in a plane.
 ConvexHull convex_hull(const GaussianCloud& cloud, std::span<const std::uint8_t> keep,
                        int directions = kHullDirections);
 

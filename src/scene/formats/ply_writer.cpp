@@ -71,15 +71,18 @@ std::string header_for(std::size_t count, const GaussianCloud& cloud, bool is_fa
   return header + "end_header\n";
 }
 
-using RowValues = std::array<std::pair<const char*, double>, 11>;
+using RowValues = std::array<std::pair<const char*, double>, 14>;
 
 RowValues values_of_row(const GaussianCloud& cloud, std::size_t g, const glm::dvec3& origin) {
   const glm::dvec3 p = glm::dvec3(cloud.position[g]) + origin;
-  const glm::vec3& s = cloud.scale[g];
+  const glm::vec3 &s = cloud.scale[g], &dc = cloud.f_dc[g];
   const glm::quat& q = cloud.rotation[g];
   return {{{"x", p.x},
            {"y", p.y},
            {"z", p.z},
+           {"f_dc_0", dc.x},
+           {"f_dc_1", dc.y},
+           {"f_dc_2", dc.z},
            {"opacity", logit(cloud.opacity[g])},
            {"scale_0", log_scale(s.x)},
            {"scale_1", log_scale(s.y)},

@@ -78,7 +78,7 @@ struct SaveOptions {
   bool z_up = false;          // what a .usda says of its axes, which else have y up
   std::span<const std::uint8_t> object_ids = {};  // per Gaussian: a .ply says them as property object_id
   // To a .ply whose rows can be changed: written last, each as the row of its file_row with its own place,
-  // size, turn and opacity.
+  // size, turn, opacity and constant colour.
   const GaussianCloud* changed_rows = nullptr;
 };
 

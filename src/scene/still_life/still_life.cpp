@@ -7,7 +7,9 @@
 
 #include "core/counter_rng.h"
 #include "core/error.h"
+#include "core/spoken_list.h"
 #include "scene/cloud/quantise.h"
+#include "scene/raster/rasterizer.h"
 #include "scene/still_life/still_life_model.h"
 
 namespace splatcut {
@@ -177,6 +179,48 @@ std::vector<std::size_t> patch_counts(const Model& model, std::size_t total) {
   return counts;
 }
 
+// Rows with a 0 leave.
+void keep_rows(LabelledScene& scene, const std::vector<std::uint8_t>& keep) {
+  std::vector<std::uint32_t> stay;
+  for (std::uint32_t g = 0; g < keep.size(); ++g)
+    if (keep[g]) stay.push_back(g);
+  const float near_plane = scene.cloud.near_plane;
+  scene.cloud = permuted(scene.cloud, stay);
+  scene.cloud.near_plane = near_plane;
+  for (std::vector<std::uint8_t>* values : {&scene.label, &scene.own}) {
+    std::vector<std::uint8_t> kept;
+    for (const std::uint32_t g : stay) kept.push_back((*values)[g]);
+    *values = std::move(kept);
+  }
+  std::iota(scene.cloud.file_row.begin(), scene.cloud.file_row.end(), 0u);
+}
+
+// 1 for what is worth half a pixel in all cameras together, half as wide.
+std::vector<std::uint8_t> seen(const LabelledScene& scene) {
+  constexpr double kLeastPx = 0.5;
+  PlaneSums sums(scene.cloud.size(), 1);
+  for (const Camera& camera : scene.cameras) {
+    const Camera small = limited_to_width(camera, camera.width_px / 2);
+    const std::vector<Image<float>> one(1, Image<float>(small.width_px, small.height_px, 1));
+    RasterOptions raster;
+    raster.colour = false;
+    raster.sum_planes = one;
+    raster.plane_sums = &sums;
+    rasterize(scene.cloud, small, raster);
+  }
+  std::vector<std::uint8_t> seen(scene.cloud.size());
+  for (std::size_t g = 0; g < seen.size(); ++g) seen[g] = sums.at(g, 0) >= kLeastPx;
+  return seen;
+}
+
+std::uint8_t label_of(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.begin() || found == names.end())
+    throw Error("still life", "there is no object \"" + name + "\"",
+                "There are " + spoken_list(std::span(names).subspan(1), "and"));
+  return static_cast<std::uint8_t>(found - names.begin());
+}
+
 void shuffle_rows(LabelledScene& scene, std::uint64_t seed) {
   std::vector<std::uint32_t> order(scene.cloud.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -218,7 +262,9 @@ void check(const StillLifeOptions& options) {
 
 LabelledScene make_still_life(const StillLifeOptions& options) {
   check(options);
-  const Model model = still_life_model(options);
+  Model model = still_life_model(options);
+  const std::uint8_t absent = options.without.empty() ? 0 : label_of(model.label_name, options.without);
+  if (absent != 0) std::erase_if(model.proxies, [&](const Proxy& p) { return p.label == absent; });
   LabelledScene scene;
   scene.label_name = model.label_name;
   scene.cloud.resize(options.gaussians, options.sh_degree);
@@ -239,6 +285,12 @@ LabelledScene make_still_life(const StillLifeOptions& options) {
   put_skirts(out, model, skirts, options.seed);
   shuffle_rows(scene, options.seed);
   scene.cameras = circle_of_cameras();
+  if (absent != 0) {
+    std::vector<std::uint8_t> keep;
+    for (const std::uint8_t label : scene.label) keep.push_back(label != absent);
+    keep_rows(scene, keep);
+  }
+  if (options.hidden_missing) keep_rows(scene, seen(scene));
   scene.seeds = seed_clicks(scene);
   return scene;
 }

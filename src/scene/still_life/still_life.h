@@ -7,7 +7,8 @@
 // Cameras: 24 on a circle, 1008 x 756, alternating between two elevations, all looking at the table centre.
 //
 // Deterministic: the same options give the same bytes. Cost: linear in the Gaussians.
-// Throws Error for sh_degree outside 0..3 or thin_width_scale not in (0, 10].
+// Throws Error for sh_degree outside 0..3, thin_width_scale not in (0, 10], or an object that it does not
+// have.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +23,7 @@
 namespace splatcut {
 
 struct StillLifeOptions {
-  std::size_t gaussians = 200000;  // exact count, everything included
+  std::size_t gaussians = 200000;  // exact count, everything included, but for what the last two leave out
   std::uint64_t seed = 1;          // sampling, variation and row order
   bool straddling = false;         // adds large splats across the lines where objects meet
   bool skirts = false;             // adds splats of each object just under what it stands on, hidden by it
@@ -34,6 +35,8 @@ struct StillLifeOptions {
   bool contact = false;            // the apple touches the mug and the orange touches the apple
   float thin_width_scale = 1;      // width of leaves, handle, stems and cable
   int sh_degree = 1;               // 0..3
+  bool hidden_missing = false;     // leaves out what no camera sees, as training does
+  std::string without;  // a label_name: leaves out that object and its shade, all else in its place
 };
 
 struct LabelledScene {

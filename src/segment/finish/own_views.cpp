@@ -6,7 +6,6 @@
 
 #include "scene/raster/rasterizer.h"
 #include "segment/masks/mask_tools.h"
-#include "segment/superpoints/orbit.h"
 
 namespace splatcut {
 
@@ -151,6 +150,7 @@ std::vector<Camera> own_cameras(const GaussianCloud& cloud, std::span<const std:
                                    glm::radians(kFovYDeg), options.picture_px, options.picture_px);
   OrbitOptions orbit;
   orbit.views = options.views;
+  orbit.distance_sizes = options.distance_sizes;
   orbit.elevation_swing_rad = glm::radians(kSwingDeg);
   return orbit_cameras(reference, up, object, orbit);
 }

@@ -20,6 +20,7 @@
 #include "scene/camera/camera.h"
 #include "scene/cloud/gaussian_cloud.h"
 #include "scene/raster/projected_view.h"
+#include "segment/superpoints/orbit.h"
 
 namespace splatcut {
 
@@ -45,6 +46,7 @@ struct OwnViewOptions {
   int views = 12;
   int picture_px = 320;  // width, at least, of capture cameras no more than their own; of others height, too
   int object_px = 300;   // the object's size in the picture, at least, where a capture camera has that many
+  float distance_sizes = OrbitOptions{}.distance_sizes;  // of the others: over the object's size
 };
 
 // Cameras around the labelled Gaussians, the same for the same labels wherever the user stands: about those

@@ -21,8 +21,9 @@ PixelWeights flat(const Image<std::vector<GroupWeight>>& lists) {
   for (const auto& list : lists.pixels())
     out.first.push_back(out.first.back() + static_cast<std::uint32_t>(list.size()));
   out.entry.resize(out.first.back());
-  for_each_index(lists.size(),
-                 [&](std::size_t i) { std::ranges::copy(lists.pixels()[i], &out.entry[out.first[i]]); });
+  for_each_index(lists.size(), [&](std::size_t i) {
+    std::ranges::copy(lists.pixels()[i], out.entry.begin() + out.first[i]);
+  });
   return out;
 }
 

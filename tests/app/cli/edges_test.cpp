@@ -101,3 +101,31 @@ TEST_CASE("cut --edges: the same bytes on one thread and on three, and a wrong w
   CHECK(place.text("edges_on_1/object.png") == place.text("edges_on_3/object.png"));
   CHECK(place.run(life.cut(click + " --edges sharp -o edges_wrong")).code == 2);
 }
+
+TEST_CASE("cut --fill surface: the rest ends with what is invented, other rows stay byte for byte") {
+  const StillLife& life = still_life();
+  const Workplace& place = life.place;
+  const std::string cut = "--click " + life.click_on("mug") + " --edges keep --overwrite -o ";
+  REQUIRE(place.run(life.cut(cut + "hole")).code == 0);
+  REQUIRE(place.run(life.cut(cut + "filled --fill surface")).code == 0);
+  const json report = json::parse(place.text("filled/report.json")), fill = report["edges"]["fill"];
+  CHECK_FALSE(json::parse(place.text("hole/report.json"))["edges"].contains("fill"));
+  REQUIRE(fill["filled"] == true);
+  const std::size_t invented = fill["invented"], replaced = fill["replaced"];
+  CHECK(invented > 0);
+  CHECK(has_keys(fill, {"pieces", "area", "rim_error"}));
+  const std::string hole = rows_of(place.text("hole/rest.ply")),
+                    rest = rows_of(place.text("filled/rest.ply"));
+  const std::size_t row_bytes = rows_of(place.text("made/small.ply")).size() / 20000,
+                    rows = rest.size() / row_bytes;
+  CHECK(rows == hole.size() / row_bytes - replaced + invented);
+  std::size_t next = 0;  // of the rest as it was
+  for (std::size_t row = 0; row + invented < rows; ++row, next += row_bytes) {
+    const std::string stays = rest.substr(row * row_bytes, row_bytes);
+    while (next < hole.size() && hole.compare(next, row_bytes, stays) != 0) next += row_bytes;
+    REQUIRE(next < hole.size());
+  }
+  CHECK(place.text("filled/labels.u8") == place.text("hole/labels.u8"));
+  const Result again = place.run("info filled/rest.ply --json");
+  CHECK(json::parse(again.out)["gaussians"] == rows);
+}

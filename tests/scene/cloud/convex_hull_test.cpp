@@ -75,7 +75,8 @@ TEST_CASE("convex hull: a Gaussian is its ellipsoid of one standard deviation") 
   CHECK(volume(hull) < ellipsoid);
   CHECK(volume(hull) > 0.92 * ellipsoid);
   for (const glm::vec3& corner : hull.corners) {
-    const glm::vec3 local = (glm::conjugate(cloud.rotation[0]) * (corner - cloud.position[0])) / cloud.scale[0];
+    const glm::vec3 local =
+        (glm::conjugate(cloud.rotation[0]) * (corner - cloud.position[0])) / cloud.scale[0];
     CHECK(glm::length(local) == doctest::Approx(1).epsilon(1e-4));
   }
 }
@@ -109,8 +110,10 @@ TEST_CASE("convex hull: no corner lies outside of any triangle, and a second run
 TEST_CASE("convex hull: an object without volume is refused in words") {
   CHECK_THROWS_AS(convex_hull(points_at({}), {}), Error);
   CHECK_THROWS_AS(convex_hull(points_at({{1, 2, 3}}), {}), Error);
-  CHECK_THROWS_AS(convex_hull(points_at({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.3f, 0.2f, 0}}), {}), Error);
-  CHECK_THROWS_AS(convex_hull(points_at(corners_of_box(glm::vec3(1))), std::vector<std::uint8_t>(8, 0)), Error);
+  CHECK_THROWS_AS(convex_hull(points_at({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.3f, 0.2f, 0}}), {}),
+                  Error);
+  CHECK_THROWS_AS(convex_hull(points_at(corners_of_box(glm::vec3(1))), std::vector<std::uint8_t>(8, 0)),
+                  Error);
 }
 
 TEST_CASE("convex hull: an .obj is read back line by line") {

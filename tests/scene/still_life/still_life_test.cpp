@@ -237,3 +237,48 @@ TEST_CASE("surface sampler: parts add up, samples are even on a sphere") {
     ++slices[std::clamp(static_cast<int>((s.position.y + 1) * 5), 0, 9)];
   for (const int count : slices) CHECK(count == doctest::Approx(1000).epsilon(0.04));
 }
+
+TEST_CASE("still life: without an object all else stands where it stood, only its shade is gone") {
+  StillLifeOptions options = small_scene();
+  const LabelledScene whole = make_still_life(options);
+  options.without = "apple";
+  const LabelledScene without = make_still_life(options);
+  const std::uint8_t apple = label_of(whole, "apple");
+  std::size_t next = 0, lighter = 0;
+  for (std::size_t g = 0; g < whole.label.size(); ++g) {
+    if (whole.label[g] == apple) continue;
+    REQUIRE(next < without.label.size());
+    CHECK(without.cloud.position[next] == whole.cloud.position[g]);
+    lighter += without.cloud.f_dc[next].r > whole.cloud.f_dc[g].r + 0.1f;
+    ++next;
+  }
+  CHECK(next == without.label.size());
+  CHECK(lighter > 20);
+  options.without = "pear";
+  CHECK_THROWS_AS(make_still_life(options), Error);
+}
+
+TEST_CASE("still life: what no camera sees is missing on demand, such as the table under books") {
+  StillLifeOptions options = small_scene();
+  options.hidden_missing = true;
+  const LabelledScene seen = make_still_life(options);
+  const LabelledScene whole = make_still_life(small_scene());
+  CHECK(seen.label.size() < whole.label.size());
+  CHECK(seen.label.size() > whole.label.size() / 2);
+  CHECK(seen.own.size() == seen.label.size());
+  glm::vec3 books(0);
+  float count = 0;
+  for (std::size_t g = 0; g < whole.label.size(); ++g)
+    if (whole.label[g] == label_of(whole, "books")) books += whole.cloud.position[g], ++count;
+  books /= count;
+  const auto below = [&](const LabelledScene& scene) {
+    std::size_t below = 0;
+    for (std::size_t g = 0; g < scene.label.size(); ++g) {
+      const glm::vec3& p = scene.cloud.position[g];
+      below += scene.label[g] == 0 && p.y < 0.03f && std::hypot(p.x - books.x, p.z - books.z) < 0.1f;
+    }
+    return below;
+  };
+  CHECK(below(whole) > 5);
+  CHECK(2 * below(seen) < below(whole));
+}

@@ -1,0 +1,120 @@
+#include "segment/finish/support_plane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/counter_rng.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr float kNearSizes = 1.6f, kAroundSizes = 2.5f;  // of the radius, from the object's centre
+constexpr float kTolerance = 0.02f;                      // of the radius
+constexpr float kMostBelow = 0.08f, kMostAbove = 0.15f;  // of the radius: where the object's lowest part may lie
+constexpr std::size_t kMostPoints = 4000, kLeastPoints = 30;
+
+// Every so many-th, no more than wanted.
+std::vector<glm::vec3> thinned(const std::vector<glm::vec3>& points, std::size_t most) {
+  const std::size_t step = (points.size() + most - 1) / std::max<std::size_t>(most, 1);
+  std::vector<glm::vec3> some;
+  for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(step, 1)) some.push_back(points[i]);
+  return some;
+}
+
+class Search {
+ public:
+  Search(std::vector<glm::vec3> on_object, std::vector<glm::vec3> rest, const ObjectExtent& object)
+      : on_object_(std::move(on_object)), rest_(std::move(rest)), object_(object) {
+    for (const glm::vec3& p : rest_)
+      if (away(p) < kNearSizes) near_.push_back(p);
+  }
+
+  std::optional<SupportPlane> best() const {
+    constexpr int kTries = 600;
+    std::optional<SupportPlane> best;
+    float most = static_cast<float>(kLeastPoints);
+    if (near_.size() < kLeastPoints) return best;
+    CounterRng rng(1, 0);
+    for (int i = 0; i < kTries; ++i) {
+      const glm::vec3 &a = near_[rng.below(near_.size())], b = near_[rng.below(near_.size())],
+                      c = near_[rng.below(near_.size())];
+      const std::optional<SupportPlane> plane = touching(a, glm::cross(b - a, c - a));
+      const float worth = plane ? worth_of(*plane) : 0;
+      if (worth <= most) continue;
+      most = worth;
+      best = plane;
+    }
+    for (int round = 0; round < 3 && best; ++round) best = fitted(*best);
+    return best;
+  }
+
+ private:
+  float away(const glm::vec3& p) const { return glm::distance(p, object_.centre_world) / object_.radius; }
+
+  // The plane, if the object lies on one side of it and touches it.
+  std::optional<SupportPlane> touching(const glm::vec3& through, glm::vec3 normal) const {
+    const float length = glm::length(normal);
+    if (!(length > 0)) return {};
+    normal /= length;
+    if (glm::dot(object_.centre_world - through, normal) < 0) normal = -normal;
+    const SupportPlane plane{
+        object_.centre_world - glm::dot(object_.centre_world - through, normal) * normal, normal};
+    std::vector<float> heights;
+    for (const glm::vec3& p : on_object_) heights.push_back(plane.height(p));
+    const auto lowest = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 30);
+    std::ranges::nth_element(heights, lowest);
+    if (*lowest < -kMostBelow * object_.radius || *lowest > kMostAbove * object_.radius) return {};
+    return plane;
+  }
+
+  bool lies_in(const glm::vec3& p, const SupportPlane& plane) const {
+    return std::abs(plane.height(p)) < kTolerance * object_.radius;
+  }
+
+  float worth_of(const SupportPlane& plane) const {
+    float worth = 0;
+    for (const glm::vec3& p : rest_)
+      if (lies_in(p, plane)) worth += 1 / (1 + away(p) * away(p));
+    return worth;
+  }
+
+  // The plane of least squares through the Gaussians that lie in it.
+  std::optional<SupportPlane> fitted(const SupportPlane& plane) const {
+    glm::dvec3 sum{0};
+    double count = 0;
+    for (const glm::vec3& p : rest_)
+      if (lies_in(p, plane)) {
+        sum += p;
+        ++count;
+      }
+    if (count < 3) return plane;
+    const glm::dvec3 mean = sum / count;
+    glm::dmat3 spread{0};
+    for (const glm::vec3& p : rest_)
+      if (lies_in(p, plane)) spread += glm::outerProduct(glm::dvec3(p) - mean, glm::dvec3(p) - mean);
+    // The direction of least spread: power iteration on what is left of the trace, from the plane's own.
+    const glm::dmat3 rest = glm::dmat3(spread[0][0] + spread[1][1] + spread[2][2]) - spread;
+    glm::dvec3 normal(plane.normal_world);
+    for (int i = 0; i < 50; ++i) normal = glm::normalize(rest * normal);
+    const std::optional<SupportPlane> better = touching(glm::vec3(mean), glm::vec3(normal));
+    return better ? better : plane;
+  }
+
+  std::vector<glm::vec3> on_object_, rest_, near_;
+  ObjectExtent object_;
+};
+
+}  // namespace
+
+std::optional<SupportPlane> support_plane(const std::vector<glm::vec3>& on_object,
+                                          const std::vector<glm::vec3>& on_rest, const ObjectExtent& object) {
+  if (on_object.empty() || !(object.radius > 0)) return {};
+  std::vector<glm::vec3> around;
+  for (const glm::vec3& p : on_rest)
+    if (glm::distance(p, object.centre_world) < kAroundSizes * object.radius) around.push_back(p);
+  return Search(thinned(on_object, kMostPoints / 4), thinned(around, kMostPoints), object).best();
+}
+
+}  // namespace splatcut

@@ -1,0 +1,141 @@
+// The hole that an object leaves: a still life of which training saw nothing below its objects, and the same one
+// without the object.
+#include "segment/finish/fill.h"
+
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "segment/finish/support_plane.h"
+#include "segment/masks/mask_tools.h"
+#include "thing_of_still_life.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+struct WithHole {
+  Thing thing;
+  LabelledScene without;
+  SurfacePatch patch;
+
+  explicit WithHole(const std::string& object, std::size_t gaussians = 60000)
+      : thing(options(gaussians), object), without(make_still_life(bare(gaussians, object))) {
+    patch = fill_surface(thing.scene.cloud, thing.test.truth_labels, {}, {0, -1, 0}, {}, {});
+  }
+  static StillLifeOptions options(std::size_t gaussians) {
+    StillLifeOptions options;
+    options.gaussians = gaussians;
+    options.hidden_missing = true;
+    return options;
+  }
+  static StillLifeOptions bare(std::size_t gaussians, const std::string& object) {
+    StillLifeOptions options;
+    options.gaussians = gaussians;
+    options.without = object;
+    return options;
+  }
+
+  GaussianCloud rest(bool filled) const {
+    std::vector<std::uint8_t> stay;
+    for (const std::uint8_t label : thing.test.truth_labels) stay.push_back(label == 0);
+    return rest_of(thing.scene.cloud, stay,
+                   filled ? RestChanges{patch.replaced, patch.clones} : RestChanges{});
+  }
+  // Against the scene made without it, in and around the pixels that showed it.
+  double psnr_db(const GaussianCloud& rest) const {
+    double squares = 0, pixels = 0;
+    for (std::size_t c = 0; c < thing.scene.cameras.size(); c += 3) {
+      const Camera camera = limited_to_width(thing.scene.cameras[c], 504);
+      const Mask around = dilated(
+          thresholded(render_labels(thing.scene.cloud, camera, thing.test.truth_labels), 0.5f), 6);
+      const Image<glm::vec3> is = rasterize(rest, camera).colour, should = rasterize(without.cloud, camera).colour;
+      for (std::size_t i = 0; i < around.size(); ++i) {
+        if (!around.pixels()[i]) continue;
+        const glm::vec3 d = is.pixels()[i] - should.pixels()[i];
+        squares += static_cast<double>(glm::dot(d, d)) / 3;
+        ++pixels;
+      }
+    }
+    return 10 * std::log10(pixels / squares);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("fill: the table under a fruit is as the scene made without it has it") {
+  for (const char* name : {"apple", "orange"}) {
+    CAPTURE(name);
+    const WithHole fruit(name);
+    REQUIRE(fruit.patch.why_not.empty());
+    CHECK(fruit.psnr_db(fruit.rest(true)) > fruit.psnr_db(fruit.rest(false)) + 6);
+  }
+}
+
+TEST_CASE("fill: copies are of the table, lie in its plane, and nothing of the object or of others leaves") {
+  const WithHole apple("apple", 20000);
+  const SurfacePatch& patch = apple.patch;
+  REQUIRE(patch.why_not.empty());
+  CHECK(patch.area > 0);
+  for (const glm::vec3& p : patch.clones.position) CHECK(std::abs(p.y) < 0.05f);  // the table top is y = 0
+  const GaussianCloud& cloud = apple.thing.scene.cloud;
+  for (std::size_t i = 0; i < patch.clones.size(); ++i) {
+    const auto from = static_cast<std::size_t>(
+        std::ranges::find(cloud.file_row, patch.clones.file_row[i]) - cloud.file_row.begin());
+    REQUIRE(from < cloud.size());
+    CHECK(apple.thing.scene.label[from] == 0);
+    CHECK(patch.clones.scale[i] == cloud.scale[from]);
+  }
+  CHECK(std::ranges::is_sorted(patch.replaced));
+  CHECK(std::ranges::all_of(patch.replaced, [&](std::uint32_t g) { return apple.thing.scene.label[g] == 0; }));
+}
+
+TEST_CASE("fill: the same bits on one thread and on two") {
+  const Thing apple(WithHole::options(20000), "apple");
+  const auto filled = [&](int threads) {
+    SurfacePatch patch;
+    tbb::task_arena(threads).execute(
+        [&] { patch = fill_surface(apple.scene.cloud, apple.test.truth_labels, {}, {0, -1, 0}, {}, {}); });
+    return patch;
+  };
+  const SurfacePatch one = filled(1), two = filled(2);
+  CHECK(one.replaced == two.replaced);
+  CHECK(one.clones.position == two.clones.position);
+  CHECK(one.clones.f_dc == two.clones.f_dc);
+}
+
+TEST_CASE("fill: what does not touch anything flat is left in words") {
+  const Thing apple(WithHole::options(20000), "apple");
+  GaussianCloud cloud = apple.scene.cloud;
+  for (std::size_t g = 0; g < cloud.size(); ++g)
+    if (apple.test.truth_labels[g]) cloud.position[g].y -= 0.5f;  // up
+  const SurfacePatch patch = fill_surface(cloud, apple.test.truth_labels, {}, {0, -1, 0}, {}, {});
+  CHECK_FALSE(patch.why_not.empty());
+  CHECK(patch.clones.empty());
+  CHECK(patch.replaced.empty());
+}
+
+TEST_CASE("support plane: a tilted one under a ball, among dust and a larger one farther off") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, 0.9f, -0.2f));
+  const glm::vec3 u = glm::normalize(glm::cross(normal, glm::vec3(1, 0, 0))), v = glm::cross(normal, u);
+  std::vector<glm::vec3> ball, rest;
+  for (int i = 0; i < 2000; ++i) {
+    const glm::vec3 direction = glm::normalize(glm::vec3(unit(random), unit(random), unit(random)));
+    ball.push_back(glm::vec3(5, 6, 7) + direction);
+    rest.push_back(glm::vec3(5, 6, 7) - normal + 2.0f * unit(random) * u + 2.0f * unit(random) * v +
+                   0.01f * unit(random) * normal);
+    rest.push_back(glm::vec3(5, 6, 7) + 2.0f * glm::vec3(1.0f, unit(random), unit(random)));  // does not touch
+    if (i % 4 == 0) rest.push_back(glm::vec3(5, 6, 7) + 2.0f * glm::vec3(unit(random), unit(random), unit(random)));
+  }
+  const auto plane = support_plane(ball, rest, {glm::vec3(5, 6, 7), 1});
+  REQUIRE(plane);
+  CHECK(glm::dot(plane->normal_world, normal) > 0.9995f);
+  CHECK(plane->height(glm::vec3(5, 6, 7)) == doctest::Approx(1).epsilon(0.02));
+  CHECK_FALSE(support_plane(ball, {}, {glm::vec3(5, 6, 7), 1}));
+}
