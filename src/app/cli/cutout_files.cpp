@@ -100,6 +100,14 @@ RestChanges changes_of(std::span<const EdgesReport> objects) {
   return all;
 }
 
+nlohmann::json seen_json(const SeenFrom& seen) {
+  nlohmann::json json = {{"views", seen.views.size()},
+                         {"unseen", std::ranges::count(seen.by_views, 0)},
+                         {"never_from", seen.never()}};
+  for (std::size_t s = 0; s < kSideNames.size(); ++s) json["sides"][kSideNames.at(s)] = seen.side_share.at(s);
+  return json;
+}
+
 nlohmann::json fill_json(const SurfacePatch& patch) {
   if (!patch.why_not.empty()) return {{"filled", false}, {"why_not", patch.why_not}};
   return {{"filled", true},         {"invented", patch.clones.size()},
@@ -126,11 +134,12 @@ void CutoutOptions::add_to(CLI::App& command) {
   command
       .add_option("--write", write,
                   "Which files: object, rest, labels, pictures, npy (labels.npy for numpy), objects (all in "
-                  "objects.ply, numbered as object_id), hull (convex, of each object, as .obj); several with "
-                  "commas. Without it: the first four")
+                  "objects.ply, numbered as object_id), hull (convex, of each object, as .obj), seen (from "
+                  "which sides each was, as a picture); "
+                  "several with commas. Without it: the first four")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"object", "rest", "labels", "pictures", "npy", "objects", "hull"}));
+      ->check(CLI::IsMember({"object", "rest", "labels", "pictures", "npy", "objects", "hull", "seen"}));
   command
       .add_option("--origin", origin,
                   "What becomes 0, 0, 0 of the written Gaussians: scene (as it is), centre or foot of the "
@@ -152,6 +161,7 @@ bool CutoutOptions::writes(std::string_view what) const {
 nlohmann::json EdgesReport::json(bool times) const {
   nlohmann::json json = {{"edges", clean && clean->cleaned ? "clean" : "keep"}, {"gaussians", gaussians}};
   if (fill) json["fill"] = fill_json(*fill);
+  if (seen) json["seen"] = seen_json(*seen);
   if (!clean) return json;
   json.update({{"views", clean->views}, {"agreed", clean->agreed}});
   if (times) json["ms"] = ms;
@@ -171,12 +181,12 @@ nlohmann::json EdgesReport::json(bool times) const {
 }
 
 ObjectFiles files_of_object(const std::string& name) {
-  return {name + ".ply", name + ".hull.obj", name + ".labels.u8",
-          name + ".png", name + ".tint.png", name + ".masks.png"};
+  return {name + ".ply",      name + ".hull.obj",  name + ".labels.u8", name + ".png",
+          name + ".tint.png", name + ".masks.png", name + ".seen.png"};
 }
 
 ObjectFiles files_of_only_object() {
-  return {"object.ply", "object.hull.obj", "", "object.png", "tint.png", "masks.png"};
+  return {"object.ply", "object.hull.obj", "", "object.png", "tint.png", "masks.png", "seen.png"};
 }
 
 Image<Rgba8> cutout_picture(const Drawer& scene, const Camera& camera, std::span<const std::uint8_t> shown) {
@@ -232,6 +242,10 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
   if (hull)
     write_hull(to, files.hull, clean ? clean->cloud : to.scene.cloud,
                clean ? std::span<const std::uint8_t>() : labels);
+  if (shown && to.options.writes("seen")) {
+    report.seen = seen_from(to.drawer(), labels, to.up_world, shown->camera.centre_world(), to.cameras, job);
+    write_png(to.folder.file(files.seen), seen_picture(*report.seen, to.drawer(), labels, job));
+  }
   if (!files.labels.empty() && to.options.writes("labels"))
     write_labels(to.folder.file(files.labels), to.scene, labels);
   if (!pictures) return report;

@@ -16,6 +16,7 @@
 #include "scene/raster/projected_view.h"
 #include "segment/finish/clean.h"
 #include "segment/finish/fill.h"
+#include "segment/finish/seen_from.h"
 #include "segment/session/cut_result.h"
 
 namespace CLI {
@@ -42,6 +43,7 @@ struct EdgesReport {
   std::size_t gaussians = 0;         // written
   std::optional<RestChanges> rest;   // where rest.ply is written, too
   std::optional<SurfacePatch> fill;  // where that is asked for, too
+  std::optional<SeenFrom> seen;      // where that is asked for
   bool large_rest = false;           // it is written, but as it is: see kMostToForgetIn
   double ms = 0;
 
@@ -65,7 +67,7 @@ struct CutoutFolder {
 
 // Names of an object's files; an empty one is not written.
 struct ObjectFiles {
-  std::string scene, hull, labels, picture, tint, masks;
+  std::string scene, hull, labels, picture, tint, masks, seen;
 };
 ObjectFiles files_of_object(const std::string& name);  // NAME.ply, NAME.hull.obj, NAME.png, ...
 ObjectFiles files_of_only_object();                    // object.ply, object.hull.obj, object.png, ...

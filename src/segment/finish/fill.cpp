@@ -29,8 +29,8 @@ struct Copies {
 };
 
 // Whether a Gaussian of the map would reach beyond these cells, moved so.
-bool reaches_beyond(const GaussianCloud& cloud, std::uint32_t g, const SurfaceMap& map, const glm::ivec2& moved,
-                const Mask& surface) {
+bool reaches_beyond(const GaussianCloud& cloud, std::uint32_t g, const SurfaceMap& map,
+                    const glm::ivec2& moved, const Mask& surface) {
   constexpr float kReach = 2;  // standard deviations
   const glm::vec3& scale = cloud.scale[g];
   const int longest = scale.x >= std::max(scale.y, scale.z) ? 0 : scale.y >= scale.z ? 1 : 2;

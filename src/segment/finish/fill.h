@@ -2,20 +2,26 @@
 //
 // What no view ever showed cannot be known; this continues a flat surface, where there is one. All of it is
 // invented, and marked so. In the plane that the object stands on (support_plane.h), seen from far above:
-//   layer   Gaussians of the rest that draw pixels of the surface: half of what they draw in a dozen views lies
-//           within .05 of the object's radius of the plane. Those below the object that no view shows have no say
-//   hole    what the object covers from above, where the layer's alpha is below .7 and the surface lies around it
-//           in 10 of 16 directions, or that is shaded; with the shade that hangs together with it, as far as .6 of
-//           its side, and three cells of penumbra. Shaded: darker than the surface .6 to 1.2 radii off by its
-//           spread there, and by .06
-//   pieces  the hole moved by whole cells within the map to where the layer covers much of it and nothing stands:
+//   layer   Gaussians of the rest that draw pixels of the surface: half of what they draw in a dozen views
+//   lies
+//           within .05 of the object's radius of the plane. Those below the object that no view shows have no
+//           say
+//   hole    what the object covers from above, where the layer's alpha is below .7 and the surface lies
+//   around it
+//           in 10 of 16 directions, or that is shaded; with the shade that hangs together with it, as far as
+//           .6 of its side, and three cells of penumbra. Shaded: darker than the surface .6 to 1.2 radii off
+//           by its spread there, and by .06
+//   pieces  the hole moved by whole cells within the map to where the layer covers much of it and nothing
+//   stands:
 //           of the places that fill most the one whose colours along the rim are most like those along the
-//           hole's, after three quarters of their mean difference; then the same for what is left, up to 24 times
+//           hole's, after three quarters of their mean difference; then the same for what is left, up to 24
+//           times
 //   clones  the layer's Gaussians there, moved back, with the difference along the rim carried inwards by the
 //           Laplace equation (Perez, Gangnet, Blake, Poisson Image Editing, 2003) and added to their colours
-// Copies that would reach beyond the surface are left out. The layer's own Gaussians in the hole leave. Where copies
-// cover less than .7 of it, nothing is changed. Cost: two drawings of the scene for each of those views, three small
-// ones, and the search. Same input, same bits, on any number of threads. Cancelled: unspecified.
+// Copies that would reach beyond the surface are left out. The layer's own Gaussians in the hole leave. Where
+// copies cover less than .7 of it, nothing is changed. Cost: two drawings of the scene for each of those
+// views, three small ones, and the search. Same input, same bits, on any number of threads. Cancelled:
+// unspecified.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +41,8 @@ struct SurfacePatch {
   std::vector<std::uint32_t> replaced;  // indices in the scene, ascending: leave with the object
   GaussianCloud clones;                 // file_row: of the Gaussian that each is a copy of
   int pieces = 0;
-  double area = 0;                      // of the hole, scene units squared
-  double rim_error = 0;                 // of the colours along the rim before they were fitted, root mean square
+  double area = 0;       // of the hole, scene units squared
+  double rim_error = 0;  // of the colours along the rim before they were fitted, root mean square
 };
 
 // gone: indices of Gaussians that leave with the object (forget.h).

@@ -72,7 +72,8 @@ std::optional<Piece> Filling::next() const {
     least = error;
     best = std::move(piece);
   }
-  if (best) best->cells = mask_of([&](auto c) { return is_set(left_, c) && is_set(source_, c + best->moved); });
+  if (best)
+    best->cells = mask_of([&](auto c) { return is_set(left_, c) && is_set(source_, c + best->moved); });
   return best;
 }
 
@@ -95,7 +96,8 @@ glm::vec3 Filling::difference_at(const glm::ivec2& c, const glm::ivec2& moved) c
   return colour_.at(c.x, c.y) - colour_.at(c.x + moved.x, c.y + moved.y);
 }
 
-// Mean squared difference, three quarters of that of the mean taken off; a rim that is not there is the worst.
+// Mean squared difference, three quarters of that of the mean taken off; a rim that is not there is the
+// worst.
 float Filling::error_along(const std::vector<glm::ivec2>& rim, Piece* piece) const {
   glm::vec3 sum{0};
   for (const glm::ivec2& c : rim) {

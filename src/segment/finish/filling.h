@@ -1,4 +1,5 @@
-// A hole in a map of a surface, filled piece by piece with what lies beside it. Used by fill.cpp, which says how.
+// A hole in a map of a surface, filled piece by piece with what lies beside it. Used by fill.cpp, which says
+// how.
 #pragma once
 
 #include <optional>
@@ -23,11 +24,12 @@ class Filling {
 
   const Mask& left() const { return left_; }  // not yet filled
 
-  // The piece that fills most, or nearly so, and of those the one whose colours along the rim are most like what
-  // is known there. None where nothing is left to copy.
+  // The piece that fills most, or nearly so, and of those the one whose colours along the rim are most like
+  // what is known there. None where nothing is left to copy.
   std::optional<Piece> next() const;
 
-  // Returns what is added to the piece's colours, per cell of it: the difference along its rim, carried inwards.
+  // Returns what is added to the piece's colours, per cell of it: the difference along its rim, carried
+  // inwards.
   Image<glm::vec3> fill(const Piece& piece);
 
  private:

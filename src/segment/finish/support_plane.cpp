@@ -12,7 +12,8 @@ namespace {
 
 constexpr float kNearSizes = 1.6f, kAroundSizes = 2.5f;  // of the radius, from the object's centre
 constexpr float kTolerance = 0.02f;                      // of the radius
-constexpr float kMostBelow = 0.08f, kMostAbove = 0.15f;  // of the radius: where the object's lowest part may lie
+constexpr float kMostBelow = 0.08f,
+                kMostAbove = 0.15f;  // of the radius: where the object's lowest part may lie
 constexpr std::size_t kMostPoints = 4000, kLeastPoints = 30;
 
 // Every so many-th, no more than wanted.
@@ -59,8 +60,8 @@ class Search {
     if (!(length > 0)) return {};
     normal /= length;
     if (glm::dot(object_.centre_world - through, normal) < 0) normal = -normal;
-    const SupportPlane plane{
-        object_.centre_world - glm::dot(object_.centre_world - through, normal) * normal, normal};
+    const SupportPlane plane{object_.centre_world - glm::dot(object_.centre_world - through, normal) * normal,
+                             normal};
     std::vector<float> heights;
     for (const glm::vec3& p : on_object_) heights.push_back(plane.height(p));
     const auto lowest = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 30);

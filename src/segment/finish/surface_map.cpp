@@ -94,7 +94,9 @@ Image<float> brightness_of(const Ground& ground) {
 Mask shade_of(const Ground& ground, int near_px, int far_px) {
   constexpr float kLeastDarker = 0.06f;
   const Image<float> brightness = brightness_of(ground);
-  const auto surface = [&](const glm::ivec2& c) { return is_set(ground.covered, c) && is_set(ground.clear, c); };
+  const auto surface = [&](const glm::ivec2& c) {
+    return is_set(ground.covered, c) && is_set(ground.clear, c);
+  };
   const Mask near = dilated(ground.object, near_px);
   double sum = 0, squares = 0, count = 0;
   for (const glm::ivec2& c : cells_of(dilated(ground.object, far_px))) {
@@ -148,8 +150,7 @@ std::optional<glm::ivec2> SurfaceMap::cell(const glm::vec3& world) const {
 }
 
 glm::vec3 SurfaceMap::world_of(const glm::ivec2& cells) const {
-  return glm::transpose(camera_.camera_from_world_rotation) *
-         (glm::vec3(cells, 0) * (radius_ / kRadiusPx));
+  return glm::transpose(camera_.camera_from_world_rotation) * (glm::vec3(cells, 0) * (radius_ / kRadiusPx));
 }
 
 double SurfaceMap::cell_area() const {
@@ -247,8 +248,7 @@ Mask hole_of(const Ground& ground) {
   });
   constexpr int kPenumbraPx = 3;
   constexpr double kReach = 0.6;  // of the side of what lies below: a lamp's post has no wide shade
-  const Mask reach =
-      dilated(below, static_cast<int>(kReach * std::sqrt(static_cast<double>(count(below)))));
+  const Mask reach = dilated(below, static_cast<int>(kReach * std::sqrt(static_cast<double>(count(below)))));
   const Mask dark = flooded(below, mask_of([&](auto c) { return is_set(shade, c) && is_set(reach, c); }));
   const Mask wide = dilated(dark, kPenumbraPx);
   return mask_of([&](auto c) {

@@ -1,5 +1,5 @@
-// What an object stood on, as a map: which Gaussians draw the surface, where they cover it, what stands on it, and
-// where the object leaves a hole. Used by fill.cpp, which says what the numbers are.
+// What an object stood on, as a map: which Gaussians draw the surface, where they cover it, what stands on
+// it, and where the object leaves a hole. Used by fill.cpp, which says what the numbers are.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,9 @@ class SurfaceMap {
   RasterOutput draw(const GaussianCloud& cloud, const Job& job) const {
     return rasterize(cloud, camera_, raster_, job);
   }
-  std::optional<glm::ivec2> cell(const glm::vec3& world) const;    // none outside of the map
-  glm::vec3 world_of(const glm::ivec2& cells) const;               // of a difference of cells
-  double cell_area() const;                                        // scene units squared
+  std::optional<glm::ivec2> cell(const glm::vec3& world) const;  // none outside of the map
+  glm::vec3 world_of(const glm::ivec2& cells) const;             // of a difference of cells
+  double cell_area() const;                                      // scene units squared
   float height_radii(const glm::vec3& world) const { return plane_.height(world) / radius_; }
 
  private:

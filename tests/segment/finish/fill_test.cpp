@@ -1,5 +1,5 @@
-// The hole that an object leaves: a still life of which training saw nothing below its objects, and the same one
-// without the object.
+// The hole that an object leaves: a still life of which training saw nothing below its objects, and the same
+// one without the object.
 #include "segment/finish/fill.h"
 
 #include <doctest/doctest.h>
@@ -51,9 +51,10 @@ struct WithHole {
     double squares = 0, pixels = 0;
     for (std::size_t c = 0; c < thing.scene.cameras.size(); c += 3) {
       const Camera camera = limited_to_width(thing.scene.cameras[c], 504);
-      const Mask around = dilated(
-          thresholded(render_labels(thing.scene.cloud, camera, thing.test.truth_labels), 0.5f), 6);
-      const Image<glm::vec3> is = rasterize(rest, camera).colour, should = rasterize(without.cloud, camera).colour;
+      const Mask around =
+          dilated(thresholded(render_labels(thing.scene.cloud, camera, thing.test.truth_labels), 0.5f), 6);
+      const Image<glm::vec3> is = rasterize(rest, camera).colour,
+                             should = rasterize(without.cloud, camera).colour;
       for (std::size_t i = 0; i < around.size(); ++i) {
         if (!around.pixels()[i]) continue;
         const glm::vec3 d = is.pixels()[i] - should.pixels()[i];
@@ -84,22 +85,24 @@ TEST_CASE("fill: copies are of the table, lie in its plane, and nothing of the o
   for (const glm::vec3& p : patch.clones.position) CHECK(std::abs(p.y) < 0.05f);  // the table top is y = 0
   const GaussianCloud& cloud = apple.thing.scene.cloud;
   for (std::size_t i = 0; i < patch.clones.size(); ++i) {
-    const auto from = static_cast<std::size_t>(
-        std::ranges::find(cloud.file_row, patch.clones.file_row[i]) - cloud.file_row.begin());
+    const auto from = static_cast<std::size_t>(std::ranges::find(cloud.file_row, patch.clones.file_row[i]) -
+                                               cloud.file_row.begin());
     REQUIRE(from < cloud.size());
     CHECK(apple.thing.scene.label[from] == 0);
     CHECK(patch.clones.scale[i] == cloud.scale[from]);
   }
   CHECK(std::ranges::is_sorted(patch.replaced));
-  CHECK(std::ranges::all_of(patch.replaced, [&](std::uint32_t g) { return apple.thing.scene.label[g] == 0; }));
+  CHECK(
+      std::ranges::all_of(patch.replaced, [&](std::uint32_t g) { return apple.thing.scene.label[g] == 0; }));
 }
 
 TEST_CASE("fill: the same bits on one thread and on two") {
   const Thing apple(WithHole::options(20000), "apple");
   const auto filled = [&](int threads) {
     SurfacePatch patch;
-    tbb::task_arena(threads).execute(
-        [&] { patch = fill_surface(apple.scene.cloud, apple.test.truth_labels, {}, {0, -1, 0}, {}, {}); });
+    tbb::task_arena(threads).execute([&] {
+      patch = fill_surface(apple.scene.cloud, apple.test.truth_labels, {}, {0, -1, 0}, {}, {});
+    });
     return patch;
   };
   const SurfacePatch one = filled(1), two = filled(2);
@@ -130,8 +133,10 @@ TEST_CASE("support plane: a tilted one under a ball, among dust and a larger one
     ball.push_back(glm::vec3(5, 6, 7) + direction);
     rest.push_back(glm::vec3(5, 6, 7) - normal + 2.0f * unit(random) * u + 2.0f * unit(random) * v +
                    0.01f * unit(random) * normal);
-    rest.push_back(glm::vec3(5, 6, 7) + 2.0f * glm::vec3(1.0f, unit(random), unit(random)));  // does not touch
-    if (i % 4 == 0) rest.push_back(glm::vec3(5, 6, 7) + 2.0f * glm::vec3(unit(random), unit(random), unit(random)));
+    rest.push_back(glm::vec3(5, 6, 7) +
+                   2.0f * glm::vec3(1.0f, unit(random), unit(random)));  // does not touch
+    if (i % 4 == 0)
+      rest.push_back(glm::vec3(5, 6, 7) + 2.0f * glm::vec3(unit(random), unit(random), unit(random)));
   }
   const auto plane = support_plane(ball, rest, {glm::vec3(5, 6, 7), 1});
   REQUIRE(plane);
