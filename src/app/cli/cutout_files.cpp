@@ -13,7 +13,6 @@
 #include "core/png_file.h"
 #include "core/stage_clock.h"
 #include "scene/cloud/convex_hull.h"
-#include "scene/cloud/joined_clouds.h"
 #include "segment/masks/mask_tools.h"
 
 namespace splatcut {
@@ -89,14 +88,10 @@ void write_hull(const CutoutFolder& to, const std::string& file, const GaussianC
 // What was invented comes last.
 RestChanges changes_of(std::span<const EdgesReport> objects) {
   RestChanges all;
-  const auto add = [&](const std::vector<std::uint32_t>& leave, const GaussianCloud& come) {
-    all.ghosts.insert(all.ghosts.end(), leave.begin(), leave.end());
-    if (!come.empty()) all.given_back = all.given_back.empty() ? come : joined({all.given_back, come});
-  };
   for (const EdgesReport& object : objects)
-    if (object.rest) add(object.rest->ghosts, object.rest->given_back);
+    if (object.rest) add(*object.rest, &all);
   for (const EdgesReport& object : objects)
-    if (object.fill) add(object.fill->replaced, object.fill->clones);
+    if (object.fill) add(object.fill->changes, &all);
   return all;
 }
 
@@ -108,14 +103,14 @@ nlohmann::json seen_json(const SeenFrom& seen) {
   return json;
 }
 
+}  // namespace
+
 nlohmann::json fill_json(const SurfacePatch& patch) {
   if (!patch.why_not.empty()) return {{"filled", false}, {"why_not", patch.why_not}};
-  return {{"filled", true},         {"invented", patch.clones.size()},
-          {"pieces", patch.pieces}, {"replaced", patch.replaced.size()},
+  return {{"filled", true},         {"invented", patch.changes.given_back.size()},
+          {"pieces", patch.pieces}, {"replaced", patch.changes.ghosts.size()},
           {"area", patch.area},     {"rim_error", patch.rim_error}};
 }
-
-}  // namespace
 
 void CutoutOptions::add_to(CLI::App& command) {
   command

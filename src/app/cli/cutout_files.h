@@ -65,6 +65,8 @@ struct CutoutFolder {
   Drawer drawer() const { return {scene.cloud, nullptr, &blocks}; }
 };
 
+nlohmann::json fill_json(const SurfacePatch& patch);
+
 // Names of an object's files; an empty one is not written.
 struct ObjectFiles {
   std::string scene, hull, labels, picture, tint, masks, seen;

@@ -326,21 +326,28 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
   std::optional<CleanObject> clean;
   if (wants_clean)
     clean = clean_object({open.drawer(), labels, open.chosen.up_world, open.chosen.given, rest}, {}, job);
-  refuse_cancelled(job);
   const bool cleaned = clean && clean->report.cleaned;
+  RestChanges changes = cleaned && rest ? clean->rest : RestChanges();
+  std::optional<SurfacePatch> patch;
+  if (rest && args.cutout.fill == "surface") {
+    patch = fill_surface(open.drawer(), labels, changes.ghosts, open.chosen.up_world, open.chosen.given, job);
+    add(patch->changes, &changes);
+  }
+  refuse_cancelled(job);
   std::optional<MovedTo> to;
   if (placement != ExportPlacement{})
     to = {similarity_of(placement, scene.cloud, keep, open.chosen.up_world, format.axes),
           placement.origin == ExportOrigin::kScene};
   const SaveOptions how{.z_up = placement.up == ExportUp::kPlusZ};
   const SaveReport saved =
-      rest ? save_rest(path, scene, keep, cleaned ? clean->rest : RestChanges(), format, to, how)
+      rest ? save_rest(path, scene, keep, changes, format, to, how)
            : save_gaussians(path, scene, keep, cleaned ? &clean->cloud : nullptr, format, to, how);
   nlohmann::json reply = {{"gaussians", saved.gaussians},
                           {"bytes", saved.bytes},
                           {"edges", cleaned ? "clean" : "keep"},
                           {"path", path.string()}};
   if (!saved.loss.empty()) reply["loss"] = saved.loss;
+  if (patch) reply["fill"] = fill_json(*patch);
   if (wants_clean && !cleaned) reply["why_kept"] = clean->report.reason;
   return reply;
 }

@@ -29,6 +29,12 @@ RestChanges CleanObjects::rest_without(const std::vector<std::uint8_t>& labels, 
   return computed(labels, up_world, true, job).rest;
 }
 
+SurfacePatch CleanObjects::hole_of(const std::vector<std::uint8_t>& labels, const RestChanges& changes,
+                                   const glm::vec3& up_world, const Job& job) const {
+  return fill_surface(Drawer(*scene_->cloud, nullptr, scene_->blocks.get()), labels, changes.ghosts, up_world,
+                      scene_->views().cameras, job);
+}
+
 CleanObject CleanObjects::computed(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world,
                                    bool rest, const Job& job) const {
   return clean_object({Drawer(*scene_->cloud, nullptr, scene_->blocks.get()), labels, up_world,

@@ -13,6 +13,7 @@
 
 #include "app/document/opened_scene.h"
 #include "segment/finish/clean.h"
+#include "segment/finish/fill.h"
 
 namespace splatcut {
 
@@ -30,6 +31,10 @@ class CleanObjects {
   // Computes what the rest of the scene loses and gets back without the object; nothing is kept.
   RestChanges rest_without(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world,
                            const Job& job) const;
+
+  // The hole that the object leaves in the rest so changed; nothing is kept.
+  SurfacePatch hole_of(const std::vector<std::uint8_t>& labels, const RestChanges& changes,
+                       const glm::vec3& up_world, const Job& job) const;
 
  private:
   CleanObject computed(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world, bool rest,

@@ -50,6 +50,11 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   RestChanges changes;
   if (object && is_rest && request.clean_edges)
     changes = what.clean->rest_without(*object, what.up_world, what.job);
+  if (object && is_rest && request.fill_hole) {
+    const SurfacePatch patch = what.clean->hole_of(*object, changes, what.up_world, what.job);
+    report->hole_kept = patch.why_not;
+    add(patch.changes, &changes);
+  }
   if (what.job.cancelled()) return;
   std::optional<MovedTo> moved;
   if (to) moved = {*to, request.placement.origin == ExportOrigin::kScene};

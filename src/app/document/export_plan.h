@@ -31,6 +31,7 @@ struct ExportRequest {
   bool overwrite = false;
   ExportPlacement placement = {};
   bool clean_edges = false;  // objects are written with clean edges, kRest as forget.h has it
+  bool fill_hole = false;    // kRest: as fill.h has it
 };
 
 struct ExportReport {
@@ -39,6 +40,7 @@ struct ExportReport {
   std::string loss;        // sentence about what the format lost; empty: nothing
   std::size_t clean = 0;   // number of files whose object has clean edges
   std::string edges_kept;  // reason why an object has none, if they were asked for
+  std::string hole_kept;   // reason why a hole is not filled, if that was asked for
 };
 
 // Flags per Gaussian of the scene: 1 if the export writes it, for kAllObjects into any of its files.
@@ -74,11 +76,11 @@ struct ObjectToSave {
 void visit_objects(const Document& document, std::size_t gaussians,
                    const std::function<void(const ObjectToSave&)>& visit);
 
-// Writes the files of an export. clean: cache of the same scene; may be null if the request wants no clean
-// edges. Throws Error if there is nothing to export, if a number of the placement is unusable, if the path
-// lacks the format's extension, if a file is one that the scene was read from, if a file exists and the
-// request does not overwrite, or if the disk is full. If cancelled, files that are not yet written stay
-// unwritten.
+// Writes the files of an export. clean: cache of the same scene; may be null if the request wants neither
+// clean edges nor a hole filled. Throws Error if there is nothing to export, if a number of the placement is
+// unusable, if the path lacks the format's extension, if a file is one that the scene was read from, if a
+// file exists and the request does not overwrite, or if the disk is full. If cancelled, files that are not
+// yet written stay unwritten.
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
                         const ExportRequest& request, CleanObjects* clean = nullptr, const Job& job = {});
 

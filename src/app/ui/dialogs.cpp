@@ -269,8 +269,13 @@ void export_dialog(UiContext& ui) {
   }
   export_choices(ui);
   placement_choices(ui);
-  clean_edges_choice(ui);
   ExportChoice& choice = ui.state.exporting;
+  clean_edges_choice(ui);
+  if (choice.what == ExportWhat::kRest) {
+    ImGui::SameLine();
+    ImGui::Checkbox("Fill the hole", &choice.fill_hole);
+    tooltip("Continues a flat surface where the object stood, by copies of it. What is copied is invented");
+  }
   const std::size_t gaussians = gaussians_to_export(ui.studio, choice.what);
   const FormatPlan& plan = export_plan(ui, gaussians);
   const Palette& p = ui.theme.colour;
@@ -307,7 +312,7 @@ void export_dialog(UiContext& ui) {
   const bool done = pressed || (reason.empty() && !typing && enter_pressed());
   if (done)
     ui.ask(Export{{choice.what, choice.format, target, choice.overwrite, choice.placement,
-                   ui.studio.view().clean_edges}});
+                   ui.studio.view().clean_edges, choice.fill_hole}});
   if (done || cancelled) {
     ui.state.export_open = false;
     choice.trouble.clear();

@@ -34,6 +34,7 @@ struct ExportChoice {
   SceneFormat format = SceneFormat::kPly;
   std::string path;
   bool overwrite = false;
+  bool fill_hole = false;         // of the rest
   ExportPlacement placement;      // kept for the next export of the scene
   std::uint32_t placed_file = 0;  // the scene's first, that it is for
   FormatPlan plan;

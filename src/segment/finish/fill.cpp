@@ -86,9 +86,9 @@ void fill_hole(const Mask& hole, const GaussianCloud& cloud, const SurfaceMap& m
     append(more.moved_world, &copies.moved_world);
     append(more.added_dc, &copies.added_dc);
   }
-  patch->clones = copies.of_cloud(cloud);
-  if (!covers(patch->clones, map, hole, job)) {
-    patch->clones = {};
+  patch->changes.given_back = copies.of_cloud(cloud);
+  if (!covers(patch->changes.given_back, map, hole, job)) {
+    patch->changes.given_back = {};
     patch->why_not = "too little of the surface beside it is free";
     return;
   }
@@ -96,8 +96,8 @@ void fill_hole(const Mask& hole, const GaussianCloud& cloud, const SurfaceMap& m
   patch->rim_error = rim_cells > 0 ? std::sqrt(squares / rim_cells) : 0;
   for (const std::vector<std::uint32_t>* some : {&ground.layer, &ground.rubbish})
     for (const std::uint32_t g : *some)
-      if (is_set(hole, *map.cell(cloud.position[g]))) patch->replaced.push_back(g);
-  std::ranges::sort(patch->replaced);
+      if (is_set(hole, *map.cell(cloud.position[g]))) patch->changes.ghosts.push_back(g);
+  std::ranges::sort(patch->changes.ghosts);
 }
 
 }  // namespace

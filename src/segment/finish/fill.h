@@ -32,14 +32,14 @@
 
 #include "core/job.h"
 #include "scene/cloud/gaussian_cloud.h"
+#include "segment/finish/forget.h"
 #include "segment/finish/own_views.h"
 
 namespace splatcut {
 
 struct SurfacePatch {
-  std::string why_not;                  // a sentence without a full stop; empty: there is a patch
-  std::vector<std::uint32_t> replaced;  // indices in the scene, ascending: leave with the object
-  GaussianCloud clones;                 // file_row: of the Gaussian that each is a copy of
+  std::string why_not;  // a sentence without a full stop; empty: there is a patch
+  RestChanges changes;  // ghosts: what is replaced; given_back: the copies
   int pieces = 0;
   double area = 0;       // of the hole, scene units squared
   double rim_error = 0;  // of the colours along the rim before they were fitted, root mean square

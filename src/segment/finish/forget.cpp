@@ -231,6 +231,17 @@ RestChanges forget(const Drawer& scene, std::span<const std::uint8_t> labels,
   return changes;
 }
 
+void add(const RestChanges& more, RestChanges* changes) {
+  std::vector<std::uint32_t>& ghosts = changes->ghosts;
+  const auto had = static_cast<std::ptrdiff_t>(ghosts.size());
+  ghosts.insert(ghosts.end(), more.ghosts.begin(), more.ghosts.end());
+  std::inplace_merge(ghosts.begin(), ghosts.begin() + had, ghosts.end());
+  ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+  if (!more.given_back.empty())
+    changes->given_back =
+        changes->given_back.empty() ? more.given_back : joined({changes->given_back, more.given_back});
+}
+
 GaussianCloud rest_of(const GaussianCloud& scene, std::span<const std::uint8_t> shown,
                       const RestChanges& changes) {
   std::vector<std::uint8_t> keep(shown.begin(), shown.end());

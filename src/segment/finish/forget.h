@@ -38,6 +38,9 @@ RestChanges forget(const Drawer& scene, std::span<const std::uint8_t> labels,
                    std::span<const std::uint32_t> object, std::span<const OwnView> views,
                    std::span<const CutOff> cut_off, const Job& job);
 
+// What `more` changes beside.
+void add(const RestChanges& more, RestChanges* changes);
+
 // The rest: those of the scene with a flag in `shown`, the ghosts not among them, then what was given back.
 GaussianCloud rest_of(const GaussianCloud& scene, std::span<const std::uint8_t> shown,
                       const RestChanges& changes);

@@ -106,8 +106,8 @@ std::vector<glm::vec3> colours_from(const SeenFrom& seen, const glm::vec3& side)
   std::vector<glm::vec3> colours;
   for (const std::uint32_t by : seen.by_views) {
     const int count = std::popcount(by & from_there), all = std::popcount(from_there);
-    colours.push_back(count == 0 ? kNever
-                                 : glm::mix(kSome, kAll, static_cast<float>(count) / static_cast<float>(all)));
+    colours.push_back(
+        count == 0 ? kNever : glm::mix(kSome, kAll, static_cast<float>(count) / static_cast<float>(all)));
   }
   return colours;
 }
@@ -147,7 +147,8 @@ SeenFrom seen_from(const Drawer& scene, std::span<const std::uint8_t> labels, co
                       second = glm::cross(side, first);
       constexpr float kAside = 0.6f;
       looking.push_back(seen.side_cameras.at(s));
-      for (const glm::vec3& aside : {first, second, -second}) looking.push_back(looking_from(side + kAside * aside));
+      for (const glm::vec3& aside : {first, second, -second})
+        looking.push_back(looking_from(side + kAside * aside));
     }
     for (const Camera& camera : looking)
       seen.side_share.at(s) =

@@ -1,11 +1,12 @@
 // How well an object was seen: by how many views each of its Gaussians, and from which sides all of it.
 //
-// Views: its own ones (own_views.h), of the capture where that has enough. A Gaussian is seen by a view to which the
-// scene leaves a quarter of what the object alone shows of it. Sides: six, two along the scene's up and four level
-// ones, the first towards the camera that one looks from. A side is seen as far as cameras within 60 degrees of it
-// saw it, of the capture where it has any, the three nearest to the side; else four there: what the scene itself
-// hides from below, nobody saw. The share is that of the object's picture alone which the scene leaves visible. Cost:
-// a drawing of the scene and of the object a view, and up to 24 of both, 160 pixels wide. Same input, same bits.
+// Views: its own ones (own_views.h), of the capture where that has enough. A Gaussian is seen by a view to
+// which the scene leaves a quarter of what the object alone shows of it. Sides: six, two along the scene's up
+// and four level ones, the first towards the camera that one looks from. A side is seen as far as cameras
+// within 60 degrees of it saw it, of the capture where it has any, the three nearest to the side; else four
+// there: what the scene itself hides from below, nobody saw. The share is that of the object's picture alone
+// which the scene leaves visible. Cost: a drawing of the scene and of the object a view, and up to 24 of
+// both, 160 pixels wide. Same input, same bits.
 #pragma once
 
 #include <array>
@@ -23,11 +24,12 @@ namespace splatcut {
 inline constexpr std::array<const char*, 6> kSideNames = {"front", "right", "back", "left", "above", "below"};
 
 struct SeenFrom {
-  std::vector<glm::vec3> views;           // directions from the object to those that were looked at, unit
-  std::vector<std::uint32_t> by_views;    // per labelled Gaussian, in the scene's order: a bit for each that sees it
-  std::array<glm::vec3, 6> sides{};       // directions, unit
-  std::array<float, 6> side_share{};      // of kSideNames, in [0, 1]
-  std::array<Camera, 6> side_cameras{};   // that look at the object from there
+  std::vector<glm::vec3> views;  // directions from the object to those that were looked at, unit
+  std::vector<std::uint32_t>
+      by_views;  // per labelled Gaussian, in the scene's order: a bit for each that sees it
+  std::array<glm::vec3, 6> sides{};        // directions, unit
+  std::array<float, 6> side_share{};       // of kSideNames, in [0, 1]
+  std::array<Camera, 6> side_cameras{};    // that look at the object from there
   std::vector<std::string> never() const;  // names of the sides that were not seen: less than a tenth
 };
 
@@ -35,8 +37,8 @@ struct SeenFrom {
 SeenFrom seen_from(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,
                    const glm::vec3& from_world, std::span<const Camera> cameras, const Job& job);
 
-// The object from the six sides, two rows of three on dark: red, which no view from around that side saw, and from
-// yellow to blue the more of them did.
+// The object from the six sides, two rows of three on dark: red, which no view from around that side saw, and
+// from yellow to blue the more of them did.
 Image<Rgb8> seen_picture(const SeenFrom& seen, const Drawer& scene, std::span<const std::uint8_t> labels,
                          const Job& job);
 

@@ -91,42 +91,42 @@ TEST_CASE("serve: a conversation cuts what `cut` cuts, and takes it back") {
               .code == 0);
   CHECK(place.files_in("as_is") ==
         std::set<std::string>{"masks.png", "object.png", "report.json", "tint.png"});
-  REQUIRE(place.run(still_life().cut(two + " --edges keep -o two_clicks")).code == 0);
+  REQUIRE(place.run(still_life().cut(two + " --edges keep --fill surface -o two_clicks")).code == 0);
   REQUIRE(place.run(still_life().cut(two + " --scale 1 -o larger")).code == 0);
   const Said said = talk({
-      request("click", {{"x", 1}, {"y", 1}}),                                  // 0: no scene
-      opened(),                                                                // 1
-      request("settings", {{"preset", "fast"}}),                               // 2
-      request("labels"),                                                       // 3: no object
-      click_on("apple"),                                                       // 4
-      request("labels"),                                                       // 5
-      request("preview", {{"what", "object"}, {"path", "served.png"}}),        // 6
-      request("export", {{"path", "served.ply"}}),                             // 7
-      click_on("mug", "rest"),                                                 // 8
-      request("labels", {{"path", "served.npy"}}),                             // 9
-      request("export", {{"path", "served.ply"}, {"edges", "keep"}}),          // 10: is there
-      request("export", {{"path", "kept.ply"}, {"edges", "keep"}}),            // 11
-      request("export", {{"path", "rest.ply"}, {"what", "rest"}}),             // 12
-      request("size", {{"step", 1}}),                                          // 13
-      request("labels", {{"path", "larger.u8"}}),                              // 14
-      request("undo"),                                                         // 15
-      request("undo"),                                                         // 16
-      request("labels"),                                                       // 17
-      request("click", {{"x", 5000}, {"y", 1}}),                               // 18: outside
-      request("labels"),                                                       // 19: as before it
-      request("preview", {{"width", 100}}),                                    // 20
-      request("camera", {{"camera", 3}, {"size", "504x378"}}),                 // 21
-      request("camera", {{"camera", "no such"}}),                              // 22
-      request("export", {{"path", still_life().scene}, {"overwrite", true}}),  // 23: an input
-      request("preview", {{"path", "a.ply"}}),                                 // 24
-      request("undo"),                                                         // 25
-      request("undo"),                                                         // 26: nothing left
-      request("clear"),                                                        // 27
-      request("close"),                                                        // 28
-      request("click", {{"x", 1}, {"y", 1}}),                                  // 29
-      request("describe"),                                                     // 30
-      request("quit"),                                                         // 31
-      request("describe"),                                                     // 32: never read
+      request("click", {{"x", 1}, {"y", 1}}),                                            // 0: no scene
+      opened(),                                                                          // 1
+      request("settings", {{"preset", "fast"}}),                                         // 2
+      request("labels"),                                                                 // 3: no object
+      click_on("apple"),                                                                 // 4
+      request("labels"),                                                                 // 5
+      request("preview", {{"what", "object"}, {"path", "served.png"}}),                  // 6
+      request("export", {{"path", "served.ply"}}),                                       // 7
+      click_on("mug", "rest"),                                                           // 8
+      request("labels", {{"path", "served.npy"}}),                                       // 9
+      request("export", {{"path", "served.ply"}, {"edges", "keep"}}),                    // 10: is there
+      request("export", {{"path", "kept.ply"}, {"edges", "keep"}}),                      // 11
+      request("export", {{"path", "rest.ply"}, {"what", "rest"}, {"fill", "surface"}}),  // 12
+      request("size", {{"step", 1}}),                                                    // 13
+      request("labels", {{"path", "larger.u8"}}),                                        // 14
+      request("undo"),                                                                   // 15
+      request("undo"),                                                                   // 16
+      request("labels"),                                                                 // 17
+      request("click", {{"x", 5000}, {"y", 1}}),                                         // 18: outside
+      request("labels"),                                                                 // 19: as before it
+      request("preview", {{"width", 100}}),                                              // 20
+      request("camera", {{"camera", 3}, {"size", "504x378"}}),                           // 21
+      request("camera", {{"camera", "no such"}}),                                        // 22
+      request("export", {{"path", still_life().scene}, {"overwrite", true}}),            // 23: an input
+      request("preview", {{"path", "a.ply"}}),                                           // 24
+      request("undo"),                                                                   // 25
+      request("undo"),                                                                   // 26: nothing left
+      request("clear"),                                                                  // 27
+      request("close"),                                                                  // 28
+      request("click", {{"x", 1}, {"y", 1}}),                                            // 29
+      request("describe"),                                                               // 30
+      request("quit"),                                                                   // 31
+      request("describe"),                                                               // 32: never read
   });
   CHECK(said.code == 0);
   CHECK(said.err.empty());
@@ -149,6 +149,7 @@ TEST_CASE("serve: a conversation cuts what `cut` cuts, and takes it back") {
   CHECK(place.text("served.npy").substr(128) == place.text("two_clicks/labels.u8"));
   CHECK(place.text("kept.ply") == place.text("two_clicks/object.ply"));
   CHECK(place.text("rest.ply") == place.text("two_clicks/rest.ply"));
+  CHECK(said.replies.at(12)["fill"] == json::parse(place.text("two_clicks/report.json"))["edges"]["fill"]);
   CHECK(place.text("larger.u8") == place.text("larger/labels.u8"));
   CHECK(said.replies.at(20)["width"] == 100);
   CHECK(bytes_of_base64(said.replies.at(20)["png"]).starts_with("\x89PNG"));

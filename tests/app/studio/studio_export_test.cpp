@@ -177,13 +177,20 @@ TEST_CASE("hands: the rest is exported without ghosts, or with all its rows") {
           .rest;
   REQUIRE(changes.ghosts.size() + changes.given_back.size() > 0);
   const std::size_t all = scene.cloud->size() - hands.selected();
-  const auto exported_as = [&](const char* name, bool edges) {
-    hands.studio().apply(Export{{ExportWhat::kRest, SceneFormat::kPly, folder / name, false, {}, edges}});
+  const auto exported_as = [&](const char* name, bool edges, bool fill = false) {
+    hands.studio().apply(
+        Export{{ExportWhat::kRest, SceneFormat::kPly, folder / name, false, {}, edges, fill}});
     REQUIRE(hands.app.settle());
     return load_scene(folder / name).cloud.size();
   };
   CHECK(exported_as("rest.ply", true) == all - changes.ghosts.size() + changes.given_back.size());
   CHECK(exported_as("kept.ply", false) == all);
+  const SurfacePatch patch =
+      fill_surface(*scene.cloud, labels, {}, hands.studio().document().up_world, scene.views().cameras, {});
+  CHECK(exported_as("filled.ply", false, true) ==
+        all - patch.changes.ghosts.size() + patch.changes.given_back.size());
+  CHECK((hands.said().find("The hole stays: " + patch.why_not) != std::string::npos) ==
+        !patch.why_not.empty());
 }
 
 TEST_CASE("hands: alone, the object is drawn with clean edges, beside itself as it is, or as it is") {

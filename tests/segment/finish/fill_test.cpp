@@ -43,8 +43,7 @@ struct WithHole {
   GaussianCloud rest(bool filled) const {
     std::vector<std::uint8_t> stay;
     for (const std::uint8_t label : thing.test.truth_labels) stay.push_back(label == 0);
-    return rest_of(thing.scene.cloud, stay,
-                   filled ? RestChanges{patch.replaced, patch.clones} : RestChanges{});
+    return rest_of(thing.scene.cloud, stay, filled ? patch.changes : RestChanges{});
   }
   // Against the scene made without it, in and around the pixels that showed it.
   double psnr_db(const GaussianCloud& rest) const {
@@ -82,18 +81,19 @@ TEST_CASE("fill: copies are of the table, lie in its plane, and nothing of the o
   const SurfacePatch& patch = apple.patch;
   REQUIRE(patch.why_not.empty());
   CHECK(patch.area > 0);
-  for (const glm::vec3& p : patch.clones.position) CHECK(std::abs(p.y) < 0.05f);  // the table top is y = 0
+  for (const glm::vec3& p : patch.changes.given_back.position)
+    CHECK(std::abs(p.y) < 0.05f);  // the table top is y = 0
   const GaussianCloud& cloud = apple.thing.scene.cloud;
-  for (std::size_t i = 0; i < patch.clones.size(); ++i) {
-    const auto from = static_cast<std::size_t>(std::ranges::find(cloud.file_row, patch.clones.file_row[i]) -
-                                               cloud.file_row.begin());
+  for (std::size_t i = 0; i < patch.changes.given_back.size(); ++i) {
+    const auto from = static_cast<std::size_t>(
+        std::ranges::find(cloud.file_row, patch.changes.given_back.file_row[i]) - cloud.file_row.begin());
     REQUIRE(from < cloud.size());
     CHECK(apple.thing.scene.label[from] == 0);
-    CHECK(patch.clones.scale[i] == cloud.scale[from]);
+    CHECK(patch.changes.given_back.scale[i] == cloud.scale[from]);
   }
-  CHECK(std::ranges::is_sorted(patch.replaced));
-  CHECK(
-      std::ranges::all_of(patch.replaced, [&](std::uint32_t g) { return apple.thing.scene.label[g] == 0; }));
+  CHECK(std::ranges::is_sorted(patch.changes.ghosts));
+  CHECK(std::ranges::all_of(patch.changes.ghosts,
+                            [&](std::uint32_t g) { return apple.thing.scene.label[g] == 0; }));
 }
 
 TEST_CASE("fill: the same bits on one thread and on two") {
@@ -106,9 +106,9 @@ TEST_CASE("fill: the same bits on one thread and on two") {
     return patch;
   };
   const SurfacePatch one = filled(1), two = filled(2);
-  CHECK(one.replaced == two.replaced);
-  CHECK(one.clones.position == two.clones.position);
-  CHECK(one.clones.f_dc == two.clones.f_dc);
+  CHECK(one.changes.ghosts == two.changes.ghosts);
+  CHECK(one.changes.given_back.position == two.changes.given_back.position);
+  CHECK(one.changes.given_back.f_dc == two.changes.given_back.f_dc);
 }
 
 TEST_CASE("fill: what does not touch anything flat is left in words") {
@@ -118,8 +118,8 @@ TEST_CASE("fill: what does not touch anything flat is left in words") {
     if (apple.test.truth_labels[g]) cloud.position[g].y -= 0.5f;  // up
   const SurfacePatch patch = fill_surface(cloud, apple.test.truth_labels, {}, {0, -1, 0}, {}, {});
   CHECK_FALSE(patch.why_not.empty());
-  CHECK(patch.clones.empty());
-  CHECK(patch.replaced.empty());
+  CHECK(patch.changes.given_back.empty());
+  CHECK(patch.changes.ghosts.empty());
 }
 
 TEST_CASE("support plane: a tilted one under a ball, among dust and a larger one farther off") {

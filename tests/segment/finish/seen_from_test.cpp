@@ -26,7 +26,8 @@ TEST_CASE("seen from: nobody saw a thing on a table from below, with a capture's
     CHECK(seen.by_views.size() == static_cast<std::size_t>(std::ranges::count(apple.test.truth_labels, 1)));
     const auto by_some = std::ranges::count_if(seen.by_views, [](std::uint32_t by) { return by != 0; });
     CHECK(static_cast<double>(by_some) > 0.8 * static_cast<double>(seen.by_views.size()));
-    for (const std::uint32_t by : seen.by_views) CHECK(std::bit_width(by) <= static_cast<int>(seen.views.size()));
+    for (const std::uint32_t by : seen.by_views)
+      CHECK(std::bit_width(by) <= static_cast<int>(seen.views.size()));
   }
 }
 
@@ -35,16 +36,18 @@ TEST_CASE("seen from: of a capture from one side, the others were not seen, and 
   options.gaussians = 20000;
   const Thing apple(options, "apple");
   std::vector<Camera> front;  // within 45 degrees of the first, as the 24 stand 15 degrees apart
-  for (const int c : {21, 22, 23, 0, 1, 2, 3}) front.push_back(apple.scene.cameras[static_cast<std::size_t>(c)]);
+  for (const int c : {21, 22, 23, 0, 1, 2, 3})
+    front.push_back(apple.scene.cameras[static_cast<std::size_t>(c)]);
   front.push_back(front[3]);
-  const SeenFrom seen = seen_from(apple.scene.cloud, apple.test.truth_labels, {0, -1, 0},
-                                  front[3].centre_world(), front, {});
+  const SeenFrom seen =
+      seen_from(apple.scene.cloud, apple.test.truth_labels, {0, -1, 0}, front[3].centre_world(), front, {});
   const std::vector<std::string> never = seen.never();
   for (const char* side : {"back", "below"}) CHECK(std::ranges::count(never, side) == 1);
   CHECK(std::ranges::count(never, "front") == 0);
   const Image<Rgb8> picture = seen_picture(seen, apple.scene.cloud, apple.test.truth_labels, {});
   const auto middle_of = [&](int side) {
-    return picture.at(picture.width() / 6 * (1 + 2 * (side % 3)), picture.height() / 4 * (1 + 2 * (side / 3)));
+    return picture.at(picture.width() / 6 * (1 + 2 * (side % 3)),
+                      picture.height() / 4 * (1 + 2 * (side / 3)));
   };
   const Rgb8 in_front = middle_of(0), behind = middle_of(2);
   CHECK(in_front[2] > in_front[0]);  // blue
