@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/ranks.h"
+#include "scene/raster/depth_jump.h"
 #include "scene/raster/rasterizer.h"
 #include "scene/raster/splat_math.h"
 #include "segment/masks/seeds.h"
@@ -114,9 +115,6 @@ Mask brush_region(std::span<const glm::vec2> path_px, float radius_px, int width
 }
 
 Mask surface_region(const Mask& region, std::span<const glm::vec2> path_px, const Image<float>& depth) {
-  // Of neighbouring pixels of one surface. A surface that is seen almost from its edge has less: at 87
-  // degrees, with 1,000 pixels to 60 degrees, 0.022.
-  constexpr float kJumpShare = 0.03f;
   Mask out(region.width(), region.height());
   const Mask path = brush_region(path_px, 0.5f, region.width(), region.height());
   std::vector<glm::ivec2> open;
@@ -135,7 +133,7 @@ Mask surface_region(const Mask& region, std::span<const glm::vec2> path_px, cons
       const glm::ivec2 to = from + step;
       if (!region.contains(to.x, to.y) || !region.at(to.x, to.y) || out.at(to.x, to.y)) continue;
       const float next = value_at(depth, region, to.x, to.y);
-      if (std::abs(next - z) <= kJumpShare * std::min(next, z)) reach(to);
+      if (relative_depth_jump(z, next) <= kJumpUnderBrush) reach(to);
     }
   }
   return out;

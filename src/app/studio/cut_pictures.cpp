@@ -105,21 +105,18 @@ std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, cons
                     .size = result.size,
                     .camera = {},
                     .outlines = {},
-                    .smaller = {},
-                    .larger = {}};
+                    .size_outlines = {}};
   const auto first = std::ranges::find_if(request.strokes, marks_object);
   if (first != request.strokes.end()) out.camera = first->camera;
   const auto in_camera = [&](const Mask& mask) {
-    if (mask.size() == 0) return std::vector<std::vector<glm::vec2>>();
-    auto borders = outlines(mask);
+    Borders borders = outlines(mask);
     const float factor = static_cast<float>(out.camera.width_px) / static_cast<float>(mask.width());
     for (auto& border : borders)
       for (glm::vec2& point : border) point *= factor;
     return borders;
   };
   for (const Mask& mask : result.meanings) out.outlines.push_back(in_camera(mask));
-  out.smaller = in_camera(result.smaller);
-  out.larger = in_camera(result.larger);
+  for (const Mask& mask : result.size_masks) out.size_outlines.push_back(in_camera(mask));
   return std::make_shared<const ClickMeanings>(std::move(out));
 }
 

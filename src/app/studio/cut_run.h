@@ -23,6 +23,8 @@ struct ViewCard {
   std::uint64_t serial = 0;   // number that changes with the picture
 };
 
+using Borders = std::vector<std::vector<glm::vec2>>;  // closed lines
+
 // The meanings of an object's first click, once a cut has found them.
 struct ClickMeanings {
   std::string key;                            // key of that click, see key_of_first_stroke()
@@ -30,9 +32,8 @@ struct ClickMeanings {
   std::size_t sizes = 0, likeliest_size = 0;  // number of sizes, and the size that a click takes by itself
   std::size_t size = 0;                       // size taken now
   Camera camera;                              // camera of the click
-  // Borders of each meaning, in the camera's pixels.
-  std::vector<std::vector<std::vector<glm::vec2>>> outlines;
-  std::vector<std::vector<glm::vec2>> smaller, larger;  // borders of the next sizes; empty: none
+  // Borders of each meaning and of each size, in the camera's pixels.
+  std::vector<Borders> outlines, size_outlines;
 };
 
 // A finished cut, or the running one.
