@@ -20,6 +20,7 @@ struct ViewCard {
   std::string reason;  // reason why the view does not count; empty: it counts
   std::shared_ptr<const Image<Rgba8>> picture;
   bool only_to_look = false;  // true: the view had no influence on the cut
+  bool in_doubt = false;      // true: much of the border in it runs through a surface
   std::uint64_t serial = 0;   // number that changes with the picture
 };
 
