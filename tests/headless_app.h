@@ -14,7 +14,7 @@
 
 #include <imgui_internal.h>  // items by their names
 
-#include "app/ui/application.h"
+#include "app/window/application.h"
 #include "places.h"
 #include "render/context.h"
 #include "render/gl_objects.h"

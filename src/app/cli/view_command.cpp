@@ -6,7 +6,7 @@
 #include "app/cli/commands.h"
 #include "app/console/console.h"
 #include "app/console/scene_options.h"
-#include "app/ui/window.h"
+#include "app/window/window.h"
 #include "core/error.h"
 
 namespace splatcut {

@@ -96,6 +96,8 @@ struct SelectRegion {
   Camera camera;
   Mask region;  // mask of the camera's size
   SetOperation operation = SetOperation::kAdd;
+  // Path of a brush, pixels: of what is visible, it takes the surface under the path, see surface_region().
+  std::vector<glm::vec2> path_px = {};
 };
 struct SelectVolume {
   Volume volume;

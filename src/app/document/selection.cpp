@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/ranks.h"
+#include "scene/raster/depth_jump.h"
 #include "scene/raster/rasterizer.h"
 #include "scene/raster/splat_math.h"
 #include "segment/masks/seeds.h"
@@ -27,6 +28,38 @@ Selection where(std::size_t gaussians, const Keep& keep) {
     for (std::size_t g = range.begin(); g < range.end(); ++g) out[g] = keep(g) ? 1 : 0;
   });
   return out;
+}
+
+// True if what counts of the Gaussian lies inside.
+template <class Inside>
+bool is_taken(const GaussianCloud& cloud, std::size_t g, TakenBy by, const Inside& inside) {
+  const glm::vec3& centre = cloud.position[g];
+  if (by == TakenBy::kCentre) return inside(centre);
+  const glm::mat3 axes = glm::mat3_cast(cloud.rotation[g]);
+  const glm::vec3 x = cloud.scale[g].x * axes[0], y = cloud.scale[g].y * axes[1],
+                  z = cloud.scale[g].z * axes[2];
+  int in = 0;
+  for (const float i : {-1.0f, 1.0f})
+    for (const float j : {-1.0f, 1.0f})
+      for (const float k : {-1.0f, 1.0f}) in += inside(centre + i * x + j * y + k * z);
+  constexpr int kHalf = 4;
+  return in > kHalf;
+}
+
+bool shows_in(const Mask& region, const Camera& camera, const glm::vec3& point_world) {
+  const glm::vec3 point_camera = camera.camera_from_world(point_world);
+  if (!(point_camera.z > 0)) return false;
+  const glm::vec2 pixel = glm::floor(camera.pixel_from_camera(point_camera));
+  // Compared as floats: a point beside the camera may lie farther away than an int counts.
+  if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.x < static_cast<float>(region.width()) &&
+        pixel.y < static_cast<float>(region.height())))
+    return false;
+  return region.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y)) != 0;
+}
+
+// The value at a pixel of a picture of another size.
+float value_at(const Image<float>& values, const Mask& of, int x, int y) {
+  return values.at(x * values.width() / of.width(), y * values.height() / of.height());
 }
 
 // The median distance of a Gaussian to its graph neighbours, over all of them.
@@ -81,8 +114,33 @@ Mask brush_region(std::span<const glm::vec2> path_px, float radius_px, int width
   return region;
 }
 
+Mask surface_region(const Mask& region, std::span<const glm::vec2> path_px, const Image<float>& depth) {
+  Mask out(region.width(), region.height());
+  const Mask path = brush_region(path_px, 0.5f, region.width(), region.height());
+  std::vector<glm::ivec2> open;
+  const auto reach = [&](const glm::ivec2& at) {
+    out.at(at.x, at.y) = kMaskObject;
+    open.push_back(at);
+  };
+  for (int y = 0; y < region.height(); ++y)
+    for (int x = 0; x < region.width(); ++x)
+      if (path.at(x, y) && region.at(x, y)) reach({x, y});
+  while (!open.empty()) {
+    const glm::ivec2 from = open.back();
+    open.pop_back();
+    const float z = value_at(depth, region, from.x, from.y);
+    for (const glm::ivec2& step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+      const glm::ivec2 to = from + step;
+      if (!region.contains(to.x, to.y) || !region.at(to.x, to.y) || out.at(to.x, to.y)) continue;
+      const float next = value_at(depth, region, to.x, to.y);
+      if (relative_depth_jump(z, next) <= kJumpUnderBrush) reach(to);
+    }
+  }
+  return out;
+}
+
 Selection select_visible(const GaussianCloud& cloud, const Camera& camera, const Mask& region,
-                         std::span<const std::uint8_t> shown, const Job& job) {
+                         std::span<const std::uint8_t> shown, TakenBy by, const Job& job) {
   MaskedSums sums(cloud.size());
   RasterOptions options;
   options.colour = false;
@@ -92,31 +150,36 @@ Selection select_visible(const GaussianCloud& cloud, const Camera& camera, const
   rasterize(cloud, camera, options, job);
   constexpr double kLeastPixels = 0.02;  // a Gaussian with less counts as invisible
   const auto least = static_cast<std::int64_t>(kLeastPixels * MaskedSums::kUnitsPerPixel);
-  return where(cloud.size(),
-               [&](std::size_t g) { return sums.inside[g] >= least && 2 * sums.inside[g] > sums.total[g]; });
+  return where(cloud.size(), [&](std::size_t g) {
+    if (by == TakenBy::kCentre) return sums.total[g] >= least && shows_in(region, camera, cloud.position[g]);
+    return sums.inside[g] >= least && 2 * sums.inside[g] > sums.total[g];
+  });
 }
 
 Selection select_through(const GaussianCloud& cloud, const Camera& camera, const Mask& region,
                          std::span<const std::uint8_t> shown, const SeeThroughOptions& options) {
   return where(cloud.size(), [&](std::size_t g) {
     if (!is_shown(shown, g)) return false;
-    const glm::vec3 point_camera = camera.camera_from_world(cloud.position[g]);
-    if (!(point_camera.z > 0)) return false;
-    const glm::vec2 pixel = camera.pixel_from_camera(point_camera);
-    const int x = static_cast<int>(std::floor(pixel.x)), y = static_cast<int>(std::floor(pixel.y));
-    if (!region.contains(x, y) || !region.at(x, y)) return false;
+    if (!is_taken(cloud, g, options.by, [&](const glm::vec3& p) { return shows_in(region, camera, p); }))
+      return false;
     if (!options.surface_depth || std::isinf(options.depth_limit)) return true;
-    const Image<float>& depth = *options.surface_depth;
-    const int u = x * depth.width() / region.width(), v = y * depth.height() / region.height();
-    const float surface = depth.at(u, v);
+    // The centre of a footprint may lie beside the picture: its border stands for that.
+    const glm::vec3 point_camera = camera.camera_from_world(cloud.position[g]);
+    if (!(point_camera.z > 0)) return true;
+    const glm::vec2 most(region.width() - 1, region.height() - 1);
+    const glm::vec2 pixel = glm::clamp(camera.pixel_from_camera(point_camera), glm::vec2(0), most);
+    const float surface =
+        value_at(*options.surface_depth, region, static_cast<int>(pixel.x), static_cast<int>(pixel.y));
     return surface <= 0 || point_camera.z <= surface + options.depth_limit;
   });
 }
 
-Selection select_volume(const GaussianCloud& cloud, const Volume& volume,
-                        std::span<const std::uint8_t> shown) {
-  return where(cloud.size(),
-               [&](std::size_t g) { return is_shown(shown, g) && inside(volume, cloud.position[g]); });
+Selection select_volume(const GaussianCloud& cloud, const Volume& volume, std::span<const std::uint8_t> shown,
+                        TakenBy by) {
+  return where(cloud.size(), [&](std::size_t g) {
+    return is_shown(shown, g) &&
+           is_taken(cloud, g, by, [&](const glm::vec3& p) { return inside(volume, p); });
+  });
 }
 
 glm::vec3 base_colour(const GaussianCloud& cloud, std::size_t g) {

@@ -2,8 +2,9 @@
 // byte per Gaussian, 1 = selected.
 //
 // select_visible() takes what the picture shows: Gaussians with more than half of their visible weight (alpha
-// T, see scene/raster/rasterizer.h) in the region. select_through() takes every Gaussian whose centre
-// projects into the region, down to a depth limit behind the visible surface.
+// T, see scene/raster/rasterizer.h) in the region. select_through() takes what lies in the region at any
+// depth, down to a depth limit behind the visible surface. Both, and volumes, go by the footprint of a
+// Gaussian or by its centre, see TakenBy.
 #pragma once
 
 #include <cstdint>
@@ -28,20 +29,30 @@ Mask polygon_region(std::span<const glm::vec2> corners_px, int width, int height
 Mask rectangle_region(const glm::vec2& a_px, const glm::vec2& b_px, int width, int height);
 Mask brush_region(std::span<const glm::vec2> path_px, float radius_px, int width, int height);
 
+// What of a Gaussian must lie in a region or volume. kFootprint: more than half of it, that is of its visible
+// weight, or of the eight points at one standard deviation along all its axes. kCentre: its centre.
+enum class TakenBy { kFootprint, kCentre };
+
+// The part of a brush's region that lies on the surface under its path: what can be reached from a pixel of
+// the path, from pixel to pixel of the region, without a jump in depth.
+// depth: camera z of the visible surface, scene units, of the same picture in any size; 0: nothing is there.
+Mask surface_region(const Mask& region, std::span<const glm::vec2> path_px, const Image<float>& depth);
+
 // shown, here and below: per Gaussian, 0 if it is not drawn and so cannot be selected; empty: all are drawn.
 Selection select_visible(const GaussianCloud& cloud, const Camera& camera, const Mask& region,
-                         std::span<const std::uint8_t> shown, const Job& job = {});
+                         std::span<const std::uint8_t> shown, TakenBy by, const Job& job = {});
 
 struct SeeThroughOptions {
   // Camera z of the visible surface, in scene units, of the same picture in any size. 0: nothing is there.
   const Image<float>* surface_depth = nullptr;
   float depth_limit = std::numeric_limits<float>::infinity();  // distance behind the surface, scene units
+  TakenBy by = TakenBy::kFootprint;
 };
 Selection select_through(const GaussianCloud& cloud, const Camera& camera, const Mask& region,
                          std::span<const std::uint8_t> shown, const SeeThroughOptions& options = {});
 
-Selection select_volume(const GaussianCloud& cloud, const Volume& volume,
-                        std::span<const std::uint8_t> shown);
+Selection select_volume(const GaussianCloud& cloud, const Volume& volume, std::span<const std::uint8_t> shown,
+                        TakenBy by);
 
 // Selects by base colour. tolerance: largest difference in any channel, [0, 1].
 Selection select_colour(const GaussianCloud& cloud, const glm::vec3& colour, float tolerance);

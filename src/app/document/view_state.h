@@ -20,6 +20,7 @@ struct ViewState {
   SetOperation operation = SetOperation::kAdd;  // operation of the hand tools if no modifier key is held
   float brush_px = 14;                          // radius of the brush, logical pixels
   bool see_through = false;                     // region tools take what is hidden behind the surface, too
+  bool by_centre = false;                       // hand tools go by centres, not by footprints, see TakenBy
   float depth_limit = 0;                        // reach behind the surface over the scene's size; 0: no limit
   DisplayMode display = DisplayMode::kWhole;
   bool clean_edges = true;   // an object shown alone, or exported, has clean edges

@@ -1,4 +1,5 @@
-// The sizes beside the one that a click has: shown for a while, so that a person sees what the wheel offers.
+// The sizes that a click can have. Those beside the one that it has are shown for a while, so that a person
+// sees what the wheel offers; the one that was asked for is shown until it is computed.
 #include <algorithm>
 
 #include "app/studio/clicks.h"
@@ -18,8 +19,24 @@ void Clicks::note_sizes() {
 }
 
 float Clicks::sizes_opacity() const {
+  if (cuts_.cutting() != 0 && cuts_.cutting() == ws_.document().active) return 1;
   const double since_s = ws_.clock_s - stepped_s_;
   return static_cast<float>(std::clamp(1 - (since_s - kShownSeconds) / kFadeSeconds, 0.0, 1.0));
+}
+
+const ClickMeanings* Clicks::known_sizes() const {
+  const ObjectItem* object = ws_.document().active_object();
+  const ClickMeanings* known = object ? meanings(*object) : nullptr;
+  return known && known->choice == object->choice && !known->size_outlines.empty() ? known : nullptr;
+}
+
+std::size_t Clicks::size_wanted() const {
+  const ClickMeanings* known = known_sizes();
+  if (!known) return 0;
+  const auto wanted =
+      static_cast<std::ptrdiff_t>(known->likeliest_size) + ws_.document().active_object()->part_step;
+  return static_cast<std::size_t>(
+      std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(known->sizes) - 1));
 }
 
 // Nothing while other meanings of the click are offered and the wheel was not turned: one question at a time.
@@ -28,12 +45,9 @@ const ClickMeanings* Clicks::sizes() const {
   if (!object || object->locked || ws_.view.display != DisplayMode::kWhole || ws_.view.heat ||
       sizes_opacity() <= 0)
     return nullptr;
-  const ClickMeanings* known = meanings(*object);
-  if (!known || known->choice != object->choice || (object->part_step == 0 && offer())) return nullptr;
-  const auto wanted = static_cast<std::ptrdiff_t>(known->likeliest_size) + object->part_step;
-  const bool current = static_cast<std::ptrdiff_t>(known->size) ==
-                       std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(known->sizes) - 1);
-  return current && !(known->smaller.empty() && known->larger.empty()) ? known : nullptr;
+  const ClickMeanings* known = known_sizes();
+  if (!known || known->sizes < 2 || (object->part_step == 0 && offer())) return nullptr;
+  return known;
 }
 
 }  // namespace splatcut

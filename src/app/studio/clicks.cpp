@@ -143,13 +143,12 @@ const ClickMeanings* Clicks::offer() const {
 std::string Clicks::why_not_step(int steps) const {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || !any_mark(*object)) return "Click an object first";
-  const ClickMeanings* known = meanings(*object);
-  if (!known || known->choice != object->choice) return {};
-  const auto size = static_cast<std::ptrdiff_t>(known->likeliest_size) + object->part_step;
-  const auto last = static_cast<std::ptrdiff_t>(known->sizes) - 1;
+  const ClickMeanings* known = known_sizes();
+  if (!known) return {};
+  const std::size_t size = size_wanted(), last = known->sizes - 1;
   if (last == 0) return "The click means one size alone";
   if (steps > 0 && size >= last) return fmt::format("This is the largest of {} sizes", known->sizes);
-  if (steps < 0 && size <= 0) return fmt::format("This is the smallest of {} sizes", known->sizes);
+  if (steps < 0 && size == 0) return fmt::format("This is the smallest of {} sizes", known->sizes);
   return {};
 }
 
@@ -158,9 +157,7 @@ void Clicks::perform(const StepScale& c) {
   const std::string reason = why_not_step(c.steps);
   if (!reason.empty()) throw Error(c.steps > 0 ? "larger part" : "smaller part", reason);
   Document after = ws_.document();
-  const ObjectItem* active = ws_.document().active_object();
-  const ClickMeanings* known = active ? meanings(*active) : nullptr;
-  if (known && known->choice != active->choice) known = nullptr;
+  const ClickMeanings* known = known_sizes();
   const auto limit = [&] {  // steps made before the sizes were known
     const auto likeliest = static_cast<int>(known->likeliest_size), sizes = static_cast<int>(known->sizes);
     int& step = after.find(after.active)->part_step;

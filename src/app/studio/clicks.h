@@ -27,8 +27,12 @@ class Clicks {
   // no offer.
   const ClickMeanings* offer() const;
   bool decline_offer();  // withdraws the offer; returns false if there is none
-  // Sizes next to the one taken, shown for a while after a click or a step of the wheel; null: none are
-  // shown.
+  // Sizes that the active object's first click can have; null: they are not known. size_wanted(): the one
+  // that the document asks for, which ClickMeanings::size becomes once it is computed.
+  const ClickMeanings* known_sizes() const;
+  std::size_t size_wanted() const;
+  // The same for a while after a click or a step of the wheel, when the size wanted and those next to it
+  // show; null: none show.
   const ClickMeanings* sizes() const;
   float sizes_opacity() const;  // opacity of sizes(), which falls from 1 to 0
   // True if the active object's clicks found nothing, mostly because they were made from too far away.

@@ -323,6 +323,15 @@ void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   if (!run) return;
   run->views = in_places_of(run->views, std::move(cards));
   for (ViewCard& card : run->views) card.serial = next_card_serial_++;
+  const ObjectItem* object = ws_.document().find(order.object);
+  const auto doubtful = static_cast<std::size_t>(std::ranges::count_if(
+      run->views, [](const ViewCard& card) { return card.only_to_look && card.in_doubt; }));
+  if (!object || object->cut_key != order.key || doubtful == 0) return;
+  constexpr const char* kSides[] = {"one side is",    "two sides are",  "three sides are",
+                                    "four sides are", "five sides are", "six sides are"};
+  const char* sides = kSides[std::min(doubtful, std::size(kSides)) - 1];
+  ws_.say(Message::Kind::kInfo, fmt::format("{}: {}{} in doubt, marked in the pictures below", object->name,
+                                            run->views.front().in_doubt ? "" : "right from here; ", sides));
 }
 
 // Of the active object's labels, for the heat map: kept by the session from the last cut, or computed again.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/raster/rasterizer.h"
+#include "scene/raster/depth_jump.h"
 #include "segment/masks/mask_tools.h"
 
 namespace splatcut {
@@ -11,18 +11,23 @@ namespace {
 
 constexpr int kViewsToLookFrom = 6;
 constexpr int kThumbnailWidth = 160;
+constexpr double kMuchThroughSurface =
+    0.2;  // see share_through_surface(); whole things of the sample have .08 at most
 
-Image<Rgba8> thumbnail(const GaussianCloud& cloud, const GivenView& view, bool counts, const Rgb8& colour,
-                       const Job& job) {
-  const Camera camera = limited_to_width(view.camera, kThumbnailWidth);
-  const RasterOutput drawn = rasterize(cloud, camera, {}, job);
-  Image<Rgba8> out(camera.width_px, camera.height_px);
+RasterOutput drawn_small(const GaussianCloud& cloud, const Camera& camera, const Job& job) {
+  RasterOptions options;
+  options.depth = true;
+  return rasterize(cloud, limited_to_width(camera, kThumbnailWidth), options, job);
+}
+
+Image<Rgba8> thumbnail(const RasterOutput& drawn, const Mask& mask, bool counts, const Rgb8& colour) {
+  Image<Rgba8> out(drawn.colour.width(), drawn.colour.height());
   const glm::vec3 hue = glm::vec3(colour[0], colour[1], colour[2]) / 255.0f;
   for (int y = 0; y < out.height(); ++y)
     for (int x = 0; x < out.width(); ++x) {
-      const int u = x * view.mask.width() / out.width(), v = y * view.mask.height() / out.height();
+      const int u = x * mask.width() / out.width(), v = y * mask.height() / out.height();
       glm::vec3 c = drawn.colour.at(x, y);
-      c = view.mask.at(u, v) ? glm::mix(c, hue, 0.55f) : 0.75f * c;
+      c = mask.at(u, v) ? glm::mix(c, hue, 0.55f) : 0.75f * c;
       if (!counts) c *= 0.35f;
       const glm::vec3 b = glm::clamp(c, 0.0f, 1.0f) * 255.0f;
       out.at(x, y) = {static_cast<std::uint8_t>(b.r), static_cast<std::uint8_t>(b.g),
@@ -38,6 +43,7 @@ ViewCard card_of(const ViewReport& view, Image<Rgba8> picture) {
           view.reason,
           std::make_shared<const Image<Rgba8>>(std::move(picture)),
           false,
+          false,
           0};
 }
 
@@ -47,6 +53,29 @@ bool looked_around_by_none(const CutResult& result, const CutRequest& request, c
 }
 
 }  // namespace
+
+double share_through_surface(const RasterOutput& drawn, const Mask& mask) {
+  constexpr float kOneColour = 0.08f;  // largest difference in a channel
+  constexpr int kFewest = 24;          // pairs of pixels: a smaller border says nothing
+  const Mask small = resized_mask(mask, drawn.colour.width(), drawn.colour.height());
+  const Image<float>& depth = drawn.median_depth;
+  int pairs = 0, through = 0;
+  // From one pixel before the border to one behind it, as splats on it are blended.
+  const auto look = [&](const glm::ivec2& p, const glm::ivec2& step) {
+    const glm::ivec2 q = p + step, inside = p - step, outside = q + step;
+    if (!small.at(p.x, p.y) || !small.contains(q.x, q.y) || small.at(q.x, q.y)) return;
+    if (!small.contains(inside.x, inside.y) || !small.contains(outside.x, outside.y)) return;
+    ++pairs;
+    const glm::vec3 change =
+        glm::abs(drawn.colour.at(inside.x, inside.y) - drawn.colour.at(outside.x, outside.y));
+    through += std::max({change.r, change.g, change.b}) < kOneColour &&
+               depth_jump(depth, inside, outside) <= kJumpAtBorderOfPart;
+  };
+  for (int y = 0; y < small.height(); ++y)
+    for (int x = 0; x < small.width(); ++x)
+      for (const glm::ivec2& step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) look({x, y}, step);
+  return pairs < kFewest ? 0 : static_cast<double>(through) / pairs;
+}
 
 ViewCard mask_card(const ViewReport& view, const Rgb8& colour) {
   const Camera camera = limited_to_width(view.camera, kThumbnailWidth);
@@ -66,13 +95,20 @@ std::vector<ViewCard> picture_cards(Session& session, const CutRequest& request,
     if (job.cancelled()) return cards;
     job.progress("pictures of the views",
                  static_cast<double>(cards.size()) / static_cast<double>(result.views.size()));
-    cards.push_back(card_of(view, thumbnail(cloud, {view.camera, view.mask}, view.used, colour, job)));
+    const RasterOutput drawn = drawn_small(cloud, view.camera, job);
+    cards.push_back(card_of(view, thumbnail(drawn, view.mask, view.used, colour)));
+    cards.back().in_doubt = view.used && share_through_surface(drawn, view.mask) > kMuchThroughSurface;
   }
   if (!looked_around_by_none(result, request, settings)) return cards;
   for (const GivenView& view : session.look_around(request, result, settings, kViewsToLookFrom, job)) {
     if (job.cancelled()) return cards;
-    const auto picture = std::make_shared<const Image<Rgba8>>(thumbnail(cloud, view, true, colour, job));
-    cards.push_back({.camera = view.camera, .used = false, .picture = picture, .only_to_look = true});
+    const RasterOutput drawn = drawn_small(cloud, view.camera, job);
+    const auto picture = std::make_shared<const Image<Rgba8>>(thumbnail(drawn, view.mask, true, colour));
+    cards.push_back({.camera = view.camera,
+                     .used = false,
+                     .picture = picture,
+                     .only_to_look = true,
+                     .in_doubt = share_through_surface(drawn, view.mask) > kMuchThroughSurface});
   }
   return cards;
 }
@@ -105,21 +141,18 @@ std::shared_ptr<const ClickMeanings> meanings_of(const CutRequest& request, cons
                     .size = result.size,
                     .camera = {},
                     .outlines = {},
-                    .smaller = {},
-                    .larger = {}};
+                    .size_outlines = {}};
   const auto first = std::ranges::find_if(request.strokes, marks_object);
   if (first != request.strokes.end()) out.camera = first->camera;
   const auto in_camera = [&](const Mask& mask) {
-    if (mask.size() == 0) return std::vector<std::vector<glm::vec2>>();
-    auto borders = outlines(mask);
+    Borders borders = outlines(mask);
     const float factor = static_cast<float>(out.camera.width_px) / static_cast<float>(mask.width());
     for (auto& border : borders)
       for (glm::vec2& point : border) point *= factor;
     return borders;
   };
   for (const Mask& mask : result.meanings) out.outlines.push_back(in_camera(mask));
-  out.smaller = in_camera(result.smaller);
-  out.larger = in_camera(result.larger);
+  for (const Mask& mask : result.size_masks) out.size_outlines.push_back(in_camera(mask));
   return std::make_shared<const ClickMeanings>(std::move(out));
 }
 

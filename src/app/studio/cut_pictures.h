@@ -4,10 +4,16 @@
 #include "app/studio/cut_run.h"
 #include "core/job.h"
 #include "scene/cloud/gaussian_cloud.h"
+#include "scene/raster/rasterizer.h"
 #include "segment/session/cut_request.h"
 #include "segment/session/session.h"
 
 namespace splatcut {
+
+// Share of the mask's border, [0, 1], that runs through a surface: neither depth nor colour changes across
+// it. An object that stands on something has some, a half of one has more. drawn: the view with colour and
+// median depth, in any size; a mask of few pixels has 0.
+double share_through_surface(const RasterOutput& drawn, const Mask& mask);
 
 // Card of a view that shows its mask alone, for the time until pictures are drawn.
 ViewCard mask_card(const ViewReport& view, const Rgb8& colour);

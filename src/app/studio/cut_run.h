@@ -20,8 +20,11 @@ struct ViewCard {
   std::string reason;  // reason why the view does not count; empty: it counts
   std::shared_ptr<const Image<Rgba8>> picture;
   bool only_to_look = false;  // true: the view had no influence on the cut
+  bool in_doubt = false;      // true: much of the border in it runs through a surface
   std::uint64_t serial = 0;   // number that changes with the picture
 };
+
+using Borders = std::vector<std::vector<glm::vec2>>;  // closed lines
 
 // The meanings of an object's first click, once a cut has found them.
 struct ClickMeanings {
@@ -30,9 +33,8 @@ struct ClickMeanings {
   std::size_t sizes = 0, likeliest_size = 0;  // number of sizes, and the size that a click takes by itself
   std::size_t size = 0;                       // size taken now
   Camera camera;                              // camera of the click
-  // Borders of each meaning, in the camera's pixels.
-  std::vector<std::vector<std::vector<glm::vec2>>> outlines;
-  std::vector<std::vector<glm::vec2>> smaller, larger;  // borders of the next sizes; empty: none
+  // Borders of each meaning and of each size, in the camera's pixels.
+  std::vector<Borders> outlines, size_outlines;
 };
 
 // A finished cut, or the running one.

@@ -137,30 +137,38 @@ void Edits::perform_plain(const Command& command) {
       command);
 }
 
+TakenBy Edits::taken_by() const {
+  return ws_.view.by_centre ? TakenBy::kCentre : TakenBy::kFootprint;
+}
+
 void Edits::perform(const SelectRegion& c) {
   ws_.require_scene();
   if (std::ranges::none_of(c.region.pixels(), [](std::uint8_t p) { return p != 0; }))
     throw Error("selection", "the shape holds no pixel");
   const DrawLimits limits = viewport_.draw_limits();
-  const bool through = ws_.view.see_through;
+  const bool through = ws_.view.see_through, on_surface = !through && !c.path_px.empty();
   const bool limited = through && ws_.view.depth_limit > 0;
   const float depth_limit = ws_.view.depth_limit * viewport_.camera().scene_size();
   const std::shared_ptr<const Frame> surface = viewport_.full_picture_of(c.camera, viewport_.pressed_pane());
-  push_later(
-      {std::string(title_of(c.operation)) + (through ? " (see-through)" : " (visible)"),
-       {},
-       [c, limits, through, limited, depth_limit, surface, shown = viewport_.shown(viewport_.pressed_pane())](
-           Document* document, const EditContext& context, const Job& job) {
-         const Flags visible = within_far_plane(context.cloud, c.camera, shown, limits.far_plane);
-         SeeThroughOptions options;
-         std::shared_ptr<const Frame> frame = surface;
-         if (limited && !frame) frame = raster_frame(context.cloud, c.camera, shown, limits, job);
-         if (limited && frame) options = {&frame->depth, depth_limit};
-         const Selection found =
-             through ? select_through(context.cloud, c.camera, c.region, all_of(visible), options)
-                     : select_visible(context.cloud, c.camera, c.region, all_of(visible), job);
-         return job.cancelled() ? std::string() : edit_selection(document, found, c.operation, context);
-       }});
+  push_later({std::string(title_of(c.operation)) + (through ? " (see-through)" : " (visible)"),
+              {},
+              [c, limits, through, limited, on_surface, depth_limit, surface, by = taken_by(),
+               shown = viewport_.shown(viewport_.pressed_pane())](
+                  Document* document, const EditContext& context, const Job& job) {
+                const Flags visible = within_far_plane(context.cloud, c.camera, shown, limits.far_plane);
+                SeeThroughOptions options{.by = by};
+                std::shared_ptr<const Frame> frame = surface;
+                if ((limited || on_surface) && !frame)
+                  frame = raster_frame(context.cloud, c.camera, shown, limits, job);
+                if (limited && frame) options = {&frame->depth, depth_limit, by};
+                const Mask region =
+                    on_surface && frame ? surface_region(c.region, c.path_px, frame->depth) : c.region;
+                const Selection found =
+                    through ? select_through(context.cloud, c.camera, region, all_of(visible), options)
+                            : select_visible(context.cloud, c.camera, region, all_of(visible), by, job);
+                return job.cancelled() ? std::string()
+                                       : edit_selection(document, found, c.operation, context);
+              }});
 }
 
 // From the state before its first selection, seen as it was then; a cut in between has reached that, too.
@@ -171,12 +179,13 @@ void Edits::perform(const SelectVolume& c) {
     volume_key_ = fmt::format("volume {}", ++volumes_);
     volume_seen_ = viewport_.shown(viewport_.pressed_pane());
   }
-  push_later({std::string(title_of(c.operation)) + (c.volume.round ? " (sphere)" : " (box)"), volume_key_,
-              [c, seen = volume_seen_](Document* document, const EditContext& context, const Job&) {
-                return edit_selection(document, select_volume(context.cloud, c.volume, all_of(seen)),
-                                      c.operation, context);
-              },
-              again});
+  push_later(
+      {std::string(title_of(c.operation)) + (c.volume.round ? " (sphere)" : " (box)"), volume_key_,
+       [c, seen = volume_seen_, by = taken_by()](Document* document, const EditContext& context, const Job&) {
+         return edit_selection(document, select_volume(context.cloud, c.volume, all_of(seen), by),
+                               c.operation, context);
+       },
+       again});
 }
 
 void Edits::perform(const SelectColour& c) {

@@ -67,6 +67,7 @@ class Edits {
   template <class C>
   void change_all(const C& c);
   void require_gaussian(std::int32_t gaussian) const;
+  TakenBy taken_by() const;  // what the view says
 
   Workspace& ws_;
   const Viewport& viewport_;

@@ -120,6 +120,7 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kFloaters, without_selection,
        [](S& s) { s.apply(ShowFloaters{!s.viewport_.floaters_shown()}); }, kWaits},
       {Action::kSeeThrough, without_scene, [](S& s) { s.turn_over(&ViewState::see_through); }},
+      {Action::kByCentre, without_scene, [](S& s) { s.turn_over(&ViewState::by_centre); }},
       {Action::kDelete, without_selection, [](S& s) { s.apply(DeleteSelected{}); }, kWaits},
       {Action::kNewObject, without_scene, [](S& s) { s.apply(NewObject{}); }},
       {Action::kBrushSmaller, without_scene, [](S& s) { s.scale_brush(1 / kBrushStep); }},

@@ -43,6 +43,7 @@ constexpr std::array kOwnBindings = {
     Binding{Action::kBrushSmaller, '[', kPlain, kTools, "Smaller brush"},
     Binding{Action::kBrushLarger, ']', kPlain, kTools, "Larger brush"},
     Binding{Action::kSeeThrough, 'V', kPlain, kTools, "Visible only, or see-through"},
+    Binding{Action::kByCentre, 'V', kShift, kTools, "By centres, or by whole Gaussians"},
     Binding{Action::kPartLarger, '=', kPlain, kTools, "Larger part of what was clicked"},
     Binding{Action::kPartLarger, key::kKeypadAdd, kPlain, kTools, "Larger part of what was clicked"},
     Binding{Action::kPartLarger, key::kPageUp, kPlain, kTools, "Larger part of what was clicked"},

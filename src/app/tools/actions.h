@@ -50,6 +50,7 @@ enum class Action {
   kLargestPart,
   kFloaters,
   kSeeThrough,
+  kByCentre,
   kDelete,
   kNewObject,
 #define SPLATCUT_TOOL_ACTION(tool) kTool##tool,

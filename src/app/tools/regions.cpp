@@ -71,7 +71,9 @@ void confirm_polygon(ToolHand& hand) {
 constinit const Tool Tool::kBrush = {
     .name = "Brush",
     .key = '5',
-    .sentence = "Paint over Gaussians to select them by hand.",
+    .sentence =
+        "Paint over Gaussians to select them by hand. Of what is visible, it stays on the surface that "
+        "you paint on.",
     .icon =
         [] {
           return Icon{
@@ -86,7 +88,8 @@ constinit const Tool Tool::kBrush = {
         [](ToolHand& hand) {
           const Camera& camera = hand.context.pane_camera;
           hand.ask_region(
-              brush_region(hand.state.path_px, hand.brush_px(), camera.width_px, camera.height_px));
+              brush_region(hand.state.path_px, hand.brush_px(), camera.width_px, camera.height_px),
+              hand.state.path_px);
         },
     .shape = ToolShape::kPath,
 };

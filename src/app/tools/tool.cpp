@@ -51,8 +51,8 @@ void ToolHand::ask_stroke(Stroke stroke) {
     ask(AddStroke{context.pane_camera, std::move(stroke), context.seen()});
 }
 
-void ToolHand::ask_region(Mask region) {
-  ask(SelectRegion{context.pane_camera, std::move(region), operation()});
+void ToolHand::ask_region(Mask region, std::vector<glm::vec2> path_px) {
+  ask(SelectRegion{context.pane_camera, std::move(region), operation(), std::move(path_px)});
 }
 
 IconMark icon_line(std::vector<glm::vec2> points, float wider) {

@@ -84,7 +84,8 @@ struct ToolHand {
 
   void ask(Command command) { commands.push_back(std::move(command)); }
   void ask_stroke(Stroke stroke);  // adds the stroke; with Alt: keeps of the object what it alone would take
-  void ask_region(Mask region);    // selects by a mask of the pane's size
+  // Selects by a mask of the pane's size. path_px: see SelectRegion.
+  void ask_region(Mask region, std::vector<glm::vec2> path_px = {});
   SetOperation operation() const { return state.operation(context.view); }
   float brush_px() const {
     return tool_of(context.view.tool).brush * context.view.brush_px * context.pixels_per_point;

@@ -37,31 +37,32 @@ void quality_choice(UiContext& ui) {
   ImGui::EndPopup();
 }
 
-// Nested rings, the smallest size at the left: the one that is taken is filled, a click takes another.
-void size_row(UiContext& ui, const ObjectItem& object, const CutResult& result) {
-  const auto sizes = static_cast<int>(result.sizes), taken = static_cast<int>(result.size);
-  const float width = ImGui::GetContentRegionAvail().x,
-              cell = std::min(26.0f, width / static_cast<float>(sizes));
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float height = 28;
-  for (int i = 0; i < sizes; ++i) {
-    if (i > 0) ImGui::SameLine(0, 0);
-    ImGui::PushID(i);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const bool pressed = ImGui::InvisibleButton("size", {cell, height});
-    const bool hovered = ImGui::IsItemHovered();
-    tooltip(i == taken ? "The size that is taken"
-                       : fmt::format("Take this {} part  (wheel after the click, Page Up, Page Down)",
-                                     i < taken ? "smaller" : "larger"));
-    ImGui::PopID();
-    const ImVec2 middle = {at.x + 0.5f * cell, at.y + 0.5f * height};
-    const float share = sizes > 1 ? static_cast<float>(i) / static_cast<float>(sizes - 1) : 1;
-    const float radius = 2.5f + share * (std::min(0.5f * cell, 11.0f) - 3.5f);
-    const ImU32 ink = packed(i == taken || hovered ? ui.theme.colour.accent : ui.theme.colour.muted);
-    if (i == taken) list.AddCircleFilled(middle, radius, ink);
-    list.AddCircle(middle, radius, ink, 0, 1.5f);
-    if (pressed && i != taken && !object.locked) ui.ask(StepScale{i - taken});
-  }
+// A step for each size that the first click can have, the smallest at the left. The picture outlines the step
+// that the pointer is at; it is taken when the button is let go.
+void size_slider(UiContext& ui, const ObjectItem& object) {
+  const ClickMeanings* known = ui.studio.clicks().known_sizes();
+  if (!known || known->sizes < 2) return;
+  const auto sizes = static_cast<int>(known->sizes),
+             taken = static_cast<int>(ui.studio.clicks().size_wanted());
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Part");
+  ImGui::SameLine(92);
+  ImGui::SetNextItemWidth(-34);
+  ImGui::BeginDisabled(object.locked);
+  const float from = ImGui::GetCursorScreenPos().x, width = ImGui::CalcItemWidth();
+  int step = taken + 1;
+  const std::string format = "%d of " + std::to_string(sizes);
+  // It stands at the size that is taken, so the step is read off the pointer.
+  ImGui::SliderInt("##size", &step, 1, sizes, format.c_str(), ImGuiSliderFlags_NoInput);
+  const float share = (ImGui::GetIO().MousePos.x - from) / width;
+  const int pointed = std::clamp(static_cast<int>(share * static_cast<float>(sizes)), 0, sizes - 1);
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive())
+    ui.state.size_pointed = static_cast<std::size_t>(pointed);
+  if (ImGui::IsItemDeactivated() && pointed != taken) ui.ask(StepScale{pointed - taken});
+  ImGui::EndDisabled();
+  tooltip(pointed == taken ? "The part that the click takes"
+                           : fmt::format("Take part {} of {}  (wheel after the click, Page Up, Page Down)",
+                                         pointed + 1, sizes));
 }
 
 void smoothness_slider(UiContext& ui, const ObjectItem& object) {
@@ -136,10 +137,12 @@ std::string why_no_cutout(const Studio& studio, const ObjectItem& object) {
 }  // namespace
 
 void cutout_panel(UiContext& ui) {
+  ui.state.size_pointed.reset();
   if (!section(ui, "Cutout")) return;
   quality_choice(ui);
   const ObjectItem* object = ui.studio.document().active_object();
   if (!object) return wrapped_muted(ui, "Click an object in the picture.");
+  size_slider(ui, *object);
   smoothness_slider(ui, *object);
   const CutRun* run = ui.studio.cuts().run(object->id);
   if (!run || (run->stages.empty() && !run->running)) {
@@ -157,7 +160,6 @@ void cutout_panel(UiContext& ui) {
     action_button(ui, Action::kCancel, "Cancel", false, -1);
   }
   const CutResult* result = run->running ? nullptr : run->result.get();
-  if (result && result->sizes > 1) size_row(ui, *object, *result);
   if (result) warnings(ui, *run);
   times(ui, *run);
 }

@@ -69,7 +69,7 @@ void region_options(UiContext& ui) {
       {SetOperation::kAdd, "Add", "+", "Add to the selection  (Shift)"},
       {SetOperation::kRemove, "Remove", "-", "Take out of the selection  (Ctrl)"},
       {SetOperation::kIntersect, "Intersect", "&", "Keep only what is in both  (Alt)"}};
-  constexpr float kWordsWidth = 405, kDepthWidth = 150;  // of the choices in words; of the depth limit
+  constexpr float kWordsWidth = 480, kDepthWidth = 150;  // of the choices in words; of the depth limit
   const float room = options_end(ui) - ImGui::GetCursorPosX();
   const bool narrow = room < kWordsWidth + (view.see_through ? kDepthWidth : 0);
   for (const Choice& c : kChoices) {
@@ -80,8 +80,10 @@ void region_options(UiContext& ui) {
     }
   }
   gap();
-  if (tool_of(view.tool).selects == Tool::Selects::kSpace) return tool_hint(ui);
   if (tool_of(view.tool).selects == Tool::Selects::kColours) return tolerance(ui);
+  action_button(ui, Action::kByCentre, "Centres", view.by_centre);
+  gap();
+  if (tool_of(view.tool).selects == Tool::Selects::kSpace) return tool_hint(ui);
   const bool visible = button(ui, narrow ? "Visible" : "Visible only", "Takes the surface that you see  (V)",
                               {}, !view.see_through);
   ImGui::SameLine(0, 2);
@@ -103,7 +105,7 @@ void region_options(UiContext& ui) {
 
 // With signs in place of words; hints go where there is no room for them.
 float options_width(const UiContext& ui) {
-  constexpr float kBrush = 185, kRegion = 225, kDepth = 135, kColour = 245, kSpace = 85;
+  constexpr float kBrush = 185, kRegion = 310, kDepth = 135, kColour = 245, kSpace = 170;
   if (!ui.studio.scene()) return 0;
   const ViewState& view = ui.studio.view();
   const float brush = tool_of(view.tool).brush > 0 ? kBrush : 0;

@@ -133,6 +133,8 @@ struct UiState {
   bool turntable_open = false;
   TurntableChoice turntable;
   PropertyChoice property;
+  std::optional<std::size_t>
+      size_pointed;     // size of the first click whose step the pointer is at in the panel
   RingsShown rings[2];  // of each pane
   GridShown grid;
   PlacingChoice placing;

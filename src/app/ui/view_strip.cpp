@@ -26,6 +26,7 @@ std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
     tip += "\nDoes not count: " + (card.reason.empty() ? std::string("left out") : card.reason);
   else if (index > 0 && !steady)
     tip += fmt::format("\nAgrees with the cutout: {:.0f} %", 100 * card.confidence);
+  if (card.in_doubt) tip += "\nIn doubt: here the border runs through a surface";
   return tip + "\nClick to look from there; correct it with strokes.";
 }
 
@@ -43,6 +44,12 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
                        c.used || c.only_to_look ? 0xffffffffu : 0x70ffffffu, 4);
   list.AddRect(at, end, packed(hovered ? ui.theme.colour.accent : ui.theme.colour.line), 4, 0,
                hovered ? 2.0f : 1.0f);
+  if (c.in_doubt) {
+    const ImVec2 middle = {at.x + 12, at.y + 12};
+    const ImVec2 size = ImGui::CalcTextSize("?");
+    list.AddCircleFilled(middle, 9, packed(ui.theme.colour.warn));
+    list.AddText({middle.x - 0.5f * size.x, middle.y - 0.5f * size.y}, 0xff000000u, "?");
+  }
   const bool left_out =
       std::ranges::any_of(object.left_out, [&](const Camera& v) { return same_view(v, c.camera); });
   if (index == 0) {

@@ -34,9 +34,9 @@ std::span<const glm::vec2> circle_for(float radius_px) {
 
 // The splat's own colour, lighter or darker, so that it stands out from a picture of it.
 ImU32 ring_ink(const GaussianCloud& cloud, std::size_t g) {
-  constexpr float kLight = 0.55f, kTowards = 0.55f, kOpacity = 0.8f;
+  constexpr float kBright = 0.55f, kTowards = 0.55f, kOpacity = 0.8f;
   const glm::vec3 own = glm::clamp(0.5f + kShC0 * cloud.f_dc[g], 0.0f, 1.0f);
-  const bool light = glm::dot(own, glm::vec3(0.299f, 0.587f, 0.114f)) > kLight;
+  const bool light = glm::dot(own, glm::vec3(0.299f, 0.587f, 0.114f)) > kBright;
   const glm::vec3 c = glm::mix(own, glm::vec3(light ? 0.0f : 1.0f), kTowards);
   return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, kOpacity});
 }

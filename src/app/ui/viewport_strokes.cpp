@@ -190,32 +190,45 @@ void draw_offer(const UiContext& ui, const UiRect& area, float bottom) {
   }
 }
 
-// The next larger and smaller size of the click, dashed, with what the wheel says to them: + upwards.
+// The size that the pointer is at in the panel. Else the one that is computed, and the next larger and
+// smaller one, dashed, with what the wheel says to them: + upwards.
 void draw_sizes(const UiContext& ui, const UiRect& area, float bottom) {
-  const ClickMeanings* sizes = ui.studio.clicks().sizes();
+  const Clicks& clicks = ui.studio.clicks();
+  const std::optional<std::size_t> pointed = ui.state.size_pointed;
+  const ClickMeanings* sizes = pointed ? clicks.known_sizes() : clicks.sizes();
   const Camera now = ui.studio.viewport().pane_camera();
   if (!sizes || !same_pose(sizes->camera, now)) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const OnScreen there = placement_of(sizes->camera, now, on_screen(ui, area));
   const UiRect free_area{area.min, {area.max.x, area.max.y - bottom}};
-  const float opacity = ui.studio.clicks().sizes_opacity();
+  const float opacity = pointed ? 1 : clicks.sizes_opacity();
   std::vector<ImVec2> apart;
   for (const StrokedView& view : ui.studio.document().active_object()->views)
     for (const Stroke& stroke : view.strokes) apart.push_back(there(stroke.points_px.front()));
-  const auto draw = [&](const std::vector<std::vector<glm::vec2>>& borders, const char* sign) {
+  const ImU32 dark = IM_COL32(0, 0, 0, static_cast<int>(140 * opacity)),
+              light = IM_COL32(255, 255, 255, static_cast<int>(215 * opacity));
+  const auto draw = [&](std::size_t size, const char* sign) {
     std::optional<ImVec2> label;
-    for (const std::vector<glm::vec2>& border : borders) {
+    for (const std::vector<glm::vec2>& border : sizes->size_outlines[size]) {
       const std::vector<ImVec2> path = rounded(placed(border, there));
-      dashed(list, path, IM_COL32(0, 0, 0, static_cast<int>(140 * opacity)), 3);
-      dashed(list, path, IM_COL32(255, 255, 255, static_cast<int>(215 * opacity)), 1.3f);
-      if (!label) label = label_place(path, apart, free_area);
+      if (sign) {
+        dashed(list, path, dark, 3);
+        dashed(list, path, light, 1.3f);
+        if (!label) label = label_place(path, apart, free_area);
+        continue;
+      }
+      list.AddPolyline(path.data(), static_cast<int>(path.size()), dark, ImDrawFlags_Closed, 4);
+      list.AddPolyline(path.data(), static_cast<int>(path.size()), light, ImDrawFlags_Closed, 2);
     }
     if (!label) return;
     apart.push_back(*label);
     draw_badge(ui, list, *label, sign, opacity);
   };
-  draw(sizes->larger, "+");
-  draw(sizes->smaller, "-");
+  const std::size_t size = pointed.value_or(clicks.size_wanted());
+  if (pointed || size != sizes->size) draw(size, nullptr);
+  if (pointed) return;
+  if (size + 1 < sizes->sizes) draw(size + 1, "+");
+  if (size > 0) draw(size - 1, "-");
 }
 
 void draw_tool_shape(const UiContext& ui, const UiRect& area) {

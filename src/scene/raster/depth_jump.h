@@ -22,6 +22,9 @@ inline constexpr float kJumpAtBorderOfPart = 0.05f;
 inline constexpr float kJumpAroundClick = 0.15f;
 // In one pixel step: one false edge bars the way to all behind it, and captures' depth is rough.
 inline constexpr float kJumpInOneStep = 0.2f;
+// In one pixel step, from all pixels under a brush's path: a false edge is gone around. A surface that is
+// seen at 87 degrees, in 1,000 pixels to 60 degrees, has 0.022.
+inline constexpr float kJumpUnderBrush = 0.03f;
 
 // Of two depths: their difference over the lesser, at most 1.
 inline float relative_depth_jump(float z0, float z1) {

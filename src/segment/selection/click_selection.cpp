@@ -167,10 +167,9 @@ std::vector<std::uint8_t> ClickSelection::note_sizes(const LeafView& view, const
   const auto wanted = static_cast<std::ptrdiff_t>(sizes.taken) + part_step_;
   size_ = static_cast<std::size_t>(
       std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(sizes.count) - 1));
-  NextSizes next;
-  if (size_ > 0) next.smaller = shown(view.leaves, view.camera, sizes.leaves(size_ - 1));
-  if (size_ + 1 < sizes_) next.larger = shown(view.leaves, view.camera, sizes.leaves(size_ + 1));
-  next_sizes_ = std::make_shared<const NextSizes>(std::move(next));
+  std::vector<Mask> masks;
+  for (std::size_t i = 0; i < sizes_; ++i) masks.push_back(shown(view.leaves, view.camera, sizes.leaves(i)));
+  size_masks_ = std::make_shared<const std::vector<Mask>>(std::move(masks));
   return sizes.leaves(size_);
 }
 

@@ -65,9 +65,9 @@ class ClickSelection {
   std::size_t sizes() const { return sizes_; }
   std::size_t size() const { return size_; }
   std::size_t likeliest_size() const { return likeliest_size_; }
-  // Masks of the next smaller and the next larger size in the first stroke's view; empty: there is none.
-  const Mask& smaller() const { return next_sizes_->smaller; }
-  const Mask& larger() const { return next_sizes_->larger; }
+  std::span<const Mask> size_masks() const {
+    return *size_masks_;
+  }  // of each size, in the first stroke's view
   // True if a clearly larger or smaller part was nearly as likely.
   bool ambiguous() const { return ambiguous_; }
 
@@ -111,10 +111,7 @@ class ClickSelection {
     std::vector<Mask> masks;  // mask of each meaning in the first click's view
   };
   std::shared_ptr<const Offers> offers_;
-  struct NextSizes {
-    Mask smaller, larger;
-  };
-  std::shared_ptr<const NextSizes> next_sizes_ = std::make_shared<const NextSizes>();
+  std::shared_ptr<const std::vector<Mask>> size_masks_ = std::make_shared<const std::vector<Mask>>();
   std::vector<std::uint8_t> labels_;
   std::vector<std::int8_t> said_;
   bool any_ = false;

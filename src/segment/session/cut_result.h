@@ -32,7 +32,7 @@ struct CutResult {
   std::vector<std::int8_t> said;     // per Gaussian: +1, -1 as strokes themselves decide, 0 open; or empty
   std::size_t sizes = 0, size = 0;   // that the first click can mean, from small to large; the one taken
   std::size_t likeliest_size = 0;    // the one at part_step 0
-  Mask smaller, larger;              // the next sizes, in the first click's view; empty: there is none
+  std::vector<Mask> size_masks;      // of each size, in the first click's view
   std::vector<Mask> meanings;     // of the first click in its view, the likeliest first; see ClickSelection
   std::size_t choice = 0;         // the one taken
   bool spot_alone = false;        // the last stroke changed the spot around it alone: no part fits it

@@ -42,8 +42,7 @@ void select_by_strokes(const CutTask& task, const Camera& camera, Image<float>* 
   result->sizes = picked.sizes();
   result->size = picked.size();
   result->likeliest_size = picked.likeliest_size();
-  result->smaller = picked.smaller();
-  result->larger = picked.larger();
+  result->size_masks.assign(picked.size_masks().begin(), picked.size_masks().end());
   result->meanings.assign(picked.meanings().begin(), picked.meanings().end());
   result->choice = picked.choice();
   result->spot_alone = picked.spot_alone();

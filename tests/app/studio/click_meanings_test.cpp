@@ -132,8 +132,9 @@ TEST_CASE("clicks: the next sizes show for a while, and are what the wheel takes
   REQUIRE(sizes);
   CHECK(artist.studio().clicks().sizes_opacity() == doctest::Approx(1));
   CHECK(sizes->size + 1 == sizes->likeliest_size);
-  REQUIRE_FALSE(sizes->larger.empty());
-  const auto mask_of = [&](const std::vector<std::vector<glm::vec2>>& borders) {
+  REQUIRE(sizes->size_outlines.size() == sizes->sizes);
+  REQUIRE(sizes->size + 1 < sizes->sizes);
+  const auto mask_of = [&](const Borders& borders) {
     Mask mask(sizes->camera.width_px, sizes->camera.height_px);
     for (int y = 0; y < mask.height(); ++y)
       for (int x = 0; x < mask.width(); ++x) {
@@ -149,9 +150,9 @@ TEST_CASE("clicks: the next sizes show for a while, and are what the wheel takes
       }
     return mask;
   };
-  const Mask larger = mask_of(sizes->larger);
-  const bool had_smaller = !sizes->smaller.empty();
-  const Mask smaller = had_smaller ? mask_of(sizes->smaller) : Mask();
+  const Mask larger = mask_of(sizes->size_outlines[sizes->size + 1]);
+  const bool had_smaller = sizes->size > 0;
+  const Mask smaller = had_smaller ? mask_of(sizes->size_outlines[sizes->size - 1]) : Mask();
   artist.app->handle(WheelTurned{1, {.shift = true}});
   REQUIRE(artist.app.settle());
   CHECK(iou(larger, artist.shown(artist.labels())) > 0.9);
@@ -183,9 +184,93 @@ TEST_CASE("clicks: at the ends there is no next size") {
     }
     const auto& run = *artist.studio().cuts().run(artist.object().id);
     REQUIRE(run.result);
-    CHECK((notch > 0 ? run.result->larger : run.result->smaller).size() == 0);
-    CHECK((notch > 0 ? run.result->smaller : run.result->larger).size() > 0);
+    CHECK(run.result->size == (notch > 0 ? run.result->sizes - 1 : 0));
     artist.app->handle(WheelTurned{-notch, {.shift = true}});
     REQUIRE(artist.app.settle());
+  }
+}
+
+TEST_CASE("clicks: a step of the size shows its outline at once and is computed after it, numbers agree") {
+  Artist artist(on_sample("mug", kOnMug));
+  CHECK_FALSE(artist.studio().clicks().known_sizes());
+  artist.click_on_it();
+  const Clicks& clicks = artist.studio().clicks();
+  REQUIRE(clicks.known_sizes());
+  const std::size_t size = clicks.known_sizes()->size, sizes = clicks.known_sizes()->sizes;
+  REQUIRE(size >= 2);
+  CHECK(clicks.size_wanted() == size);
+  CHECK(artist.run().result->sizes == sizes);
+  const Borders coming = clicks.known_sizes()->size_outlines[size - 2];
+  artist.app.key(key::kPageDown);
+  artist.app.key(key::kPageDown);
+  REQUIRE(artist.studio().cutting());
+  REQUIRE(clicks.sizes());  // before anything is computed
+  CHECK(clicks.size_wanted() == size - 2);
+  CHECK(clicks.sizes()->size_outlines[size - 2] == coming);
+  CHECK(clicks.sizes_opacity() == 1);
+  REQUIRE(artist.app.settle());
+  CHECK(clicks.known_sizes()->size == size - 2);
+  CHECK(clicks.known_sizes()->sizes == sizes);
+  CHECK(artist.run().result->size == size - 2);
+  while (artist.said().find(" sizes") == std::string::npos) {
+    artist.app.key(key::kPageDown);
+    REQUIRE(artist.app.settle());
+  }
+  CHECK(artist.said().ends_with(" of " + std::to_string(sizes) + " sizes"));
+}
+
+TEST_CASE("clicks: the slider of sizes outlines the step under the pointer, and takes it when it is let go") {
+  Artist artist(on_sample("mug", kOnMug));
+  artist.click_on_it();
+  artist.app.wait_for_message_to_go();
+  const Clicks& clicks = artist.studio().clicks();
+  const UiState& state = artist.app.interface_state();
+  const UiRect panel = artist.app.window("side/scroll");
+  // Down the panel until the pointer is at the slider.
+  glm::vec2 at(panel.max.x - 60, panel.min.y + 2);
+  for (; at.y < panel.max.y && !state.size_pointed; at.y += 6) {
+    artist.app.move(at);
+    artist.app.frames(2);
+  }
+  REQUIRE(state.size_pointed);
+  CHECK(2 * *state.size_pointed > clicks.known_sizes()->sizes);  // near the right end
+  const Image<Rgb8> large = artist.app.picture();
+  std::size_t before = *state.size_pointed;
+  while (*state.size_pointed > 1) {
+    at.x -= 1;
+    artist.app.move(at);
+    artist.app.frames(2);
+    REQUIRE(state.size_pointed);
+    CHECK(*state.size_pointed <= before);
+    CHECK(before - *state.size_pointed <= 1);
+    before = *state.size_pointed;
+  }
+  CHECK(large != artist.app.picture());
+  CHECK_FALSE(artist.studio().cutting());  // nothing is computed for a look
+  artist.click(at);
+  CHECK(clicks.known_sizes()->size == 1);
+  CHECK(clicks.size_wanted() == 1);
+  artist.app.move(artist.on_screen({80, 80}));
+  artist.app.frames(2);
+  CHECK_FALSE(state.size_pointed);
+}
+
+TEST_CASE("clicks: a smaller part is one of the sizes that the click had, however small it is") {
+  HeadlessApp app(1280, 720);
+  app.open(kSample);
+  REQUIRE(app.settle());
+  app.click({537, 446});  // the mug, whose smaller parts are looked at with more pixels
+  REQUIRE(app.settle());
+  const Clicks& clicks = app.studio().clicks();
+  REQUIRE(clicks.known_sizes());
+  const ClickMeanings first = *clicks.known_sizes();
+  REQUIRE(first.size >= 3);
+  for (std::size_t i = 1; i <= 3; ++i) {
+    app.key(key::kPageDown);
+    REQUIRE(app.settle());
+    REQUIRE(clicks.known_sizes());
+    CHECK(clicks.known_sizes()->sizes == first.sizes);
+    CHECK(clicks.known_sizes()->size + i == first.size);
+    CHECK(clicks.known_sizes()->size_outlines.size() == first.sizes);
   }
 }

@@ -494,3 +494,81 @@ TEST_CASE("needles: how many times longer than wide, whatever the third axis") {
   CHECK(needles[1] == doctest::Approx(1));
   CHECK(needles[2] == doctest::Approx(1e4));
 }
+
+TEST_CASE("selection: footprint and centre mean the same in a region, behind it and in a volume") {
+  // Seen along z from 10 units: 0.1 units to the pixel. The region and the volumes are the pixels 8 to 24 of
+  // 33 and what projects there.
+  const Camera camera = axis_camera();
+  GaussianCloud cloud;
+  cloud.resize(3, 0);
+  const glm::vec3 centres[] = {{0, 0, 10}, {0.7f, 0, 10}, {1.0f, 0, 10}};
+  const float sigmas[] = {0.1f, 1, 1};  // inside; its centre alone; its flank alone
+  for (std::size_t g = 0; g < 3; ++g) {
+    cloud.position[g] = centres[g];
+    cloud.scale[g] = glm::vec3(sigmas[g]);
+    cloud.opacity[g] = 0.5f;
+  }
+  const Mask region = rectangle_region({8, 8}, {25, 25}, 33, 33);
+  const Volume box{false, {0, 0, 10}, glm::vec3(0.85f)}, ball{true, {0, 0, 10}, glm::vec3(0.85f)};
+  for (const TakenBy by : {TakenBy::kFootprint, TakenBy::kCentre}) {
+    CAPTURE(static_cast<int>(by));
+    const Selection expected{1, by == TakenBy::kCentre, 0};
+    CHECK(select_visible(cloud, camera, region, {}, by) == expected);
+    CHECK(select_through(cloud, camera, region, {}, {.by = by}) == expected);
+    CHECK(select_volume(cloud, box, {}, by) == expected);
+    CHECK(select_volume(cloud, ball, {}, by) == expected);
+  }
+}
+
+TEST_CASE("selection: a brush stays on the surface under its path") {
+  // A slanted wall before a far one that nothing joins, and a hole in the picture.
+  Image<float> depth(40, 20), half(20, 10);
+  const auto depth_at = [](int x) { return x < 20 ? 2 + 0.02f * static_cast<float>(x) : x < 30 ? 4.0f : 0; };
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 40; ++x) depth.at(x, y) = half.at(x / 2, y / 2) = depth_at(x / 2 * 2);
+  const auto columns = [&](std::vector<glm::vec2> path, const Image<float>& of) {
+    const Mask reached = surface_region(brush_region(path, 6, 40, 20), path, of);
+    std::pair<int, int> out{40, -1};
+    for (int x = 0; x < 40; ++x)
+      if (reached.at(x, 10)) out = {std::min(out.first, x), x};
+    return out;
+  };
+  for (const Image<float>* of : {&depth, &half}) {
+    CHECK(columns({{16.5f, 10.5f}}, *of) == std::pair(10, 19));  // stops at the jump
+    CHECK(columns({{22.5f, 10.5f}}, *of) == std::pair(20, 28));
+    CHECK(columns({{28.5f, 10.5f}}, *of) == std::pair(22, 29));                  // stops where nothing is
+    CHECK(columns({{34.5f, 10.5f}}, *of) == std::pair(30, 39));                  // nothing is a surface, too
+    CHECK(columns({{16.5f, 10.5f}, {24.5f, 10.5f}}, *of) == std::pair(10, 29));  // the path leads over it
+  }
+}
+
+TEST_CASE("hands: a brush over the apple's edge takes the apple, and nothing of what is behind it") {
+  Hands hands = hands_on_sample(false);
+  const auto apple = sample_truth(*hands.studio().scene()->scene, kApple);
+  hands.app.key('5');
+  ViewState view = hands.studio().view();
+  view.brush_px = 30;
+  hands.studio().apply(SetView{view});
+  const glm::vec2 at = hands.app.screen_of(kOnApple) - glm::vec2(0, 30), to = at + glm::vec2(3, 0);
+  // Of what is taken. Leaves the object as it was.
+  const auto share_of_others = [&] {
+    const std::size_t all = hands.selected();
+    REQUIRE(all > 100);
+    const auto labels = hands.studio().labels(hands.studio().document().active);
+    std::size_t others = 0;
+    for (std::size_t g = 0; g < labels.size(); ++g) others += labels[g] && !apple[g];
+    hands.app.key('Z', {.ctrl = true});
+    REQUIRE(hands.app.settle());
+    return static_cast<double>(others) / static_cast<double>(all);
+  };
+  hands.app.drag({at, to});
+  CHECK(share_of_others() < 0.01);
+  const Camera camera = hands.studio().viewport().pane_camera();
+  const std::vector<glm::vec2> path{hands.in_viewport(at), hands.in_viewport(to)};
+  hands.studio().apply(
+      SelectRegion{camera, brush_region(path, view.brush_px, camera.width_px, camera.height_px)});
+  CHECK(share_of_others() > 0.05);  // any other region takes all that shows in it
+  hands.app.key('V');
+  hands.app.drag({at, to});
+  CHECK(share_of_others() > 0.3);
+}

@@ -117,6 +117,7 @@ const std::map<Action, Check> kChecks = {
               (!messages.empty() && messages.back().text == "Nothing floats apart from the object");
      }},
     {Action::kSeeThrough, view_changed(&ViewState::see_through)},
+    {Action::kByCentre, view_changed(&ViewState::by_centre)},
     {Action::kDelete,
      [](HeadlessApp& app, const Before& b) {
        return app.settle() && app.studio().document().deleted &&

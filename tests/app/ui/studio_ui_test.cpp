@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "app/console/camera_options.h"
-#include "app/ui/file_drag.h"
+#include "app/window/file_drag.h"
 #include "core/error.h"
 #include "hands.h"
 #include "opened_sample.h"

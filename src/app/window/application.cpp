@@ -1,4 +1,4 @@
-#include "app/ui/application.h"
+#include "app/window/application.h"
 
 #include <fmt/format.h>
 #include <glad/gl.h>

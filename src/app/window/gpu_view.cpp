@@ -1,4 +1,4 @@
-#include "app/ui/gpu_view.h"
+#include "app/window/gpu_view.h"
 
 namespace splatcut {
 

@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <stop_token>
 
-#include "app/ui/application.h"
+#include "app/window/application.h"
 
 namespace splatcut {
 

@@ -1,4 +1,4 @@
-#include "app/ui/frame_log.h"
+#include "app/window/frame_log.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/ui/settings.h"
+#include "app/window/settings.h"
 
 #include <algorithm>
 

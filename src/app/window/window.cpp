@@ -1,4 +1,4 @@
-#include "app/ui/window.h"
+#include "app/window/window.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -14,10 +14,10 @@
 #include "app/console/console.h"
 #include "app/console/user_folders.h"
 #include "app/document/words.h"
-#include "app/ui/file_drag.h"
-#include "app/ui/frame_log.h"
-#include "app/ui/settings.h"
-#include "app/ui/window_place.h"
+#include "app/window/file_drag.h"
+#include "app/window/frame_log.h"
+#include "app/window/settings.h"
+#include "app/window/window_place.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 

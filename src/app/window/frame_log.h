@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <optional>
 
-#include "app/ui/application.h"
+#include "app/window/application.h"
 
 namespace splatcut {
 

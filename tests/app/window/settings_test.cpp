@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "app/ui/settings.h"
-#include "app/ui/window_place.h"
+#include "app/window/settings.h"
+#include "app/window/window_place.h"
 #include "core/error.h"
 #include "headless_app.h"
 #include "quick.h"

@@ -1,4 +1,4 @@
-#include "app/ui/file_drag.h"
+#include "app/window/file_drag.h"
 
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>

@@ -1,4 +1,4 @@
-#include "app/ui/window_place.h"
+#include "app/window/window_place.h"
 
 #include <algorithm>
 
