@@ -59,6 +59,7 @@ bool covers(const GaussianCloud& clones, const SurfaceMap& map, const Mask& hole
   constexpr float kCovers = 0.5f;
   constexpr double kLeastShare = 0.7;
   const Image<float> alpha = map.draw(clones, job).alpha;
+  if (job.cancelled()) return false;
   double covered = 0;
   for (const glm::ivec2& c : cells_of(hole)) covered += alpha.at(c.x, c.y) > kCovers;
   return covered >= kLeastShare * static_cast<double>(count(hole));
@@ -77,7 +78,7 @@ void fill_hole(const Mask& hole, const GaussianCloud& cloud, const SurfaceMap& m
   Copies copies;
   float squares = 0, rim_cells = 0;
   for (; patch->pieces < kMostPieces && !job.cancelled(); ++patch->pieces) {
-    const std::optional<Piece> piece = filling.next();
+    const std::optional<Piece> piece = filling.next(job);
     if (!piece) break;
     squares += piece->squares;
     rim_cells += piece->rim_cells;
@@ -86,6 +87,7 @@ void fill_hole(const Mask& hole, const GaussianCloud& cloud, const SurfaceMap& m
     append(more.moved_world, &copies.moved_world);
     append(more.added_dc, &copies.added_dc);
   }
+  if (job.cancelled()) return;
   patch->changes.given_back = copies.of_cloud(cloud);
   if (!covers(patch->changes.given_back, map, hole, job)) {
     patch->changes.given_back = {};

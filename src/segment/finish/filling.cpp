@@ -45,14 +45,14 @@ Filling::Filling(const Ground& ground, const Mask& hole)
       source_(eroded(known_, kBorderPx)),
       left_(dilated(hole, 1)) {}
 
-std::optional<Piece> Filling::next() const {
+std::optional<Piece> Filling::next(const Job& job) const {
   const std::vector<glm::ivec2> cells = cells_of(left_);
   const PixelRect from = bounds(source_), to = bounds(left_);
   if (cells.empty() || from.empty()) return {};
   std::vector<Candidate> candidates;
   std::size_t most = 0;
   constexpr int kStep = 2;
-  for (int dy = from.y0 - to.y1; dy < from.y1 - to.y0; dy += kStep)
+  for (int dy = from.y0 - to.y1; dy < from.y1 - to.y0 && !job.cancelled(); dy += kStep)
     for (int dx = from.x0 - to.x1; dx < from.x1 - to.x0; dx += kStep) {
       const glm::ivec2 moved(dx, dy);
       const auto fills = static_cast<std::size_t>(

@@ -25,8 +25,8 @@ class Filling {
   const Mask& left() const { return left_; }  // not yet filled
 
   // The piece that fills most, or nearly so, and of those the one whose colours along the rim are most like
-  // what is known there. None where nothing is left to copy.
-  std::optional<Piece> next() const;
+  // what is known there. None where nothing is left to copy, or cancelled.
+  std::optional<Piece> next(const Job& job) const;
 
   // Returns what is added to the piece's colours, per cell of it: the difference along its rim, carried
   // inwards.

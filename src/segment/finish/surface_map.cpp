@@ -222,6 +222,7 @@ Ground ground_of(const SurfaceMap& map, const Drawer& scene, std::span<const std
       standing.push_back(g);
   }
   const Image<float> above = map.draw(plain(cloud, object), job).alpha;
+  if (job.cancelled()) return ground;
   ground.object = dilated(mask_of([&](auto c) { return above.at(c.x, c.y) > kStands; }), 2);
   std::erase_if(ground.rubbish, [&](std::uint32_t g) {
     return std::abs(map.height_radii(cloud.position[g])) > kRubbish ||
@@ -229,6 +230,7 @@ Ground ground_of(const SurfaceMap& map, const Drawer& scene, std::span<const std
   });
   const RasterOutput surface = map.draw(plain(cloud, ground.layer), job);
   const Image<float> others = map.draw(plain(cloud, standing), job).alpha;
+  if (job.cancelled()) return ground;
   ground.covered = mask_of([&](auto c) { return surface.alpha.at(c.x, c.y) >= kCovers; });
   ground.well_covered = mask_of([&](auto c) { return surface.alpha.at(c.x, c.y) >= kCoversWell; });
   ground.clear = mask_of([&](auto c) { return others.at(c.x, c.y) < kStands; });

@@ -6,9 +6,13 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <random>
+#include <stop_token>
+#include <thread>
 
+#include "segment/finish/seen_from.h"
 #include "segment/finish/support_plane.h"
 #include "segment/masks/mask_tools.h"
 #include "thing_of_still_life.h"
@@ -120,6 +124,21 @@ TEST_CASE("fill: what does not touch anything flat is left in words") {
   CHECK_FALSE(patch.why_not.empty());
   CHECK(patch.changes.given_back.empty());
   CHECK(patch.changes.ghosts.empty());
+}
+
+TEST_CASE("fill, seen from: cancelled at any moment they end in a moment") {
+  const Thing apple(WithHole::options(20000), "apple");
+  for (const int ms : {0, 3, 10, 20, 30, 40, 60, 80, 100, 130}) {
+    std::stop_source stop;
+    const std::jthread other([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+      stop.request_stop();
+    });
+    const Job job{.stop = stop.get_token(), .on_progress = {}};
+    fill_surface(apple.scene.cloud, apple.test.truth_labels, {}, {0, -1, 0}, {}, job);
+    const SeenFrom seen = seen_from(apple.scene.cloud, apple.test.truth_labels, {0, -1, 0}, {}, {}, job);
+    seen_picture(seen, apple.scene.cloud, apple.test.truth_labels, job);
+  }
 }
 
 TEST_CASE("support plane: a tilted one under a ball, among dust and a larger one farther off") {
