@@ -272,10 +272,12 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string changed = what_changed(*before, *labels_now(), seconds);
   const std::string& step = ws_.history.entries()[ws_.history.cursor()].title;
   const bool stroked = step.starts_with("Click") || step.starts_with("Scribble");
-  if (stroked && *before == *labels_now() && count_flags(*before) > 0)
+  if (stroked && *before == *labels_now() && count_flags(*before) > 0) {
+    if (CutRun* kept = known_run(order.object, order.key)) kept->changed_nothing = true;
     return ws_.say(
         Message::Kind::kRefused,
         fmt::format("{}: {}. Click nearer to what is wrong, come nearer, or draw over it", name, changed));
+  }
   const std::string shared = shared_with(ws_, order.object);
   const bool offers_sizes = result->ambiguous && ws_.tools.scale_armed();
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
@@ -326,7 +328,7 @@ void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   const ObjectItem* object = ws_.document().find(order.object);
   const auto doubtful = static_cast<std::size_t>(std::ranges::count_if(
       run->views, [](const ViewCard& card) { return card.only_to_look && card.in_doubt; }));
-  if (!object || object->cut_key != order.key || doubtful == 0) return;
+  if (!object || object->cut_key != order.key || doubtful == 0 || run->changed_nothing) return;
   constexpr const char* kSides[] = {"one side is",    "two sides are",  "three sides are",
                                     "four sides are", "five sides are", "six sides are"};
   const char* sides = kSides[std::min(doubtful, std::size(kSides)) - 1];

@@ -48,7 +48,8 @@ struct CutRun {
   Flags preview;                 // labels so far; null once the cut is done
   double first_mask_ms = 0, total_ms = 0;
   std::shared_ptr<const ClickMeanings> meanings;  // meanings of the first click; null: not known yet
-  std::vector<std::string> doubts;                // doubts about the result, one sentence each
+  bool changed_nothing = false;     // true: the last stroke left the labels as they were, which was said
+  std::vector<std::string> doubts;  // doubts about the result, one sentence each
   // Likelihood per Gaussian, [0, 1]; null until it is asked for.
   std::shared_ptr<const std::vector<float>> likelihood;
   bool likelihood_failed = false;  // true: the likelihood is not asked for again
