@@ -36,7 +36,7 @@ foreach(label IN LISTS found_labels)
 endforeach()
 
 if(SPLATCUT_SANITIZE)
-  splatcut_test_program(quick_tests "ui;cli;lab;still_life" ${quick_sources})
+  splatcut_test_program(quick_tests "window;cli;lab;still_life" ${quick_sources})
   target_compile_options(quick_tests PRIVATE -Wno-maybe-uninitialized)
   foreach(label IN LISTS quick_labels)
     add_test(NAME "quick: ${label}" COMMAND quick_tests "--test-suite=quick: ${label}")
