@@ -1,27 +1,25 @@
 // The hole that an object leaves in what it stood on, filled with a copy of a piece of the surface beside it.
 //
 // What no view ever showed cannot be known; this continues a flat surface, where there is one. All of it is
-// invented, and marked so. In the plane that the object stands on (support_plane.h), seen from far above:
-//   layer   Gaussians of the rest that draw pixels of the surface: half of what they draw in a dozen views
-//   lies
-//           within .05 of the object's radius of the plane. Those below the object that no view shows have no
-//           say
-//   hole    what the object covers from above, where the layer's alpha is below .7 and the surface lies
-//   around it
-//           in 10 of 16 directions, or that is shaded; with the shade that hangs together with it, as far as
-//           .6 of its side, and three cells of penumbra. Shaded: darker than the surface .6 to 1.2 radii off
-//           by its spread there, and by .06
-//   pieces  the hole moved by whole cells within the map to where the layer covers much of it and nothing
-//   stands:
-//           of the places that fill most the one whose colours along the rim are most like those along the
-//           hole's, after three quarters of their mean difference; then the same for what is left, up to 24
-//           times
-//   clones  the layer's Gaussians there, moved back, with the difference along the rim carried inwards by the
-//           Laplace equation (Perez, Gangnet, Blake, Poisson Image Editing, 2003) and added to their colours
+// invented, and the report says so. In the plane that the object stands on (support_plane.h), seen from far
+// above:
+//   layer   Gaussians of the rest that draw pixels of the surface: in a dozen views, half of what they draw
+//           lies within .05 of the object's radius of the plane. What no view shows below the object has no
+//           say.
+//   hole    cells that the object covers from above and that are bare or shaded. Bare: the layer's alpha is
+//           below .7, and in 10 of 16 directions the surface lies around. Shaded: darker than the surface .6
+//           to 1.2 radii off, by its spread there and by .06. The shade that hangs together with these cells
+//           belongs to the hole as far as .6 of its side, with three cells of penumbra.
+//   pieces  The hole is moved by whole cells of the map to where the layer covers much of it and nothing
+//           stands. Of the places that fill most, the one is taken whose colours along the rim are most like
+//           those along the hole's, three quarters of the mean difference aside. Then the same is done for
+//           what is left, up to 24 times.
+//   copies  of the layer's Gaussians there, moved back. The difference along the rim, carried inwards by the
+//           Laplace equation (Perez, Gangnet, Blake, Poisson Image Editing, 2003), is added to their colours.
 // Copies that would reach beyond the surface are left out. The layer's own Gaussians in the hole leave. Where
-// copies cover less than .7 of it, nothing is changed. Cost: two drawings of the scene for each of those
-// views, three small ones, and the search. Same input, same bits, on any number of threads. Cancelled:
-// unspecified.
+// copies cover less than .7 of the hole, nothing is changed. Cost: two drawings of the scene for each of
+// those views, three small ones, and the search, .6 s at most on the captures tried. Same input, same bits,
+// on any number of threads. Cancelled: unspecified.
 #pragma once
 
 #include <cstdint>

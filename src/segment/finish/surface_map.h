@@ -1,5 +1,5 @@
 // What an object stood on, as a map: which Gaussians draw the surface, where they cover it, what stands on
-// it, and where the object leaves a hole. Used by fill.cpp, which says what the numbers are.
+// it, and where the object leaves a hole. Used by fill.cpp; the numbers are explained in fill.h.
 #pragma once
 
 #include <cstdint>
