@@ -45,13 +45,14 @@ Copies copies_of(const Piece& piece, const Image<glm::vec3>& difference, const G
                  const SurfaceMap& map, const Ground& ground, const Mask& surface) {
   constexpr float kMostAdded = 0.2f;
   Copies copies;
-  for (const std::uint32_t g : ground.layer) {
-    const glm::ivec2 to = *map.cell(cloud.position[g]) - piece.moved;
-    if (!is_set(piece.cells, to) || reaches_beyond(cloud, g, map, -piece.moved, surface)) continue;
-    copies.of.push_back(g);
-    copies.moved_world.push_back(map.world_of(-piece.moved));
-    copies.added_dc.push_back(glm::clamp(difference.at(to.x, to.y), -kMostAdded, kMostAdded) / kHarmonic0);
-  }
+  for (const std::vector<std::uint32_t>* some : {&ground.layer, &ground.backing})
+    for (const std::uint32_t g : *some) {
+      const glm::ivec2 to = *map.cell(cloud.position[g]) - piece.moved;
+      if (!is_set(piece.cells, to) || reaches_beyond(cloud, g, map, -piece.moved, surface)) continue;
+      copies.of.push_back(g);
+      copies.moved_world.push_back(map.world_of(-piece.moved));
+      copies.added_dc.push_back(glm::clamp(difference.at(to.x, to.y), -kMostAdded, kMostAdded) / kHarmonic0);
+    }
   return copies;
 }
 

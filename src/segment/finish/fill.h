@@ -14,7 +14,8 @@
 //           stands. Of the places that fill most, the one is taken whose colours along the rim are most like
 //           those along the hole's, three quarters of the mean difference aside. Then the same is done for
 //           what is left, up to 24 times.
-//   copies  of the layer's Gaussians there, moved back. The difference along the rim, carried inwards by the
+//   copies  of the layer's Gaussians there, and of what lies within .2 radii below it and keeps it from being
+//           seen through, moved back. The difference along the rim, carried inwards by the
 //           Laplace equation (Perez, Gangnet, Blake, Poisson Image Editing, 2003), is added to their colours.
 // Copies that would reach beyond the surface are left out. The layer's own Gaussians in the hole leave. Where
 // copies cover less than .7 of the hole, nothing is changed. Cost: two drawings of the scene for each of

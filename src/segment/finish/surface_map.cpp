@@ -12,7 +12,7 @@ namespace splatcut {
 namespace {
 
 constexpr int kSidePx = SurfaceMap::kSidePx;
-constexpr float kRubbish = 0.2f;  // of the radius, from the plane
+constexpr float kNearPlane = 0.2f, kOn = 0.05f;  // of the radius, from the plane
 constexpr float kCovers = 0.7f, kCoversWell = 0.9f, kStands = 0.3f;
 
 bool on_map(const glm::ivec2& c) {
@@ -32,7 +32,6 @@ enum DrawnPlane : std::size_t { kDrawn, kOnSurface, kAbove, kDrawnPlanes };
 
 PlaneSums drawn_pixels(const Drawer& scene, std::span<const SurfaceView> views, const SurfaceMap& map,
                        const Job& job) {
-  constexpr float kOn = 0.05f;  // of the radius
   PlaneSums sums(scene.cloud().size(), kDrawnPlanes);
   for (const SurfaceView& view : views) {
     const int width = view.depth.width(), height = view.depth.height();
@@ -208,26 +207,31 @@ Ground ground_of(const SurfaceMap& map, const Drawer& scene, std::span<const std
   const PlaneSums drawn = drawn_pixels(scene, views, map, job);
   constexpr double kSeenPx = 0.5;
   Ground ground;
-  std::vector<std::uint32_t> object, standing;
+  std::vector<std::uint32_t> object, standing, unseen;
   for (std::uint32_t g = 0; g < cloud.size(); ++g) {
     if (gone[g] || !map.cell(cloud.position[g])) continue;
     const double all = drawn.at(g, kDrawn);
+    const float height = map.height_radii(cloud.position[g]);
     if (labels[g])
       object.push_back(g);
-    else if (all < kSeenPx)
-      ground.rubbish.push_back(g);
-    else if (2 * drawn.at(g, kOnSurface) > all)
+    else if (all >= kSeenPx && 2 * drawn.at(g, kOnSurface) > all)
       ground.layer.push_back(g);
-    else if (2 * drawn.at(g, kAbove) > all)
+    else if (all >= kSeenPx && 2 * drawn.at(g, kAbove) > all)
       standing.push_back(g);
+    else if (std::abs(height) <= kNearPlane && all < kSeenPx)
+      unseen.push_back(g);
+    else if (std::abs(height) <= kNearPlane && height <= kOn)
+      ground.backing.push_back(g);
   }
   const Image<float> above = map.draw(plain(cloud, object), job).alpha;
   if (job.cancelled()) return ground;
   ground.object = dilated(mask_of([&](auto c) { return above.at(c.x, c.y) > kStands; }), 2);
-  std::erase_if(ground.rubbish, [&](std::uint32_t g) {
-    return std::abs(map.height_radii(cloud.position[g])) > kRubbish ||
-           !is_set(ground.object, *map.cell(cloud.position[g]));
-  });
+  for (const std::uint32_t g : unseen) {
+    if (is_set(ground.object, *map.cell(cloud.position[g])))
+      ground.rubbish.push_back(g);
+    else if (map.height_radii(cloud.position[g]) <= kOn)
+      ground.backing.push_back(g);
+  }
   const RasterOutput surface = map.draw(plain(cloud, ground.layer), job);
   const Image<float> others = map.draw(plain(cloud, standing), job).alpha;
   if (job.cancelled()) return ground;

@@ -71,6 +71,7 @@ std::optional<SupportPlane> plane_below(std::span<const SurfaceView> views, cons
 // Masks and colours of the map.
 struct Ground {
   std::vector<std::uint32_t> layer;    // Gaussians that draw the surface
+  std::vector<std::uint32_t> backing;  // others just below it, which keep it from being seen through
   std::vector<std::uint32_t> rubbish;  // near the plane and below the object, never seen
   Mask object, covered, well_covered, clear;
   Image<glm::vec3> colour;  // where it is covered
