@@ -2,11 +2,11 @@
 //
 // In: hierarchy, the selection so far, a click in a soft view. Out: candidates, likeliest first, each with
 // its terms (part_model.h names them) and their weighted sum. Candidates are the ancestors of the clicked
-// leaf in every tree. For corrections, the disc alone is one more candidate, and so is another meaning of the
-// first click if that is the only click on the object. Pixels are the view's. "All views" are the observing
-// views (part_looks.h), for a first click together with its own, so that a part looks the same from wherever
-// the user stands. f is ln(pixels that would change / area of the disc that reaches to where the wrong region
-// may end). Terms of a candidate:
+// leaf in every tree. For corrections, the disc alone is one more candidate, and for clicks on the rest so is
+// another meaning of the first click that no click speaks against. Pixels are the view's. "All views" are the
+// observing views (part_looks.h), for a first click together with its own, so that a part looks the same from
+// wherever the user stands. f is ln(pixels that would change / area of the disc that reaches to where the
+// wrong region may end). Terms of a candidate:
 //
 // - kCut: ln(L / sqrt(area)), with L the length of the node's border in the scene, weighted by likeness; at
 //   least -16, for a first click at least -12: a node that touches nothing gets that.
@@ -37,8 +37,12 @@
 // - kBack (later clicks): largest IoU with what a click of the other sign has changed. People undo in that
 //   case.
 // - kDisc: 1 if nothing but the disc would change.
-// - kRepick: 1 if the first click gets another meaning, see ClickSelection. This is a candidate while f is at
-//   most 1, and has none of the other terms but kScrap, kFold, kGiant and kBorder.
+// - kRepick: 1 if the first click gets another meaning, see ClickSelection, it is the only click on the
+//   object, and f is at most 1. Of the other terms this has kScrap alone.
+// - kAgreed: 1 if the first click gets the meaning that the trees agree on (part_votes.h), of those that no
+//   click speaks against. Of the other terms this has kDoubtful, kScrap, kFold, kGiant, kBorder and kTakes.
+// - kDoubtful: how little the trees agree on that meaning: the sum over the view's pixels of the smaller of
+//   the votes for and against, divided by the pixels of the meaning.
 // Cost: some 10 ms. The result depends on the arguments alone.
 #pragma once
 

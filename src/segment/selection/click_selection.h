@@ -11,8 +11,9 @@
 // the least cost, see candidates.h. A leaf follows a correction only if, in at least nearer_majority of the
 // trees, it meets no click of the other sign below its common ancestor with this click.
 //
-// After a single object click, a click on the rest may also say that the first click meant another part: the
-// likeliest that holds no click on the rest. If no candidate is likely, only the disc changes.
+// A click on the rest may also say that the first click meant another part, one that holds every click on the
+// object and none on the rest: the likeliest if that is a small step from what is shown, else what the trees
+// agree on. If no candidate is likely, only the disc changes.
 //
 // A box says what is meant as a whole (box_meanings.h). The likeliest part of each tree votes for its leaves
 // (part_votes.h); leaves with more than half of the votes change side, unless a click has decided them. A box

@@ -127,7 +127,9 @@ SelectionModel::SelectionModel()
                      {Term::kOpposed, 5},
                      {Term::kBack, 1},
                      {Term::kDisc, 1},
-                     {Term::kRepick, -0.5f}})),
+                     {Term::kRepick, -0.5f},
+                     {Term::kAgreed, -2},
+                     {Term::kDoubtful, 8}})),
       box(weights({{Term::kCut, 0.1f},
                    {Term::kFrame, 0.2f},
                    {Term::kNoEdge, 1.5f},
@@ -140,9 +142,9 @@ SelectionModel::SelectionModel()
 
 std::span<const std::string> term_names() {
   static const std::array<std::string, kTerms> names = {
-      "cut",   "jump",    "rare",  "frame", "shade_blind", "off_centre", "no_edge", "cropped",
-      "small", "large",   "scrap", "apart", "fold",        "giant",      "border",  "hidden",
-      "takes", "opposed", "back",  "disc",  "repick",      "short",      "spill",   "fills"};
+      "cut",   "jump",  "rare",   "frame",  "shade_blind", "off_centre", "no_edge", "cropped", "small",
+      "large", "scrap", "apart",  "fold",   "giant",       "border",     "hidden",  "takes",   "opposed",
+      "back",  "disc",  "repick", "agreed", "doubtful",    "short",      "spill",   "fills"};
   return names;
 }
 

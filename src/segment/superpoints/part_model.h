@@ -85,11 +85,13 @@ enum class Term {
   kBack,
   kDisc,
   kRepick,
+  kAgreed,
+  kDoubtful,
   kShort,  // this and the next two: of boxes alone
   kSpill,
   kFills
 };
-inline constexpr std::size_t kTerms = 24;
+inline constexpr std::size_t kTerms = 26;
 using TermValues = std::array<float, kTerms>;  // by Term
 inline float& weight(TermValues* of, Term term) {
   return (*of)[static_cast<std::size_t>(term)];
@@ -124,12 +126,14 @@ struct MaskToPartsOptions {
 
 struct PartModel {
   // Whoever changes a value raises the version and says here what was searched on what.
-  // Version 11: other meanings are offered down to a 55th of the likelihood, a half before (docs/clicks.md).
-  // Version 10: what boxes mean is set by hand, on the scenes of docs/clicks.md and eleven more.
-  // Version 9: what a first click means is fitted by `splatcut-lab fit` on the scenes of docs/clicks.md,
-  // which shows the fit without each of the captures; what corrections mean is set by hand on the same
-  // scenes, last the cost of a click on the rest that takes nearly all of the object (Term::kTakes).
-  static constexpr int kVersion = 11;
+  // Version 12: a rest click asks again what the first click meant, however much that changes; its two
+  // weights are set by hand on the scenes of docs/clicks.md ("Choose again"). Version 11: other meanings are
+  // offered down to a 55th of the likelihood, a half before (docs/clicks.md). Version 10: what boxes mean is
+  // set by hand, on the scenes of docs/clicks.md and eleven more. Version 9: what a first click means is
+  // fitted by `splatcut-lab fit` on the scenes of docs/clicks.md, which shows the fit without each of the
+  // captures; what corrections mean is set by hand on the same scenes, last the cost of a click on the rest
+  // that takes nearly all of the object (Term::kTakes).
+  static constexpr int kVersion = 12;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;

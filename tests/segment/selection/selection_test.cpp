@@ -87,10 +87,42 @@ TEST_CASE(
   CHECK(after(two_more, {object(5)}) == Labels{1, 1, 1, 1});
   CHECK(after(two_more, {object(5), rest(15)}) == Labels{1, 0, 0, 0});
   CHECK(after(three_more, {object(5), rest(15)}) == Labels{1, 0, 1, 1});
-  // After two object clicks there is no other meaning of the one.
+  // After two object clicks a single part is no other meaning of the one.
   CHECK(after(two_more, {object(5), object(7), rest(15)}) == Labels{1, 0, 1, 1});
   weight(&model.later, Term::kRepick) = 50;
   CHECK(after(two_more, {object(5), rest(15)}) == Labels{1, 0, 1, 1});
+}
+
+// Two trees, ((0 1) (2 3)) and ((0 2) (1 3)): without the second stripe, the first click meant the first one
+// alone, or the first and the third.
+TEST_CASE("selection: a rest click takes back what the trees agree that the first click did not mean") {
+  PartHierarchy parts = four_leaves();
+  parts.trees.front().cut = {1, 1, 1, 1, 2, 2, 4};
+  PartTree other = parts.trees.front();
+  other.parent = {4, 5, 4, 5, 6, 6, kNoPart};
+  other.children[4] = {0, 2};
+  other.children[5] = {1, 3};
+  other.cut[4] = 1.4f;  // the vote of this pair counts 1, that of the first stripe 1.4 / sqrt(2)
+  parts.trees.push_back(other);
+  parts.plain_trees = 2;
+  SelectionModel model = borders_alone();
+  weight(&model.later, Term::kAgreed) = -50;
+  const auto after = [&](float doubtful, const Strokes& strokes) {
+    weight(&model.later, Term::kDoubtful) = doubtful;
+    const LeafView view = stripes(parts);
+    ClickSelection selection(parts, model, 10);
+    for (const Stroke& stroke : strokes) selection.apply(view, stroke);
+    return selection.labels();
+  };
+  CHECK(after(0, {object(5)}) == Labels{1, 1, 1, 1});
+  // A second click on the object, as one alone may mean another part of this size without any vote.
+  const Strokes clicks = {object(5), object(7), rest(15)};
+  CHECK(after(0, clicks) == Labels{1, 0, 1, 0});
+  // The third of the four stripes is doubted by .4975 of the votes: half of the two that are meant, .2487.
+  CHECK(after(195, clicks) == Labels{1, 0, 1, 0});
+  CHECK(after(207, clicks) == Labels{1, 0, 1, 1});
+  // A click on the third stripe leaves the one tree that has a part for it.
+  CHECK(after(1e6f, {object(5), object(25), rest(15)}) == Labels{1, 0, 1, 0});
 }
 
 TEST_CASE("selection: a click is obeyed though no part is likely, by its disc alone") {
