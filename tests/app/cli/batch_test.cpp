@@ -262,12 +262,13 @@ TEST_CASE("batch: shards, workers and kills at any moment change nothing of what
   int ended = 0;
   for (int round = 0; round < 5; ++round) {
     const int signals[] = {SIGKILL, SIGTERM, SIGINT};
+    const auto killed_before = place.leftovers();  // nobody clears up after a SIGKILL until a later run does
     const Result result = place.run_interrupted("batch list.jsonl -o killed --jobs 2",
                                                 static_cast<int>(random() % 900), signals[round % 3]);
     ended += result.code != 0;
     if (result.signal == 0 && result.code != 0) {
       CHECK(result.err.find("The same command goes on") != std::string::npos);
-      CHECK(place.leftovers().empty());
+      CHECK(std::ranges::includes(killed_before, place.leftovers()));
     }
   }
   MESSAGE(ended, " of 5 were ended");
