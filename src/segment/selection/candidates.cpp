@@ -8,6 +8,7 @@
 #include "core/pixel_steps.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/click_reach.h"
+#include "segment/selection/first_meanings.h"
 #include "segment/selection/part_terms.h"
 #include "segment/selection/part_votes.h"
 
@@ -22,7 +23,6 @@ constexpr float kScrapFolds = -0.3f, kFoldSlack = 1, kGiantFolds = 3.25f, kHidde
                 kTakesFolds = 0.4f;
 constexpr float kBorderPx = 2;
 constexpr float kLeastCut = -16;  // of a part that touches nothing
-constexpr float kNoDoubt = -1;
 
 float& term(Candidate* candidate, Term which) {
   return weight(&candidate->terms, which);
@@ -121,8 +121,8 @@ class Asking {
   }
   void add_back_terms();
   void add_repick();
-  std::vector<const Candidate*> first_meanings_left() const;
-  bool add_first_meaning(const std::vector<std::uint8_t>& meant, float doubt);
+  Chain given_up(const std::vector<std::uint8_t>& meant) const;
+  void add_first_meaning(Chain chain, const TermValues& terms);
   void add_disc();
   void add_apart_terms();
   void measure_off_centre(bool all);
@@ -268,7 +268,7 @@ void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
   term(candidate, Term::kFold) = at_least_0(f - kFoldSlack);
   term(candidate, Term::kGiant) = at_least_0(f - kGiantFolds);
   term(candidate, Term::kBorder) = click_.radius_px < kBorderPx ? at_least_0(f - kFoldSlack) : 0;
-  if (weight(candidate->terms, Term::kRepick) > 0) return;
+  if (weight(candidate->terms, Term::kRepick) > 0) return;  // small, whatever share of the object it is
   if (!click_.object) {
     constexpr float kLeastLeft = 0.02f;
     const float left = std::max(1 - changed_px / std::max(object_px_, 1.0f), kLeastLeft);
@@ -334,49 +334,29 @@ void Asking::add_back_terms() {
   }
 }
 
-// The first click's candidates that hold all clicks on the object and none on the rest, the likeliest first.
-std::vector<const Candidate*> Asking::first_meanings_left() const {
-  std::vector<const Candidate*> left;
-  for (const Candidate& c : selected_.first->candidates) {
-    const auto inside = [&](std::uint32_t leaf) {
-      return selected_.first->chains[c.chain].level[leaf] <= c.index;
-    };
-    if (!inside(click_.leaf) && std::ranges::all_of(selected_.clicked[1], inside) &&
-        std::ranges::none_of(selected_.clicked[0], inside))
-      left.push_back(&c);
-  }
-  return left;
-}
-
-// A click on the rest may also say that the first click meant another candidate, without this leaf. The
-// leaves which that gives up are one more candidate: of the likeliest meaning left if they are few, else of
-// what the trees agree on.
+// A click on the rest may also say that the first click meant another part, without this leaf. What the
+// selection gives up by that is one more candidate: for the likeliest such part if the change is small, else
+// for what the trees agree on.
 void Asking::add_repick() {
   if (click_.object || !selected_.first) return;
-  const std::vector<const Candidate*> left = first_meanings_left();
+  const std::vector<PartMeaning> left = first_meanings_left(selected_, click_.leaf);
   if (left.empty()) return;
-  std::vector<PartMeaning> meanings;
-  for (const Candidate* c : left) {
-    const auto tree = static_cast<std::uint32_t>(c->chain);
-    meanings.push_back({tree, selected_.first->chains[c->chain].nodes[c->index], {}, c->cost});
-  }
-  const PartMeaning& likeliest = meanings.front();
-  if (selected_.clicked[1].size() == 1 &&
-      add_first_meaning(leaves_of(parts_, likeliest.tree, likeliest.node), kNoDoubt))
+  TermValues terms{};
+  Chain likeliest = given_up(leaves_of(parts_, left.front().tree, left.front().node));
+  const float px = likeliest.changed_px.front();
+  if (selected_.clicked[1].size() == 1 && px >= kLeastChangePx && folds(px) <= kFoldSlack) {
+    weight(&terms, Term::kRepick) = 1;
+    add_first_meaning(std::move(likeliest), terms);
     return;
-  const std::vector<float> shares = vote_shares(parts_, meanings);
-  const std::vector<std::uint8_t> agreed = majority(shares);
-  float doubt_px = 0, agreed_px = 0;
-  for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf) {
-    doubt_px += click_.view.leaf_px[leaf] * std::min(shares[leaf], 1 - shares[leaf]);
-    if (agreed[leaf]) agreed_px += click_.view.leaf_px[leaf];
   }
-  add_first_meaning(agreed, doubt_px / std::max(agreed_px, 1.0f));
+  const AgreedMeaning agreed = agreed_meaning(parts_, left, click_.view.leaf_px);
+  weight(&terms, Term::kAgreed) = 1;
+  weight(&terms, Term::kDoubtful) = agreed.doubt;
+  add_first_meaning(given_up(agreed.leaves), terms);
 }
 
-// Adds the leaves that the first click gives up if it meant these. doubt: kNoDoubt for a single candidate.
-// False: that is not a candidate.
-bool Asking::add_first_meaning(const std::vector<std::uint8_t>& meant, float doubt) {
+// The leaves that leave the object if these alone were meant. Leaves that a disc has decided stay.
+Chain Asking::given_up(const std::vector<std::uint8_t>& meant) const {
   Chain chain;
   chain.of_tree = false;
   chain.nodes = {click_.leaf};
@@ -387,16 +367,16 @@ bool Asking::add_first_meaning(const std::vector<std::uint8_t>& meant, float dou
       chain.level[leaf] = 0;
       px += click_.view.leaf_px[leaf];
     }
-  const bool single = doubt == kNoDoubt;
-  if (px < kLeastChangePx || (single && folds(px) > kFoldSlack)) return false;
   chain.changed_px = {px};
-  Candidate candidate{.chain = out_.chains.size(), .index = 0};
-  term(&candidate, single ? Term::kRepick : Term::kAgreed) = 1;
-  term(&candidate, Term::kDoubtful) = single ? 0 : doubt;
+  return chain;
+}
+
+void Asking::add_first_meaning(Chain chain, const TermValues& terms) {
+  if (chain.changed_px.front() < kLeastChangePx) return;
+  Candidate candidate{.chain = out_.chains.size(), .index = 0, .terms = terms};
   add_size_terms(chain, &candidate);
   out_.chains.push_back(std::move(chain));
   out_.candidates.push_back(candidate);
-  return true;
 }
 
 // kApart: how much of what changes the click does not reach.

@@ -37,12 +37,13 @@
 // - kBack (later clicks): largest IoU with what a click of the other sign has changed. People undo in that
 //   case.
 // - kDisc: 1 if nothing but the disc would change.
-// - kRepick: 1 if the first click gets another meaning, see ClickSelection, it is the only click on the
-//   object, and f is at most 1. Of the other terms this has kScrap alone.
-// - kAgreed: 1 if the first click gets the meaning that the trees agree on (part_votes.h), of those that no
-//   click speaks against. Of the other terms this has kDoubtful, kScrap, kFold, kGiant, kBorder and kTakes.
-// - kDoubtful: how little the trees agree on that meaning: the sum over the view's pixels of the smaller of
-//   the votes for and against, divided by the pixels of the meaning.
+// - kRepick (clicks on the rest): 1 if the first click gets the likeliest other meaning that is left
+//   (first_meanings.h). This is a candidate if the first click is the only one on the object and f is at most
+//   1. Of the other terms it has kScrap alone.
+// - kAgreed (clicks on the rest): 1 if the first click gets the meaning that the trees agree on among those
+//   that are left. This is a candidate where kRepick is none. Of the other terms it has kDoubtful, kScrap,
+//   kFold, kGiant, kBorder and kTakes.
+// - kDoubtful: AgreedMeaning::doubt of that meaning.
 // Cost: some 10 ms. The result depends on the arguments alone.
 #pragma once
 

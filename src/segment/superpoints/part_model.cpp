@@ -129,7 +129,7 @@ SelectionModel::SelectionModel()
                      {Term::kDisc, 1},
                      {Term::kRepick, -0.5f},
                      {Term::kAgreed, -2},
-                     {Term::kDoubtful, 8}})),
+                     {Term::kDoubtful, 16}})),
       box(weights({{Term::kCut, 0.1f},
                    {Term::kFrame, 0.2f},
                    {Term::kNoEdge, 1.5f},

@@ -102,7 +102,8 @@ TEST_CASE("selection: a rest click takes back what the trees agree that the firs
   other.parent = {4, 5, 4, 5, 6, 6, kNoPart};
   other.children[4] = {0, 2};
   other.children[5] = {1, 3};
-  other.cut[4] = 1.4f;  // the vote of this pair counts 1, that of the first stripe 1.4 / sqrt(2)
+  other.cut[4] =
+      1.4f;  // the other tree's vote, for this pair, counts 1; that for the first stripe 1.4 / sqrt(2)
   parts.trees.push_back(other);
   parts.plain_trees = 2;
   SelectionModel model = borders_alone();
@@ -118,7 +119,8 @@ TEST_CASE("selection: a rest click takes back what the trees agree that the firs
   // A second click on the object, as one alone may mean another part of this size without any vote.
   const Strokes clicks = {object(5), object(7), rest(15)};
   CHECK(after(0, clicks) == Labels{1, 0, 1, 0});
-  // The third of the four stripes is doubted by .4975 of the votes: half of the two that are meant, .2487.
+  // .4975 of the votes are against the third stripe, which is half of what is meant: the doubt is .2487. It
+  // outweighs the cost of -50 from 50 / .2487 = 201 on.
   CHECK(after(195, clicks) == Labels{1, 0, 1, 0});
   CHECK(after(207, clicks) == Labels{1, 0, 1, 1});
   // A click on the third stripe leaves the one tree that has a part for it.

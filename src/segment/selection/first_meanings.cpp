@@ -1,0 +1,32 @@
+#include "segment/selection/first_meanings.h"
+
+#include <algorithm>
+
+namespace splatcut {
+
+std::vector<PartMeaning> first_meanings_left(const SelectedParts& selected, std::uint32_t leaf) {
+  std::vector<PartMeaning> left;
+  for (const Candidate& c : selected.first->candidates) {
+    const Chain& chain = selected.first->chains[c.chain];
+    const auto inside = [&](std::uint32_t other) { return chain.level[other] <= c.index; };
+    if (!inside(leaf) && std::ranges::all_of(selected.clicked[1], inside) &&
+        std::ranges::none_of(selected.clicked[0], inside))
+      left.push_back({static_cast<std::uint32_t>(c.chain), chain.nodes[c.index], c.terms, c.cost});
+  }
+  return left;
+}
+
+AgreedMeaning agreed_meaning(const PartHierarchy& parts, std::span<const PartMeaning> meanings,
+                             std::span<const float> leaf_px) {
+  const std::vector<float> shares = vote_shares(parts, meanings);
+  AgreedMeaning agreed{.leaves = majority(shares)};
+  float doubted_px = 0, agreed_px = 0;
+  for (std::size_t leaf = 0; leaf < shares.size(); ++leaf) {
+    doubted_px += leaf_px[leaf] * std::min(shares[leaf], 1 - shares[leaf]);
+    if (agreed.leaves[leaf]) agreed_px += leaf_px[leaf];
+  }
+  agreed.doubt = doubted_px / std::max(agreed_px, 1.0f);
+  return agreed;
+}
+
+}  // namespace splatcut
