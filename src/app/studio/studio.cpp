@@ -80,7 +80,8 @@ void Studio::scene_opened(bool same) {
   edits_.reset();
   clicks_.reset();
   held_pointer_.clear();
-  ws_.tools.abandon();
+  abandon_shape();
+  hide_cursor();
   if (same) {
     ++ws_.view_serial;
     return viewport_.change_scene();
@@ -151,6 +152,7 @@ std::vector<std::uint8_t> Studio::labels(ObjectId object) const {
 
 void Studio::set_viewport(int width_px, int height_px, float pixels_per_point, float covered_bottom_px) {
   viewport_.set_size(width_px, height_px, pixels_per_point, covered_bottom_px);
+  if (cursor_px_) cursor_px_ = within_picture(*cursor_px_);
 }
 
 void Studio::perform(const ShowFloaters& c) {
@@ -184,7 +186,7 @@ bool Studio::cancel_task() {
 }
 
 void Studio::perform(const Cancel&) {
-  if (cancel_task() || ws_.tools.abandon() || clicks_.decline_offer()) return;
+  if (cancel_task() || abandon_shape() || clicks_.decline_offer() || hide_cursor()) return;
   if (viewport_.floaters_shown()) return viewport_.show_floaters(false);
   if (ws_.view.display != DisplayMode::kWhole) return run(Action::kShowAll);
   if (ws_.view.tool != Tool::kNavigate) run(Action::kToolNavigate);
@@ -210,7 +212,7 @@ void Studio::perform(const SetUp& c) {
 }
 
 void Studio::perform(const SetView& c) {
-  if (c.view.tool != ws_.view.tool) ws_.tools.abandon();
+  if (c.view.tool != ws_.view.tool) abandon_shape();
   if (c.view.display != ws_.view.display && c.view.display == DisplayMode::kIsolate)
     viewport_.turn_about_object();
   ws_.view = c.view;

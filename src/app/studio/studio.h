@@ -47,6 +47,10 @@ class Studio {
   void key_released(int key);
   void release_keys();  // the window lost the focus
   void pointer_left();  // the pointer left the viewport
+  // Place of the cursor that arrow keys move, viewport pixels; none: the mouse points. A move of the mouse
+  // hides the cursor.
+  const std::optional<glm::vec2>& cursor_px() const { return cursor_px_; }
+  bool cursor_draws() const { return cursor_press_.has_value(); }  // true: arrows draw until the next Enter
   void set_gpu_view(bool gpu) { viewport_.set_gpu_view(gpu); }
   void leave() { work_.leave(); }                // the program ends
   void keep_unsaved() { work_.keep_unsaved(); }  // a signal ends the program
@@ -122,6 +126,15 @@ class Studio {
   // the panes follow it.
   void pointer(std::function<void()> event);
   Flight flight() const;
+  void press_at(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers);
+  void move_to(const glm::vec2& pixel, const Modifiers& modifiers);
+  void release_at(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers);
+  void double_click_at(const glm::vec2& pixel);
+  void move_cursor(const glm::vec2& direction);  // x right, y down; the length of the step by the held keys
+  void press_cursor();                           // Enter
+  bool hide_cursor();                            // drops what it draws; returns false if it is hidden already
+  bool abandon_shape();
+  glm::vec2 within_picture(const glm::vec2& pixel) const;  // nearest pixel that nothing covers
 
   Workspace ws_;
   CutJobs cuts_;
@@ -136,7 +149,11 @@ class Studio {
   std::set<int> held_keys_;
   std::vector<std::function<void()>> held_pointer_;
   double brush_repeated_s_ = -1e9;
-  std::uint64_t followed_serial_ = 0;  // serial of the document that follow_document() saw last
+  std::optional<glm::vec2> mouse_px_;         // place of the mouse; none: it is beside the picture
+  std::optional<glm::vec2> cursor_px_;        // see cursor_px()
+  std::optional<glm::vec2> cursor_click_px_;  // place of the last Enter: one more there is a double-click
+  std::optional<Modifiers> cursor_press_;     // keys held with the Enter that began a shape; none: no shape
+  std::uint64_t followed_serial_ = 0;         // serial of the document that follow_document() saw last
 
   // Last members: the threads end before what they may call is destroyed.
   TaskThread tasks_, quick_;

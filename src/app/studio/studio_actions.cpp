@@ -71,7 +71,8 @@ std::string without_cameras(const Studio& s) {
 
 std::string without_polygon(const Studio& s) {
   if (!s.scene()) return without_scene(s);
-  return tool_of(s.view().tool).confirm && s.tools().at_work() ? "" : "There is no polygon to close";
+  const bool closes = tool_of(s.view().tool).confirm && s.tools().at_work();
+  return closes || s.cursor_px() ? "" : "An arrow key shows the cursor first";
 }
 
 template <int kSteps>
@@ -106,7 +107,11 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kUndo, without_undo, [](S& s) { s.apply(Undo{}); }, kWaits},
       {Action::kRedo, without_redo, [](S& s) { s.apply(Redo{}); }, kWaits},
       {Action::kCancel, without_scene, [](S& s) { s.apply(Cancel{}); }},
-      {Action::kConfirm, without_polygon, [](S& s) { s.close_shape(); }},
+      {Action::kCursor, without_scene,
+       [](S& s) {
+         s.move_cursor({0, 0});
+       }},
+      {Action::kConfirm, without_polygon, [](S& s) { s.cursor_px() ? s.press_cursor() : s.close_shape(); }},
       {Action::kRecompute, without_strokes, [](S& s) { s.apply(Recompute{}); }},
       {Action::kSelectAll, without_scene, [](S& s) { s.apply(EditSelection{SelectionEdit::kAll}); }},
       {Action::kSelectNone, without_selection, [](S& s) { s.apply(EditSelection{SelectionEdit::kNone}); },

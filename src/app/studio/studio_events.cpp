@@ -38,6 +38,8 @@ void Studio::key_pressed(int code, const Modifiers& modifiers, bool repeated) {
   }
   if (is_flight(action))
     held_keys_.insert(code);
+  else if (action == Action::kCursor && ws_.scene)
+    move_cursor(arrow_direction(code));
   else
     run(action);
 }
@@ -78,35 +80,101 @@ void Studio::pointer(std::function<void()> event) {
     held_pointer_.push_back(std::move(event));
 }
 
-void Studio::pointer_pressed(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
+void Studio::press_at(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
   pointer([this, pixel, button, modifiers] {
     viewport_.press_in(viewport_.pane_at(pixel));
     run_all(ws_.tools.press(viewport_.in_pane(pixel), button, modifiers, viewport_.tool_context(pixel)));
   });
 }
 
-void Studio::pointer_left() {
-  clicks_.pointer_inside(false);
-}
-
-void Studio::pointer_moved(const glm::vec2& pixel, const Modifiers& modifiers) {
+void Studio::move_to(const glm::vec2& pixel, const Modifiers& modifiers) {
   clicks_.pointer_inside(true);
-  hold(modifiers);
   pointer([this, pixel, modifiers] {
     run_all(ws_.tools.move(viewport_.in_pane(pixel), modifiers, viewport_.tool_context(pixel)));
   });
 }
 
-void Studio::pointer_released(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
+void Studio::release_at(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
   pointer([this, pixel, button, modifiers] {
     run_all(ws_.tools.release(viewport_.in_pane(pixel), button, modifiers, viewport_.tool_context(pixel)));
   });
 }
 
-void Studio::pointer_double_clicked(const glm::vec2& pixel) {
+void Studio::double_click_at(const glm::vec2& pixel) {
   pointer([this, pixel] {
     run_all(ws_.tools.double_click(viewport_.in_pane(pixel), viewport_.tool_context(pixel)));
   });
+}
+
+void Studio::pointer_pressed(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
+  hide_cursor();
+  press_at(pixel, button, modifiers);
+}
+
+void Studio::pointer_left() {
+  hide_cursor();
+  mouse_px_.reset();
+  clicks_.pointer_inside(false);
+}
+
+void Studio::pointer_moved(const glm::vec2& pixel, const Modifiers& modifiers) {
+  hide_cursor();
+  mouse_px_ = pixel;
+  hold(modifiers);
+  move_to(pixel, modifiers);
+}
+
+void Studio::pointer_released(const glm::vec2& pixel, PointerButton button, const Modifiers& modifiers) {
+  release_at(pixel, button, modifiers);
+}
+
+void Studio::pointer_double_clicked(const glm::vec2& pixel) {
+  double_click_at(pixel);
+}
+
+glm::vec2 Studio::within_picture(const glm::vec2& pixel) const {
+  const glm::vec2 size = viewport_.size_px() - glm::vec2(1, 1 + viewport_.covered_bottom_px());
+  return glm::clamp(pixel, glm::vec2(0), glm::max(size, glm::vec2(0)));
+}
+
+// The cursor appears at the mouse, or in the middle of the picture.
+void Studio::move_cursor(const glm::vec2& direction) {
+  constexpr float kStepPoints = 8, kFarPoints = 40, kNearPoints = 1;
+  const Modifiers& held = ws_.held_modifiers;
+  const float step = held.shift ? kFarPoints : held.alt ? kNearPoints : kStepPoints;
+  const glm::vec2 panes(static_cast<float>(viewport_.panes()), 1);
+  const glm::vec2 middle = 0.5f * within_picture(viewport_.size_px()) / panes;
+  const glm::vec2 from = cursor_px_ ? *cursor_px_ : mouse_px_.value_or(middle);
+  cursor_px_ = within_picture(from + step * viewport_.pixels_per_point() * direction);
+  move_to(*cursor_px_, cursor_press_.value_or(held));
+}
+
+// A click of the left button; a tool that draws is pressed by one Enter and let go by the next.
+void Studio::press_cursor() {
+  const glm::vec2 at = *cursor_px_;
+  const Tool& tool = tool_of(ws_.view.tool);
+  if (cursor_press_) return release_at(at, PointerButton::kLeft, *std::exchange(cursor_press_, {}));
+  if (tool.double_click && std::exchange(cursor_click_px_, {}) == at) return double_click_at(at);
+  cursor_click_px_ = at;
+  press_at(at, PointerButton::kLeft, ws_.held_modifiers);
+  if (tool.drag == Tool::Drag::kNavigates) return release_at(at, PointerButton::kLeft, ws_.held_modifiers);
+  cursor_press_ = ws_.held_modifiers;
+  ws_.say(Message::Kind::kInfo, "Arrows draw, Enter ends it, Esc drops it");
+}
+
+bool Studio::abandon_shape() {
+  const bool any = ws_.tools.abandon();
+  if (cursor_press_) release_at(*cursor_px_, PointerButton::kLeft, *std::exchange(cursor_press_, {}));
+  return any;
+}
+
+bool Studio::hide_cursor() {
+  if (!cursor_px_) return false;
+  if (cursor_press_) abandon_shape();
+  cursor_px_.reset();
+  cursor_click_px_.reset();
+  clicks_.pointer_inside(mouse_px_.has_value());
+  return true;
 }
 
 void Studio::wheel(float steps, const Modifiers& modifiers) {

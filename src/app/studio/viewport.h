@@ -35,6 +35,7 @@ class Viewport {
   // Camera and panes.
   CameraController& camera() { return camera_; }
   const CameraController& camera() const { return camera_; }
+  glm::vec2 size_px() const { return {width_px_, height_px_}; }
   float covered_bottom_px() const { return covered_bottom_px_; }
   std::vector<glm::vec3> object_positions() const;  // of the active object's Gaussians
   Camera pane_camera() const;                       // camera of each pane: two panes show the same view

@@ -22,7 +22,8 @@ constexpr ToolAction kToolActions[] = {
 #undef SPLATCUT_TOOL_ACTION
 };
 
-constexpr const char* kTools = "Tools";
+constexpr const char *kTools = "Tools", *kMovesCursor = "A cursor in the picture (Shift far, Alt near)",
+                     *kPresses = "Click at that cursor, or close the polygon";
 
 // Those of the tools stand in their rows.
 constexpr std::array kOwnBindings = {
@@ -37,9 +38,13 @@ constexpr std::array kOwnBindings = {
     Binding{Action::kRedo, 'Y', kCtrl, "Edit", "Redo"},
     Binding{Action::kHistory, 'U', kCtrl, "Edit", "Show or hide the history"},
     Binding{Action::kCancel, key::kEscape, kPlain, "Edit", "Cancel the job, the shape, then the tool"},
-    Binding{Action::kConfirm, key::kEnter, kPlain, "Edit", "Close the polygon"},
-    Binding{Action::kConfirm, key::kKeypadEnter, kPlain, "Edit", "Close the polygon"},
     Binding{Action::kRecompute, 'R', kPlain, "Edit", "Compute the cutout again"},
+    Binding{Action::kCursor, key::kLeft, kPlain, kTools, kMovesCursor},
+    Binding{Action::kCursor, key::kRight, kPlain, kTools, kMovesCursor},
+    Binding{Action::kCursor, key::kUp, kPlain, kTools, kMovesCursor},
+    Binding{Action::kCursor, key::kDown, kPlain, kTools, kMovesCursor},
+    Binding{Action::kConfirm, key::kEnter, kPlain, kTools, kPresses},
+    Binding{Action::kConfirm, key::kKeypadEnter, kPlain, kTools, kPresses},
     Binding{Action::kBrushSmaller, '[', kPlain, kTools, "Smaller brush"},
     Binding{Action::kBrushLarger, ']', kPlain, kTools, "Larger brush"},
     Binding{Action::kSeeThrough, 'V', kPlain, kTools, "Visible only, or see-through"},
@@ -116,6 +121,14 @@ std::string plain_name(int code) {
       return "Tab";
     case key::kDelete:
       return "Del";
+    case key::kLeft:
+      return "Left";
+    case key::kRight:
+      return "Right";
+    case key::kUp:
+      return "Up";
+    case key::kDown:
+      return "Down";
     case key::kHome:
       return "Home";
     case key::kPageUp:
@@ -165,13 +178,20 @@ Action action_for(int code, const Modifiers& modifiers) {
   const auto exact = std::ranges::find_if(
       bindings, [&](const Binding& b) { return b.key == code && b.modifiers == modifiers; });
   if (exact != bindings.end()) return exact->action;
-  if (code == key::kEnter || code == key::kKeypadEnter) return Action::kConfirm;  // whatever drew the shape
+  if (code == key::kEnter || code == key::kKeypadEnter)
+    return Action::kConfirm;           // as a click with those keys
   if (code == '=' && modifiers.shift)  // "+" is Shift+= on many keyboards
     return action_for(code, {false, modifiers.ctrl, modifiers.alt});
   if (modifiers.ctrl) return Action::kNone;
-  const auto flight =
-      std::ranges::find_if(bindings, [&](const Binding& b) { return b.key == code && is_flight(b.action); });
-  return flight != bindings.end() ? flight->action : Action::kNone;
+  const auto moves = std::ranges::find_if(bindings, [&](const Binding& b) {
+    return b.key == code && (is_flight(b.action) || b.action == Action::kCursor);
+  });
+  return moves != bindings.end() ? moves->action : Action::kNone;
+}
+
+glm::vec2 arrow_direction(int code) {
+  return {static_cast<float>((code == key::kRight) - (code == key::kLeft)),
+          static_cast<float>((code == key::kDown) - (code == key::kUp))};
 }
 
 std::string key_name(int code, const Modifiers& modifiers) {

@@ -1,6 +1,7 @@
 // Key bindings: one table that the keyboard, the menus, the tooltips and the F1 page all read.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <span>
 #include <string>
 
@@ -37,6 +38,7 @@ enum class Action {
   kUndo,
   kRedo,
   kCancel,
+  kCursor,
   kConfirm,
   kRecompute,
   kHelp,
@@ -101,13 +103,16 @@ std::span<const Binding> key_bindings();
 Action action_of(const Tool& tool);
 const Tool* tool_of(Action action);
 
-// The action bound to a key; kNone: nothing is bound. A flight key keeps its action while Shift or Alt is
-// held.
+// The action bound to a key; kNone: nothing is bound. Flight keys and arrows keep their action while Shift
+// or Alt is held.
 Action action_for(int key, const Modifiers& modifiers);
 
 std::string key_name(int key, const Modifiers& modifiers);  // name of a key: "Ctrl+Shift+Z"
 std::string keys_of(Action action);  // all keys of the action: "I, Tab"; empty: it has none
 const char* name_of(Action action);  // Binding::what of the action
+
+// Direction in the picture of an arrow key, x right, y down; 0, 0: it is no arrow key.
+glm::vec2 arrow_direction(int key);
 
 constexpr bool is_flight(Action action) {
   return action >= Action::kFlyForward && action <= Action::kFlyDown;

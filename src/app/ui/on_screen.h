@@ -18,4 +18,7 @@ inline OnScreen on_screen(const UiContext& ui, const UiRect& area) {
   return {area.min, 1 / ui.theme.pixels_per_point};
 }
 
+// Where a press would go in the picture: at the cursor of the arrows, else at the mouse; none: at neither.
+std::optional<ImVec2> pointed_at(const UiContext& ui, const UiRect& area);
+
 }  // namespace splatcut

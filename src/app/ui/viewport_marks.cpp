@@ -74,15 +74,39 @@ void draw_points(const UiContext& ui, const UiRect& area) {
                length_text(*overlay.length) + " units", ui);
 }
 
+std::optional<ImVec2> pointed_at(const UiContext& ui, const UiRect& area) {
+  if (const auto& cursor_px = ui.studio.cursor_px()) return on_screen(ui, area)(*cursor_px);
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (!area.contains({mouse.x, mouse.y}) || ImGui::IsAnyItemHovered() ||
+      ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
+    return {};
+  return mouse;
+}
+
+// A ring with four arms, whose middle is free: what lies there stays in sight. Filled while it draws.
+void draw_key_cursor(const UiContext& ui, const UiRect& area) {
+  if (!ui.studio.cursor_px()) return;
+  constexpr float kRadius = 8, kArmEnd = 15;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 at = *pointed_at(ui, area);
+  const bool draws = ui.studio.cursor_draws();
+  for (const auto& [ink, wider] :
+       {std::pair(kMarkShade, 2.5f), {draws ? packed(ui.theme.colour.accent) : kMarkWhite, 0.0f}}) {
+    list.AddCircle(at, kRadius, ink, 0, 1.8f + wider);
+    for (const glm::vec2& arm : {glm::vec2(1, 0), {-1, 0}, {0, 1}, {0, -1}})
+      list.AddLine({at.x + kRadius * arm.x, at.y + kRadius * arm.y},
+                   {at.x + kArmEnd * arm.x, at.y + kArmEnd * arm.y}, ink, 1.8f + wider);
+    if (draws) list.AddCircleFilled(at, 2.5f + 0.5f * wider, ink);
+  }
+}
+
 void draw_cursor_sign(const UiContext& ui, const UiRect& area) {
   const char* sign = sign_of(ui);
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  if (!sign || !area.contains({mouse.x, mouse.y}) || ImGui::IsAnyItemHovered() ||
-      ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
-    return;
+  const std::optional<ImVec2> pointer = pointed_at(ui, area);
+  if (!sign || !pointer) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   constexpr float kArm = 4.5f;
-  const ImVec2 at = {mouse.x + 17, mouse.y + 15};
+  const ImVec2 at = {pointer->x + 17, pointer->y + 15};
   const ImU32 ink = *sign == '+'   ? IM_COL32(90, 220, 120, 255)
                     : *sign == '-' ? IM_COL32(245, 95, 90, 255)
                                    : packed(ui.theme.colour.accent);

@@ -198,6 +198,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   draw_points(ui, area);
   draw_brush_ring(ui, area);
   draw_cursor_sign(ui, area);
+  draw_key_cursor(ui, area);
   ImGui::PopClipRect();
   const float top = area.min.y + covered_top(ui) + 12;
   if (panes == 2) {

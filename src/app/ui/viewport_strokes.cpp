@@ -274,14 +274,11 @@ void draw_tool_shape(const UiContext& ui, const UiRect& area) {
 // The brush as a ring under the pointer.
 void draw_brush_ring(const UiContext& ui, const UiRect& area) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  if (tool_of(ui.studio.view().tool).brush == 0) return;
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  if (!area.contains({mouse.x, mouse.y}) || ImGui::IsAnyItemHovered() ||
-      ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
-    return;
+  const std::optional<ImVec2> at = pointed_at(ui, area);
+  if (!at || tool_of(ui.studio.view().tool).brush == 0) return;
   const float radius = std::max(2.0f, ui.studio.overlay().radius_px / ui.theme.pixels_per_point);
-  list.AddCircle(mouse, radius + 1, IM_COL32(0, 0, 0, 120), 0, 1);
-  list.AddCircle(mouse, radius, IM_COL32(255, 255, 255, 220), 0, 1.3f);
+  list.AddCircle(*at, radius + 1, IM_COL32(0, 0, 0, 120), 0, 1);
+  list.AddCircle(*at, radius, IM_COL32(255, 255, 255, 220), 0, 1.3f);
 }
 
 }  // namespace splatcut

@@ -18,7 +18,8 @@ constexpr std::size_t kRecentKept = 8;
 // Keys that a held key repeats.
 bool repeats(Action action) {
   return action == Action::kUndo || action == Action::kRedo || action == Action::kBrushSmaller ||
-         action == Action::kBrushLarger || action == Action::kPartLarger || action == Action::kPartSmaller;
+         action == Action::kBrushLarger || action == Action::kPartLarger || action == Action::kPartSmaller ||
+         action == Action::kCursor;
 }
 
 }  // namespace

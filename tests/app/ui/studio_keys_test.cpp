@@ -94,6 +94,7 @@ const std::map<Action, Check> kChecks = {
          app.key(key::kEscape);  // the first took the offer away
        return app.studio().view().tool == Tool::kNavigate;
      }},
+    {Action::kCursor, [](HeadlessApp& app, const Before&) { return app.studio().cursor_px().has_value(); }},
     {Action::kConfirm, selected([](auto now, auto before, auto) { return now > before; })},
     {Action::kRecompute,
      [](HeadlessApp& app, const Before&) { return app.studio().cutting() && app.settle(); }},

@@ -1,0 +1,184 @@
+// The program by keys alone: the cursor in the picture that arrows move.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "hands.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+constexpr Modifiers kShift{.shift = true}, kAlt{.alt = true}, kCtrl{.ctrl = true};
+
+// Presses arrows until the cursor is at a place of the screen, to the point.
+void walk_to(Hands& hands, const glm::vec2& screen) {
+  const auto cursor = [&] { return *hands.studio().cursor_px(); };
+  if (!hands.studio().cursor_px()) hands.app.key(key::kRight);
+  const glm::vec2 goal = glm::round(hands.in_viewport(screen) - cursor()) + cursor();
+  for (const auto& [points, held] : {std::pair(40.0f, kShift), {8.0f, Modifiers{}}, {1.0f, kAlt}})
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto missing = [&] { return goal[axis] - cursor()[axis]; };
+      const int forward = axis == 0 ? key::kRight : key::kDown, back = axis == 0 ? key::kLeft : key::kUp;
+      while (std::abs(missing()) >= points) hands.app.key(missing() > 0 ? forward : back, held);
+    }
+  REQUIRE(cursor() == goal);
+}
+
+std::vector<std::uint8_t> labels_of(Hands& hands) {
+  REQUIRE(hands.app.settle());
+  return hands.studio().labels(hands.studio().document().active);
+}
+
+glm::vec2 cursor_on_screen(Hands& hands) {
+  return hands.app->interface().viewport().min + *hands.studio().cursor_px();
+}
+
+}  // namespace
+
+TEST_CASE(
+    "keyboard: an arrow shows a cursor in the middle, or at the mouse; steps are as long as the keys say") {
+  Hands hands(false);
+  const Studio& studio = hands.studio();
+  CHECK_FALSE(studio.cursor_px());
+  const UiRect area = hands.app->interface().viewport();
+  hands.app.key(key::kRight);
+  REQUIRE(studio.cursor_px());
+  CHECK(glm::distance(*studio.cursor_px(), 0.5f * area.size() + glm::vec2(8, 0)) < 1.5f);
+  const auto step = [&](int code, const Modifiers& held) {
+    const glm::vec2 before = *studio.cursor_px();
+    hands.app.key(code, held);
+    return *studio.cursor_px() - before;
+  };
+  CHECK(step(key::kLeft, {}) == glm::vec2(-8, 0));
+  CHECK(step(key::kUp, kShift) == glm::vec2(0, -40));
+  CHECK(step(key::kDown, kAlt) == glm::vec2(0, 1));
+  const CameraPose pose = studio.camera().pose();
+  for (int i = 0; i < 40; ++i) hands.app.key(key::kDown, kShift);
+  for (int i = 0; i < 40; ++i) hands.app.key(key::kRight, kShift);
+  CHECK(*studio.cursor_px() == area.size() - glm::vec2(1));  // it stays in the picture
+  CHECK(studio.camera().pose().position_world == pose.position_world);
+  const glm::vec2 mouse = area.min + glm::vec2(100, 90);
+  hands.app.move(mouse);
+  CHECK_FALSE(studio.cursor_px());
+  hands.app.key(key::kDown);
+  CHECK(*studio.cursor_px() == glm::vec2(100, 98));
+}
+
+TEST_CASE("keyboard: Enter cuts what a click at the cursor cuts, Ctrl+Enter what a right click does") {
+  Hands keys(false), mouse(false);
+  for (Hands* hands : {&keys, &mouse}) hands->studio().apply(SetPreset{"fast"});
+  walk_to(keys, keys.app.screen_of(kOnApple));
+  const glm::vec2 on_apple = cursor_on_screen(keys);
+  keys.app.key(key::kEnter);
+  mouse.app.click(on_apple);
+  const auto apple = labels_of(keys);
+  CHECK(std::ranges::count(apple, 1) > 20);
+  CHECK(apple == labels_of(mouse));
+  CHECK(keys.studio().cursor_px());  // for the next click
+  walk_to(keys, keys.app.screen_of(kOnApple) + glm::vec2(0, -9));
+  const glm::vec2 above = cursor_on_screen(keys);
+  keys.app.key(key::kEnter, kCtrl);
+  mouse.app.click(above, PointerButton::kRight);
+  CHECK(labels_of(keys) == labels_of(mouse));
+  const StrokedView& view = keys.studio().document().active_object()->views.back();
+  CHECK(view.strokes.back().label == SeedLabel::kRest);
+}
+
+TEST_CASE("keyboard: what Enter would take is outlined, until Esc or the mouse hides the cursor") {
+  for (const bool by_mouse : {false, true}) {
+    Hands hands(false);
+    walk_to(hands, hands.app.screen_of(kOnApple));
+    REQUIRE(hands.app.settle());
+    hands.app.frames(2);
+    const Flags outlined = hands.studio().viewport().style(0).highlight;
+    REQUIRE(outlined);
+    CHECK(count_flags(*outlined) > 20);
+    if (by_mouse)
+      hands.app.move({5, kHandsHeight - 5});
+    else
+      hands.app.key(key::kEscape);
+    REQUIRE(hands.app.settle());
+    CHECK_FALSE(hands.studio().cursor_px());
+    CHECK(hands.studio().view().tool == Tool::kClick);
+    CHECK_FALSE(hands.studio().viewport().style(0).highlight);
+    const auto before = hands.studio().messages().size();
+    hands.app.key(key::kEnter);  // nothing to click at
+    CHECK(hands.studio().document().objects.empty());
+    CHECK(hands.studio().messages().size() == before + 1);
+  }
+}
+
+TEST_CASE("keyboard: Enter begins what a drag draws, arrows draw it, Enter ends it, Esc drops it") {
+  Hands keys(false), mouse(false);
+  const glm::vec2 from = keys.app.screen_of(kOnApple) - glm::vec2(30, 30);
+  keys.app.key('7');
+  mouse.app.key('7');
+  walk_to(keys, from);
+  const glm::vec2 corner = cursor_on_screen(keys);
+  keys.app.key(key::kEnter);
+  CHECK(keys.studio().cursor_draws());
+  walk_to(keys, from + glm::vec2(60, 50));
+  keys.app.key(key::kEscape);
+  CHECK_FALSE(keys.studio().cursor_draws());
+  CHECK(keys.studio().cursor_px());
+  CHECK_FALSE(keys.studio().tools().dragging());
+  CHECK(keys.selected() == 0);
+  walk_to(keys, from);
+  keys.app.key(key::kEnter);
+  walk_to(keys, from + glm::vec2(60, 50));
+  const glm::vec2 opposite = cursor_on_screen(keys);
+  keys.app.key(key::kEnter);
+  CHECK(keys.selected() > 20);
+  mouse.app.drag({corner, opposite});
+  CHECK(labels_of(keys) == labels_of(mouse));
+}
+
+TEST_CASE("keyboard: a mouse that moves takes over from a shape that arrows draw") {
+  Hands hands(false);
+  hands.app.key('7');
+  walk_to(hands, hands.app.screen_of(kOnApple));
+  hands.app.key(key::kEnter);
+  hands.app.key(key::kRight, kShift);
+  const glm::vec2 from = hands.app.screen_of(kOnApple) - glm::vec2(30, 30);
+  hands.app.move(from);
+  CHECK_FALSE(hands.studio().tools().dragging());
+  hands.app.drag({from, from + glm::vec2(60, 50)});
+  CHECK(hands.selected() > 20);
+}
+
+TEST_CASE("keyboard: Enter sets the corners of a polygon, a second one at the last corner closes it") {
+  Hands hands(false);
+  hands.app.key('8');
+  const glm::vec2 middle = hands.app.screen_of(kOnApple);
+  for (const glm::vec2& corner : {glm::vec2(-35, -30), {35, -30}, {0, 35}}) {
+    walk_to(hands, middle + corner);
+    hands.app.key(key::kEnter);
+  }
+  CHECK(hands.selected() == 0);
+  hands.app.key(key::kEnter);
+  CHECK(hands.selected() > 20);
+}
+
+TEST_CASE("keyboard: the cursor is drawn where it clicks") {
+  Hands hands(false);
+  hands.app.wait_for_message_to_go();
+  const Image<Rgb8> without = hands.app.picture();
+  walk_to(hands, hands.app->interface().viewport().min + glm::vec2(60, 200));
+  hands.studio().run(Action::kToolNavigate);  // no outline of a click
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  const Image<Rgb8> with = hands.app.picture();
+  const glm::ivec2 at(cursor_on_screen(hands));
+  std::size_t near = 0, inside = 0;
+  for (int y = -20; y <= 20; ++y)
+    for (int x = -20; x <= 20; ++x) {
+      const bool differs = with.at(at.x + x, at.y + y) != without.at(at.x + x, at.y + y);
+      near += differs;
+      inside += differs && x * x + y * y < 16;
+    }
+  CHECK(near > 80);
+  CHECK(inside == 0);  // what is clicked stays in sight
+}
