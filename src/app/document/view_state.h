@@ -2,6 +2,8 @@
 // between runs.
 #pragma once
 
+#include <algorithm>
+
 #include "app/document/selection.h"
 #include "app/document/tool_id.h"
 
@@ -10,6 +12,8 @@ namespace splatcut {
 // Limits of the brush radius, logical pixels. Opening another scene limits the radius to kMostKeptBrushPx: a
 // larger brush was meant for the scene it was used in.
 inline constexpr float kLeastBrushPx = 1, kMostBrushPx = 120, kMostKeptBrushPx = 40;
+// Limits of ViewState::fly_speed for a scene that is opened, and between runs; the wheel goes beyond them.
+inline constexpr float kLeastKeptSpeed = 0.1f, kMostKeptSpeed = 10;
 
 // Content of the panes. kWhole: the scene. kIsolate: the object alone. kHide: the scene without the object.
 // kSideBySide: scene and object. kBeforeAfter: the object with its rows as they are, and with clean edges.
@@ -39,6 +43,15 @@ struct ViewState {
 
   bool operator==(const ViewState&) const = default;
 };
+
+// Sets what the program keeps between runs as it is in `kept`.
+inline void set_what_is_kept(const ViewState& kept, ViewState* view) {
+  view->brush_px = kept.brush_px;
+  view->fly_speed = std::clamp(kept.fly_speed, kLeastKeptSpeed, kMostKeptSpeed);
+  view->tint = kept.tint;
+  view->outline = kept.outline;
+  view->web_low_pass = kept.web_low_pass;
+}
 
 // True if a pane shows an object with clean edges.
 inline bool shows_clean_edges(const ViewState& view) {

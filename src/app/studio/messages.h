@@ -20,6 +20,7 @@ enum class UiRequest {
   kSaveDialog,
   kExportDialog,
   kHelp,
+  kSettings,
   kTheme,
   kHistory,
   kQuit,

@@ -90,7 +90,7 @@ void Studio::scene_opened(bool same) {
   view.display = DisplayMode::kWhole;
   view.heat = false;
   view.tool = Tool::kClick;
-  view.fly_speed = 1;
+  view.fly_speed = std::clamp(view.fly_speed, kLeastKeptSpeed, kMostKeptSpeed);
   view.operation = SetOperation::kAdd;
   view.brush_px = std::min(view.brush_px, kMostKeptBrushPx);
   ++ws_.view_serial;

@@ -102,6 +102,7 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kSnapshot, without_scene, [](S& s) { s.ask(UiRequest::kSnapshotDialog); }},
       {Action::kQuit, nullptr, [](S& s) { s.ask(UiRequest::kQuit); }},
       {Action::kHelp, nullptr, [](S& s) { s.ask(UiRequest::kHelp); }},
+      {Action::kSettings, nullptr, [](S& s) { s.ask(UiRequest::kSettings); }},
       {Action::kTheme, nullptr, [](S& s) { s.ask(UiRequest::kTheme); }},
       {Action::kHistory, without_scene, [](S& s) { s.ask(UiRequest::kHistory); }},
       {Action::kUndo, without_undo, [](S& s) { s.apply(Undo{}); }, kWaits},

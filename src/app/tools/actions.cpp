@@ -32,6 +32,7 @@ constexpr std::array kOwnBindings = {
     Binding{Action::kSave, 'S', kCtrl, "File", "Save the work"},
     Binding{Action::kExport, 'E', kCtrl, "File", "Export"},
     Binding{Action::kSnapshot, key::kF12, kPlain, "File", "Picture of this view"},
+    Binding{Action::kSettings, ',', kCtrl, "File", "Settings of the program"},
     Binding{Action::kQuit, 'Q', kCtrl, "File", "Quit"},
     Binding{Action::kUndo, 'Z', kCtrl, "Edit", "Undo"},
     Binding{Action::kRedo, 'Z', kCtrlShift, "Edit", "Redo"},

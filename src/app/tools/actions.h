@@ -42,6 +42,7 @@ enum class Action {
   kConfirm,
   kRecompute,
   kHelp,
+  kSettings,
   kTheme,
   kHistory,
   kSelectAll,

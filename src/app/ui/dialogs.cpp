@@ -20,14 +20,6 @@ namespace {
 constexpr const char* kWhatNames[] = {"The object", "Everything else", "The whole scene",
                                       "All objects, a file each"};
 
-void centre_next_window(const ImVec2& size) {
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize(size);
-}
-
-constexpr ImGuiWindowFlags kDialog = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove;
-
 std::size_t gaussians_to_export(const Studio& studio, ExportWhat what) {
   const Document& document = studio.document();
   const std::size_t object = studio.gaussians_of(document.active);
@@ -255,12 +247,10 @@ void export_dialog(UiContext& ui) {
       choice.for_want_of_object = true;
     }
     if (ui.state.exporting.path.empty()) propose_path(ui);
-    ImGui::OpenPopup(id);
   }
   constexpr float kWidth = 640, kHeight = 478, kPreview = 330;
   const bool previews = ImGui::GetIO().DisplaySize.x >= kWidth + kPreview;
-  centre_next_window({previews ? kWidth + kPreview : kWidth, kHeight});
-  if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
+  if (!begin_dialog(id, ui.state.export_open, {previews ? kWidth + kPreview : kWidth, kHeight})) return;
   const bool dragging = ui.state.export_preview.grips.drag.has_value();  // Esc is for that
   const bool typing = typing_beside("##path");
   if (previews) {
@@ -322,11 +312,10 @@ void export_dialog(UiContext& ui) {
 }
 
 void help_page(UiContext& ui) {
-  const char* id = "Keys and pointer###help";
-  if (ui.state.help_open && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  centre_next_window({std::min(1060.0f, screen.x - 40), std::min(720.0f, screen.y - 40)});
-  if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
+  if (!begin_dialog("Keys and pointer###help", ui.state.help_open,
+                    {std::min(1060.0f, screen.x - 40), std::min(720.0f, screen.y - 40)}))
+    return;
   ImGui::BeginChild("keys", {0, -40});
   const int columns = std::clamp(static_cast<int>(ImGui::GetContentRegionAvail().x / 300), 1, 3);
   ImGui::Columns(columns, "groups", false);
@@ -352,10 +341,8 @@ void help_page(UiContext& ui) {
 }
 
 void open_anyway_dialog(UiContext& ui) {
-  const char* id = "Open without saving?###open_anyway";
-  if (ui.state.open_asked && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
-  centre_next_window({430, 150});
-  if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
+  if (!begin_dialog("Open without saving?###open_anyway", ui.state.open_asked.has_value(), {430, 150}))
+    return;
   const std::string name = ui.state.open_asked ? scene_name(ui.state.open_asked->path) : "";
   wrapped_muted(
       ui, fmt::format("The objects and strokes were not saved since they changed; opening {} ends that work.",
@@ -377,10 +364,7 @@ void open_anyway_dialog(UiContext& ui) {
 }
 
 void quit_dialog(UiContext& ui) {
-  const char* id = "Leave without saving?###quit";
-  if (ui.state.quit_asked && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
-  centre_next_window({430, 150});
-  if (!ImGui::BeginPopupModal(id, nullptr, kDialog)) return;
+  if (!begin_dialog("Leave without saving?###quit", ui.state.quit_asked, {430, 150})) return;
   wrapped_muted(ui,
                 "The objects and strokes were not saved since they changed. A copy is kept all the same and "
                 "offered at the next start.");

@@ -221,14 +221,9 @@ void file_dialog(UiContext& ui) {
     default:
       break;
   }
-  const char* id = "###files";
-  if (files.open && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
-  const ImVec2 middle = {ImGui::GetIO().DisplaySize.x / 2, ImGui::GetIO().DisplaySize.y / 2};
-  ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({std::min(760.0f, ImGui::GetIO().DisplaySize.x - 20),
-                            std::min(480.0f, ImGui::GetIO().DisplaySize.y - 20)});
-  if (!ImGui::BeginPopupModal((files.title + id).c_str(), nullptr,
-                              ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  if (!begin_dialog((files.title + "###files").c_str(), files.open,
+                    {std::min(760.0f, screen.x - 20), std::min(480.0f, screen.y - 20)}))
     return;
   bool chosen = false;
   if (button(ui, icon::kUp, "The folder above")) files.enter(files.folder.parent_path());
@@ -277,12 +272,7 @@ void file_dialog(UiContext& ui) {
 }
 
 void replace_dialog(UiContext& ui) {
-  const char* id = "Replace the file?###replace";
-  if (ui.state.replace_asked && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({430, 150});
-  if (!ImGui::BeginPopupModal(id, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return;
+  if (!begin_dialog("Replace the file?###replace", ui.state.replace_asked.has_value(), {430, 150})) return;
   const std::filesystem::path path = ui.state.replace_asked.value_or("");
   wrapped_muted(ui, path.filename().string() + " is there already. What it holds would be gone.");
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);

@@ -57,29 +57,6 @@ Interface::Interface() : context_(ImGui::CreateContext()) {
   io.LogFilename = nullptr;
   io.ConfigDragClickToInputText = true;  // a double-click may fall between two frames
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-  const std::pair<ImGuiKey, int> kKeys[] = {{ImGuiKey_Tab, key::kTab},
-                                            {ImGuiKey_LeftArrow, key::kLeft},
-                                            {ImGuiKey_RightArrow, key::kRight},
-                                            {ImGuiKey_UpArrow, key::kUp},
-                                            {ImGuiKey_DownArrow, key::kDown},
-                                            {ImGuiKey_PageUp, key::kPageUp},
-                                            {ImGuiKey_PageDown, key::kPageDown},
-                                            {ImGuiKey_Home, key::kHome},
-                                            {ImGuiKey_End, key::kEnd},
-                                            {ImGuiKey_Insert, key::kInsert},
-                                            {ImGuiKey_Delete, key::kDelete},
-                                            {ImGuiKey_Backspace, key::kBackspace},
-                                            {ImGuiKey_Space, ' '},
-                                            {ImGuiKey_Enter, key::kEnter},
-                                            {ImGuiKey_Escape, key::kEscape},
-                                            {ImGuiKey_KeyPadEnter, key::kKeypadEnter},
-                                            {ImGuiKey_A, 'A'},
-                                            {ImGuiKey_C, 'C'},
-                                            {ImGuiKey_V, 'V'},
-                                            {ImGuiKey_X, 'X'},
-                                            {ImGuiKey_Y, 'Y'},
-                                            {ImGuiKey_Z, 'Z'}};
-  for (const auto& [imgui_key, code] : kKeys) io.KeyMap[imgui_key] = code;
 }
 
 Interface::~Interface() {
@@ -196,6 +173,7 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   export_dialog(ui);
   turntable_dialog(ui);
   help_page(ui);
+  settings_page(ui);
   quit_dialog(ui);
   open_anyway_dialog(ui);
   ImGui::PopFont();
@@ -230,6 +208,9 @@ void Interface::show(UiRequest request, const Studio& studio, UiRenderer* render
       return;
     case UiRequest::kHelp:
       state_.help_open = true;
+      return;
+    case UiRequest::kSettings:
+      state_.settings_open = true;
       return;
     case UiRequest::kTheme:
       state_.dark = !state_.dark;

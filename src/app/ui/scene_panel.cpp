@@ -127,8 +127,6 @@ void scene_panel(UiContext& ui) {
                view.far_share = units / size;
                ui.ask(SetView{view});
              });
-  if (ImGui::Checkbox("As in web viewers", &view.web_low_pass)) ui.ask(SetView{view});
-  tooltip("Thin splats are drawn half as wide as in training; the cut does not change");
   if (ImGui::Checkbox("Centres of the Gaussians", &view.centres)) ui.ask(SetView{view});
   tooltip(tip_of(Action::kCentres));
   if (ImGui::Checkbox("Rings of the Gaussians", &view.rings)) ui.ask(SetView{view});

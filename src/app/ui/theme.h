@@ -40,14 +40,14 @@ inline constexpr ImU32 kAxisInks[] = {IM_COL32(235, 85, 80, 255), IM_COL32(110, 
 namespace icon {
 inline constexpr const char *kOpen = "\xef\x81\xbc", *kSave = "\xef\x83\x87", *kExport = "\xef\x82\x8e",
                             *kUndo = "\xef\x83\xa2", *kRedo = "\xef\x80\x9e", *kCamera = "\xef\x80\xb0",
-                            *kSun = "\xef\x86\x85", *kMoon = "\xef\x86\x86", *kHelp = "\xef\x84\xa8",
-                            *kEye = "\xef\x81\xae", *kEyeOff = "\xef\x81\xb0", *kLock = "\xef\x80\xa3",
-                            *kUnlock = "\xef\x82\x9c", *kPlus = "\xef\x81\xa7", *kMore = "\xef\x85\x81",
-                            *kTrash = "\xef\x87\xb8", *kCheck = "\xef\x80\x8c", *kClose = "\xef\x80\x8d",
-                            *kInfo = "\xef\x81\x9a", *kWarning = "\xef\x81\xb1", *kFolder = "\xef\x81\xbb",
-                            *kFile = "\xef\x85\x9b", *kRefresh = "\xef\x80\xa1", *kFilm = "\xef\x80\x88",
-                            *kTint = "\xef\x81\x83", *kHeat = "\xef\x81\xad", *kColumns = "\xef\x83\x9b",
-                            *kUp = "\xef\x81\xa2", *kDown = "\xef\x83\x97";
+                            *kGear = "\xef\x80\x93", *kHelp = "\xef\x84\xa8", *kEye = "\xef\x81\xae",
+                            *kEyeOff = "\xef\x81\xb0", *kLock = "\xef\x80\xa3", *kUnlock = "\xef\x82\x9c",
+                            *kPlus = "\xef\x81\xa7", *kMore = "\xef\x85\x81", *kTrash = "\xef\x87\xb8",
+                            *kCheck = "\xef\x80\x8c", *kClose = "\xef\x80\x8d", *kInfo = "\xef\x81\x9a",
+                            *kWarning = "\xef\x81\xb1", *kFolder = "\xef\x81\xbb", *kFile = "\xef\x85\x9b",
+                            *kRefresh = "\xef\x80\xa1", *kFilm = "\xef\x80\x88", *kTint = "\xef\x81\x83",
+                            *kHeat = "\xef\x81\xad", *kColumns = "\xef\x83\x9b", *kUp = "\xef\x81\xa2",
+                            *kDown = "\xef\x83\x97";
 }
 
 }  // namespace splatcut

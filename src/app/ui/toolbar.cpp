@@ -178,7 +178,7 @@ void display_buttons(UiContext& ui) {
   ImGui::SameLine(0, 2);
   action_button(ui, Action::kHeat, icon::kHeat, view.heat);
   gap();
-  action_button(ui, Action::kTheme, ui.state.dark ? icon::kSun : icon::kMoon);
+  action_button(ui, Action::kSettings, icon::kGear, ui.state.settings_open);
   ImGui::SameLine(0, 2);
   action_button(ui, Action::kHelp, icon::kHelp, ui.state.help_open);
 }

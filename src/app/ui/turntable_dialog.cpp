@@ -129,12 +129,8 @@ void turntable_dialog(UiContext& ui) {
   if (ui.state.turntable_open && !ImGui::IsPopupOpen(id)) {
     if (!ui.studio.scene()) return;
     propose(ui);
-    ImGui::OpenPopup(id);
   }
-  const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({560, 298});
-  if (!ImGui::BeginPopupModal(id, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return;
+  if (!begin_dialog(id, ui.state.turntable_open, {560, 298})) return;
   const bool typing = typing_beside("##folder");
   as_row(ui, choice);
   frames_row(ui, choice);

@@ -114,7 +114,8 @@ struct ShownItem {
 struct UiState {
   bool dark = true;
   float ui_scale = 1;  // on top of the screen's own
-  bool help_open = false, history_open = false, quit_asked = false, quit_wanted = false, export_open = false;
+  bool help_open = false, settings_open = false, history_open = false, quit_asked = false,
+       quit_wanted = false, export_open = false;
   std::optional<OpenScene> open_asked, open_now;  // open_asked: would discard unsaved work
   std::optional<bool> history_wanted;             // opens or closes the history section
   bool hint_wanted = true;                        // the first-run hint, until the first click

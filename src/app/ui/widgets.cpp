@@ -17,6 +17,14 @@ ImVec4 colour_of(const Rgb8& c) {
   return {static_cast<float>(c[0]) / 255, static_cast<float>(c[1]) / 255, static_cast<float>(c[2]) / 255, 1};
 }
 
+bool begin_dialog(const char* id, bool wanted, const ImVec2& size) {
+  if (wanted && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({std::min(size.x, screen.x), std::min(size.y, screen.y)});
+  return ImGui::BeginPopupModal(id, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
+}
+
 bool enter_pressed() {
   const bool pressed =
       ImGui::IsKeyPressed(key::kEnter, false) || ImGui::IsKeyPressed(key::kKeypadEnter, false);

@@ -22,6 +22,10 @@ bool button(UiContext& ui, const char* label, const std::string& tip, const std:
 // A button without a tooltip. width -1: as wide as there is room.
 bool plain_button(UiContext& ui, const char* label, float width = 0);
 
+// A dialog in the middle of the window, which opens when it is wanted. True while it is shown; EndPopup()
+// ends it then.
+bool begin_dialog(const char* id, bool wanted, const ImVec2& size);
+
 bool enter_pressed();   // a dialog's default answer, where nothing else takes the key
 bool escape_pressed();  // leaves a dialog; a key that closed the one before says nothing to this one
 

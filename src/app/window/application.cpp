@@ -22,9 +22,38 @@ bool repeats(Action action) {
          action == Action::kCursor;
 }
 
+// The keys that ImGui knows, by the codes of KeyChanged.
+void name_keys(ImGuiIO& io) {
+  const std::pair<ImGuiKey, int> kKeys[] = {{ImGuiKey_Tab, key::kTab},
+                                            {ImGuiKey_LeftArrow, key::kLeft},
+                                            {ImGuiKey_RightArrow, key::kRight},
+                                            {ImGuiKey_UpArrow, key::kUp},
+                                            {ImGuiKey_DownArrow, key::kDown},
+                                            {ImGuiKey_PageUp, key::kPageUp},
+                                            {ImGuiKey_PageDown, key::kPageDown},
+                                            {ImGuiKey_Home, key::kHome},
+                                            {ImGuiKey_End, key::kEnd},
+                                            {ImGuiKey_Insert, key::kInsert},
+                                            {ImGuiKey_Delete, key::kDelete},
+                                            {ImGuiKey_Backspace, key::kBackspace},
+                                            {ImGuiKey_Space, ' '},
+                                            {ImGuiKey_Enter, key::kEnter},
+                                            {ImGuiKey_Escape, key::kEscape},
+                                            {ImGuiKey_KeyPadEnter, key::kKeypadEnter},
+                                            {ImGuiKey_A, 'A'},
+                                            {ImGuiKey_C, 'C'},
+                                            {ImGuiKey_V, 'V'},
+                                            {ImGuiKey_X, 'X'},
+                                            {ImGuiKey_Y, 'Y'},
+                                            {ImGuiKey_Z, 'Z'}};
+  for (const auto& [imgui_key, code] : kKeys) io.KeyMap[imgui_key] = code;
+}
+
 }  // namespace
 
 Application::Application(const ApplicationOptions& options) : studio_(options.studio) {
+  interface_.make_current();
+  name_keys(ImGui::GetIO());
   if (!options.sample.empty() && std::filesystem::exists(options.sample))
     interface_.state().sample = options.sample;
   choose_renderer(options.renderer);

@@ -23,6 +23,7 @@ Settings load_settings(const std::filesystem::path& file) {
     s.hint_wanted = json.value("hint", s.hint_wanted);
     s.ui_scale = std::clamp(json.value("ui_scale", s.ui_scale), 0.5f, 4.0f);
     s.view.brush_px = std::clamp(json.value("brush_px", s.view.brush_px), kLeastBrushPx, kMostBrushPx);
+    s.view.fly_speed = std::clamp(json.value("fly_speed", s.view.fly_speed), kLeastKeptSpeed, kMostKeptSpeed);
     s.view.tint = json.value("tint", s.view.tint);
     s.view.outline = json.value("outline", s.view.outline);
     s.view.web_low_pass = json.value("web_low_pass", s.view.web_low_pass);
@@ -49,6 +50,7 @@ void save_settings(const std::filesystem::path& file, const Settings& s) {
                          {"hint", s.hint_wanted},
                          {"ui_scale", s.ui_scale},
                          {"brush_px", s.view.brush_px},
+                         {"fly_speed", s.view.fly_speed},
                          {"tint", s.view.tint},
                          {"outline", s.view.outline},
                          {"recent", recent},
@@ -57,6 +59,25 @@ void save_settings(const std::filesystem::path& file, const Settings& s) {
   if (s.position) json["position"] = {s.position->x, s.position->y};
   std::filesystem::create_directories(file.parent_path());
   write_text_file(file, json_text(json, 2) + "\n", PowerCut::kMayLeaveNone);  // the window waits for it
+}
+
+void use_settings(const Settings& settings, Application* app) {
+  UiState& state = app->interface().state();
+  state.dark = settings.dark;
+  state.ui_scale = settings.ui_scale;
+  state.hint_wanted = settings.hint_wanted;
+  state.recent = settings.recent;
+  app->studio().apply(SetView{settings.view});
+}
+
+Settings settings_of(Application& app, Settings kept) {
+  const UiState& state = app.interface().state();
+  kept.dark = state.dark;
+  kept.ui_scale = state.ui_scale;
+  kept.hint_wanted = state.hint_wanted;
+  kept.recent = state.recent;
+  set_what_is_kept(app.studio().view(), &kept.view);
+  return kept;
 }
 
 void SettingsKeeper::keep(const Settings& now) {

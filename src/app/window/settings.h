@@ -1,5 +1,5 @@
-// What is remembered between runs: window, theme, tool settings, recent files. A file that cannot be read is
-// ignored.
+// What is remembered between runs: window, what the settings page sets, recent files. A file that cannot be
+// read is ignored.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/document/view_state.h"
+#include "app/window/application.h"
 
 namespace splatcut {
 
@@ -17,13 +18,18 @@ struct Settings {
   bool dark = true, hint_wanted = true;
   float ui_scale = 1;
   std::vector<std::filesystem::path> recent;
-  ViewState view;  // brush, tints and outline of it; tools and display modes start afresh
+  ViewState view;  // brush, speed, tints and outline of it; tools and display modes start afresh
 
   bool operator==(const Settings&) const = default;
 };
 
 Settings load_settings(const std::filesystem::path& file);
 void save_settings(const std::filesystem::path& file, const Settings& settings);  // throws Error
+
+// Sets the program as it was kept, but for the window's place.
+void use_settings(const Settings& settings, Application* app);
+// As the program is set now; the window's place is that of `kept`.
+Settings settings_of(Application& app, Settings kept);
 
 // Writes them as they change, so that a killed program loses none.
 class SettingsKeeper {

@@ -134,7 +134,7 @@ Modifiers held_modifiers(GLFWwindow* window) {
 struct Loop {
   GLFWwindow* window;
   Application& app;
-  float ui_scale;
+  float asked_scale = 0;  // of the interface, for this run alone; 0: none was asked for
   double last_event_s = 0;
   double events_ms = 0;  // since the last frame
 
@@ -150,7 +150,7 @@ struct Loop {
   float pixels_per_point() const {
     float x = 1, y = 1;
     glfwGetWindowContentScale(window, &x, &y);
-    return std::max(0.5f, x * ui_scale);
+    return std::max(0.5f, x * app.interface().state().ui_scale);
   }
   void fit() const {
     int width = 0, height = 0;
@@ -235,16 +235,10 @@ void remember_place(GLFWwindow* window, Settings* settings) {
 
 // What is remembered, as it is now.
 Settings settings_now(const Loop& loop, Settings settings) {
+  const float kept_scale = settings.ui_scale;
   remember_place(loop.window, &settings);
-  const UiState& state = loop.app.interface().state();
-  settings.dark = state.dark;
-  settings.hint_wanted = state.hint_wanted;
-  settings.recent = state.recent;
-  const ViewState& view = loop.app.studio().view();
-  settings.view.brush_px = view.brush_px;
-  settings.view.tint = view.tint;
-  settings.view.outline = view.outline;
-  settings.view.web_low_pass = view.web_low_pass;
+  settings = settings_of(loop.app, settings);
+  if (settings.ui_scale == loop.asked_scale) settings.ui_scale = kept_scale;
   return settings;
 }
 
@@ -336,17 +330,14 @@ void run_window(const WindowOptions& options) {
   const Glfw glfw;
   const GlfwWindow window(place_of(options, settings));
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  const float ui_scale = options.ui_scale > 0 ? options.ui_scale : settings.ui_scale;
   {
     Application app(
         {{glfwPostEmptyEvent, false, state_folder(), options.cache}, options.renderer, sample_of_program()});
-    Loop loop{window.handle, app, ui_scale};
+    Loop loop{window.handle, app, options.ui_scale};
     UiState& state = app.interface().state();
-    state.dark = settings.dark;
     state.native_wanted = true;
-    state.hint_wanted = settings.hint_wanted;
-    state.recent = settings.recent;
-    app.studio().apply(SetView{settings.view});
+    use_settings(settings, &app);
+    if (options.ui_scale > 0) state.ui_scale = options.ui_scale;
     install_clipboard(window.handle);
     glfwSetWindowUserPointer(window.handle, &loop);
     install_callbacks(window.handle);

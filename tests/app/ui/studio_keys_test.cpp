@@ -85,6 +85,7 @@ const std::map<Action, Check> kChecks = {
     {Action::kExport, dialog()},
     {Action::kSnapshot, dialog()},
     {Action::kHelp, dialog()},
+    {Action::kSettings, dialog()},
     {Action::kQuit, dialog()},  // asks, as the work is not saved
     {Action::kUndo, [](HeadlessApp& app, const Before&) { return app.studio().history().can_redo(); }},
     {Action::kRedo, [](HeadlessApp& app, const Before&) { return !app.studio().history().can_redo(); }},

@@ -24,6 +24,8 @@ QUICK_CASE("settings",
   settings.maximized = true;
   settings.dark = false;
   settings.view.web_low_pass = true;
+  settings.view.fly_speed = 2.5f;
+  settings.ui_scale = 1.25f;
   settings.recent = {place.path()};
   save_settings(file, settings);
   const Settings read = load_settings(file);
@@ -34,6 +36,8 @@ QUICK_CASE("settings",
   CHECK(read.maximized);
   CHECK_FALSE(read.dark);
   CHECK(read.view.web_low_pass);
+  CHECK(read.view.fly_speed == 2.5f);
+  CHECK(read.ui_scale == 1.25f);
   CHECK(read.recent == settings.recent);
   settings.position.reset();
   save_settings(file, settings);
@@ -73,6 +77,84 @@ QUICK_CASE("settings", "settings: as in web viewers is the low-pass of what is d
   view.web_low_pass = true;
   app.studio().apply(SetView{view});
   CHECK(app.studio().viewport().draw_limits().low_pass_px2 == kWebLowPassPx2);
+}
+
+TEST_CASE("settings: what the page sets is what is kept, and what the next start begins with") {
+  HeadlessApp app(1280, 800);
+  app.frames(2);
+  app.key(',', {.ctrl = true});
+  REQUIRE(app->interface().dialog_open());
+  UiState& state = app.interface_state();
+  state.recent = {kSmallSample};
+  app.press_item("Settings", {"Light"});
+  CHECK_FALSE(state.dark);
+  app.press_item("Settings", {"125 %"});
+  CHECK(state.ui_scale == 1.25f);
+  app.press_item("Settings", {"Tint"});
+  app.press_item("Settings", {"Outline"});
+  app.press_item("Settings", {"As in web viewers"});
+  app.type_into("Settings", {"##speed"}, "3");
+  app.key(key::kEnter);
+  CHECK(app->interface().dialog_open());  // that was for the number
+  app.type_into("Settings", {"##radius"}, "200");
+  app.key(key::kEnter);
+  app.press_item("Settings", {"Forget them"});
+  app.key(key::kEscape);
+  CHECK_FALSE(app->interface().dialog_open());
+
+  Settings before;
+  before.width = 1234;
+  const Settings kept = settings_of(*app, before);
+  CHECK(kept.width == 1234);
+  CHECK_FALSE(kept.dark);
+  CHECK(kept.ui_scale == 1.25f);
+  CHECK_FALSE(kept.view.tint);
+  CHECK_FALSE(kept.view.outline);
+  CHECK(kept.view.web_low_pass);
+  CHECK(kept.view.fly_speed == 3);
+  CHECK(kept.view.brush_px == kMostBrushPx);
+  CHECK(kept.recent.empty());
+  HeadlessApp next(1280, 800);
+  use_settings(kept, &*next);
+  CHECK(settings_of(*next, before) == kept);
+  next.open(kSmallSample);
+  REQUIRE(next.settle());
+  CHECK(next.studio().view().fly_speed == 3);  // of every scene
+  CHECK_FALSE(next.studio().view().tint);
+
+  next.key(',', {.ctrl = true});
+  next.press_item("Settings", {"Reset all"});
+  const Settings reset = settings_of(*next, before);
+  CHECK(reset.dark);
+  CHECK(reset.ui_scale == 1);
+  CHECK(reset.view == ViewState());
+  CHECK(reset.recent.size() == 1);
+}
+
+TEST_CASE("settings: the page is behind a button, fits the smallest window, and no size hides it") {
+  HeadlessApp app(640, 480);
+  app.frames(2);
+  const UiRect gear = app.button(icon::kGear);
+  REQUIRE(gear.size().x > 10);
+  app.click(0.5f * (gear.min + gear.max));
+  app.frames(4);
+  REQUIRE(app->interface().dialog_open());
+  for (const char* name : {"Light", "200 %", "Forget them", "Reset all", "Close"}) {
+    CAPTURE(name);
+    const UiRect button = app.button(name), page = app.window("Settings");
+    CHECK(button.size().x > 10);
+    CHECK(page.contains(button.min));
+    CHECK(page.contains(button.max));
+  }
+  const auto press = [&](const char* name) {
+    const UiRect button = app.button(name);
+    app.click(0.5f * (button.min + button.max));
+    app.frames(2);
+  };
+  press("125 %");
+  CHECK(app.interface_state().ui_scale == 1);  // there is no room for it
+  press("75 %");
+  CHECK(app.interface_state().ui_scale == 0.75f);
 }
 
 TEST_CASE(
