@@ -69,7 +69,6 @@ constexpr std::array kOwnBindings = {
     Binding{Action::kDelete, key::kDelete, kPlain, "Selection", "Delete from the scene"},
     Binding{Action::kNewObject, 'N', kCtrl, "Selection", "New object"},
     Binding{Action::kIsolate, 'I', kPlain, "Display", "Isolate the object"},
-    Binding{Action::kIsolate, key::kTab, kPlain, "Display", "Isolate the object"},
     Binding{Action::kHide, 'H', kPlain, "Display", "Hide the object"},
     Binding{Action::kShowAll, 'H', kShift, "Display", "Show everything"},
     Binding{Action::kSideBySide, 'B', kPlain, "Display",
@@ -118,8 +117,6 @@ std::string plain_name(int code) {
       return "Enter";
     case key::kKeypadEnter:
       return "Keypad Enter";
-    case key::kTab:
-      return "Tab";
     case key::kDelete:
       return "Del";
     case key::kLeft:

@@ -109,7 +109,7 @@ const Tool* tool_of(Action action);
 Action action_for(int key, const Modifiers& modifiers);
 
 std::string key_name(int key, const Modifiers& modifiers);  // name of a key: "Ctrl+Shift+Z"
-std::string keys_of(Action action);  // all keys of the action: "I, Tab"; empty: it has none
+std::string keys_of(Action action);  // all keys of the action: "Ctrl+Shift+Z, Ctrl+Y"; empty: it has none
 const char* name_of(Action action);  // Binding::what of the action
 
 // Direction in the picture of an arrow key, x right, y down; 0, 0: it is no arrow key.

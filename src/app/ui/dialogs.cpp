@@ -229,7 +229,8 @@ void pointer_help(UiContext& ui) {
       "and smaller parts of what was clicked first; while a flight key is held, it changes the speed. While "
       "other meanings of a click are shown, 1, 2 and 3 "
       "choose; Esc keeps the one that is taken. Every tool: Shift adds, Ctrl removes, Alt intersects. "
-      "Alt+wheel changes the brush.");
+      "Alt+wheel changes the brush. Tab and Shift+Tab mark buttons and fields, Enter presses what is "
+      "marked.");
   ImGui::PopTextWrapPos();
 }
 

@@ -176,6 +176,9 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   settings_page(ui);
   quit_dialog(ui);
   open_anyway_dialog(ui);
+  if (const auto& m = state_.marked)
+    ImGui::GetForegroundDrawList()->AddRect({m->min.x - 2, m->min.y - 2}, {m->max.x + 2, m->max.y + 2},
+                                            packed(p.text), 7, 0, 2);
   ImGui::PopFont();
   ImGui::Render();
 }

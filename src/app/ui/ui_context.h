@@ -145,6 +145,7 @@ struct UiState {
   std::string new_name;
   std::string renderer_line;  // which renderer draws, and why
   std::vector<ShownItem> items;
+  std::optional<ShownItem> marked;  // what Enter presses; Tab goes on from there
 };
 
 struct UiContext {

@@ -22,10 +22,9 @@ bool repeats(Action action) {
          action == Action::kCursor;
 }
 
-// The keys that ImGui knows, by the codes of KeyChanged.
+// The keys that ImGui knows, by the codes of KeyChanged; Tab is not for it, see FocusWalk.
 void name_keys(ImGuiIO& io) {
-  const std::pair<ImGuiKey, int> kKeys[] = {{ImGuiKey_Tab, key::kTab},
-                                            {ImGuiKey_LeftArrow, key::kLeft},
+  const std::pair<ImGuiKey, int> kKeys[] = {{ImGuiKey_LeftArrow, key::kLeft},
                                             {ImGuiKey_RightArrow, key::kRight},
                                             {ImGuiKey_UpArrow, key::kUp},
                                             {ImGuiKey_DownArrow, key::kDown},
@@ -108,6 +107,7 @@ void Application::handle_one(const PointerButtonChanged& event) {
   const auto index = static_cast<std::size_t>(event.button);
   set_modifiers(event.modifiers);
   button_down_[index] = event.down;
+  if (event.down) walk_.leave();
   if (event.down) pressed_since_frame_[index] = true;
   if (!event.down) {
     if (dragging_picture_) studio_.pointer_released(in_viewport_px(pointer_), event.button, event.modifiers);
@@ -143,7 +143,28 @@ void Application::handle_one(const WheelTurned& event) {
     ImGui::GetIO().MouseWheel += event.steps;
 }
 
+bool Application::walks(const KeyChanged& event) {
+  if (!event.down) return false;
+  if (event.key == key::kTab && !event.modifiers.ctrl && !event.modifiers.alt) {
+    walk_.step(event.modifiers.shift ? -1 : 1);
+    return true;
+  }
+  if (ImGui::GetIO().WantTextInput) return false;
+  switch (event.key) {
+    case ' ':
+    case key::kEnter:
+    case key::kKeypadEnter:
+      return event.repeated ? walk_.mark().has_value() : walk_.press();
+    case key::kEscape:
+      return walk_.leave() && !interface_.dialog_open();
+    default:
+      if (action_for(event.key, event.modifiers) == Action::kCursor) walk_.leave();
+      return false;
+  }
+}
+
 void Application::handle_one(const KeyChanged& event) {
+  if (walks(event)) return;
   type(event);
   if (!event.down) return studio_.key_released(event.key);
   if (ImGui::GetIO().WantTextInput || interface_.dialog_open()) return;
@@ -247,7 +268,7 @@ bool Application::frame(double seconds) {
   if (const auto command = std::exchange(interface_.state().open_now, {})) studio_.apply(*command);
   times.requests = lap();
   if (times.total() > longest_.total()) longest_ = times;
-  return busy || !held_back_.empty() || !ask.actions.empty() || !ask.commands.empty();
+  return busy || walk_.searching() || !held_back_.empty() || !ask.actions.empty() || !ask.commands.empty();
 }
 
 void Application::build_interface(double seconds, Requests* ask) {
@@ -262,7 +283,10 @@ void Application::build_interface(double seconds, Requests* ask) {
     for (std::size_t i = 0; i < 2; ++i) gpu_pictures[i] = texture_id(textures[i]);
     glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
   }
+  interface_.state().marked = walk_.mark();
+  walk_.before_frame();
   interface_.build(studio_, seconds, &renderer_, gpu_pictures, ask);
+  walk_.after_frame();
   type_held_back();
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/studio/studio.h"
 #include "app/ui/interface.h"
+#include "app/window/focus_walk.h"
 #include "app/window/gpu_view.h"
 #include "app/window/ui_events.h"
 #include "render/context.h"
@@ -63,6 +64,7 @@ class Application {
   // pressed and released between two frames waits for the next.
   using TypedEvent = std::variant<KeyChanged, TextTyped>;
   void type(const TypedEvent& event);
+  bool walks(const KeyChanged& event);  // true: the key was for the walk of Tab alone
   void type_now(const KeyChanged& event);
   void type_now(const TextTyped& event);
   void type_held_back();
@@ -76,6 +78,7 @@ class Application {
   Interface interface_;
   UiRenderer renderer_;
   std::unique_ptr<GpuView> gpu_;
+  FocusWalk walk_;
   glm::vec2 size_points_{1280, 720};
   float pixels_per_point_ = 1;
   glm::vec2 pointer_{-1e6f, -1e6f};

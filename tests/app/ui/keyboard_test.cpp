@@ -1,7 +1,8 @@
-// The program by keys alone: the cursor in the picture that arrows move.
+// The program by keys alone: the cursor in the picture that arrows move, Tab through all that can be pressed.
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "hands.h"
@@ -34,6 +35,43 @@ std::vector<std::uint8_t> labels_of(Hands& hands) {
 
 glm::vec2 cursor_on_screen(Hands& hands) {
   return hands.app->interface().viewport().min + *hands.studio().cursor_px();
+}
+
+// The corner of what Tab has marked.
+using Corner = std::pair<float, float>;
+std::optional<Corner> marked(Hands& hands) {
+  hands.app.frames(12);  // it looks for the next one
+  const auto& mark = hands.app.interface_state().marked;
+  return mark ? std::optional(Corner(mark->min.x, mark->min.y)) : std::nullopt;
+}
+
+// What Tab comes by until it is where it began: items, and their corners.
+struct Round {
+  std::vector<ImGuiID> items;
+  std::vector<Corner> corners;
+};
+Round round_by_tab(Hands& hands, const Modifiers& held) {
+  Round round;
+  for (;;) {
+    hands.app.key(key::kTab, held);
+    const std::optional<Corner> corner = marked(hands);
+    REQUIRE(corner);
+    if (!round.items.empty() && GImGui->NavId == round.items.front()) return round;
+    round.items.push_back(GImGui->NavId);
+    round.corners.push_back(*corner);
+    REQUIRE(round.items.size() < 200);
+  }
+}
+
+// Presses Tab until a button is marked, by what stands on it.
+void tab_to(Hands& hands, std::string_view name) {
+  for (int i = 0; i < 100; ++i) {
+    hands.app.key(key::kTab);
+    const std::optional<Corner> corner = marked(hands);
+    const UiRect button = hands.app.button(name);
+    if (corner == Corner(button.min.x, button.min.y)) return;
+  }
+  FAIL("Tab does not come to ", std::string(name));
 }
 
 }  // namespace
@@ -181,4 +219,96 @@ TEST_CASE("keyboard: the cursor is drawn where it clicks") {
     }
   CHECK(near > 80);
   CHECK(inside == 0);  // what is clicked stays in sight
+}
+
+TEST_CASE("keyboard: Tab comes by all that can be pressed, Shift+Tab the other way") {
+  Hands hands;
+  hands.app.wait_for_message_to_go();
+  const Round round = round_by_tab(hands, {});
+  const std::vector<ShownItem>& items = hands.app.interface_state().items;
+  std::set<std::string> passed_over;
+  for (const ShownItem& item : items)
+    if (item.name != "picture" && !std::ranges::count(round.corners, Corner(item.min.x, item.min.y)))
+      passed_over.insert(item.name);
+  // Nothing was undone, and the smoothness is the usual one.
+  CHECK(passed_over == std::set<std::string>{icon::kRedo, icon::kRefresh});
+  CHECK(round.items.size() > items.size() + tools().size());  // sections, sliders and cards, too
+  CHECK(std::set(round.items.begin(), round.items.end()).size() == round.items.size());
+  hands.app.click({5, kHandsHeight - 5});
+  for (int i = 0; i < 3; ++i) {  // faster than frames
+    hands.app->handle(KeyChanged{key::kTab, true, false, {}});
+    hands.app->handle(KeyChanged{key::kTab, false, false, {}});
+  }
+  CHECK(marked(hands) == round.corners[2]);
+  std::vector<ImGuiID> back = round_by_tab(hands, kShift).items;
+  std::ranges::reverse(back);
+  const auto first = std::ranges::find(back, round.items.front());
+  REQUIRE(first != back.end());
+  std::ranges::rotate(back, first);
+  CHECK(back == round.items);
+}
+
+TEST_CASE(
+    "keyboard: Enter and Space press what Tab has marked; Esc, the mouse and arrows take the mark away") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  for (const int code : {int(key::kEnter), int(' ')}) {
+    const bool tint = studio.view().tint;
+    tab_to(hands, icon::kTint);
+    hands.app.key(code);
+    hands.app.frames(3);
+    CHECK(studio.view().tint == !tint);
+  }
+  const Tool& tool = tool_of(studio.view().tool);
+  hands.app.key(key::kEscape);
+  CHECK_FALSE(marked(hands));
+  CHECK(tool_of(studio.view().tool) == tool);
+  hands.app.key(key::kTab);
+  CHECK(marked(hands));
+  hands.app.click({5, kHandsHeight - 5});
+  CHECK_FALSE(marked(hands));
+  tab_to(hands, icon::kTint);
+  const std::size_t strokes = studio.document().active_object()->views.size();
+  walk_to(hands, hands.app.screen_of(kOnOrange));
+  CHECK_FALSE(marked(hands));
+  const bool tint = studio.view().tint;
+  hands.app.key(key::kEnter);
+  CHECK(studio.view().tint == tint);
+  CHECK(studio.document().active_object()->views.size() + studio.document().objects.size() > strokes);
+}
+
+TEST_CASE("keyboard: a field that Tab comes to takes what is typed, and Tab goes on") {
+  Hands hands;
+  ImGuiIO& io = ImGui::GetIO();
+  for (int i = 0; i < 100 && !io.WantTextInput; ++i) {
+    hands.app.key(key::kTab);
+    marked(hands);
+  }
+  REQUIRE(io.WantTextInput);
+  const std::optional<Corner> field = marked(hands);
+  hands.app->handle(TextTyped{'7'});
+  hands.app.frames(2);
+  hands.app.key(key::kTab);
+  CHECK(marked(hands) != field);
+  CHECK_FALSE(io.WantTextInput);
+  CHECK(hands.studio().document().active_object()->smoothness == 7);
+}
+
+TEST_CASE("keyboard: in the settings Tab comes by what is in them alone, and Enter presses that") {
+  Hands hands(false);
+  hands.app.key(',', kCtrl);
+  hands.app.frames(3);
+  const UiRect page = hands.app.window("Settings");
+  const std::vector<Corner> corners = round_by_tab(hands, {}).corners;
+  CHECK(corners.size() == 12);  // two themes, the two sizes that fit, two sliders, three boxes, ...
+  for (const Corner& p : corners) CHECK(page.contains({p.first, p.second}));
+  tab_to(hands, "Light");
+  hands.app.key(key::kEnter);
+  hands.app.frames(3);
+  CHECK_FALSE(hands.app.interface_state().dark);
+  CHECK(hands.app->interface().dialog_open());
+  hands.app.key(key::kEscape);
+  hands.app.frames(3);
+  CHECK_FALSE(hands.app->interface().dialog_open());
+  CHECK_FALSE(marked(hands));
 }
