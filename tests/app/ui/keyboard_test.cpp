@@ -116,6 +116,8 @@ TEST_CASE("keyboard: Enter cuts what a click at the cursor cuts, Ctrl+Enter what
   CHECK(std::ranges::count(apple, 1) > 20);
   CHECK(apple == labels_of(mouse));
   CHECK(keys.studio().cursor_px());  // for the next click
+  for (int i = 0; i < 20; ++i) keys.app.key(key::kDown, kShift);
+  CHECK(cursor_on_screen(keys).y < keys.app.window("strip").min.y - 14);  // the thumbnails do not hide it
   walk_to(keys, keys.app.screen_of(kOnApple) + glm::vec2(0, -9));
   const glm::vec2 above = cursor_on_screen(keys);
   keys.app.key(key::kEnter, kCtrl);
