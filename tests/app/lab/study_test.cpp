@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-json result(const std::string& series, double x, double iou, double ms, const std::string& warned = "") {
+json result(const std::string& series, double x, double iou, double cpu_ms, const std::string& warned = "") {
   return {{"experiment", "e"},
           {"series", series},
           {"x", x},
@@ -26,10 +26,10 @@ json result(const std::string& series, double x, double iou, double ms, const st
           {"image_iou", iou},
           {"boundary_iou", 0.5},
           {"gaussian_iou", nullptr},
-          {"ms", ms},
-          {"looked_at_mpx", ms / 100},
+          {"cpu_ms", cpu_ms},
+          {"looked_at_mpx", cpu_ms / 100},
           {"warned", warned},
-          {"stages", {{"cut", ms}}}};
+          {"stages", {{"cut", cpu_ms}}}};
 }
 
 // The apple of a still life of 8,000 Gaussians, loaded.
@@ -62,7 +62,7 @@ TEST_CASE("scores over scenes and draws: quantiles, failures, and whether they w
   CHECK(s.p10 == doctest::Approx(0.1));
   CHECK(s.median == doctest::Approx(0.5));
   CHECK(s.p90 == doctest::Approx(0.9));
-  CHECK(s.ms == 10);
+  CHECK(s.cpu_ms == 10);
   CHECK(s.failed == 17);  // .05 to .85
   CHECK(s.failed_warned == 1);
   CHECK(s.fine_warned == 1);
@@ -78,8 +78,8 @@ TEST_CASE("the front: what nothing cheaper beats, and how far others are behind 
   CHECK(front[0].series == "quick");
   CHECK(front[1].series == "middle");
   CHECK(front[2].series == "slow");
-  CHECK(behind_front(scores[0], scores, &SettingScore::ms) == 0);
-  CHECK(behind_front(scores[2], scores, &SettingScore::ms) == doctest::Approx(0.2));
+  CHECK(behind_front(scores[0], scores, &SettingScore::cpu_ms) == 0);
+  CHECK(behind_front(scores[2], scores, &SettingScore::cpu_ms) == doctest::Approx(0.2));
   CHECK(behind_front(scores[2], scores, &SettingScore::looked_at_mpx) == doctest::Approx(0.2));
 }
 

@@ -59,7 +59,7 @@ std::string pivot(const PaperTable& table, const std::vector<SettingScore>& scor
   std::set<double> columns;
   for (const SettingScore& s : scores) columns.insert(list ? 0 : s.x);
   std::vector<std::string> head = {""}, series;
-  for (const double x : columns) head.push_back(list ? "image IoU (s)" : column_name(table, x));
+  for (const double x : columns) head.push_back(list ? "image IoU (CPU s)" : column_name(table, x));
   for (const SettingScore& s : scores)
     if (std::ranges::find(series, s.series) == series.end()) series.push_back(s.series);
   std::string text = head_of(head);
@@ -68,7 +68,7 @@ std::string pivot(const PaperTable& table, const std::vector<SettingScore>& scor
     for (const double x : columns) {
       const auto s = std::ranges::find_if(
           scores, [&](const SettingScore& c) { return c.series == name && (list || c.x == x); });
-      row.push_back(s == scores.end() ? "" : fmt::format("{:.3f} ({:.2f})", s->iou, s->ms / 1000));
+      row.push_back(s == scores.end() ? "" : fmt::format("{:.3f} ({:.2f})", s->iou, s->cpu_ms / 1000));
     }
     text += row_of(row);
   }
@@ -120,12 +120,12 @@ std::string yardsticks(const StudyResults& results) {
                                    ? "preset " + s.label
                                    : "GrabCut, optical flow, threshold " + fmt::format("({:g} views)", s.x);
     rows += row_of({method, fmt::format("these scenes ({} runs)", s.runs), iou_text(s.iou),
-                    fmt::format("{:.2f}", s.ms / 1000)});
+                    fmt::format("{:.2f}", s.cpu_ms / 1000)});
   }
   return "\n### Published and here\n\nOther scenes and other masks: compare the order of methods, not the "
          "figures. "
          "Run `splatcut-lab eval --nvos` and `--spin-nerf` for the same scenes.\n" +
-         head_of({"method", "scenes", "image IoU", "seconds"}) + rows;
+         head_of({"method", "scenes", "image IoU", "CPU seconds here"}) + rows;
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ std::string paper_tables(const StudyResults& results) {
   }
   if (!of_experiment(results, "trade-off").empty()) text += yardsticks(results);
   if (text.empty()) return text;
-  return "\n## The paper's tables on these scenes\n\nImage IoU, mean over the scenes (median seconds in "
+  return "\n## The paper's tables on these scenes\n\nImage IoU, mean over the scenes (median CPU seconds in "
          "brackets).\n" +
          text;
 }

@@ -53,10 +53,10 @@ std::vector<SettingScore> of_series(const std::vector<SettingScore>& scores, con
 void add_block(const std::string& name, const std::vector<SettingScore>& scores, Chart* chart) {
   chart->blocks = chart->csv.empty() ? 1 : chart->blocks + 1;
   if (!chart->csv.empty()) chart->csv += "\n\n";
-  chart->csv += csv_field(name) + ",iou,least,p10,median,p90,seconds,label\n";
+  chart->csv += csv_field(name) + ",iou,least,p10,median,p90,cpu_seconds,label\n";
   for (const SettingScore& s : scores)
     chart->csv += fmt::format("{},{},{},{},{},{},{},{}\n", s.x, s.iou, s.least, s.p10, s.median, s.p90,
-                              s.ms / 1000, csv_field(s.label));
+                              s.cpu_ms / 1000, csv_field(s.label));
 }
 
 void add_blocks(const std::vector<SettingScore>& scores, Chart* chart) {
@@ -89,7 +89,7 @@ Chart trade_off(const StudyResults& results) {
   std::vector<SettingScore> front = pareto_front(scores);
   if (!front.empty()) {  // nothing slower is better
     front.push_back(front.back());
-    front.back().ms = std::ranges::max(scores, {}, &SettingScore::ms).ms;
+    front.back().cpu_ms = std::ranges::max(scores, {}, &SettingScore::cpu_ms).cpu_ms;
   }
   add_block("Pareto front", front, &chart);
   std::vector<SettingScore> presets = of_series(scores, "preset");
@@ -97,7 +97,7 @@ Chart trade_off(const StudyResults& results) {
   std::erase_if(others, [](const SettingScore& s) { return s.series == "preset"; });
   add_blocks(others, &chart);
   chart.commands =
-      "set logscale x\nset xlabel 'seconds from strokes to labels (median over the scenes)'\n"
+      "set logscale x\nset xlabel 'CPU seconds from strokes to labels (median over the scenes)'\n"
       "set ylabel 'image IoU (mean over the scenes)'\nset yrange [*:1]\n"
       "set offsets graph 0.05, graph 0.05, graph 0.06, graph 0.06\n"
       "plot data index 0 using 7:2 with steps lw 2 lc rgb '#222222' title columnheader(1), \\\n"

@@ -17,10 +17,10 @@ namespace {
 
 std::string table_of(const StudyResults& results) {
   std::string text =
-      head_of({"series", "x", "setting", "image IoU", "least", "boundary", "Gaussian", "ms", "runs"});
+      head_of({"series", "x", "setting", "image IoU", "least", "boundary", "Gaussian", "CPU ms", "runs"});
   for (const SettingScore& s : scores_of(results))
     text += row_of({s.series, fmt::format("{:g}", s.x), s.label, iou_text(s.iou), iou_text(s.least),
-                    iou_text(s.boundary), iou_text(s.gaussian_iou), fmt::format("{:.0f}", s.ms),
+                    iou_text(s.boundary), iou_text(s.gaussian_iou), fmt::format("{:.0f}", s.cpu_ms),
                     std::to_string(s.runs)});
   return text;
 }
@@ -96,7 +96,7 @@ std::string study_csv(const StudyResults& results) {
                                    "image_iou",
                                    "boundary_iou",
                                    "gaussian_iou",
-                                   "ms",
+                                   "cpu_ms",
                                    "views",
                                    "views_left_out",
                                    "gaussians",

@@ -40,50 +40,46 @@ const std::vector<EnergyChoice>& energies() {
   return all;
 }
 
+// How masks travel to the other views.
 struct Carry {
   const char *propagate, *refine;
 };
+constexpr Carry kLifted{"lift", "pixelcut"}, kFlown{"dis", "grabcut"};
 
-// First mask x views x resolution x propagator x energy.
+// First mask x views x how masks travel x energy; other numbers of pixels and views are asked in
+// plan_needed().
 void plan_trade_off_grid(StudyGrid* grid) {
-  const std::vector<Carry> carries =
-      grid->quick() ? std::vector<Carry>{{"lift", "none"}, {"dis", "grabcut"}}
-                    : std::vector<Carry>{
-                          {"lift", "none"}, {"lift", "pixelcut"}, {"warp", "pixelcut"}, {"dis", "grabcut"}};
-  for (const char* first : {"parts", "grabcut", "pixelcut"})
-    for (const double views : grid->some({0, 6, 2, 12}))
-      for (const double width : grid->quick() ? std::vector<double>{256} : std::vector<double>{256, 400})
-        for (const Carry& carry : carries) {
-          if (views == 0 && &carry != &carries.front()) continue;  // nothing is carried anywhere
-          for (const EnergyChoice& energy : energies()) {
-            if (grid->quick() && views == 0 && energy.name != energies().front().name) continue;
-            Settings set = energy.set;
-            if (first != std::string("parts"))
-              set.insert(set.end(), {"first.from=pixels", std::string("first.solver=") + first});
-            set.insert(set.end(),
-                       {fmt::format("views.propagate={}", carry.propagate),
-                        fmt::format("views.refine={}", carry.refine), fmt::format("views.most={}", views),
-                        fmt::format("work_width_px={}", width), "views.settled_change=0"});
-            grid->add("trade-off", fmt::format("{}; {}", first, energy.name), views, set);
-          }
+  for (const char* first : {"parts", "grabcut"})
+    for (const double views : grid->some({0, 12}))
+      for (const Carry& carry : {kLifted, kFlown}) {
+        if (views == 0 && carry.propagate == kFlown.propagate) continue;  // nothing is carried anywhere
+        for (const EnergyChoice& energy : energies()) {
+          if (grid->quick() && views == 0 && energy.name != energies().front().name) continue;
+          Settings set = energy.set;
+          if (first != std::string("parts"))
+            set.insert(set.end(), {"first.from=pixels", std::string("first.solver=") + first});
+          set.insert(set.end(), {fmt::format("views.propagate={}", carry.propagate),
+                                 fmt::format("views.refine={}", carry.refine),
+                                 fmt::format("views.most={}", views), "views.settled_change=0"});
+          grid->add("trade-off", fmt::format("{}; {}", first, energy.name), views, set);
         }
+      }
 }
 
 }  // namespace
 
 void plan_trade_off(StudyGrid* grid) {
-  for (const char* preset : {"fast", "default", "best"}) grid->add("trade-off", "preset", 0).preset = preset;
+  for (const Preset& preset : presets())
+    if (!preset.of_paper) grid->add("trade-off", "preset", 0).preset = preset.name;
   grid->add("trade-off", "parts alone", 0).parts_only = true;
   plan_trade_off_grid(grid);
-  for (const char* views : {"12", "40"}) {
-    if (grid->quick() && std::string(views) == "40") continue;
-    for (const char* tau : {"0.5", "0.3"})
-      grid->add("trade-off", "usual pipeline", std::stod(views),
-                {"first.from=pixels", "first.solver=grabcut", "views.propagate=dis", "views.refine=grabcut",
-                 "energy.coarse=1", std::string("energy.tau=") + tau, std::string("views.most=") + views,
-                 "views.settled_change=0", "trim=0"});
-  }
-  for (const char* preset : {"paper", "paper-code"}) grid->add("trade-off", "preset", 0).preset = preset;
+  for (const char* tau : {"0.5", "0.3"})
+    grid->add("trade-off", "usual pipeline", 12,
+              {"first.from=pixels", "first.solver=grabcut", "views.propagate=dis", "views.refine=grabcut",
+               "energy.coarse=1", std::string("energy.tau=") + tau, "views.most=12", "views.settled_change=0",
+               "trim=0"});
+  for (const Preset& preset : presets())
+    if (preset.of_paper) grid->add("trade-off", "preset", 0).preset = preset.name;
 }
 
 namespace {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 
 #include "app/lab/study/study_variants.h"
@@ -195,10 +195,9 @@ std::unique_ptr<StudyRunner::Setup> StudyRunner::set_up(const StudyCell& cell, c
 
 StudyRunner::Timed StudyRunner::cut(const Setup& setup, const Job& job) const {
   Session session = session_of(setup.test);
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   CutResult result = session.cut(setup.request, setup.settings, job);
-  return {std::move(result),
-          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count()};
+  return {std::move(result), 1000.0 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC};
 }
 
 // Many draws end in the same labels: they are drawn and measured once.
@@ -218,7 +217,7 @@ nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
   const auto setup = set_up(cell, job);
   if (!setup) return nullptr;
   const EvaluationCase& test = setup->test;
-  const auto [report, ms] = cut(*setup, job);
+  const auto [report, cpu_ms] = cut(*setup, job);
   if (job.cancelled()) return nullptr;
   const ImageScore score = score_of(cell, test, report.labels);
   nlohmann::json result = to_json(cell);
@@ -228,7 +227,7 @@ nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
   result["gaussian_iou"] = test.truth_labels.empty()
                                ? nlohmann::json()
                                : nlohmann::json(label_iou(test.truth_labels, report.labels));
-  result["ms"] = ms;
+  result["cpu_ms"] = cpu_ms;
   result["views"] = std::ranges::count_if(report.views, &ViewReport::used);
   result["views_left_out"] = std::ranges::count_if(report.views, [](const ViewReport& v) { return !v.used; });
   result["gaussians"] = report.cut.touched;

@@ -42,7 +42,7 @@ class StudyRunner {
                       const std::vector<std::uint8_t>& labels);
   struct Timed {
     CutResult result;
-    double ms = 0;  // from the strokes to the labels
+    double cpu_ms = 0;  // of all threads, from the strokes to the labels
   };
   Timed cut(const Setup& setup, const Job& job) const;
   void load(const Job& job);

@@ -18,7 +18,7 @@ std::string label_of(const nlohmann::json& result) {
 
 struct Group {
   SettingScore score;
-  std::vector<double> ms, iou;
+  std::vector<double> cpu_ms, iou;
   int with_labels = 0;
 };
 
@@ -37,7 +37,7 @@ void add(const nlohmann::json& r, Group* group) {
   s.failed_warned += failed && warned;
   s.fine_warned += !failed && warned;
   group->iou.push_back(iou);
-  group->ms.push_back(r.at("ms"));
+  group->cpu_ms.push_back(r.at("cpu_ms"));
   for (const auto& [stage, ms] : r.at("stages").items()) s.stages[stage] += ms.get<double>();
   ++s.runs;
 }
@@ -48,7 +48,7 @@ SettingScore finished(Group g) {
   for (double* sum : {&s.iou, &s.boundary, &s.looked_at_mpx}) *sum /= n;
   s.gaussian_iou /= std::max(1, g.with_labels);
   for (auto& [stage, ms] : s.stages) ms /= n;
-  s.ms = quantile(g.ms, 0.5);
+  s.cpu_ms = quantile(g.cpu_ms, 0.5);
   s.least = quantile(g.iou, 0);
   s.p10 = quantile(g.iou, 0.1);
   s.median = quantile(g.iou, 0.5);
@@ -95,7 +95,7 @@ std::vector<SettingScore> scores_of(const StudyResults& results) {
 
 std::vector<SettingScore> pareto_front(std::vector<SettingScore> scores) {
   std::ranges::sort(scores, [](const SettingScore& a, const SettingScore& b) {
-    return a.ms != b.ms ? a.ms < b.ms : a.iou > b.iou;
+    return a.cpu_ms != b.cpu_ms ? a.cpu_ms < b.cpu_ms : a.iou > b.iou;
   });
   std::vector<SettingScore> front;
   for (SettingScore& s : scores)

@@ -24,7 +24,7 @@ struct SettingScore {
   double x = 0;
   double iou = 0, boundary = 0, gaussian_iou = 0;  // means
   double least = 1, p10 = 0, median = 0, p90 = 0;  // of the image IoU
-  double ms = 0;                                   // median
+  double cpu_ms = 0;                               // median, of all threads
   double looked_at_mpx = 0;                        // mean
   int runs = 0;                                    // scenes x draws
   int failed = 0, failed_warned = 0,
