@@ -65,12 +65,10 @@ inline std::vector<ClickedPlace> with_captures(std::vector<ClickedPlace> places,
 // The program, standing where the place is clicked.
 class Artist {
  public:
-  explicit Artist(const ClickedPlace& place, const char* preset = "fast")
-      : app(kArtistWidth, kArtistHeight), place_(place) {
+  explicit Artist(const ClickedPlace& place) : app(kArtistWidth, kArtistHeight), place_(place) {
     app.interface_state().hint_wanted = false;
     app.open(place.scene);
     REQUIRE(app.settle());
-    studio().apply(SetPreset{preset});
     go_to(place.camera);
     app.wait_for_message_to_go();
   }

@@ -47,7 +47,7 @@ inline void black_mask(const std::string& name) {  // nothing is labelled
 }
 
 inline std::string cut_with(const std::string& rest) {
-  return "cut " + still_life().scene + " " + still_life().cameras + " --preset fast" + rest;
+  return "cut " + still_life().scene + " " + still_life().cameras + rest;
 }
 
 inline void refused(const std::string& arguments, const std::vector<std::string>& whole,

@@ -18,7 +18,6 @@ class Hands {
     app.open(scene);
     REQUIRE(app.settle());
     if (!cut) return;
-    studio().apply(SetPreset{"fast"});
     app.click(app.screen_of(kOnApple));
     REQUIRE(app.settle());
   }

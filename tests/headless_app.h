@@ -221,7 +221,6 @@ inline constexpr glm::vec2 kOnApple{670, 490}, kOnOrange{786, 460}, kOnMug{498, 
 inline bool cut_out_apple(HeadlessApp& app, const std::filesystem::path& scene = kSample) {
   app.open(scene);
   if (!app.settle()) return false;
-  app.studio().apply(SetPreset{"fast"});
   app.click(app.screen_of(kOnApple));
   return app.settle();
 }

@@ -11,7 +11,7 @@ cd "$place" || exit 1
 export XDG_CACHE_HOME=$place/cache
 "$build/splatcut-lab" make-scene a -o a --gaussians 20000 --quiet
 cut() { # CLICK [PROGRAM that runs it]
-  "${@:2}" "$build/splatcut" cut a/a.ply --cameras a/cameras.json --camera 0 --preset fast --click "$1" -o out --overwrite --quiet
+  "${@:2}" "$build/splatcut" cut a/a.ply --cameras a/cameras.json --camera 0 --click "$1" -o out --overwrite --quiet
 }
 contents() { # without times and files of others
   (cd out && find . -type f ! -name '*.txt' ! -name '*.jpg' | sort | while read -r file; do

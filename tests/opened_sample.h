@@ -16,7 +16,6 @@ inline HeadlessApp& opened(HeadlessApp& app) {
   app.open(kSample);
   REQUIRE(app.settle());
   REQUIRE(app.studio().scene());
-  app.studio().apply(SetPreset{"fast"});
   return app;
 }
 

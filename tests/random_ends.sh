@@ -19,10 +19,10 @@ run() { # COMMAND old|new: its words, without the program
   local view=0 click=670,490 scene=a/a.ply
   [ "$2" = old ] && view=1 click=494,430 scene=b.splat
   case $1 in
-    cut) echo "cut a/a.ply --cameras a/cameras.json --camera 0 --preset fast --click $click -o out" ;;
+    cut) echo "cut a/a.ply --cameras a/cameras.json --camera 0 --click $click -o out" ;;
     convert) echo "convert $scene -o out" ;;
     render) echo "render a/a.ply --cameras a/cameras.json --camera $view -o out" ;;
-    eval) echo "eval a/suite.json --only $([ "$2" = old ] && echo orange || echo apple) --preset fast --no-curve -o out" ;;
+    eval) echo "eval a/suite.json --only $([ "$2" = old ] && echo orange || echo apple) --no-curve -o out" ;;
   esac
 }
 target() { [ "$1" = convert ] && echo out.spz || echo out; }

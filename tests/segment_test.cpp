@@ -202,13 +202,13 @@ TEST_CASE("pipeline: one click cuts a ball off its floor, the same on 1 and 2 th
   const Camera camera = look_at({0, -1.2f, -3}, {0, -0.4f, 0}, {0, -1, 0}, 0.8f, 320, 240);
   const glm::vec3 ball_camera = camera.camera_from_world({0, -0.52f, 0});
   const Strokes strokes = {click(camera.pixel_from_camera(ball_camera), SeedLabel::kObject)};
-  const CutResult report = cut_in_view(cloud, camera, {0, -1, 0}, strokes, preset("fast"));
+  const CutResult report = cut_in_view(cloud, camera, {0, -1, 0}, strokes, CutSettings());
   REQUIRE(report.outcome == Outcome::kDone);
   std::size_t wrong = 0;
   for (std::size_t g = 0; g < cloud.size(); ++g) wrong += report.labels[g] != truth[g];
   CHECK(wrong < cloud.size() / 100);
   tbb::task_arena(1).execute([&] {
-    CHECK(cut_in_view(cloud, camera, {0, -1, 0}, strokes, preset("fast")).labels == report.labels);
+    CHECK(cut_in_view(cloud, camera, {0, -1, 0}, strokes, CutSettings()).labels == report.labels);
   });
 
   // Small in its first view: more pixels there, and no more than usual where cameras come near.

@@ -23,9 +23,7 @@ struct StillLife {
     click = click_on("apple");
   }
 
-  std::string cut(const std::string& rest) const {
-    return "cut " + scene + " " + camera + " --preset fast " + rest;
-  }
+  std::string cut(const std::string& rest) const { return "cut " + scene + " " + camera + " " + rest; }
 
   std::string click_on(const std::string& thing) const {
     const nlohmann::json seeds = nlohmann::json::parse(place.text("made/seeds.json"));

@@ -250,7 +250,7 @@ struct SetSmoothness {
 };
 struct SetPreset {
   std::string preset;
-  std::string title() const { return "Quality: " + preset; }
+  std::string title() const { return "Method: " + preset; }
   friend std::string edit(Document* document, const SetPreset& command, const EditContext& context);
 };
 struct SetBackground {

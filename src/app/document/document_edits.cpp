@@ -371,7 +371,7 @@ std::string edit(Document* document, const SetSmoothness& command, const EditCon
 std::string edit(Document* document, const SetPreset& command, const EditContext&) {
   preset(command.preset);  // throws for an unknown one
   document->preset = command.preset;
-  return "Quality: " + command.preset;
+  return "Method: " + command.preset;
 }
 
 std::string edit(Document* document, const SetBackground& command, const EditContext&) {

@@ -12,7 +12,7 @@ namespace {
 constexpr int kViewsToLookFrom = 6;
 constexpr int kThumbnailWidth = 160;
 constexpr double kMuchThroughSurface =
-    0.2;  // see share_through_surface(); whole things of the sample have .08 at most
+    0.2;  // see share_through_surface(); whole things of the sample have .13 at most
 
 RasterOutput drawn_small(const GaussianCloud& cloud, const Camera& camera, const Job& job) {
   RasterOptions options;
@@ -47,7 +47,7 @@ ViewCard card_of(const ViewReport& view, Image<Rgba8> picture) {
           0};
 }
 
-// After clicks, fast and default use no views around the object.
+// After clicks the default uses no views around the object.
 bool looked_around_by_none(const CutResult& result, const CutRequest& request, const CutSettings& settings) {
   return result.outcome == Outcome::kDone && settings.orbit.views <= 0 && !request.first_mask;
 }

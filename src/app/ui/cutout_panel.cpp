@@ -1,4 +1,4 @@
-// How the cutout is made: quality, smoothness, stages with their times.
+// How the cutout is made: method, smoothness, stages with their times.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,27 +10,18 @@ namespace splatcut {
 
 namespace {
 
-void quality_choice(UiContext& ui) {
+// The energy that the cut minimises.
+void method_choice(UiContext& ui) {
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("Quality");
+  ImGui::TextUnformatted("Method");
   ImGui::SameLine(62);
   const std::string& now = ui.studio.document().preset;
-  const char* of_paper = nullptr;
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6, 5});
+  const auto taken = std::ranges::find_if(presets(), [&](const Preset& p) { return now == p.name; });
+  const std::string label = fmt::format("{} {}", taken->title, icon::kDown);
+  if (button(ui, label.c_str(), "The others are there for comparison with the paper"))
+    ImGui::OpenPopup("method");
+  if (!ImGui::BeginPopup("method")) return;
   for (const Preset& preset : presets()) {
-    if (preset.of_paper && now == preset.name) of_paper = preset.title;
-    if (preset.of_paper) continue;
-    if (preset.name != presets().front().name) same_line_if_fits(preset.title, 2);
-    if (button(ui, preset.title, preset.sentence, {}, now == preset.name)) ui.ask(SetPreset{preset.name});
-  }
-  const std::string label = fmt::format("{} {}", of_paper ? of_paper : "Advanced", icon::kDown);
-  same_line_if_fits(label.c_str(), 2);
-  if (button(ui, label.c_str(), "For comparison with the paper", {}, of_paper != nullptr))
-    ImGui::OpenPopup("advanced");
-  ImGui::PopStyleVar();
-  if (!ImGui::BeginPopup("advanced")) return;
-  for (const Preset& preset : presets()) {
-    if (!preset.of_paper) continue;
     if (ImGui::MenuItem(preset.title, nullptr, now == preset.name)) ui.ask(SetPreset{preset.name});
     tooltip(preset.sentence);
   }
@@ -139,7 +130,7 @@ std::string why_no_cutout(const Studio& studio, const ObjectItem& object) {
 void cutout_panel(UiContext& ui) {
   ui.state.size_pointed.reset();
   if (!section(ui, "Cutout")) return;
-  quality_choice(ui);
+  method_choice(ui);
   const ObjectItem* object = ui.studio.document().active_object();
   if (!object) return wrapped_muted(ui, "Click an object in the picture.");
   size_slider(ui, *object);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/work/work_values.h"
 #include "core/error.h"
@@ -77,12 +79,15 @@ json document_json(const Document& document, const WriteFlags& flags) {
           {"objects", std::move(objects)}};
 }
 
-Document document_from(const json& j, std::span<const json* const> objects, const ReadFlags& flags) {
+Document document_from(const json& j, std::span<const json* const> objects, const ReadFlags& flags,
+                       std::string* unknown_preset) {
   Document d;
   d.active = j.value("active", 0u);
   d.next_id = j.at("next_id");
   d.up_world = direction_from(j.at("up"));
   d.preset = j.at("preset");
+  if (unknown_preset && std::ranges::none_of(presets(), [&](const Preset& p) { return d.preset == p.name; }))
+    *unknown_preset = std::exchange(d.preset, presets().front().name);
   preset(d.preset);  // throws for an unknown one
   d.background = vec3_from(j.at("background"));
   d.deleted = flags(j.value("deleted", json()), 1);

@@ -79,6 +79,10 @@ SceneSource source_from(const json& said, const std::filesystem::path& work) {
   return file;
 }
 
+void add_warning(const std::string& warning, RestoredWork* work) {
+  work->warning += (work->warning.empty() ? "" : "; ") + warning;
+}
+
 // The work is what counts: steps that cannot be read are left out, and that is said.
 void read_history(const json& said, const Scene& scene, RestoredWork* work) {
   if (said.is_null()) return;
@@ -91,7 +95,7 @@ void read_history(const json& said, const Scene& scene, RestoredWork* work) {
   } catch (const json::exception& error) {
     fault = fault_of(error);
   }
-  work->warning = "the steps before it cannot be undone (" + fault + ")";
+  add_warning("the steps before it cannot be undone (" + fault + ")", work);
 }
 
 }  // namespace
@@ -128,10 +132,18 @@ RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
     const json& work = *file.content;
     std::vector<const json*> objects;
     for (const json& o : work.at("objects")) objects.push_back(&o);
-    Document document = document_from(work, objects, [&scene](const json& runs, std::uint8_t most) {
-      return flags_from(runs, scene, most);
-    });
+    std::string unknown_preset;
+    Document document = document_from(
+        work, objects,
+        [&scene](const json& runs, std::uint8_t most) { return flags_from(runs, scene, most); },
+        &unknown_preset);
     RestoredWork out{std::move(document), {}, {}, {}};
+    if (!unknown_preset.empty())
+      add_warning(
+          fmt::format("its method, \"{}\", is not known to this program: what is computed from now on "
+                      "is computed by \"{}\"",
+                      unknown_preset, out.document.preset),
+          &out);
     if (work.contains("view")) out.view = pose_from(work.at("view"));
     if (work.contains("history")) read_history(work["history"], scene, &out);
     return out;

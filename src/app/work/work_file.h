@@ -34,7 +34,7 @@ struct WorkFile {
 struct RestoredWork {
   Document document;
   std::optional<CameraPose> view;  // pose of the user's camera; none: the file holds none
-  std::string warning;             // sentence about steps that could not be read, or empty
+  std::string warning;             // what could not be read, or is not known; empty: nothing
   SavedSteps history;              // steps around the document; none: the file holds none
 };
 

@@ -20,28 +20,13 @@ CutSettings as_the_paper(const EnergyOptions& energy) {
   return settings;
 }
 
-// A preset is one row here. In the order of lists.
+// A preset is one row here: the daily one, then those for comparison with the paper.
 constexpr Preset kPresets[] = {
-    {"fast", "Fast", "Your views in few pixels: quickest, for a first look", false,
-     [] {
-       CutSettings settings;
-       settings.orbit.views = 0;
-       settings.work_width_px = 256;
-       settings.refine = {.solver = MaskSolver::kNone};
-       return settings;
-     }},
-    {"default", "Default", "Your views; with a mask, some around the object, too", false,
-     [] { return CutSettings(); }},
-    {"best", "Best", "Your views and twelve around the object: slower", false,
-     [] {
-       CutSettings settings;
-       settings.orbit.views = kViewsAround;
-       settings.settled_change = 0;  // all of them
-       return settings;
-     }},
-    {"paper", "Paper", "GaussianCut's literal energy and number of views", true,
+    {"default", "Default", "Your views; with a mask, some around the object, too",
+     []() -> CutSettings { return {}; }},
+    {"paper", "Paper", "GaussianCut's literal energy and number of views",
      [] { return as_the_paper(paper_energy()); }},
-    {"paper-code", "Code", "The energy of GaussianCut's published code, which differs from the paper", true,
+    {"paper-code", "Code", "The energy of GaussianCut's published code, which differs from the paper",
      [] {
        CutSettings settings = as_the_paper(paper_code_energy());
        settings.neighbours = 9;

@@ -62,15 +62,14 @@ struct CutSettings {
 // Settings under a name, for people.
 struct Preset {
   const char *name, *title, *sentence;
-  bool of_paper;  // for comparison with it, not for daily work
   CutSettings (*settings)();
 };
-std::span<const Preset> presets();
+std::span<const Preset> presets();  // the first for daily work, the others for comparison with the paper
 
 // By name. Throws Error that lists them for any other name.
 CutSettings preset(const std::string& name);
 
-// "fast, default, ... or paper-code".
+// "default, paper or paper-code".
 std::string preset_names();
 
 // Throws Error with name, value and range for settings out of range, or that contradict each other.

@@ -18,7 +18,6 @@ json job_on(const std::string& thing, json more = json::object()) {
               {"scene", still_life().scene},
               {"cameras", (still_life().place / "made/cameras.json").string()},
               {"camera", 0},
-              {"preset", "fast"},
               {"click", still_life().click_on(thing)}};
   job.update(more);
   return job;
@@ -77,7 +76,6 @@ TEST_CASE("batch: a job's files are those of the cut with the same options, and 
                             {{"scene", still_life().scene},
                              {"cameras", (place / "made/cameras.json").string()},
                              {"camera", "view_00"},
-                             {"preset", "fast"},
                              {"parts-only", true},
                              {"coarse", false},
                              {"size", "504x378"},

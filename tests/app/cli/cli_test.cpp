@@ -30,7 +30,7 @@ TEST_CASE("cli: what settles masks of other views asks for such views, unless th
   CHECK(views("default", refined) == kViewsAround);
   CHECK(views("default", warped) == kViewsAround);
   CHECK(views("default", both) == 3);
-  CHECK(views("fast", refined) == 0);
+  CHECK(views("paper", refined) == 40);
 }
 
 TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a sentence on stderr") {
@@ -89,14 +89,14 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused(life.cut("-o cut --click 5000,2"), {"5000", "outside"});
   refused(life.cut("-o cut --seeds bad.json"), {"bad.json", "JSON"});
   refused(life.cut("-o cut --mask none.png"), {"none.png"});
-  const char* const presets = "fast, default, best, paper or paper-code";
+  const char* const presets = "default, paper or paper-code";
   refused("cut " + life.scene + " -o cut --click 1,1 --preset slow", {"slow", presets});
   refused("eval made/suite.json -o cut --preset slow", {"slow", presets});
   refused(life.cut("-o cut --click 1,1 --refine foo"), {"views.refine", "foo", "none, grabcut or pixelcut"});
   refused(life.cut("-o cut --click 1,1 --first-mask foo"), {"foo", "parts, grabcut, pixelcut"});
   refused(life.cut("-o cut --click 1,1 --smoothness -1"), {"smoothness", "-1", "from 0 to 500"});
   place.write("w.splatcut.json", "{}");
-  for (const char* beside : {"made/small.ply", "--click 1,1", "--preset best", "--set trim=0", "--coarse",
+  for (const char* beside : {"made/small.ply", "--click 1,1", "--preset paper", "--set trim=0", "--coarse",
                              "--masks masks", "--camera 0", "--scale 1", "--smoothness 2"})
     refused(std::string("cut --work w.splatcut.json -o cut ") + beside,
             {"--work", "cannot go with",
@@ -493,9 +493,8 @@ TEST_CASE("Ctrl+C ends a run with 1 and leaves nothing half written") {
               R"({"scenes": [{"name": "a", "scene": "large.ply", "cameras": "cameras.json",
       "truth": {"labels": "large.labels.u8"}, "reference": {"camera": "view_00"}, "clicks": "robot", "test_views": []}]})");
   for (const std::string& arguments :
-       {"cut large/large.ply --cameras large/cameras.json --camera 0 --preset best --click " + life.click,
-        std::string("eval large/suite.json --preset best"),
-        std::string("make-scene more --gaussians 3000000")})
+       {"cut large/large.ply --cameras large/cameras.json --camera 0 --click " + life.click,
+        std::string("eval large/suite.json"), std::string("make-scene more --gaussians 3000000")})
     for (const int after_ms : {5, 60, 300, 700}) {
       CAPTURE(arguments);
       CAPTURE(after_ms);

@@ -68,8 +68,8 @@ TEST_CASE(
     const json& at = thing["clicks"][0];
     REQUIRE(place
                 .run("cut " + (place / "hard/hard.ply").string() + " --cameras " +
-                     (place / "hard/cameras.json").string() + " --camera 0 --preset fast --click " +
-                     at["x"].dump() + "," + at["y"].dump() + " -o hard_" + name)
+                     (place / "hard/cameras.json").string() + " --camera 0 --click " + at["x"].dump() + "," +
+                     at["y"].dump() + " -o hard_" + name)
                 .code == 0);
     const json edges = json::parse(place.text("hard_" + name + "/report.json"))["edges"];
     if (edges["edges"] != "clean") continue;

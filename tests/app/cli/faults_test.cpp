@@ -38,8 +38,8 @@ TEST_CASE("faults: a name that is not UTF-8 is printed and written all the same"
   CHECK(json::parse(info.out)["file"] == "caf\xef\xbf\xbd.ply");
   CHECK(json::parse(info.out)["gaussians"] == 20000);
   CHECK(place.run("info " + name).code == 0);
-  const Result cut = place.run("cut " + name + " " + life.camera + " --preset fast --click " + life.click +
-                               " --json -o out_\xe9");
+  const Result cut =
+      place.run("cut " + name + " " + life.camera + " --click " + life.click + " --json -o out_\xe9");
   REQUIRE_MESSAGE(cut.code == 0, cut.err);
   CHECK(json::parse(cut.out)["object"]["gaussians"].get<int>() > 0);
   refused(place.run("info none_\xe9.ply --json"), {"No such file"});

@@ -23,8 +23,7 @@ constexpr const char* kCamera = " --camera-pos 0,0,-6 --camera-target 0,0,0 --ca
 
 const std::vector<Command>& commands() {
   static const std::string render = std::string("render a.ply -o out.png --quiet") + kCamera;
-  static const std::string cut =
-      std::string("cut a.ply -o out --no-cache --quiet --preset fast --click 320,240") + kCamera;
+  static const std::string cut = std::string("cut a.ply -o out --no-cache --quiet --click 320,240") + kCamera;
   static const std::vector<Command> all = {
       {"info", "info a.ply --quiet", ""},
       {"render, view guessed", "render a.ply -o out.png --quiet", "out.png"},

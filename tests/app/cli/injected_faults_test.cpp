@@ -61,10 +61,10 @@ const std::vector<Fault>& faults() {
 
 const std::vector<Deed>& deeds() {
   static const std::string cut =
-      "cut made/a.ply --cameras made/cameras.json --camera 0 --preset fast -o out --overwrite --quiet ";
+      "cut made/a.ply --cameras made/cameras.json --camera 0 -o out --overwrite --quiet ";
   static const std::string render =
       "render made/a.ply --cameras made/cameras.json -o out.png --overwrite --quiet ";
-  static const std::string eval = "eval made/one.json --preset fast --no-curve -o out --overwrite --quiet ";
+  static const std::string eval = "eval made/one.json --no-curve -o out --overwrite --quiet ";
   static const std::vector<Deed> all = {
       {"cut", cut + "--no-cache --click 490,422", cut + "--click 670,490", "out", 16},
       {"cut of two objects", cut + "--click 490,422", cut + "--no-cache --seeds made/two.json", "out", 64},

@@ -319,7 +319,7 @@ void write_large_work(const Workplace& place, const std::string& file, const std
                                    {"scene", {{"path", scene}, {"hash", hash}}},
                                    {"next_id", 256},
                                    {"up", {0, -1, 0}},
-                                   {"preset", "fast"},
+                                   {"preset", "default"},
                                    {"background", {0, 0, 0}},
                                    {"objects", objects}}
                         .dump());
@@ -355,7 +355,7 @@ TEST_CASE("output: signals that end the program leave the old cutout as it was")
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     CAPTURE(signal);
     const pid_t child = place.begin("cut " + life.scene + " " + life.camera +
-                                    " --no-cache --preset best --overwrite -o kept --click " + life.click);
+                                    " --no-cache --overwrite -o kept --click " + life.click);
     CHECK(place.appears("kept.splatcut.part"));  // it works, and has not begun to write
     ::kill(child, signal);
     const Result result = place.finish(child);
@@ -381,8 +381,7 @@ TEST_CASE("output: no command writes over what it reads, by whatever name, and n
   place.write("a.png", "a");
   place.write("labels.u8", std::string(20000, '\1'));
   const std::string cut =
-      "cut work/object.ply --cameras work/cameras.json --camera 0 --preset fast --click " + life.click +
-      " --overwrite -o ";
+      "cut work/object.ply --cameras work/cameras.json --camera 0 --click " + life.click + " --overwrite -o ";
   const std::string shot = "render work/object.ply --overwrite --size 8x8 -o ";
   const std::vector<std::pair<std::string, std::string>> refused = {
       {cut + "work", "work: holds work/object.ply, which is read here"},

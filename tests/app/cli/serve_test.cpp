@@ -96,7 +96,7 @@ TEST_CASE("serve: a conversation cuts what `cut` cuts, and takes it back") {
   const Said said = talk({
       request("click", {{"x", 1}, {"y", 1}}),                                            // 0: no scene
       opened(),                                                                          // 1
-      request("settings", {{"preset", "fast"}}),                                         // 2
+      request("settings", {{"preset", "default"}}),                                      // 2
       request("labels"),                                                                 // 3: no object
       click_on("apple"),                                                                 // 4
       request("labels"),                                                                 // 5

@@ -41,7 +41,7 @@ TEST_CASE(
                                  {{"object", "mug"}, {"camera", "view_00"}, {"clicks", one_click("mug")}}}}}
                               .dump());
   const Result result = place.run("cut " + still_life().scene + " " + still_life().cameras +
-                                  " --preset fast --seeds two.json --edges keep --json -o both");
+                                  " --seeds two.json --edges keep --json -o both");
   REQUIRE_MESSAGE(result.code == 0, result.err);
   CHECK(place.files_in("both") ==
         std::set<std::string>{"labels.u8", "mug.labels.u8", "mug.masks.png", "mug.ply", "mug.png",
@@ -182,8 +182,7 @@ TEST_CASE("several objects: one file holds them all, each row as it is and with 
                                  {{{"name", "red apple"}, {"clicks", one_click("apple")}},
                                   {{"name", "mug"}, {"clicks", one_click("mug")}}}}}
                                .dump());
-  const std::string cut =
-      " " + still_life().camera + " --preset fast --seeds pair.json --write labels,objects ";
+  const std::string cut = " " + still_life().camera + " --seeds pair.json --write labels,objects ";
   REQUIRE(place.run("cut " + still_life().scene + cut + "-o pair").code == 0);
   CHECK(place.files_in("pair") == std::set<std::string>{"labels.u8", "mug.labels.u8", "objects.json",
                                                         "objects.ply", "red_apple.labels.u8", "report.json"});

@@ -135,7 +135,7 @@ TEST_CASE("history: keys are those of the document wherever it stands") {
     if (random() % 4 == 0) add_object(&after);
     if (random() % 5 == 0 && !after.objects.empty()) after.objects.erase(after.objects.begin());
     if (!after.find(after.active)) after.active = after.objects.empty() ? 0 : after.objects.back().id;
-    if (random() % 3 == 0) after.preset = random() % 2 ? "fast" : "default";
+    if (random() % 3 == 0) after.preset = random() % 2 ? "paper" : "default";
     after = with_click(after, {random() % 60, random() % 40});
     history.push("step", after);
     if (random() % 3 == 0 && history.can_undo()) history.undo();

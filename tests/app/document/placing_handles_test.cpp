@@ -277,7 +277,6 @@ TEST_CASE("placing: the export dialog's picture has handles that change its numb
   app.interface_state().hint_wanted = false;
   app.open(kSample);
   REQUIRE(app.settle());
-  app.studio().apply(SetPreset{"fast"});
   app.click(app.screen_of(kOnApple));
   REQUIRE(app.settle());
   app.key('E', {.ctrl = true});

@@ -95,8 +95,8 @@ struct StandIn {
   }
 };
 
-const std::string kNvos = "eval --nvos nvos --scenes scenes -o out --preset fast",
-                  kSpin = "eval --spin-nerf spin --scenes scenes -o out --preset fast";
+const std::string kNvos = "eval --nvos nvos --scenes scenes -o out",
+                  kSpin = "eval --spin-nerf spin --scenes scenes -o out";
 
 }  // namespace
 
@@ -175,7 +175,7 @@ TEST_CASE(
   fs::copy(made.place / "scenes/apple/small.ply",
            made.place / "runs/apple_undistort/point_cloud/iteration_30000/point_cloud.ply");
   fs::copy(made.place / "scenes/apple/cameras.json", made.place / "runs/apple_undistort/cameras.json");
-  REQUIRE(made.place.run("eval --nvos nvos --scenes runs -o again --preset fast").code == 0);
+  REQUIRE(made.place.run("eval --nvos nvos --scenes runs -o again").code == 0);
   CHECK(json::parse(made.place.text("again/eval.json"))["scenes"][0]["image_iou"] == scene["image_iou"]);
 }
 
@@ -209,7 +209,7 @@ TEST_CASE(
   fs::create_directories(made.place / "one/images_2");
   fs::copy(made.place / "spin/apple (stand-in)", made.place / "one/images_2/label");
   made.save("one/images_2/" + made.camera(0).name + ".png", Mask(504, 378));
-  REQUIRE(made.place.run("eval --spin-nerf one --scenes scenes/apple -o one_out --preset fast").code == 0);
+  REQUIRE(made.place.run("eval --spin-nerf one --scenes scenes/apple -o one_out").code == 0);
   CHECK(json::parse(made.place.text("one_out/eval.json"))["scenes"][0]["image_iou"] == scene["image_iou"]);
 }
 

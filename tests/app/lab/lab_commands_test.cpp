@@ -31,7 +31,7 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
                 {"clicks", "robot"},
                 {"test_views", {view}}};
   place.write("made/suite.json", json{{"scenes", {entry}}}.dump());
-  const Result result = place.run("eval made/suite.json --preset fast --draws 2 -o measured");
+  const Result result = place.run("eval made/suite.json --draws 2 -o measured");
   REQUIRE_MESSAGE(result.code == 0, result.err);
   CHECK(result.out.find("median / least of 2 draws") != std::string::npos);
   CHECK(result.out.find("apple") != std::string::npos);
@@ -56,7 +56,7 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
   CHECK(scene["enough"]["why"] == "no view around the object was asked for");
   CHECK(measured["mean"]["enough"]["views"] == 1);
   CHECK_FALSE(measured["mean"]["enough"].contains("why"));
-  CHECK(place.run("eval made/suite.json --preset fast -o measured").code == 1);
+  CHECK(place.run("eval made/suite.json -o measured").code == 1);
 
   // A scene known by masks of photographs only has no truth of the reference: such a scene is left out, by
   // name.
@@ -68,8 +68,7 @@ TEST_CASE("eval reports every measure of a suite with truth labels") {
   REQUIRE(place.run("render " + life.scene + " --what alpha " + life.camera + " -o view_00.png").code == 0);
   place.write("made/photos/view_00.png", place.text("view_00.png"));
   place.write("made/both.json", json{{"scenes", {photographed, entry}}}.dump());
-  const Result truth_given =
-      place.run("eval made/both.json --preset fast --first-mask truth --masks truth -o from_truth");
+  const Result truth_given = place.run("eval made/both.json --first-mask truth --masks truth -o from_truth");
   REQUIRE_MESSAGE(truth_given.code == 0, truth_given.err);
   CHECK(truth_given.err.find("photographed: left out") != std::string::npos);
   const json from_truth = json::parse(place.text("from_truth/eval.json"));
@@ -131,7 +130,7 @@ TEST_CASE("scribbles of a suite are an answer of their own, beside clicks or alo
   entry["test_views"] = json::array({entry["test_views"][0]});
   const auto measured = [&](const json& e, const std::string& name) {
     place.write("made/" + name + ".json", json{{"scenes", {e}}}.dump());
-    const Result result = place.run("eval made/" + name + ".json --preset fast --no-curve -o " + name);
+    const Result result = place.run("eval made/" + name + ".json --no-curve -o " + name);
     REQUIRE_MESSAGE(result.code == 0, result.err);
     return json::parse(place.text(name + "/eval.json"))["scenes"][0];
   };

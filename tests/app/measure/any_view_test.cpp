@@ -342,7 +342,7 @@ TEST_CASE(
   json other = entry;
   other["name"] = "left out by its name";
   place.write("made/some.json", json{{"scenes", {other, entry}}}.dump());
-  const std::string command = "eval made/some.json --only apple --preset fast --no-curve";
+  const std::string command = "eval made/some.json --only apple --no-curve";
   const Result result =
       place.run(command + " -o out --any-view --robot-clicks 3 --draws 2 --zoom --perturb 2");
   REQUIRE_MESSAGE(result.code == 0, result.err);

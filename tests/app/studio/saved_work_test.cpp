@@ -103,11 +103,30 @@ TEST_CASE("saved work: what is wrong with a file is said in one sentence") {
                                         ", this splatcut reads version 7") != std::string::npos);
 }
 
+TEST_CASE(
+    "saved work: a method that this program does not know gives way to the default one, and that is said") {
+  const ScratchFolder folder("old_method");
+  const auto file = folder / "old.splatcut.json";
+  const auto scene = open_scene(kSample);
+  Document document;
+  add_object(&document, "mug");
+  write_work_file(file, *scene, document);
+  nlohmann::json work = nlohmann::json::parse(std::ifstream(file));
+  CHECK(restored(read_work_file(file), *scene).warning.empty());
+  work["preset"] = "fast";
+  std::ofstream(file) << work;
+  const RestoredWork read = restored(read_work_file(file), *scene);
+  CHECK(read.document.preset == "default");
+  CHECK(read.warning ==
+        "its method, \"fast\", is not known to this program: what is computed from now on is computed by "
+        "\"default\"");
+}
+
 TEST_CASE("a view left out is that view: after a save, and after another preset was tried") {
   const ScratchFolder folder("left_out");
   HeadlessApp app(kSmallWidth, kSmallHeight);
   opened(app);
-  app.studio().apply(SetPreset{"best"});
+  app.studio().apply(SetPreset{"paper"});
   app.click(app.screen_of(kOnApple));
   REQUIRE(app.settle());
   const ObjectId id = app.studio().document().active;
@@ -123,10 +142,10 @@ TEST_CASE("a view left out is that view: after a save, and after another preset 
   };
   CHECK(counts(camera) == std::string("left out"));
   const auto labels = active_labels(app);
-  app.studio().apply(SetPreset{"fast"});
+  app.studio().apply(SetPreset{"default"});
   REQUIRE(app.settle());
   CHECK(std::ranges::count_if(views(), &ViewCard::used) == 1);
-  app.studio().apply(SetPreset{"best"});
+  app.studio().apply(SetPreset{"paper"});
   REQUIRE(app.settle());
   CHECK(counts(camera) == std::string("left out"));
   CHECK(active_labels(app) == labels);
@@ -428,7 +447,6 @@ TEST_CASE("a scene that cannot be opened leaves the cut and the preparing that i
   app.studio().apply(OpenScene{folder / "nowhere.ply"});  // while it is prepared
   REQUIRE(app.settle());
   CHECK(app.studio().scene());
-  app.studio().apply(SetPreset{"fast"});
   app.click(app.screen_of(kOnApple));
   app.studio().apply(OpenScene{folder / "nowhere.ply"});  // while it is cut
   REQUIRE(app.settle());

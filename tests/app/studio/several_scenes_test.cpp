@@ -153,7 +153,6 @@ TEST_CASE("several scenes: a placed file stands where the numbers say, what was 
   const ScratchFolder folder("several_placed");
   Hands hands(false);
   Studio& studio = hands.studio();
-  studio.apply(SetPreset{"fast"});
   add(hands, kSmallSample);  // its twin
   const glm::vec3 middle = last_file(hands).bounds.centre();
   const GaussianCloud own = load_scene(kSmallSample).cloud;

@@ -126,7 +126,6 @@ TEST_CASE("soak: edits, cuts, undo, exports leave no file open and no thread beh
   studio.set_viewport(160, 120, 1);
   studio.apply(OpenScene{folder / "balls.ply"});
   REQUIRE(studio.scene());
-  studio.apply(SetPreset{"fast"});
   std::mt19937 random(5);
   const Log log("edits");
   const int steps = steps_asked(60);
@@ -154,7 +153,6 @@ TEST_CASE("soak: opened, cut and closed again and again, nothing stays open") {
     studio.set_viewport(160, 120, 1);
     studio.apply(OpenScene{folder / "balls.ply"});
     REQUIRE(studio.settle(120));
-    studio.apply(SetPreset{"fast"});
     studio.apply(AddStroke{front_camera(160, 120), click({80, 60}, SeedLabel::kObject)});
     REQUIRE(studio.settle(120));
     REQUIRE(!studio.document().objects.empty());

@@ -43,7 +43,6 @@ TEST_CASE("hands: +Z up comes back with the view, and pressed again sets a leani
 
 TEST_CASE("hands: where a click was from too far away, one comes nearer to what was clicked") {
   Hands hands(false);
-  hands.studio().apply(SetPreset{"fast"});
   const glm::vec3 apple = hands.under(hands.app.screen_of(kOnApple));
   hands.studio().camera().zoom(-45, apple);
   REQUIRE(hands.app.settle());

@@ -83,7 +83,7 @@ class Fuzz {
       case 25:
         return studio_.apply(SetSmoothness{object(), 20 * real() - 1});
       case 26:
-        return studio_.apply(SetPreset{std::array{"fast", "default", "best", "paper", "none"}[whole(5)]});
+        return studio_.apply(SetPreset{std::array{"default", "paper", "paper-code", "none"}[whole(4)]});
       case 27:
         return studio_.apply(SetUp{{real() - 0.5f, real() - 0.5f, chance(5) ? 0.0f : real() - 0.5f}});
       case 28:

@@ -63,7 +63,6 @@ TEST_CASE("hands: a click at the moment when a scene opens is cut") {
   app.frames(1);
   app.open(kSmallSample);
   while (!app.studio().scene()) app.studio().update(1.0 / 60);
-  app.studio().apply(SetPreset{"fast"});
   app.studio().apply(
       AddStroke{app.studio().viewport().pane_camera(),
                 click(app.screen_of(kOnApple) - app->interface().viewport().min, SeedLabel::kObject)});

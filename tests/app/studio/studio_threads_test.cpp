@@ -83,7 +83,6 @@ TEST_CASE(
         REQUIRE(app.settle());
     };
     const auto active = [&] { return app.studio().document().active; };
-    then(SetPreset{"fast"});
     then(scenes.click_on("mug"));
     then(Cancel{});
     then(Recompute{});

@@ -107,7 +107,6 @@ TEST_CASE(
 
 TEST_CASE("keyboard: Enter cuts what a click at the cursor cuts, Ctrl+Enter what a right click does") {
   Hands keys(false), mouse(false);
-  for (Hands* hands : {&keys, &mouse}) hands->studio().apply(SetPreset{"fast"});
   walk_to(keys, keys.app.screen_of(kOnApple));
   const glm::vec2 on_apple = cursor_on_screen(keys);
   keys.app.key(key::kEnter);

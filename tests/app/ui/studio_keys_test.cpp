@@ -200,7 +200,7 @@ TEST_CASE("every key of the F1 page does what the page says") {
     const Tool* tool = tool_of(binding.action);
     const Check check = tool ? tool_is(*tool) : kChecks.at(binding.action);  // a key without a check is a gap
     Studio& s = app.studio();
-    s.apply(JumpHistory{2});  // the apple's click, its cutout computed
+    s.apply(JumpHistory{1});  // the apple's click, its cutout computed
     s.apply(SetView{});
     s.apply(ShowFloaters{false});
     s.camera().go_to(s.scene()->views().cameras.front());

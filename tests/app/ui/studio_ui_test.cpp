@@ -44,7 +44,7 @@ TEST_CASE("a click on the apple cuts out the apple, strokes, undo and redo give 
     REQUIRE(app.settle());
     CHECK(same(app.studio().document(), states[i - 1]));
   }
-  CHECK(app.studio().history().cursor() == 1);  // the choice of preset
+  CHECK(app.studio().history().cursor() == 0);
   for (std::size_t i = 1; i < states.size(); ++i) {
     app.key('Z', {.shift = true, .ctrl = true});
     REQUIRE(app.settle());

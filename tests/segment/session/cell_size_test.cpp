@@ -64,7 +64,7 @@ CutResult cut_in(const RandomRooms& rooms, const CameraStroke& click, std::size_
   Session session({.cloud = rooms.cloud, .most_gaussians = most_gaussians});
   CutRequest request;
   request.strokes = {{click.camera, {click.stroke}}};
-  return session.cut(request, preset("fast"));
+  return session.cut(request, CutSettings());
 }
 
 // Share of what either labels that only one does.

@@ -57,8 +57,8 @@ TEST_CASE("scale: pictures, guessed views and cuts are the same from 2^-40 to 2^
     const Camera camera = times(scene().cameras[static_cast<std::size_t>(apple->camera)], unit);
     const Box bounds = robust_bounds(cloud.position, 0.9);
     const Camera all = view_of_all(bounds, up, 0.87f, 320, 240);
-    CutSettings by_pixels = preset("fast");
-    set_setting("first.from=pixels", &by_pixels);
+    CutSettings by_pixels;
+    for (const char* one : {"first.from=pixels", "views.most=0"}) set_setting(one, &by_pixels);
     return Seen{
         guessed_up(cloud), better_first_view(cloud, bounds, up, all).value_or(all).camera_from_world_rotation,
         rasterize(cloud, all, {}).colour, cut_in_view(cloud, camera, up, strokes, preset("default")).labels,

@@ -216,8 +216,9 @@ TEST_CASE("session: given masks of several views mean what they show, whatever p
 TEST_CASE("session: what marks nothing is an outcome, from parts and from pixels alike") {
   for (const bool parts : {true, false}) {
     CAPTURE(parts);
-    CutSettings settings = preset("fast");
+    CutSettings settings;
     settings.first_mask_from = parts ? FirstMaskFrom::kParts : FirstMaskFrom::kPixels;
+    settings.orbit.views = 0;
     Session session = fresh_session();
     CutRequest request;
     const auto nothing = [&] {
@@ -240,7 +241,7 @@ TEST_CASE("session: what marks nothing is an outcome, from parts and from pixels
 TEST_CASE("session: a box around each thing of the table means the thing, in a neighbourhood of it") {
   const LabelledScene& scene = small_table().scene;
   Session session({.cloud = small_table().cloud, .photographs = scene.cameras, .most_gaussians = 12000});
-  CutSettings settings = preset("fast");
+  CutSettings settings;
   for (const char* name : {"mug", "apple", "orange", "plant", "pot", "books"}) {
     CAPTURE(name);
     const auto number = std::ranges::find(scene.label_name, name) - scene.label_name.begin();
@@ -340,7 +341,7 @@ TEST_CASE("session: things of one colour that touch are parted by three correcti
     request.strokes = {{camera, {click(seed->pixel, SeedLabel::kObject)}}};
     double agrees = 0;
     for (int corrections = 0; corrections <= 3; ++corrections) {
-      const CutResult result = session.cut(request, preset("fast"));
+      const CutResult result = session.cut(request, CutSettings());
       const Mask shown = thresholded(render_labels(*cloud, camera, result.labels), 0.5f);
       agrees = iou(shown, truth);
       if (const auto next = robot_click(truth, shown)) request.strokes.front().strokes.push_back(*next);

@@ -31,7 +31,7 @@ TEST_CASE("parts: a scene in other units is cut the same") {
     camera.camera_from_world_translation *= scale;
     const glm::vec2 middle =
         robot_click(mug.truth, Mask(mug.truth.width(), mug.truth.height()))->points_px[0];
-    return cut_in_view(cloud, camera, {0, 1, 0}, {click(middle, SeedLabel::kObject)}, preset("fast")).labels;
+    return cut_in_view(cloud, camera, {0, 1, 0}, {click(middle, SeedLabel::kObject)}, CutSettings()).labels;
   };
   const std::vector<std::uint8_t> one = labels_at(1);
   CHECK(std::ranges::count(one, 1) > 1000);

@@ -69,8 +69,8 @@ void plan_trade_off_grid(StudyGrid* grid) {
 }  // namespace
 
 void plan_trade_off(StudyGrid* grid) {
-  for (const Preset& preset : presets())
-    if (!preset.of_paper) grid->add("trade-off", "preset", 0).preset = preset.name;
+  const auto add = [&](const Preset& preset) { grid->add("trade-off", "preset", 0).preset = preset.name; };
+  add(presets().front());
   grid->add("trade-off", "parts alone", 0).parts_only = true;
   plan_trade_off_grid(grid);
   for (const char* tau : {"0.5", "0.3"})
@@ -78,8 +78,7 @@ void plan_trade_off(StudyGrid* grid) {
               {"first.from=pixels", "first.solver=grabcut", "views.propagate=dis", "views.refine=grabcut",
                "energy.coarse=1", std::string("energy.tau=") + tau, "views.most=12", "views.settled_change=0",
                "trim=0"});
-  for (const Preset& preset : presets())
-    if (preset.of_paper) grid->add("trade-off", "preset", 0).preset = preset.name;
+  std::ranges::for_each(presets().subspan(1), add);
 }
 
 namespace {

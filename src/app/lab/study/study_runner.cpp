@@ -8,6 +8,7 @@
 #include <cmath>
 #include <ctime>
 #include <numeric>
+#include <utility>
 
 #include "app/lab/study/study_variants.h"
 #include "app/measure/robot_user.h"
@@ -214,8 +215,13 @@ ImageScore StudyRunner::score_of(const StudyCell& cell, const EvaluationCase& te
 }
 
 nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
-  const auto setup = set_up(cell, job);
+  auto setup = set_up(cell, job);
   if (!setup) return nullptr;
+  if (std::exchange(first_, false)) {  // what a scene's first cut prepares is no setting's cost
+    cut(*setup, job);
+    setup = set_up(cell, job);  // its masks are asked for anew
+    if (!setup) return nullptr;
+  }
   const EvaluationCase& test = setup->test;
   const auto [report, cpu_ms] = cut(*setup, job);
   if (job.cancelled()) return nullptr;

@@ -59,6 +59,7 @@ class StudyRunner {
   std::optional<KeptViews>
       measured_views_;  // of the scene as it was loaded; cuts, which are timed, have their own
   std::map<std::uint64_t, ImageScore> scores_;
+  bool first_ = true;  // nothing was cut yet
 };
 
 }  // namespace splatcut
