@@ -11,7 +11,13 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kDisplayWidth = 452;  // of the buttons at the right end
+// Of the buttons at the right end, points; in a small window half of them lie behind one.
+constexpr float kDisplayWidth = 452, kShortWidth = 292;
+
+float display_width() {
+  constexpr float kRoomForAll = 800;
+  return ImGui::GetWindowWidth() >= kRoomForAll ? kDisplayWidth : kShortWidth;
+}
 
 void gap() {
   ImGui::SameLine(0, 16);
@@ -40,7 +46,7 @@ void brush_size(UiContext& ui) {
 
 // Where the options end: at the display buttons, or in a row of their own.
 float options_end(const UiContext& ui) {
-  return ImGui::GetWindowWidth() - (ui.state.options_below ? 0 : kDisplayWidth);
+  return ImGui::GetWindowWidth() - (ui.state.options_below ? 0 : display_width());
 }
 
 // Where there is room for it.
@@ -158,25 +164,37 @@ void draw_icon(ImDrawList& list, const Icon& icon, const ImVec2& centre, float r
   }
 }
 
-void display_buttons(UiContext& ui) {
+void look_buttons(UiContext& ui) {
   const ViewState& view = ui.studio.view();
-  const DisplayMode mode = view.display;
-  action_button(ui, Action::kShowAll, "Whole", mode == DisplayMode::kWhole);
-  ImGui::SameLine(0, 2);
-  action_button(ui, Action::kIsolate, "Isolate", mode == DisplayMode::kIsolate);
+  action_button(ui, Action::kSideBySide, icon::kColumns,
+                view.display == DisplayMode::kSideBySide || view.display == DisplayMode::kBeforeAfter);
   ImGui::SameLine(0, 2);
   action_button(ui, Action::kCleanEdges, "Clean", view.clean_edges);
-  ImGui::SameLine(0, 2);
-  action_button(ui, Action::kHide, "Hide", mode == DisplayMode::kHide);
-  ImGui::SameLine(0, 2);
-  action_button(ui, Action::kSideBySide, icon::kColumns,
-                mode == DisplayMode::kSideBySide || mode == DisplayMode::kBeforeAfter);
   gap();
   action_button(ui, Action::kTint, icon::kTint, view.tint);
   ImGui::SameLine(0, 2);
   action_button(ui, Action::kOutline, "\xef\x84\x8c", view.outline);
   ImGui::SameLine(0, 2);
   action_button(ui, Action::kHeat, icon::kHeat, view.heat);
+}
+
+void display_buttons(UiContext& ui) {
+  const DisplayMode mode = ui.studio.view().display;
+  action_button(ui, Action::kShowAll, "Whole", mode == DisplayMode::kWhole);
+  ImGui::SameLine(0, 2);
+  action_button(ui, Action::kIsolate, "Isolate", mode == DisplayMode::kIsolate);
+  ImGui::SameLine(0, 2);
+  action_button(ui, Action::kHide, "Hide", mode == DisplayMode::kHide);
+  ImGui::SameLine(0, 2);
+  if (display_width() == kDisplayWidth) {
+    look_buttons(ui);
+  } else if (button(ui, icon::kDown, "Side by side, clean edges, tint, outline, heat")) {
+    ImGui::OpenPopup("looks");
+  }
+  if (ImGui::BeginPopup("looks")) {
+    look_buttons(ui);
+    ImGui::EndPopup();
+  }
   gap();
   action_button(ui, Action::kSettings, icon::kGear, ui.state.settings_open);
   ImGui::SameLine(0, 2);
@@ -216,9 +234,9 @@ void top_bar(UiContext& ui) {
   action_button(ui, Action::kRedo, icon::kRedo);
   gap();
   ui.state.options_below =
-      options_width(ui) > ImGui::GetWindowWidth() - kDisplayWidth - ImGui::GetCursorPosX();
+      options_width(ui) > ImGui::GetWindowWidth() - display_width() - ImGui::GetCursorPosX();
   if (ui.studio.scene() && !ui.state.options_below) tool_options(ui);
-  ImGui::SameLine(ImGui::GetWindowWidth() - kDisplayWidth);
+  ImGui::SameLine(ImGui::GetWindowWidth() - display_width());
   display_buttons(ui);
 }
 

@@ -241,6 +241,23 @@ TEST_CASE("ui: the address of a file that is dragged out is one that other progr
   CHECK(file_uri("/plain-1_2.~/x.ply") == "file:///plain-1_2.~/x.ply");
 }
 
+TEST_CASE("ui: the buttons of the bar lie beside each other in a window of any width") {
+  for (const int width : {640, 720, 799, 800, 879, 880, 1000, 1280}) {
+    CAPTURE(width);
+    HeadlessApp app(width, 480);
+    app.open(kSmallSample);
+    REQUIRE(app.settle());
+    std::vector<ShownItem> bar;
+    for (const ShownItem& item : app.interface_state().items)
+      if (item.max.y < app->interface().viewport().min.y) bar.push_back(item);
+    std::ranges::sort(bar, {}, [](const ShownItem& item) { return item.min.x; });
+    CHECK(bar.size() > 12);
+    CHECK(bar.back().max.x <= static_cast<float>(width));
+    for (std::size_t i = 1; i < bar.size(); ++i)
+      CHECK_MESSAGE(bar[i - 1].max.x <= bar[i].min.x, bar[i - 1].name << " runs into " << bar[i].name);
+  }
+}
+
 TEST_CASE("ui: in a window of 640 by 480 the panel takes a third and cuts no button off") {
   constexpr float kWidth = 640, kHeight = 480;
   HeadlessApp app(static_cast<int>(kWidth), static_cast<int>(kHeight));
