@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace splatcut {
 
@@ -27,6 +28,11 @@ class MappedFile {
   std::size_t size_ = 0;
   std::int64_t modified_ns_ = 0;
 };
+
+inline bool begins_with(const MappedFile& file, std::string_view mark) {
+  return std::string_view(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size())
+      .starts_with(mark);
+}
 
 // The bytes of a file that the person named: a pipe will do. Throws Error for a folder, for more than 1 GB,
 // and for what cannot be read.

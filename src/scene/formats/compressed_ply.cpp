@@ -12,7 +12,7 @@
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/losses.h"
-#include "scene/formats/ply_header.h"
+#include "scene/packing/ply_header.h"
 
 namespace splatcut {
 

@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <limits>
-#include <string_view>
 #include <vector>
 
 #include "core/mapped_file.h"
@@ -20,11 +19,6 @@ namespace splatcut {
 
 inline float sigmoid(float logit) {
   return 1.0f / (1.0f + std::exp(-logit));
-}
-
-inline bool begins_with(const MappedFile& file, std::string_view mark) {
-  return std::string_view(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size())
-      .starts_with(mark);
 }
 
 inline bool is_finite(const glm::vec3& v) {

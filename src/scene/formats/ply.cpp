@@ -17,10 +17,10 @@
 #include "scene/formats/decode.h"
 #include "scene/formats/far_origin.h"
 #include "scene/formats/losses.h"
-#include "scene/formats/ply_header.h"
 #include "scene/formats/ply_text.h"
 #include "scene/formats/ply_values.h"
 #include "scene/formats/ply_writer.h"
+#include "scene/packing/ply_header.h"
 
 namespace splatcut {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/job.h"
-#include "scene/formats/ply_header.h"
+#include "scene/packing/ply_header.h"
 
 namespace splatcut {
 

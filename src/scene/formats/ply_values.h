@@ -5,7 +5,7 @@
 #include <cstring>
 #include <glm/glm.hpp>
 
-#include "scene/formats/ply_header.h"
+#include "scene/packing/ply_header.h"
 
 namespace splatcut {
 

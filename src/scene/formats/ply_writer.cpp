@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 #include "core/mapped_file.h"
-#include "scene/formats/ply_header.h"
+#include "scene/packing/ply_header.h"
 
 namespace splatcut {
 

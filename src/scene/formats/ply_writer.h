@@ -4,8 +4,8 @@
 #include <span>
 
 #include "core/atomic_file.h"
-#include "scene/formats/ply_header.h"
 #include "scene/formats/scene_file.h"
+#include "scene/packing/ply_header.h"
 
 namespace splatcut {
 

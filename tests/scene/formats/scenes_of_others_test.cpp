@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "format_limits.h"
-#include "scene/formats/ply_header.h"
+#include "scene/packing/ply_header.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;

@@ -1,4 +1,4 @@
-#include "scene/formats/ply_header.h"
+#include "scene/packing/ply_header.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +10,6 @@
 
 #include "core/error.h"
 #include "core/lower_case.h"
-#include "scene/formats/decode.h"
 
 namespace splatcut {
 
