@@ -71,7 +71,7 @@ function convert(from, to, options = []) {
 
 for (let degree = 0; degree <= 3; ++degree) {
   const columns = knownRows(degree), known = readingOfColumns(columns), ply = `${folder}/known_${degree}.ply`;
-  writeFileSync(ply, plyOf(columns));
+  writeFileSync(ply, plyOf(columns, ['up 0 0 1']));  // which all but .splat carry on, and no reader stumbles over
   for (const [ending, options, format, judges] of WRITTEN) {
     const path = `${folder}/ours_${degree}.${ending}`;
     convert(ply, path, options);

@@ -66,4 +66,9 @@ ExportPlacement placement_of(const CutoutOptions& options, const Drawer& scene, 
   return placement;
 }
 
+std::optional<glm::vec3> up_to_write(const ChosenCamera& chosen, const ExportPlacement& placement) {
+  if (chosen.up_is_guess && placement.up == ExportUp::kScene) return {};
+  return chosen.up_world;
+}
+
 }  // namespace splatcut

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/cli/cutout_files.h"
+#include "app/console/camera_options.h"
 #include "app/document/export_placement.h"
 
 namespace splatcut {
@@ -13,5 +14,8 @@ namespace splatcut {
 // of the picture or one that shows nothing, two pixels of one place. Cancelled: unspecified.
 ExportPlacement placement_of(const CutoutOptions& options, const Drawer& scene, const Camera& camera,
                              const Job& job);
+
+// What the files say of up: it is known, or the placement says where it points. None where it is a guess.
+std::optional<glm::vec3> up_to_write(const ChosenCamera& chosen, const ExportPlacement& placement);
 
 }  // namespace splatcut

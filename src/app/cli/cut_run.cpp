@@ -138,7 +138,7 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
                        const OutputFolder& folder, const CutRunOptions& options, const Job& job) {
   const auto start = std::chrono::steady_clock::now();
   const Scene& scene = shared->scene();
-  ChosenCamera chosen = choose_camera(args.camera, scene.cloud, scene.origin);
+  ChosenCamera chosen = choose_camera(args.camera, scene);
   if (!chosen.warning.empty()) options.warn(chosen.warning);
   const CutSettings settings = args.settings();
   if (input.segmenter) end_progress();  // the program prints to the same place
@@ -158,6 +158,7 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   if (placement != ExportPlacement{})
     to.to = {similarity_of(placement, scene.cloud, owner, chosen.up_world),
              placement.origin == ExportOrigin::kScene};
+  to.up = up_to_write(chosen, placement);
   report.edges = write_cutouts(to, objects, job);
   for (const EdgesReport& edges : report.edges) report.total_ms += edges.ms;
   report.rest = write_rest(to, owner, report.edges, chosen.camera);

@@ -231,9 +231,10 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
                      to.up_world, to.cameras, job);
   if (job.cancelled()) return report;
   if (scene)
-    report.gaussians = save_gaussians(to.folder.file(files.scene), to.scene, labels,
-                                      clean ? &clean->cloud : nullptr, SceneFormat::kPly, to.to)
-                           .gaussians;
+    report.gaussians =
+        save_gaussians(to.folder.file(files.scene), to.scene, labels, clean ? &clean->cloud : nullptr,
+                       SceneFormat::kPly, to.to, {.up = to.up})
+            .gaussians;
   if (hull)
     write_hull(to, files.hull, clean ? clean->cloud : to.scene.cloud,
                clean ? std::span<const std::uint8_t>() : labels);
@@ -261,7 +262,7 @@ std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& 
   if (to.options.writes("rest")) {
     const RestChanges changes = changes_of(objects);
     gaussians = save_rest(to.folder.file("rest.ply"), to.scene, rest, changes, SceneFormat::kPly, to.to,
-                          {.may_be_empty = true})
+                          {.may_be_empty = true, .up = to.up})
                     .gaussians;
     if (to.options.writes("pictures")) {
       const bool as_it_was = changes.ghosts.empty() && changes.given_back.size() == 0;
@@ -273,7 +274,7 @@ std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& 
   if (to.options.writes("labels")) write_labels(to.folder.file("labels.u8"), to.scene, owner);
   if (to.options.writes("objects"))
     save_gaussians(to.folder.file("objects.ply"), to.scene, owner, nullptr, SceneFormat::kPly, to.to,
-                   {.object_ids = owner});
+                   {.up = to.up, .object_ids = owner});
   if (to.options.writes("npy")) write_labels(to.folder.file("labels.npy"), to.scene, owner);
   return gaussians;
 }

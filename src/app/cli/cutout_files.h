@@ -59,8 +59,9 @@ struct CutoutFolder {
   glm::vec3 up_world;         // of the scene, as are the cameras of its capture
   std::span<const Camera> cameras;
   const CutoutOptions& options;
-  bool rest = false;               // whether write_rest() follows and writes it
-  std::optional<MovedTo> to = {};  // where all written Gaussians are moved to
+  bool rest = false;                 // whether write_rest() follows and writes it
+  std::optional<MovedTo> to = {};    // where all written Gaussians are moved to
+  std::optional<glm::vec3> up = {};  // what the files say of up, before they are moved; none: nothing
 
   Drawer drawer() const { return {scene.cloud, nullptr, &blocks}; }
 };

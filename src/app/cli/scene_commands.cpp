@@ -49,6 +49,7 @@ nlohmann::json info_json(const Scene& scene) {
                          {"bounds_98", {{"min", in_file(box.min)}, {"max", in_file(box.max)}}},
                          {"antialiased", scene.cloud.antialiased}};
   if (scene.origin != glm::dvec3(0)) info["origin"] = list(scene.origin);
+  if (scene.up) info["up"] = list(*scene.up);
   if (scene.taken_axes) info["spz_axes"] = name_of(*scene.taken_axes);
   return info;
 }
@@ -186,7 +187,7 @@ void run_render(const SceneArguments& args, const CommonOptions& common) {
   const Job job = console_job(common.quiet);
   const Scene scene = args.how.load(args.scene, args.camera.cameras, common.quiet, job);
   refuse_written_inputs(args.output, scene.files);
-  const ChosenCamera chosen = choose_camera(args.camera, scene.cloud, scene.origin);
+  const ChosenCamera chosen = choose_camera(args.camera, scene);
   warn(chosen.warning, common.quiet);
   RasterOptions options;
   options.background = parse_vec3(args.background, "--background");

@@ -129,7 +129,7 @@ nlohmann::json Conversation::open(const nlohmann::json& request, const Job& job)
   result_.reset();
   SharedScene scene(args, cache_, true, job);
   refuse_cancelled(job);
-  ChosenCamera chosen = choose_camera(args.camera, scene.scene().cloud, scene.scene().origin);
+  ChosenCamera chosen = choose_camera(args.camera, scene.scene());
   const CutSettings settings = args.settings();
   opened_ = std::make_unique<Opened>(
       Opened{std::move(said), std::move(args), std::move(scene), std::move(chosen), settings});
@@ -159,7 +159,7 @@ nlohmann::json Conversation::look(const RequestKind& kind, const nlohmann::json&
   Opened& open = opened();
   nlohmann::json said = with_options(open.said, kind, request);
   CutArguments args = arguments_of(said, kind.name);
-  open.chosen = choose_camera(args.camera, open.scene.scene().cloud, open.scene.scene().origin);
+  open.chosen = choose_camera(args.camera, open.scene.scene());
   open.said = std::move(said);
   open.args = std::move(args);
   nlohmann::json reply = camera_json();
@@ -338,7 +338,7 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
   if (placement != ExportPlacement{})
     to = {similarity_of(placement, scene.cloud, keep, open.chosen.up_world, format.axes),
           placement.origin == ExportOrigin::kScene};
-  const SaveOptions how{.z_up = placement.up == ExportUp::kPlusZ};
+  const SaveOptions how{.up = up_to_write(open.chosen, placement)};
   const SaveReport saved =
       rest ? save_rest(path, scene, keep, changes, format, to, how)
            : save_gaussians(path, scene, keep, cleaned ? &clean->cloud : nullptr, format, to, how);

@@ -78,8 +78,9 @@ void run_work_cut(const WorkCutOptions& options) {
   end_progress();
   stop_if_cancelled(job, "splatcut cut");
   const std::vector<Camera>& cameras = scene->views().cameras;
-  const std::vector<WrittenObject> objects = write_objects(
-      document, {folder, *scene->scene, *scene->blocks, document.up_world, cameras, options.cutout}, job);
+  CutoutFolder to{folder, *scene->scene, *scene->blocks, document.up_world, cameras, options.cutout};
+  to.up = document.up_world;
+  const std::vector<WrittenObject> objects = write_objects(document, to, job);
   if (objects.empty()) throw Error(options.work.string(), "holds no object with any Gaussians");
   const nlohmann::json report = {{"work", options.work.string()},
                                  {"scene", scene->scene->path.string()},

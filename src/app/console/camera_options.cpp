@@ -86,7 +86,8 @@ void CameraOptions::add_to(CLI::App& command) {
   command.add_option("--camera-pos", position, "Camera position x,y,z");
   command.add_option("--camera-target", target, "Point in the middle of the picture x,y,z");
   command.add_option("--camera-up", up,
-                     "Up direction x,y,z (without it: that of the cameras, or as the scene seems to stand)");
+                     "Up direction x,y,z (without it: that of the cameras, else as the file says, or as the "
+                     "scene seems to stand)");
   command.add_option("--camera-fov", fov_y_deg, "Vertical field of view, degrees")->check(within(1, 170));
   command.add_option("--size", size, "Picture size WxH");
 }
@@ -100,8 +101,9 @@ glm::dvec3 parse_vec3(const std::string& text, const std::string& where) {
   return v;
 }
 
-ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cloud,
-                           const glm::dvec3& origin) {
+ChosenCamera choose_camera(const CameraOptions& options, const Scene& scene) {
+  const GaussianCloud& cloud = scene.cloud;
+  const glm::dvec3& origin = scene.origin;
   ChosenCamera chosen;
   if (!options.camera.empty() && options.cameras.empty())
     throw Error("--camera " + options.camera, "names a camera, but none are given",
@@ -116,10 +118,12 @@ ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cl
               ": its cameras see nothing of the scene: they may be of another run, or the scene was moved",
           &chosen.warning);
   }
-  if (!options.up.empty())
+  if (!options.up.empty()) {
     chosen.up_world = parse_vec3(options.up, "--camera-up");
-  else if (chosen.given.empty())
-    chosen.up_world = guessed_up(cloud);
+  } else if (chosen.given.empty()) {
+    chosen.up_is_guess = !scene.up;
+    chosen.up_world = scene.up ? *scene.up : guessed_up(cloud);
+  }
   const float fov_y_rad = glm::radians(options.fov_y_deg);
   const auto [width, height] =
       options.size.empty() ? std::pair(kDefaultWidth, kDefaultHeight) : parse_size(options.size);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scene/camera/camera.h"
-#include "scene/cloud/gaussian_cloud.h"
+#include "scene/formats/scene_file.h"
 
 namespace CLI {
 class App;
@@ -29,14 +29,13 @@ struct CameraOptions {
 struct ChosenCamera {
   Camera camera;
   glm::vec3 up_world{0, -1, 0};
+  bool up_is_guess = false;   // neither options nor cameras nor the file say it
   std::vector<Camera> given;  // all cameras of --cameras, if any
   std::string warning;        // a sentence about those cameras, or empty
 };
 
-// Throws Error for a camera that cannot be made. origin: taken off all positions that are given, as off those
-// of the scene (Scene::origin).
-ChosenCamera choose_camera(const CameraOptions& options, const GaussianCloud& cloud,
-                           const glm::dvec3& origin = glm::dvec3(0));
+// Throws Error for a camera that cannot be made. Scene::origin is taken off all positions that are given.
+ChosenCamera choose_camera(const CameraOptions& options, const Scene& scene);
 
 glm::dvec3 parse_vec3(const std::string& text, const std::string& where);
 

@@ -58,7 +58,7 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   if (what.job.cancelled()) return;
   std::optional<MovedTo> moved;
   if (to) moved = {*to, request.placement.origin == ExportOrigin::kScene};
-  const SaveOptions options{.z_up = request.placement.up == ExportUp::kPlusZ};
+  const SaveOptions options{.up = what.up_world};
   const SaveReport saved =
       clean ? save_gaussians(path, what.scene, keep, &clean->cloud, request.format, moved, options)
             : save_rest(path, what.scene, keep, changes, request.format, moved, options);
@@ -125,11 +125,16 @@ SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
                                   : instead ? placed(*instead, {}, to->by)
                                             : placed(scene.cloud, keep, to->by));
   if (to && !to->adds_origin) other.origin = glm::dvec3(0);
+  const auto turn = [&](std::optional<glm::vec3>* up) {
+    if (to && *up) *up = to->by.rotation * **up;
+  };
+  turn(&other.up);
   std::vector<std::uint8_t> ids;  // of the Gaussians that are kept
   for (std::size_t g = 0; g < options.object_ids.size(); ++g)
     if (keep.empty() || keep[g]) ids.push_back(options.object_ids[g]);
   SaveOptions of_other = options;
   of_other.object_ids = ids;
+  turn(&of_other.up);
   return save_scene(path, other, {}, format, of_other);
 }
 

@@ -56,7 +56,8 @@ struct MovedTo {
 
 // Writes Gaussians of a scene, rows unchanged where the format allows it: those with a flag in `keep` (one
 // per Gaussian, empty: all), or the cloud `instead` (an object with clean edges; null: none) in their place.
-// to: where they are moved to. Throws Error as save_scene() does.
+// to: where they are moved to, and with them what scene and options say of up. Throws Error as save_scene()
+// does.
 SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
                           const std::vector<std::uint8_t>& keep, const GaussianCloud* instead,
                           const SceneFormat& format, const std::optional<MovedTo>& to = {},

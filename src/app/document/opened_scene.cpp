@@ -23,16 +23,23 @@ Camera view_of_all(const Box& bounds, const glm::vec3& up_world) {
   return view_of_all(bounds, up_world, CameraPose{}.fov_y_rad, kWidth, kHeight);
 }
 
-// Without cameras, up and first view are guessed from the splats.
+// Whether cameras that lie beside a file stand otherwise than the file says, as where it was turned when it
+// was written: they are not its own.
+bool stand_otherwise(const std::vector<Camera>& cameras, const std::optional<glm::vec3>& up) {
+  constexpr float kAlike = 0.87f;  // 30 degrees
+  return up && !cameras.empty() && glm::dot(glm::normalize(common_up(cameras)), *up) < kAlike;
+}
+
+// Without cameras the first view is guessed from the splats, and up where the file does not say it.
 FileViews views_of(const Scene& scene, const Box& bounds, std::vector<Camera> cameras, const Job& job) {
   FileViews views;
   views.cameras = std::move(cameras);
   if (!views.cameras.empty()) {
-    views.up_world = common_up(views.cameras);
+    views.up_world = scene.up ? *scene.up : common_up(views.cameras);
     views.reference = views.cameras.front();
     return views;
   }
-  views.up_world = guessed_up(scene.cloud);
+  views.up_world = scene.up ? *scene.up : guessed_up(scene.cloud);
   views.reference = view_of_all(bounds, views.up_world);
   views.first_view = better_first_view(scene.cloud, bounds, views.up_world, views.reference, job);
   if (views.first_view) views.reference = *views.first_view;
@@ -55,6 +62,11 @@ Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::ve
   Scene scene = load_scene(file->path, {file->spz_axes, cameras, file->lod.value_or(0), file->origin}, job);
   if (job.cancelled()) return scene;
   if (scene.origin != glm::dvec3(0)) cameras = cameras_near(file->path, scene.origin);
+  if (stand_otherwise(cameras, scene.up)) {
+    cameras.clear();
+    scene.oddity += scene.oddity.empty() ? "" : ". ";
+    scene.oddity += "the cameras beside it stand otherwise than it says of up, and are left out";
+  }
   const SceneSource* known = before ? before->file(file->id) : nullptr;
   const std::uint64_t hash = hash_of_file(scene.path);
   if (known && known->hash != hash)

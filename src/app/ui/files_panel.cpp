@@ -52,8 +52,9 @@ void placing(UiContext& ui, const SceneSource& file) {
                         &place.turn_deg, 0.5f, "%.1f");
   done |= scale_number(&place.scale);
   ImGui::SameLine(0, 4);
-  if (button(ui, "Stand it upright", "Its own way up, guessed or of its cameras, becomes the scene's", {},
-             false, -1))
+  if (button(ui, "Stand it upright",
+             "Its own way up, as its file says, of its cameras or guessed, becomes the scene's", {}, false,
+             -1))
     ui.ask(PlaceScene{file.id, stood_upright(file, place, ui.studio.document().up_world)});
   if (done) ui.ask(PlaceScene{file.id, place});
   ButtonRow row({"Bring here", "As in file", "Take out"});

@@ -12,6 +12,7 @@
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/losses.h"
+#include "scene/formats/said_up.h"
 #include "scene/packing/ply_header.h"
 
 namespace splatcut {
@@ -178,10 +179,11 @@ std::array<std::uint32_t, 4> pack(const GaussianCloud& cloud, std::uint32_t g, c
               to_steps(cloud.opacity[g], 8)};
 }
 
-std::string chunked_header(std::size_t gaussians, std::size_t chunks, const GaussianCloud& cloud) {
+std::string chunked_header(std::size_t gaussians, std::size_t chunks, const GaussianCloud& cloud,
+                           const SaveOptions& options) {
   const std::size_t sh = cloud.sh_stride();
-  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\n{}element chunk {}\n",
-                                   antialiasing_comment(cloud.antialiased), chunks);
+  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\n{}{}element chunk {}\n",
+                                   antialiasing_comment(cloud.antialiased), up_comment(options.up), chunks);
   for (const char* name : kBounds) header += fmt::format("property float {}\n", name);
   header += fmt::format("element vertex {}\n", gaussians);
   for (const char* name : kPacked) header += fmt::format("property uint {}\n", name);
@@ -219,6 +221,7 @@ void read_compressed_ply(const MappedFile& file, const LoadOptions&, Scene& scen
   const int degree = sh ? bind_sh(file, *sh, vertex->count, rows) : 0;
   scene.cloud.antialiased = header.antialiased();
   decode_rows(rows, vertex->count, degree, scene, job);
+  take_up(up_from_header(header), {}, &scene);
 }
 
 Losses compressed_ply_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) {
@@ -236,7 +239,7 @@ Losses compressed_ply_losses(const Scene& scene, std::span<const std::uint32_t> 
 
 // In Morton order instead of file order: neighbours must share a chunk, or its bounds mean nothing.
 std::string write_compressed_ply(AtomicFile& out, const Scene& scene,
-                                 std::span<const std::uint32_t> gaussians, const SaveOptions&) {
+                                 std::span<const std::uint32_t> gaussians, const SaveOptions& options) {
   const GaussianCloud& cloud = scene.cloud;
   std::vector<std::uint32_t> order(gaussians.begin(), gaussians.end());
   std::ranges::sort(order);
@@ -244,7 +247,7 @@ std::string write_compressed_ply(AtomicFile& out, const Scene& scene,
   for (std::size_t begin = 0; begin < order.size(); begin += kChunkRows)
     chunks.push_back(
         chunk_of(cloud, std::span(order).subspan(begin, std::min(kChunkRows, order.size() - begin))));
-  const std::string header = chunked_header(order.size(), chunks.size(), cloud);
+  const std::string header = chunked_header(order.size(), chunks.size(), cloud, options);
   out.write(std::as_bytes(std::span(header)));
   static_assert(sizeof(Chunk) ==
                 sizeof(float) * kBounds.size());  // its members stand in the order of kBounds

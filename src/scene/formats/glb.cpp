@@ -19,6 +19,7 @@
 #include "scene/formats/axes.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/gltf_file.h"
+#include "scene/formats/said_up.h"
 
 namespace splatcut {
 
@@ -274,6 +275,13 @@ class Collector {
   std::size_t file_bytes_;
 };
 
+// Of the scene that is shown.
+SaidUp up_said(const json& text) {
+  if (!text.contains("scenes") || text.at("scenes").empty()) return {};
+  const json& shown = text.at("scenes").at(number_or_0(text, "scene"));
+  return shown.contains("extras") ? up_from_json(shown.at("extras")) : SaidUp();
+}
+
 // Without scenes, the nodes that hang below none.
 std::vector<std::size_t> roots_of(const json& text) {
   if (!text.contains("scenes") || text.at("scenes").empty()) {
@@ -305,6 +313,7 @@ void read_glb(const MappedFile& file, const LoadOptions&, Scene& scene, const Jo
       throw Error(file.path().string(),
                   fmt::format("{} Gaussians are more than can be handled", found.count));
     decode_rows(found.rows, found.count, found.rows.degree, scene, job);
+    take_up(up_said(gltf.text), kLeftUpForward, &scene);
   } catch (const json::exception& error) {
     throw Error(file.path().string(),
                 fmt::format("is not glTF as its standard has it ({})", fault_of(error)));

@@ -9,6 +9,7 @@
 #include "scene/formats/axes.h"
 #include "scene/formats/glb.h"
 #include "scene/formats/losses.h"
+#include "scene/formats/said_up.h"
 
 namespace splatcut {
 
@@ -40,8 +41,10 @@ class GlbWriter {
     accessors_[0]["min"] = {least.x, least.y, least.z};
     accessors_[0]["max"] = {most.x, most.y, most.z};
   }
-  void write(AtomicFile& out) const {
-    std::string text = document().dump();
+  void write(AtomicFile& out, const std::optional<glm::vec3>& up) const {
+    json whole = document();
+    if (up) add_up(up, kLeftUpForward, &whole["scenes"][0]["extras"]);
+    std::string text = whole.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const auto text_bytes = static_cast<std::uint32_t>(text.size());
     const auto binary_bytes = static_cast<std::uint32_t>(binary_.size() * sizeof(float));
@@ -120,7 +123,7 @@ Losses glb_losses(const Scene& scene) {
 }  // namespace
 
 std::string write_glb(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
-                      const SaveOptions&) {
+                      const SaveOptions& options) {
   const GaussianCloud& cloud = scene.cloud;
   if (glb_bytes(cloud, gaussians.size()) > std::numeric_limits<std::uint32_t>::max())
     throw Error(".glb", "cannot hold more than 4 GB", "Choose another format, or export a part");
@@ -137,7 +140,7 @@ std::string write_glb(AtomicFile& out, const Scene& scene, std::span<const std::
   glb.add(sh_name(0, 0), "VEC3", 3, gaussians,
           [&](std::uint32_t g, std::size_t c) { return cloud.f_dc[g][static_cast<int>(c)]; });
   add_sh(cloud, gaussians, &glb);
-  glb.write(out);
+  glb.write(out, options.up);
   return glb_losses(scene).sentence();
 }
 

@@ -31,6 +31,17 @@ std::string mark_of_some(const std::vector<Scene>& scenes) {
                      marked->path.string());
 }
 
+// A file of several scenes says one up, that of the first.
+std::string up_of_others(const std::vector<Scene>& scenes) {
+  constexpr float kSame = 0.9998f;  // within a degree
+  const std::optional<glm::vec3>& first = scenes.front().up;
+  const auto other = std::ranges::find_if(
+      scenes, [&](const Scene& s) { return s.up && !(first && glm::dot(*s.up, *first) > kSame); });
+  if (other == scenes.end()) return {};
+  return fmt::format("which way is up by {} is left out, it is not what {} says", other->path.string(),
+                     scenes.front().path.string());
+}
+
 void add_names(const std::vector<std::string>& names, std::vector<std::string>* all) {
   for (const std::string& name : names)
     if (std::ranges::find(*all, name) == all->end()) all->push_back(name);
@@ -42,6 +53,7 @@ Scene described(const std::vector<Scene>& scenes) {
   whole.path = scenes.front().path;
   whole.format = scenes.front().format;
   whole.origin = scenes.front().origin;
+  whole.up = scenes.front().up;
   for (const Scene& scene : scenes) {
     whole.file_rows += scene.file_rows;
     whole.dropped += scene.dropped;
@@ -69,7 +81,9 @@ GaussianCloud in_sequence(std::vector<Scene>* scenes) {
 MergedScene merged(std::vector<Scene> scenes, const Job& job) {
   assert(!scenes.empty());
   refuse_too_many(scenes);
-  MergedScene result{described(scenes), mark_of_some(scenes)};
+  MergedScene result{described(scenes), {}};
+  for (const std::string& loss : {mark_of_some(scenes), up_of_others(scenes)})
+    if (!loss.empty()) result.loss += (result.loss.empty() ? "" : "; ") + loss;
   job.progress("merging", 0.0);
   const GaussianCloud cloud = in_sequence(&scenes);
   // Compact formats rely on the order: neighbours share a chunk.

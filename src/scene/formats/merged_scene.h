@@ -17,8 +17,8 @@ struct MergedScene {
 };
 
 // One scene or more. Spherical harmonics: of the highest degree among them. The mark of antialiased training
-// stays where all have it. Throws Error for more rows together than a row number can count. Cancelled: the
-// result is unspecified. Memory: about twice the Gaussians of all.
+// stays where all have it, up is that of the first. Throws Error for more rows together than a row number can
+// count. Cancelled: the result is unspecified. Memory: about twice the Gaussians of all.
 MergedScene merged(std::vector<Scene> scenes, const Job& job = {});
 
 }  // namespace splatcut

@@ -20,6 +20,7 @@
 #include "scene/formats/ply_text.h"
 #include "scene/formats/ply_values.h"
 #include "scene/formats/ply_writer.h"
+#include "scene/formats/said_up.h"
 #include "scene/packing/ply_header.h"
 
 namespace splatcut {
@@ -315,6 +316,7 @@ void read_ply(const MappedFile& file, const LoadOptions& options, Scene& scene, 
     read_doubles(file, header, vertex, options, scene, job);
   else
     read_vertices(file, header, vertex, scene, job);
+  take_up(up_from_header(header), {}, &scene);
 }
 
 Losses ply_losses(const Scene& scene, bool rows_copied) {
@@ -328,7 +330,7 @@ std::string write_ply(AtomicFile& out, const Scene& scene, std::span<const std::
   if (scene.rows_can_be_copied)
     write_ply_subset(out, scene, gaussians, options);
   else
-    write_ply_rows(out, scene, gaussians, options.object_ids);
+    write_ply_rows(out, scene, gaussians, options);
   return ply_losses(scene, scene.rows_can_be_copied).sentence();
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/mapped_file.h"
+#include "scene/formats/said_up.h"
 #include "scene/packing/ply_header.h"
 
 namespace splatcut {
@@ -22,16 +23,20 @@ constexpr std::size_t kBufferBytes = 1 << 20;
 
 constexpr std::string_view kIdProperty = "property uchar object_id\n";
 
-// The header text of the source with another vertex count, and with object_id as the last property of a
-// vertex if asked for; all other lines stay as they are.
-std::string header_with_count(std::string_view header, std::size_t count, bool with_ids) {
-  std::string out;
+// The header text of the source with another vertex count, with object_id as the last property of a vertex if
+// asked for, and with another up if one is known; all other lines stay as they are.
+std::string changed_header(std::string_view header, std::size_t count, bool with_ids,
+                           const std::optional<glm::vec3>& up) {
+  std::string out, line_of_up = up_comment(up);
   bool in_vertex = false;
   for (std::size_t begin = 0; begin < header.size();) {
     const std::size_t end = header.find('\n', begin) + 1;
     const std::string_view line = header.substr(begin, end - begin);
     const std::vector<std::string_view> words = words_of(line);
     const bool leaves = in_vertex && !words.empty() && (words[0] == "element" || words[0] == "end_header");
+    begin = end;
+    if (up && is_up_comment(line)) continue;
+    if (!words.empty() && words[0] == "element") out += std::exchange(line_of_up, {});
     if (leaves && with_ids) out += kIdProperty;
     if (leaves) in_vertex = false;
     if (words.size() == 3 && words[0] == "element" && words[1] == "vertex") {
@@ -40,7 +45,6 @@ std::string header_with_count(std::string_view header, std::size_t count, bool w
     } else {
       out += line;
     }
-    begin = end;
   }
   return out;
 }
@@ -57,9 +61,10 @@ float log_scale(float scale) {
   return std::log(std::max(scale, kSmallest));
 }
 
-std::string header_for(std::size_t count, const GaussianCloud& cloud, bool is_far, bool with_ids) {
-  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\n{}element vertex {}\n",
-                                   antialiasing_comment(cloud.antialiased), count);
+std::string header_for(std::size_t count, const GaussianCloud& cloud, bool is_far,
+                       const SaveOptions& options) {
+  std::string header = fmt::format("ply\nformat binary_little_endian 1.0\n{}{}element vertex {}\n",
+                                   antialiasing_comment(cloud.antialiased), up_comment(options.up), count);
   for (const char* name : {"x", "y", "z"})
     header += fmt::format("property {} {}\n", is_far ? "double" : "float", name);
   const auto add = [&](const std::string& name) { header += "property float " + name + "\n"; };
@@ -67,7 +72,7 @@ std::string header_for(std::size_t count, const GaussianCloud& cloud, bool is_fa
   for (std::size_t i = 0; i < cloud.sh_stride(); ++i) add(fmt::format("f_rest_{}", i));
   for (const char* name : {"opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
     add(name);
-  if (with_ids) header += kIdProperty;
+  if (!options.object_ids.empty()) header += kIdProperty;
   return header + "end_header\n";
 }
 
@@ -140,8 +145,8 @@ void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::
     throw Error(scene.path.string(), "has a property object_id already, where objects are to be numbered");
   const std::span<const std::byte> rows = element_bytes(scene.path, source.bytes(), *vertex);
   const std::string text =
-      header_with_count({reinterpret_cast<const char*>(source.bytes().data()), header.bytes},
-                        gaussians.size() + (changed ? changed->size() : 0), !object_ids.empty());
+      changed_header({reinterpret_cast<const char*>(source.bytes().data()), header.bytes},
+                     gaussians.size() + (changed ? changed->size() : 0), !object_ids.empty(), options.up);
   out.write(std::as_bytes(std::span(text)));
   out.write(source.bytes().subspan(header.bytes, vertex->data_begin - header.bytes));
   const std::size_t row_bytes = vertex->row_bytes;
@@ -169,10 +174,10 @@ void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::
 }
 
 void write_ply_rows(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
-                    std::span<const std::uint8_t> object_ids) {
+                    const SaveOptions& options) {
   const GaussianCloud& cloud = scene.cloud;
   const bool is_far = scene.origin != glm::dvec3(0);
-  const std::string header = header_for(gaussians.size(), cloud, is_far, !object_ids.empty());
+  const std::string header = header_for(gaussians.size(), cloud, is_far, options);
   out.write(std::as_bytes(std::span(header)));
   std::vector<std::byte> buffer;
   buffer.reserve(kBufferBytes + (20 + cloud.sh_stride()) * sizeof(float));
@@ -194,7 +199,7 @@ void write_ply_rows(AtomicFile& out, const Scene& scene, std::span<const std::ui
     add(logit(cloud.opacity[g]), log_scale(s.x), log_scale(s.y), log_scale(s.z), q.w, q.x, q.y, q.z);
     const auto bytes = std::as_bytes(std::span(row));
     buffer.insert(buffer.end(), bytes.begin(), bytes.end());
-    if (!object_ids.empty()) buffer.push_back(std::byte{object_ids[g]});
+    if (!options.object_ids.empty()) buffer.push_back(std::byte{options.object_ids[g]});
     if (buffer.size() < kBufferBytes) continue;
     out.write(buffer);
     buffer.clear();

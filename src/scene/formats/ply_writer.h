@@ -9,9 +9,10 @@
 
 namespace splatcut {
 
-// object_ids: of SaveOptions.
+// Of the options: object ids, changed rows, up.
 
-// Rows as they stand in the source file, which is a binary .ply, with object ids or with changed rows.
+// Rows as they stand in the source file, which is a binary .ply, with object ids or with changed rows. Its
+// header stays, but for the number of rows and for what it says of up.
 void write_ply_subset(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
                       const SaveOptions& options);
 
@@ -20,6 +21,6 @@ bool can_change_rows(const PlyElement& vertex);
 
 // Encoded from the cloud, in the layout of Kerbl et al.; positions in double where the scene has an origin.
 void write_ply_rows(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
-                    std::span<const std::uint8_t> object_ids = {});
+                    const SaveOptions& options);
 
 }  // namespace splatcut

@@ -109,6 +109,7 @@ Scene with_cloud(const Scene& scene, GaussianCloud cloud) {
   other.file_rows = scene.file_rows;
   other.other_properties = scene.other_properties;
   other.origin = scene.origin;
+  other.up = scene.up;
   other.cloud = std::move(cloud);
   return other;
 }
@@ -171,7 +172,9 @@ SaveReport save_scene(const std::filesystem::path& path, const Scene& scene,
   AtomicFile out(path);
   SaveReport report;
   report.gaussians = kept.size() + (options.changed_rows ? options.changed_rows->size() : 0);
-  report.loss = format.write(out, scene, kept, options);
+  SaveOptions resolved = options;
+  if (!resolved.up) resolved.up = scene.up;
+  report.loss = format.write(out, scene, kept, resolved);
   report.bytes = out.bytes_written();
   out.commit();
   return report;

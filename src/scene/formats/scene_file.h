@@ -34,6 +34,8 @@ struct Scene {
   std::size_t dropped = 0;    // rows left out: NaN, zero quaternion, beyond 1e15 units
   glm::dvec3 origin{
       0};  // taken off positions that 32 bits do not hold: the file's are those of the cloud + it
+  // Which way is up, unit length, in the axes of the cloud; none where nothing says it.
+  std::optional<glm::vec3> up;
   std::uint64_t file_bytes = 0;  // with modified_ns: to notice that the file changed since
   std::int64_t modified_ns = 0;
   bool rows_can_be_copied = false;            // to a .ply, byte for byte from path
@@ -75,7 +77,8 @@ Scene load_scene(const std::filesystem::path& path, const Job& job = {});
 struct SaveOptions {
   int spz_version = 3;        // 3, which every reader of .spz knows, or 4, which is smaller
   bool may_be_empty = false;  // a .ply without Gaussians is written rather than refused
-  bool z_up = false;          // what a .usda says of its axes, which else have y up
+  // What the file says of up, any length but 0, in the axes of the cloud; none: Scene::up, if that is known.
+  std::optional<glm::vec3> up = {};
   std::span<const std::uint8_t> object_ids = {};  // per Gaussian: a .ply says them as property object_id
   // To a .ply whose rows can be changed: written last, each as the row of its file_row with its own place,
   // size, turn, opacity and constant colour.

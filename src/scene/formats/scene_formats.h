@@ -74,8 +74,8 @@ struct SceneFormat {
   // bad content. Null: the format is only written.
   void (*read)(const MappedFile& file, const LoadOptions& options, Scene& scene, const Job& job) = nullptr;
 
-  // Writes the Gaussians, given as indices into scene.cloud in file order. Returns the sentence on what is
-  // lost, or nothing. Null: the format is only read.
+  // Writes the Gaussians, given as indices into scene.cloud in file order, and up as the options have it.
+  // Returns the sentence on what is lost, or nothing. Null: the format is only read.
   std::string (*write)(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
                        const SaveOptions& options) = nullptr;
 

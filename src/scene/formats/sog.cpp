@@ -13,6 +13,7 @@
 #include "core/json_file.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
+#include "scene/formats/said_up.h"
 #include "scene/formats/sog_rows.h"
 #include "scene/packing/webp.h"
 #include "scene/packing/zip_file.h"
@@ -179,6 +180,7 @@ SogRows rows_of(const MappedFile& file, const Job& job) {
   SogRows rows;
   rows.count = count_of(file, meta);
   rows.antialiased = meta.value("antialias", false) || meta.value("model", "") == "antialiased";
+  rows.up = up_from_json(meta);
   rows.logits = !meta.contains("version");
   rows.least = vec3_of(meta.at("means").at("mins"));
   rows.most = vec3_of(meta.at("means").at("maxs"));
@@ -216,6 +218,7 @@ void read_sog(const MappedFile& file, const LoadOptions&, Scene& scene, const Jo
   scene.cloud.antialiased = rows.antialiased;
   for (const auto& [path, bytes] : rows.packed) scene.files.push_back(path);
   if (!job.cancelled()) decode_rows(rows, rows.count, rows.degree, scene, job);
+  take_up(rows.up, {}, &scene);
 }
 
 bool is_sog(const MappedFile& file) {

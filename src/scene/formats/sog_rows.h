@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "core/image.h"
 #include "core/job.h"
@@ -22,6 +23,7 @@ struct SogRows {
   std::size_t count = 0;  // Gaussians; the pictures may have more pixels
   int degree = 0;
   bool antialiased = false;
+  std::optional<glm::dvec3> up;                           // as said_up.h has it
   std::map<std::filesystem::path, std::uint64_t> packed;  // the files that were read, in bytes
 
   glm::vec3 least{0}, most{0};  // of the logarithms of positions

@@ -10,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/losses.h"
+#include "scene/formats/said_up.h"
 #include "scene/formats/sog.h"
 #include "scene/packing/palette.h"
 #include "scene/packing/webp.h"
@@ -195,11 +196,12 @@ Losses sog_losses(const Scene& scene, std::size_t gaussians) {
 }  // namespace
 
 std::string write_sog(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
-                      const SaveOptions&) {
+                      const SaveOptions& options) {
   SogInput in{scene.cloud, {gaussians.begin(), gaussians.end()}};
   std::ranges::sort(in.gaussians);
   SogPictures pictures;
-  const json meta = add_all(in, scene.cloud.antialiased, &pictures);
+  json meta = add_all(in, scene.cloud.antialiased, &pictures);
+  add_up(options.up, {}, &meta);
   std::vector<ZipEntry> entries(pictures.names.size());
   tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) {
     entries[i] = {pictures.names[i], write_webp(pictures.images[i])};

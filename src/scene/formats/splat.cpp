@@ -62,7 +62,7 @@ void read_splat(const MappedFile& file, const LoadOptions&, Scene& scene, const 
   decode_rows(SplatRows{file.bytes().data()}, rows, 0, scene, job);
 }
 
-Losses splat_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) {
+Losses splat_losses(const Scene& scene, std::span<const std::uint32_t> gaussians, bool up_is_known) {
   constexpr float kHalfStep = 0.5f / 255;
   constexpr Reach kColours{(-kHalfStep - 0.5f) / kShC0Rounded, (0.5f + kHalfStep) / kShC0Rounded};
   Losses losses;
@@ -74,11 +74,12 @@ Losses splat_losses(const Scene& scene, std::span<const std::uint32_t> gaussians
   losses.add(origin_left_out(scene));
   losses.add(properties_left_out(scene));
   losses.add(antialiasing_left_out(scene));
+  if (up_is_known) losses.add("which way is up is left out");
   return losses;
 }
 
 std::string write_splat(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
-                        const SaveOptions&) {
+                        const SaveOptions& options) {
   const GaussianCloud& cloud = scene.cloud;
   std::vector<SplatRow> rows(gaussians.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -91,14 +92,14 @@ std::string write_splat(AtomicFile& out, const Scene& scene, std::span<const std
                {to_byte(q.w + 128), to_byte(q.x + 128), to_byte(q.y + 128), to_byte(q.z + 128)}};
   }
   out.write(std::as_bytes(std::span(rows)));
-  return splat_losses(scene, gaussians).sentence();
+  return splat_losses(scene, gaussians, options.up.has_value()).sentence();
 }
 
 FormatPlan plan_splat(const Scene& scene, std::size_t gaussians, bool) {
   FormatPlan plan;
   plan.bytes = gaussians * kRowBytes;
   plan.kept = "Position and scale in full; colour, opacity and rotation in 8 bits.";
-  plan.lost = splat_losses(scene, all_gaussians(scene.cloud)).in_full();
+  plan.lost = splat_losses(scene, all_gaussians(scene.cloud), true).in_full();
   return plan;
 }
 

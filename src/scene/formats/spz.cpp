@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
+#include "scene/formats/said_up.h"
 #include "scene/formats/spz_rows.h"
 #include "scene/packing/unpack.h"
 #include "scene/raster/guessed_up.h"
@@ -92,26 +93,38 @@ void check_header(const MappedFile& file, const spz::Header& header) {
   if (header.points == 0) refuse("the file holds no Gaussians");
 }
 
-// The axes that the records of an extension block name; none where no record does.
-std::optional<AxisSigns> axes_said(const MappedFile& file, std::span<const std::byte> records) {
+// What the first record of a type holds, among those of an extension block; none where it has fewer bytes.
+template <class Content>
+std::optional<Content> content_of(const SpzRows& rows, std::uint32_t type) {
   struct RecordHead {
     std::uint32_t type, bytes;
   };
-  while (records.size() >= sizeof(RecordHead)) {
+  std::span<const std::byte> records = rows.extensions;
+  while (rows.header.flags & spz::kFlagExtensions && records.size() >= sizeof(RecordHead)) {
     const auto head = load<RecordHead>(records.data());
     records = records.subspan(sizeof head);
-    if (head.bytes > records.size()) return {};  // of a vendor who has no sizes
-    if (head.type == spz::kAxesExtension && head.bytes >= sizeof(std::uint32_t)) {
-      const auto axes = load<std::uint32_t>(records.data());
-      if (axes > spz::kAxesLast)
-        throw Error(file.path().string(), fmt::format("its axes (number {}) exchange y and z", axes),
-                    "Convert it to axes x right, y up, z back with the program that wrote it");
-      const std::uint32_t bits = (axes == spz::kAxesUnspecified ? spz::kAxesRightUpBack : axes) - 1;
-      return AxisSigns{bits & 1 ? 1.0f : -1.0f, bits & 2 ? -1.0f : 1.0f, bits & 4 ? 1.0f : -1.0f};
-    }
+    if (head.bytes > records.size()) break;  // of a vendor who has no sizes
+    if (head.type == type && head.bytes >= sizeof(Content)) return load<Content>(records.data());
     records = records.subspan(head.bytes);
   }
   return {};
+}
+
+// The axes that a record names; none where no record does.
+std::optional<AxisSigns> axes_said(const MappedFile& file, const SpzRows& rows) {
+  const auto axes = content_of<std::uint32_t>(rows, spz::kAxesExtension);
+  if (!axes) return {};
+  if (*axes > spz::kAxesLast)
+    throw Error(file.path().string(), fmt::format("its axes (number {}) exchange y and z", *axes),
+                "Convert it to axes x right, y up, z back with the program that wrote it");
+  const std::uint32_t bits = (*axes == spz::kAxesUnspecified ? spz::kAxesRightUpBack : *axes) - 1;
+  return AxisSigns{bits & 1 ? 1.0f : -1.0f, bits & 2 ? -1.0f : 1.0f, bits & 4 ? 1.0f : -1.0f};
+}
+
+SaidUp up_of(const SpzRows& rows) {
+  if (rows.up_in_comment) return rows.up_in_comment;
+  const auto up = content_of<std::array<float, 3>>(rows, spz::kUpExtension);
+  return up ? SaidUp(glm::dvec3((*up)[0], (*up)[1], (*up)[2])) : std::nullopt;
 }
 
 const char* words_for(SpzAxes axes) {
@@ -159,7 +172,7 @@ void decode(const MappedFile& file, const LoadOptions& options, SpzRows& rows, S
     scene.left_out =
         fmt::format("Spherical harmonics of degree {} are left out, those up to degree {} are read",
                     rows.header.sh_degree, rows.degree);
-  auto said = rows.header.flags & spz::kFlagExtensions ? axes_said(file, rows.extensions) : std::nullopt;
+  auto said = axes_said(file, rows);
   if (!said && rows.ours) said = kRightUpBack;
   if (!said) return decode_unsaid(options, &rows, scene, job);
   if (options.spz_axes) return decode_asked(*options.spz_axes, &rows, scene, job);
@@ -211,7 +224,12 @@ SpzRows rows_of_gzip(const MappedFile& file, const Job& job) {
   if (job.cancelled()) return rows;
   set_attributes(rows.unpacked[0], &rows);
   if (header.flags & spz::kFlagExtensions) rows.extensions = reader.read_rest(kMostExtensionBytes);
-  rows.ours = reader.comment() == spz::kOurComment;
+  const std::string comment = reader.comment();
+  std::string_view rest = comment;
+  rows.ours = comment.starts_with(spz::kOurComment);
+  rest.remove_prefix(rows.ours ? spz::kOurComment.size() : rest.size());
+  if (rest.starts_with(spz::kUpInComment))
+    rows.up_in_comment = up_from_words(rest.substr(spz::kUpInComment.size()));
   return rows;
 }
 
@@ -289,6 +307,7 @@ void read_spz(const MappedFile& file, const LoadOptions& options, Scene& scene, 
   job.progress("unpacking", 0.0);
   SpzRows rows = read_spz_rows(file, job);
   if (!job.cancelled()) decode(file, options, rows, scene, job);
+  take_up(up_of(rows), rows.axes, &scene);
 }
 
 bool is_spz(const MappedFile& file) {

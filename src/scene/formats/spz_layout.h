@@ -11,7 +11,7 @@
 // extensions, a table of stream sizes, and one zstd stream per attribute.
 // Extensions: records of type, size and content, behind the attributes or, in v4, before the table. The one
 // of Adobe names the axes. Without it they are x right, y up, z back (RUB), says the format's text, which not
-// all writers do.
+// all writers do. One of ours says which way is up; readers pass over records that they do not know.
 #pragma once
 
 #include <array>
@@ -52,8 +52,16 @@ struct AxesRecord {
   std::uint32_t type = kAxesExtension, bytes = 4, axes = kAxesRightUpBack;
 };
 
-// Of gzip, around what is written here: the axes are those of the format's text.
-constexpr std::string_view kOurComment = "splatcut: x right, y up, z back";
+// Which way is up, in the axes of the file.
+constexpr std::uint32_t kUpExtension = 0x53430001;
+struct UpRecord {
+  std::uint32_t type = kUpExtension, bytes = 12;
+  std::array<float, 3> up{};
+};
+
+// Of gzip, around what is written here: the axes are those of the format's text. Behind it may stand
+// kUpInComment and three numbers.
+constexpr std::string_view kOurComment = "splatcut: x right, y up, z back", kUpInComment = "; up ";
 
 constexpr float kColourScale = 0.15f;
 constexpr float kLogScaleSteps = 16.0f, kLogScaleMin = -10.0f;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct SpzRows {
   std::vector<Bytes> unpacked;
   Bytes extensions;   // records
   bool ours = false;  // the packing has kOurComment
+  std::optional<glm::dvec3> up_in_comment;
 
   SpzRows() = default;
   SpzRows(const SpzRows&) = delete;

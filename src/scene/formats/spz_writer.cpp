@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/ranks.h"
 #include "scene/cloud/quantise.h"
+#include "scene/formats/said_up.h"
 #include "scene/formats/spz_layout.h"
 
 namespace splatcut {
@@ -112,7 +113,7 @@ std::array<Buffer, spz::kAttributes> attributes(const GaussianCloud& cloud,
 
 class GzipWriter {
  public:
-  explicit GzipWriter(AtomicFile& out) : out_(out) {
+  GzipWriter(AtomicFile& out, std::string comment) : out_(out), comment_(std::move(comment)) {
     constexpr int kGzip = 16 + MAX_WBITS, kMemoryLevel = 8;
     const int result =
         deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY);
@@ -147,7 +148,7 @@ class GzipWriter {
 
   AtomicFile& out_;
   z_stream stream_{};
-  std::string comment_{spz::kOurComment};
+  std::string comment_;
   gz_header header_{};
   std::vector<std::byte> piece_ = std::vector<std::byte>(kPiece);
 };
@@ -157,8 +158,11 @@ std::span<const std::byte> bytes_of(const T& value) {
   return std::as_bytes(std::span(&value, 1));
 }
 
-void write_version_3(AtomicFile& out, const spz::Header& header, std::span<const Buffer> attributes) {
-  GzipWriter gzip(out);
+void write_version_3(AtomicFile& out, const spz::Header& header, std::span<const Buffer> attributes,
+                     const std::optional<glm::vec3>& up) {
+  std::string comment(spz::kOurComment);
+  if (up) comment += std::string(spz::kUpInComment) + words_for_up(*up, kRightUpBack);
+  GzipWriter gzip(out, comment);
   gzip.write(bytes_of(header));
   for (const Buffer& attribute : attributes) gzip.write(std::as_bytes(std::span(attribute)));
   gzip.finish();
@@ -174,15 +178,20 @@ Buffer zstd_packed(const Buffer& data) {
   return packed;
 }
 
-void write_version_4(AtomicFile& out, const spz::Header& first, std::span<const Buffer> attributes) {
+void write_version_4(AtomicFile& out, const spz::Header& first, std::span<const Buffer> attributes,
+                     const std::optional<glm::vec3>& up) {
   spz::HeaderV4 header;
   header.first = first;
   header.first.version = 4;
   header.first.flags |= spz::kFlagExtensions;
   header.first.streams = static_cast<std::uint8_t>(first.sh_degree > 0 ? 6 : 5);
-  header.table_begin = sizeof(spz::HeaderV4) + sizeof(spz::AxesRecord);
+  header.table_begin = sizeof(spz::HeaderV4) + sizeof(spz::AxesRecord) + (up ? sizeof(spz::UpRecord) : 0);
   out.write(bytes_of(header));
   out.write(bytes_of(spz::AxesRecord{}));
+  if (up) {
+    const glm::vec3 said = up_to_say(*up, kRightUpBack);
+    out.write(bytes_of(spz::UpRecord{.up = {said.x, said.y, said.z}}));
+  }
   std::vector<spz::StreamEntry> table;
   std::vector<Buffer> streams;
   for (const Buffer& attribute : attributes.first(header.first.streams)) {
@@ -212,9 +221,9 @@ std::string write_spz(AtomicFile& out, const Scene& scene, std::span<const std::
   const spz::Header header = header_of(scene, gaussians);
   const auto packed = attributes(scene.cloud, gaussians, header.fractional_bits);
   if (options.spz_version == 4)
-    write_version_4(out, header, packed);
+    write_version_4(out, header, packed, options.up);
   else
-    write_version_3(out, header, packed);
+    write_version_3(out, header, packed, options.up);
   return spz_losses(scene, gaussians).sentence();
 }
 

@@ -14,6 +14,7 @@
 #include "core/atomic_file.h"
 #include "scene/formats/axis_signs.h"
 #include "scene/formats/losses.h"
+#include "scene/formats/said_up.h"
 
 namespace splatcut {
 
@@ -117,7 +118,9 @@ std::string write_usda(AtomicFile& out, const Scene& scene, std::span<const std:
   const auto [least, most] = extent_of(cloud, gaussians);
   UsdaText text(out);
   text.add("#usda 1.0\n(\n    defaultPrim = \"Gaussians\"\n    metersPerUnit = 1\n    upAxis = ");
-  text.add(options.z_up ? "\"Z\"" : "\"Y\"");
+  const std::optional<glm::dvec3> up =
+      options.up ? std::optional(up_to_say(*options.up, kUsdAxes)) : std::nullopt;
+  text.add(up == glm::dvec3(0, 0, 1) ? "\"Z\"" : "\"Y\"");
   text.add("\n)\n\ndef ParticleField3DGaussianSplat \"Gaussians\"\n{\n    float3[] extent = [");
   text.add(least);
   text.add(", ");
@@ -141,7 +144,10 @@ std::string write_usda(AtomicFile& out, const Scene& scene, std::span<const std:
   text.add("    uniform token projectionModeHint = \"perspective\"\n");
   text.add("    uniform token sortingModeHint = \"zDepth\"\n}\n");
   text.flush();
-  return usda_losses(scene).sentence();
+  Losses losses = usda_losses(scene);
+  if (up && *up != glm::dvec3(0, 0, 1) && *up != glm::dvec3(0, 1, 0))
+    losses.add("up is said to be +y, as the format knows +y and +z alone");
+  return losses.sentence();
 }
 
 FormatPlan plan_usda(const Scene& scene, std::size_t gaussians, bool) {

@@ -49,7 +49,7 @@ class GzipReader {
   std::filesystem::path path_;
   std::span<const std::byte> in_;
   std::size_t size_ = in_.size();
-  static constexpr std::size_t kMostComment = 63;
+  static constexpr std::size_t kMostComment = 127;
   std::array<char, kMostComment + 1> comment_{};
   gz_header header_{};
   z_stream stream_{};

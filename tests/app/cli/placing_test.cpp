@@ -85,6 +85,40 @@ TEST_CASE("cut --origin foot --up +z: the object stands on the ground, in the mi
           0.02 * tall);
 }
 
+TEST_CASE("cut: files say which way is up where it is known, and pictures of them stand so") {
+  const Workplace& place = still_life().place;
+  const auto up_of = [&](const std::string& file) {
+    const json said = info(file);
+    return said.contains("up") ? said["up"] : json();
+  };
+  REQUIRE(place.run(cut_apple("--up +z --origin foot -o placed_up")).code == 0);
+  for (const char* file : {"object.ply", "rest.ply", "objects.ply"}) {
+    CAPTURE(file);
+    CHECK(up_of(std::string("placed_up/") + file) == json{0, 0, 1});
+  }
+  REQUIRE(place.run(cut_apple("-o known_up")).code == 0);  // by the cameras
+  CHECK_FALSE(up_of("known_up/object.ply").is_null());
+  const std::string guessed = "cut " + still_life().scene +
+                              " --camera-pos 0,-1,-3 --camera-target 0,0,0 --box 400,300,600,500 "
+                              "--preset fast --edges keep --write object,rest";
+  REQUIRE(place.run(guessed + " -o guessed_up").code == 0);
+  CHECK(up_of("guessed_up/rest.ply").is_null());
+  REQUIRE(place.run(guessed + " --camera-up 0,-1,0 -o told_up").code == 0);
+  CHECK(up_of("told_up/rest.ply") == json{0, -1, 0});
+
+  // Written anew, it says the same; a picture of it is that of --camera-up.
+  REQUIRE(place.run("convert placed_up/rest.ply -o up.sog").code == 0);
+  CHECK(up_of("up.sog") == json{0, 0, 1});
+  const auto picture = [&](const std::string& options) {
+    const Result result =
+        place.run("render placed_up/rest.ply --size 64x48 --overwrite -o up.png " + options);
+    REQUIRE_MESSAGE(result.code == 0, result.err);
+    return place.text("up.png");
+  };
+  CHECK(picture("") == picture("--camera-up 0,0,1"));
+  CHECK(picture("") != picture("--camera-up 0,-1,0"));
+}
+
 TEST_CASE("cut --scale-by: what is no known length is refused in words") {
   const std::string at = still_life().click_on("apple");
   refused(cut_apple("--scale-by " + at + ",1"), {}, {"--scale-by", "no known length"});

@@ -135,6 +135,40 @@ double sum_of_sides(const GaussianCloud& cloud) {
 
 }  // namespace
 
+TEST_CASE(
+    "hands: what was turned upright for a file is upright when that is opened, also beside the cameras") {
+  const ScratchFolder folder("says_up");
+  Hands hands;
+  const glm::vec3 up = hands.studio().document().up_world;
+  const GaussianCloud cloud = *hands.studio().scene()->cloud;
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  HeadlessApp other(kHandsWidth, kHandsHeight);
+  for (const bool beside_cameras : {false, true}) {
+    CAPTURE(beside_cameras);
+    if (beside_cameras) std::filesystem::copy(kSampleFolder / "cameras.json", folder / "cameras.json");
+    for (const ExportUp turned : {ExportUp::kPlusZ, ExportUp::kScene})
+      for (const SceneFormat& format : {SceneFormat::kPly, SceneFormat::kCompressedPly, SceneFormat::kSpz,
+                                        SceneFormat::kSog, SceneFormat::kGlb}) {
+        CAPTURE(format.name);
+        const ExportPlacement placement{.origin = ExportOrigin::kFoot, .up = turned};
+        const std::filesystem::path path = folder / ("apple" + std::string(format.extension));
+        hands.studio().apply(Export{{ExportWhat::kObject, format, path, true, placement}});
+        REQUIRE(hands.app.settle());
+        other.open(path);
+        REQUIRE(other.settle());
+        const OpenedScene& scene = *other.studio().scene();
+        REQUIRE(scene.files.front().path == path);
+        const glm::vec3 expected = similarity_of(placement, cloud, labels, up, format.axes).rotation * up;
+        CHECK(glm::distance(other.studio().document().up_world, expected) < 1e-5f);
+        CHECK(glm::distance(other.studio().camera().up_world(), expected) < 1e-5f);
+        // The capture's cameras stay where they stand as the file does.
+        const bool theirs = beside_cameras && turned == ExportUp::kScene;
+        CHECK(scene.views().cameras.empty() != theirs);
+        CHECK(scene.remarks.empty() == (theirs || !beside_cameras));
+      }
+  }
+}
+
 TEST_CASE("hands: an object is exported with clean edges, placed or not, or with its rows as they are") {
   const ScratchFolder folder("edges");
   Hands hands = hands_on_sample();

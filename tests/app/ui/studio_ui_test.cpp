@@ -193,7 +193,7 @@ TEST_CASE(
   const Camera window = app.studio().viewport().pane_camera();
   CameraOptions options;
   options.size = fmt::format("{}x{}", window.width_px, window.height_px);
-  const ChosenCamera chosen = choose_camera(options, *app.studio().scene()->cloud);
+  const ChosenCamera chosen = choose_camera(options, *app.studio().scene()->scene);
   CHECK(glm::distance(chosen.up_world, glm::vec3(0, 0, 1)) < 1e-6f);
   CHECK(glm::distance(chosen.camera.centre_world(), window.centre_world()) < 1e-3f);
   CHECK(glm::distance(chosen.camera.forward_world(), window.forward_world()) < 1e-4f);
@@ -201,9 +201,9 @@ TEST_CASE(
   CHECK(chosen.camera.fy_px == doctest::Approx(window.fy_px).epsilon(1e-4));
 
   options.position = "0,0,5", options.target = "0,0,0";  // straight down: the guess must not refuse it
-  CHECK_NOTHROW(choose_camera(options, scene.cloud));
+  CHECK_NOTHROW(choose_camera(options, scene));
   options.up = "0,0,1";
-  CHECK_THROWS_AS(choose_camera(options, scene.cloud), Error);
+  CHECK_THROWS_AS(choose_camera(options, scene), Error);
 }
 
 TEST_CASE("ui: what was exported last is dragged out of the window, or its path is copied by a click") {

@@ -61,6 +61,7 @@ TEST_CASE("losses: the share of Gaussians beyond the range of bytes is said, rou
     if (g < 30) scene.cloud.f_dc[g] = glm::vec3(0, 0, -3.4f);                 // beyond -0.5 / 0.15
     if (g < 5) scene.cloud.scale[g].y = 1e-6f;                                // exp(-10) is the smallest
   }
+  scene.up = glm::vec3(0, -1, 0);                   // a plan is made where up is known
   for (float& v : scene.cloud.sh_rest) v = 0.995f;  // within half a step of 127/128
   scene.cloud.sh_rest[9 * 7] = -1.2f;
   const auto lost = [&](const char* name) {

@@ -121,7 +121,7 @@ def ParticleField3DGaussianSplat "Gaussians"
     uniform token sortingModeHint = "zDepth"
 }
 )");
-  save_scene(folder / "z.usda", scene, {}, SceneFormat::kUsda, {.z_up = true});
+  save_scene(folder / "z.usda", scene, {}, SceneFormat::kUsda, {.up = glm::vec3(0, 0, -1)});
   CHECK(text_of(folder / "z.usda").find("upAxis = \"Z\"") != std::string::npos);
 }
 
