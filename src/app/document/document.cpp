@@ -88,6 +88,12 @@ std::string cut_key(const Document& document, const ObjectItem& object) {
   return fmt::format("{};{};", document.preset, smoothness) + key_of(cut_request(document, object));
 }
 
+std::size_t stroke_count(const ObjectItem& object) {
+  std::size_t count = 0;
+  for (const StrokedView& view : object.views) count += view.strokes.size();
+  return count;
+}
+
 bool is_stale(const Document& document, const ObjectItem& object) {
   return is_stale(object, cut_key(document, object));
 }

@@ -74,6 +74,8 @@ Camera known_camera(const ObjectItem& object, const Camera& camera);
 // memory, not for files.
 std::string cut_key(const Document& document, const ObjectItem& object);
 
+std::size_t stroke_count(const ObjectItem& object);  // clicks, scribbles and boxes, of all its views
+
 // True if `cut` was computed from another request or other settings. key: the object's present cut_key().
 bool is_stale(const Document& document, const ObjectItem& object);
 bool is_stale(const ObjectItem& object, const std::string& key);

@@ -39,6 +39,20 @@ std::size_t Clicks::size_wanted() const {
       std::clamp<std::ptrdiff_t>(wanted, 0, static_cast<std::ptrdiff_t>(known->sizes) - 1));
 }
 
+// As long as the object has that click alone; the larger one first, as what was clicked is more often too
+// small.
+void Clicks::cut_sizes_ahead() {
+  const ObjectItem* object = ws_.document().active_object();
+  const ClickMeanings* known = known_sizes();
+  if (!known || object->locked || stroke_count(*object) != 1 || ws_.tools.dragging() || !viewport_.idle())
+    return;
+  const std::size_t size = size_wanted();
+  std::vector<int> steps;
+  if (size + 1 < known->sizes) steps.push_back(1);
+  if (size > 0) steps.push_back(-1);
+  cuts_.cut_ahead(steps);
+}
+
 // Nothing while other meanings of the click are offered and the wheel was not turned: one question at a time.
 const ClickMeanings* Clicks::sizes() const {
   const ObjectItem* object = ws_.document().active_object();

@@ -16,12 +16,6 @@ bool any_mark(const ObjectItem& object) {
   return std::ranges::any_of(object.views, marks_object);
 }
 
-std::size_t strokes_of(const ObjectItem& object) {
-  std::size_t count = 0;
-  for (const StrokedView& view : object.views) count += view.strokes.size();
-  return count;
-}
-
 }  // namespace
 
 // Whether anything can be seen within reach of one of the stroke's points: as far as the selection reaches.
@@ -133,7 +127,7 @@ const ClickMeanings* Clicks::offer() const {
   const ObjectItem* object = ws_.document().active_object();
   const bool asks = ws_.view.tool == Tool::kClick || ws_.view.tool == Tool::kBox;
   if (!object || object->locked || !asks || ws_.view.display != DisplayMode::kWhole || ws_.view.heat ||
-      strokes_of(*object) != 1)
+      stroke_count(*object) != 1)
     return nullptr;
   const ClickMeanings* known = meanings(*object);
   return known && known->outlines.size() > 1 && known->key != declined_offer_ ? known : nullptr;
@@ -214,6 +208,7 @@ void Clicks::refresh_hover() {
   stroke.stroke.radius_px *= viewport_.pixels_per_point();
   if (object) stroke.camera = known_camera(*object, stroke.camera);
   if (!shows_clean_edges(ws_.view)) ws_.tasks.cancel(TaskKind::kClean);  // nobody waits for it
+  ws_.tasks.cancel(TaskKind::kAhead);
   ws_.tasks.submit(TaskKind::kHover, [this, ask = *ask, stroke, session = ws_.session, scene = ws_.scene,
                                       request = cut_request(ws_.document(), object ? *object : none),
                                       settings = cut_settings(ws_.document(), object ? *object : none)](
@@ -261,6 +256,7 @@ void Clicks::update() {
   if (std::exchange(cuts_done_, cuts_.done()) != cuts_.done()) note_sizes();
   refresh_hover();
   make_ready();
+  cut_sizes_ahead();
 }
 
 void Clicks::reset() {

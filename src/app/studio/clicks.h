@@ -14,12 +14,12 @@ namespace splatcut {
 
 class Clicks {
  public:
-  Clicks(Workspace& workspace, Viewport& viewport, const CutJobs& cuts, Edits& edits)
+  Clicks(Workspace& workspace, Viewport& viewport, CutJobs& cuts, Edits& edits)
       : ws_(workspace), viewport_(viewport), cuts_(cuts), edits_(edits) {}
 
   void reset();  // forgets everything of the last scene
-  // Updates the outline under the pointer, prepares a click in the middle of the picture, and notes sizes of
-  // a new cut. Called once a frame.
+  // Updates the outline under the pointer, prepares a click in the middle of the picture, notes sizes of a
+  // new cut, and has those next to it cut ahead. Called once a frame.
   void update();
   void pointer_inside(bool inside) { pointer_inside_ = inside; }  // says if the pointer is in the viewport
 
@@ -76,10 +76,11 @@ class Clicks {
   void show_hover(const Flags& change, bool rest);
   void combine_with(const CameraStroke& stroke, SetOperation operation, const std::string& title);
   void note_sizes();
+  void cut_sizes_ahead();
 
   Workspace& ws_;
   Viewport& viewport_;
-  const CutJobs& cuts_;
+  CutJobs& cuts_;
   Edits& edits_;
   std::optional<HoverAsk> hover_;  // question that was asked last; its answer may be shown already
   Ready ready_;

@@ -101,6 +101,8 @@ void CutJobs::reset() {
   ws_.tasks.cancel(TaskKind::kCut);
   running_.reset();
   known_.clear();
+  ahead_.clear();
+  ahead_serial_ = 0;
   given_up_.clear();
 }
 
@@ -128,7 +130,9 @@ void CutJobs::recompute() {
     throw Error("cutout", "the object has no strokes", "Click on it first");
   want_again(*object);
   ws_.session = std::make_shared<Session>(ws_.session->scene());  // with empty caches
-  start(*object);
+  ahead_.clear();
+  ahead_serial_ = 0;
+  start(*object, true);
 }
 
 bool CutJobs::cancel() {
@@ -159,32 +163,113 @@ void CutJobs::end(const std::string& given_up) {
   ++ws_.view_serial;
 }
 
-void CutJobs::start(const ObjectItem& object) {
+CutJobs::Order CutJobs::order_for(const ObjectItem& object) const {
+  return {ws_.scene,
+          ws_.session,
+          cut_request(ws_.document(), object),
+          cut_settings(ws_.document(), object),
+          object.id,
+          cut_key(ws_.document(), object),
+          object.colour,
+          ws_.view.heat};
+}
+
+// anew: whatever is known of such a cut.
+void CutJobs::start(const ObjectItem& object, bool anew) {
   const CutRun* before = run(object.id);
   CutRun run;
   run.running = true;
-  run.key = ws_.history.keys(object).cut;
+  Order order = order_for(object);
+  order.number = ++started_;
+  run.key = order.key;
   if (before) {  // shown until there is something newer
     run.views = before->views;
     run.views_of_before = !run.views.empty();
     run.meanings = before->meanings;
   }
   running_ = Known{object.id, std::move(run)};
-  const Order order{ws_.scene,
-                    ws_.session,
-                    cut_request(ws_.document(), object),
-                    cut_settings(ws_.document(), object),
-                    object.id,
-                    running_->run.key,
-                    object.colour,
-                    ws_.view.heat,
-                    ++started_};
   // If the labels have arrived already, only pictures or the heat map failed: the cut stands.
   const auto failed = [this, order] {
     if (runs(order)) end(order.key);
   };
   for (const TaskKind kind : {TaskKind::kHover, TaskKind::kClean}) ws_.tasks.cancel(kind);
-  ws_.tasks.submit({TaskKind::kCut, failed}, [this, order](const Job& job) { work(order, job); });
+  if (anew || !take_known(order))
+    ws_.tasks.submit({TaskKind::kCut, failed}, [this, order](const Job& job) { work(order, job); });
+}
+
+// Ends the cut at once where its result is there, cut ahead or seen before: the same, as a session's cuts
+// depend on nothing but request and settings.
+bool CutJobs::take_known(const Order& order) {
+  const auto is_it = [&](const Known& k) {
+    return k.object == order.object && k.run.key == order.key && k.run.result;
+  };
+  const auto ahead = std::ranges::find_if(ahead_, is_it);
+  const auto before = std::ranges::find_if(known_, is_it);
+  if (ahead == ahead_.end() && before == known_.end()) return false;
+  CutRun run = ahead != ahead_.end() ? ahead->run : before->run;
+  run.stages.clear();  // what was there cost nothing
+  run.first_mask_ms = run.total_ms = 0;
+  run.changed_nothing = false;
+  const std::shared_ptr<const CutResult> result = run.result;
+  finish(order, std::move(run), make_flags(result->labels));
+  ws_.tasks.submit(TaskKind::kCut,
+                   [this, order, result](const Job& job) { look_around(order, *result, job); });
+  return true;
+}
+
+void CutJobs::cut_ahead(std::span<const int> steps) {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || running_ || ahead_serial_ == ws_.history.serial() || !ws_.tasks.idle()) return;
+  std::vector<Order> wanted;
+  for (const int step : steps) {
+    ObjectItem other = *object;
+    other.part_step += step;
+    wanted.push_back(order_for(other));
+  }
+  const auto is_of = [](const Known& k, const Order& o) {
+    return k.object == o.object && k.run.key == o.key;
+  };
+  std::erase_if(ahead_, [&](const Known& k) {
+    return std::ranges::none_of(wanted, [&](const Order& o) { return is_of(k, o); });
+  });
+  const auto next = std::ranges::find_if_not(wanted, [&](const Order& o) {
+    const CutRun* before = known_run(o.object, o.key);
+    return (before && before->result) ||
+           std::ranges::any_of(ahead_, [&](const Known& k) { return is_of(k, o); });
+  });
+  if (next == wanted.end()) {
+    ahead_serial_ = ws_.history.serial();
+    return;
+  }
+  const auto keep_ahead = [this, order = *next](CutRun run) {
+    if (order.scene == ws_.scene && order.session == ws_.session)
+      ahead_.push_back({order.object, std::move(run)});
+  };
+  CutRun nothing;
+  nothing.key = next->key;
+  ws_.tasks.submit(TaskKind::kAhead,
+                   [this, keep_ahead, order = *next, run = nothing](const Job& job) mutable {
+                     try {
+                       run = cut_of(order, job, {});
+                     } catch (const std::exception&) {  // it is said where it is asked for
+                     }
+                     if (!job.cancelled()) ws_.tasks.post([keep_ahead, run] { keep_ahead(run); });
+                   });
+}
+
+// A cut with what is said of it; without a result if cancelled.
+CutRun CutJobs::cut_of(const Order& order, const Job& job, const OnSnapshot& on_snapshot) {
+  const auto start = std::chrono::steady_clock::now();
+  CutRun done;
+  done.key = order.key;
+  const auto result =
+      std::make_shared<const CutResult>(order.session->cut(order.request, order.settings, job, on_snapshot));
+  if (result->outcome == Outcome::kCancelled || job.cancelled()) return done;
+  done.result = result;
+  done.total_ms = ms_since(start);
+  done.meanings = meanings_of(order.request, *result);
+  done.doubts = doubts_of(*result);
+  return done;
 }
 
 // On the worker.
@@ -202,18 +287,15 @@ void CutJobs::work(const Order& order, const Job& job) {
     so_far.preview = make_flags(result.labels);
     ws_.tasks.post([this, order, so_far, first_mask_ms] { show_snapshot(order, so_far, first_mask_ms); });
   };
+  const CutRun done = cut_of(order, job, snapshot);
+  if (!done.result) return;
+  ws_.tasks.post([this, order, done, cut = make_flags(done.result->labels)] { finish(order, done, cut); });
+  look_around(order, *done.result, job);
+}
+
+// The cutout is on the screen; the rest is for looking at.
+void CutJobs::look_around(const Order& order, const CutResult& result, const Job& job) {
   Session& session = *order.session;
-  const auto result =
-      std::make_shared<const CutResult>(session.cut(order.request, order.settings, job, snapshot));
-  if (result->outcome == Outcome::kCancelled || job.cancelled()) return;
-  CutRun done;
-  done.key = order.key;
-  done.result = result;
-  done.total_ms = ms_since(start);
-  done.meanings = meanings_of(order.request, *result);
-  done.doubts = doubts_of(*result);
-  ws_.tasks.post([this, order, done, cut = make_flags(result->labels)] { finish(order, done, cut); });
-  // The cutout is on the screen; the rest is for looking at.
   if (order.heat) {
     const auto likelihood =
         std::make_shared<const std::vector<float>>(session.likelihood_of(order.request, order.settings, job));
@@ -225,7 +307,7 @@ void CutJobs::work(const Order& order, const Job& job) {
     });
   }
   std::vector<ViewCard> cards =
-      picture_cards(session, order.request, order.settings, *result, order.colour, job);
+      picture_cards(session, order.request, order.settings, result, order.colour, job);
   if (job.cancelled()) return;
   ws_.tasks.post([this, order, cards = std::move(cards)] { show_views(order, cards); });
 }

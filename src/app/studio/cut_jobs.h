@@ -8,6 +8,7 @@
 #include <deque>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 
 #include "app/studio/cut_run.h"
@@ -32,6 +33,10 @@ class CutJobs {
   // it up: update() does not start it again. They return false if it does not run.
   bool cancel();
   bool cancel_likelihood();
+  // Cuts the active object at other sizes of its first click, so many above its own (or below: negative),
+  // where they are not known yet: one at a time while the worker has nothing else to do. What was asked for
+  // last is kept until the document asks for it, which then waits for no cut. Called once a frame at most.
+  void cut_ahead(std::span<const int> steps);
   void pause();  // stops the running cut; update() starts it again once no scene is being opened
   // Lets update() start a cut again that was given up.
   void want_again(const ObjectItem& object) { given_up_.erase(ws_.history.keys(object).cut); }
@@ -47,8 +52,12 @@ class CutJobs {
   CutRun* known_run(ObjectId object, const std::string& key);
   bool runs(const Order& order) const;
   void keep(Known known);
-  void start(const ObjectItem& object);
+  Order order_for(const ObjectItem& object) const;
+  void start(const ObjectItem& object, bool anew = false);
+  bool take_known(const Order& order);
+  static CutRun cut_of(const Order& order, const Job& job, const OnSnapshot& on_snapshot);
   void work(const Order& order, const Job& job);
+  void look_around(const Order& order, const CutResult& result, const Job& job);
   void show_snapshot(const Order& order, CutRun so_far, double first_mask_ms);
   void finish(const Order& order, CutRun run, const Flags& labels);
   void show_views(const Order& order, std::vector<ViewCard> cards);
@@ -59,6 +68,8 @@ class CutJobs {
   Workspace& ws_;
   std::optional<Known> running_;
   std::deque<Known> known_;         // finished cuts, the newest last
+  std::vector<Known> ahead_;        // cuts that were not asked for yet; without a result: one that failed
+  std::uint64_t ahead_serial_ = 0;  // History::serial() for which no cut ahead is missing
   std::set<std::string> given_up_;  // keys of cuts that were cancelled or failed
   std::uint64_t next_card_serial_ = 1, started_ = 0, done_ = 0;
 };

@@ -49,8 +49,8 @@ void run_in_background(const std::function<void()>& work) {
 }  // namespace
 
 bool asked_for(TaskKind kind) {
-  return kind != TaskKind::kHover && kind != TaskKind::kReady && kind != TaskKind::kStyle &&
-         kind != TaskKind::kSides;
+  return kind != TaskKind::kHover && kind != TaskKind::kReady && kind != TaskKind::kAhead &&
+         kind != TaskKind::kStyle && kind != TaskKind::kSides;
 }
 
 TaskThread::TaskThread(std::function<void()> wake, bool inline_work)
@@ -80,7 +80,8 @@ void TaskThread::submit(Order order, Work work) {
   {
     const std::lock_guard lock(mutex_);
     if (kind != TaskKind::kExport && kind != TaskKind::kSave) stop(kind);
-    if (asked_for(kind)) stop(TaskKind::kReady);
+    if (asked_for(kind))
+      for (const TaskKind by_itself : {TaskKind::kReady, TaskKind::kAhead}) stop(by_itself);
     waiting_.push_back(std::move(task));
   }
   changed_.notify_one();

@@ -15,7 +15,8 @@ std::string left_text(const Studio& studio) {
   if (progress.busy && progress.kind == TaskKind::kPrepare) return "Making a lighter copy to move by";
   if (!progress.stage.empty() && progress.kind == TaskKind::kHover)
     return "Looking at what is under the pointer";
-  if (!progress.stage.empty() && progress.kind == TaskKind::kReady) return "Getting ready for a click";
+  if (progress.kind == TaskKind::kAhead && !progress.stage.empty()) return "Getting other sizes ready";
+  if (progress.kind == TaskKind::kReady && !progress.stage.empty()) return "Getting ready for a click";
   if (progress.busy) return progress.stage.empty() ? "Working" : "Working: " + progress.stage;
   return "Ready";
 }

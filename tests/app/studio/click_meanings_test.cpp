@@ -219,6 +219,52 @@ TEST_CASE("clicks: a step of the size shows its outline at once and is computed 
   CHECK(artist.said().ends_with(" of " + std::to_string(sizes) + " sizes"));
 }
 
+TEST_CASE(
+    "clicks: the sizes next to the one taken are cut while nothing is done, and are there when asked for") {
+  Artist artist(on_sample("mug", kOnMug));
+  artist.click_on_it();
+  const CutJobs& cuts = artist.studio().cuts();
+  REQUIRE(artist.studio().clicks().known_sizes()->size >= 3);
+  for (const int step :
+       {key::kPageDown, key::kPageUp, key::kPageUp, key::kPageDown, key::kPageDown, key::kPageDown}) {
+    CAPTURE(step);
+    const std::uint64_t done = cuts.done();
+    const Flags before = artist.object().cut;
+    artist.app.key(step);
+    CHECK(cuts.done() == done + 1);  // before anything else is done
+    CHECK(cuts.cutting() == 0);
+    CHECK(*artist.object().cut != *before);
+    CHECK(artist.studio().clicks().known_sizes()->size == artist.studio().clicks().size_wanted());
+    CHECK(artist.run().result->labels == *artist.object().cut);
+    REQUIRE(artist.app.settle());
+    CHECK(artist.run().views.size() > 1);  // looked around as after any cut
+    artist.check_saved_work();             // to the bit what is computed without the window
+  }
+
+  // Computed anew where that is asked for, whatever is known.
+  const Labels was = artist.labels();
+  artist.studio().apply(Recompute{});
+  CHECK(artist.studio().cutting());
+  REQUIRE(artist.app.settle());
+  CHECK(artist.labels() == was);
+}
+
+TEST_CASE("clicks: what is cut ahead makes way for a click, which comes out as if it had been alone") {
+  Artist artist(on_sample("mug", kOnMug));
+  const auto cuts_ahead = [&] {
+    const TaskThread::Progress progress = artist.studio().progress();
+    return progress.kind == TaskKind::kAhead && !progress.stage.empty();
+  };
+  artist.app.click(artist.screen_of(kOnMug));
+  for (int frame = 0; frame < 100'000 && !cuts_ahead(); ++frame) artist.app.frames(1);
+  REQUIRE(cuts_ahead());
+  CHECK_FALSE(artist.studio().progress().busy);  // nobody waits for it
+  artist.app.click(artist.screen_of(kOnMug) + glm::vec2(0, -40), PointerButton::kRight);
+  REQUIRE(artist.app.settle());
+  CHECK(stroke_count(artist.object()) == 2);
+  artist.check_saved_work();
+}
+
 TEST_CASE("clicks: the slider of sizes outlines the step under the pointer, and takes it when it is let go") {
   Artist artist(on_sample("mug", kOnMug));
   artist.click_on_it();

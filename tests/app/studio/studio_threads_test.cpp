@@ -132,7 +132,7 @@ QUICK_CASE("task thread", "threads: exports wait for each other, of any other ki
 
 QUICK_CASE("task thread",
            "threads: what the program does by itself says what it does, and is nobody's business") {
-  for (const TaskKind kind : {TaskKind::kHover, TaskKind::kReady, TaskKind::kCut}) {
+  for (const TaskKind kind : {TaskKind::kHover, TaskKind::kReady, TaskKind::kAhead, TaskKind::kCut}) {
     std::atomic<bool> reported = false, go = false;
     TaskThread tasks;
     tasks.submit(kind, [&](const Job& job) {
