@@ -31,6 +31,19 @@ std::string what_changed(const std::vector<std::uint8_t>& before, const std::vec
                      grouped(removed), seconds);
 }
 
+// Says of the sides in doubt how many they are, where there are any.
+bool add_doubt_of_sides(CutRun* run) {
+  const auto doubtful = static_cast<std::size_t>(std::ranges::count_if(
+      run->views, [](const ViewCard& card) { return card.only_to_look && !card.doubt.empty(); }));
+  if (doubtful == 0) return false;
+  constexpr const char* kSides[] = {"one side is",    "two sides are",  "three sides are",
+                                    "four sides are", "five sides are", "six sides are"};
+  const char* sides = kSides[std::min(doubtful, std::size(kSides)) - 1];
+  run->doubts.push_back(fmt::format("{}{} in doubt, marked in the pictures below",
+                                    run->views.front().doubt.empty() ? "right from here; " : "", sides));
+  return true;
+}
+
 // Objects may overlap; a click that takes most of another one is rarely meant.
 std::string shared_with(const Workspace& workspace, ObjectId id) {
   const Document& document = workspace.document();
@@ -210,6 +223,7 @@ bool CutJobs::take_known(const Order& order) {
   run.stages.clear();  // what was there cost nothing
   run.first_mask_ms = run.total_ms = 0;
   run.changed_nothing = false;
+  run.doubts = doubts_of(*run.result);  // without that on its sides, which comes with their pictures
   const std::shared_ptr<const CutResult> result = run.result;
   finish(order, std::move(run), make_flags(result->labels));
   ws_.tasks.submit(TaskKind::kCut,
@@ -397,6 +411,7 @@ void CutJobs::recall() {
           run.meanings = meanings_of(request, *result);
           run.doubts = doubts_of(*result);
           run.views = picture_cards(*session, request, settings, *result, colour, job);
+          add_doubt_of_sides(&run);
         }
         if (!job.cancelled()) ws_.tasks.post([know, run] { know(run); });
       });
@@ -408,14 +423,8 @@ void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   run->views = in_places_of(run->views, std::move(cards));
   for (ViewCard& card : run->views) card.serial = next_card_serial_++;
   const ObjectItem* object = ws_.document().find(order.object);
-  const auto doubtful = static_cast<std::size_t>(std::ranges::count_if(
-      run->views, [](const ViewCard& card) { return card.only_to_look && card.in_doubt; }));
-  if (!object || object->cut_key != order.key || doubtful == 0 || run->changed_nothing) return;
-  constexpr const char* kSides[] = {"one side is",    "two sides are",  "three sides are",
-                                    "four sides are", "five sides are", "six sides are"};
-  const char* sides = kSides[std::min(doubtful, std::size(kSides)) - 1];
-  ws_.say(Message::Kind::kInfo, fmt::format("{}: {}{} in doubt, marked in the pictures below", object->name,
-                                            run->views.front().in_doubt ? "" : "right from here; ", sides));
+  if (add_doubt_of_sides(run) && object && object->cut_key == order.key && !run->changed_nothing)
+    ws_.say(Message::Kind::kInfo, object->name + ": " + run->doubts.back());
 }
 
 // Of the active object's labels, for the heat map: kept by the session from the last cut, or computed again.

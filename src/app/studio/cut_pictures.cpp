@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/raster/depth_jump.h"
+#include "segment/finish/seen_from.h"
 #include "segment/masks/mask_tools.h"
 
 namespace splatcut {
@@ -11,6 +12,7 @@ namespace {
 
 constexpr int kViewsToLookFrom = 6;
 constexpr int kThumbnailWidth = 160;
+constexpr const char* kThroughSurface = "here the border runs through a surface";
 constexpr double kMuchThroughSurface =
     0.2;  // see share_through_surface(); whole things of the sample have .13 at most
 
@@ -43,9 +45,33 @@ ViewCard card_of(const ViewReport& view, Image<Rgba8> picture) {
           view.reason,
           std::make_shared<const Image<Rgba8>>(std::move(picture)),
           false,
-          false,
+          {},
           0};
 }
+
+// Why the object is in doubt in a view that does not stand where the user stood; empty where it is not.
+class DoubtsOfSides {
+ public:
+  DoubtsOfSides(const Session& session, const CutRequest& request, const CutResult& result)
+      : capture_(session.scene().photographs),
+        seen_({*session.scene().cloud, nullptr, &session.blocks()}, result.labels,
+              request.up_world.value_or(session.scene().up_world),
+              -result.views.front().camera.forward_world(), capture_) {}
+
+  std::string of(const Camera& camera, const RasterOutput& drawn, const Mask& mask, const Job& job) const {
+    if (share_through_surface(drawn, mask) > kMuchThroughSurface) return kThroughSurface;
+    const glm::vec3 away = camera.centre_world() - seen_.extent().centre_world;
+    if (!(glm::length(away) > 0) ||
+        seen_.share(glm::normalize(away), kLeastSeenShare, job) >= kLeastSeenShare)
+      return {};
+    return capture_.empty() ? "the scene hides this side: what is there is a guess"
+                            : "no picture of the capture shows this side: what is there is a guess";
+  }
+
+ private:
+  std::span<const Camera> capture_;
+  SeenSides seen_;
+};
 
 // After clicks the default uses no views around the object.
 bool looked_around_by_none(const CutResult& result, const CutRequest& request, const CutSettings& settings) {
@@ -97,9 +123,11 @@ std::vector<ViewCard> picture_cards(Session& session, const CutRequest& request,
                  static_cast<double>(cards.size()) / static_cast<double>(result.views.size()));
     const RasterOutput drawn = drawn_small(cloud, view.camera, job);
     cards.push_back(card_of(view, thumbnail(drawn, view.mask, view.used, colour)));
-    cards.back().in_doubt = view.used && share_through_surface(drawn, view.mask) > kMuchThroughSurface;
+    if (view.used && share_through_surface(drawn, view.mask) > kMuchThroughSurface)
+      cards.back().doubt = kThroughSurface;
   }
-  if (!looked_around_by_none(result, request, settings)) return cards;
+  if (!looked_around_by_none(result, request, settings) || result.views.empty()) return cards;
+  const DoubtsOfSides doubts(session, request, result);
   for (const GivenView& view : session.look_around(request, result, settings, kViewsToLookFrom, job)) {
     if (job.cancelled()) return cards;
     const RasterOutput drawn = drawn_small(cloud, view.camera, job);
@@ -108,7 +136,7 @@ std::vector<ViewCard> picture_cards(Session& session, const CutRequest& request,
                      .used = false,
                      .picture = picture,
                      .only_to_look = true,
-                     .in_doubt = share_through_surface(drawn, view.mask) > kMuchThroughSurface});
+                     .doubt = doubts.of(view.camera, drawn, view.mask, job)});
   }
   return cards;
 }

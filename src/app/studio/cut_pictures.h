@@ -19,8 +19,8 @@ double share_through_surface(const RasterOutput& drawn, const Mask& mask);
 ViewCard mask_card(const ViewReport& view, const Rgb8& colour);
 
 // Cards with rasterised views and the mask in the object's colour. Cards of views that do not count are dark.
-// If the cut used no view around the object, a few are added for the user to check. If cancelled, cards are
-// missing.
+// If the cut used no view around the object, a few are added for the user to check, which say where the
+// cutout is in doubt: see ViewCard::doubt. If cancelled, cards are missing.
 std::vector<ViewCard> picture_cards(Session& session, const CutRequest& request, const CutSettings& settings,
                                     const CutResult& result, const Rgb8& colour, const Job& job);
 

@@ -20,7 +20,7 @@ struct ViewCard {
   std::string reason;  // reason why the view does not count; empty: it counts
   std::shared_ptr<const Image<Rgba8>> picture;
   bool only_to_look = false;  // true: the view had no influence on the cut
-  bool in_doubt = false;      // true: much of the border in it runs through a surface
+  std::string doubt;          // why the cutout is in doubt there, after "In doubt: "; empty: it is not
   std::uint64_t serial = 0;   // number that changes with the picture
 };
 
@@ -48,8 +48,9 @@ struct CutRun {
   Flags preview;                 // labels so far; null once the cut is done
   double first_mask_ms = 0, total_ms = 0;
   std::shared_ptr<const ClickMeanings> meanings;  // meanings of the first click; null: not known yet
-  bool changed_nothing = false;     // true: the last stroke left the labels as they were, which was said
-  std::vector<std::string> doubts;  // doubts about the result, one sentence each
+  bool changed_nothing = false;  // true: the last stroke left the labels as they were, which was said
+  // Doubts about the result, one sentence each; once pictures of its sides are there, one on those.
+  std::vector<std::string> doubts;
   // Likelihood per Gaussian, [0, 1]; null until it is asked for.
   std::shared_ptr<const std::vector<float>> likelihood;
   bool likelihood_failed = false;  // true: the likelihood is not asked for again

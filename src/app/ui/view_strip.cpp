@@ -26,7 +26,7 @@ std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
     tip += "\nDoes not count: " + (card.reason.empty() ? std::string("left out") : card.reason);
   else if (index > 0 && !steady)
     tip += fmt::format("\nAgrees with the cutout: {:.0f} %", 100 * card.confidence);
-  if (card.in_doubt) tip += "\nIn doubt: here the border runs through a surface";
+  if (!card.doubt.empty()) tip += "\nIn doubt: " + card.doubt;
   return tip + "\nClick to look from there; correct it with strokes.";
 }
 
@@ -44,7 +44,7 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
                        c.used || c.only_to_look ? 0xffffffffu : 0x70ffffffu, 4);
   list.AddRect(at, end, packed(hovered ? ui.theme.colour.accent : ui.theme.colour.line), 4, 0,
                hovered ? 2.0f : 1.0f);
-  if (c.in_doubt) {
+  if (!c.doubt.empty()) {
     const ImVec2 middle = {at.x + 12, at.y + 12};
     const ImVec2 size = ImGui::CalcTextSize("?");
     list.AddCircleFilled(middle, 9, packed(ui.theme.colour.warn));

@@ -49,7 +49,15 @@ float visible_share(const Drawer& scene, const GaussianCloud& object, std::span<
   return all == 0 ? 0 : static_cast<float>(visible) / static_cast<float>(all);
 }
 
-// The cameras of the capture nearest to a side, as seen from the object.
+bool has_in_picture(const Camera& camera, const glm::vec3& point_world) {
+  const glm::vec3 at = camera.camera_from_world(point_world);
+  if (!(at.z > 0)) return false;
+  const glm::vec2 px = camera.pixel_from_camera(at);
+  return px.x >= 0 && px.y >= 0 && px.x < static_cast<float>(camera.width_px) &&
+         px.y < static_cast<float>(camera.height_px);
+}
+
+// The cameras of the capture nearest to a side, as seen from the object, that have it in their picture.
 std::vector<Camera> cameras_at(const glm::vec3& side, const ObjectExtent& object,
                                std::span<const Camera> cameras) {
   constexpr float kLeastCosine = 0.5f;  // 60 degrees
@@ -58,7 +66,8 @@ std::vector<Camera> cameras_at(const glm::vec3& side, const ObjectExtent& object
   for (const Camera& camera : cameras) {
     const glm::vec3 away = camera.centre_world() - object.centre_world;
     const float cosine = glm::dot(away, side) / std::max(glm::length(away), 1e-12f);
-    if (cosine >= kLeastCosine) near.emplace_back(-cosine, &camera);
+    if (cosine >= kLeastCosine && has_in_picture(camera, object.centre_world))
+      near.emplace_back(-cosine, &camera);
   }
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Camera> chosen;
@@ -115,44 +124,57 @@ std::vector<glm::vec3> colours_from(const SeenFrom& seen, const glm::vec3& side)
 }  // namespace
 
 std::vector<std::string> SeenFrom::never() const {
-  constexpr float kLeastShare = 0.1f;
   std::vector<std::string> sides;
   for (std::size_t s = 0; s < side_share.size(); ++s)
-    if (side_share.at(s) < kLeastShare) sides.emplace_back(kSideNames.at(s));
+    if (side_share.at(s) < kLeastSeenShare) sides.emplace_back(kSideNames.at(s));
   return sides;
+}
+
+SeenSides::SeenSides(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,
+                     const glm::vec3& towards, std::span<const Camera> cameras)
+    : scene_(scene),
+      labels_(labels),
+      up_(glm::normalize(up_world)),
+      front_(side_directions(up_world, towards)[0]),
+      cameras_(cameras),
+      alone_(permuted(scene.cloud(), labelled(labels))),
+      extent_(object_extent(scene.cloud(), labels)) {}
+
+Camera SeenSides::looking_from(const glm::vec3& direction) const {
+  constexpr float kDistance = 3.2f, kFovYDeg = 40;  // radii
+  const glm::vec3 level = std::abs(glm::dot(direction, up_)) > 0.99f ? front_ : up_;
+  return look_at(extent_.centre_world + kDistance * extent_.radius * glm::normalize(direction),
+                 extent_.centre_world, level, glm::radians(kFovYDeg), kWidthPx, kWidthPx);
+}
+
+float SeenSides::share(const glm::vec3& side, float enough, const Job& job) const {
+  std::vector<Camera> looking = cameras_at(side, extent_, cameras_);
+  if (cameras_.empty()) {
+    const glm::vec3 first = std::abs(glm::dot(side, up_)) > 0.5f ? front_ : up_,
+                    second = glm::cross(side, first);
+    constexpr float kAside = 0.6f;
+    looking.push_back(looking_from(side));
+    for (const glm::vec3& aside : {first, second, -second})
+      looking.push_back(looking_from(side + kAside * aside));
+  }
+  float share = 0;
+  for (const Camera& camera : looking)
+    if (share < enough) share = std::max(share, visible_share(scene_, alone_, labels_, camera, job));
+  return share;
 }
 
 SeenFrom seen_from(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,
                    const glm::vec3& from_world, std::span<const Camera> cameras, const Job& job) {
-  const ObjectExtent extent = object_extent(scene.cloud(), labels);
-  const std::vector<std::uint32_t> object = labelled(labels);
-  const GaussianCloud alone = permuted(scene.cloud(), object);
+  const glm::vec3 centre = object_extent(scene.cloud(), labels).centre_world;
   SeenFrom seen;
-  add_views(scene, object, alone, labels, own_cameras(scene.cloud(), labels, up_world, cameras, {}),
-            extent.centre_world, &seen, job);
-  const glm::vec3 up = glm::normalize(up_world);
-  seen.sides = side_directions(up, from_world - extent.centre_world);
-  const auto looking_from = [&](const glm::vec3& direction) {
-    constexpr float kDistance = 3.2f, kFovYDeg = 40;  // radii
-    const glm::vec3 level = std::abs(glm::dot(direction, up)) > 0.99f ? seen.sides[0] : up;
-    return look_at(extent.centre_world + kDistance * extent.radius * glm::normalize(direction),
-                   extent.centre_world, level, glm::radians(kFovYDeg), kWidthPx, kWidthPx);
-  };
+  seen.sides = side_directions(up_world, from_world - centre);
+  const SeenSides sides(scene, labels, up_world, from_world - centre, cameras);
+  add_views(scene, labelled(labels), sides.alone(), labels,
+            own_cameras(scene.cloud(), labels, up_world, cameras, {}), centre, &seen, job);
   for (std::size_t s = 0; s < seen.sides.size() && !job.cancelled(); ++s) {
-    const glm::vec3& side = seen.sides.at(s);
-    seen.side_cameras.at(s) = looking_from(side);
-    std::vector<Camera> looking = cameras_at(side, extent, cameras);
-    if (cameras.empty()) {
-      const glm::vec3 first = std::abs(glm::dot(side, up)) > 0.5f ? seen.sides[0] : up,
-                      second = glm::cross(side, first);
-      constexpr float kAside = 0.6f;
-      looking.push_back(seen.side_cameras.at(s));
-      for (const glm::vec3& aside : {first, second, -second})
-        looking.push_back(looking_from(side + kAside * aside));
-    }
-    for (const Camera& camera : looking)
-      seen.side_share.at(s) =
-          std::max(seen.side_share.at(s), visible_share(scene, alone, labels, camera, job));
+    constexpr float kAll = 1;
+    seen.side_cameras.at(s) = sides.looking_from(seen.sides.at(s));
+    seen.side_share.at(s) = sides.share(seen.sides.at(s), kAll, job);
   }
   return seen;
 }

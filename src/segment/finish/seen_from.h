@@ -30,8 +30,37 @@ struct SeenFrom {
   std::array<glm::vec3, 6> sides{};        // directions, unit
   std::array<float, 6> side_share{};       // of kSideNames, in [0, 1]
   std::array<Camera, 6> side_cameras{};    // that look at the object from there
-  std::vector<std::string> never() const;  // names of the sides that were not seen: less than a tenth
+  std::vector<std::string> never() const;  // names of the sides that were not seen: see kLeastSeenShare
 };
+
+// How much of an object was seen from a side: the share of its picture alone, 160 pixels wide, that the scene
+// leaves visible to a camera there. Refers to scene, labels and cameras.
+class SeenSides {
+ public:
+  // towards: from the object to where the user looks from, any length. cameras: of the capture, may be empty.
+  SeenSides(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,
+            const glm::vec3& towards, std::span<const Camera> cameras);
+
+  // side: direction from the object, unit. The largest of three cameras of the capture within 60 degrees of
+  // it with the object's middle in their picture, those nearest to it, 0 where it has none; without a capture
+  // of four there. Not all are asked where one sees `enough`. Cancelled: unspecified.
+  float share(const glm::vec3& side, float enough, const Job& job) const;
+
+  const GaussianCloud& alone() const { return alone_; }  // the labelled Gaussians, in the scene's order
+  const ObjectExtent& extent() const { return extent_; }
+  Camera looking_from(const glm::vec3& direction) const;  // at the object, 160 x 160 pixels
+
+ private:
+  Drawer scene_;
+  std::span<const std::uint8_t> labels_;
+  glm::vec3 up_, front_;
+  std::span<const Camera> cameras_;
+  GaussianCloud alone_;
+  ObjectExtent extent_;
+};
+
+// Less than that is as good as not seen.
+inline constexpr float kLeastSeenShare = 0.1f;
 
 // from_world: where the user looks from. cameras: of the capture, may be empty. Cancelled: unspecified.
 SeenFrom seen_from(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,

@@ -87,7 +87,8 @@ TEST_CASE("thumbnails: sides in doubt are marked, and the message says how many"
   Hands hands = hands_on_sample();
   const auto doubtful = [&] {
     const CutRun* run = hands.studio().cuts().run(hands.studio().document().active);
-    return std::ranges::count_if(run->views, [](const ViewCard& c) { return c.only_to_look && c.in_doubt; });
+    return std::ranges::count_if(run->views,
+                                 [](const ViewCard& c) { return c.only_to_look && !c.doubt.empty(); });
   };
   CHECK(doubtful() == 0);
   CHECK(hands.said().find("in doubt") == std::string::npos);
@@ -97,7 +98,70 @@ TEST_CASE("thumbnails: sides in doubt are marked, and the message says how many"
     REQUIRE(hands.said().find("smallest") == std::string::npos);
   }
   const CutRun* run = hands.studio().cuts().run(hands.studio().document().active);
-  CHECK((hands.said().find("right from here") != std::string::npos) == !run->views.front().in_doubt);
+  CHECK((hands.said().find("right from here") != std::string::npos) == run->views.front().doubt.empty());
   CHECK(hands.said().find(doubtful() == 1 ? "one side is in doubt" : "sides are in doubt") !=
         std::string::npos);
+  // It stays in the panel, once, also where the size is taken again; a click on the mark goes there.
+  for (const int step : {0, key::kPageUp, key::kPageDown}) {
+    if (step != 0) hands.app.key(step);
+    REQUIRE(hands.app.settle());
+  }
+  run = hands.studio().cuts().run(hands.studio().document().active);
+  CHECK(std::ranges::count_if(run->doubts, [](const std::string& d) {
+          return d.find("in doubt, marked in the pictures below") != d.npos;
+        }) == 1);
+  const auto marked =
+      std::ranges::find_if(run->views, [](const ViewCard& c) { return c.only_to_look && !c.doubt.empty(); });
+  REQUIRE(marked != run->views.end());
+  const Camera there = marked->camera;
+  const UiRect strip = hands.app.window("strip");
+  constexpr float kCardHeight = 76, kGap = 6, kPadding = 8;
+  float x = strip.min.x + kPadding;
+  const auto width = [&](const ViewCard& c) {
+    return kCardHeight * static_cast<float>(c.picture->width()) / static_cast<float>(c.picture->height());
+  };
+  for (auto c = run->views.begin(); c != marked; ++c) x += width(*c) + kGap;
+  const glm::vec2 on_card(x + 0.5f * width(*marked), strip.min.y + 40);
+  REQUIRE(on_card.x < strip.max.x);
+  hands.app.click(on_card);
+  REQUIRE(hands.app.settle());
+  const Camera now = hands.studio().viewport().pane_camera();
+  CHECK(glm::distance(now.centre_world(), there.centre_world()) < 1e-3f);
+  CHECK(glm::dot(now.forward_world(), there.forward_world()) > 0.9999f);
+}
+
+TEST_CASE("thumbnails: sides that no picture of the capture shows are in doubt, and no others") {
+  Hands hands = hands_on_sample(false);
+  const OpenedScene& scene = *hands.studio().scene();
+  const std::vector<Camera>& all = scene.views().cameras;
+  const glm::vec3 middle = scene.bounds.centre();
+  const auto towards = [&](const Camera& camera) {
+    glm::vec3 away = camera.centre_world() - middle;
+    away.y = 0;
+    return glm::normalize(away);
+  };
+  std::vector<Camera> half;  // from one side: 70 degrees about the first
+  for (const Camera& camera : all)
+    if (glm::dot(towards(camera), towards(all[0])) > 0.35f) half.push_back(camera);
+  REQUIRE(half.size() >= 3);
+  REQUIRE(half.size() < all.size());
+  for (const auto& [capture, marks] : {std::pair(half, true), {all, false}, {std::vector<Camera>(), false}}) {
+    CAPTURE(capture.size());
+    Session session({.cloud = scene.cloud, .blocks = scene.blocks, .photographs = capture});
+    CutRequest request;
+    request.strokes = {{all[0], {click(kOnMug, SeedLabel::kObject)}, {}}};
+    const CutSettings settings = preset("fast");
+    const CutResult result = session.cut(request, settings);
+    const std::vector<ViewCard> cards = picture_cards(session, request, settings, result, {}, {});
+    REQUIRE(cards.size() == 7);
+    std::size_t marked = 0;
+    for (const ViewCard& card : cards) {
+      const float beside = glm::dot(towards(card.camera), towards(all[0]));
+      if (beside > 0) CHECK(card.doubt.empty());
+      if (marks && beside < -0.55f) CHECK_FALSE(card.doubt.empty());
+      marked += !card.doubt.empty();
+      if (!card.doubt.empty()) CHECK(card.doubt.find("no picture of the capture shows this side") == 0);
+    }
+    CHECK((marked > 0) == marks);
+  }
 }

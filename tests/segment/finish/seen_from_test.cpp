@@ -31,6 +31,34 @@ TEST_CASE("seen from: nobody saw a thing on a table from below, with a capture's
   }
 }
 
+TEST_CASE(
+    "seen from: a side is seen by cameras that look at the object, and all are asked where none sees "
+    "enough") {
+  StillLifeOptions options;
+  options.gaussians = 20000;
+  const Thing apple(options, "apple");
+  const std::vector<std::uint8_t>& labels = apple.test.truth_labels;
+  const Drawer scene(apple.scene.cloud);
+  const glm::vec3 from = apple.scene.cameras[0].centre_world(), up(0, -1, 0);
+  std::vector<Camera> away = apple.scene.cameras;  // in the same places, turned about
+  for (Camera& camera : away)
+    camera = look_at(camera.centre_world(), camera.centre_world() - camera.forward_world(), up, 0.9f, 64, 48);
+  for (const std::vector<Camera>& capture : {apple.scene.cameras, std::vector<Camera>(), away}) {
+    CAPTURE(capture.size());
+    const SeenFrom all = seen_from(scene, labels, up, from, capture, {});
+    const SeenSides sides(scene, labels, up, from - object_extent(apple.scene.cloud, labels).centre_world,
+                          capture);
+    for (std::size_t s = 0; s < all.sides.size(); ++s) {
+      CAPTURE(kSideNames.at(s));
+      CHECK(sides.share(all.sides.at(s), 1, {}) == all.side_share.at(s));
+      const float some = sides.share(all.sides.at(s), kLeastSeenShare, {});
+      CHECK(some <= all.side_share.at(s));
+      CHECK((some >= kLeastSeenShare) == (all.side_share.at(s) >= kLeastSeenShare));
+    }
+  }
+  CHECK(seen_from(scene, labels, up, from, away, {}).never().size() == kSideNames.size());
+}
+
 TEST_CASE("seen from: of a capture from one side, the others were not seen, and the picture says so in red") {
   StillLifeOptions options;
   options.gaussians = 20000;
