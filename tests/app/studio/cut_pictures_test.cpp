@@ -150,7 +150,7 @@ TEST_CASE("thumbnails: sides that no picture of the capture shows are in doubt, 
     Session session({.cloud = scene.cloud, .blocks = scene.blocks, .photographs = capture});
     CutRequest request;
     request.strokes = {{all[0], {click(kOnMug, SeedLabel::kObject)}, {}}};
-    const CutSettings settings = preset("fast");
+    const CutSettings settings = {};
     const CutResult result = session.cut(request, settings);
     const std::vector<ViewCard> cards = picture_cards(session, request, settings, result, {}, {});
     REQUIRE(cards.size() == 7);
