@@ -100,7 +100,7 @@ TEST_CASE("cut: files say which way is up where it is known, and pictures of the
   CHECK_FALSE(up_of("known_up/object.ply").is_null());
   const std::string guessed = "cut " + still_life().scene +
                               " --camera-pos 0,-1,-3 --camera-target 0,0,0 --box 400,300,600,500 "
-                              "--preset fast --edges keep --write object,rest";
+                              "--edges keep --write object,rest";
   REQUIRE(place.run(guessed + " -o guessed_up").code == 0);
   CHECK(up_of("guessed_up/rest.ply").is_null());
   REQUIRE(place.run(guessed + " --camera-up 0,-1,0 -o told_up").code == 0);
