@@ -9,10 +9,10 @@
 
 #include "app/picture/ground_grid.h"
 #include "app/picture/splat_rings.h"
+#include "app/studio/file_browser.h"
+#include "app/studio/native_dialog.h"
 #include "app/studio/studio.h"
-#include "app/ui/file_browser.h"
 #include "app/ui/grips.h"
-#include "app/ui/native_dialog.h"
 #include "app/ui/theme.h"
 #include "app/ui/ui_renderer.h"
 

@@ -82,6 +82,35 @@ glm::vec3 normal_of(const OwnView& view, const GaussianCloud& object, std::size_
   return (s.c * x - s.b * y) * row_x + (s.a * y - s.b * x) * row_y;  // by Sigma2^-1, up to a factor
 }
 
+// Per Gaussian of the object whether the scene hides its middle in all views, and in more than a quarter of
+// those that hold it what hides it is not the object.
+std::vector<std::uint8_t> hidden_beside(std::span<const OwnView> views, const GaussianCloud& object) {
+  constexpr float kBehind = 1.02f, kMarginOfObject = 0.02f;
+  constexpr int kOneIn = 4;
+  struct Count {
+    int held = 0, beside = 0, seen = 0;
+  };
+  std::vector<Count> counts(object.size());
+  for (const OwnView& view : views) {
+    const auto side = static_cast<float>(std::max(view.rect.width(), view.rect.height()));
+    const Mask near = dilated(view.inside, kFarPx + static_cast<int>(kMarginOfObject * side));
+    for_each_index(object.size(), [&](std::size_t g) {
+      const glm::vec3 at = view.camera.camera_from_world(object.position[g]);
+      if (at.z <= object.near_plane) return;
+      const glm::ivec2 px =
+          glm::ivec2(glm::floor(view.camera.pixel_from_camera(at))) - glm::ivec2(view.rect.x0, view.rect.y0);
+      if (px.x < 0 || px.y < 0 || px.x >= near.width() || px.y >= near.height()) return;
+      ++counts[g].held;
+      counts[g].beside += near.at(px.x, px.y) == 0;
+      counts[g].seen += at.z < kBehind * view.depth.at(px.x, px.y);
+    });
+  }
+  std::vector<std::uint8_t> hidden(object.size());
+  std::ranges::transform(counts, hidden.begin(),
+                         [](const Count& c) { return c.seen == 0 && kOneIn * c.beside > c.held; });
+  return hidden;
+}
+
 SolidGaussian one_of(const GaussianCloud& cloud, std::size_t g) {
   return {cloud.position[g], cloud.scale[g], cloud.rotation[g], cloud.opacity[g]};
 }
@@ -113,9 +142,9 @@ CarveReport carve(std::span<const OwnView> views, GaussianCloud* object, std::ve
   CarveReport report;
   std::vector<std::uint8_t> was_split(n, 0);
   std::vector<std::optional<SolidGaussian>> outer(n);
-  const std::vector<std::uint8_t> before = *kept;
+  const std::vector<std::uint8_t> before = *kept, hidden = hidden_beside(views, *object);
   for (std::size_t g = 0; g < n; ++g)
-    if (sticks_out(pooled, g, 0) && share_inside(pooled, g) < kMostlyOut) (*kept)[g] = 0;
+    if (hidden[g] || (sticks_out(pooled, g, 0) && share_inside(pooled, g) < kMostlyOut)) (*kept)[g] = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (job.cancelled()) return {};
     job.progress("clean edges", static_cast<double>(v) / static_cast<double>(views.size()));

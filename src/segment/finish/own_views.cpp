@@ -90,7 +90,7 @@ OwnView own_view(const Drawer& scene, const GaussianCloud& object, std::span<con
   raster.depth = true;
   const RasterOutput alone = rasterize(object, camera, raster, job);
   raster.labels = labels;
-  const RasterOutput within = scene.draw(camera, raster, job);
+  RasterOutput within = scene.draw(camera, raster, job);
   view.inside = view.valid = Mask(view.rect.width(), view.rect.height());
   std::size_t both = 0, either = 0;
   for (std::size_t i = 0; i < view.inside.size(); ++i) {
@@ -106,6 +106,7 @@ OwnView own_view(const Drawer& scene, const GaussianCloud& object, std::span<con
     both += alpha > kSolid && seen > kLabelled;
     either += alpha > kSolid || seen > kLabelled;
   }
+  view.depth = std::move(within.expected_depth);
   view.agreement = either ? static_cast<double>(both) / static_cast<double>(either) : 0;
   return view;
 }

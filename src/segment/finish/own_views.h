@@ -29,6 +29,7 @@ struct OwnView {
   PixelRect rect;            // of the camera's picture; images below have its size
   Mask inside, valid;        // 0 or kMaskObject
   Image<glm::vec3> colour;   // of the scene
+  Image<float> depth;        // of the scene
   double agreement = 0;      // IoU of the object alone and of the labels within the scene, at valid pixels
   std::size_t shown_px = 0;  // that show the object within the scene
 };

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "app/measure/evaluate_alone.h"
@@ -156,6 +157,30 @@ TEST_CASE("edges that straddle and hide: the clean object is nearer to the true 
     CHECK(object.cloud.size() == object.gaussian.size());
     CHECK(object.report.left + object.cloud.size() == thing.as_labelled().size());
   }
+}
+
+TEST_CASE("a lump below the table, whatever its labels, is no part of the thing on it; its foot stays") {
+  StillLifeOptions options;
+  options.gaussians = 20000;
+  const Thing thing(options, "orange");
+  std::vector<std::uint32_t> rows(thing.scene.cloud.size());
+  std::iota(rows.begin(), rows.end(), 0u);
+  const Box orange = robust_bounds(thing.as_labelled().position, 1);
+  std::vector<std::uint8_t> labels = thing.test.truth_labels;
+  const auto count = static_cast<std::size_t>(std::ranges::count(labels, 1));
+  for (std::uint32_t g = 0; rows.size() < labels.size() + 60; ++g)
+    if (labels[g]) rows.push_back(g);
+  GaussianCloud cloud = permuted(thing.scene.cloud, rows);
+  const glm::vec3 below(orange.centre().x + orange.extent().x, orange.max.y + 0.7f * orange.extent().y,
+                        orange.centre().z);
+  for (std::size_t g = labels.size(); g < rows.size(); ++g)
+    cloud.position[g] = below + 0.3f * (cloud.position[g] - orange.centre());
+  labels.resize(rows.size(), 1);
+  const CleanObject alone = thing.clean();
+  const CleanObject object = clean_object({cloud, labels, {0, -1, 0}, thing.scene.cameras});
+  REQUIRE(object.report.cleaned);
+  CHECK(object.gaussian == alone.gaussian);
+  CHECK(object.gaussian.size() > 0.99 * static_cast<double>(count));
 }
 
 TEST_CASE("thin things whose labels are perfect lose next to nothing") {

@@ -1,4 +1,4 @@
-#include "app/ui/file_browser.h"
+#include "app/studio/file_browser.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "app/ui/native_dialog.h"
+#include "app/studio/native_dialog.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>
