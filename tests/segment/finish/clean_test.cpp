@@ -159,7 +159,7 @@ TEST_CASE("edges that straddle and hide: the clean object is nearer to the true 
   }
 }
 
-TEST_CASE("a lump below the table, whatever its labels, is no part of the thing on it; its foot stays") {
+TEST_CASE("a lump below the table, whatever its labels, is no part of the thing on it, and its foot stays") {
   StillLifeOptions options;
   options.gaussians = 20000;
   const Thing thing(options, "orange");
