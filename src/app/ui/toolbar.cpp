@@ -188,7 +188,8 @@ void display_buttons(UiContext& ui) {
   ImGui::SameLine(0, 2);
   if (display_width() == kDisplayWidth) {
     look_buttons(ui);
-  } else if (button(ui, icon::kDown, "Side by side, clean edges, tint, outline, heat")) {
+  } else if (button(ui, fmt::format("{}##looks", icon::kDown).c_str(),
+                    "Side by side, clean edges, tint, outline, heat")) {
     ImGui::OpenPopup("looks");
   }
   if (ImGui::BeginPopup("looks")) {

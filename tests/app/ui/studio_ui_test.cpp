@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/console/camera_options.h"
+#include "app/ui/theme.h"
 #include "app/window/file_drag.h"
 #include "core/error.h"
 #include "hands.h"
@@ -256,6 +257,26 @@ TEST_CASE("ui: the buttons of the bar lie beside each other in a window of any w
     for (std::size_t i = 1; i < bar.size(); ++i)
       CHECK_MESSAGE(bar[i - 1].max.x <= bar[i].min.x, bar[i - 1].name << " runs into " << bar[i].name);
   }
+}
+
+TEST_CASE("ui: what a small window has no room for in the bar opens behind its last arrow") {
+  HeadlessApp app(640, 480);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  const auto named = [&](const std::string& name) {
+    std::vector<ShownItem> items = app.interface_state().items;
+    std::erase_if(items, [&](const ShownItem& item) { return item.name != name; });
+    std::ranges::sort(items, {}, [](const ShownItem& item) { return item.min.x; });
+    return items;
+  };
+  REQUIRE(named(icon::kDown).size() >= 2);
+  REQUIRE(named("Clean").empty());
+  const ShownItem last = named(icon::kDown).back();
+  app.click(0.5f * (last.min + last.max));
+  app.frames(3);
+  CHECK(named("Clean").size() == 1);
+  CHECK(named(icon::kColumns).size() == 1);
+  CHECK(named(icon::kTint).size() == 1);
 }
 
 TEST_CASE("ui: in a window of 640 by 480 the panel takes a third and cuts no button off") {
