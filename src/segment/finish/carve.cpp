@@ -97,12 +97,14 @@ std::vector<std::uint8_t> hidden_beside(std::span<const OwnView> views, const Ga
     for_each_index(object.size(), [&](std::size_t g) {
       const glm::vec3 at = view.camera.camera_from_world(object.position[g]);
       if (at.z <= object.near_plane) return;
-      const glm::ivec2 px =
-          glm::ivec2(glm::floor(view.camera.pixel_from_camera(at))) - glm::ivec2(view.rect.x0, view.rect.y0);
-      if (px.x < 0 || px.y < 0 || px.x >= near.width() || px.y >= near.height()) return;
+      const glm::vec2 px = view.camera.pixel_from_camera(at) - glm::vec2(view.rect.x0, view.rect.y0);
+      const glm::vec2 size(near.width(), near.height());
+      if (!(px.x >= 0 && px.y >= 0 && px.x < size.x && px.y < size.y)) return;
+      const auto x = static_cast<int>(px.x), y = static_cast<int>(px.y);
       ++counts[g].held;
-      counts[g].beside += near.at(px.x, px.y) == 0;
-      counts[g].seen += at.z < kBehind * view.depth.at(px.x, px.y);
+      counts[g].beside += near.at(x, y) == 0;
+      const float surface = view.depth.at(x, y);  // 0: there is nothing
+      counts[g].seen += !(surface > 0) || at.z < kBehind * surface;
     });
   }
   std::vector<std::uint8_t> hidden(object.size());

@@ -3,11 +3,9 @@
 //
 // In: the object's Gaussians, its own views (own_views.h) that count. Sums of alpha T over valid pixels of
 // the object drawn alone, per Gaussian: A over all, M inside, F more than 2 px outside; w = M / A.
-//   over all views   w < .5 and F / A > .05: leaves; so does what is hidden in all of them (its middle lies 2
-//   %
-//                    of its depth behind the scene's), in more than a quarter by what is not the object: a
-//                    lump below the table, that touches a thing on it. Counted 2 % of the object from its
-//                    mask
+//   over all views   w < .5 and F / A > .05: leaves. So does what is in no picture, a lump below the table:
+//                    its middle lies 2 % of its depth behind the scene's in all views, and in more than a
+//                    quarter of those that hold it farther than 2 % of the object from the mask
 //   view by view     A > .3 px, F / A > .05: leaves where w < .05 and w of all views < .75; cut where
 //                    .05 <= w < .93, along the projected line across which its inner and outer part lie, at
 //                    the depth that leaves w inside (half_gaussian.h)
