@@ -1,0 +1,54 @@
+#include "app/studio/cut_sentences.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "app/document/words.h"
+
+namespace splatcut {
+
+std::string what_changed(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after,
+                         double seconds) {
+  std::size_t was = 0, is = 0, added = 0;
+  for (std::size_t g = 0; g < after.size(); ++g) {
+    was += before[g];
+    is += after[g];
+    added += after[g] && !before[g];
+  }
+  const std::size_t removed = was + added - is;
+  if (was == 0) return fmt::format("{} cut out in {:.1f} s", gaussians_text(is), seconds);
+  if (added + removed == 0) return gaussians_text(is) + ", as before: that changed nothing";
+  return fmt::format("{}, {} added and {} removed in {:.1f} s", gaussians_text(is), grouped(added),
+                     grouped(removed), seconds);
+}
+
+bool add_doubt_of_sides(CutRun* run) {
+  const auto doubtful = static_cast<std::size_t>(std::ranges::count_if(
+      run->views, [](const ViewCard& card) { return card.only_to_look && !card.doubt.empty(); }));
+  if (doubtful == 0) return false;
+  constexpr const char* kSides[] = {"one side is",    "two sides are",  "three sides are",
+                                    "four sides are", "five sides are", "six sides are"};
+  const char* sides = kSides[std::min(doubtful, std::size(kSides)) - 1];
+  run->doubts.push_back(fmt::format("{}{} in doubt, marked in the pictures below",
+                                    run->views.front().doubt.empty() ? "right from here; " : "", sides));
+  return true;
+}
+
+std::string shared_with(const Workspace& workspace, ObjectId id) {
+  const Document& document = workspace.document();
+  const ObjectItem* object = document.find(id);
+  const Flags own = workspace.labels.labels(document, *object, workspace.gaussians());
+  for (const ObjectItem& other : document.objects) {
+    if (other.id == id || other.id == object->within || other.within == id) continue;
+    const Flags labels = workspace.labels.labels(document, other, workspace.gaussians());
+    std::size_t both = 0;
+    for (std::size_t g = 0; g < own->size(); ++g) both += (*own)[g] & (*labels)[g];
+    if (2 * both > workspace.gaussians_of(other.id) && both > 0)
+      return fmt::format(". {} of {}'s are in it, too", grouped(both), other.name);
+  }
+  return {};
+}
+
+}  // namespace splatcut
