@@ -21,11 +21,14 @@ constexpr std::size_t kLeastShownPx = 64;
 std::vector<OwnView> agreed_views(const CleanInput& input, const GaussianCloud& object,
                                   const OwnViewOptions& options, CleanReport* report, const Job& job) {
   std::vector<OwnView> views;
+  KeptViews last(input.scene.cloud(), 0);
+  const Drawer drawer =
+      input.scene.cloud().size() <= kMostProjected ? Drawer(input.scene.cloud(), &last) : input.scene;
   const std::vector<Camera> cameras =
       own_cameras(input.scene.cloud(), input.labels, input.up_world, input.cameras, options);
   for (std::size_t v = 0; v < cameras.size() && !job.cancelled(); ++v) {
     job.progress("own views", static_cast<double>(v) / static_cast<double>(cameras.size()));
-    OwnView view = own_view(input.scene, object, input.labels, cameras[v], job);
+    OwnView view = own_view(drawer, object, input.labels, cameras[v], job);
     if (view.shown_px < kLeastShownPx) continue;
     ++report->views;
     if (view.agreement >= kAgrees) views.push_back(std::move(view));
@@ -38,7 +41,8 @@ std::string why_not(const CleanReport& report) {
   if (report.views < kLeastViews)
     return fmt::format("it is seen from {} sides of the {} that it takes", report.views, kLeastViews);
   return fmt::format(
-      "alone, it looks as it does within the scene from {} of {} sides: its labels are not right yet",
+      "cut out, it looks as it does in the scene from {} of {} sides only: something is missing, or too much "
+      "is selected; they are cleaned once that is mended",
       report.agreed, report.views);
 }
 

@@ -168,7 +168,7 @@ class Ring {
 
 void keep_what_surrounds(std::span<const Ring> rings, const std::vector<std::uint8_t>& rest,
                          std::vector<std::uint32_t>* ghosts, const Job& job) {
-  constexpr int kRounds = 3;
+  constexpr int kRounds = 2;
   constexpr double kMostGrowth = 2e-6;
   for (int round = 0; round < kRounds && !ghosts->empty() && !job.cancelled(); ++round) {
     job.progress("ghosts", static_cast<double>(round) / kRounds);
@@ -209,8 +209,6 @@ GaussianCloud given_back(const GaussianCloud& cloud, std::span<const std::uint32
 RestChanges forget(const Drawer& scene, std::span<const std::uint8_t> labels,
                    std::span<const std::uint32_t> object, std::span<const OwnView> views,
                    std::span<const CutOff> cut_off, const Job& job) {
-  // A view is drawn several times in a row: projected once, unless blocks out of it spare more than that.
-  constexpr std::size_t kMostProjected = 1'000'000;
   const GaussianCloud& cloud = scene.cloud();
   KeptViews last(cloud, 0);
   const Drawer drawer = cloud.size() <= kMostProjected ? Drawer(cloud, &last) : scene;

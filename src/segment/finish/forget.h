@@ -10,7 +10,7 @@
 //               ones are the object's; but for those that what surrounds the object needs: the rest is drawn
 //               with and without the ghosts, e = by how much its squared error against the scene grows by
 //               their leaving, per pixel up to 8 px outside of the mask. Where the mean of e over all that a
-//               ghost shows is above 2e-6, it stays. Three rounds, as fewer then leave beside the others.
+//               ghost shows is above 2e-6, it stays. Two rounds, as fewer then leave beside the others.
 // Cost: three drawings of the scene a view and two a round, a k-d tree over the sure ones.
 #pragma once
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/parallel.h"
-#include "scene/raster/rasterizer.h"
+#include "scene/raster/projected_view.h"
 #include "scene/raster/splat_math.h"
 #include "segment/masks/mask_tools.h"
 
@@ -21,7 +21,9 @@ PlaneSums residual_sums(const OwnView& view, const std::vector<std::uint8_t>& ke
   RasterOptions raster;
   raster.roi = view.rect;
   raster.shown = kept;
-  const RasterOutput alone = rasterize(object, view.camera, raster, job);
+  KeptViews last(object, 0);  // drawn twice, projected once
+  const Drawer drawer(object, &last);
+  const RasterOutput alone = drawer.draw(view.camera, raster, job);
   const Mask inside = eroded(view.inside, kInsidePx);
   std::vector<Image<float>> planes(kColourPlanes, Image<float>(view.rect.width(), view.rect.height()));
   for (std::size_t i = 0; i < inside.size(); ++i) {
@@ -35,7 +37,7 @@ PlaneSums residual_sums(const OwnView& view, const std::vector<std::uint8_t>& ke
   raster.colour = false;
   raster.sum_planes = planes;
   raster.plane_sums = &sums;
-  rasterize(object, view.camera, raster, job);
+  drawer.draw(view.camera, raster, job);
   return sums;
 }
 

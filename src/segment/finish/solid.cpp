@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/raster/rasterizer.h"
+#include "scene/raster/projected_view.h"
 #include "scene/raster/splat_math.h"
 #include "segment/masks/mask_tools.h"
 
@@ -20,7 +20,9 @@ void add_transmittance(const OwnView& view, const std::vector<std::uint8_t>& kep
   raster.colour = false;
   raster.roi = view.rect;
   raster.shown = kept;
-  const Image<float> alpha = rasterize(object, view.camera, raster, job).alpha;
+  KeptViews last(object, 0);  // drawn twice, projected once
+  const Drawer drawer(object, &last);
+  const Image<float> alpha = drawer.draw(view.camera, raster, job).alpha;
   const Mask deep = eroded(view.inside, kDeepPx);
   std::vector<Image<float>> planes(kSolidPlanes, Image<float>(alpha.width(), alpha.height()));
   for (std::size_t i = 0; i < alpha.size(); ++i) {
@@ -30,7 +32,7 @@ void add_transmittance(const OwnView& view, const std::vector<std::uint8_t>& kep
   }
   raster.sum_planes = planes;
   raster.plane_sums = sums;
-  rasterize(object, view.camera, raster, job);
+  drawer.draw(view.camera, raster, job);
 }
 
 }  // namespace

@@ -203,7 +203,7 @@ TEST_CASE("the guard: labels that are not right yet leave the object as it is, a
   for (std::uint8_t& label : labels) label = label && random() % 2 == 0;  // every second of its Gaussians
   const CleanObject object = thing.clean(labels);
   CHECK_FALSE(object.report.cleaned);
-  CHECK(object.report.reason.find("labels are not right yet") != std::string::npos);
+  CHECK(object.report.reason.find("something is missing, or too much is selected") != std::string::npos);
   CHECK(object.report.left + object.report.split + object.report.made_solid + object.report.recoloured == 0);
   CHECK(same_rows(object.cloud, permuted(thing.scene.cloud, object.gaussian)));
   CHECK(static_cast<std::ptrdiff_t>(object.gaussian.size()) == std::ranges::count(labels, 1));
