@@ -12,6 +12,7 @@
 #include "app/console/kept_inputs.h"
 #include "app/document/words.h"
 #include "app/work/work_history.h"
+#include "app/work/work_picture.h"
 #include "core/error.h"
 
 namespace splatcut {
@@ -32,7 +33,8 @@ LeftWork left_work(const std::filesystem::path& work) {
   try {
     const std::filesystem::path scene = read_work_file(work).files.front().path;
     return {work, scene,
-            fmt::format("{}  {}", when, (scene.parent_path().filename() / scene_name(scene)).string())};
+            fmt::format("{}  {}", when, (scene.parent_path().filename() / scene_name(scene)).string()),
+            read_work_picture(work)};
   } catch (const Error&) {
     return {work, {}, when};  // what is wrong with it is said when it is restored
   }
@@ -65,6 +67,7 @@ void SavedWork::find_offers() {
     if (file == restored_) continue;
     const auto known = std::ranges::find(offers_, file, &LeftWork::file);
     found.push_back(known == offers_.end() ? left_work(file) : *known);
+    if (found.back().serial == 0) found.back().serial = next_offer_serial_++;
   }
   offers_ = std::move(found);
   sort_offers();
@@ -118,12 +121,19 @@ void SavedWork::update(double seconds) {
   ws_.tasks.submit({TaskKind::kAutosave, failed}, autosaving());
 }
 
+Image<Rgb8> SavedWork::small_picture() const {
+  const FrameResult* shown = viewport_.picture();
+  return shown && !shown->pictures.empty() ? work_picture(shown->pictures.front()) : Image<Rgb8>();
+}
+
 TaskThread::Work SavedWork::autosaving() {
-  return [this, path = autosaves_.own(), restored = restored_, document = ws_.document(),
-          view = autosaved_pose_, scene = ws_.scene, steps = saved_steps(ws_.history)](const Job&) {
-    write_work_file(path, *scene, document, view, steps);
-    ws_.tasks.post([this, restored] { forget_restored(restored); });
-  };
+  return
+      [this, path = autosaves_.own(), restored = restored_, document = ws_.document(), view = autosaved_pose_,
+       scene = ws_.scene, steps = saved_steps(ws_.history), picture = small_picture()](const Job&) {
+        write_work_file(path, *scene, document, view, steps);
+        write_work_picture(path, picture);
+        ws_.tasks.post([this, restored] { forget_restored(restored); });
+      };
 }
 
 // It is in a file of this program now; what was left behind before it is offered next.
@@ -142,6 +152,7 @@ void SavedWork::keep_unsaved() {
     write(job);
     std::error_code ignored;
     std::filesystem::remove(restored, ignored);
+    if (!restored.empty()) std::filesystem::remove(picture_of_work(restored), ignored);
   });
 }
 
@@ -152,6 +163,7 @@ void SavedWork::leave() {
   forget_restored(restored_);
   std::error_code ignored;
   std::filesystem::remove(autosaves_.own(), ignored);
+  std::filesystem::remove(picture_of_work(autosaves_.own()), ignored);
 }
 
 void SavedWork::perform(const SaveWork& c) {

@@ -3,6 +3,7 @@
 // The worker writes the files; the window goes on.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@ struct LeftWork {
   std::filesystem::path file;
   std::filesystem::path scene;  // empty where the file cannot be read
   std::string says;  // time and scene: "18:40  garden/point_cloud.ply", "2026-03-01  garden/point_cloud.ply"
+  Image<Rgba8> picture{};    // what the view showed, small; empty: nobody knows
+  std::uint64_t serial = 0;  // number of the picture
 };
 
 class SavedWork {
@@ -45,6 +48,7 @@ class SavedWork {
 
  private:
   TaskThread::Work autosaving();
+  Image<Rgb8> small_picture() const;  // of what the view shows; empty: nothing is drawn yet
   void look_for_more(double seconds);
   void find_offers();
   void sort_offers();
@@ -57,6 +61,7 @@ class SavedWork {
   // File that a crash left and that the user opened; it is removed once the work is in another file.
   std::filesystem::path restored_;
   std::vector<LeftWork> offers_;
+  std::uint64_t next_offer_serial_ = 1;
   double looked_for_s_ = 0;
   // Serials of the documents that the autosave and the user's file hold; 0: the file holds none.
   std::uint64_t autosaved_serial_ = 0, saved_serial_ = 0;

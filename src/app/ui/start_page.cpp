@@ -9,6 +9,38 @@
 
 namespace splatcut {
 
+namespace {
+
+const ImVec2 kLeftPicture = {64, 42};  // of left work, points
+
+// The middle of it, in a box that is plain where there is no picture. True when clicked.
+bool left_picture(UiContext& ui, const LeftWork& left) {
+  constexpr std::uint64_t kLeftKey = 2000;  // of the list's textures
+  const ImVec2 at = ImGui::GetCursorScreenPos(), end = {at.x + kLeftPicture.x, at.y + kLeftPicture.y};
+  ImGui::Dummy(kLeftPicture);
+  const bool clicked = ImGui::IsItemClicked();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, end, packed(ui.theme.colour.line, 0.5f), 4);
+  if (!left.picture.empty()) {
+    const glm::vec2 size(left.picture.width(), left.picture.height());
+    const glm::vec2 box(kLeftPicture.x, kLeftPicture.y);
+    const glm::vec2 half = 0.5f * box / size / std::max(box.x / size.x, box.y / size.y);
+    list.AddImageRounded(ui.renderer.texture(kLeftKey + left.serial, left.serial, left.picture), at, end,
+                         {0.5f - half.x, 0.5f - half.y}, {0.5f + half.x, 0.5f + half.y}, 0xffffffffu, 4);
+  }
+  return clicked;
+}
+
+// Time and scene in a line each; the scene without its folder where that leaves it too little room.
+std::string left_label(const LeftWork& left, float width) {
+  const std::size_t gap = std::min(left.says.find("  "), left.says.size());
+  const std::string when = left.says.substr(0, gap);
+  const std::string label = when + "\n" + left.says.substr(std::min(gap + 2, left.says.size()));
+  return ImGui::CalcTextSize(label.c_str()).x <= width ? label : when + "\n" + scene_name(left.scene);
+}
+
+}  // namespace
+
 // A row for each: the whole row restores it, the button at its end throws it away.
 void left_work_list(UiContext& ui) {
   constexpr float kThrow = 34;
@@ -18,13 +50,24 @@ void left_work_list(UiContext& ui) {
   for (std::size_t i = 0; i < std::min(offers.size(), kMostShown); ++i) {
     const LeftWork& left = offers[i];
     ImGui::PushID(left.file.c_str());
-    const float width = ImGui::GetContentRegionAvail().x - kThrow - 4;
-    if (button(ui, fmt::format("{}  {}", icon::kRefresh, left.says).c_str(),
-               left.scene.string() + "\nStrokes, objects and history, saved by themselves", {}, i == 0,
-               width))
-      ui.ask(OpenScene{left.file});  // asks where other work would be lost
+    bool restore = left_picture(ui, left);
     ImGui::SameLine(0, 4);
+    const float width = ImGui::GetContentRegionAvail().x - kThrow - 4;
+    const ImVec2 padding = ImGui::GetStyle().FramePadding;
+    const std::string label = left_label(left, width - 2 * padding.x);
+    ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                        {padding.x, 0.5f * (kLeftPicture.y - 2 * ImGui::GetFontSize())});
+    restore |=
+        button(ui, label.c_str(), left.scene.string() + "\nStrokes, objects and history, saved by themselves",
+               {}, i == 0, width);
+    ImGui::PopStyleVar(2);
+    if (restore) ui.ask(OpenScene{left.file});  // asks where other work would be lost
+    ImGui::SameLine(0, 4);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                        {padding.x, 0.5f * (kLeftPicture.y - ImGui::GetFontSize())});
     if (button(ui, icon::kTrash, "Throw that work away", {}, false, kThrow)) ui.ask(DropAutosave{left.file});
+    ImGui::PopStyleVar();
     ImGui::PopID();
   }
   if (offers.size() > kMostShown)

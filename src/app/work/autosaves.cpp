@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "app/work/work_picture.h"
+
 namespace splatcut {
 
 namespace {
@@ -77,6 +79,7 @@ void Autosaves::remove(const std::filesystem::path& file) {
   if (held == left_.end()) return;
   std::error_code ignored;
   std::filesystem::remove(file, ignored);
+  std::filesystem::remove(picture_of_work(file), ignored);
   ::close(held->lock);
   left_.erase(held);
 }

@@ -27,7 +27,8 @@ class Autosaves {
   void look_again() {
     if (!folder_.empty()) hold_left_behind(folder_);
   }
-  void remove(const std::filesystem::path& file);  // deletes a file that was left behind; ignores any other
+  // Deletes a file that was left behind, and its picture; ignores any other.
+  void remove(const std::filesystem::path& file);
 
  private:
   struct Held {

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <thread>
 
+#include "app/work/work_file.h"
+#include "app/work/work_picture.h"
 #include "core/error.h"
 #include "core/picture_difference.h"
 #include "core/png_file.h"
@@ -58,6 +60,31 @@ TEST_CASE("frames: start page, dark and light") {
   app.key('L');
   app.frames(2);
   check_golden("start_light", app.picture());
+}
+
+TEST_CASE("frames: left work with its pictures, on the start page and in the panel") {
+  const ScratchFolder folder("left_frames");
+  Document document;
+  add_object(&document, "mug");
+  for (const int number : {2, 3}) {
+    const auto work = folder / ("autosave." + std::to_string(number) + ".splatcut.json");
+    write_work_file(work, *open_scene(kSample), document);
+    const auto day =
+        std::chrono::sys_days(std::chrono::year(2025) / 3 / number) + std::chrono::seconds(12 * 3600);
+    std::filesystem::last_write_time(work, std::chrono::file_clock::from_sys(day));
+  }
+  Image<Rgb8> picture(kWorkPictureWidthPx, 60, {20, 90, 200});
+  for (int y = 40; y < 60; ++y) std::ranges::fill(picture.row(y), Rgb8{60, 160, 60});
+  write_work_picture(folder / "autosave.3.splatcut.json", picture);  // the other has none
+  ApplicationOptions options = with_kept_scenes();
+  options.studio.state_folder = folder.path();
+  HeadlessApp app(1040, 600, 1, options);
+  app.frames(3);
+  check_golden("left_work", app.picture());
+  app.open(kSample);
+  REQUIRE(app.settle());
+  app.wait_for_message_to_go();
+  check_golden("left_work_panel", app.picture());
 }
 
 TEST_CASE("frames: the sample with the hint, the keys, twice the scale") {
