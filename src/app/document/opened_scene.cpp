@@ -41,6 +41,7 @@ FileViews views_of(const Scene& scene, const Box& bounds, std::vector<Camera> ca
   }
   views.up_world = scene.up ? *scene.up : guessed_up(scene.cloud);
   views.reference = view_of_all(bounds, views.up_world);
+  job.progress("choosing the first view", 1);
   views.first_view = better_first_view(scene.cloud, bounds, views.up_world, views.reference, job);
   if (views.first_view) views.reference = *views.first_view;
   return views;

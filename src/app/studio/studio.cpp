@@ -127,6 +127,11 @@ bool Studio::update(double seconds) {
   return moves || !idle() || clicks_.sizes();
 }
 
+std::string Studio::coming() const {
+  if (!ws_.scene) return loading() ? "Opening..." : "";
+  return viewport_.picture() ? "" : "Drawing the first picture...";
+}
+
 TaskThread::Progress Studio::progress() const {
   const TaskThread::Progress quick = quick_.progress();
   return quick.busy ? quick : tasks_.progress();

@@ -84,6 +84,7 @@ class Studio {
   // True if work is unsaved, also while it is being written.
   bool unsaved() const { return edits_.waiting() || work_.unsaved(); }
   bool loading() const { return tasks_.busy(TaskKind::kLoad); }
+  std::string coming() const;  // what the empty view is going to show; empty: it shows its picture
   bool cutting() const { return tasks_.busy(TaskKind::kCut); }
   std::size_t neighbourhoods() const;  // number of places prepared for clicks; to be called while idle()
   TaskThread::Progress progress() const;

@@ -88,7 +88,7 @@ void start_page(UiContext& ui, const UiRect& area) {
   ImGui::SetCursorScreenPos({middle.x - kWidth / 2, std::max(area.min.y + 20, middle.y - 150)});
   ImGui::BeginChild("start", {kWidth, 330});
   ImGui::PushFont(ui.theme.title);
-  ImGui::TextUnformatted(ui.studio.loading() ? "Opening..." : "Open a scene");
+  ImGui::TextUnformatted(ui.studio.loading() ? ui.studio.coming().c_str() : "Open a scene");
   ImGui::PopFont();
   wrapped_muted(ui, "A 3D Gaussian Splatting scene: " + spoken_extensions(read_formats(), "or") +
                         ". Or a .splatcut.json with saved work. Drop it on this window, or:");

@@ -60,6 +60,13 @@ void pane_label(const UiContext& ui, const ImVec2& at, const char* text) {
   list.AddText({at.x + 8, at.y + 4}, packed(ui.theme.colour.text), text);
 }
 
+// In the middle of a pane without a picture.
+void coming_label(const UiContext& ui, const UiRect& pane, const std::string& text) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const glm::vec2 at = 0.5f * (pane.min + pane.max - glm::vec2(size.x + 16, size.y + 8));
+  pane_label(ui, vec(at), text.c_str());
+}
+
 const char* mode_label(const Studio& studio) {
   switch (studio.view().display) {
     case DisplayMode::kIsolate:
@@ -179,6 +186,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
           ui.renderer.texture(kPaneKey + pane, studio.viewport().picture_serial(), picture->pictures[pane]),
           from, to);
     const UiRect of_pane = {{from.x, from.y}, {to.x, to.y}};
+    if (!gpu_picture[i] && !picture) coming_label(ui, of_pane, studio.coming());
     ImGui::PushClipRect(from, to, true);
     draw_ground_grid(ui, of_pane, i);
     draw_rings(ui, of_pane, i);

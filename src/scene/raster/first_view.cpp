@@ -200,7 +200,7 @@ class Search {
     const Shown all = shown(shapes_, subject_, outside_, 0, job_);
     best_score_ = kOutside * all.sharpness;
     if (subject_.radius > 0) look_at_subject();
-    if (subject_.radius >= kSpread * size_) look_from_within();
+    if (!subject_.stands_alone && subject_.radius >= kSpread * size_) look_from_within();
     return best_;
   }
 

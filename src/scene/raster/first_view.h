@@ -2,8 +2,8 @@
 //
 // The subject is what was captured most finely, as splats are small where cameras were near: centre and
 // radius are medians weighted by 1 / sigma. Candidates: all from outside; the subject from eight sides, from
-// the best three of them also nearer, farther, lower and higher; and, unless one small thing was captured,
-// views from within in eight directions, from the middle and around it. Each is scored by
+// the best three of them also nearer, farther, lower and higher; and, unless one thing was captured, small or
+// tall and alone, views from within in eight directions, from the middle and around it. Each is scored by
 //   c  sharp share of the picture  (sharp share of what is covered)^2  (1 - share before the lens)^2
 // Sharp: 1 / (1 + (s / 1.5 px)^2), s the footprint of a pixel's first Gaussian in a picture 160 px wide.
 // c: of the subject, how much of it lies well inside the picture and is not hidden (a roof hides a room);

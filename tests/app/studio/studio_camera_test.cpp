@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hands.h"
+#include "opened_sample.h"
 #include "scene/raster/rasterizer.h"
 #include "segment/masks/mask_tools.h"
 
@@ -341,4 +342,16 @@ TEST_CASE("hands: alone, the object is what the view turns around, corrected or 
   hands.studio().camera().orbit({400, 0});
   REQUIRE(hands.app.settle());
   CHECK(glm::distance(before, middle()) < 12);
+}
+
+TEST_CASE("a view that has no picture yet says what is coming, and no more once it is there") {
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  CHECK(app.studio().coming().empty());
+  app.open(kSmallSample);
+  CHECK(app.studio().coming() == "Opening...");
+  while (!app.studio().scene()) app.frames(1);
+  REQUIRE(!app.studio().viewport().picture());
+  CHECK(app.studio().coming() == "Drawing the first picture...");
+  REQUIRE(app.settle());
+  CHECK(app.studio().coming().empty());
 }

@@ -4,7 +4,11 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "core/mapped_file.h"
+#include "places.h"
+#include "scene/formats/scene_file.h"
 #include "scene/raster/guessed_up.h"
+#include "scene/raster/rasterizer.h"
 #include "scene/still_life/still_life.h"
 #include "synthetic_cloud.h"
 
@@ -122,6 +126,66 @@ TEST_CASE("first view: what was captured finely is in the middle, not too small,
   const float side_px = view->fx_px / middle.z;  // of the fine box
   CHECK(side_px > 40);
   CHECK(side_px < 200);
+}
+
+TEST_CASE("first view: a statue on a blurred plinth is not looked at from within") {
+  GaussianCloud scene;
+  add_box(&scene, 0.5f, 70);
+  for (glm::vec3& p : scene.position) p = (p + glm::vec3(0, -0.5f, 0)) * glm::vec3(0.8f, 1.4f, 0.8f);
+  const std::size_t statue = scene.size();
+  for (const float below : {0.6f, 1.8f}) {
+    const std::size_t from = scene.size();
+    add_box(&scene, 0.6f, 12);
+    for (std::size_t g = from; g < scene.size(); ++g) scene.position[g].y += below;
+  }
+  const Box bounds = framed_bounds(scene);
+  const Camera outside = outside_of(bounds);
+  const Camera view = better_first_view(scene, bounds, {0, -1, 0}, outside).value_or(outside);
+  for (std::size_t g = 0; g < statue; ++g) {
+    const glm::vec3 seen = view.camera_from_world(scene.position[g]);
+    REQUIRE(seen.z > 0);
+    const glm::vec2 at = view.pixel_from_camera(seen);
+    const bool inside = at.x > 0 && at.y > 0 && at.x < 320 && at.y < 240;
+    REQUIRE(inside);
+  }
+}
+
+TEST_CASE("first view: the sample without its cameras shows what stands on the table, nothing is before it") {
+  const std::filesystem::path folder = project_folder() + "/assets/sample";
+  const Scene scene = load_scene(folder / "sample.compressed.ply");
+  const std::string labels = text_of_file(folder / "sample.labels.u8");
+  const Box bounds = framed_bounds(scene.cloud);
+  const glm::vec3 up = scene.up.value_or(guessed_up(scene.cloud));
+  const Camera outside = view_of_all(bounds, up, 0.87f, 640, 480);
+  const Camera view = better_first_view(scene.cloud, bounds, up, outside).value_or(outside);
+  RasterOptions options;
+  options.colour = false;
+  options.depth = true;
+  const RasterOutput picture = rasterize(scene.cloud, view, options);
+  for (const char object : {1, 2, 3}) {  // mug, apple, orange
+    CAPTURE(static_cast<int>(object));
+    std::size_t all = 0, framed = 0, seen = 0;
+    for (std::size_t g = 0; g < scene.cloud.size(); ++g) {
+      if (labels.at(scene.cloud.file_row[g]) != object) continue;
+      ++all;
+      const glm::vec3 at = view.camera_from_world(scene.cloud.position[g]);
+      const glm::vec2 px = view.pixel_from_camera(at);
+      if (!(at.z > 0 && px.x >= 0 && px.y >= 0 && px.x < 640 && px.y < 480)) continue;
+      ++framed;
+      const float depth = picture.median_depth.at(static_cast<int>(px.x), static_cast<int>(px.y));
+      seen += at.z < 1.05f * depth;
+    }
+    CHECK(framed == all);
+    CHECK(seen > all / 3);  // the rest is its own other side
+  }
+  std::size_t black = 0, near = 0;
+  const float distance = glm::distance(view.centre_world(), bounds.centre());
+  for (const float depth : picture.median_depth.pixels()) {
+    black += depth == 0;
+    near += depth > 0 && depth < 0.35f * distance;
+  }
+  CHECK(black < picture.median_depth.size() / 4);
+  CHECK(near == 0);
 }
 
 TEST_CASE("first view: a tall thing that stands alone is seen from head to foot") {
