@@ -39,6 +39,7 @@ FileViews views_of(const Scene& scene, const Box& bounds, std::vector<Camera> ca
     views.reference = views.cameras.front();
     return views;
   }
+  views.up_is_guess = !scene.up;
   views.up_world = scene.up ? *scene.up : guessed_up(scene.cloud);
   views.reference = view_of_all(bounds, views.up_world);
   job.progress("choosing the first view", 1);

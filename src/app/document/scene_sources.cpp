@@ -56,6 +56,17 @@ ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::v
   return place;
 }
 
+std::string why_upright(const SceneSource& file, const ScenePlace& place, const glm::vec3& up_world) {
+  constexpr float kUpright = 0.99999f;  // a quarter of a degree
+  const float cosine =
+      glm::dot(rotation_of(place) * glm::normalize(file.views->up_world), glm::normalize(up_world));
+  if (cosine < kUpright) return {};
+  return file.views->up_is_guess
+             ? "It stands upright already, as far as can be guessed: its file does not say which way is up. "
+               "Turn it by the numbers, or by the handles in the picture"
+             : "It stands upright already";
+}
+
 ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& point_world,
                     const glm::vec3& up_world) {
   file.place = place;

@@ -34,6 +34,7 @@ struct StandsOn {
 struct FileViews {
   std::vector<Camera> cameras;   // capture cameras found beside the file; may be empty
   glm::vec3 up_world{0, -1, 0};  // up direction: as the file says, of the capture, or a guess
+  bool up_is_guess = false;      // neither the file nor cameras say it
   // Guessed start of the window, if there are no cameras and a view of all from outside is a bad start.
   std::optional<Camera> first_view;
   Camera reference;  // start of the window: a capture camera, first_view, or a view of all
@@ -73,6 +74,9 @@ ScenePlace changed(ScenePlace place, const PlacingChange& change);
 
 // The place, turned so that the file's own up becomes `up_world`.
 ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::vec3& up_world);
+// Why stood_upright() has nothing to turn, in a sentence; empty: it has. It leaves the way that an upright
+// file faces as it is.
+std::string why_upright(const SceneSource& file, const ScenePlace& place, const glm::vec3& up_world);
 // The place, moved so that the file's box stands on the point: its middle lies above the point by half of the
 // box's extent along up_world.
 ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& point_world,

@@ -52,10 +52,11 @@ void placing(UiContext& ui, const SceneSource& file) {
                         &place.turn_deg, 0.5f, "%.1f");
   done |= scale_number(&place.scale);
   ImGui::SameLine(0, 4);
+  const glm::vec3& up_world = ui.studio.document().up_world;
   if (button(ui, "Stand it upright",
-             "Its own way up, as its file says, of its cameras or guessed, becomes the scene's", {}, false,
-             -1))
-    ui.ask(PlaceScene{file.id, stood_upright(file, place, ui.studio.document().up_world)});
+             "Its own way up, as its file says, of its cameras or guessed, becomes the scene's",
+             why_upright(file, place, up_world), false, -1))
+    ui.ask(PlaceScene{file.id, stood_upright(file, place, up_world)});
   if (done) ui.ask(PlaceScene{file.id, place});
   ButtonRow row({"Bring here", "As in file", "Take out"});
   if (button(ui, "Bring here", "Stands it on the point that the view turns around", {}, false, row.next()))

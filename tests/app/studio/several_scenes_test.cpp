@@ -392,6 +392,56 @@ TEST_CASE("several scenes: a file stood upright stands on its point, whichever w
     }
 }
 
+TEST_CASE("several scenes: where a file stands upright already, that is said, and why none is sure of it") {
+  const glm::vec3 up(0, -2, 0);
+  SceneSource file;
+  file.bounds = {{-1, -2, -3}, {2, 1, 4}};
+  const auto with_up = [&](const glm::vec3& own, bool guess) {
+    FileViews views;
+    views.up_world = own;
+    views.up_is_guess = guess;
+    file.views = std::make_shared<FileViews>(views);
+  };
+  with_up({0, 0, 3}, false);
+  CHECK(why_upright(file, {}, up).empty());
+  const ScenePlace upright = stood_upright(file, {}, up);
+  CHECK(why_upright(file, upright, up) == "It stands upright already");
+  with_up({0, -1, 0}, false);
+  CHECK(why_upright(file, {}, up) == "It stands upright already");
+  CHECK(why_upright(file, {{1, 2, 3}, {0, 40, 0}, 2}, up) == "It stands upright already");  // turned about up
+  CHECK(why_upright(file, {{}, {1, 0, 0}}, up).empty());
+  with_up({0, -1, 0}, true);
+  CHECK(why_upright(file, {}, up).starts_with("It stands upright already, as far as can be guessed"));
+}
+
+TEST_CASE("several scenes: the button that stands a file upright is greyed where it does") {
+  const ScratchFolder folder("several_upright");
+  HeadlessApp app(kSmallWidth, 1000);
+  opened(app);
+  Studio& studio = app.studio();
+  const auto file = small_scene(folder);
+  studio.apply(AddScene{file});
+  REQUIRE(app.settle());
+  const std::uint32_t id = studio.scene()->files.back().id;
+  studio.apply(PlaceScene{id, {{}, {30, 0, 10}}});
+  REQUIRE(app.settle());
+  app.interface_state().placing.file = id;
+  app.frames(3);
+  const auto press = [&] {
+    const UiRect at = app.button("Stand it upright");
+    REQUIRE(at.size().x > 0);
+    app.click(0.5f * (at.min + at.max));
+    REQUIRE(app.settle());
+  };
+  const std::size_t steps = studio.history().entries().size();
+  press();
+  const SceneSource placed = studio.scene()->files.back();
+  CHECK_FALSE(why_upright(placed, placed.place, studio.document().up_world).empty());
+  CHECK(studio.history().entries().size() == steps + 1);
+  press();
+  CHECK(studio.history().entries().size() == steps + 1);
+}
+
 TEST_CASE("several scenes: carried arrays against brute force") {
   const ScratchFolder folder("several_brute");
   const auto a = small_scene(folder, "a.ply", 1), b = small_scene(folder, "b.ply", 2),
