@@ -1,6 +1,6 @@
 // Times of the window without a window: pictures, longest frame during a cut, click to cutout.
-// Usage: splatcut_window_bench SCENE X Y   X, Y: the object in the view as opened, in shares of width and
-// height.
+// Usage: splatcut_window_bench SCENE X Y [keys]   X, Y: the object in the view as opened, in shares of width
+// and height. keys: only the times from a key to its picture, once the object is cut out.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "../tests/headless_app.h"
+#include "core/ranks.h"
 #include "core/stage_clock.h"
 
 // Where the sample lies, as the tests' headers ask.
@@ -153,6 +154,91 @@ void stops_of_commands(HeadlessApp& app, const glm::vec2& at) {
   report("  frame the object", [&] { s.run(Action::kFrameObject); });
 }
 
+// From a key to the first picture that shows what it asks for, and to the still picture at full size.
+// drawing: the time of that picture alone.
+struct KeyTimes {
+  std::vector<float> shown_ms, still_ms, drawing_ms;
+};
+
+void time_key(HeadlessApp& app, int key, KeyTimes* times) {
+  Studio& s = app.studio();
+  const std::uint64_t picture = s.viewport().picture_serial();
+  const std::size_t taken = s.gaussians_of(s.document().active);
+  const auto start = Clock::now();
+  auto before = start;
+  double shown_ms = -1, still_ms = -1;
+  bool asked = false;  // the panes hold what the key asks for
+  std::uint64_t behind = picture;
+  app->handle(KeyChanged{key, true, false, {}});
+  const bool steps = key == key::kPageUp || key == key::kPageDown;
+  while (still_ms < 0 && ms_since(start) < 60000) {
+    const auto now = Clock::now();
+    app->frame(std::chrono::duration<double>(now - before).count());
+    glFinish();  // as showing it would
+    before = now;
+    const bool done = !steps || s.gaussians_of(s.document().active) != taken;
+    if (!asked && done && s.viewport().display_current() && s.viewport().style_current()) {
+      asked = true;
+      behind = s.viewport().picture_serial() - (s.viewport().picture_serial() != picture ? 1 : 0);
+    }
+    if (asked && shown_ms < 0 && s.viewport().picture_serial() > behind) shown_ms = ms_since(start);
+    if (shown_ms >= 0 && s.viewport().idle()) still_ms = ms_since(start);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  app->handle(KeyChanged{key, false, false, {}});
+  times->shown_ms.push_back(static_cast<float>(shown_ms));
+  times->still_ms.push_back(static_cast<float>(still_ms));
+  times->drawing_ms.push_back(static_cast<float>(s.viewport().still_ms()));
+}
+
+void rest(HeadlessApp& app) {
+  FrameTimes ignored;
+  until(
+      app, [] { return true; }, &ignored);
+}
+
+void print(const char* what, KeyTimes times) {
+  fmt::print("{:<44} {:8.2f} s, still {:.2f} s, of which drawing {:.2f} s ({} times)\n", what,
+             median(times.shown_ms) / 1000, median(times.still_ms) / 1000, median(times.drawing_ms) / 1000,
+             times.shown_ms.size());
+}
+
+// Each key once from rest, and as many times as makes a median. Keys that come in pairs go back in between.
+void keys_to_pictures(HeadlessApp& app) {
+  constexpr int kTimes = 5;
+  KeyTimes ignored;
+  Studio& s = app.studio();
+  const Camera from = s.viewport().pane_camera();
+  fmt::print("from a key to its picture, medians:\n");
+  const auto report = [&](const char* what, const char* back, int key, int back_key) {
+    KeyTimes there, again;
+    for (int i = 0; i < kTimes; ++i) {
+      rest(app);
+      time_key(app, key, &there);
+      rest(app);
+      time_key(app, back_key, &again);
+    }
+    rest(app);
+    print(what, there);
+    print(back, again);
+  };
+  report("  I, the object alone", "  I, back", 'I', 'I');
+  report("  H, without the object", "  H, back", 'H', 'H');
+  report("  B, side by side", "  B, back", 'B', 'B');
+  time_key(app, 'I', &ignored);
+  report("  B of the object alone, before and after", "  B, back", 'B', 'B');
+  time_key(app, 'I', &ignored);
+  KeyTimes framed;
+  for (int i = 0; i < kTimes; ++i) {
+    s.camera().go_to(from);
+    s.camera().finish_transition();
+    rest(app);
+    time_key(app, 'F', &framed);
+  }
+  print("  F, a transition of the view in it", framed);
+  report("  Page Up, the next size", "  Page Down, back", key::kPageUp, key::kPageDown);
+}
+
 void gl_pictures(const std::shared_ptr<const GaussianCloud>& cloud, const Camera& camera) {
   GlSplats splats;
   splats.upload(*cloud);
@@ -178,17 +264,22 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "X and Y are shares of the picture between 0 and 1\n");
     return 2;
   }
+  const bool only_keys = argc > 4 && std::string_view(argv[4]) == "keys";
   HeadlessApp app(1280 + 370, 720 + 76);  // a picture of 1280x720
   Studio& s = app.studio();
   FrameTimes longest;
   const auto start = Clock::now();
   app.open(argv[1]);
-  while (!s.viewport().picture() && ms_since(start) < 100000) app.frames(1);
+  while (!s.viewport().picture() && ms_since(start) < 100000) {
+    app.frames(1);
+    glFinish();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));  // as a screen would hold it up
+  }
   print("open to first picture", ms_since(start));
   const Camera camera = s.viewport().pane_camera();
   fmt::print("{} Gaussians, picture {}x{}\n", s.scene()->cloud->size(), camera.width_px, camera.height_px);
   print("still picture", s.viewport().still_ms());
-  moving_pictures(app);
+  if (!only_keys) moving_pictures(app);
   s.camera().go_to(s.scene()->views().cameras.empty() ? camera : s.scene()->views().cameras.front());
   s.camera().finish_transition();
   until(
@@ -212,6 +303,8 @@ int main(int argc, char** argv) {
   print("  longest frame meanwhile", longest);
   fmt::print("  {} Gaussians\n", s.gaussians_of(s.document().active));
   for (const StageTime& stage : run()->stages) fmt::print("  {:<42} {:8.1f} ms\n", stage.name, stage.ms);
+  keys_to_pictures(app);
+  if (only_keys) return 0;
   longest = {};
   ViewState scribbling = s.view();  // a key would choose another meaning of the click
   scribbling.tool = ToolId::kScribble;
