@@ -203,7 +203,6 @@ void heading(UiContext& ui, const char* text) {
 
 // Keys of one heading; all keys of an action are on its first row.
 void key_group(UiContext& ui, const char* group) {
-  constexpr float kKeysWidth = 132;
   heading(ui, group);
   Action before = Action::kNone;
   for (const Binding& b : key_bindings()) {
@@ -211,7 +210,8 @@ void key_group(UiContext& ui, const char* group) {
     before = b.action;
     const float left = ImGui::GetCursorPosX();
     ImGui::TextUnformatted(keys_of(b.action).c_str());
-    ImGui::SameLine(kKeysWidth);
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(left + keys_width());
     ImGui::PushTextWrapPos(left + ImGui::GetColumnWidth() - 24);
     muted_text(ui, b.what);
     ImGui::PopTextWrapPos();
@@ -310,6 +310,14 @@ void export_dialog(UiContext& ui) {
     ImGui::CloseCurrentPopup();
   }
   ImGui::EndPopup();
+}
+
+float keys_width() {
+  constexpr float kGap = 10;
+  float width = 0;
+  for (const Binding& b : key_bindings())
+    width = std::max(width, ImGui::CalcTextSize(keys_of(b.action).c_str()).x);
+  return width + kGap;
 }
 
 void help_page(UiContext& ui) {

@@ -56,6 +56,7 @@ inline constexpr float kAxesWidth = 98;                // that axes_gizmo() take
 UiRect axes_gizmo(UiContext& ui, const UiRect& area);  // which takes clicks: look along an axis
 
 void help_page(UiContext& ui);
+float keys_width();  // of the keys on that page, beside which it says what they do; points
 void settings_page(UiContext& ui);
 void export_dialog(UiContext& ui);
 // What is exported as it will stand in the file, with handles; a picture in the dialog, of that size.

@@ -83,10 +83,12 @@ void recent_list(UiContext& ui) {
 }
 
 void start_page(UiContext& ui, const UiRect& area) {
-  constexpr float kWidth = 420;
+  constexpr float kWidth = 420, kHeight = 330, kMargin = 20;
   const glm::vec2 middle = 0.5f * (area.min + area.max);
-  ImGui::SetCursorScreenPos({middle.x - kWidth / 2, std::max(area.min.y + 20, middle.y - 150)});
-  ImGui::BeginChild("start", {kWidth, 330});
+  const glm::vec2 size = glm::min(glm::vec2(kWidth, kHeight), area.size() - 2 * kMargin);
+  const float top = std::min(std::max(area.min.y + kMargin, middle.y - 150), area.max.y - kMargin - size.y);
+  ImGui::SetCursorScreenPos({middle.x - size.x / 2, top});
+  ImGui::BeginChild("start", vec(size));
   ImGui::PushFont(ui.theme.title);
   ImGui::TextUnformatted(ui.studio.loading() ? ui.studio.coming().c_str() : "Open a scene");
   ImGui::PopFont();

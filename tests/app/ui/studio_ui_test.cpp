@@ -7,8 +7,10 @@
 #include <thread>
 
 #include "app/console/camera_options.h"
+#include "app/ui/panels.h"
 #include "app/ui/theme.h"
 #include "app/window/file_drag.h"
+#include "app/work/work_file.h"
 #include "core/error.h"
 #include "hands.h"
 #include "opened_sample.h"
@@ -305,4 +307,44 @@ TEST_CASE("ui: in a window of 640 by 480 the panel takes a third and cuts no but
   const UiRect page = app.window("Keys and pointer");
   CHECK(page.max.x <= kWidth);
   CHECK(page.max.y <= kHeight);
+}
+
+TEST_CASE(
+    "ui: the start page lies within the picture's place in a window of any size, with all its buttons") {
+  const ScratchFolder folder("start_page");
+  Document document;
+  add_object(&document, "mug");
+  write_work_file(folder / "autosave.splatcut.json", *open_scene(kSmallSample), document);
+  ApplicationOptions options = with_kept_scenes();
+  options.studio.state_folder = folder.path();
+  options.sample = kSample;
+  for (const auto& [width, height, scale] : {std::tuple(640, 480, 1.0f), std::tuple(800, 480, 1.0f),
+                                             std::tuple(1280, 960, 2.0f), std::tuple(1280, 720, 1.0f)}) {
+    CAPTURE(width);
+    HeadlessApp app(width, height, scale, options);
+    app.frames(4);
+    const UiRect area = app->interface().viewport(), page = app.window("start");
+    CHECK(page.min.x >= area.min.x);
+    CHECK(page.max.x <= area.max.x);
+    CHECK(page.min.y >= area.min.y);
+    CHECK(page.max.y <= area.max.y);
+    for (const char* name : {"Open a file", "Open the sample scene", "small_sample", icon::kTrash}) {
+      CAPTURE(name);
+      const UiRect button = app.button(name);
+      CHECK(button.size().x > 0);
+      CHECK(button.min.x >= page.min.x);
+      CHECK(button.max.x <= page.max.x);
+      CHECK(button.max.y <= page.max.y);
+    }
+  }
+}
+
+TEST_CASE("ui: no key of the F1 page runs into what it does, in any group") {
+  HeadlessApp app(1280, 720);
+  app.frames(1);
+  app.key(key::kF1);
+  app.frames(3);
+  app->interface().make_current();
+  for (const Binding& b : key_bindings())
+    CHECK_MESSAGE(ImGui::CalcTextSize(keys_of(b.action).c_str()).x + 8 <= keys_width(), b.what);
 }
