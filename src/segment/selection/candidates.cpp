@@ -341,7 +341,9 @@ void Asking::add_repick() {
   if (click_.object || !selected_.first) return;
   const std::vector<PartMeaning> left = first_meanings_left(selected_, click_.leaf);
   if (left.empty()) return;
+  const AgreedMeaning agreed = agreed_meaning(parts_, left, click_.view.leaf_px);
   TermValues terms{};
+  weight(&terms, Term::kDoubtful) = agreed.doubt;
   Chain likeliest = given_up(leaves_of(parts_, left.front().tree, left.front().node));
   const float px = likeliest.changed_px.front();
   if (selected_.clicked[1].size() == 1 && px >= kLeastChangePx && folds(px) <= kFoldSlack) {
@@ -349,9 +351,7 @@ void Asking::add_repick() {
     add_first_meaning(std::move(likeliest), terms);
     return;
   }
-  const AgreedMeaning agreed = agreed_meaning(parts_, left, click_.view.leaf_px);
   weight(&terms, Term::kAgreed) = 1;
-  weight(&terms, Term::kDoubtful) = agreed.doubt;
   add_first_meaning(given_up(agreed.leaves), terms);
 }
 

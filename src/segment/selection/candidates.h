@@ -39,11 +39,11 @@
 // - kDisc: 1 if nothing but the disc would change.
 // - kRepick (clicks on the rest): 1 if the first click gets the likeliest other meaning that is left
 //   (first_meanings.h). This is a candidate if the first click is the only one on the object and f is at most
-//   1. Of the other terms it has kScrap alone.
+//   1. Of the other terms it has kDoubtful and kScrap.
 // - kAgreed (clicks on the rest): 1 if the first click gets the meaning that the trees agree on among those
 //   that are left. This is a candidate where kRepick is none. Of the other terms it has kDoubtful, kScrap,
 //   kFold, kGiant, kBorder and kTakes.
-// - kDoubtful: AgreedMeaning::doubt of that meaning.
+// - kDoubtful (of these two): AgreedMeaning::doubt of the meanings that are left.
 // Cost: some 10 ms. The result depends on the arguments alone.
 #pragma once
 

@@ -127,7 +127,7 @@ SelectionModel::SelectionModel()
                      {Term::kOpposed, 5},
                      {Term::kBack, 1},
                      {Term::kDisc, 1},
-                     {Term::kRepick, -0.5f},
+                     {Term::kRepick, -2},
                      {Term::kAgreed, -2},
                      {Term::kDoubtful, 16}})),
       box(weights({{Term::kCut, 0.1f},

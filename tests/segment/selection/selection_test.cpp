@@ -123,6 +123,10 @@ TEST_CASE("selection: a rest click takes back what the trees agree that the firs
   // outweighs the cost of -50 from 50 / .2487 = 201 on.
   CHECK(after(195, clicks) == Labels{1, 0, 1, 0});
   CHECK(after(207, clicks) == Labels{1, 0, 1, 1});
+  // After a single click on the object the change is as small as the click says, and doubted as much.
+  weight(&model.later, Term::kRepick) = -50;
+  CHECK(after(195, {object(5), rest(15)}) == Labels{1, 0, 1, 0});
+  CHECK(after(207, {object(5), rest(15)}) == Labels{1, 0, 1, 1});
   // A click on the third stripe leaves the one tree that has a part for it.
   CHECK(after(1e6f, {object(5), object(25), rest(15)}) == Labels{1, 0, 1, 0});
 }
