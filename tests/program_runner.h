@@ -1,5 +1,5 @@
-// Runs the built programs in a folder of its own and looks at what they leave there. eval, study and
-// make-scene are commands of splatcut-lab, all others of splatcut.
+// Runs the built programs in a folder of its own and looks at what they leave there. eval, click-chart, study
+// and make-scene are commands of splatcut-lab, all others of splatcut.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -124,7 +124,7 @@ class Workplace {
     std::istringstream in(arguments);
     std::vector<std::string> words = {splatcut_program()};
     for (std::string word; in >> word;) words.push_back(word);
-    for (const char* command : {"eval", "study", "make-scene"})
+    for (const char* command : {"eval", "click-chart", "study", "make-scene"})
       if (words.size() > 1 && words[1] == command) words.front() = lab_program();
     words.insert(words.end(), whole_arguments.begin(), whole_arguments.end());
     return words;

@@ -14,6 +14,7 @@ namespace splatcut {
 void add_make_scene_command(CLI::App& program, const CommonOptions& common);
 void add_eval_command(CLI::App& program, const CommonOptions& common);
 void add_fit_command(CLI::App& program, const CommonOptions& common);
+void add_click_chart_command(CLI::App& program, const CommonOptions& common);
 void add_study_command(CLI::App& program, const CommonOptions& common);
 
 // --from-box of eval and fit: see FirstStrokes.

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
       [](CLI::App& program, const splatcut::CommonOptions& common) {
         add_eval_command(program, common);
         add_fit_command(program, common);
+        add_click_chart_command(program, common);
         add_study_command(program, common);
         add_make_scene_command(program, common);
       }};

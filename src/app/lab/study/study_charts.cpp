@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "app/console/run_program.h"
+#include "app/lab/chart.h"
 #include "app/lab/study/study_plan.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -15,23 +15,8 @@ namespace splatcut {
 
 namespace {
 
-// The points of a chart as blocks of CSV, a block a line of the chart, and what gnuplot does with them.
-struct Chart {
-  StudyChart named;
-  std::string csv, commands;  // commands: read `data`, blocks 0 to `last`
-  std::size_t blocks = 1;
-  int width_px = 980, height_px = 560;
-};
-
-// In single quotes an apostrophe is written twice.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
-  return out + "'";
-}
-
 std::string label_command(const char* axis, const std::string& text) {
-  return text.empty() ? std::string() : fmt::format("set {} {}\n", axis, quoted(text));
+  return text.empty() ? std::string() : fmt::format("set {} {}\n", axis, gnuplot_text(text));
 }
 
 std::vector<std::string> series_of(const std::vector<SettingScore>& scores) {
@@ -61,26 +46,6 @@ void add_block(const std::string& name, const std::vector<SettingScore>& scores,
 
 void add_blocks(const std::vector<SettingScore>& scores, Chart* chart) {
   for (const std::string& series : series_of(scores)) add_block(series, of_series(scores, series), chart);
-}
-
-void draw(const Chart& chart, const std::filesystem::path& folder) {
-  const std::string& name = chart.named.name;
-  write_text_file(folder / (name + ".csv"), chart.csv);
-  write_text_file(
-      folder / (name + ".gp"),
-      fmt::format("data = '{0}.csv'\nlast = {1}\nset datafile separator ','\n"
-                  "set key autotitle columnhead\nset key outside right top\nset grid\nset title {2}\n"
-                  "set terminal svg noenhanced font 'sans,13' background 'white' size {3},{4}\n"
-                  "set output '{0}.svg'\n{5}set terminal pngcairo noenhanced font 'sans,10' size "
-                  "{3},{4}\nset output '{0}.png'\nreplot\n",
-                  name, chart.blocks - 1, quoted(chart.named.title), chart.width_px, chart.height_px,
-                  chart.commands));
-  const ProgramEnd end = run_program({"gnuplot", "-e", "cd " + quoted(folder.string()), name + ".gp"}, {});
-  if (end.exit_code != 0)
-    throw Error("gnuplot",
-                end.start_error ? "cannot be started"
-                                : fmt::format("ended with code {} on {}", end.exit_code, name + ".gp"),
-                "Install gnuplot-nox; the measurements are kept, run the same command again");
 }
 
 Chart trade_off(const StudyResults& results) {
@@ -145,7 +110,7 @@ Chart stages(const StudyResults& results) {
   return chart;
 }
 
-Chart lines(const StudyResults& results, StudyChart named, const std::string& x_label,
+Chart lines(const StudyResults& results, ChartName named, const std::string& x_label,
             const std::string& more = {}) {
   Chart chart{.named = std::move(named)};
   add_blocks(scores_of(results), &chart);
@@ -195,7 +160,7 @@ Chart bad_masks(const StudyResults& results, const StabilityAxis& axis) {
   return chart;
 }
 
-Chart bars(const StudyResults& results, StudyChart named) {
+Chart bars(const StudyResults& results, ChartName named) {
   Chart chart{.named = std::move(named)};
   std::vector<SettingScore> scores = scores_of(results);
   for (SettingScore& s : scores) s.label = s.series;
@@ -249,11 +214,11 @@ std::vector<Chart> all_charts(const StudyResults& results) {
 
 }  // namespace
 
-std::vector<StudyChart> draw_study_charts(const StudyResults& results, const std::filesystem::path& folder) {
-  std::vector<StudyChart> drawn;
+std::vector<ChartName> draw_study_charts(const StudyResults& results, const std::filesystem::path& folder) {
+  std::vector<ChartName> drawn;
   std::filesystem::create_directories(folder);
   for (const Chart& chart : all_charts(results)) {
-    draw(chart, folder);
+    draw_chart(chart, folder);
     drawn.push_back(chart.named);
   }
   return drawn;

@@ -218,7 +218,7 @@ void run_study(const StudyArguments& args, const CommonOptions& common) {
   write_text_file(args.output / "results.json",
                   json_text({{"machine", machine()}, {"results", store.results()}}, 1) + "\n");
   if (args.no_charts) return;
-  const std::vector<StudyChart> charts = draw_study_charts(store.results(), args.output / "charts");
+  const std::vector<ChartName> charts = draw_study_charts(store.results(), args.output / "charts");
   const std::vector<WorstCase> worst =
       worst_cases(args, lowest_of(store.results(), scenes, cells), cache, job);
   write_text_file(args.output / "study.md", study_page(store.results(), charts, worst, machine()));

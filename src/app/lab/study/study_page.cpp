@@ -116,10 +116,10 @@ std::string study_csv(const StudyResults& results) {
   return csv;
 }
 
-std::string study_page(const StudyResults& results, const std::vector<StudyChart>& charts,
+std::string study_page(const StudyResults& results, const std::vector<ChartName>& charts,
                        const std::vector<WorstCase>& worst, const std::string& machine) {
   std::string text = fmt::format("# Study\n\n{}. {} measurements.\n", machine, results.size());
-  for (const StudyChart& chart : charts)
+  for (const ChartName& chart : charts)
     text += fmt::format("\n## {0}\n\n![{0}](charts/{1}.svg)\n", chart.title, chart.name);
   if (!worst.empty()) text += "\n## Where it failed worst\n";
   for (const WorstCase& w : worst) text += fmt::format("\n![worst case]({})\n\n{}\n", w.picture, w.caption);

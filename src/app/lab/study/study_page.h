@@ -18,7 +18,7 @@ struct WorstCase {
 std::string study_csv(const StudyResults& results);
 
 // charts: files of the folder "charts" beside the page. machine: a sentence.
-std::string study_page(const StudyResults& results, const std::vector<StudyChart>& charts,
+std::string study_page(const StudyResults& results, const std::vector<ChartName>& charts,
                        const std::vector<WorstCase>& worst, const std::string& machine);
 
 }  // namespace splatcut
