@@ -21,9 +21,9 @@ std::string described(const OpenedScene& opened) {
       fmt::format("{}{}: {}", scene_name(scene.path), more ? fmt::format(" and {} more", more) : "",
                   gaussians_text(scene.cloud.size()));
   if (scene.dropped) text += fmt::format(", {} unusable rows left out", grouped(scene.dropped));
-  return text + (opened.views().cameras.empty()
-                     ? std::string(". Which way is up is guessed: View has other ways")
-                     : fmt::format(", {} cameras (N, P)", opened.views().cameras.size()));
+  if (!opened.views().cameras.empty())
+    text += fmt::format(", {} cameras (N, P)", opened.views().cameras.size());
+  return text + (opened.views().up_is_guess ? ". Which way is up is guessed: View has other ways" : "");
 }
 
 bool same_files(const std::vector<SceneSource>& a, const std::vector<SceneSource>& b) {

@@ -167,6 +167,19 @@ TEST_CASE(
         CHECK(scene.remarks.empty() == (theirs || !beside_cameras));
       }
   }
+  const auto guessed = [&] {
+    return std::ranges::any_of(other.studio().messages(),
+                               [](const Message& m) { return m.text.find("is guessed") != m.text.npos; });
+  };
+  CHECK_FALSE(guessed());
+  const ScratchFolder alone("says_no_up");
+  Scene unsaid;
+  unsaid.cloud = cloud;
+  unsaid.file_rows = cloud.size();
+  save_scene(alone / "unsaid.ply", unsaid, {}, SceneFormat::kPly);
+  other.open(alone / "unsaid.ply");
+  REQUIRE(other.settle());
+  CHECK(guessed());
 }
 
 TEST_CASE("hands: an object is exported with clean edges, placed or not, or with its rows as they are") {
