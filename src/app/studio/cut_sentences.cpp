@@ -31,8 +31,7 @@ bool add_doubt_of_sides(CutRun* run) {
   constexpr const char* kSides[] = {"one side is",    "two sides are",  "three sides are",
                                     "four sides are", "five sides are", "six sides are"};
   const char* sides = kSides[std::min(doubtful, std::size(kSides)) - 1];
-  run->doubts.push_back(fmt::format("{}{} in doubt, marked in the pictures below",
-                                    run->views.front().doubt.empty() ? "right from here; " : "", sides));
+  run->doubts.push_back(fmt::format("{} in doubt, marked in the pictures below", sides));
   return true;
 }
 
