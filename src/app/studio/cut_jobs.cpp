@@ -85,6 +85,7 @@ void CutJobs::update() {
     return start(object);
   }
   recall();
+  renew_views();
   request_likelihood();
 }
 
@@ -174,6 +175,7 @@ bool CutJobs::take_known(const Order& order) {
   run.stages.clear();  // what was there cost nothing
   run.first_mask_ms = run.total_ms = 0;
   run.changed_nothing = false;
+  run.views_labels.reset();
   run.doubts = doubts_of(*run.result);  // without that on its sides, which comes with their pictures
   const std::shared_ptr<const CutResult> result = run.result;
   finish(order, std::move(run), make_flags(result->labels));
@@ -374,8 +376,47 @@ void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   run->views = in_places_of(run->views, std::move(cards));
   for (ViewCard& card : run->views) card.serial = next_card_serial_++;
   const ObjectItem* object = ws_.document().find(order.object);
-  if (add_doubt_of_sides(run) && object && object->cut_key == order.key && !run->changed_nothing)
+  if (!add_doubt_of_sides(run) || !object || object->cut_key != order.key || run->changed_nothing) return;
+  const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
+  if (*now == run->result->labels)  // else they are drawn again, see renew_views()
     ws_.say(Message::Kind::kInfo, object->name + ": " + run->doubts.back());
+}
+
+// Draws the views of the active object again where a hand changed what the cut gave, and says anew which
+// sides are in doubt. What the cut itself doubts is said of its own labels alone.
+void CutJobs::renew_views() {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || ws_.tasks.busy(TaskKind::kCut)) return;
+  CutRun* run = known_run(object->id, object->cut_key);
+  if (!run || !run->result || run->result->views.empty()) return;
+  const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
+  if (now == run->views_labels) return;
+  const bool as_cut = *now == run->result->labels;
+  if (run->views_labels ? *run->views_labels == *now : as_cut) {
+    run->views_labels = now;  // compared once
+    return;
+  }
+  const auto show = [this, scene = ws_.scene, id = object->id, key = run->key, now,
+                     as_cut](std::vector<ViewCard> cards) {
+    CutRun* shown = scene == ws_.scene ? known_run(id, key) : nullptr;
+    if (!shown) return;
+    shown->views = in_places_of(shown->views, std::move(cards));
+    for (ViewCard& card : shown->views) card.serial = next_card_serial_++;
+    shown->views_labels = now;
+    shown->doubts = as_cut ? doubts_of(*shown->result) : std::vector<std::string>();
+    add_doubt_of_sides(shown);
+    ++ws_.view_serial;
+  };
+  if (count_flags(*now) == 0) return show({});
+  const auto failed = [show] { show({}); };  // not tried again
+  ws_.tasks.submit(
+      {TaskKind::kCut, failed}, [this, show, now, as_cut, result = run->result, session = ws_.session,
+                                 colour = object->colour, request = cut_request(ws_.document(), *object),
+                                 settings = cut_settings(ws_.document(), *object)](const Job& job) {
+        const CutResult changed = as_cut ? *result : with_labels(*session, *result, *now, job);
+        std::vector<ViewCard> cards = picture_cards(*session, request, settings, changed, colour, job);
+        if (!job.cancelled()) ws_.tasks.post([show, cards = std::move(cards)] { show(cards); });
+      });
 }
 
 // Of the active object's labels, for the heat map: kept by the session from the last cut, or computed again.

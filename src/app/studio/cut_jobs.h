@@ -64,6 +64,7 @@ class CutJobs {
   void end(const std::string& given_up);
   void request_likelihood();
   void recall();
+  void renew_views();
 
   Workspace& ws_;
   std::optional<Known> running_;

@@ -141,6 +141,15 @@ std::vector<ViewCard> picture_cards(Session& session, const CutRequest& request,
   return cards;
 }
 
+CutResult with_labels(const Session& session, CutResult result, const std::vector<std::uint8_t>& labels,
+                      const Job& job) {
+  const Drawer drawer(*session.scene().cloud, nullptr, &session.blocks());
+  result.labels = labels;
+  for (ViewReport& view : result.views)
+    view.mask = thresholded(render_labels(drawer, view.camera, labels, job), 0.5f);
+  return result;
+}
+
 std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vector<ViewCard> cards) {
   constexpr float kSameDirection = 0.94f;  // cosine, 20 degrees: views around an object are farther apart
   std::vector<ViewCard> out, left;

@@ -24,6 +24,11 @@ ViewCard mask_card(const ViewReport& view, const Rgb8& colour);
 std::vector<ViewCard> picture_cards(Session& session, const CutRequest& request, const CutSettings& settings,
                                     const CutResult& result, const Rgb8& colour, const Job& job);
 
+// The result with other labels, and what its views show of these: for cards of a cutout that a hand changed.
+// If cancelled, masks are missing.
+CutResult with_labels(const Session& session, CutResult result, const std::vector<std::uint8_t>& labels,
+                      const Job& job);
+
 // Orders cards for the strip: a card whose view is near an earlier card's takes that place, and the others
 // follow. The first card, which is the user's own view, stays first.
 std::vector<ViewCard> in_places_of(const std::vector<ViewCard>& before, std::vector<ViewCard> cards);

@@ -51,6 +51,7 @@ struct CutRun {
   bool changed_nothing = false;  // true: the last stroke left the labels as they were, which was said
   // Doubts about the result, one sentence each; once pictures of its sides are there, one on those.
   std::vector<std::string> doubts;
+  Flags views_labels;  // labels that `views` and `doubts` are about; null: those of the result
   // Likelihood per Gaussian, [0, 1]; null until it is asked for.
   std::shared_ptr<const std::vector<float>> likelihood;
   bool likelihood_failed = false;  // true: the likelihood is not asked for again

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "app/document/selection.h"
 #include "hands.h"
 #include "segment/masks/mask_tools.h"
 
@@ -127,6 +128,54 @@ TEST_CASE("thumbnails: sides in doubt are marked, and the message says how many"
   const Camera now = hands.studio().viewport().pane_camera();
   CHECK(glm::distance(now.centre_world(), there.centre_world()) < 1e-3f);
   CHECK(glm::dot(now.forward_world(), there.forward_world()) > 0.9999f);
+}
+
+TEST_CASE("thumbnails: after an edit by hand they show what there is now, and doubt nothing else") {
+  Hands hands = hands_on_sample();
+  const auto run = [&] { return hands.studio().cuts().run(hands.studio().document().active); };
+  while (std::ranges::all_of(run()->views, [](const ViewCard& c) { return c.doubt.empty(); })) {
+    hands.app.key(key::kPageDown);
+    REQUIRE(hands.app.settle());
+    REQUIRE(hands.said().find("smallest") == std::string::npos);
+  }
+  const auto pixels = [&] {
+    std::vector<std::vector<Rgba8>> all;
+    for (const ViewCard& c : run()->views)
+      all.emplace_back(c.picture->pixels().begin(), c.picture->pixels().end());
+    std::ranges::sort(all);
+    return all;
+  };
+  const auto told = [&] {
+    return std::ranges::any_of(run()->doubts,
+                               [](const std::string& d) { return d.find("in doubt") != d.npos; });
+  };
+  const auto marks = [&] {
+    return std::ranges::count_if(run()->views,
+                                 [](const ViewCard& c) { return c.only_to_look && !c.doubt.empty(); });
+  };
+  const auto before = pixels();
+  REQUIRE(told());
+  // A rectangle over the apple takes more of it.
+  const Camera camera = hands.studio().viewport().pane_camera();
+  const glm::vec2 at = hands.in_viewport(hands.app.screen_of(kOnApple));
+  hands.studio().apply(
+      SelectRegion{camera, rectangle_region(at - 30.0f, at + 30.0f, camera.width_px, camera.height_px)});
+  REQUIRE(hands.app.settle());
+  REQUIRE(run()->result->labels != hands.studio().labels(hands.studio().document().active));
+  CHECK(pixels() != before);
+  CHECK(told() == (marks() > 0));
+  const std::string said = hands.said();
+  CHECK(said.find("added") != std::string::npos);
+  hands.studio().apply(EditSelection{SelectionEdit::kNone});
+  REQUIRE(hands.app.settle());
+  CHECK(run()->views.empty());
+  CHECK_FALSE(told());
+  for (int i = 0; i < 2; ++i) {
+    hands.studio().apply(Undo{});
+    REQUIRE(hands.app.settle());
+  }
+  CHECK(pixels() == before);
+  CHECK(told());
 }
 
 TEST_CASE("thumbnails: sides that no picture of the capture shows are in doubt, and no others") {
