@@ -1,6 +1,7 @@
 #include "app/studio/file_browser.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/lower_case.h"
 
@@ -14,6 +15,7 @@ void FileBrowser::enter(const std::filesystem::path& where) {
   typed_folder = folder.string();
   entries.clear();
   cursor = -1;
+  typed = false;
   typed_start.clear();
   trouble.clear();
   fs::directory_iterator all(folder, fs::directory_options::skip_permission_denied, trouble_code);
@@ -44,6 +46,25 @@ void FileBrowser::go(int entry) {
     name = at.name;
   else if (!saving)
     name.clear();
+}
+
+std::filesystem::path FileBrowser::typed_path() const {
+  const char* home = std::getenv("HOME");
+  const bool from_home = home && (typed_folder == "~" || typed_folder.starts_with("~/"));
+  return from_home ? std::filesystem::path(home + typed_folder.substr(1)) : folder / typed_folder;
+}
+
+void FileBrowser::follow_typed() {
+  typed = true;
+  std::string start = typed_folder;
+  const std::string here = (folder / "").string();
+  if (start.starts_with(here)) start.erase(0, here.size());
+  cursor = -1;
+  if (!saving) name.clear();
+  if (start.empty() || start.starts_with('~') || start.find('/') != std::string::npos) return;
+  const auto found = std::ranges::find_if(
+      entries, [&](const BrowserEntry& e) { return lower_case(e.name).starts_with(lower_case(start)); });
+  if (found != entries.end()) go(static_cast<int>(found - entries.begin()));
 }
 
 void FileBrowser::type(const std::string& letter, double now_s) {

@@ -18,10 +18,12 @@ struct FileBrowser {
   bool open = false;
   bool saving = false;                  // a name can be typed
   bool name_first = false;              // the name field has the focus
+  bool path_first = false;              // the field of the folder has it
   std::string title, name;              // name: what is chosen or typed
   std::vector<std::string> extensions;  // shown files; empty: all
   std::filesystem::path folder;
-  std::string typed_folder;
+  std::string typed_folder;           // in the field of the folder: a path, or the beginning of a name here
+  bool typed = false;                 // it was typed since the list was moved in, and is what Enter means
   std::vector<BrowserEntry> entries;  // of the folder, folders first
   std::string trouble;                // why the folder cannot be read
 
@@ -32,6 +34,9 @@ struct FileBrowser {
 
   void enter(const std::filesystem::path& where);  // reads it
   void go(int entry);                              // the nearest there is; a file is chosen by it
+  void
+  follow_typed();  // to the first entry that begins with the name in typed_folder; none where it is a path
+  std::filesystem::path typed_path() const;  // typed_folder as a path: from the folder, or from home after ~
   // To the first entry that begins with the letters typed within a second, whatever their case. now_s: any
   // clock.
   void type(const std::string& letter, double now_s);

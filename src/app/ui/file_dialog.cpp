@@ -104,8 +104,8 @@ void entry_list(FileBrowser& files, float height, bool moved, bool double_clicke
       files.go(i);
       if (entry.folder)
         enter = files.folder / entry.name;
-      else  // both clicks on it: the first may have been on a folder that it is in
-        *chosen |= double_clicked && reached;
+      else  // both clicks on it: the first may have been on a folder that it is in; or pressed by Enter
+        *chosen |= (double_clicked && reached) || !ImGui::IsMouseReleased(0);
     }
     if (reached && moved) ImGui::SetScrollHereY();
     if (entry.folder) continue;
@@ -117,11 +117,6 @@ void entry_list(FileBrowser& files, float height, bool moved, bool double_clicke
     ImGui::TextDisabled("%s", files.trouble.empty() ? "Nothing of this kind here" : files.trouble.c_str());
   ImGui::EndChild();
   if (enter) files.enter(*enter);
-}
-
-std::filesystem::path with_home(const std::string& typed) {
-  const char* home = std::getenv("HOME");
-  return home && (typed == "~" || typed.starts_with("~/")) ? home + typed.substr(1) : typed;
 }
 
 // Arrows, Page Up and Down, Home, End and the first letters of a name. True where they moved.
@@ -141,6 +136,30 @@ bool keys_in_list(FileBrowser& files) {
   for (const ImWchar letter : ImGui::GetIO().InputQueueCharacters)
     if (letter > ' ' && letter < 127) files.type(std::string(1, static_cast<char>(letter)), ImGui::GetTime());
   return files.cursor != before;
+}
+
+// The folder; what is typed into it is a path, or the beginning of a name in the list. Returns true where
+// Enter took what was typed: a file, which is chosen then, or a folder.
+bool path_field(FileBrowser& files, bool* chosen) {
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::IsWindowAppearing() && std::exchange(files.path_first, false)) ImGui::SetKeyboardFocusHere();
+  const bool enter =
+      ImGui::InputText("##folder", &files.typed_folder,
+                       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  if (ImGui::IsItemEdited()) files.follow_typed();
+  if (!enter || !files.typed) return false;
+  std::error_code ignored;
+  const std::filesystem::path path = files.typed_path();
+  if (std::filesystem::is_regular_file(path, ignored)) {  // a whole path, typed or pasted
+    files.folder = path.parent_path();
+    files.name = path.filename().string();
+    *chosen = !files.saving;
+    return true;
+  }
+  if (files.cursor >= 0) return false;  // the entry that was found by it
+  files.enter(path);
+  files.path_first = !files.saving;
+  return true;
 }
 
 // Where people keep things, and where they were before.
@@ -184,6 +203,7 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
   files.title = kind.title;
   files.extensions = kind.shown;
   files.saving = files.name_first = purpose != FilePurpose::kOpen && purpose != FilePurpose::kAdd;
+  files.path_first = !files.saving;
   files.name.clear();
   const std::string stem = stem_of_scene(ui.studio);
   if (purpose == FilePurpose::kSaveWork) files.name = stem + ".splatcut.json";
@@ -228,22 +248,18 @@ void file_dialog(UiContext& ui) {
   bool chosen = false;
   if (button(ui, icon::kUp, "The folder above")) files.enter(files.folder.parent_path());
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(-1);
-  const bool goes = ImGui::InputText("##folder", &files.typed_folder, ImGuiInputTextFlags_EnterReturnsTrue);
-  std::error_code ignored;
-  const std::filesystem::path typed = with_home(files.typed_folder);
-  if (goes && std::filesystem::is_regular_file(typed, ignored)) {  // a whole path, typed or pasted
-    files.folder = typed.parent_path();
-    files.name = typed.filename().string();
-    chosen = !files.saving;
-  } else if (goes) {
-    files.enter(typed);
-  }
+  const bool goes = path_field(files, &chosen);
   const bool moved = keys_in_list(files);
+  if (moved) {
+    files.typed = false;
+    if (!files.saving) ImGui::ClearActiveID();  // from now on the list has the keys
+  }
   const float height = files.saving ? -80.0f : -44.0f;
+  const ImVec2 at = ImGui::GetCursorPos();
+  ImGui::SetCursorPosX(at.x + 158);
+  entry_list(files, height, moved, ui.state.double_clicked, &chosen);  // Tab comes to it before the places
+  ImGui::SetCursorPos(at);
   places(ui, height);
-  ImGui::SameLine();
-  entry_list(files, height, moved, ui.state.double_clicked, &chosen);
   if (files.saving) {
     if (moved) ImGui::ClearActiveID();  // the field would put its own text back
     ImGui::SetNextItemWidth(-1);
@@ -257,10 +273,12 @@ void file_dialog(UiContext& ui) {
     files.enter(files.folder / files.entries[static_cast<std::size_t>(files.cursor)].name);
   chosen |= enters && !at_folder;
   const Kind kind = kind_of(ui.state.file_purpose);
+  ImGui::BeginChild("buttons", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);  // Tab comes to it last
   const bool cancelled = plain_button(ui, "Cancel", 110) || escape_pressed();
-  ImGui::SameLine(ImGui::GetWindowWidth() - 122);
+  ImGui::SameLine(ImGui::GetWindowWidth() - 110);
   const std::string reason = files.name.empty() ? (files.saving ? "Type a name" : "Choose a file") : "";
   chosen |= button(ui, kind.button, kind.title, reason, reason.empty(), 110);
+  ImGui::EndChild();
   chosen &= reason.empty();
   if (chosen || cancelled) {
     files.open = false;

@@ -310,3 +310,62 @@ TEST_CASE("hands: an object's colour is one that shows on what was clicked, and 
   REQUIRE(hands.app.settle());
   CHECK(hands.studio().document().active_object()->colour != on_orange);
 }
+
+TEST_CASE("hands: a path is typed as soon as the dialog is open, and Enter opens it") {
+  const ScratchFolder folder("typed_path");
+  std::filesystem::create_directories(folder / "garden");
+  std::filesystem::copy_file(kSmallSample, folder / "garden" / "mug.compressed.ply");
+  HeadlessApp app(kHandsWidth, kHandsHeight);
+  FileBrowser& files = app.interface_state().files;
+  const auto type = [&](const std::string& text) {
+    for (const char letter : text) {
+      app->handle(TextTyped{static_cast<unsigned>(letter)});
+      app.frames(1);
+    }
+  };
+  for (const bool whole : {true, false}) {
+    CAPTURE(whole);
+    files.folder = whole ? std::filesystem::temp_directory_path() : folder.path();
+    app.key('O', {.ctrl = true});
+    app.frames(3);
+    REQUIRE(files.open);
+    if (whole) {
+      type((folder / "garden").string());
+      app.key(key::kEnter);
+      app.frames(3);
+      REQUIRE(files.open);
+      CHECK(files.folder.filename() == "garden");
+      type("mu");  // the beginning of a name
+      CHECK(files.name == "mug.compressed.ply");
+    } else {
+      type("garden/mug.compressed.ply");  // from the folder that is shown
+    }
+    const std::uint64_t before = app.studio().scene() ? app.studio().scene()->serial : 0;
+    app.key(key::kEnter);
+    CHECK_FALSE(files.open);
+    REQUIRE(app.settle());
+    REQUIRE(app.studio().scene());
+    CHECK(app.studio().scene()->serial != before);
+  }
+}
+
+TEST_CASE("hands: Tab goes from the path to the list of files, and Enter opens what it marks") {
+  const ScratchFolder folder("tab_to_list");
+  for (const char* name : {"alpha.compressed.ply", "beta.compressed.ply"})
+    std::filesystem::copy_file(kSmallSample, folder / name);
+  HeadlessApp app(kHandsWidth, kHandsHeight);
+  FileBrowser& files = app.interface_state().files;
+  files.folder = folder.path();
+  app.key('O', {.ctrl = true});
+  app.frames(3);
+  for (int i = 0; i < 2; ++i) {
+    app.key(key::kTab);
+    app.frames(20);
+  }
+  app.key(key::kEnter);
+  app.frames(3);
+  CHECK_FALSE(files.open);
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().scene());
+  CHECK(app.studio().scene()->scene->path.filename() == "beta.compressed.ply");
+}
