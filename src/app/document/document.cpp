@@ -138,7 +138,14 @@ ObjectItem& add_object(Document* document, std::string name) {
   ObjectItem object;
   object.id = document->next_id++;
   object.name = name.empty() ? fmt::format("Object {}", object.id) : std::move(name);
-  object.colour = kObjectColours[(object.id - 1) % kObjectColours.size()];
+  const auto free = [&](const Rgb8& colour) {
+    return std::ranges::find(document->objects, colour, &ObjectItem::colour) == document->objects.end();
+  };
+  for (std::size_t i = 0; i < kObjectColours.size(); ++i) {  // the next one that no object has
+    object.colour = kObjectColours[(object.id - 1 + i) % kObjectColours.size()];
+    if (free(object.colour)) break;
+  }
+  if (!free(object.colour)) object.colour = kObjectColours[(object.id - 1) % kObjectColours.size()];
   document->active = object.id;
   return document->objects.emplace_back(std::move(object));
 }

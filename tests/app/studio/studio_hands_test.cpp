@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "app/document/words.h"
 #include "hands.h"
@@ -368,4 +369,26 @@ TEST_CASE("hands: Tab goes from the path to the list of files, and Enter opens w
   REQUIRE(app.settle());
   REQUIRE(app.studio().scene());
   CHECK(app.studio().scene()->scene->path.filename() == "beta.compressed.ply");
+}
+
+TEST_CASE("hands: no two objects have one colour while others are free") {
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  const auto colours = [&] {
+    std::set<Rgb8> all;
+    for (const ObjectItem& object : studio.document().objects) all.insert(object.colour);
+    return all.size();
+  };
+  studio.apply(NewObject{});
+  studio.apply(NewObject{});
+  const ObjectItem second = studio.document().objects.back();
+  studio.apply(Undo{});
+  studio.apply(RecolourObject{studio.document().objects.front().id, second.colour});
+  for (std::size_t objects = 2; objects <= 8; ++objects) {
+    studio.apply(NewObject{});
+    CHECK(studio.document().objects.size() == objects);
+    CHECK(colours() == objects);
+  }
+  studio.apply(NewObject{});  // there are eight
+  CHECK(colours() == 8);
 }
