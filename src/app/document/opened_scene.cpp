@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "scene/camera/camera_file.h"
 #include "scene/cloud/scene_memory.h"
+#include "scene/cloud/strays.h"
 #include "scene/formats/merged_scene.h"
 #include "scene/raster/first_view.h"
 #include "scene/raster/guessed_up.h"
@@ -160,6 +161,8 @@ std::shared_ptr<OpenedScene> open_scene(std::vector<SceneSource> files, const Jo
     if (!file.origin) file.origin = files.front().origin;
     scenes.push_back(load(&file, before, job, &opened->remarks));
     if (job.cancelled()) return opened;
+    if (&file != &files.front() && glm::length(file.solid.extent()) == 0)
+      file.solid = solid_bounds(scenes.back().cloud);
     if (file.onto)
       file.place = stood_on(file, stood_upright(file, file.place, file.onto->up_world),
                             file.onto->point_world, file.onto->up_world);

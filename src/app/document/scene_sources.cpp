@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -20,7 +21,19 @@ bool finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+Box seen_box(const SceneSource& file) {
+  return glm::length(file.solid.extent()) > 0 ? file.solid : file.bounds;
+}
+
 }  // namespace
+
+glm::vec3 foot_world(const SceneSource& file, const glm::vec3& up_world) {
+  const Similarity to = similarity_of(file);
+  const Box box = seen_box(file);
+  const glm::vec3 up = glm::normalize(up_world), up_in_file = glm::conjugate(to.rotation) * up;
+  const float half = 0.5f * to.scale * glm::dot(glm::abs(up_in_file), box.extent());
+  return moved(box.centre(), to) - half * up;
+}
 
 void check(const ScenePlace& place, const std::filesystem::path& file) {
   constexpr float kLeastScale = 1e-6f, kMostScale = 1e6f, kFarthest = 1e9f;
@@ -70,11 +83,48 @@ std::string why_upright(const SceneSource& file, const ScenePlace& place, const 
 ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& point_world,
                     const glm::vec3& up_world) {
   file.place = place;
-  const Similarity to = similarity_of(file);
-  const glm::vec3 up = glm::normalize(up_world), up_in_file = glm::conjugate(to.rotation) * up;
-  const float half = 0.5f * to.scale * glm::dot(glm::abs(up_in_file), file.bounds.extent());
-  file.place.move = point_world + half * up - file.bounds.centre();
+  file.place.move += point_world - foot_world(file, up_world);
   return file.place;
+}
+
+ScenePlace scaled_on_foot(SceneSource file, const ScenePlace& place, float scale, const glm::vec3& up_world) {
+  file.place = place;
+  const glm::vec3 foot = foot_world(file, up_world);
+  ScenePlace larger = place;
+  larger.scale = scale;
+  return stood_on(file, larger, foot, up_world);
+}
+
+float share_of_picture(const SceneSource& file, const Camera& camera, const glm::vec3& up_world) {
+  const glm::vec3 sides = seen_box(file).extent();
+  const float distance = glm::distance(camera.centre_world(), foot_world(file, up_world));
+  const float shown = distance * static_cast<float>(camera.height_px) / camera.fy_px;
+  return file.place.scale * std::max({sides.x, sides.y, sides.z}) / std::max(shown, 1e-12f);
+}
+
+ScenePlace fitted(const SceneSource& file, const Camera& camera, const glm::vec3& up_world) {
+  constexpr float kFitted = 0.5f, kLeastScale = 1e-3f, kMostScale = 1e3f;
+  const float scale = file.place.scale * kFitted / share_of_picture(file, camera, up_world);
+  return scaled_on_foot(file, file.place, std::clamp(scale, kLeastScale, kMostScale), up_world);
+}
+
+std::string misfit(const SceneSource& file, const Camera& camera, const glm::vec3& up_world) {
+  constexpr float kTooLarge = 3, kTooSmall = 0.1f;
+  const std::string name = file.path.filename().string();
+  const Similarity to = similarity_of(file);
+  const glm::vec3 eye =
+      glm::conjugate(to.rotation) * (camera.centre_world() - to.move) / to.scale + to.origin;
+  const Box box = seen_box(file);
+  if (glm::all(glm::greaterThan(eye, box.min)) && glm::all(glm::lessThan(eye, box.max)))
+    return fmt::format("You look from inside {}: Fit, under Files, makes it small enough to see", name);
+  const float share = share_of_picture(file, camera, up_world);
+  if (share > kTooLarge)
+    return fmt::format("{} is {:.0f} times as large as what you look at: Fit, under Files, makes it smaller",
+                       name, share);
+  if (share < kTooSmall)
+    return fmt::format("{} fills {:.2g} % of the picture's height: Fit, under Files, makes it larger", name,
+                       100 * share);
+  return {};
 }
 
 // The centre moves along; the picture stays the same as all depths grow by the scale.

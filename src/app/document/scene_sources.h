@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/document/export_placement.h"
@@ -59,6 +60,7 @@ struct SceneSource {
   SceneLevels levels;  // none of a file that has one
   std::shared_ptr<const FileViews> views;
   Box bounds;  // framed_bounds() of the file before it is placed; `place` turns and scales about its middle
+  Box solid;  // solid_bounds() of a file that was added, before it is placed: what it stands on, what is seen
 };
 
 // Checks a place: throws Error if a number is out of range or not finite. file: named by the Error.
@@ -77,10 +79,21 @@ ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::v
 // Why stood_upright() has nothing to turn, in a sentence; empty: it has. It leaves the way that an upright
 // file faces as it is.
 std::string why_upright(const SceneSource& file, const ScenePlace& place, const glm::vec3& up_world);
-// The place, moved so that the file's box stands on the point: its middle lies above the point by half of the
-// box's extent along up_world.
+// The lowest point of the placed file: below the middle of its solid box, by half of the box's extent along
+// up.
+glm::vec3 foot_world(const SceneSource& file, const glm::vec3& up_world);
+// The place, moved so that the file's foot comes to the point.
 ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& point_world,
                     const glm::vec3& up_world);
+// The place at another scale, about the file's foot.
+ScenePlace scaled_on_foot(SceneSource file, const ScenePlace& place, float scale, const glm::vec3& up_world);
+
+// The longest side of the placed file as a share of the picture's height at the distance of its foot.
+float share_of_picture(const SceneSource& file, const Camera& camera, const glm::vec3& up_world);
+// The place at which that share is a half, about the foot.
+ScenePlace fitted(const SceneSource& file, const Camera& camera, const glm::vec3& up_world);
+// A sentence where a placed file is so large or small that the camera shows little of it; else empty.
+std::string misfit(const SceneSource& file, const Camera& camera, const glm::vec3& up_world);
 
 // The camera that sees the transformed scene as `camera` sees the scene.
 Camera moved(const Camera& camera, const Similarity& to);

@@ -100,7 +100,10 @@ void SceneFiles::perform(const AddScene& c) {
     throw Error(c.path.filename().string(), "is saved work, not a scene", "Open it, or add the scene itself");
   std::vector<SceneSource> files = wanted_files();
   files.push_back({.id = next_file_id_++, .path = c.path, .spz_axes = c.spz_axes});
-  if (c.onto_world) files.back().onto = StandsOn{*c.onto_world, ws_.document().up_world};
+  if (c.onto_world) {
+    files.back().onto = StandsOn{*c.onto_world, ws_.document().up_world};
+    put_before_view_ = files.back().id;
+  }
   const std::string name = scene_name(c.path);
   change_files(std::move(files), "Adding " + name,
                name + " added; place it under Files" + (c.onto_world ? ", also as in its own file" : ""));
@@ -173,6 +176,10 @@ void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Histor
   calls_.opened(true);
   ws_.say(Message::Kind::kDone, done);
   for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
+  if (const SceneSource* put = scene->file(std::exchange(put_before_view_, 0)))
+    if (const std::string says = misfit(*put, viewport_.pane_camera(), ws_.document().up_world);
+        !says.empty())
+      ws_.say(Message::Kind::kInfo, says);
   start_preparing();
 }
 

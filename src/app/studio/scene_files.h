@@ -59,7 +59,8 @@ class SceneFiles {
   CutJobs& cuts_;
   SavedWork& work_;
   Calls calls_;
-  bool preparing_stopped_ = false;  // true: preparing was stopped for a scene that was to be opened
+  std::uint32_t put_before_view_ = 0;  // file that was added to what one looks at, until it is there; 0: none
+  bool preparing_stopped_ = false;     // true: preparing was stopped for a scene that was to be opened
   std::uint64_t next_scene_serial_ = 1;
   std::uint32_t next_file_id_ = 1;
   std::vector<SceneSource> changing_to_;  // files of the scene that is being made; empty: none is made

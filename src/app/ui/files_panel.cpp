@@ -31,34 +31,43 @@ bool three_numbers(const char* label, const char* tip, glm::vec3* values, float 
   return done;
 }
 
-bool scale_number(float* scale) {
+// About the file's foot.
+bool scale_number(ScenePlace* place, const SceneSource& file, const glm::vec3& up_world) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Scale");
   ImGui::SameLine(64);
   ImGui::SetNextItemWidth((ImGui::GetContentRegionAvail().x - 8) / 3);
-  ImGui::DragFloat("##scale", scale, 0.01f, 1e-3f, 1e3f, "%.4g times",
-                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat);
+  float scale = place->scale;
+  if (ImGui::DragFloat("##scale", &scale, 0.01f, 1e-3f, 1e3f, "%.4g times",
+                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat))
+    *place = scaled_on_foot(file, *place, scale, up_world);
   const bool done = ImGui::IsItemDeactivatedAfterEdit();
-  tooltip("About the middle of the file. Drag, or click and type.");
+  tooltip("It stays on its foot. Drag, or click and type.");
   return done;
 }
 
 void placing(UiContext& ui, const SceneSource& file) {
   ScenePlace& place = ui.state.placing.place;
+  const Camera camera = ui.studio.viewport().pane_camera();
+  const glm::vec3& up_world = ui.studio.document().up_world;
+  const std::string trouble = misfit(file, camera, up_world);
+  if (!trouble.empty()) wrapped_warning(ui, trouble);
   // A thousandth of the scene's size a step.
   bool done = three_numbers("Move", "By how much it stands elsewhere, in scene units", &place.move,
                             0.001f * ui.studio.camera().scene_size(), "%.4g");
   done |= three_numbers("Turn", "About this axis of the scene, around the middle of the file, in degrees",
                         &place.turn_deg, 0.5f, "%.1f");
-  done |= scale_number(&place.scale);
+  done |= scale_number(&place, file, up_world);
   ImGui::SameLine(0, 4);
-  const glm::vec3& up_world = ui.studio.document().up_world;
   if (button(ui, "Stand it upright",
              "Its own way up, as its file says, of its cameras or guessed, becomes the scene's",
              why_upright(file, place, up_world), false, -1))
     ui.ask(PlaceScene{file.id, stood_upright(file, place, up_world)});
   if (done) ui.ask(PlaceScene{file.id, place});
-  ButtonRow row({"Bring here", "As in file", "Take out"});
+  ButtonRow row({"Fit", "Bring here", "As in file", "Take out"});
+  if (button(ui, "Fit", "Scales it on its foot to half of the picture's height", {}, !trouble.empty(),
+             row.next()))
+    ui.ask(PlaceScene{file.id, fitted(file, camera, up_world)});
   if (button(ui, "Bring here", "Stands it on the point that the view turns around", {}, false, row.next()))
     ui.ask(PlaceScene{
         file.id, stood_on(file, place, ui.studio.camera().pivot_world(), ui.studio.document().up_world)});

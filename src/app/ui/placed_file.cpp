@@ -17,8 +17,7 @@ const std::vector<std::uint32_t>& sample_of(PlacingChoice* choice, const OpenedS
 }
 
 void draw_box(const SceneSource& file, const Similarity& to, const Camera& camera, const Theme& theme) {
-  const Volume box{false, moved(file.bounds.centre(), to), 0.5f * to.scale * file.bounds.extent(),
-                   to.rotation};
+  const Volume box{false, moved(file.solid.centre(), to), 0.5f * to.scale * file.solid.extent(), to.rotation};
   for (const auto& [from, end] : edges_px(box, camera))
     ImGui::GetWindowDrawList()->AddLine({from.x, from.y}, {end.x, end.y}, packed(theme.colour.accent, 0.8f),
                                         1.5f);

@@ -1,6 +1,8 @@
 // Several scenes in one window: the same as their merge, with labels that go where their Gaussians go.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <glm/gtc/quaternion.hpp>
 
@@ -440,6 +442,92 @@ TEST_CASE("several scenes: the button that stands a file upright is greyed where
   CHECK(studio.history().entries().size() == steps + 1);
   press();
   CHECK(studio.history().entries().size() == steps + 1);
+}
+
+TEST_CASE("several scenes: scaled, a file stays on its foot") {
+  SceneSource file;
+  file.bounds = {{-1, -1, -1}, {1, 1, 1}};
+  file.solid = {{-1, -2, -3}, {2, 1, 4}};
+  const ScenePlace placed{{5, 6, 7}, {10, 20, 30}, 1.5f};
+  for (const glm::vec3& up : {glm::vec3(0, -1, 0), glm::vec3(0, 0, 2), glm::vec3(0.6f, 0.1f, -0.2f)})
+    for (const float scale : {0.1f, 1.5f, 20.0f}) {
+      file.place = placed;
+      const glm::vec3 foot = foot_world(file, up);
+      file.place = scaled_on_foot(file, placed, scale, up);
+      CHECK(file.place.scale == scale);
+      CHECK(file.place.turn_deg == placed.turn_deg);
+      CHECK(glm::distance(foot_world(file, up), foot) < 1e-4f);
+      const Similarity to = similarity_of(file);
+      float lowest = 1e9f;
+      for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at((corner & 1) ? file.solid.min.x : file.solid.max.x,
+                           (corner & 2) ? file.solid.min.y : file.solid.max.y,
+                           (corner & 4) ? file.solid.min.z : file.solid.max.z);
+        lowest = std::min(lowest, glm::dot(moved(at, to) - foot, glm::normalize(up)));
+      }
+      CHECK(std::abs(lowest) < 1e-3f);
+    }
+}
+
+TEST_CASE("several scenes: a file far larger or smaller than what is looked at is told, and Fit mends it") {
+  const ScratchFolder folder("several_fit");
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  Scene scene = load_scene(kSmallSample);
+  const GaussianCloud own = scene.cloud;
+  const auto scaled = [&](float scale, const std::string& name) {
+    for (std::size_t g = 0; g < own.size(); ++g) {
+      scene.cloud.position[g] = scale * own.position[g];
+      scene.cloud.scale[g] = scale * own.scale[g];
+    }
+    scene.rows_can_be_copied = false;
+    save_scene(folder / name, scene, {}, SceneFormat::kPly);
+    return folder / name;
+  };
+  const auto added = [&](const std::filesystem::path& path) {
+    studio.apply(AddScene{path, {}, studio.viewport().looked_at_world()});
+    REQUIRE(hands.app.settle());
+    return hands.said();
+  };
+  for (const auto& [scale, says] : {std::pair(30.0f, "smaller"), {0.01f, "larger"}, {200.0f, "inside"}}) {
+    CAPTURE(scale);
+    const std::string said = added(scaled(scale, fmt::format("a{}.ply", scale)));
+    CAPTURE(said);
+    const bool told = said.find(says) != std::string::npos || said.find("inside") != std::string::npos;
+    CHECK(told);
+    CHECK(said.find("Fit") != std::string::npos);
+    const Camera camera = studio.viewport().pane_camera();
+    const glm::vec3 up = studio.document().up_world, foot = foot_world(last_file(hands), up);
+    studio.apply(PlaceScene{last_file(hands).id, fitted(last_file(hands), camera, up)});
+    REQUIRE(hands.app.settle());
+    CHECK(share_of_picture(last_file(hands), camera, up) == doctest::Approx(0.5).epsilon(0.01));
+    CHECK(glm::distance(foot_world(last_file(hands), up), foot) < 1e-2f * studio.camera().scene_size());
+    CHECK(misfit(last_file(hands), camera, up).empty());
+    studio.apply(RemoveScene{last_file(hands).id});
+    REQUIRE(hands.app.settle());
+  }
+  CHECK(added(scaled(1, "a1.ply")).find("Fit") == std::string::npos);
+}
+
+TEST_CASE("several scenes: the box of an added file holds all of it but strays") {
+  const ScratchFolder folder("several_solid");
+  Hands hands(false);
+  Scene scene;
+  scene.cloud = random_cloud(4000, 3, 0);
+  scene.file_rows = scene.cloud.size();
+  std::ranges::fill(scene.cloud.opacity, 0.9f);
+  Box all{scene.cloud.position[0], scene.cloud.position[0]};
+  for (const glm::vec3& p : scene.cloud.position) {
+    all.min = glm::min(all.min, p);
+    all.max = glm::max(all.max, p);
+  }
+  for (std::size_t g = 0; g < 12; ++g)  // strays
+    scene.cloud.position[331 * g] = all.centre() + (3.0f + 0.7f * static_cast<float>(g)) * all.extent();
+  save_scene(folder / "strays.ply", scene, {}, SceneFormat::kPly);
+  add(hands, folder / "strays.ply");
+  const Box solid = last_file(hands).solid;
+  CHECK(glm::length(solid.extent() - all.extent()) < 0.05f * glm::length(all.extent()));
+  CHECK(glm::length(last_file(hands).bounds.extent()) < 0.95f * glm::length(solid.extent()));
 }
 
 TEST_CASE("several scenes: carried arrays against brute force") {
