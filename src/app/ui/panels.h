@@ -38,9 +38,9 @@ void start_page(UiContext& ui, const UiRect& area);
 
 // Over the picture, whose pixels are pixels_per_point to a point.
 void draw_strokes(const UiContext& ui, const UiRect& area);
-void draw_offer(const UiContext& ui, const UiRect& area,
-                float bottom);  // other meanings of a click, with their keys
-void draw_sizes(const UiContext& ui, const UiRect& area, float bottom);  // the next ones of a click
+// Other meanings of a click, with their keys. bar: that with their buttons, which covers no key.
+void draw_offer(const UiContext& ui, const UiRect& area, float bottom, const UiRect& bar);
+void draw_sizes(const UiContext& ui, const UiRect& area, float bottom, const UiRect& bar);  // the next ones
 void draw_tool_shape(const UiContext& ui, const UiRect& area);
 void draw_brush_ring(const UiContext& ui, const UiRect& area);
 void draw_points(const UiContext& ui, const UiRect& area);  // of the ground, of what is measured

@@ -79,18 +79,28 @@ const char* mode_label(const Studio& studio) {
   }
 }
 
-// The meanings as buttons with their keys.
-std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
+// The bar with the meanings as buttons.
+constexpr float kOfferPad = 8, kOfferButton = 26;
+constexpr const char* kOfferWords = "what else this can mean  (Esc: keep this one)";
+
+std::optional<UiRect> offer_bar(const UiContext& ui, const ImVec2& at) {
   const ClickMeanings* offer = ui.studio.clicks().offer();
   if (!offer) return {};
-  constexpr float kPad = 8, kButton = 26;
-  const std::string text = "what else this can mean  (Esc: keep this one)";
-  const int taken = ui.studio.document().active_object()->choice;
   const auto count = static_cast<float>(offer->outlines.size());
-  const ImVec2 words = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 size = {2 * kPad + count * (kButton + 4) + 6 + words.x, kButton + 2 * kPad};
+  const float width = 2 * kOfferPad + count * (kOfferButton + 4) + 6 + ImGui::CalcTextSize(kOfferWords).x;
+  return UiRect{{at.x, at.y}, {at.x + width, at.y + kOfferButton + 2 * kOfferPad}};
+}
+
+// The meanings as buttons with their keys.
+std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
+  const std::optional<UiRect> bar = offer_bar(ui, at);
+  if (!bar) return {};
+  constexpr float kPad = kOfferPad, kButton = kOfferButton;
+  const ClickMeanings* offer = ui.studio.clicks().offer();
+  const int taken = ui.studio.document().active_object()->choice;
+  const ImVec2 words = ImGui::CalcTextSize(kOfferWords), size = vec(bar->size());
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  floating_box(ui, at, {at.x + size.x, at.y + size.y});
+  floating_box(ui, at, vec(bar->max));
   ImGui::SetCursorScreenPos({at.x + kPad, at.y + kPad});
   for (int i = 0; i < std::ssize(offer->outlines); ++i) {
     if (i > 0) ImGui::SameLine(0, 4);
@@ -100,8 +110,8 @@ std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
       ui.ask(ChooseMeaning{i});
   }
   list.AddText({at.x + size.x - kPad - words.x, at.y + 0.5f * (size.y - words.y)},
-               packed(ui.theme.colour.text), text.c_str());
-  return UiRect{{at.x, at.y}, {at.x + size.x, at.y + size.y}};
+               packed(ui.theme.colour.text), kOfferWords);
+  return bar;
 }
 
 // Where a click from afar found nothing.
@@ -195,8 +205,12 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     ImGui::PopClipRect();
   }
   ImGui::PushClipRect(vec(area.min), {area.min.x + pane_width, area.max.y}, true);
-  draw_offer(ui, area, bottom);
-  draw_sizes(ui, area, bottom);
+  const float top = area.min.y + covered_top(ui) + 12;
+  const float below_label = panes == 2 || mode_label(studio) ? 40.0f : 0.0f;
+  const ImVec2 offers_at = {area.min.x + 12, top + below_label};
+  const UiRect bar = offer_bar(ui, offers_at).value_or(UiRect{});
+  draw_offer(ui, area, bottom, bar);
+  draw_sizes(ui, area, bottom, bar);
   draw_strokes(ui, area);
   ImGui::PopClipRect();
   ImGui::PushClipRect(vec(area.min), vec(area.max), true);
@@ -208,7 +222,6 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   draw_cursor_sign(ui, area);
   draw_key_cursor(ui, area);
   ImGui::PopClipRect();
-  const float top = area.min.y + covered_top(ui) + 12;
   if (panes == 2) {
     list.AddLine({area.min.x + pane_width, area.min.y}, {area.min.x + pane_width, area.max.y},
                  packed(ui.theme.colour.line), 2);
@@ -219,10 +232,8 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   } else if (const char* label = mode_label(studio)) {
     pane_label(ui, {area.min.x + 12, top}, label);
   }
-  const float below_label = panes == 2 || mode_label(studio) ? 40.0f : 0.0f;
   float above_axes = area.min.y + covered_top(ui);
-  for (const auto& line : {offer_line(ui, {area.min.x + 12, top + below_label}),
-                           nearer_line(ui, {area.min.x + 12, top + below_label})}) {
+  for (const auto& line : {offer_line(ui, offers_at), nearer_line(ui, offers_at)}) {
     if (line) covered.push_back(*line);
     if (line && line->max.x > area.max.x - kAxesWidth) above_axes = line->max.y;
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/picture/badge_place.h"
 #include "app/ui/on_screen.h"
 #include "app/ui/widgets.h"
 
@@ -80,22 +81,15 @@ bool strokes_wanted(const ViewState& view) {
   return tool_of(view.tool).strokes || (view.display == DisplayMode::kWhole && !view.heat);
 }
 
-// A point of the border that is far from everything in `apart`; nothing of it may be in `area`.
 std::optional<ImVec2> label_place(const std::vector<ImVec2>& border, const std::vector<ImVec2>& apart,
-                                  const UiRect& area) {
-  constexpr float kMargin = 16, kFarEnough = 60;
-  std::optional<ImVec2> best;
-  float farthest = -1;
-  for (const ImVec2& p : border) {
-    if (!area.contains({p.x - kMargin, p.y - kMargin}) || !area.contains({p.x + kMargin, p.y + kMargin}))
-      continue;
-    float distance = kFarEnough;
-    for (const ImVec2& q : apart) distance = std::min(distance, std::hypot(p.x - q.x, p.y - q.y));
-    if (distance <= farthest) continue;
-    farthest = distance;
-    best = p;
-  }
-  return best;
+                                  const UiRect& area, const UiRect& bar) {
+  const auto points = [](const std::vector<ImVec2>& from) {
+    std::vector<glm::vec2> out;
+    for (const ImVec2& p : from) out.emplace_back(p.x, p.y);
+    return out;
+  };
+  const auto place = badge_place(points(border), points(apart), {area.min, area.max, bar.min, bar.max});
+  return place ? std::optional(ImVec2(place->x, place->y)) : std::nullopt;
 }
 
 void draw_badge(const UiContext& ui, ImDrawList& list, const ImVec2& at, const std::string& text,
@@ -160,7 +154,7 @@ void draw_strokes(const UiContext& ui, const UiRect& area) {
 }
 
 // What else the click can mean, as thin outlines with their keys, where the camera stands as it was clicked.
-void draw_offer(const UiContext& ui, const UiRect& area, float bottom) {
+void draw_offer(const UiContext& ui, const UiRect& area, float bottom, const UiRect& bar) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const OnScreen place = on_screen(ui, area);
   const UiRect free_area{area.min, {area.max.x, area.max.y - bottom}};
@@ -182,7 +176,7 @@ void draw_offer(const UiContext& ui, const UiRect& area, float bottom) {
                        3);
       list.AddPolyline(path.data(), static_cast<int>(path.size()), IM_COL32(255, 255, 255, 200),
                        ImDrawFlags_Closed, 1.3f);
-      if (!label) label = label_place(path, apart, free_area);
+      if (!label) label = label_place(path, apart, free_area, bar);
     }
     if (!label) continue;
     apart.push_back(*label);
@@ -192,7 +186,7 @@ void draw_offer(const UiContext& ui, const UiRect& area, float bottom) {
 
 // The size that the pointer is at in the panel. Else the one that is computed, and the next larger and
 // smaller one, dashed, with what the wheel says to them: + upwards.
-void draw_sizes(const UiContext& ui, const UiRect& area, float bottom) {
+void draw_sizes(const UiContext& ui, const UiRect& area, float bottom, const UiRect& bar) {
   const Clicks& clicks = ui.studio.clicks();
   const std::optional<std::size_t> pointed = ui.state.size_pointed;
   const ClickMeanings* sizes = pointed ? clicks.known_sizes() : clicks.sizes();
@@ -214,7 +208,7 @@ void draw_sizes(const UiContext& ui, const UiRect& area, float bottom) {
       if (sign) {
         dashed(list, path, dark, 3);
         dashed(list, path, light, 1.3f);
-        if (!label) label = label_place(path, apart, free_area);
+        if (!label) label = label_place(path, apart, free_area, bar);
         continue;
       }
       list.AddPolyline(path.data(), static_cast<int>(path.size()), dark, ImDrawFlags_Closed, 4);

@@ -1,0 +1,21 @@
+// Where a badge with a sign lies on an outline: on its border, away from other badges and from what covers
+// the picture. All in one unit, points of the screen.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+
+namespace splatcut {
+
+struct BadgeRoom {
+  glm::vec2 min{0}, max{0};          // the whole badge lies within
+  glm::vec2 bar_min{0}, bar_max{0};  // it lies beside this rectangle; none where both are equal
+};
+
+// The point of the border that is farthest from all in `apart`, the first of those that are far enough; none:
+// the room holds no point of the border.
+std::optional<glm::vec2> badge_place(std::span<const glm::vec2> border, std::span<const glm::vec2> apart,
+                                     const BadgeRoom& room);
+
+}  // namespace splatcut
