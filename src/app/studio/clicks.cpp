@@ -265,6 +265,11 @@ void Clicks::reset() {
   declined_offer_.clear();
 }
 
+bool Clicks::chooses_by(int key) const {
+  const ClickMeanings* offered = offer();
+  return offered && key >= '1' && key - '1' < std::ssize(offered->outlines);
+}
+
 bool Clicks::decline_offer() {
   const ClickMeanings* offered = offer();
   if (offered) declined_offer_ = offered->key;

@@ -26,7 +26,8 @@ class Clicks {
   // Meanings of the active object's first click or box, offered until the object gets another stroke; null:
   // no offer.
   const ClickMeanings* offer() const;
-  bool decline_offer();  // withdraws the offer; returns false if there is none
+  bool chooses_by(int key) const;  // true: the key, without others, takes one of those meanings
+  bool decline_offer();            // withdraws the offer; returns false if there is none
   // Sizes that the active object's first click can have; null: they are not known. size_wanted(): the one
   // that the document asks for, which ClickMeanings::size becomes once it is computed.
   const ClickMeanings* known_sizes() const;

@@ -217,7 +217,10 @@ void Studio::perform(const SetUp& c) {
 }
 
 void Studio::perform(const SetView& c) {
-  if (c.view.tool != ws_.view.tool) abandon_shape();
+  if (c.view.tool != ws_.view.tool) {
+    abandon_shape();
+    clicks_.decline_offer();  // its keys are those of tools
+  }
   if (c.view.display != ws_.view.display && c.view.display == DisplayMode::kIsolate)
     viewport_.turn_about_object();
   ws_.view = c.view;

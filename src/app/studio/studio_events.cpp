@@ -26,9 +26,7 @@ void Studio::key_pressed(int code, const Modifiers& modifiers, bool repeated) {
   now.ctrl |= code == key::kLeftControl || code == key::kRightControl;
   now.alt |= code == key::kLeftAlt || code == key::kRightAlt;
   hold(now);
-  const ClickMeanings* offered = modifiers == Modifiers{} ? clicks_.offer() : nullptr;
-  if (offered && code >= '1' && code - '1' < std::ssize(offered->outlines))
-    return apply(ChooseMeaning{code - '1'});
+  if (modifiers == Modifiers{} && clicks_.chooses_by(code)) return apply(ChooseMeaning{code - '1'});
   const Action action = action_for(code, modifiers);
   if (action == Action::kBrushSmaller || action == Action::kBrushLarger) {
     // A keyboard repeats 30 times a second: the size doubles in one all the same.

@@ -262,7 +262,10 @@ void tool_column(UiContext& ui) {
     ImGui::PushID(tool->name);
     if (!on) ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
     const std::string reason = ui.studio.why_not(action);
-    const std::string tip = tip_of(action) + "\n" + tool->sentence;
+    const std::string keys = keys_of(action);
+    const bool lent = !keys.empty() && ui.studio.clicks().chooses_by(keys.front());
+    const std::string tip = fmt::format("{}\n{}{}", tip_of(action), tool->sentence,
+                                        lent ? "\nIts key takes a meaning of the click now, until Esc" : "");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 3});
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0);
     ImGui::BeginDisabled(!reason.empty());

@@ -572,3 +572,28 @@ TEST_CASE("hands: a brush over the apple's edge takes the apple, and nothing of 
   hands.app.drag({at, to});
   CHECK(share_of_others() > 0.3);
 }
+
+TEST_CASE(
+    "hands: while meanings of a box are offered 2 takes one, and is the tool Click after a tool's button") {
+  Hands hands = hands_on_sample(false);
+  Studio& studio = hands.studio();
+  const auto box = [&] {
+    hands.app.key('4');
+    const glm::vec2 at = hands.app.screen_of(kOnApple);
+    hands.app.drag({at - 60.0f, at, at + 60.0f});
+    REQUIRE(hands.app.settle());
+    REQUIRE(studio.clicks().offer());
+  };
+  box();
+  CHECK(studio.clicks().chooses_by('2'));
+  hands.app.key('2');
+  REQUIRE(hands.app.settle());
+  CHECK(studio.document().active_object()->choice == 1);
+  CHECK(tool_of(studio.view().tool).name == std::string(tool_of(Tool::kBox).name));
+  studio.run(Action::kToolNavigate);  // its button
+  CHECK_FALSE(studio.clicks().chooses_by('2'));
+  hands.app.key('2');
+  CHECK(tool_of(studio.view().tool).name == std::string(tool_of(Tool::kClick).name));
+  CHECK(studio.document().active_object()->choice == 1);
+  CHECK_FALSE(studio.clicks().offer());
+}
