@@ -8,11 +8,12 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kBelowShare = 0.02f;  // floaters under the ground
-constexpr float kFewestCells = 8;     // across the scene; rounding makes them 20 at most
-constexpr float kStepPx = 4;          // between questions to the depth
-constexpr int kStepsAPiece = 6;       // which has one opacity
-constexpr float kRoughCells = 0.15f;  // of the scene's cell: no ground is level
+constexpr float kBelowShare = 0.02f;       // floaters under the ground
+constexpr float kFewestCells = 8;          // across it; rounding makes them 20 at most
+constexpr float kStepPx = 4;               // between questions to the depth
+constexpr int kStepsAPiece = 6;            // which has one opacity
+constexpr float kRoughCells = 0.15f;       // of the scene's cell: no ground is level
+constexpr float kRoughCellsAlone = 0.03f;  // there is no ground, and the thing hides what is behind it
 
 struct Line {
   glm::vec3 from_world, to_world;
@@ -127,20 +128,53 @@ float round_length_below(float length) {
   return power;
 }
 
+namespace {
+
+// From a height downwards as long as there is about as much as in what stands on the ground: the feet of a
+// thing that stands alone lie below nearly all of it, as floaters do, but these are few.
+float foot_below(float low, float high, const std::vector<float>& heights) {
+  constexpr int kSlices = 50, kMostBelow = 15;  // of the way from low to high; how many of them at most
+  constexpr float kLeastShare = 0.002f;         // of all, in a slice
+  const float slice = (high - low) / kSlices;
+  if (!(slice > 0)) return low;
+  std::vector<std::size_t> counts(kMostBelow, 0);
+  std::vector<float> lowest(kMostBelow, low);
+  for (const float h : heights) {
+    const float below = (low - h) / slice;
+    if (!(below > 0 && below < kMostBelow)) continue;
+    const auto i = static_cast<std::size_t>(below);
+    ++counts[i];
+    lowest[i] = std::min(lowest[i], h);
+  }
+  float foot = low;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (static_cast<float>(counts[i]) < kLeastShare * static_cast<float>(heights.size())) break;
+    foot = lowest[i];
+  }
+  return foot;
+}
+
+}  // namespace
+
 float ground_height(const GaussianCloud& cloud, const Box& bounds, const glm::vec3& up_world) {
   constexpr std::size_t kSample = 1 << 16;
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / kSample);
-  std::vector<float> heights;
+  const float middle = glm::dot(bounds.centre(), up_world);
+  const auto within = [&](const glm::vec3& p) {
+    return glm::all(glm::greaterThanEqual(p, bounds.min)) && glm::all(glm::lessThanEqual(p, bounds.max));
+  };
+  std::vector<float> heights, below_too;
   for (std::size_t g = 0; g < cloud.size(); g += step) {
     const glm::vec3& p = cloud.position[g];
-    if (glm::all(glm::greaterThanEqual(p, bounds.min)) && glm::all(glm::lessThanEqual(p, bounds.max)))
-      heights.push_back(glm::dot(p, up_world));
+    const float height = glm::dot(p, up_world);
+    if (within(p)) heights.push_back(height);
+    if (within(p + (middle - height) * up_world)) below_too.push_back(height);
   }
   if (heights.empty()) return glm::dot(bounds.centre(), up_world);
   const auto low =
       heights.begin() + static_cast<std::ptrdiff_t>(kBelowShare * static_cast<float>(heights.size() - 1));
   std::ranges::nth_element(heights, low);
-  return *low;
+  return foot_below(*low, std::ranges::max(heights), below_too);
 }
 
 GroundGrid ground_grid(const GaussianCloud& cloud, const Box& bounds, const glm::vec3& up_world) {
@@ -162,11 +196,16 @@ GroundGrid ground_grid(const GaussianCloud& cloud, const Box& bounds, const glm:
   const glm::vec3 half = 0.5f * bounds.extent();
   glm::vec2 reach(0);  // of the box along the grid's directions
   for (int i = 0; i < 2; ++i) reach[i] = glm::dot(glm::abs(grid.along_world[i]), half);
-  const float across_scene = 2 * std::max({reach.x, reach.y, 1e-12f});
+  // What is higher than half its width is a thing that stands alone: wide enough to show around it, as the
+  // grid's outer half fades.
+  const float height = 2 * glm::dot(glm::abs(up_world), half);
+  const float across_box = 2 * std::max({reach.x, reach.y, 1e-12f});
+  const bool alone = height > 0.5f * across_box;
+  const float across_scene = alone ? 2 * std::max(across_box, height) : across_box;
   grid.cell = round_length_below(across_scene / kFewestCells);
-  grid.rough = kRoughCells * grid.cell;
+  grid.rough = (alone ? kRoughCellsAlone : kRoughCells) * grid.cell;
   const glm::vec3 from_origin = bounds.centre() - grid.origin_world;
-  // As wide as the scene both ways, and a cell beyond.
+  // That wide both ways, and a cell beyond.
   const int cells = static_cast<int>(std::ceil(0.5f * across_scene / grid.cell)) + 1;
   for (int i = 0; i < 2; ++i) {
     const int middle = static_cast<int>(std::lround(glm::dot(from_origin, grid.along_world[i]) / grid.cell));

@@ -1,11 +1,13 @@
 // A grid on the ground of the scene, by which the user judges size and level.
 //
 // The plane is perpendicular to up. Of the Gaussians within the scene's robust bounds, kBelowShare lie below
-// it, so that a table on a floor is not taken for the ground. Cells are 1, 2 or 5 times a power of ten, 8 to
-// 20 across the scene; as_seen_by() makes them smaller when the eye comes near the ground. Lines lie at
-// multiples of the cell from the world's origin, along the two world axes that come nearest to the ground, so
-// that in an upright scene the coloured lines are the axes themselves. Not handled: ground that slopes. Where
-// it rises above the plane by more than `rough`, it hides the grid.
+// it, so that a table on a floor is not taken for the ground; or more, where what lies below is no floaters
+// but the foot of a thing. The grid is as wide as the scene; around a thing that stands alone twice as wide
+// as that is wide or high. Cells are 1, 2 or 5 times a power of ten, 8 to 20 across it; as_seen_by() makes
+// them smaller when the eye comes near the ground. Lines lie at multiples of the cell from the world's
+// origin, along the two world axes that come nearest to the ground, so that in an upright scene the coloured
+// lines are the axes themselves. Not handled: ground that slopes. Where it rises above the plane by more than
+// `rough`, it hides the grid.
 #pragma once
 
 #include <optional>

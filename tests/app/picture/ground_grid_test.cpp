@@ -174,3 +174,33 @@ TEST_CASE("grid: near the ground the cells are smaller, before the eye") {
   CHECK(middle.y > -2);  // z of the world: ahead of the eye
   CHECK(std::abs(middle.x) < 0.3f);
 }
+
+TEST_CASE("grid: around a thing that stands alone it shows on the height of the foot") {
+  GaussianCloud cloud;  // a column of 1 x 3 x 1 on two feet
+  for (int x = -20; x <= 20; ++x)
+    for (int z = -20; z <= 20; ++z)
+      for (int y = 0; y <= 60; ++y) {
+        const bool side = std::abs(x) == 20 || std::abs(z) == 20 || y == 60, foot = y < 6;
+        if (!side || (foot && std::abs(x) < 12)) continue;
+        add(&cloud,
+            {0.025f * static_cast<float>(x), kFloorY - 0.05f * static_cast<float>(y),
+             0.025f * static_cast<float>(z)},
+            glm::vec3(0.02f));
+      }
+  const Box bounds = framed_bounds(cloud);
+  CHECK(ground_height(cloud, bounds, kUp) == doctest::Approx(-kFloorY).epsilon(0.03));
+  const GroundGrid grid = ground_grid(cloud, bounds, kUp);
+  const Camera camera = look_at({1, -1.5f, -6}, {0, 0, 0}, kUp, 0.9f, 320, 240);
+  const DrawLimits limits{.near_plane = 0.05f};
+  FrameResult picture;
+  picture.frames.push_back(raster_frame(cloud, camera, nullptr, limits));
+  const Image<float>& depth = picture.frames[0]->depth;
+  float beside = 0;
+  for (const GridPiece& piece : pieces_in_view(as_seen_by(grid, camera), camera, limits, {&picture, 0})) {
+    const glm::ivec2 at(0.5f * (piece.from_px + piece.to_px));
+    if (depth.contains(at.x, at.y) && !(depth.at(at.x, at.y) > 0))
+      beside += piece.opacity * glm::distance(piece.from_px, piece.to_px);
+  }
+  CAPTURE(beside);
+  CHECK(beside > 1000);
+}
