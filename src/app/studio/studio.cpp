@@ -155,6 +155,14 @@ std::vector<std::uint8_t> Studio::labels(ObjectId object) const {
   return *ws_.labels.labels(document(), *item, ws_.gaussians());
 }
 
+std::optional<std::size_t> Studio::left_out_by_clean_edges() const {
+  const ObjectItem* object = document().active_object();
+  if (!object || !ws_.scene) return {};
+  const Flags own = ws_.labels.labels(document(), *object, ws_.gaussians());
+  const auto clean = ws_.clean->known(*own, document().up_world);
+  return clean ? std::optional(clean->report.left) : std::nullopt;
+}
+
 void Studio::set_viewport(int width_px, int height_px, float pixels_per_point, float covered_bottom_px) {
   viewport_.set_size(width_px, height_px, pixels_per_point, covered_bottom_px);
   if (cursor_px_) cursor_px_ = within_picture(*cursor_px_);

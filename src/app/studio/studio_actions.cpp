@@ -72,7 +72,7 @@ std::string without_cameras(const Studio& s) {
 std::string without_polygon(const Studio& s) {
   if (!s.scene()) return without_scene(s);
   const bool closes = tool_of(s.view().tool).confirm && s.tools().at_work();
-  return closes || s.cursor_px() ? "" : "An arrow key shows the cursor first";
+  return closes || s.cursor_px() ? "" : "Enter clicks at the cursor of the arrow keys: press an arrow first";
 }
 
 template <int kSteps>
@@ -171,7 +171,9 @@ void Studio::run(Action action) {
   const ActionRow* row = row_of(action);
   if (row && row->waits && edits_.waiting()) return edits_.in_turn([this, action] { run(action); });
   if (const std::string reason = why_not(action); !reason.empty()) {
-    ws_.say(Message::Kind::kRefused, fmt::format("{}: {}", name_of(action), reason));
+    const bool hint = action == Action::kConfirm;  // pressed by the way; nothing is wrong
+    ws_.say(hint ? Message::Kind::kInfo : Message::Kind::kRefused,
+            hint ? reason : fmt::format("{}: {}", name_of(action), reason));
     return;
   }
   if (const Tool* tool = tool_of(action)) {

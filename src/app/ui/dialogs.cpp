@@ -33,6 +33,16 @@ std::size_t gaussians_to_export(const Studio& studio, ExportWhat what) {
   return sum;
 }
 
+// Empty: clean edges leave nothing out.
+std::string left_out_text(const Studio& studio, ExportWhat what) {
+  if (!studio.view().clean_edges || (what != ExportWhat::kObject && what != ExportWhat::kAllObjects))
+    return {};
+  const auto left_out = studio.left_out_by_clean_edges();
+  if (what == ExportWhat::kAllObjects || !left_out) return "Clean edges leave out what the scene hides.";
+  if (*left_out == 0) return {};
+  return fmt::format("Clean edges leave out {} that the scene hides.", gaussians_text(*left_out));
+}
+
 void propose_path(UiContext& ui) {
   ExportChoice& choice = ui.state.exporting;
   const Studio& s = ui.studio;
@@ -278,8 +288,11 @@ void export_dialog(UiContext& ui) {
   fact(icon::kCheck, p.good, "Kept: " + plan.kept);
   if (choice.placement != ExportPlacement{})
     fact(icon::kInfo, p.accent, "Moved: positions, sizes, rotations and spherical harmonics follow.");
-  fact(plan.lost.empty() ? icon::kCheck : icon::kWarning, plan.lost.empty() ? p.good : p.warn,
-       plan.lost.empty() ? "Nothing is lost." : "Lost: " + plan.lost);
+  const std::string left_out = left_out_text(ui.studio, choice.what);
+  if (!left_out.empty()) fact(icon::kInfo, p.accent, left_out);
+  if (!plan.lost.empty() || left_out.empty())
+    fact(plan.lost.empty() ? icon::kCheck : icon::kWarning, plan.lost.empty() ? p.good : p.warn,
+         plan.lost.empty() ? "Nothing is lost." : "Lost: " + plan.lost);
   if (!choice.trouble.empty()) fact(icon::kWarning, p.bad, choice.trouble);
   const std::filesystem::path target = target_of(choice);
   if (target != choice.path) fact(icon::kInfo, p.accent, "The file will be " + target.filename().string());

@@ -13,6 +13,7 @@
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/glb.h"
+#include "scene/packing/incomplete.h"
 
 namespace splatcut {
 
@@ -27,8 +28,8 @@ std::span<const std::byte> chunk_at(const MappedFile& file, std::size_t* at, std
   const auto header = load<ChunkHeader>(all.data() + *at);
   *at += sizeof header;
   if (header.bytes > all.size() - *at)
-    throw Error(file.path().string(), fmt::format("truncated: a part of {} bytes begins at byte {} of {}",
-                                                  header.bytes, *at, all.size()));
+    throw Error(file.path().string(), incomplete(fmt::format("a part of {} bytes begins at byte {} of {}",
+                                                             header.bytes, *at, all.size())));
   const auto chunk = all.subspan(*at, header.bytes);
   *at += header.bytes;
   *type = header.type;
@@ -129,12 +130,12 @@ Gltf::Gltf(const MappedFile& file) {
   if (begins_with(file, kGlbMark)) {
     std::size_t at = sizeof(GlbHeader);
     std::uint32_t type = 0;
-    if (file.bytes().size() < at) throw Error(file.path().string(), "truncated: the header is cut");
+    if (file.bytes().size() < at) throw Error(file.path().string(), incomplete("the header is cut"));
     const auto version = load<GlbHeader>(file.bytes().data()).version;
     if (version != 2)
       throw Error(file.path().string(), fmt::format("version {} of .glb is not supported", version));
     const auto chunk = chunk_at(file, &at, &type);
-    if (type != kJsonChunk) throw Error(file.path().string(), "truncated: it has no text");
+    if (type != kJsonChunk) throw Error(file.path().string(), incomplete("it has no text"));
     text = parsed(file, chunk);
     binary = chunk_at(file, &at, &type);
     if (type != kBinaryChunk) binary = {};

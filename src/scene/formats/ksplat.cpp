@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
+#include "scene/packing/incomplete.h"
 
 namespace splatcut {
 
@@ -128,8 +129,8 @@ struct KRows {
 const std::byte* take(const MappedFile& file, std::size_t bytes, std::size_t* at) {
   if (bytes > file.bytes().size() - *at)
     throw Error(file.path().string(),
-                fmt::format("truncated: {} bytes are wanted at byte {}, the file has {}", bytes, *at,
-                            file.bytes().size()));
+                incomplete(fmt::format("{} bytes are wanted at byte {}, the file has {}", bytes, *at,
+                                       file.bytes().size())));
   const std::byte* begin = file.bytes().data() + *at;
   *at += bytes;
   return begin;

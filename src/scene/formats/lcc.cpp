@@ -27,6 +27,7 @@
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/lcc_axes.h"
+#include "scene/packing/incomplete.h"
 
 namespace splatcut {
 
@@ -197,7 +198,7 @@ void add_units(const LccFiles& files, const LccMeta& meta, std::size_t level, Lc
           files.index->path(),
           fmt::format("a unit has {} Gaussians from byte {} of data.bin, which has {}", count, begin, bytes));
     if (files.sh && 2 * begin + std::uint64_t{count} * kLccShRow > files.sh->bytes().size())
-      refuse_lcc(files.sh->path(), "truncated: a unit's spherical harmonics lie beyond its end");
+      refuse_lcc(files.sh->path(), incomplete("a unit's spherical harmonics lie beyond its end"));
     rows->add({.rows = files.data->bytes().data() + begin,
                .sh = files.sh ? files.sh->bytes().data() + 2 * begin : nullptr,
                .count = count,
@@ -210,7 +211,7 @@ void add_environment(const MappedFile& file, const LccMeta& meta, LccRows* rows)
   const std::size_t row_bytes = meta.harmonics ? kLccRow + kLccShRow : kLccRow, size = file.bytes().size();
   if (size % row_bytes != 0)
     refuse_lcc(file.path(),
-               fmt::format("truncated: its {} bytes are no whole number of {}", size, row_bytes));
+               incomplete(fmt::format("its {} bytes are no whole number of {}", size, row_bytes)));
   const std::byte* data = file.bytes().data();
   rows->add({.rows = data,
              .sh = meta.harmonics ? data + kLccRow : nullptr,

@@ -346,8 +346,9 @@ FormatPlan plan_ply(const Scene& scene, std::size_t gaussians, bool moved) {
   const bool rows_copied = scene.rows_can_be_copied && !moved;
   FormatPlan plan;
   plan.bytes = gaussians * ply_row_bytes(scene, rows_copied) + 1500;
-  plan.kept = rows_copied ? "Every property of every row, byte for byte as in the source file."
-                          : "What the source file says of Gaussians, as ordinary 32-bit 3DGS properties.";
+  plan.kept = rows_copied
+                  ? "Every property of every row, byte for byte as in the source file."
+                  : "Places, sizes, turns, opacities and colours, in the way that other programs read.";
   plan.lost = ply_losses(scene, rows_copied).in_full();
   return plan;
 }

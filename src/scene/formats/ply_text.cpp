@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "core/error.h"
+#include "scene/packing/incomplete.h"
 
 namespace splatcut {
 
@@ -77,8 +78,8 @@ PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, cons
   const std::size_t columns = element.properties.size();
   if (element.count == 0) refuse(fmt::format("the element \"{}\" is empty", element.name));
   if (element.count > (text.size() + 1) / 2 / columns)  // a digit and a blank for each number
-    refuse(fmt::format("truncated: {} rows of {} numbers do not fit into {} bytes", element.count, columns,
-                       text.size()));
+    refuse(incomplete(
+        fmt::format("{} rows of {} numbers do not fit into {} bytes", element.count, columns, text.size())));
   const std::vector<double> off = taken_off(element, origin);
   PlyTextRows rows{with_floats(element), std::vector<float>(element.count * columns)};
   constexpr std::size_t kBetweenLooks = 1 << 16;
@@ -86,7 +87,7 @@ PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, cons
     if (i % kBetweenLooks == 0 && job.cancelled()) break;
     const std::string_view word = next_word(&text);
     const std::string& property = element.properties[i % columns].name;
-    if (word.empty()) refuse(fmt::format("truncated: row {} ends before \"{}\"", i / columns, property));
+    if (word.empty()) refuse(incomplete(fmt::format("row {} ends before \"{}\"", i / columns, property)));
     if (!parse_number(word, off[i % columns], &rows.values[i]))
       refuse(fmt::format("row {}: \"{}\" is no number, for the property \"{}\"", i / columns,
                          word.substr(0, 40), property));

@@ -34,6 +34,7 @@
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/pieces.h"
+#include "scene/packing/incomplete.h"
 
 namespace splatcut {
 
@@ -240,7 +241,8 @@ class RadBytes {
 
   std::span<const std::byte> take(std::uint64_t count) {
     if (count > left_.size())
-      refuse_rad(path_, fmt::format("truncated: {} bytes are wanted where {} are left", count, left_.size()));
+      refuse_rad(path_,
+                 incomplete(fmt::format("{} bytes are wanted where {} are left", count, left_.size())));
     const auto taken = left_.first(count);
     left_ = left_.subspan(count);
     return taken;
@@ -276,8 +278,8 @@ Bytes unpacked_values(const fs::path& path, const json& said, std::span<const st
   if (packing == "gz") return GzipReader(path, packed, -MAX_WBITS).read(wanted, job);
   if (!packing.is_null()) refuse_rad(path, fmt::format("the packing {} is not read", json_text(packing)));
   if (packed.size() < wanted)
-    refuse_rad(path, fmt::format("truncated: {} has {} of {} bytes", json_text(said.at("property")),
-                                 packed.size(), wanted));
+    refuse_rad(path, incomplete(fmt::format("{} has {} of {} bytes", json_text(said.at("property")),
+                                            packed.size(), wanted)));
   return {packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(wanted)};
 }
 
@@ -344,7 +346,7 @@ std::vector<RadChunk> RadFile::chunks(bool only_tree, const Job& job) {
     }
     const fs::path& path = beside ? beside->path() : file_.path();
     if (offset > from.size() || size > from.size() - offset)
-      refuse_rad(path, fmt::format("truncated: a chunk has {} bytes from byte {} on", size, offset));
+      refuse_rad(path, incomplete(fmt::format("a chunk has {} bytes from byte {} on", size, offset)));
     all.push_back(chunk(path, from.subspan(offset, size), first, only_tree, job));
     if (job.cancelled()) return all;
     first += all.back().count;
@@ -395,7 +397,7 @@ RadValues RadFile::values(const fs::path& path, const json& said, RadField field
   values.least = said.value("min", 0.0f);
   const std::size_t offset = whole_number(said.at("offset")), size = whole_number(said.at("bytes"));
   if (offset > payload.size() || size > payload.size() - offset)
-    refuse_rad(path, fmt::format("truncated: \"{}\" has {} bytes from byte {} on", name.name, size, offset));
+    refuse_rad(path, incomplete(fmt::format("\"{}\" has {} bytes from byte {} on", name.name, size, offset)));
   const std::size_t wanted = encoding.bytes * name.components * count;
   unpacked_ += wanted;
   check_expansion(file_.path(), packed_, unpacked_);

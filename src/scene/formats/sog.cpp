@@ -15,6 +15,7 @@
 #include "scene/formats/decode.h"
 #include "scene/formats/said_up.h"
 #include "scene/formats/sog_rows.h"
+#include "scene/packing/incomplete.h"
 #include "scene/packing/webp.h"
 #include "scene/packing/zip_file.h"
 
@@ -158,8 +159,8 @@ void read_pictures(const MappedFile& file, const SogFiles& files, const json& me
     check_expansion(file.path(), rows->packed_bytes(), rows->unpacked_bytes());
     if (wanted.each_gaussian && wanted.image->size() < rows->count)
       throw Error(file.path().string(),
-                  fmt::format("truncated: the picture {} has {} pixels for {} Gaussians", name,
-                              wanted.image->size(), rows->count));
+                  incomplete(fmt::format("the picture {} has {} pixels for {} Gaussians", name,
+                                         wanted.image->size(), rows->count)));
   }
 }
 

@@ -9,6 +9,7 @@
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/losses.h"
+#include "scene/packing/incomplete.h"
 
 namespace splatcut {
 
@@ -55,8 +56,8 @@ void read_splat(const MappedFile& file, const LoadOptions&, Scene& scene, const 
   const std::size_t size = file.bytes().size();
   const std::size_t rows = size / kRowBytes;
   if (size % kRowBytes != 0)
-    throw Error(file.path().string(), fmt::format("truncated: row {} is cut at byte {} (a row has {} bytes)",
-                                                  rows, size, kRowBytes));
+    throw Error(file.path().string(), incomplete(fmt::format("row {} is cut at byte {} (a row has {} bytes)",
+                                                             rows, size, kRowBytes)));
   if (rows > std::numeric_limits<std::uint32_t>::max())
     throw Error(file.path().string(), fmt::format("{} Gaussians are more than can be handled", rows));
   decode_rows(SplatRows{file.bytes().data()}, rows, 0, scene, job);

@@ -11,6 +11,7 @@
 #include "scene/formats/decode.h"
 #include "scene/formats/said_up.h"
 #include "scene/formats/spz_rows.h"
+#include "scene/packing/incomplete.h"
 #include "scene/packing/unpack.h"
 #include "scene/raster/guessed_up.h"
 
@@ -238,8 +239,8 @@ SpzRows rows_as_they_are(const MappedFile& file, const spz::Header& header) {
   const std::size_t wanted = attributes_size(header);
   if (data.size() < wanted)
     throw Error(file.path().string(),
-                fmt::format("truncated: {} Gaussians take {} bytes, the file ends at byte {}", header.points,
-                            wanted + sizeof header, file.bytes().size()));
+                incomplete(fmt::format("{} Gaussians take {} bytes, the file ends at byte {}", header.points,
+                                       wanted + sizeof header, file.bytes().size())));
   SpzRows rows = rows_for(header);
   set_attributes(data.first(wanted), &rows);
   rows.extensions.assign(data.begin() + static_cast<std::ptrdiff_t>(wanted), data.end());
@@ -250,7 +251,7 @@ SpzRows rows_as_they_are(const MappedFile& file, const spz::Header& header) {
 std::vector<std::span<const std::byte>> packed_streams(const MappedFile& file, const spz::HeaderV4& header) {
   const std::span<const std::byte> all = file.bytes();
   const auto truncated = [&](std::string_view what) {
-    throw Error(file.path().string(), fmt::format("truncated: {} reaches beyond byte {}", what, all.size()));
+    throw Error(file.path().string(), incomplete(fmt::format("{} reaches beyond byte {}", what, all.size())));
   };
   const auto row_bytes = spz::attribute_bytes(header.first.version, header.first.sh_degree);
   const std::size_t streams = header.first.sh_degree > 0 ? 6 : 5;
@@ -276,7 +277,7 @@ std::vector<std::span<const std::byte>> packed_streams(const MappedFile& file, c
 SpzRows rows_of_streams(const MappedFile& file, const Job& job) {
   if (file.bytes().size() < sizeof(spz::HeaderV4))
     throw Error(file.path().string(),
-                fmt::format("truncated: the header reaches beyond byte {}", file.bytes().size()));
+                incomplete(fmt::format("the header reaches beyond byte {}", file.bytes().size())));
   const auto header = load<spz::HeaderV4>(file.bytes().data());
   const auto packed = packed_streams(file, header);
   check_expansion(file.path(), file.bytes().size(), attributes_size(header.first));
@@ -297,7 +298,7 @@ constexpr std::byte kGzipFirst{0x1f};
 spz::Header plain_header(const MappedFile& file) {
   if (file.bytes().size() < sizeof(spz::Header))
     throw Error(file.path().string(),
-                fmt::format("truncated: the header reaches beyond byte {}", file.bytes().size()));
+                incomplete(fmt::format("the header reaches beyond byte {}", file.bytes().size())));
   const auto header = load<spz::Header>(file.bytes().data());
   check_header(file, header);
   return header;

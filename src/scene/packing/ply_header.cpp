@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/lower_case.h"
+#include "scene/packing/incomplete.h"
 
 namespace splatcut {
 
@@ -181,10 +182,11 @@ std::span<const std::byte> element_bytes(const std::filesystem::path& path, std:
   const std::size_t rows_present =
       (file.size() - std::min(file.size(), element.data_begin)) / element.row_bytes;
   if (rows_present < element.count)
-    throw Error(path.string(),
-                fmt::format("truncated: the header promises {} rows of {} bytes in the element \"{}\", row "
-                            "{} is cut at byte {}",
-                            element.count, element.row_bytes, element.name, rows_present, file.size()));
+    throw Error(
+        path.string(),
+        incomplete(fmt::format("the header promises {} rows of {} bytes in the element \"{}\", row "
+                               "{} is cut at byte {}",
+                               element.count, element.row_bytes, element.name, rows_present, file.size())));
   return file.subspan(element.data_begin, element.count * element.row_bytes);
 }
 

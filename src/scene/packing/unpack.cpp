@@ -9,6 +9,7 @@
 #include <new>
 
 #include "core/error.h"
+#include "scene/packing/incomplete.h"
 
 namespace splatcut {
 
@@ -71,8 +72,8 @@ Bytes GzipReader::read_rest(std::size_t most) {
 }
 
 void GzipReader::throw_truncated(std::size_t done) const {
-  throw Error(path_.string(), fmt::format("truncated: the gzip data ends at byte {} after {} unpacked bytes",
-                                          size_ - in_.size(), done));
+  throw Error(path_.string(), incomplete(fmt::format("the gzip data ends at byte {} after {} unpacked bytes",
+                                                     size_ - in_.size(), done)));
 }
 
 std::size_t GzipReader::read_some(std::span<std::byte> out) {

@@ -389,3 +389,15 @@ TEST_CASE("hands: an export that would move everything to nowhere is refused") {
     CHECK_FALSE(std::filesystem::exists(folder / "apple.ply"));
   }
 }
+
+TEST_CASE("hands: how many Gaussians clean edges leave out of an export is known before") {
+  const ScratchFolder folder("left_out");
+  Hands hands = hands_on_sample();
+  take_what_touches_it(hands);
+  hands.app.key('I');  // shown alone, it is cleaned
+  REQUIRE(hands.app.settle());
+  const std::optional<std::size_t> left_out = hands.studio().left_out_by_clean_edges();
+  REQUIRE(left_out);
+  CHECK(*left_out > 0);
+  CHECK(*left_out == cleaned_without_window(hands).report.left);
+}
