@@ -199,6 +199,9 @@ std::string edit(Document* document, const EditSelection& command, const EditCon
       break;
   }
   set_labels(document, &object, after);
+  if (command.edit == SelectionEdit::kAll)
+    return fmt::format("All {} are selected. Ctrl+Z takes it back",
+                       gaussians_text(count_flags(labels(*document, object, context))));
   return counted(*document, object, context);
 }
 

@@ -392,3 +392,15 @@ TEST_CASE("hands: no two objects have one colour while others are free") {
   studio.apply(NewObject{});  // there are eight
   CHECK(colours() == 8);
 }
+
+TEST_CASE("hands: Enter by the way is told what it is for, and all that Ctrl+A takes is counted") {
+  Hands hands;
+  hands.app.key(key::kEnter);
+  CHECK(hands.said().find("press an arrow first") != std::string::npos);
+  CHECK(hands.said().find("polygon") == std::string::npos);
+  CHECK(hands.studio().messages().back().kind == Message::Kind::kInfo);
+  hands.app.key('A', {.ctrl = true});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.said() == "All " + gaussians_text(hands.studio().scene()->cloud->size()) +
+                            " are selected. Ctrl+Z takes it back");
+}
