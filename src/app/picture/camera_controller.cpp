@@ -153,8 +153,8 @@ void CameraController::approach(const glm::vec3& point_world, float share) {
 }
 
 Framing CameraController::framing(std::span<const glm::vec3> points_world, const Camera& camera,
-                                  float covered_bottom_px,
-                                  const glm::quat& camera_from_world_rotation) const {
+                                  float covered_bottom_px, const glm::quat& camera_from_world_rotation,
+                                  float least_distance) const {
   constexpr float kFilled = 0.8f;
   constexpr std::size_t kMostPoints = 20000;
   constexpr int kRounds = 6;  // perspective moves and scales the silhouette a little less in each
@@ -187,6 +187,7 @@ Framing CameraController::framing(std::span<const glm::vec3> points_world, const
     }
     target.distance = std::max(least, target.distance * std::max(filled, 1e-3f));
   }
+  target.distance = std::max(target.distance, least_distance);
   const glm::mat3 axes = world_from_camera(target);
   const float lower = 0.5f * (height - free) * target.distance / camera.fy_px;
   const glm::vec3 middle_world = axes * middle;
@@ -237,10 +238,14 @@ void CameraController::go_to(const Camera& camera) {
   start(target);
 }
 
+glm::quat CameraController::rotation_along(const glm::vec3& direction_world) const {
+  return looking(direction_world, up_world_, world_from_camera(pose_)[0]);
+}
+
 void CameraController::look_along(const glm::vec3& direction_world) {
   CameraPose target = pose_;
   const glm::vec3 pivot = pivot_world();
-  target.camera_from_world = looking(direction_world, up_world_, world_from_camera(pose_)[0]);
+  target.camera_from_world = rotation_along(direction_world);
   target.position_world = pivot - target.distance * world_from_camera(target)[2];
   start(target);
 }

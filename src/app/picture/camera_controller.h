@@ -56,16 +56,18 @@ class CameraController {
   void frame(const Framing& framing);
   // The pose in which the points, one or more, fill four fifths of the part of the picture above its lowest
   // covered_bottom_px pixels, in camera's pixels, with their silhouette in the middle of that part. The
-  // outermost hundredth of the points on each side does not count.
+  // outermost hundredth of the points on each side does not count. least_distance: distance of the pose from
+  // their middle, scene units, at least.
   Framing framing(std::span<const glm::vec3> points_world, const Camera& camera, float covered_bottom_px,
-                  const glm::quat& camera_from_world) const;
+                  const glm::quat& camera_from_world, float least_distance = 0) const;
   // Directions up to 45 degrees from the present one, upright, the nearest first: rotations of the camera.
   std::vector<glm::quat> directions_around() const;
   void frame_scene() { frame(scene_); }
-  void go_to(const Camera& camera);                   // takes its exact pose and field of view
-  void look_along(const glm::vec3& direction_world);  // looks at the pivot along the direction
-  void set_up(const glm::vec3& up_world);             // sets the up direction and turns the view upright
-  void set_fov_y(float fov_y_rad);                    // sets the field of view, clamped to 5 to 140 degrees
+  void go_to(const Camera& camera);                                  // takes its exact pose and field of view
+  void look_along(const glm::vec3& direction_world);                 // looks at the pivot along the direction
+  glm::quat rotation_along(const glm::vec3& direction_world) const;  // rotation of the camera that does
+  void set_up(const glm::vec3& up_world);  // sets the up direction and turns the view upright
+  void set_fov_y(float fov_y_rad);         // sets the field of view, clamped to 5 to 140 degrees
 
   // Moves a running transition on. Returns true while the picture changes.
   bool advance(float seconds);
@@ -76,12 +78,12 @@ class CameraController {
   CameraPose kept_pose() const;  // pose for files: its pivot has the depth of the orbit centre
   const glm::vec3& up_world() const { return up_world_; }
   glm::vec3 pivot_world() const;
+  glm::vec3 turned_around() const;  // point that orbit() turns around
   Camera camera(int width_px, int height_px) const { return camera_at(pose_, width_px, height_px); }
   float scene_size() const { return scene_size_; }  // diagonal of the scene's bounds, scene units
 
  private:
   void start(const CameraPose& target);
-  glm::vec3 turned_around() const;
 
   Box scene_;
   float scene_size_ = 1;

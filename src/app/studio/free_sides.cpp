@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "scene/cloud/strays.h"
 #include "scene/raster/rasterizer.h"
 
 namespace splatcut {
@@ -37,7 +38,7 @@ void FreeSides::frame() {
   const std::optional<Offer> offer = std::exchange(offer_, std::nullopt);
   if (offer && offer->from == camera.pose()) return camera.frame(offer->side);
   const ObjectItem* object = ws_.document().active_object();
-  const std::vector<glm::vec3> positions = viewport_.object_positions();
+  const std::vector<glm::vec3> positions = without_strays(viewport_.object_positions());
   if (!object || positions.empty()) return;
   const Camera pane = viewport_.pane_camera();
   const auto framed = [&](const glm::quat& rotation) {

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "scene/cloud/strays.h"
 
 namespace splatcut {
 
@@ -244,7 +245,18 @@ void Studio::perform(const GoToCamera& c) {
 void Studio::perform(const LookAlong& c) {
   ws_.require_scene();
   if (!(glm::length(c.direction_world) > 0)) throw Error("view", "that is no direction");
-  camera().look_along(c.direction_world);
+  camera().finish_transition();
+  const std::vector<glm::vec3> points = without_strays(viewport_.object_positions());
+  const Box box = robust_bounds(points);
+  const glm::vec3 aside = glm::abs(camera().turned_around() - box.centre()) - 0.5f * box.extent();
+  const float covered_px = viewport_.covered_bottom_px();
+  if (points.empty() || !(covered_px > 0) || std::max({aside.x, aside.y, aside.z}) > 0)
+    return camera().look_along(c.direction_world);
+  // The view turns about the object: all of it stays above the thumbnails, as near as it is where it can.
+  const glm::vec3 eye = camera().pose().position_world;
+  camera().frame(camera().framing(points, viewport_.pane_camera(), covered_px,
+                                  camera().rotation_along(c.direction_world),
+                                  glm::distance(eye, box.centre())));
 }
 
 // Dark, grey, white, checker, magenta, and dark again.

@@ -9,6 +9,7 @@
 
 #include "hands.h"
 #include "opened_sample.h"
+#include "scene/cloud/strays.h"
 #include "scene/raster/rasterizer.h"
 #include "segment/masks/mask_tools.h"
 
@@ -354,4 +355,63 @@ TEST_CASE("a view that has no picture yet says what is coming, and no more once 
   CHECK(app.studio().coming() == "Drawing the first picture...");
   REQUIRE(app.settle());
   CHECK(app.studio().coming().empty());
+}
+
+TEST_CASE("hands: F frames the object as if strays far behind it were not there") {
+  Hands hands = hands_on_sample();
+  hands.app.key('F');
+  REQUIRE(hands.app.settle());
+  const float distance = hands.studio().camera().pose().distance;
+  const GaussianCloud& cloud = *hands.studio().scene()->cloud;
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  const Camera camera = hands.studio().viewport().pane_camera();
+  // The farthest from it, a twentieth as many.
+  std::vector<std::size_t> order(cloud.size());
+  for (std::size_t g = 0; g < order.size(); ++g) order[g] = g;
+  const glm::vec3 middle = camera.centre_world() + distance * camera.forward_world();
+  std::ranges::sort(order, std::ranges::greater(),
+                    [&](std::size_t g) { return glm::distance(cloud.position[g], middle); });
+  std::vector<std::uint8_t> with_strays = labels;
+  for (std::size_t i = 0; i < count_flags(labels) / 20; ++i) with_strays[order[7 * i]] = 1;
+  const std::vector<glm::vec3> points = [&] {
+    std::vector<glm::vec3> all;
+    for (std::size_t g = 0; g < cloud.size(); ++g)
+      if (with_strays[g]) all.push_back(cloud.position[g]);
+    return all;
+  }();
+  const auto rotation = hands.studio().camera().pose().camera_from_world;
+  const auto framed = [&](const std::vector<glm::vec3>& of) {
+    return hands.studio().camera().framing(of, camera, 0, rotation).pose.distance;
+  };
+  const float alone =
+      hands.studio()
+          .camera()
+          .framing(without_strays(hands.studio().viewport().object_positions()), camera, 0, rotation)
+          .pose.distance;
+  CHECK(framed(points) > 1.3f * alone);  // what it was
+  CHECK(framed(without_strays(points)) == doctest::Approx(alone).epsilon(0.05));
+}
+
+TEST_CASE("hands: looked at from the front, right or above, the object stays above the thumbnails") {
+  Hands hands = hands_on_sample();
+  hands.app.key('F');
+  REQUIRE(hands.app.settle());
+  const float lowest =
+      hands.app->interface().viewport().max.y - hands.app->interface().covered_bottom(hands.studio());
+  for (const int code : {int(key::kKeypad1), int(key::kKeypad3), int(key::kKeypad7)}) {
+    CAPTURE(code);
+    hands.studio().camera().zoom(5);  // too near
+    hands.app.frames(2);
+    hands.app.key(code);
+    REQUIRE(hands.app.settle());
+    const auto labels = hands.studio().labels(hands.studio().document().active);
+    std::size_t inside = 0, all = 0;
+    for (std::size_t g = 0; g < labels.size(); ++g) {
+      if (!labels[g]) continue;
+      const glm::vec2 at = hands.seen_at(hands.studio().scene()->cloud->position[g]);
+      ++all;
+      inside += hands.app->interface().viewport().contains(at) && at.y < lowest;
+    }
+    CHECK(static_cast<double>(inside) > 0.97 * static_cast<double>(all));
+  }
 }
