@@ -108,8 +108,10 @@ bool Session::is_whole(const Cell& cell) const {
 }
 
 Place Session::seen_from(const Camera& eye, const glm::vec3& point_world) {
+  // A cell of one distance cuts things off that are clicked from near.
+  constexpr float kDistances = 2;
   const float distance = glm::distance(eye.centre_world(), point_world);
-  return {.cell = cell_around(point_world, level_above(distance)),
+  return {.cell = cell_around(point_world, level_above(kDistances * distance)),
           .looked_at = cell_around(point_world, nearest_level(distance)),
           .eye = eye};
 }

@@ -2,7 +2,8 @@
 //
 // Command line, window, eval and study cut through it, so that the same strokes give the same labels. What is
 // prepared is a neighbourhood of what was clicked (superpoints/neighbourhood.h), never the scene:
-//   1. The first stroke on the object says where: what it hits, the camera's distance, rounded up to a power
+//   1. The first stroke on the object says where: what it hits, twice the camera's distance, rounded up to a
+//   power
 //      of two, as the cell's side, or what else holds a Gaussian; half of it again and again while the cell
 //      holds more than most_gaussians and the half still holds all that was hit, and a Gaussian.
 //      With masks, the box of what they show, twice as large.
