@@ -108,10 +108,8 @@ bool Session::is_whole(const Cell& cell) const {
 }
 
 Place Session::seen_from(const Camera& eye, const glm::vec3& point_world) {
-  // A cell of one distance cuts things off that are clicked from near.
-  constexpr float kDistances = 2;
   const float distance = glm::distance(eye.centre_world(), point_world);
-  return {.cell = cell_around(point_world, level_above(kDistances * distance)),
+  return {.cell = cell_around(point_world, level_above(distance)),
           .looked_at = cell_around(point_world, nearest_level(distance)),
           .eye = eye};
 }
@@ -119,6 +117,10 @@ Place Session::seen_from(const Camera& eye, const glm::vec3& point_world) {
 // A splat may show far from its centre: what is hit is no sign that a Gaussian lies near.
 Place Session::first_place(const Camera& eye, const Box& must_hold) const {
   Place place = seen_from(eye, must_hold.centre());
+  // A cell of one distance cuts off what is clicked from near. Photographs look at a larger one freely; a
+  // ring of views would stand in it, behind what is about.
+  if (photographed(whole_, must_hold.centre()))
+    place.cell = cell_around(must_hold.centre(), place.cell.level + 1);
   const auto gaussians = [&](const Cell& cell) {
     return whole_.blocks->count_in(*scene_.cloud, cell.box_world());
   };

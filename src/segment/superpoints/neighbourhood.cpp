@@ -63,9 +63,15 @@ std::size_t Neighbourhood::bytes() const {
   return cloud ? kPerGaussian * cloud->size() : 0;
 }
 
+bool photographed(const WholeScene& scene, const glm::vec3& point_world) {
+  constexpr std::ptrdiff_t kEnoughGiven = 3;
+  return std::ranges::count_if(scene.photographs, [&](const Camera& camera) {
+           return shows(camera, point_world);
+         }) >= kEnoughGiven;
+}
+
 std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
                                  const ObservingOptions& options) {
-  constexpr std::ptrdiff_t kEnoughGiven = 3;
   std::vector<Camera> views{limited_to_width(place.eye, options.width_px)}, given;
   const glm::vec3 centre = place.looked_at.centre_world();
   std::ranges::copy_if(scene.photographs, std::back_inserter(given),
@@ -73,7 +79,7 @@ std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
   const std::size_t n = std::min<std::size_t>(given.size(), static_cast<std::size_t>(options.most_given));
   for (std::size_t i = 0; i < n; ++i)
     views.push_back(limited_to_width(given[i * given.size() / n], options.width_px));
-  if (std::ssize(given) >= kEnoughGiven) return views;
+  if (photographed(scene, centre)) return views;
   OrbitOptions orbit;
   orbit.views = options.ring;
   orbit.elevation_swing_rad = options.elevation_swing_rad;

@@ -68,7 +68,11 @@ struct Neighbourhood {
 Neighbourhood prepare_neighbourhood(const WholeScene& scene, const Place& place,
                                     const PrepareOptions* options, const Job& job = {});
 
-// Views that observe a place: its own, then given cameras that show it or a ring.
+// True where enough photographs show the point to observe it by them alone.
+bool photographed(const WholeScene& scene, const glm::vec3& point_world);
+
+// Views that observe a place: its own, then given cameras that show it; a ring, too, where it is not
+// photographed.
 std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
                                  const ObservingOptions& options);
 

@@ -60,8 +60,10 @@ struct RandomRooms {
   }
 };
 
-CutResult cut_in(const RandomRooms& rooms, const CameraStroke& click, std::size_t most_gaussians) {
-  Session session({.cloud = rooms.cloud, .most_gaussians = most_gaussians});
+CutResult cut_in(const RandomRooms& rooms, const CameraStroke& click, std::size_t most_gaussians,
+                 int photographs = 0) {
+  const std::vector<Camera> taken(static_cast<std::size_t>(photographs), click.camera);
+  Session session({.cloud = rooms.cloud, .photographs = taken, .most_gaussians = most_gaussians});
   CutRequest request;
   request.strokes = {{click.camera, {click.stroke}}};
   return session.cut(request, CutSettings());
@@ -80,10 +82,10 @@ double difference(const std::vector<std::uint8_t>& a, const std::vector<std::uin
 }  // namespace
 
 // Where the two differ, one click means one of several parts, and which of them is likeliest turns with the
-// neighbours that a part is weighed beside: over 59 clicks of nine such scenes the small cells were right in
-// .75 (IoU with the object), the large ones in .64, and 26 of the 59 labelled the same. Were a cell too small
+// neighbours that a part is weighed beside: over 55 clicks of nine such scenes the small cells were right in
+// .79 (IoU with the object), the large ones in .76, and 30 of the 55 labelled the same. Were a cell too small
 // for the object, small ones would lose.
-TEST_CASE("cells: a click is worth no less in a third of the Gaussians than in all of the first cell") {
+TEST_CASE("cells: a click labels in a third of the Gaussians what it labels in all of the first cell") {
   double right_small = 0, right_large = 0;
   int same = 0, clicks = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -105,8 +107,18 @@ TEST_CASE("cells: a click is worth no less in a third of the Gaussians than in a
     }
   }
   CHECK(clicks >= 12);
-  CHECK(same >= 0.4 * clicks);
+  CHECK(same >= 0.6 * clicks);
   CHECK(right_small / clicks >= right_large / clicks - 0.02);
+}
+
+TEST_CASE("cells: around a click that three photographs show, a cell of twice the side is prepared") {
+  const RandomRooms rooms(1);
+  const CameraStroke& click = rooms.clicks.front();
+  const auto looked_at = [&](int photographs) {
+    return cut_in(rooms, click, rooms.cloud->size(), photographs).looked_at_gaussians;
+  };
+  CHECK(looked_at(2) == looked_at(0));
+  CHECK(looked_at(3) > looked_at(0));
 }
 
 TEST_CASE("cells: a splat that shows far from its centre is found, though no Gaussian lies where it is hit") {

@@ -7,7 +7,6 @@
 #include "app/measure/robot_user.h"
 #include "core/error.h"
 #include "cut_in_view.h"
-#include "segment/superpoints/orbit.h"
 #include "still_life_table.h"
 
 using namespace splatcut;
@@ -42,36 +41,6 @@ TEST_CASE("parts: a scene in other units is cut the same") {
   const std::vector<std::uint8_t> hundredth = labels_at(0.01f);
   for (std::size_t g = 0; g < one.size(); ++g) differ += one[g] != hundredth[g];
   CHECK(differ < one.size() / 1000);
-}
-
-TEST_CASE("parts: a click from near is worth no less than one from farther away") {
-  const Table& t = table();
-  const Target books = target(t, "books");
-  const auto index = std::ranges::find(t.scene.label_name, "books") - t.scene.label_name.begin();
-  std::vector<std::uint8_t> truth(t.cloud.size());
-  glm::vec3 middle(0);
-  for (std::size_t g = 0; g < truth.size(); ++g) {
-    truth[g] = t.label[g] == index;
-    if (truth[g]) middle += t.cloud.position[g];
-  }
-  middle /= static_cast<float>(std::ranges::count(truth, 1));
-  const auto iou_from = [&](float share) {
-    const Camera camera = approached(books.camera, middle, share);
-    const glm::vec2 at = camera.pixel_from_camera(camera.camera_from_world(middle));
-    const auto labels =
-        cut_in_view(t.cloud, camera, {0, 1, 0}, {click(at, SeedLabel::kObject)}, CutSettings()).labels;
-    double both = 0, either = 0;
-    for (std::size_t g = 0; g < labels.size(); ++g) {
-      both += truth[g] && labels[g];
-      either += truth[g] || labels[g];
-    }
-    return both / either;
-  };
-  const double usual = iou_from(1);
-  for (const float share : {0.6f, 0.3f}) {
-    CAPTURE(share);
-    CHECK(iou_from(share) > usual - 0.02);
-  }
 }
 
 TEST_CASE("parts: draws of unsteady clicks, their median, their least and the clicks to a goal") {
