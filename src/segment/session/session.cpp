@@ -117,10 +117,9 @@ Place Session::seen_from(const Camera& eye, const glm::vec3& point_world) {
 // A splat may show far from its centre: what is hit is no sign that a Gaussian lies near.
 Place Session::first_place(const Camera& eye, const Box& must_hold) const {
   Place place = seen_from(eye, must_hold.centre());
-  // A cell of one distance cuts off what is clicked from near. Photographs look at a larger one freely; a
-  // ring of views would stand in it, behind what is about.
-  if (photographed(whole_, must_hold.centre()))
-    place.cell = cell_around(must_hold.centre(), place.cell.level + 1);
+  // What is clicked from nearer than it was photographed does not fit into a cell of that distance.
+  if (const auto usual = photographed_from(whole_, must_hold.centre()))
+    place.cell = cell_around(must_hold.centre(), std::max(place.cell.level, level_above(*usual)));
   const auto gaussians = [&](const Cell& cell) {
     return whole_.blocks->count_in(*scene_.cloud, cell.box_world());
   };

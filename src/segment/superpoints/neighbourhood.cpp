@@ -10,6 +10,8 @@ namespace splatcut {
 
 namespace {
 
+constexpr std::ptrdiff_t kEnoughGiven = 3;  // photographs, to observe a place by them alone
+
 bool shows(const Camera& camera, const glm::vec3& point_world) {
   const glm::vec3 at = camera.camera_from_world(point_world);
   if (!(at.z > 0)) return false;
@@ -63,11 +65,14 @@ std::size_t Neighbourhood::bytes() const {
   return cloud ? kPerGaussian * cloud->size() : 0;
 }
 
-bool photographed(const WholeScene& scene, const glm::vec3& point_world) {
-  constexpr std::ptrdiff_t kEnoughGiven = 3;
-  return std::ranges::count_if(scene.photographs, [&](const Camera& camera) {
-           return shows(camera, point_world);
-         }) >= kEnoughGiven;
+std::optional<float> photographed_from(const WholeScene& scene, const glm::vec3& point_world) {
+  std::vector<float> distances;
+  for (const Camera& camera : scene.photographs)
+    if (shows(camera, point_world)) distances.push_back(glm::distance(camera.centre_world(), point_world));
+  if (std::ssize(distances) < kEnoughGiven) return std::nullopt;
+  const auto median = distances.begin() + (std::ssize(distances) - 1) / 2;
+  std::ranges::nth_element(distances, median);
+  return *median;
 }
 
 std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
@@ -79,7 +84,7 @@ std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
   const std::size_t n = std::min<std::size_t>(given.size(), static_cast<std::size_t>(options.most_given));
   for (std::size_t i = 0; i < n; ++i)
     views.push_back(limited_to_width(given[i * given.size() / n], options.width_px));
-  if (photographed(scene, centre)) return views;
+  if (std::ssize(given) >= kEnoughGiven) return views;
   OrbitOptions orbit;
   orbit.views = options.ring;
   orbit.elevation_swing_rad = options.elevation_swing_rad;

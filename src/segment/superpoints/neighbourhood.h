@@ -13,6 +13,7 @@
 #include <compare>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -68,11 +69,10 @@ struct Neighbourhood {
 Neighbourhood prepare_neighbourhood(const WholeScene& scene, const Place& place,
                                     const PrepareOptions* options, const Job& job = {});
 
-// True where enough photographs show the point to observe it by them alone.
-bool photographed(const WholeScene& scene, const glm::vec3& point_world);
+// Median distance of the photographs that show the point, scene units; nothing where fewer than three do.
+std::optional<float> photographed_from(const WholeScene& scene, const glm::vec3& point_world);
 
-// Views that observe a place: its own, then given cameras that show it; a ring, too, where it is not
-// photographed.
+// Views that observe a place: its own, then given cameras that show it or a ring.
 std::vector<Camera> views_around(const WholeScene& scene, const Place& place,
                                  const ObservingOptions& options);
 

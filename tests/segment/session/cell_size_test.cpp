@@ -12,6 +12,8 @@
 #include "scene/cloud/morton.h"
 #include "scene/still_life/still_life.h"
 #include "segment/session/session.h"
+#include "segment/session/stroke_hits.h"
+#include "segment/superpoints/orbit.h"
 
 using namespace splatcut;
 
@@ -61,9 +63,9 @@ struct RandomRooms {
 };
 
 CutResult cut_in(const RandomRooms& rooms, const CameraStroke& click, std::size_t most_gaussians,
-                 int photographs = 0) {
-  const std::vector<Camera> taken(static_cast<std::size_t>(photographs), click.camera);
-  Session session({.cloud = rooms.cloud, .photographs = taken, .most_gaussians = most_gaussians});
+                 std::vector<Camera> photographs = {}) {
+  Session session(
+      {.cloud = rooms.cloud, .photographs = std::move(photographs), .most_gaussians = most_gaussians});
   CutRequest request;
   request.strokes = {{click.camera, {click.stroke}}};
   return session.cut(request, CutSettings());
@@ -111,14 +113,23 @@ TEST_CASE("cells: a click labels in a third of the Gaussians what it labels in a
   CHECK(right_small / clicks >= right_large / clicks - 0.02);
 }
 
-TEST_CASE("cells: around a click that three photographs show, a cell of twice the side is prepared") {
+// Only from nearer than it was photographed, and only by three cameras, does a click look at more.
+TEST_CASE("cells: around a click from near is prepared what is prepared from where the photographs stand") {
   const RandomRooms rooms(1);
-  const CameraStroke& click = rooms.clicks.front();
-  const auto looked_at = [&](int photographs) {
-    return cut_in(rooms, click, rooms.cloud->size(), photographs).looked_at_gaussians;
+  const CameraStroke& far = rooms.clicks.front();
+  const StrokeHits hits = stroke_hits({*rooms.cloud}, far);
+  REQUIRE(hits.front());
+  CameraStroke near = far;
+  near.camera = approached(far.camera, *hits.front(), 0.25f);
+  near.stroke.points_px = {near.camera.pixel_from_camera(near.camera.camera_from_world(*hits.front()))};
+  const auto looked_at = [&](const CameraStroke& click, std::vector<Camera> photographs) {
+    return cut_in(rooms, click, rooms.cloud->size(), std::move(photographs)).looked_at_gaussians;
   };
-  CHECK(looked_at(2) == looked_at(0));
-  CHECK(looked_at(3) > looked_at(0));
+  const std::size_t from_far = looked_at(far, {}), from_near = looked_at(near, {});
+  CHECK(from_near < from_far);
+  CHECK(looked_at(near, std::vector<Camera>(2, far.camera)) == from_near);
+  CHECK(looked_at(near, std::vector<Camera>(3, far.camera)) == from_far);
+  CHECK(looked_at(far, std::vector<Camera>(3, near.camera)) == from_far);
 }
 
 TEST_CASE("cells: a splat that shows far from its centre is found, though no Gaussian lies where it is hit") {
