@@ -141,11 +141,12 @@ ObjectItem& add_object(Document* document, std::string name) {
   const auto free = [&](const Rgb8& colour) {
     return std::ranges::find(document->objects, colour, &ObjectItem::colour) == document->objects.end();
   };
-  for (std::size_t i = 0; i < kObjectColours.size(); ++i) {  // the next one that no object has
-    object.colour = kObjectColours[(object.id - 1 + i) % kObjectColours.size()];
-    if (free(object.colour)) break;
-  }
-  if (!free(object.colour)) object.colour = kObjectColours[(object.id - 1) % kObjectColours.size()];
+  const auto colour = [&](std::size_t after) {
+    return kObjectColours[(object.id - 1 + after) % kObjectColours.size()];
+  };
+  std::size_t after = 0;
+  while (after < kObjectColours.size() && !free(colour(after))) ++after;
+  object.colour = colour(after);  // all are taken: its own again
   document->active = object.id;
   return document->objects.emplace_back(std::move(object));
 }

@@ -65,6 +65,7 @@ class CutJobs {
   void request_likelihood();
   void recall();
   void renew_views();
+  void take_cards(CutRun* run, std::vector<ViewCard> cards);
 
   Workspace& ws_;
   std::optional<Known> running_;

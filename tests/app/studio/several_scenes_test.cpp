@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 
 #include "app/cli/work_cut.h"
 #include "app/document/carried_document.h"
@@ -59,6 +60,17 @@ void add(Hands& hands, const std::filesystem::path& path) {
 
 const SceneSource& last_file(Hands& hands) {
   return hands.studio().scene()->files.back();
+}
+
+// Height of the box's lowest corner along up, once it is moved.
+float lowest_corner(const Box& box, const Similarity& to, const glm::vec3& up) {
+  float lowest = std::numeric_limits<float>::max();
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 at((corner & 1) ? box.min.x : box.max.x, (corner & 2) ? box.min.y : box.max.y,
+                       (corner & 4) ? box.min.z : box.max.z);
+    lowest = std::min(lowest, glm::dot(moved(at, to), glm::normalize(up)));
+  }
+  return lowest;
 }
 
 }  // namespace
@@ -383,13 +395,7 @@ TEST_CASE("several scenes: a file stood upright stands on its point, whichever w
       const Similarity to = similarity_of(file);
       CHECK(glm::dot(glm::normalize(to.rotation * own), glm::normalize(up)) > 0.9999f);
       CHECK(file.place.scale == placed.scale);
-      float lowest = 1e9f;
-      for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 at((corner & 1) ? file.bounds.min.x : file.bounds.max.x,
-                           (corner & 2) ? file.bounds.min.y : file.bounds.max.y,
-                           (corner & 4) ? file.bounds.min.z : file.bounds.max.z);
-        lowest = std::min(lowest, glm::dot(moved(at, to) - point, glm::normalize(up)));
-      }
+      const float lowest = lowest_corner(file.bounds, to, up) - glm::dot(point, glm::normalize(up));
       CHECK(std::abs(lowest) < 1e-4f);
     }
 }
@@ -458,13 +464,7 @@ TEST_CASE("several scenes: scaled, a file stays on its foot") {
       CHECK(file.place.turn_deg == placed.turn_deg);
       CHECK(glm::distance(foot_world(file, up), foot) < 1e-4f);
       const Similarity to = similarity_of(file);
-      float lowest = 1e9f;
-      for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 at((corner & 1) ? file.solid.min.x : file.solid.max.x,
-                           (corner & 2) ? file.solid.min.y : file.solid.max.y,
-                           (corner & 4) ? file.solid.min.z : file.solid.max.z);
-        lowest = std::min(lowest, glm::dot(moved(at, to) - foot, glm::normalize(up)));
-      }
+      const float lowest = lowest_corner(file.solid, to, up) - glm::dot(foot, glm::normalize(up));
       CHECK(std::abs(lowest) < 1e-3f);
     }
 }
