@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <utility>
 
 #include "segment/selection/part_terms.h"
@@ -73,6 +75,7 @@ float margin(auto begin, auto end, float sum) {
   return 1;
 }
 
+// Term kShort.
 float short_of_sides(const InBox& of, float inside) {
   constexpr float kTouches = 0.1f;
   float sum = 0;
@@ -82,11 +85,24 @@ float short_of_sides(const InBox& of, float inside) {
   return sum;
 }
 
+// Terms kShort, kSpill and kFills. inside: px of the part in the box; all_px: of everything in it.
+void set_box_terms(const InBox& of, float inside, float all_px, TermValues* terms) {
+  constexpr float kMostSpill = 3;
+  weight(terms, Term::kShort) = short_of_sides(of, inside);
+  weight(terms, Term::kSpill) = std::min(of.outside / inside, kMostSpill);
+  weight(terms, Term::kFills) = -std::log(inside / all_px);
+}
+
+float all_inside(std::span<const InBox> leaves) {
+  float all_px = 0;
+  for (const InBox& leaf : leaves) all_px += leaf.inside();
+  return all_px;
+}
+
 std::vector<PartMeaning> meanings_in_tree(const PartHierarchy& parts, std::uint32_t t,
                                           std::vector<InBox> sums, const std::vector<PartLooks>& here,
                                           float box_area_px, float all_px, const TermValues& weights) {
   constexpr float kLeastShown = 0.02f;  // of the box's area
-  constexpr float kMostSpill = 3;
   const PartTree& tree = parts.trees[t];
   sums.resize(tree.nodes());
   std::vector<PartMeaning> found;
@@ -100,9 +116,7 @@ std::vector<PartMeaning> meanings_in_tree(const PartHierarchy& parts, std::uint3
     if (!tree.looks.empty()) looks += tree.looks[node];
     set_look_terms(looks, &meaning.terms);
     weight(&meaning.terms, Term::kCut) = log_cut(tree, node, kLeastFirstCut);
-    weight(&meaning.terms, Term::kShort) = short_of_sides(of, inside);
-    weight(&meaning.terms, Term::kSpill) = std::min(of.outside / inside, kMostSpill);
-    weight(&meaning.terms, Term::kFills) = -std::log(inside / all_px);
+    set_box_terms(of, inside, all_px, &meaning.terms);
     meaning.cost = cost_of(meaning.terms, weights);
     found.push_back(meaning);
   }
@@ -116,8 +130,7 @@ std::vector<PartMeaning> box_meanings(const PartHierarchy& parts, const LeafView
   const float area_px = box.size_px().x * box.size_px().y;
   if (!(area_px > 0)) return {};
   const std::vector<InBox> leaves = of_leaves(parts, view, box);
-  float all_px = 0;
-  for (const InBox& leaf : leaves) all_px += leaf.inside();
+  const float all_px = all_inside(leaves);
   const std::vector<std::vector<PartLooks>> here = looks_in(parts, picture_of(view));
   std::vector<std::vector<PartMeaning>> of_tree(parts.trees.size());
   tbb::parallel_for(std::size_t{0}, of_tree.size(), [&](std::size_t t) {
@@ -128,6 +141,38 @@ std::vector<PartMeaning> box_meanings(const PartHierarchy& parts, const LeafView
   for (const std::vector<PartMeaning>& some : of_tree) all.insert(all.end(), some.begin(), some.end());
   std::ranges::stable_sort(all, {}, &PartMeaning::cost);
   return all;
+}
+
+std::vector<std::uint8_t> agreed_in_box(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
+                                        std::span<const float> shares, const TermValues& weights) {
+  constexpr float kLeastShare = 0.25f, kSameShare = 1e-3f;
+  constexpr float kMinority = 0.3f, kBelowHalf = 0.5f;  // cost of a share s below one half: a + b (0.5 - s)
+  const std::vector<InBox> leaves = of_leaves(parts, view, box);
+  const float all_px = all_inside(leaves);
+  std::vector<std::uint32_t> order;  // leaves with votes, those with most of them first
+  for (std::uint32_t l = 0; l < shares.size(); ++l)
+    if (shares[l] >= kLeastShare) order.push_back(l);
+  std::ranges::stable_sort(order, std::greater{}, [&](std::uint32_t l) { return shares[l]; });
+  InBox sum;
+  std::size_t taken = 0;
+  float least_cost = std::numeric_limits<float>::max();
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    sum += leaves[order[i]];
+    const float share = shares[order[i]], next = i + 1 < order.size() ? shares[order[i + 1]] : 0;
+    const float inside = sum.inside();
+    const bool half = share > 0.5f;
+    const bool ends_share = half ? next <= 0.5f : share - next >= kSameShare;
+    if (!ends_share || !(inside > 0)) continue;
+    TermValues terms{};
+    set_box_terms(sum, inside, all_px, &terms);
+    const float cost = cost_of(terms, weights) + (half ? 0 : kMinority + kBelowHalf * (0.5f - share));
+    if (cost >= least_cost) continue;
+    least_cost = cost;
+    taken = i + 1;
+  }
+  std::vector<std::uint8_t> agreed(parts.leaves, 0);
+  for (const std::uint32_t leaf : std::span(order).first(taken)) agreed[leaf] = 1;
+  return agreed;
 }
 
 }  // namespace splatcut

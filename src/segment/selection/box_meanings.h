@@ -15,6 +15,7 @@
 // Cost: some 10 ms. The result depends on the arguments alone.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -26,5 +27,12 @@ namespace splatcut {
 // The meanings, likeliest first; empty if nothing shows in the box. box: in the view's pixels.
 std::vector<PartMeaning> box_meanings(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
                                       const TermValues& weights);
+
+// What the trees agree on: flags per leaf, 1 for those with at least a certain share of the votes. Usually
+// that is more than half; it is less, down to a quarter, where what a minority of the trees adds fills the
+// box better (kShort, kSpill and kFills of all these leaves together) by more than a minority costs. shares:
+// of the votes, per leaf (part_votes.h), or empty: nothing.
+std::vector<std::uint8_t> agreed_in_box(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
+                                        std::span<const float> shares, const TermValues& weights);
 
 }  // namespace splatcut

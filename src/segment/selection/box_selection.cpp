@@ -12,10 +12,12 @@ namespace {
 using Leaves = std::vector<std::uint8_t>;
 
 // What the trees agree on, then the likeliest single parts that look clearly different from all before.
-std::vector<Leaves> distinct_meanings(const PartHierarchy& parts, const LeafView& view,
-                                      std::span<const PartMeaning> found, float offered) {
+std::vector<Leaves> distinct_meanings(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
+                                      std::span<const PartMeaning> found, const TermValues& weights,
+                                      float offered) {
   std::vector<Leaves> meant;
-  if (Leaves agreed = majority(vote_shares(parts, found)); std::ranges::count(agreed, 1) > 0)
+  const std::vector<float> shares = vote_shares(parts, found);
+  if (Leaves agreed = agreed_in_box(parts, view, box, shares, weights); std::ranges::count(agreed, 1) > 0)
     meant.push_back(std::move(agreed));
   for (const PartMeaning& meaning : found) {
     if (std::ssize(meant) == kMostMeanings || meaning.cost > found.front().cost + offered) break;
@@ -33,7 +35,8 @@ bool ClickSelection::take_box(const LeafView& view, const Stroke& stroke) {
   const BoxPx box = box_in_picture(stroke, view.camera.width_px, view.camera.height_px);
   const std::vector<PartMeaning> found = box_meanings(parts_, view, box, model_.box);
   if (found.empty()) return false;
-  const std::vector<Leaves> meant = distinct_meanings(parts_, view, found, any_ ? 0 : model_.offered);
+  const std::vector<Leaves> meant =
+      distinct_meanings(parts_, view, box, found, model_.box, any_ ? 0 : model_.offered);
   Leaves leaves = meant.front();
   if (!any_) {
     Offers offers;

@@ -100,6 +100,22 @@ TEST_CASE("box: trees vote, by how likely their parts are") {
   CHECK(vote_shares(parts, {}).empty());
 }
 
+// Leaves 0 and 1 have most of the votes, leaf 2 a minority, leaf 3 next to none.
+TEST_CASE("box: what a minority of the trees holds belongs to it where the box would stay empty without") {
+  const PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts);
+  const TermValues weights = SelectionModel().box;
+  const std::vector<float> shares = {0.6f, 0.6f, 0.4f, 0.1f};
+  const auto agreed = [&](float to_px) {
+    return agreed_in_box(parts, view, {{0, 0}, {to_px, 10}}, shares, weights);
+  };
+  CHECK(agreed(20) == Labels{1, 1, 0, 0});
+  CHECK(agreed(22) == Labels{1, 1, 0, 0});  // drawn loosely
+  // 10 of 30 columns empty: 3 (1/3 - .1) + .7 ln 1.5 = .98 against .3 + .5 (.5 - .4) = .35.
+  CHECK(agreed(30) == Labels{1, 1, 1, 0});
+  CHECK(agreed_in_box(parts, view, {{0, 0}, {30, 10}}, {}, weights) == Labels{0, 0, 0, 0});
+}
+
 TEST_CASE("box: clicks correct it, and it leaves what clicks have decided") {
   CHECK(boxed({columns(0, 20), object(5), rest(15)}) == Labels{1, 0, 0, 0});
   CHECK(boxed({columns(0, 20), object(35)}) == Labels{1, 1, 1, 1});
