@@ -113,8 +113,7 @@ std::string summary(const RunReport& report) {
   }
   text = fmt::format("{} of {} Gaussians cut out in {:.0f} ms\n", gaussians_of(report.objects.front()), all,
                      report.total_ms);
-  if (const std::string why = report.edges.front().why_kept(); !why.empty())
-    text += fmt::format("edges are kept: {}\n", why);
+  if (const std::string said = report.edges.front().sentence(); !said.empty()) text += said + "\n";
   for (const StageTime& stage : stages_of_one(report))
     text += fmt::format("  {:<16} {:8.0f} ms\n", stage.name, stage.ms);
   return text;

@@ -116,8 +116,8 @@ void CutoutOptions::add_to(CLI::App& command) {
   command
       .add_option("--edges", edges,
                   "clean: the object without what the scene around it had hidden, where its views agree; "
-                  "keep: its rows as they are")
-      ->check(CLI::IsMember({"clean", "keep"}))
+                  "clean-anyway: also where too few agree; keep: its rows as they are")
+      ->check(CLI::IsMember({"clean", "clean-anyway", "keep"}))
       ->capture_default_str();
   command
       .add_option(
@@ -153,6 +153,15 @@ bool CutoutOptions::writes(std::string_view what) const {
   return std::ranges::find(write, what) != write.end();
 }
 
+std::string EdgesReport::sentence() const {
+  if (!clean || clean->reason.empty()) return {};
+  if (clean->forced)
+    return fmt::format("edges are cleaned anyway, by {} views: {}", clean->used, clean->reason);
+  std::string text = "edges are kept: " + clean->reason;
+  if (clean->views > 0) text += fmt::format("\n--edges clean-anyway cleans them now. {}", kCleanAnywayCosts);
+  return text;
+}
+
 nlohmann::json EdgesReport::json(bool times) const {
   nlohmann::json json = {{"edges", clean && clean->cleaned ? "clean" : "keep"}, {"gaussians", gaussians}};
   if (fill) json["fill"] = fill_json(*fill);
@@ -164,6 +173,7 @@ nlohmann::json EdgesReport::json(bool times) const {
     json["why_kept"] = clean->reason;
     return json;
   }
+  if (clean->forced) json.update({{"forced", true}, {"used", clean->used}, {"doubt", clean->reason}});
   if (clean->uncut) json["uncut"] = true;
   json.update({{"left", clean->left},
                {"split", clean->split},
@@ -218,7 +228,8 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
   std::optional<CleanObject> clean;
   if (to.options.clean() && (scene || hull || pictures || to.rest)) {
     const auto start = std::chrono::steady_clock::now();
-    clean = clean_object({to.drawer(), labels, to.up_world, to.cameras, to.rest}, {}, job);
+    clean = clean_object({to.drawer(), labels, to.up_world, to.cameras, to.rest, to.options.clean_anyway()},
+                         {}, job);
     report.ms = ms_since(start);
     report.clean = clean->report;
     report.large_rest = to.rest && labels.size() > kMostToForgetIn;

@@ -33,7 +33,8 @@ struct CutoutOptions {
   std::string known_length;                    // "x0,y0,x1,y1,metres", or empty
 
   void add_to(CLI::App& command);  // which must not outlive this
-  bool clean() const { return edges == "clean"; }
+  bool clean() const { return edges != "keep"; }
+  bool clean_anyway() const { return edges == "clean-anyway"; }
   bool writes(std::string_view what) const;
 };
 
@@ -47,7 +48,7 @@ struct EdgesReport {
   bool large_rest = false;           // it is written, but as it is: see kMostToForgetIn
   double ms = 0;
 
-  std::string why_kept() const { return clean && !clean->cleaned ? clean->reason : std::string(); }
+  std::string sentence() const;                  // what the guard said and what became of it; empty: nothing
   nlohmann::json json(bool times = true) const;  // {"edges": "clean" or "keep", ...}
 };
 

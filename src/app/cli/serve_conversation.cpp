@@ -325,7 +325,9 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
     for (std::uint8_t& flag : keep) flag = !flag;
   std::optional<CleanObject> clean;
   if (wants_clean)
-    clean = clean_object({open.drawer(), labels, open.chosen.up_world, open.chosen.given, rest}, {}, job);
+    clean = clean_object(
+        {open.drawer(), labels, open.chosen.up_world, open.chosen.given, rest, args.cutout.clean_anyway()},
+        {}, job);
   const bool cleaned = clean && clean->report.cleaned;
   RestChanges changes = cleaned && rest ? clean->rest : RestChanges();
   std::optional<SurfacePatch> patch;
@@ -349,6 +351,8 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
   if (!saved.loss.empty()) reply["loss"] = saved.loss;
   if (patch) reply["fill"] = fill_json(*patch);
   if (wants_clean && !cleaned) reply["why_kept"] = clean->report.reason;
+  if (cleaned && clean->report.forced)
+    reply.update({{"forced", true}, {"views", clean->report.views}, {"agreed", clean->report.agreed}});
   return reply;
 }
 

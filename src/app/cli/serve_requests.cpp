@@ -111,7 +111,7 @@ const std::vector<RequestKind>& kinds() {
         {"scale", kNumber, false, "Factor of all lengths"},
         kReplaces},
        {"edges", "fill", "scale-by"},
-       "gaussians, bytes, edges, fill, loss of the format, path"},
+       "gaussians, bytes, edges, why_kept or forced, fill, loss of the format, path"},
       {Ask::kCancel,
        "cancel",
        "Stops a request that is running or waiting, which then replies that it was cancelled",

@@ -2,7 +2,7 @@
 // what the window shows.
 //
 // Thread-safe; two threads that ask for the same object at the same time both compute it. Memory: labels and
-// Gaussians of the last few objects.
+// Gaussians of the last few objects, and labels of those that are cleaned anyway.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +28,10 @@ class CleanObjects {
   // Returns the cached object, or computes it with clean_object() and keeps it; null if cancelled.
   std::shared_ptr<const CleanObject> made(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world,
                                           const Job& job);
+  // From now on the object with these labels is cleaned even where the guard says no (clean.h).
+  void clean_anyway(const std::vector<std::uint8_t>& labels);
+  bool is_cleaned_anyway(const std::vector<std::uint8_t>& labels) const;
+
   // Computes what the rest of the scene loses and gets back without the object; nothing is kept.
   RestChanges rest_without(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world,
                            const Job& job) const;
@@ -37,18 +41,21 @@ class CleanObjects {
                        const glm::vec3& up_world, const Job& job) const;
 
  private:
+  bool anyway(const std::vector<std::uint8_t>& labels) const;  // under mutex_
   CleanObject computed(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world, bool rest,
-                       const Job& job) const;
+                       bool anyway, const Job& job) const;
 
   struct Kept {
     std::vector<std::uint8_t> labels;
     glm::vec3 up_world;
+    bool anyway;
     std::shared_ptr<const CleanObject> object;
   };
 
   std::shared_ptr<const OpenedScene> scene_;
   mutable std::mutex mutex_;
-  std::deque<Kept> kept_;  // cached objects, the newest last
+  std::deque<Kept> kept_;                          // cached objects, the newest last
+  std::vector<std::vector<std::uint8_t>> anyway_;  // labels of those that are cleaned anyway
 };
 
 }  // namespace splatcut

@@ -264,6 +264,9 @@ struct SetUp {
   friend std::string edit(Document* document, const SetUp& command, const EditContext& context);
 };
 
+// Cleans the edges of the active object also where too few of its views agree, until its labels change.
+struct CleanAnyway {};
+
 // Commands on the history and on running work.
 struct Undo {};
 struct Redo {};
@@ -348,14 +351,13 @@ struct SaveTurntable {
   static constexpr bool writes_file = true;
 };
 
-using Command =
-    std::variant<AddStroke, IntersectStroke, AddBox, SelectRegion, SelectVolume, SelectColour, PickColour,
-                 SelectFlood, SelectScene, SelectRange, ShowRange, EditSelection, ShowFloaters, StepScale,
-                 ChooseMeaning, ClearStrokes, ComeNearer, NewObject, RemoveObject, RenameObject,
-                 RecolourObject, ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject,
-                 DuplicateObject, SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness,
-                 SetPreset, SetBackground, SetUp, Undo, Redo, JumpHistory, Cancel, Recompute, SetView,
-                 GoToCamera, LookAlong, NextBackdrop, SetBackdrop, SetFieldOfView, OpenScene, AddScene,
-                 PlaceScene, RemoveScene, SaveWork, DropAutosave, Export, SaveSnapshot, SaveTurntable>;
+using Command = std::variant<
+    AddStroke, IntersectStroke, AddBox, SelectRegion, SelectVolume, SelectColour, PickColour, SelectFlood,
+    SelectScene, SelectRange, ShowRange, EditSelection, ShowFloaters, StepScale, ChooseMeaning, ClearStrokes,
+    ComeNearer, NewObject, RemoveObject, RenameObject, RecolourObject, ShowObject, LockObject, ActivateObject,
+    MergeObjects, SplitObject, DuplicateObject, SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView,
+    SetSmoothness, SetPreset, SetBackground, SetUp, CleanAnyway, Undo, Redo, JumpHistory, Cancel, Recompute,
+    SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop, SetFieldOfView, OpenScene, AddScene,
+    PlaceScene, RemoveScene, SaveWork, DropAutosave, Export, SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

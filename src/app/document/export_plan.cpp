@@ -32,6 +32,7 @@ std::shared_ptr<const CleanObject> clean_edges_of(const std::vector<std::uint8_t
     return nullptr;
   }
   ++report->clean;
+  report->forced += object->report.forced;
   return object;
 }
 

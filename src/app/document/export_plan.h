@@ -39,6 +39,7 @@ struct ExportReport {
   std::uint64_t bytes = 0;
   std::string loss;        // sentence about what the format lost; empty: nothing
   std::size_t clean = 0;   // number of files whose object has clean edges
+  std::size_t forced = 0;  // of these, files whose object was cleaned anyway
   std::string edges_kept;  // reason why an object has none, if they were asked for
   std::string hole_kept;   // reason why a hole is not filled, if that was asked for
 };

@@ -1,5 +1,7 @@
 #include "app/studio/clean_edges.h"
 
+#include "core/error.h"
+
 namespace splatcut {
 
 void CleanEdges::update() {
@@ -12,6 +14,16 @@ void CleanEdges::update() {
   if (!wanted || !labels || settled_ == labels || !ws_.tasks.idle()) return;
   settled_ = labels;
   if (count_flags(*labels) > 0 && !ws_.clean->known(*labels, ws_.document().up_world)) start(labels);
+}
+
+void CleanEdges::perform(const CleanAnyway&) {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!ws_.scene || !object || ws_.gaussians_of(object->id) == 0)
+    throw Error("clean edges", "there is no object to clean", "Click an object first");
+  ws_.clean->clean_anyway(*ws_.labels.labels(ws_.document(), *object, ws_.gaussians()));
+  settled_ = nullptr;
+  ++ws_.view_serial;
+  ws_.view.clean_edges = true;
 }
 
 void CleanEdges::start(const Flags& labels) {

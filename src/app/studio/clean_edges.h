@@ -15,6 +15,7 @@ class CleanEdges {
   CleanEdges(Workspace& workspace, const Viewport& viewport, const CutJobs& cuts)
       : ws_(workspace), viewport_(viewport), cuts_(cuts) {}
 
+  void perform(const CleanAnyway&);
   void update();  // starts what is needed; called once a frame
   // Stops the computation that a view waits for, and gives it up for these labels. Returns false if no view
   // waits.

@@ -29,6 +29,7 @@ void Exports::perform(const Export& c) {
         std::string text = fmt::format("{} Gaussians, {} saved to {}", grouped(report.gaussians),
                                        human_bytes(report.bytes), request.path.string());
         if (report.clean > 0) text += report.edges_kept.empty() ? ", edges clean" : ", edges of some clean";
+        if (report.forced > 0) text += report.forced == report.clean ? " anyway" : ", some of them anyway";
         if (!report.hole_kept.empty()) text += ". The hole stays: " + report.hole_kept;
         if (!report.edges_kept.empty()) text += ". Edges stay as they are: " + report.edges_kept;
         if (!report.loss.empty()) text += ". Lost: " + report.loss;

@@ -54,6 +54,8 @@ void Studio::dispatch(const Command& command) {
             work_.perform(c);
           else if constexpr (requires { exports_.perform(c); })
             exports_.perform(c);
+          else if constexpr (requires { clean_edges_.perform(c); })
+            clean_edges_.perform(c);
           else if constexpr (requires { edits_.perform(c); })
             edits_.perform(c);
           else if constexpr (requires { perform(c); })
@@ -156,12 +158,12 @@ std::vector<std::uint8_t> Studio::labels(ObjectId object) const {
   return *ws_.labels.labels(document(), *item, ws_.gaussians());
 }
 
-std::optional<std::size_t> Studio::left_out_by_clean_edges() const {
+std::optional<CleanReport> Studio::clean_edges() const {
   const ObjectItem* object = document().active_object();
   if (!object || !ws_.scene) return {};
   const Flags own = ws_.labels.labels(document(), *object, ws_.gaussians());
   const auto clean = ws_.clean->known(*own, document().up_world);
-  return clean ? std::optional(clean->report.left) : std::nullopt;
+  return clean ? std::optional(clean->report) : std::nullopt;
 }
 
 void Studio::set_viewport(int width_px, int height_px, float pixels_per_point, float covered_bottom_px) {

@@ -80,8 +80,7 @@ class Studio {
   double clock_s() const { return ws_.clock_s; }
   std::vector<std::uint8_t> labels(ObjectId object) const;  // final labels; empty: there is no such object
   std::size_t gaussians_of(ObjectId object) const { return ws_.gaussians_of(object); }
-  // Number of the active object's Gaussians that clean edges leave out; none: not known yet.
-  std::optional<std::size_t> left_out_by_clean_edges() const;
+  std::optional<CleanReport> clean_edges() const;  // of the active object; none: not known yet
 
   // True if work is unsaved, also while it is being written.
   bool unsaved() const { return edits_.waiting() || work_.unsaved(); }

@@ -37,10 +37,10 @@ std::size_t gaussians_to_export(const Studio& studio, ExportWhat what) {
 std::string left_out_text(const Studio& studio, ExportWhat what) {
   if (!studio.view().clean_edges || (what != ExportWhat::kObject && what != ExportWhat::kAllObjects))
     return {};
-  const auto left_out = studio.left_out_by_clean_edges();
-  if (what == ExportWhat::kAllObjects || !left_out) return "Clean edges leave out what the scene hides.";
-  if (*left_out == 0) return {};
-  return fmt::format("Clean edges leave out {} that the scene hides.", gaussians_text(*left_out));
+  const std::optional<CleanReport> clean = studio.clean_edges();
+  if (what == ExportWhat::kAllObjects || !clean) return "Clean edges leave out what the scene hides.";
+  if (clean->left == 0) return {};
+  return fmt::format("Clean edges leave out {} that the scene hides.", gaussians_text(clean->left));
 }
 
 void propose_path(UiContext& ui) {

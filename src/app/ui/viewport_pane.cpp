@@ -70,8 +70,9 @@ void coming_label(const UiContext& ui, const UiRect& pane, const std::string& te
 const char* mode_label(const Studio& studio) {
   switch (studio.view().display) {
     case DisplayMode::kIsolate:
-      return studio.viewport().clean(0) ? "Only the object, edges clean  (I: back)"
-                                        : "Only the object  (I: back)";
+      return !studio.viewport().clean(0)                 ? "Only the object  (I: back)"
+             : studio.viewport().clean(0)->report.forced ? "Only the object, edges cleaned anyway  (I: back)"
+                                                         : "Only the object, edges clean  (I: back)";
     case DisplayMode::kHide:
       return "Without the object  (H: back)";
     default:
@@ -114,20 +115,33 @@ std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
   return bar;
 }
 
-// Where a click from afar found nothing.
-std::optional<UiRect> nearer_line(UiContext& ui, const ImVec2& at) {
-  if (!ui.studio.clicks().found_nothing()) return {};
+// A sentence, with room for a button of that label behind it, where the cursor then is.
+UiRect line_before_button(const UiContext& ui, const ImVec2& at, const char* text, const char* label) {
   constexpr float kPad = 8, kButton = 26;
-  const char* text = "Nothing stands out where you clicked.";
-  const ImVec2 words = ImGui::CalcTextSize(text), label = ImGui::CalcTextSize("Come nearer");
-  const ImVec2 end = {at.x + words.x + label.x + 5 * kPad + 16, at.y + kButton + 2 * kPad};
-  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 words = ImGui::CalcTextSize(text);
+  const ImVec2 end = {at.x + words.x + ImGui::CalcTextSize(label).x + 5 * kPad + 16,
+                      at.y + kButton + 2 * kPad};
   floating_box(ui, at, end);
-  list.AddText({at.x + kPad, at.y + 0.5f * (end.y - at.y - words.y)}, packed(ui.theme.colour.text), text);
+  ImGui::GetWindowDrawList()->AddText({at.x + kPad, at.y + 0.5f * (end.y - at.y - words.y)},
+                                      packed(ui.theme.colour.text), text);
   ImGui::SetCursorScreenPos({at.x + words.x + 2 * kPad, at.y + kPad});
-  if (button(ui, "Come nearer", "Goes to where you clicked: click again from there", {}, true))
-    ui.ask(ComeNearer{});
   return UiRect{{at.x, at.y}, {end.x, end.y}};
+}
+
+// Where a click from afar found nothing, or an object shown alone is not as clean as it is wanted.
+std::optional<UiRect> advice_line(UiContext& ui, const ImVec2& at) {
+  if (ui.studio.clicks().found_nothing()) {
+    const UiRect line = line_before_button(ui, at, "Nothing stands out where you clicked.", "Come nearer");
+    if (button(ui, "Come nearer", "Goes to where you clicked: click again from there", {}, true))
+      ui.ask(ComeNearer{});
+    return line;
+  }
+  if (ui.studio.clicks().offer() || !shows_clean_edges(ui.studio.view())) return {};
+  const std::optional<std::string> why = why_edges_stay(ui);
+  if (!why) return {};
+  const UiRect line = line_before_button(ui, at, why->c_str(), "Clean anyway");
+  clean_anyway_button(ui);
+  return line;
 }
 
 // Of the picture, by the tool's options.
@@ -233,7 +247,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     pane_label(ui, {area.min.x + 12, top}, label);
   }
   float above_axes = area.min.y + covered_top(ui);
-  for (const auto& line : {offer_line(ui, offers_at), nearer_line(ui, offers_at)}) {
+  for (const auto& line : {offer_line(ui, offers_at), advice_line(ui, offers_at)}) {
     if (line) covered.push_back(*line);
     if (line && line->max.x > area.max.x - kAxesWidth) above_axes = line->max.y;
   }

@@ -91,6 +91,23 @@ void clean_edges_choice(UiContext& ui) {
   if (ImGui::Checkbox("Clean edges", &view.clean_edges)) ui.ask(SetView{view});
   tooltip(
       "Without what the scene around it had hidden, as the object looks alone; else its rows as they are");
+  if (!why_edges_stay(ui)) return;
+  ImGui::SameLine();
+  clean_anyway_button(ui);
+}
+
+std::optional<std::string> why_edges_stay(const UiContext& ui) {
+  const std::optional<CleanReport> clean =
+      ui.studio.view().clean_edges ? ui.studio.clean_edges() : std::nullopt;
+  if (!clean || clean->cleaned || clean->views == 0) return {};
+  return clean->agreed < clean->views
+             ? fmt::format("Edges stay: alone, it looks as in the scene from {} of {} sides only.",
+                           clean->agreed, clean->views)
+             : fmt::format("Edges stay: it is seen from {} sides only.", clean->views);
+}
+
+void clean_anyway_button(UiContext& ui) {
+  if (button(ui, "Clean anyway", kCleanAnywayCosts)) ui.ask(CleanAnyway{});
 }
 
 void muted_text(UiContext& ui, const std::string& text) {

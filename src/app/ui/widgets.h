@@ -1,6 +1,7 @@
 // Small pieces that all panels use.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/document/words.h"
@@ -10,6 +11,10 @@ namespace splatcut {
 
 // The view's switch, for what is written of an object.
 void clean_edges_choice(UiContext& ui);
+// Why the active object's edges are not cleaned, although that is wanted and can be had anyway; none: they
+// are.
+std::optional<std::string> why_edges_stay(const UiContext& ui);
+void clean_anyway_button(UiContext& ui);
 
 // A button for an action of the key table: greyed with its reason where it is not allowed, its keys in the
 // tooltip. label: what it shows, an icon or text. on: drawn as switched on. width 0: as wide as its label.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "segment/finish/carve.h"
 #include "segment/finish/recolour.h"
@@ -17,9 +18,9 @@ constexpr double kMostLost = 1.26;  // 1 dB
 constexpr int kLeastViews = 6;
 constexpr std::size_t kLeastShownPx = 64;
 
-// Those that count; the report says how many there were.
-std::vector<OwnView> agreed_views(const CleanInput& input, const GaussianCloud& object,
-                                  const OwnViewOptions& options, CleanReport* report, const Job& job) {
+// Those that show the object; the report says how many there are, and how many of them count.
+std::vector<OwnView> views_that_show(const CleanInput& input, const GaussianCloud& object,
+                                     const OwnViewOptions& options, CleanReport* report, const Job& job) {
   std::vector<OwnView> views;
   KeptViews last(input.scene.cloud(), 0);
   const Drawer drawer =
@@ -31,10 +32,21 @@ std::vector<OwnView> agreed_views(const CleanInput& input, const GaussianCloud& 
     OwnView view = own_view(drawer, object, input.labels, cameras[v], job);
     if (view.shown_px < kLeastShownPx) continue;
     ++report->views;
-    if (view.agreement >= kAgrees) views.push_back(std::move(view));
+    report->agreed += view.agreement >= kAgrees;
+    if (view.agreement >= kAgrees || input.anyway) views.push_back(std::move(view));
   }
-  report->agreed = static_cast<int>(views.size());
   return views;
+}
+
+// Leaves those that count, and of the others the best, up to as many as it takes.
+void keep_best(std::vector<OwnView>* views) {
+  if (views->empty()) return;
+  std::vector<double> agreement;
+  for (const OwnView& view : *views) agreement.push_back(view.agreement);
+  std::ranges::sort(agreement, std::greater());
+  const std::size_t last = std::min<std::size_t>(kLeastViews, views->size()) - 1;
+  const double least = std::min(kAgrees, agreement[last]);
+  std::erase_if(*views, [&](const OwnView& view) { return view.agreement < least; });
 }
 
 std::string why_not(const CleanReport& report) {
@@ -81,11 +93,14 @@ CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options,
     report.reason = fmt::format("{} Gaussians have no edges", object.gaussian.size());
     return object;
   }
-  const std::vector<OwnView> views = agreed_views(input, object.cloud, options, &report, job);
+  std::vector<OwnView> views = views_that_show(input, object.cloud, options, &report, job);
   if (report.agreed < kLeastViews || 2 * report.agreed < report.views) {
     report.reason = why_not(report);
-    return object;
+    if (!input.anyway || views.empty()) return object;
+    report.forced = true;
   }
+  keep_best(&views);
+  report.used = static_cast<int>(views.size());
   std::vector<std::uint8_t> kept(object.cloud.size(), 1);
   job.progress("clean edges", 0);
   const double as_it_is = own_picture_error(views, object.cloud, kept, job);

@@ -11,7 +11,9 @@
 //
 // The guard: a view counts where the object alone and its labels within the scene agree in .95 of their
 // pixels. Labels that are not yet right show it there: fewer than 6 such views, or fewer than half of those
-// that show the object, and the object stays as it is, which the report says.
+// that show the object, and the object stays as it is, which the report says. Asked to clean anyway, it goes
+// by the views that count, and by those of the others that agree best, up to 6: labels that lack a piece then
+// cost what lies around that piece.
 //
 // A second one: where all that makes the object less like its own pictures on black, by more than 1 dB, what
 // was cut off was seen. Nothing is cut off then; steps 2 and 3 stay.
@@ -39,15 +41,23 @@ struct CleanInput {
   glm::vec3 up_world{0, -1, 0};
   std::span<const Camera> cameras;  // of the capture, may be empty
   bool rest = false;                // whether CleanObject::rest is wanted; of a scene that is not too large
+  bool anyway = false;              // it is cleaned even where the guard says no, if any view shows it
 };
 
 struct CleanReport {
   bool cleaned = false;
-  std::string reason;         // why not: a sentence without a full stop
+  bool forced = false;        // the guard said no, and it is cleaned anyway
+  std::string reason;         // of the guard, where it said no: a sentence without a full stop
   int views = 0, agreed = 0;  // that show the object; those of them that count
+  int used = 0;               // those that it is cleaned by
   bool uncut = false;         // the second guard said no
   std::size_t left = 0, split = 0, made_solid = 0, recoloured = 0;  // Gaussians
 };
+
+// What CleanInput::anyway may cost, for whoever decides.
+inline constexpr const char* kCleanAnywayCosts =
+    "It goes by the sides that agree best. Skirts and halos leave; where the selection lacks a piece, more "
+    "around that piece is cut off";
 
 struct CleanObject {
   GaussianCloud cloud;                  // the object's Gaussians, those that left not among them
@@ -57,7 +67,7 @@ struct CleanObject {
   CleanReport report;
 };
 
-// Where the guard says no, all labelled Gaussians as they are.
+// Where the guard says no and is heeded, all labelled Gaussians as they are.
 CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options = {}, const Job& job = {});
 
 }  // namespace splatcut

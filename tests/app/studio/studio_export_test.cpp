@@ -110,6 +110,19 @@ void take_what_touches_it(Hands& hands) {
   REQUIRE(hands.app.settle());
 }
 
+// Without the larger half of its Gaussians the apple, alone, looks from no side as in the scene.
+void leave_the_small_ones(Hands& hands) {
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  const std::vector<float> size = property_values(*hands.studio().scene()->cloud, Property::kSize);
+  std::vector<float> own;
+  for (std::size_t g = 0; g < size.size(); ++g)
+    if (labels[g]) own.push_back(size[g]);
+  const auto middle = own.begin() + static_cast<std::ptrdiff_t>(own.size() / 2);
+  std::ranges::nth_element(own, middle);
+  hands.studio().apply(SelectRange{Property::kSize, *middle, 1e9f, SetOperation::kRemove});
+  REQUIRE(hands.app.settle());
+}
+
 bool changed(const CleanReport& report) {
   return report.cleaned && report.left + report.split + report.made_solid + report.recoloured > 0;
 }
@@ -390,14 +403,55 @@ TEST_CASE("hands: an export that would move everything to nowhere is refused") {
   }
 }
 
+TEST_CASE("hands: edges that the guard keeps are cleaned anyway by a button, shown and exported so") {
+  const ScratchFolder folder("anyway");
+  Hands hands = hands_on_sample();
+  leave_the_small_ones(hands);
+  const std::size_t labelled = hands.selected();
+  hands.app.key('I');
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  const auto before = hands.studio().clean_edges();
+  REQUIRE(before);
+  REQUIRE_FALSE(before->cleaned);
+  REQUIRE(before->views > 0);
+  CHECK_FALSE(hands.studio().viewport().clean(0));
+  const UiRect button = hands.app.button("Clean anyway");
+  REQUIRE(button.size().x > 0);
+  hands.app.click(0.5f * (button.min + button.max));
+  REQUIRE(hands.app.settle());
+  const auto clean = hands.studio().viewport().clean(0);
+  REQUIRE(clean);
+  CHECK(clean->report.forced);
+  const OpenedScene& scene = *hands.studio().scene();
+  const CleanObject expected =
+      clean_object({*scene.cloud, hands.studio().labels(hands.studio().document().active),
+                    hands.studio().document().up_world, scene.views().cameras, false, true});
+  CHECK(clean->gaussian == expected.gaussian);
+  CHECK(clean->cloud.position == expected.cloud.position);
+  hands.studio().apply(
+      Export{{ExportWhat::kObject, SceneFormat::kPly, folder / "anyway.ply", false, {}, true}});
+  REQUIRE(hands.app.settle());
+  CHECK(load_scene(folder / "anyway.ply").cloud.size() == expected.cloud.size());
+  CHECK(hands.said().find("edges clean anyway") != std::string::npos);
+  // Other labels are another question.
+  hands.studio().apply(EditSelection{SelectionEdit::kShrink});
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  const auto after = hands.studio().clean_edges();
+  REQUIRE(after);
+  CHECK_FALSE(after->forced);
+  CHECK(hands.selected() != labelled);
+}
+
 TEST_CASE("hands: how many Gaussians clean edges leave out of an export is known before") {
   const ScratchFolder folder("left_out");
   Hands hands = hands_on_sample();
   take_what_touches_it(hands);
   hands.app.key('I');  // shown alone, it is cleaned
   REQUIRE(hands.app.settle());
-  const std::optional<std::size_t> left_out = hands.studio().left_out_by_clean_edges();
-  REQUIRE(left_out);
-  CHECK(*left_out > 0);
-  CHECK(*left_out == cleaned_without_window(hands).report.left);
+  const std::optional<CleanReport> clean = hands.studio().clean_edges();
+  REQUIRE(clean);
+  CHECK(clean->left > 0);
+  CHECK(clean->left == cleaned_without_window(hands).report.left);
 }

@@ -98,7 +98,7 @@ class Fuzz {
       case 33:
         return chance(50) ? studio_.apply(NextBackdrop{}) : studio_.apply(SetBackdrop{whole(6)});
       case 34:
-        return studio_.apply(ComeNearer{});
+        return chance(50) ? studio_.apply(ComeNearer{}) : studio_.apply(CleanAnyway{});
       case 35:
         return studio_.apply(IntersectStroke{camera(), stroke()});
       default:

@@ -209,6 +209,49 @@ TEST_CASE("the guard: labels that are not right yet leave the object as it is, a
   CHECK(static_cast<std::ptrdiff_t>(object.gaussian.size()) == std::ranges::count(labels, 1));
 }
 
+TEST_CASE(
+    "cleaned anyway: thick skirts that the guard stops at leave, and the report says that it was asked for") {
+  StillLifeOptions options = hard_edges();
+  options.gaussians = 60000;
+  for (const char* name : {"apple", "orange"}) {
+    CAPTURE(name);
+    const Thing thing(options, name);
+    const CleanObject kept = thing.clean();
+    REQUIRE_FALSE(kept.report.cleaned);
+    CHECK_FALSE(kept.report.forced);
+    const CleanObject object = thing.clean_anyway(thing.test.truth_labels);
+    CHECK(object.report.cleaned);
+    CHECK(object.report.forced);
+    CHECK(object.report.reason == kept.report.reason);
+    CHECK(object.report.agreed == kept.report.agreed);
+    CHECK(object.report.used == 6);
+    const AloneScore before = score_alone(thing.test, kept.cloud),
+                     after = score_alone(thing.test, object.cloud);
+    MESSAGE(std::string(name), ": halo ", before.halo, " -> ", after.halo, ", IoU ", before.iou, " -> ",
+            after.iou);
+    CHECK(after.halo < 0.8 * before.halo);
+    CHECK(after.iou > before.iou);
+    CHECK(object.report.left + object.cloud.size() == kept.cloud.size());
+  }
+}
+
+TEST_CASE(
+    "cleaned anyway: where the guard says yes, nothing is another, and where no view shows it, it stays") {
+  const Thing thing(hard_edges(), "orange");
+  const CleanObject asked = thing.clean_anyway(thing.test.truth_labels), plain = thing.clean();
+  REQUIRE(plain.report.cleaned);
+  CHECK_FALSE(asked.report.forced);
+  CHECK(asked.report.used == plain.report.agreed);
+  CHECK(same_rows(asked.cloud, plain.cloud));
+  GaussianCloud hidden = thing.scene.cloud;  // every thing is clear as glass
+  std::ranges::fill(hidden.opacity, 1e-4f);
+  const CleanObject none =
+      clean_object({hidden, thing.test.truth_labels, {0, -1, 0}, thing.scene.cameras, false, true});
+  CHECK_FALSE(none.report.cleaned);
+  CHECK(none.report.views == 0);
+  CHECK_FALSE(none.report.reason.empty());
+}
+
 TEST_CASE("the second guard: what an object's own pictures show is not cut off") {
   StillLifeOptions options;
   options.gaussians = 20000;
