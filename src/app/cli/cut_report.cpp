@@ -70,6 +70,7 @@ std::vector<StageTime> stages_of_one(const RunReport& report) {
   std::vector<StageTime> stages = report.objects.front().result.stages;
   stages.insert(stages.begin(), {"load", report.load_ms});
   stages.push_back({"edges", report.edges.front().ms});
+  stages.push_back({"seen", report.edges.front().seen_ms});
   return stages;
 }
 
@@ -113,6 +114,9 @@ std::string summary(const RunReport& report) {
   }
   text = fmt::format("{} of {} Gaussians cut out in {:.0f} ms\n", gaussians_of(report.objects.front()), all,
                      report.total_ms);
+  if (const auto& seen = report.edges.front().seen; seen && !seen->never().empty())
+    text += fmt::format("never seen from {}; by its six sides, no view saw {:.0f} % of its surface\n",
+                        fmt::join(seen->never(), ", "), 100 * seen->unseen_share());
   if (const std::string said = report.edges.front().sentence(); !said.empty()) text += said + "\n";
   for (const StageTime& stage : stages_of_one(report))
     text += fmt::format("  {:<16} {:8.0f} ms\n", stage.name, stage.ms);

@@ -160,7 +160,7 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
              placement.origin == ExportOrigin::kScene};
   to.up = up_to_write(chosen, placement);
   report.edges = write_cutouts(to, objects, job);
-  for (const EdgesReport& edges : report.edges) report.total_ms += edges.ms;
+  for (const EdgesReport& edges : report.edges) report.total_ms += edges.ms + edges.seen_ms;
   report.rest = write_rest(to, owner, report.edges, chosen.camera);
   if (report.rest == 0) options.warn("the cut takes the whole scene: the rest holds no Gaussians");
   if (args.cutout.writes("objects"))

@@ -85,6 +85,22 @@ void write_hull(const CutoutFolder& to, const std::string& file, const GaussianC
   write_text_file(to.folder.file(file), obj_text(hull, adds_origin ? to.scene.origin : glm::dvec3(0)));
 }
 
+// From which sides the object was seen, and by which views where a picture of that is written.
+void look_from_all_sides(const CutoutFolder& to, const ObjectFiles& files,
+                         const std::vector<std::uint8_t>& labels, const ObjectView* shown,
+                         EdgesReport* report, const Job& job) {
+  if (std::ranges::count(labels, 1) == 0) return;
+  const auto start = std::chrono::steady_clock::now();
+  const glm::vec3 from = shown                ? shown->camera.centre_world()
+                         : to.cameras.empty() ? object_extent(to.scene.cloud, labels).centre_world
+                                              : to.cameras.front().centre_world();
+  const bool picture = shown && to.options.writes("seen");
+  report->seen = (picture ? seen_from : seen_sides)(to.drawer(), labels, to.up_world, from, to.cameras, job);
+  if (picture && !job.cancelled())
+    write_png(to.folder.file(files.seen), seen_picture(*report->seen, to.drawer(), labels, job));
+  report->seen_ms = ms_since(start);
+}
+
 // What was invented comes last.
 RestChanges changes_of(std::span<const EdgesReport> objects) {
   RestChanges all;
@@ -96,9 +112,9 @@ RestChanges changes_of(std::span<const EdgesReport> objects) {
 }
 
 nlohmann::json seen_json(const SeenFrom& seen) {
-  nlohmann::json json = {{"views", seen.views.size()},
-                         {"unseen", std::ranges::count(seen.by_views, 0)},
-                         {"never_from", seen.never()}};
+  nlohmann::json json = {{"never_from", seen.never()}, {"unseen_share", seen.unseen_share()}};
+  if (!seen.views.empty())
+    json.update({{"views", seen.views.size()}, {"unseen", std::ranges::count(seen.by_views, 0)}});
   for (std::size_t s = 0; s < kSideNames.size(); ++s) json["sides"][kSideNames.at(s)] = seen.side_share.at(s);
   return json;
 }
@@ -249,10 +265,7 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
   if (hull)
     write_hull(to, files.hull, clean ? clean->cloud : to.scene.cloud,
                clean ? std::span<const std::uint8_t>() : labels);
-  if (shown && to.options.writes("seen")) {
-    report.seen = seen_from(to.drawer(), labels, to.up_world, shown->camera.centre_world(), to.cameras, job);
-    write_png(to.folder.file(files.seen), seen_picture(*report.seen, to.drawer(), labels, job));
-  }
+  look_from_all_sides(to, files, labels, shown, &report, job);
   if (!files.labels.empty() && to.options.writes("labels"))
     write_labels(to.folder.file(files.labels), to.scene, labels);
   if (!pictures) return report;

@@ -44,9 +44,9 @@ struct EdgesReport {
   std::size_t gaussians = 0;         // written
   std::optional<RestChanges> rest;   // where rest.ply is written, too
   std::optional<SurfacePatch> fill;  // where that is asked for, too
-  std::optional<SeenFrom> seen;      // where that is asked for
+  std::optional<SeenFrom> seen;      // of an object that has Gaussians; by views where that is asked for
   bool large_rest = false;           // it is written, but as it is: see kMostToForgetIn
-  double ms = 0;
+  double ms = 0, seen_ms = 0;        // of the cleaning; of what was seen
 
   std::string sentence() const;                  // what the guard said and what became of it; empty: nothing
   nlohmann::json json(bool times = true) const;  // {"edges": "clean" or "keep", ...}

@@ -36,6 +36,8 @@ float visible_share(const Drawer& scene, const GaussianCloud& object, std::span<
                     const Camera& camera, const Job& job) {
   RasterOptions raster;
   raster.colour = false;
+  raster.roi = labelled_rectangle(scene.cloud(), camera, labels);
+  if (raster.roi->empty()) return 0;
   const Image<float> alone = rasterize(object, camera, raster, job).alpha;
   raster.labels = labels;
   const Image<float> within = scene.draw(camera, raster, job).label_share;
@@ -130,6 +132,12 @@ std::vector<std::string> SeenFrom::never() const {
   return sides;
 }
 
+float SeenFrom::unseen_share() const {
+  float seen = 0;
+  for (const float share : side_share) seen += share;
+  return 1 - seen / static_cast<float>(side_share.size());
+}
+
 SeenSides::SeenSides(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,
                      const glm::vec3& towards, std::span<const Camera> cameras)
     : scene_(scene),
@@ -163,19 +171,35 @@ float SeenSides::share(const glm::vec3& side, float enough, const Job& job) cons
   return share;
 }
 
+SeenFrom seen_by_views(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,
+                       std::span<const Camera> cameras, const Job& job) {
+  const std::vector<std::uint32_t> object = labelled(labels);
+  SeenFrom seen;
+  add_views(scene, object, permuted(scene.cloud(), object), labels,
+            own_cameras(scene.cloud(), labels, up_world, cameras, {}),
+            object_extent(scene.cloud(), labels).centre_world, &seen, job);
+  return seen;
+}
+
+SeenFrom seen_sides(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,
+                    const glm::vec3& from_world, std::span<const Camera> cameras, const Job& job) {
+  const glm::vec3 towards = from_world - object_extent(scene.cloud(), labels).centre_world;
+  SeenFrom seen;
+  seen.sides = side_directions(up_world, towards);
+  const SeenSides sides(scene, labels, up_world, towards, cameras);
+  for (std::size_t s = 0; s < seen.sides.size() && !job.cancelled(); ++s) {
+    seen.side_cameras.at(s) = sides.looking_from(seen.sides.at(s));
+    seen.side_share.at(s) = sides.share(seen.sides.at(s), kEnoughSeenShare, job);
+  }
+  return seen;
+}
+
 SeenFrom seen_from(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,
                    const glm::vec3& from_world, std::span<const Camera> cameras, const Job& job) {
-  const glm::vec3 centre = object_extent(scene.cloud(), labels).centre_world;
-  SeenFrom seen;
-  seen.sides = side_directions(up_world, from_world - centre);
-  const SeenSides sides(scene, labels, up_world, from_world - centre, cameras);
-  add_views(scene, labelled(labels), sides.alone(), labels,
-            own_cameras(scene.cloud(), labels, up_world, cameras, {}), centre, &seen, job);
-  for (std::size_t s = 0; s < seen.sides.size() && !job.cancelled(); ++s) {
-    constexpr float kAll = 1;
-    seen.side_cameras.at(s) = sides.looking_from(seen.sides.at(s));
-    seen.side_share.at(s) = sides.share(seen.sides.at(s), kAll, job);
-  }
+  SeenFrom seen = seen_sides(scene, labels, up_world, from_world, cameras, job);
+  SeenFrom views = seen_by_views(scene, labels, up_world, cameras, job);
+  seen.views = std::move(views.views);
+  seen.by_views = std::move(views.by_views);
   return seen;
 }
 

@@ -5,8 +5,8 @@
 // and four level ones, the first towards the camera that one looks from. A side is seen as far as cameras
 // within 60 degrees of it saw it, of the capture where it has any, the three nearest to the side; else four
 // there: what the scene itself hides from below, nobody saw. The share is that of the object's picture alone
-// which the scene leaves visible. Cost: a drawing of the scene and of the object a view, and up to 24 of
-// both, 160 pixels wide. Same input, same bits.
+// which the scene leaves visible. Cost: a drawing of the scene and of the object a view, and for the sides up
+// to 24 of both, 160 pixels wide, around the object alone. Same input, same bits.
 #pragma once
 
 #include <array>
@@ -31,6 +31,7 @@ struct SeenFrom {
   std::array<float, 6> side_share{};       // of kSideNames, in [0, 1]
   std::array<Camera, 6> side_cameras{};    // that look at the object from there
   std::vector<std::string> never() const;  // names of the sides that were not seen: see kLeastSeenShare
+  float unseen_share() const;  // of the object's surface: the mean over the sides of what no view saw, [0, 1]
 };
 
 // How much of an object was seen from a side: the share of its picture alone, 160 pixels wide, that the scene
@@ -59,10 +60,20 @@ class SeenSides {
   ObjectExtent extent_;
 };
 
-// Less than that is as good as not seen.
-inline constexpr float kLeastSeenShare = 0.1f;
+// Less than the first is as good as not seen; where a camera sees as much as the second, no other is asked.
+inline constexpr float kLeastSeenShare = 0.1f, kEnoughSeenShare = 0.9f;
 
-// from_world: where the user looks from. cameras: of the capture, may be empty. Cancelled: unspecified.
+// The views and what each saw of the Gaussians; `sides` and what belongs to them stay empty. cameras: of the
+// capture, may be empty. Cancelled: unspecified.
+SeenFrom seen_by_views(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,
+                       std::span<const Camera> cameras, const Job& job);
+
+// The sides; `views` and `by_views` stay empty. At least one Gaussian is labelled. from_world: where the user
+// looks from. Cancelled: unspecified.
+SeenFrom seen_sides(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,
+                    const glm::vec3& from_world, std::span<const Camera> cameras, const Job& job);
+
+// Both.
 SeenFrom seen_from(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,
                    const glm::vec3& from_world, std::span<const Camera> cameras, const Job& job);
 

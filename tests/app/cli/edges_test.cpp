@@ -158,3 +158,19 @@ TEST_CASE("cut --fill surface: the rest ends with what is invented, other rows s
   const Result again = place.run("info filled/rest.ply --json");
   CHECK(json::parse(again.out)["gaussians"] == rows);
 }
+
+TEST_CASE(
+    "every cut reports from which sides its object was never seen, and what share of its surface that is") {
+  const StillLife& life = still_life();
+  const Workplace& place = life.place;
+  const auto cut =
+      place.run(life.cut("--click " + life.click + " --edges keep --write labels -o never_seen"));
+  REQUIRE(cut.code == 0);
+  const json seen = json::parse(place.text("never_seen/report.json"))["edges"]["seen"];
+  CHECK(seen["never_from"] == json::array({"below"}));
+  CHECK(seen["unseen_share"] > 0.15);
+  CHECK(seen["unseen_share"] < 0.4);
+  CHECK(seen["sides"].size() == 6);
+  CHECK_FALSE(seen.contains("views"));
+  CHECK(cut.out.find("never seen from below") != std::string::npos);
+}

@@ -22,6 +22,16 @@ TEST_CASE("seen from: nobody saw a thing on a table from below, with a capture's
         seen_from(apple.scene.cloud, apple.test.truth_labels, {0, -1, 0}, from,
                   capture ? std::span<const Camera>(apple.scene.cameras) : std::span<const Camera>(), {});
     CHECK(seen.never() == std::vector<std::string>{"below"});
+    float unseen = 0;
+    for (const float share : seen.side_share) unseen += (1 - share) / 6;
+    CHECK(seen.unseen_share() == doctest::Approx(unseen).epsilon(1e-5));
+    CHECK(seen.unseen_share() >= (1 - kLeastSeenShare) / 6);
+    CHECK(seen.unseen_share() < 0.4f);
+    const auto given = capture ? std::span<const Camera>(apple.scene.cameras) : std::span<const Camera>();
+    CHECK(seen_sides(apple.scene.cloud, apple.test.truth_labels, {0, -1, 0}, from, given, {}).side_share ==
+          seen.side_share);
+    CHECK(seen_by_views(apple.scene.cloud, apple.test.truth_labels, {0, -1, 0}, given, {}).by_views ==
+          seen.by_views);
     CHECK(seen.side_share[0] > 0.95f);  // the front: nothing stands before it
     CHECK(seen.by_views.size() == static_cast<std::size_t>(std::ranges::count(apple.test.truth_labels, 1)));
     const auto by_some = std::ranges::count_if(seen.by_views, [](std::uint32_t by) { return by != 0; });
@@ -50,7 +60,9 @@ TEST_CASE(
                           capture);
     for (std::size_t s = 0; s < all.sides.size(); ++s) {
       CAPTURE(kSideNames.at(s));
-      CHECK(sides.share(all.sides.at(s), 1, {}) == all.side_share.at(s));
+      const float whole = sides.share(all.sides.at(s), 1, {});
+      CHECK(sides.share(all.sides.at(s), kEnoughSeenShare, {}) == all.side_share.at(s));
+      CHECK(all.side_share.at(s) >= std::min(whole, kEnoughSeenShare));
       const float some = sides.share(all.sides.at(s), kLeastSeenShare, {});
       CHECK(some <= all.side_share.at(s));
       CHECK((some >= kLeastSeenShare) == (all.side_share.at(s) >= kLeastSeenShare));
