@@ -56,17 +56,22 @@ nlohmann::json cutout_json(const CutoutScore& s) {
                 {"recoloured", s.report.recoloured}});
   nlohmann::json clean_rest = rest_json(s.clean_rest);
   clean_rest.update({{"ghosts", s.ghosts}, {"given_back", s.given_back}});
-  return {{"alone", alone_json(s.kept)},
-          {"clean", clean},
-          {"rest", rest_json(s.rest)},
-          {"clean_rest", clean_rest}};
+  nlohmann::json json = {{"alone", alone_json(s.kept)},
+                         {"clean", clean},
+                         {"rest", rest_json(s.rest)},
+                         {"clean_rest", clean_rest}};
+  if (s.kept_ring) json["alone_ring"] = alone_json(*s.kept_ring);
+  if (s.clean_ring) json["clean_ring"] = alone_json(*s.clean_ring);
+  return json;
 }
 
-void print_alone(const nlohmann::json& result) {
-  fmt::print("\n{:<16} {:<5} {:>6} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6}\n", "alone", "edges",
-             "IoU", "b 2px", "b 2%", "black", "magenta", "SSIM", "halo", "miss", "alpha");
+namespace {
+
+void print_table(const nlohmann::json& result, const char* title, const char* kept, const char* clean) {
+  fmt::print("\n{:<16} {:<5} {:>6} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6}\n", title, "edges", "IoU",
+             "b 2px", "b 2%", "black", "magenta", "SSIM", "halo", "miss", "alpha");
   for (const nlohmann::json& row : rows_and_mean(result))
-    for (const auto& [key, edges] : {std::pair{"alone", "keep"}, std::pair{"clean", "clean"}}) {
+    for (const auto& [key, edges] : {std::pair{kept, "keep"}, std::pair{clean, "clean"}}) {
       if (!row.contains(key)) continue;
       const auto of = [&row, &key = key](const char* name) { return row.at(key).at(name).get<double>(); };
       fmt::print(
@@ -75,6 +80,13 @@ void print_alone(const nlohmann::json& result) {
           of("psnr_black_db"), of("psnr_magenta_db"), of("ssim"), of("halo"), of("missing"),
           of("alpha_error"));
     }
+}
+
+}  // namespace
+
+void print_alone(const nlohmann::json& result) {
+  print_table(result, "alone", "alone", "clean");
+  if (result.at("mean").contains("alone_ring")) print_table(result, "in a ring", "alone_ring", "clean_ring");
   print_rest(result);
 }
 

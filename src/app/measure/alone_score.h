@@ -9,9 +9,14 @@
 //   halo           sum of alpha in excess of the truth's, more than 2 px outside of it, over its area
 //   missing        sum of alpha short of the truth's, more than 2 px inside of it, over its area
 //   alpha_error    sum of |alpha - truth's alpha| over its area
+// Where the true labels are known, the same also in a ring of twelve cameras around the true object, 22.5
+// degrees above it, 320 px wide, between those that clean edges look from: it shows the sides that no test
+// view does.
 // And of what is left of the scene without the object: PSNR to the scene in the ring from 2 to 12 px outside
 // of the mask, and the mean gradient along the mask's border, levels of 255 a pixel, where a ghost shows.
 #pragma once
+
+#include <optional>
 
 #include "segment/finish/clean.h"
 
@@ -29,7 +34,8 @@ struct RestScore {
 
 // One cutout, or the mean of some.
 struct CutoutScore {
-  AloneScore kept, clean;      // its Gaussians as they are, and with clean edges
+  AloneScore kept, clean;                           // its Gaussians as they are, and with clean edges
+  std::optional<AloneScore> kept_ring, clean_ring;  // the same in the ring; none: labels are not known
   RestScore rest, clean_rest;  // the scene's others as they are, and as forget.h has them
   double cleaned = 0;          // share of the cutouts that were cleaned
   double clean_ms = 0;

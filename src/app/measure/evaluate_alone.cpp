@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "app/measure/evaluate_picture.h"
 #include "app/measure/mask_measures.h"
@@ -137,6 +138,28 @@ AloneScore score_alone(const EvaluationCase& scene, const GaussianCloud& object)
   });
 }
 
+EvaluationCase in_ring(const EvaluationCase& scene) {
+  constexpr int kCameras = 12, kWidthPx = 320;
+  constexpr float kFovYDeg = 40, kElevationDeg = 22.5f, kDistance = 3.2f;  // of the latter, radii
+  const ObjectExtent object = object_extent(*scene.cloud, scene.truth_labels);
+  const glm::vec3 up = glm::normalize(scene.up_world),
+                  axis = std::abs(up.x) < 0.6f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1),
+                  ahead = glm::normalize(axis - glm::dot(axis, up) * up), aside = glm::cross(up, ahead);
+  EvaluationCase ring = scene;
+  ring.test_views.clear();
+  ring.truth_masks.clear();
+  for (int c = 0; c < kCameras; ++c) {
+    const float turn = glm::two_pi<float>() * (static_cast<float>(c) + 0.5f) / kCameras;
+    const glm::vec3 level = std::cos(turn) * ahead + std::sin(turn) * aside;
+    const glm::vec3 away =
+        std::cos(glm::radians(kElevationDeg)) * level + std::sin(glm::radians(kElevationDeg)) * up;
+    ring.test_views.push_back(look_at(object.centre_world + kDistance * object.radius * away,
+                                      object.centre_world, up, glm::radians(kFovYDeg), kWidthPx, kWidthPx));
+    ring.truth_masks.push_back(solid_pixels(true_matte(ring, ring.test_views.size() - 1).alpha));
+  }
+  return ring;
+}
+
 RestScore score_rest(const EvaluationCase& scene, const GaussianCloud& rest) {
   return mean_over_views<RestScore>(scene, [&](std::size_t v) {
     const Camera& camera = scene.test_views[v];
@@ -158,6 +181,11 @@ CutoutScore score_cutout(const EvaluationCase& scene, const std::vector<std::uin
   score.clean_ms = ms_since(start);
   if (job.cancelled()) return score;
   score.clean = score_alone(scene, clean.cloud);
+  if (!scene.truth_labels.empty()) {
+    const EvaluationCase ring = in_ring(scene);
+    score.kept_ring = score_alone(ring, rest_of(*scene.cloud, labels, {}));
+    score.clean_ring = score_alone(ring, clean.cloud);
+  }
   score.clean_rest = score_rest(scene, rest_of(*scene.cloud, rest, clean.rest));
   score.cleaned = clean.report.cleaned ? 1 : 0;
   score.report = clean.report;
@@ -181,6 +209,11 @@ void add_share(const RestScore& more, double share, RestScore* to) {
 void add_share(const CutoutScore& more, double share, CutoutScore* to) {
   add_share(more.kept, share, &to->kept);
   add_share(more.clean, share, &to->clean);
+  for (const auto field : {&CutoutScore::kept_ring, &CutoutScore::clean_ring})
+    if (more.*field) {
+      if (!(to->*field)) (to->*field).emplace();
+      add_share(*(more.*field), share, &*(to->*field));
+    }
   add_share(more.rest, share, &to->rest);
   add_share(more.clean_rest, share, &to->clean_rest);
   to->cleaned += share * more.cleaned;

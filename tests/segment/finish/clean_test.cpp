@@ -293,3 +293,27 @@ TEST_CASE("clean edges: one Gaussian, and none, are left as they are") {
     CHECK(object.cloud.size() == static_cast<std::size_t>(count));
   }
 }
+
+TEST_CASE("the ring of twelve sees what the test views do not: an apple without its far half") {
+  StillLifeOptions options;
+  options.gaussians = 20000;
+  Thing thing(options, "apple");
+  thing.test.test_views.resize(1);
+  thing.test.truth_masks.resize(1);
+  std::vector<std::uint8_t> labels = thing.test.truth_labels;
+  const CutoutScore whole = score_cutout(thing.test, labels);
+  REQUIRE(whole.kept_ring);
+  CHECK(whole.kept_ring->iou > 0.999);
+  const Camera& from = thing.test.test_views.front();
+  const float middle = from.camera_from_world(object_extent(thing.scene.cloud, labels).centre_world).z;
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    if (from.camera_from_world(thing.scene.cloud.position[g]).z > middle) labels[g] = 0;
+  const CutoutScore half = score_cutout(thing.test, labels);
+  MESSAGE("in front ", half.kept.iou, ", in the ring ", half.kept_ring->iou);
+  CHECK(half.kept.iou > 0.9);
+  CHECK(half.kept_ring->iou < half.kept.iou - 0.1);
+  EvaluationCase masks = thing.test;
+  masks.truth_labels.clear();
+  masks.own_labels.clear();
+  CHECK_FALSE(score_cutout(masks, labels).kept_ring);
+}
