@@ -196,8 +196,7 @@ nlohmann::json EdgesReport::json(bool times) const {
                {"made_solid", clean->made_solid},
                {"recoloured", clean->recoloured}});
   if (rest) json.update({{"ghosts", rest->ghosts.size()}, {"given_back", rest->given_back.size()}});
-  if (large_rest)
-    json["rest"] = fmt::format("as it is: the scene has more than {} Gaussians", kMostToForgetIn);
+  if (not_given_back > 0) json["not_given_back"] = not_given_back;
   return json;
 }
 
@@ -248,8 +247,10 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
                          {}, job);
     report.ms = ms_since(start);
     report.clean = clean->report;
-    report.large_rest = to.rest && labels.size() > kMostToForgetIn;
-    if (to.rest && !report.large_rest) report.rest = std::move(clean->rest);
+    if (to.rest) {
+      report.not_given_back = spare_copy(to.scene, SceneFormat::kPly, &clean->rest);
+      report.rest = std::move(clean->rest);
+    }
     if (!clean->report.cleaned) clean.reset();
   }
   if (to.rest && to.options.fill == "surface")

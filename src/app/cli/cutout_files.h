@@ -45,7 +45,7 @@ struct EdgesReport {
   std::optional<RestChanges> rest;   // where rest.ply is written, too
   std::optional<SurfacePatch> fill;  // where that is asked for, too
   std::optional<SeenFrom> seen;      // of an object that has Gaussians; by views where that is asked for
-  bool large_rest = false;           // it is written, but as it is: see kMostToForgetIn
+  std::size_t not_given_back = 0;    // see spare_copy()
   double ms = 0, seen_ms = 0;        // of the cleaning; of what was seen
 
   std::string sentence() const;                  // what the guard said and what became of it; empty: nothing

@@ -330,6 +330,7 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
         {}, job);
   const bool cleaned = clean && clean->report.cleaned;
   RestChanges changes = cleaned && rest ? clean->rest : RestChanges();
+  const std::size_t not_given_back = spare_copy(scene, format, &changes);
   std::optional<SurfacePatch> patch;
   if (rest && args.cutout.fill == "surface") {
     patch = fill_surface(open.drawer(), labels, changes.ghosts, open.chosen.up_world, open.chosen.given, job);
@@ -350,6 +351,7 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
                           {"path", path.string()}};
   if (!saved.loss.empty()) reply["loss"] = saved.loss;
   if (patch) reply["fill"] = fill_json(*patch);
+  if (not_given_back > 0) reply["not_given_back"] = not_given_back;
   if (wants_clean && !cleaned) reply["why_kept"] = clean->report.reason;
   if (cleaned && clean->report.forced)
     reply.update({{"forced", true}, {"views", clean->report.views}, {"agreed", clean->report.agreed}});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "app/console/kept_inputs.h"
 #include "app/console/output_folder.h"
@@ -51,6 +52,7 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   RestChanges changes;
   if (object && is_rest && request.clean_edges)
     changes = what.clean->rest_without(*object, what.up_world, what.job);
+  report->not_given_back += spare_copy(what.scene, request.format, &changes);
   if (object && is_rest && request.fill_hole) {
     const SurfacePatch patch = what.clean->hole_of(*object, changes, what.up_world, what.job);
     report->hole_kept = patch.why_not;
@@ -137,6 +139,12 @@ SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
   of_other.object_ids = ids;
   turn(&of_other.up);
   return save_scene(path, other, {}, format, of_other);
+}
+
+std::size_t spare_copy(const Scene& scene, const SceneFormat& format, RestChanges* changes) {
+  const bool beside = format.name == SceneFormat::kPly.name && scene.rows_can_be_changed;
+  if (beside || scene.cloud.size() <= kMostToCopy) return 0;
+  return std::exchange(changes->given_back, {}).size();
 }
 
 SaveReport save_rest(const std::filesystem::path& path, const Scene& scene, std::vector<std::uint8_t> keep,

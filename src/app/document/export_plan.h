@@ -37,11 +37,12 @@ struct ExportRequest {
 struct ExportReport {
   std::size_t gaussians = 0, files = 0;
   std::uint64_t bytes = 0;
-  std::string loss;        // sentence about what the format lost; empty: nothing
-  std::size_t clean = 0;   // number of files whose object has clean edges
-  std::size_t forced = 0;  // of these, files whose object was cleaned anyway
-  std::string edges_kept;  // reason why an object has none, if they were asked for
-  std::string hole_kept;   // reason why a hole is not filled, if that was asked for
+  std::string loss;                // sentence about what the format lost; empty: nothing
+  std::size_t clean = 0;           // number of files whose object has clean edges
+  std::size_t forced = 0;          // of these, files whose object was cleaned anyway
+  std::string edges_kept;          // reason why an object has none, if they were asked for
+  std::string hole_kept;           // reason why a hole is not filled, if that was asked for
+  std::size_t not_given_back = 0;  // Gaussians, see spare_copy()
 };
 
 // Flags per Gaussian of the scene: 1 if the export writes it, for kAllObjects into any of its files.
@@ -63,6 +64,13 @@ SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
                           const std::vector<std::uint8_t>& keep, const GaussianCloud* instead,
                           const SceneFormat& format, const std::optional<MovedTo>& to = {},
                           const SaveOptions& options = {});
+
+// What is given back to the rest goes beside rows that are copied only into a .ply, and where the scene's
+// rows can be changed. Else it would take a copy of all of them: in a scene of more Gaussians it is left out.
+inline constexpr std::size_t kMostToCopy = 2'000'000;
+
+// Leaves that out of the changes. Returns how many Gaussians it was.
+std::size_t spare_copy(const Scene& scene, const SceneFormat& format, RestChanges* changes);
 
 // The same for the rest of a scene, of which ghosts are left out, and with what was given back.
 SaveReport save_rest(const std::filesystem::path& path, const Scene& scene, std::vector<std::uint8_t> keep,

@@ -20,24 +20,27 @@ void Exports::perform(const Export& c) {
   }
   const TaskThread::Order export_order(TaskKind::kExport,
                                        [this] { ws_.ui_requests.push_back(UiRequest::kExportFailed); });
-  ws_.tasks.submit(
-      export_order, [this, request = c.request, document = ws_.document(), object = ws_.document().active,
-                     scene = ws_.scene, clean = ws_.clean](const Job& job) {
-        job.progress("exporting", 0);
-        const ExportReport report = run_export(*scene->scene, document, object, request, clean.get(), job);
-        if (job.cancelled()) return;
-        std::string text = fmt::format("{} Gaussians, {} saved to {}", grouped(report.gaussians),
-                                       human_bytes(report.bytes), request.path.string());
-        if (report.clean > 0) text += report.edges_kept.empty() ? ", edges clean" : ", edges of some clean";
-        if (report.forced > 0) text += report.forced == report.clean ? " anyway" : ", some of them anyway";
-        if (!report.hole_kept.empty()) text += ". The hole stays: " + report.hole_kept;
-        if (!report.edges_kept.empty()) text += ". Edges stay as they are: " + report.edges_kept;
-        if (!report.loss.empty()) text += ". Lost: " + report.loss;
-        ws_.tasks.post([this, text, path = request.path] {
-          last_ = path;
-          ws_.say(Message::Kind::kDone, text);
-        });
-      });
+  ws_.tasks.submit(export_order, [this, request = c.request, document = ws_.document(),
+                                  object = ws_.document().active, scene = ws_.scene,
+                                  clean = ws_.clean](const Job& job) {
+    job.progress("exporting", 0);
+    const ExportReport report = run_export(*scene->scene, document, object, request, clean.get(), job);
+    if (job.cancelled()) return;
+    std::string text = fmt::format("{} Gaussians, {} saved to {}", grouped(report.gaussians),
+                                   human_bytes(report.bytes), request.path.string());
+    if (report.clean > 0) text += report.edges_kept.empty() ? ", edges clean" : ", edges of some clean";
+    if (report.forced > 0) text += report.forced == report.clean ? " anyway" : ", some of them anyway";
+    if (report.not_given_back > 0)
+      text += fmt::format(". {} pieces cut off the object are not in the rest, which is too large to copy",
+                          report.not_given_back);
+    if (!report.hole_kept.empty()) text += ". The hole stays: " + report.hole_kept;
+    if (!report.edges_kept.empty()) text += ". Edges stay as they are: " + report.edges_kept;
+    if (!report.loss.empty()) text += ". Lost: " + report.loss;
+    ws_.tasks.post([this, text, path = request.path] {
+      last_ = path;
+      ws_.say(Message::Kind::kDone, text);
+    });
+  });
 }
 
 void Exports::perform(const SaveSnapshot& c) {

@@ -112,8 +112,7 @@ CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options,
     std::ranges::fill(kept, 1);
     cut_off = finish(views, false, &kept, &object, job);
   }
-  if (input.rest && input.labels.size() <= kMostToForgetIn)
-    object.rest = forget(input.scene, input.labels, object.gaussian, views, cut_off, job);
+  if (input.rest) object.rest = forget(input.scene, input.labels, object.gaussian, views, cut_off, job);
   report.cleaned = !job.cancelled();
   drop_gone(kept, &object);
   return object;

@@ -40,7 +40,7 @@ struct CleanInput {
   std::span<const std::uint8_t> labels;  // per Gaussian, 1 = object
   glm::vec3 up_world{0, -1, 0};
   std::span<const Camera> cameras;  // of the capture, may be empty
-  bool rest = false;                // whether CleanObject::rest is wanted; of a scene that is not too large
+  bool rest = false;                // whether CleanObject::rest is wanted
   bool anyway = false;              // it is cleaned even where the guard says no, if any view shows it
 };
 

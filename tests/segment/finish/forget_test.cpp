@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -144,4 +145,25 @@ TEST_CASE("forget: the same bits on one thread and on four, and a cancelled job 
   std::stop_source stop;
   stop.request_stop();
   CHECK_FALSE(thing.clean(labels, true, {stop.get_token(), {}}).report.cleaned);
+}
+
+TEST_CASE(
+    "forget: in a scene of two million Gaussians more, none of which shows, the same leave and come back") {
+  StillLifeOptions options;
+  options.gaussians = 20000;
+  options.straddling = true;
+  const Thing thing(options, "orange");
+  const CleanObject small = thing.clean(thing.test.truth_labels, true);
+  REQUIRE(small.report.cleaned);
+  REQUIRE(small.rest.ghosts.size() + small.rest.given_back.size() > 0);
+  std::vector<std::uint32_t> rows(thing.scene.cloud.size() + 2'000'000, 0);
+  std::iota(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(thing.scene.cloud.size()), 0u);
+  GaussianCloud cloud = permuted(thing.scene.cloud, rows);
+  std::fill(cloud.opacity.begin() + static_cast<std::ptrdiff_t>(thing.scene.cloud.size()),
+            cloud.opacity.end(), 0.0f);
+  std::vector<std::uint8_t> labels = thing.test.truth_labels;
+  labels.resize(cloud.size(), 0);
+  const CleanObject large = clean_object({cloud, labels, {0, -1, 0}, thing.scene.cameras, true});
+  CHECK(large.rest.ghosts == small.rest.ghosts);
+  CHECK(large.rest.given_back.position == small.rest.given_back.position);
 }
