@@ -96,8 +96,10 @@ void look_from_all_sides(const CutoutFolder& to, const ObjectFiles& files,
                                               : to.cameras.front().centre_world();
   const bool picture = shown && to.options.writes("seen");
   report->seen = (picture ? seen_from : seen_sides)(to.drawer(), labels, to.up_world, from, to.cameras, job);
-  if (picture && !job.cancelled())
+  if (picture && !job.cancelled()) {
     write_png(to.folder.file(files.seen), seen_picture(*report->seen, to.drawer(), labels, job));
+    report->ground = unseen_ground(to.drawer(), labels, to.up_world, to.cameras, job);
+  }
   report->seen_ms = ms_since(start);
 }
 
@@ -182,6 +184,8 @@ nlohmann::json EdgesReport::json(bool times) const {
   nlohmann::json json = {{"edges", clean && clean->cleaned ? "clean" : "keep"}, {"gaussians", gaussians}};
   if (fill) json["fill"] = fill_json(*fill);
   if (seen) json["seen"] = seen_json(*seen);
+  if (ground && ground->why_not.empty()) json["seen"]["ground_area"] = ground->area;
+  if (ground && !ground->why_not.empty()) json["seen"]["no_ground"] = ground->why_not;
   if (!clean) return json;
   json.update({{"views", clean->views}, {"agreed", clean->agreed}});
   if (times) json["ms"] = ms;

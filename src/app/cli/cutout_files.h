@@ -17,6 +17,7 @@
 #include "segment/finish/clean.h"
 #include "segment/finish/fill.h"
 #include "segment/finish/seen_from.h"
+#include "segment/finish/unseen_ground.h"
 #include "segment/session/cut_result.h"
 
 namespace CLI {
@@ -40,13 +41,14 @@ struct CutoutOptions {
 
 // What was done to the edges of an object.
 struct EdgesReport {
-  std::optional<CleanReport> clean;  // none: --edges keep
-  std::size_t gaussians = 0;         // written
-  std::optional<RestChanges> rest;   // where rest.ply is written, too
-  std::optional<SurfacePatch> fill;  // where that is asked for, too
-  std::optional<SeenFrom> seen;      // of an object that has Gaussians; by views where that is asked for
-  std::size_t not_given_back = 0;    // see spare_copy()
-  double ms = 0, seen_ms = 0;        // of the cleaning; of what was seen
+  std::optional<CleanReport> clean;    // none: --edges keep
+  std::size_t gaussians = 0;           // written
+  std::optional<RestChanges> rest;     // where rest.ply is written, too
+  std::optional<SurfacePatch> fill;    // where that is asked for, too
+  std::optional<SeenFrom> seen;        // of an object that has Gaussians; by views where that is asked for
+  std::optional<UnseenGround> ground;  // where a picture of what was seen is written
+  std::size_t not_given_back = 0;      // see spare_copy()
+  double ms = 0, seen_ms = 0;          // of the cleaning; of what was seen
 
   std::string sentence() const;                  // what the guard said and what became of it; empty: nothing
   nlohmann::json json(bool times = true) const;  // {"edges": "clean" or "keep", ...}

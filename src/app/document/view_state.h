@@ -31,6 +31,7 @@ struct ViewState {
   bool tint = true;          // objects are tinted
   bool outline = true;       // objects have outlines
   bool heat = false;         // the heat map of the likelihood replaces the tint
+  bool seen_heat = false;    // an object shown alone is coloured by how many views saw it
   float near_share = 0.01f;  // distance of the near plane over the scene's size; see natural_near_plane()
   float far_share = 0;       // distance of the far plane over the scene's size; 0: no far plane
   float fly_speed = 1;       // speed of flight over the usual speed
@@ -57,6 +58,11 @@ inline void set_what_is_kept(const ViewState& kept, ViewState* view) {
 inline bool shows_clean_edges(const ViewState& view) {
   const bool alone = view.display == DisplayMode::kIsolate || view.display == DisplayMode::kSideBySide;
   return view.display == DisplayMode::kBeforeAfter || (alone && view.clean_edges);
+}
+
+// True if the pane shows by how many views the object was seen.
+inline bool shows_seen_heat(const ViewState& view) {
+  return view.seen_heat && view.display == DisplayMode::kIsolate;
 }
 
 }  // namespace splatcut

@@ -66,7 +66,10 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
   }
   if (any) style.owner = make_flags(std::move(owner));
   if (!active) active = make_flags(std::vector<std::uint8_t>(n, 0));
-  if (order.view.heat) style.heat = order.likelihood;
+  if (shows_seen_heat(order.view))
+    style.heat = order.seen && *order.seen->labels == *active ? order.seen->heat : nullptr;
+  else if (order.view.heat)
+    style.heat = order.likelihood;
   Styles out;
   out.active_labels = active;
   if (order.floaters) {

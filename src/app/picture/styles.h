@@ -12,6 +12,7 @@
 #include "app/document/command.h"
 #include "app/document/label_cache.h"
 #include "app/document/scene_graph.h"
+#include "app/document/seen_object.h"
 #include "app/document/view_state.h"
 #include "app/picture/frame_shading.h"
 #include "segment/session/session.h"
@@ -30,6 +31,7 @@ struct StyleOrder {
   bool floaters = false;             // true: floaters of the active object are outlined
   std::optional<SelectRange> range;  // outlined if there are no floaters; depths are the camera's
   Camera camera;
+  std::shared_ptr<const SeenObject> seen = {};  // of some object, for the heat of the object alone
 };
 
 struct Styles {

@@ -157,7 +157,7 @@ void CutJobs::start(const ObjectItem& object, bool anew) {
   const auto failed = [this, order] {
     if (runs(order)) end(order.key);
   };
-  for (const TaskKind kind : {TaskKind::kHover, TaskKind::kClean}) ws_.tasks.cancel(kind);
+  for (const TaskKind kind : {TaskKind::kHover, TaskKind::kClean, TaskKind::kSeen}) ws_.tasks.cancel(kind);
   if (anew || !take_known(order))
     ws_.tasks.submit({TaskKind::kCut, failed}, [this, order](const Job& job) { work(order, job); });
 }

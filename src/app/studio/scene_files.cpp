@@ -234,6 +234,7 @@ void SceneFiles::take(const std::shared_ptr<const OpenedScene>& scene) {
   ws_.graph = std::make_shared<SceneGraph>(scene->cloud);
   ws_.session = std::make_shared<Session>(session_on(*scene, ws_.options.cache));
   ws_.clean = std::make_shared<CleanObjects>(scene);
+  ws_.seen = nullptr;
   ws_.coarse = nullptr;
   ws_.labels.clear();
 }

@@ -22,6 +22,7 @@ Studio::Studio(const StudioOptions& options)
            [this](std::function<void()> next) { edits_.in_turn(std::move(next), Edits::OnCancel::kStays); }}),
       exports_(ws_, viewport_),
       clean_edges_(ws_, viewport_, cuts_),
+      seen_views_(ws_, viewport_, cuts_),
       free_sides_(ws_, viewport_),
       tasks_(options.wake, options.inline_tasks),
       quick_(options.wake, options.inline_tasks) {
@@ -91,7 +92,7 @@ void Studio::scene_opened(bool same) {
   }
   ViewState& view = ws_.view;
   view.display = DisplayMode::kWhole;
-  view.heat = false;
+  view.heat = view.seen_heat = false;
   view.tool = Tool::kClick;
   view.fly_speed = std::clamp(view.fly_speed, kLeastKeptSpeed, kMostKeptSpeed);
   view.operation = SetOperation::kAdd;
@@ -124,6 +125,7 @@ bool Studio::update(double seconds) {
   cuts_.update();
   const bool moves = viewport_.update(seconds, flight());
   clean_edges_.update();
+  seen_views_.update();
   clicks_.update();
   files_.update();
   work_.update(seconds);
@@ -187,7 +189,8 @@ bool Studio::cancel_task() {
     ws_.say(Message::Kind::kInfo, "Cancelled. The strokes stay; R computes the cutout again.");
     return true;
   }
-  bool cancelled = cuts_.cancel_likelihood() || edits_.cancel() || clean_edges_.cancel();
+  bool cancelled =
+      cuts_.cancel_likelihood() || edits_.cancel() || clean_edges_.cancel() || seen_views_.cancel();
   for (const TaskKind kind : {TaskKind::kSelect, TaskKind::kExport}) {
     if (cancelled || !tasks_.busy(kind)) continue;
     tasks_.cancel(kind);

@@ -21,6 +21,7 @@
 #include "app/studio/exports.h"
 #include "app/studio/free_sides.h"
 #include "app/studio/scene_files.h"
+#include "app/studio/seen_views.h"
 #include "app/studio/viewport.h"
 #include "app/studio/workspace.h"
 #include "app/tools/actions.h"
@@ -80,6 +81,7 @@ class Studio {
   double clock_s() const { return ws_.clock_s; }
   std::vector<std::uint8_t> labels(ObjectId object) const;  // final labels; empty: there is no such object
   std::size_t gaussians_of(ObjectId object) const { return ws_.gaussians_of(object); }
+  const SeenViews& seen_views() const { return seen_views_; }
   std::optional<CleanReport> clean_edges() const;  // of the active object; none: not known yet
 
   // True if work is unsaved, also while it is being written.
@@ -121,6 +123,7 @@ class Studio {
   void turn_over(bool ViewState::*part);  // switches a setting of the view on or off
   void turn_over(DisplayMode mode);       // switches to that display, or back to the whole scene
   void side_by_side();
+  void show_seen_heat();
   void scale_brush(float factor);
   void step_camera(int direction);
   void hold(const Modifiers& modifiers);
@@ -147,6 +150,7 @@ class Studio {
   SceneFiles files_;
   Exports exports_;
   CleanEdges clean_edges_;
+  SeenViews seen_views_;
   FreeSides free_sides_;
   std::set<int> held_keys_;
   std::vector<std::function<void()>> held_pointer_;

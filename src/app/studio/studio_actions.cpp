@@ -141,6 +141,7 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kTint, without_scene, [](S& s) { s.turn_over(&ViewState::tint); }},
       {Action::kOutline, without_scene, [](S& s) { s.turn_over(&ViewState::outline); }},
       {Action::kHeat, without_cutout, [](S& s) { s.turn_over(&ViewState::heat); }},
+      {Action::kSeenHeat, without_gaussians, [](S& s) { s.show_seen_heat(); }, kWaits},
       {Action::kCentres, without_scene, [](S& s) { s.turn_over(&ViewState::centres); }},
       {Action::kRings, without_scene, [](S& s) { s.turn_over(&ViewState::rings); }},
       {Action::kGrid, without_scene, [](S& s) { s.turn_over(&ViewState::grid); }},
@@ -208,6 +209,13 @@ void Studio::side_by_side() {
                  : before == DisplayMode::kBeforeAfter ? DisplayMode::kIsolate
                  : before == DisplayMode::kSideBySide  ? DisplayMode::kWhole
                                                        : DisplayMode::kSideBySide;
+  apply(SetView{view});
+}
+
+void Studio::show_seen_heat() {
+  ViewState view = ws_.view;
+  view.seen_heat = !shows_seen_heat(view);
+  if (view.seen_heat) view.display = DisplayMode::kIsolate;
   apply(SetView{view});
 }
 

@@ -26,6 +26,7 @@ enum class TaskKind {
   kPrepare,
   kCut,
   kClean,
+  kSeen,  // finds out what no view showed of an object
   kSelect,
   kStyle,
   kHover,

@@ -168,7 +168,7 @@ void Viewport::request_styles() {
   styles_on_the_way_ = true;
   StyleOrder order{ws_.scene->cloud, ws_.graph,    ws_.document(), {},
                    nullptr,          ws_.clean,    ws_.view,       pixels_per_point_,
-                   floaters_shown_,  range_shown_, pane_camera()};
+                   floaters_shown_,  range_shown_, pane_camera(),  ws_.seen};
   for (const ObjectItem& object : order.document.objects)
     if (const CutRun* run = cuts_.run(object.id)) {
       if (run->preview) order.previews[object.id] = run->preview;

@@ -14,6 +14,7 @@
 #include "app/document/history.h"
 #include "app/document/label_cache.h"
 #include "app/document/opened_scene.h"
+#include "app/document/seen_object.h"
 #include "app/studio/messages.h"
 #include "app/studio/task_thread.h"
 #include "app/tools/pointer_tools.h"
@@ -42,6 +43,7 @@ struct Workspace {
   std::shared_ptr<Session> session{};           // session on the scene, used on `tasks`; null without a scene
   std::shared_ptr<SceneGraph> graph{};          // graph of the scene, built when an edit first asks for it
   std::shared_ptr<CleanObjects> clean{};        // objects of the scene with clean edges
+  std::shared_ptr<const SeenObject> seen{};     // what views showed of an object; null: not asked so far
   std::shared_ptr<const CoarseCloud> coarse{};  // cloud for pictures of a large scene in motion; null: none
   mutable LabelCache labels{};
   std::deque<Message> messages{};  // last hundred messages, the newest last

@@ -77,6 +77,7 @@ constexpr std::array kOwnBindings = {
     Binding{Action::kTint, 'T', kPlain, "Display", "Tint"},
     Binding{Action::kOutline, 'O', kPlain, "Display", "Outline"},
     Binding{Action::kHeat, 'M', kPlain, "Display", "Likelihood heat map"},
+    Binding{Action::kSeenHeat, 'M', kShift, "Display", "The object alone, by how many views saw it"},
     Binding{Action::kBackdrop, 'J', kPlain, "Display", "Next background"},
     Binding{Action::kCentres, 'X', kPlain, "Display", "Centres of the Gaussians"},
     Binding{Action::kRings, 'X', kShift, "Display", "Rings of the Gaussians"},

@@ -71,6 +71,7 @@ enum class Action {
   kTint,
   kOutline,
   kHeat,
+  kSeenHeat,
   kBackdrop,
   kCentres,
   kRings,

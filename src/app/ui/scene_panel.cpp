@@ -133,6 +133,9 @@ void scene_panel(UiContext& ui) {
   tooltip(tip_of(Action::kRings) + "\nTheir outlines at two standard deviations; of many some, evenly");
   if (ImGui::Checkbox("Grid on the ground", &view.grid)) ui.ask(SetView{view});
   tooltip(tip_of(Action::kGrid));
+  bool seen = shows_seen_heat(view);
+  if (ImGui::Checkbox("Seen by how many views", &seen)) ui.ask(Action::kSeenHeat);
+  tooltip(tip_of(Action::kSeenHeat) + "\nRed: no view of the capture saw it; blue: many did");
   level_row(ui);
   axes_row(ui);
   up_buttons(ui);

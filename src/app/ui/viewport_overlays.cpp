@@ -130,4 +130,19 @@ void draw_ground_grid(const UiContext& ui, const UiRect& area, int pane) {
   }
 }
 
+void draw_unseen_ground(const UiContext& ui, const UiRect& area,
+                        const std::vector<std::pair<glm::vec3, glm::vec3>>& outline_world) {
+  constexpr ImU32 kInk = IM_COL32(255, 120, 90, 255), kShade = IM_COL32(0, 0, 0, 110);
+  const Camera camera = ui.studio.viewport().pane_camera();
+  const float near_plane = ui.studio.viewport().draw_limits().near_plane;
+  const OnScreen place = on_screen(ui, area);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (const auto& [ink, width] : {std::pair(kShade, 4.0f), std::pair(kInk, 2.0f)})
+    for (const auto& [from, to] : outline_world) {
+      const glm::vec3 a = camera.camera_from_world(from), b = camera.camera_from_world(to);
+      if (a.z > near_plane && b.z > near_plane)
+        list.AddLine(place(camera.pixel_from_camera(a)), place(camera.pixel_from_camera(b)), ink, width);
+    }
+}
+
 }  // namespace splatcut

@@ -67,14 +67,25 @@ void coming_label(const UiContext& ui, const UiRect& pane, const std::string& te
   pane_label(ui, vec(at), text.c_str());
 }
 
+// Around ground that no view ever showed; null: none is known, or the object is shown.
+const std::vector<std::pair<glm::vec3, glm::vec3>>* unseen_outline(const Studio& studio) {
+  const bool hides = studio.view().display == DisplayMode::kHide;
+  const UnseenGround* ground = hides ? studio.seen_views().ground() : nullptr;
+  return ground && !ground->outline_world.empty() ? &ground->outline_world : nullptr;
+}
+
 const char* mode_label(const Studio& studio) {
   switch (studio.view().display) {
     case DisplayMode::kIsolate:
+      if (shows_seen_heat(studio.view()))
+        return studio.viewport().style(0).heat ? "Seen by views: red none, blue many  (Shift+M: back)"
+                                               : "Looking who saw it...  (Esc: stop)";
       return !studio.viewport().clean(0)                 ? "Only the object  (I: back)"
              : studio.viewport().clean(0)->report.forced ? "Only the object, edges cleaned anyway  (I: back)"
                                                          : "Only the object, edges clean  (I: back)";
     case DisplayMode::kHide:
-      return "Without the object  (H: back)";
+      return unseen_outline(studio) ? "Without it; outlined is ground that no view ever showed  (H: back)"
+                                    : "Without the object  (H: back)";
     default:
       return studio.view().heat ? "Likelihood: blue rest, red object  (M: back)" : nullptr;
   }
@@ -213,6 +224,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     if (!gpu_picture[i] && !picture) coming_label(ui, of_pane, studio.coming());
     ImGui::PushClipRect(from, to, true);
     draw_ground_grid(ui, of_pane, i);
+    if (const auto* outline = unseen_outline(studio)) draw_unseen_ground(ui, of_pane, *outline);
     draw_rings(ui, of_pane, i);
     if (i == 0) draw_placed_file(ui, of_pane);
     draw_centres(ui, of_pane, i);

@@ -111,24 +111,6 @@ Mask shade_of(const Ground& ground, int near_px, int far_px) {
   return mask_of([&](auto c) { return is_set(near, c) && surface(c) && brightness.at(c.x, c.y) < most; });
 }
 
-// The cells of `from`, and those of `over` that hang together with them.
-Mask flooded(const Mask& from, const Mask& over) {
-  Mask flood = from;
-  std::vector<glm::ivec2> front = cells_of(from);
-  while (!front.empty()) {
-    const glm::ivec2 c = front.back();
-    front.pop_back();
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        const glm::ivec2 beside = c + glm::ivec2(dx, dy);
-        if (!is_set(over, beside) || is_set(flood, beside)) continue;
-        flood.at(beside.x, beside.y) = kMaskObject;
-        front.push_back(beside);
-      }
-  }
-  return flood;
-}
-
 }  // namespace
 
 SurfaceMap::SurfaceMap(const SupportPlane& plane, float radius) : plane_(plane), radius_(radius) {
@@ -152,6 +134,10 @@ glm::vec3 SurfaceMap::world_of(const glm::ivec2& cells) const {
   return glm::transpose(camera_.camera_from_world_rotation) * (glm::vec3(cells, 0) * (radius_ / kRadiusPx));
 }
 
+glm::vec3 SurfaceMap::on_plane(const glm::vec2& px) const {
+  return camera_.world_from_pixel(px, camera_.camera_from_world(plane_.point_world).z);
+}
+
 double SurfaceMap::cell_area() const {
   return std::pow(radius_ / kRadiusPx, 2);
 }
@@ -166,6 +152,23 @@ std::vector<glm::ivec2> cells_of(const Mask& mask) {
     for (int x = 0; x < kSidePx; ++x)
       if (mask.at(x, y)) cells.emplace_back(x, y);
   return cells;
+}
+
+Mask flooded(const Mask& from, const Mask& over) {
+  Mask flood = from;
+  std::vector<glm::ivec2> front = cells_of(from);
+  while (!front.empty()) {
+    const glm::ivec2 c = front.back();
+    front.pop_back();
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const glm::ivec2 beside = c + glm::ivec2(dx, dy);
+        if (!is_set(over, beside) || is_set(flood, beside)) continue;
+        flood.at(beside.x, beside.y) = kMaskObject;
+        front.push_back(beside);
+      }
+  }
+  return flood;
 }
 
 std::vector<SurfaceView> surface_views(const Drawer& scene, std::span<const std::uint8_t> labels,

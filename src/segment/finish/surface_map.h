@@ -1,5 +1,6 @@
 // What an object stood on, as a map: which Gaussians draw the surface, where they cover it, what stands on
-// it, and where the object leaves a hole. Used by fill.cpp; the numbers are explained in fill.h.
+// it, and where the object leaves a hole. Used by fill.cpp and unseen_ground.cpp; the numbers are explained
+// in fill.h.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +31,7 @@ class SurfaceMap {
   }
   std::optional<glm::ivec2> cell(const glm::vec3& world) const;  // none outside of the map
   glm::vec3 world_of(const glm::ivec2& cells) const;             // of a difference of cells
+  glm::vec3 on_plane(const glm::vec2& px) const;                 // the point of the plane there
   double cell_area() const;                                      // scene units squared
   float height_radii(const glm::vec3& world) const { return plane_.height(world) / radius_; }
 
@@ -51,6 +53,9 @@ Mask mask_of(const Keep& keep) {
       if (keep(glm::ivec2(x, y))) mask.at(x, y) = kMaskObject;
   return mask;
 }
+
+// The cells of `from`, and those of `over` that hang together with them.
+Mask flooded(const Mask& from, const Mask& over);
 
 // A view from which the object and the surface around it are seen.
 struct SurfaceView {

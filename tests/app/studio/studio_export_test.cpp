@@ -455,3 +455,82 @@ TEST_CASE("hands: how many Gaussians clean edges leave out of an export is known
   CHECK(clean->left > 0);
   CHECK(clean->left == cleaned_without_window(hands).report.left);
 }
+
+TEST_CASE(
+    "hands: without the object the ground that it hid from all views is outlined, until labels change") {
+  Hands hands = hands_on_sample();
+  CHECK(hands.studio().seen_views().ground() == nullptr);  // nobody asked
+  hands.app.key('H');
+  REQUIRE(hands.app.settle());
+  const OpenedScene& scene = *hands.studio().scene();
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  const UnseenGround expected =
+      unseen_ground(*scene.cloud, labels, hands.studio().document().up_world, scene.views().cameras, {});
+  REQUIRE(expected.why_not.empty());
+  CHECK(expected.area > 0);
+  const UnseenGround* ground = hands.studio().seen_views().ground();
+  REQUIRE(ground);
+  CHECK(ground->area == expected.area);
+  CHECK(ground->outline_world == expected.outline_world);
+  const auto ink = [&] {
+    hands.app.frames(2);
+    const Image<Rgb8> picture = hands.app.picture();
+    return std::ranges::count(picture.pixels(), Rgb8{255, 120, 90});
+  };
+  CHECK(ink() > 20);
+  hands.studio().apply(EditSelection{SelectionEdit::kGrow});
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.studio().seen_views().ground());
+  CHECK(hands.studio().seen_views().ground() != ground);
+  hands.app.key('H', {.shift = true});
+  REQUIRE(hands.app.settle());
+  CHECK(ink() == 0);
+}
+
+TEST_CASE("hands: the object alone is red where no view saw it and blue where many did") {
+  Hands hands = hands_on_sample();
+  hands.app.key('M', {.shift = true});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().view().display == DisplayMode::kIsolate);
+  const auto heat = hands.studio().viewport().style(0).heat;
+  REQUIRE(heat);
+  const OpenedScene& scene = *hands.studio().scene();
+  const auto labels = hands.studio().labels(hands.studio().document().active);
+  const SeenFrom seen =
+      seen_by_views(*scene.cloud, labels, hands.studio().document().up_world, scene.views().cameras, {});
+  std::size_t own = 0, never = 0;
+  for (std::size_t g = 0; g < labels.size(); ++g) {
+    if (!labels[g]) continue;
+    const bool unseen = seen.by_views[own++] == 0;
+    never += unseen;
+    CHECK(((*heat)[g] == 1) == unseen);
+  }
+  CHECK(never < own);
+  CHECK(std::ranges::count(*heat, 0.0f) > static_cast<std::ptrdiff_t>(labels.size() - own));
+  hands.app.key('M', {.shift = true});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().viewport().style(0).heat == nullptr);
+}
+
+TEST_CASE(
+    "exports: what is given back is left out where it would take a copy of a large scene, and only there") {
+  Scene scene;
+  RestChanges changes;
+  changes.ghosts = {3};
+  changes.given_back = hands_on_sample(false).studio().scene()->scene->cloud;
+  const std::size_t given_back = changes.given_back.size();
+  for (const bool large : {false, true})
+    for (const bool changeable : {false, true})
+      for (const SceneFormat& format : {SceneFormat::kPly, SceneFormat::kSpz}) {
+        CAPTURE(large);
+        CAPTURE(changeable);
+        CAPTURE(format.name);
+        scene.cloud.position.resize(large ? kMostToCopy + 1 : 10);
+        scene.rows_can_be_changed = changeable;
+        const bool copies = !changeable || format == SceneFormat::kSpz;
+        RestChanges of_this = changes;
+        CHECK(spare_copy(scene, format, &of_this) == (large && copies ? given_back : 0));
+        CHECK(of_this.given_back.size() == (large && copies ? 0 : given_back));
+        CHECK(of_this.ghosts == changes.ghosts);
+      }
+}

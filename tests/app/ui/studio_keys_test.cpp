@@ -150,6 +150,11 @@ const std::map<Action, Check> kChecks = {
      [](HeadlessApp& app, const Before&) {
        return app.settle() && app.studio().viewport().style(0).heat != nullptr;
      }},
+    {Action::kSeenHeat,
+     [](HeadlessApp& app, const Before&) {
+       return app.settle() && app.studio().viewport().style(0).heat != nullptr &&
+              app.studio().view().display == DisplayMode::kIsolate;
+     }},
     {Action::kBackdrop,
      [](HeadlessApp& app, const Before& b) {
        return app.studio().document().background != b.document.background;
