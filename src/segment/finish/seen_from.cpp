@@ -126,10 +126,10 @@ std::vector<glm::vec3> colours_from(const SeenFrom& seen, const glm::vec3& side)
 }  // namespace
 
 std::vector<std::string> SeenFrom::never() const {
-  std::vector<std::string> sides;
+  std::vector<std::string> names;
   for (std::size_t s = 0; s < side_share.size(); ++s)
-    if (side_share.at(s) < kLeastSeenShare) sides.emplace_back(kSideNames.at(s));
-  return sides;
+    if (side_share.at(s) < kLeastSeenShare) names.emplace_back(kSideNames.at(s));
+  return names;
 }
 
 float SeenFrom::unseen_share() const {

@@ -12,7 +12,7 @@ namespace {
 enum class Shown { kGround, kObject, kOther };  // kOther: beside the picture, or behind something else
 
 Shown shown_at(const SurfaceView& view, const SurfaceMap& map, const glm::vec3& world) {
-  constexpr float kOn = 0.05f;  // radii above the plane
+  constexpr float kOnGround = 0.05f;  // radii above the plane
   const glm::vec3 at = view.camera.camera_from_world(world);
   if (!(at.z > 0)) return Shown::kOther;
   const glm::vec2 px = glm::floor(view.camera.pixel_from_camera(at));
@@ -22,7 +22,7 @@ Shown shown_at(const SurfaceView& view, const SurfaceMap& map, const glm::vec3& 
   const int x = static_cast<int>(px.x), y = static_cast<int>(px.y);
   if (view.inside.at(x, y)) return Shown::kObject;
   const bool empty = !(view.depth.at(x, y) > 0);
-  return empty || map.height_radii(view.world(x, y)) <= kOn ? Shown::kGround : Shown::kOther;
+  return empty || map.height_radii(view.world(x, y)) <= kOnGround ? Shown::kGround : Shown::kOther;
 }
 
 bool never_seen(std::span<const SurfaceView> views, const SurfaceMap& map, const glm::vec3& world) {
