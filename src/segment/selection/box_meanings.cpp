@@ -153,6 +153,7 @@ std::vector<std::uint8_t> agreed_in_box(const PartHierarchy& parts, const LeafVi
   for (std::uint32_t l = 0; l < shares.size(); ++l)
     if (shares[l] >= kLeastShare) order.push_back(l);
   std::ranges::stable_sort(order, std::greater{}, [&](std::uint32_t l) { return shares[l]; });
+  if (!order.empty() && shares[order.front()] <= 0.5f) order.clear();  // nothing for a minority to add to
   InBox sum;
   std::size_t taken = 0;
   float least_cost = std::numeric_limits<float>::max();

@@ -28,10 +28,10 @@ namespace splatcut {
 std::vector<PartMeaning> box_meanings(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
                                       const TermValues& weights);
 
-// What the trees agree on: flags per leaf, 1 for those with at least a certain share of the votes. Usually
-// that is more than half; it is less, down to a quarter, where what a minority of the trees adds fills the
-// box better (kShort, kSpill and kFills of all these leaves together) by more than a minority costs. shares:
-// of the votes, per leaf (part_votes.h), or empty: nothing.
+// What the trees agree on: flags per leaf, 1 for those with more than half of the votes, or with a lower
+// share, down to a quarter, where what that adds fills the box better (kShort, kSpill and kFills of all these
+// leaves together) by more than a minority costs. None where no leaf has more than half. shares: of the
+// votes, per leaf (part_votes.h), or empty.
 std::vector<std::uint8_t> agreed_in_box(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
                                         std::span<const float> shares, const TermValues& weights);
 
