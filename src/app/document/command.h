@@ -137,6 +137,10 @@ struct EditSelection {
   static constexpr bool passes = true;
   friend std::string edit(Document* document, const EditSelection& command, const EditContext& context);
 };
+struct ShowPlaced {    // F frames this file while it is placed, see Viewport::placing()
+  std::uint32_t file;  // SceneSource::id; 0: none
+  static constexpr bool at_once = true;
+};
 struct ShowFloaters {
   bool shown;  // true: previews floaters; EditSelection{kRemoveFloaters} removes them
   static constexpr bool at_once = true;
@@ -321,6 +325,9 @@ struct PlaceScene {
   std::uint32_t file;  // SceneSource::id of any file but the first
   ScenePlace place;
 };
+struct BringHere {  // stands the file on the surface in the middle of the picture, see surface_in_middle()
+  std::uint32_t file;
+};
 struct RemoveScene {
   std::uint32_t file;
 };
@@ -351,13 +358,15 @@ struct SaveTurntable {
   static constexpr bool writes_file = true;
 };
 
-using Command = std::variant<
-    AddStroke, IntersectStroke, AddBox, SelectRegion, SelectVolume, SelectColour, PickColour, SelectFlood,
-    SelectScene, SelectRange, ShowRange, EditSelection, ShowFloaters, StepScale, ChooseMeaning, ClearStrokes,
-    ComeNearer, NewObject, RemoveObject, RenameObject, RecolourObject, ShowObject, LockObject, ActivateObject,
-    MergeObjects, SplitObject, DuplicateObject, SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView,
-    SetSmoothness, SetPreset, SetBackground, SetUp, CleanAnyway, Undo, Redo, JumpHistory, Cancel, Recompute,
-    SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop, SetFieldOfView, OpenScene, AddScene,
-    PlaceScene, RemoveScene, SaveWork, DropAutosave, Export, SaveSnapshot, SaveTurntable>;
+using Command =
+    std::variant<AddStroke, IntersectStroke, AddBox, SelectRegion, SelectVolume, SelectColour, PickColour,
+                 SelectFlood, SelectScene, SelectRange, ShowRange, EditSelection, ShowPlaced, ShowFloaters,
+                 StepScale, ChooseMeaning, ClearStrokes, ComeNearer, NewObject, RemoveObject, RenameObject,
+                 RecolourObject, ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject,
+                 DuplicateObject, SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness,
+                 SetPreset, SetBackground, SetUp, CleanAnyway, Undo, Redo, JumpHistory, Cancel, Recompute,
+                 SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop, SetFieldOfView, OpenScene,
+                 AddScene, PlaceScene, BringHere, RemoveScene, SaveWork, DropAutosave, Export, SaveSnapshot,
+                 SaveTurntable>;
 
 }  // namespace splatcut

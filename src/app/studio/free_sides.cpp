@@ -32,10 +32,23 @@ double hidden_share(const OpenedScene& scene, const std::vector<std::uint8_t>& l
 
 }  // namespace
 
+void FreeSides::frame_placed() {
+  CameraController& camera = viewport_.camera();
+  const std::vector<std::uint8_t> own = gaussians_of(*ws_.scene, viewport_.placed_file());
+  std::vector<glm::vec3> positions;
+  for (std::size_t g = 0; g < own.size(); ++g)
+    if (own[g]) positions.push_back(ws_.scene->cloud->position[g]);
+  positions = without_strays(positions);
+  if (positions.empty()) return;
+  camera.frame(camera.framing(positions, viewport_.pane_camera(), viewport_.covered_bottom_px(),
+                              camera.pose().camera_from_world));
+}
+
 void FreeSides::frame() {
   CameraController& camera = viewport_.camera();
   camera.finish_transition();
   const std::optional<Offer> offer = std::exchange(offer_, std::nullopt);
+  if (viewport_.placing()) return frame_placed();
   if (offer && offer->from == camera.pose()) return camera.frame(offer->side);
   const ObjectItem* object = ws_.document().active_object();
   const std::vector<glm::vec3> positions = without_strays(viewport_.object_positions());

@@ -16,6 +16,8 @@ class FreeSides {
   void frame();
 
  private:
+  void frame_placed();
+
   struct Offer {
     CameraPose from;
     Framing side;

@@ -120,6 +120,16 @@ void SceneFiles::perform(const PlaceScene& c) {
   change_files(std::move(files), "Placing " + name, name + " placed");
 }
 
+void SceneFiles::perform(const BringHere& c) {
+  std::vector<SceneSource> files = wanted_files();
+  const SceneSource& file = added_file(&files, c.file);
+  const auto at = viewport_.surface_in_middle(c.file);
+  if (!at)
+    throw Error("bring here", "nothing to stand on is in the middle of the picture",
+                "Turn the view so that the place is in its middle");
+  perform(PlaceScene{c.file, stood_on(file, file.place, *at, ws_.document().up_world)});
+}
+
 void SceneFiles::perform(const RemoveScene& c) {
   std::vector<SceneSource> files = wanted_files();
   const std::string name = scene_name(added_file(&files, c.file).path);

@@ -39,6 +39,7 @@ class SceneFiles {
   void perform(const OpenScene& c);
   void perform(const AddScene& c);
   void perform(const PlaceScene& c);
+  void perform(const BringHere& c);
   void perform(const RemoveScene& c);
 
  private:

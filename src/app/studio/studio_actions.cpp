@@ -45,6 +45,10 @@ std::string without_gaussians(const Studio& s) {
   return s.gaussians_of(s.document().active) > 0 ? "" : "The object is empty so far: click on it";
 }
 
+std::string without_anything_to_frame(const Studio& s) {
+  return s.viewport().placing() ? "" : without_gaussians(s);
+}
+
 std::string without_selection(const Studio& s) {
   if (!s.scene()) return without_scene(s);
   const ObjectItem* active = s.document().active_object();
@@ -146,7 +150,7 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kRings, without_scene, [](S& s) { s.turn_over(&ViewState::rings); }},
       {Action::kGrid, without_scene, [](S& s) { s.turn_over(&ViewState::grid); }},
       {Action::kBackdrop, without_scene, [](S& s) { s.apply(NextBackdrop{}); }},
-      {Action::kFrameObject, without_gaussians, [](S& s) { s.free_sides_.frame(); }, kWaits},
+      {Action::kFrameObject, without_anything_to_frame, [](S& s) { s.free_sides_.frame(); }, kWaits},
       {Action::kFrameScene, without_scene, [](S& s) { s.camera().frame_scene(); }},
       {Action::kNextCamera, without_cameras, [](S& s) { s.step_camera(1); }},
       {Action::kPreviousCamera, without_cameras, [](S& s) { s.step_camera(-1); }},

@@ -145,6 +145,18 @@ void Viewport::show_range(const std::optional<SelectRange>& range) {
   ++ws_.view_serial;
 }
 
+void Viewport::show_placed(std::uint32_t file) {
+  placed_file_ = file;
+  placed_serial_ = ws_.history.serial();
+}
+
+bool Viewport::placing() const {
+  if (!ws_.scene || !ws_.scene->file(placed_file_)) return false;
+  const History& history = ws_.history;
+  return placed_serial_ == history.serial() || history.entries()[history.cursor()].other_files != 0 ||
+         ws_.gaussians_of(ws_.document().active) == 0;
+}
+
 void Viewport::highlight(const Flags& gaussians, const Rgb8& colour) {
   FrameStyle& style = styles_.style[0];
   const bool same =
@@ -253,10 +265,24 @@ std::optional<PickedPoint> Viewport::pick(const glm::vec2& pixel) const {
   return PickedPoint{camera.world_from_pixel(pixel, frame->depth.at(x, y)), frame->first_hit.at(x, y)};
 }
 
-glm::vec3 Viewport::looked_at_world() const {
+std::optional<glm::vec3> Viewport::surface_in_middle(std::uint32_t without_file) const {
+  if (!ws_.scene) return {};
   const Camera camera = pane_camera();
-  const auto hit = pick(0.5f * glm::vec2(camera.width_px, camera.height_px));
-  return hit ? hit->position_world : camera_.pivot_world();
+  const glm::vec2 free_px(camera.width_px, static_cast<float>(camera.height_px) - covered_bottom_px_);
+  Flags visible = shown(pressed_pane());
+  if (without_file != 0) {
+    std::vector<std::uint8_t> others(ws_.gaussians(), 1);
+    if (visible) others = *visible;
+    const std::vector<std::uint8_t> own = gaussians_of(*ws_.scene, without_file);
+    for (std::size_t g = 0; g < others.size(); ++g) others[g] = others[g] && !own[g];
+    visible = make_flags(std::move(others));
+  }
+  const auto hit = hit_in(camera, 0.5f * free_px, visible);
+  return hit ? std::optional(hit->position_world) : std::nullopt;
+}
+
+glm::vec3 Viewport::looked_at_world() const {
+  return surface_in_middle().value_or(camera_.pivot_world());
 }
 
 std::optional<PickedPoint> Viewport::hit_in(const Camera& camera, const glm::vec2& pixel,

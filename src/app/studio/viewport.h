@@ -73,6 +73,10 @@ class Viewport {
   bool floaters_shown() const { return floaters_shown_; }
   void show_range(const std::optional<SelectRange>& range);  // outlines it; none: no outline
   const std::optional<SelectRange>& range_shown() const { return range_shown_; }
+  void show_placed(std::uint32_t file);  // SceneSource::id of the file whose handles show; 0: none
+  std::uint32_t placed_file() const { return placed_file_; }
+  // True while handles show and no object came since: it is the file that one looks at.
+  bool placing() const;
   std::size_t floater_count() const { return styles_.floaters; }
   // Outlines Gaussians in the first pane until the styles change; null: outlines none.
   void highlight(const Flags& gaussians, const Rgb8& colour);
@@ -89,7 +93,10 @@ class Viewport {
   // Picks the surface under a pixel of the pressed pane; none: nothing is there. The last picture answers if
   // it shows this view; else the one pixel is drawn.
   std::optional<PickedPoint> pick(const glm::vec2& pixel) const;
-  // The point in the middle of the picture; where nothing is there, the one that the view turns around.
+  // The surface in the middle of the part of the picture that thumbnails leave free, but for Gaussians of the
+  // file (a SceneSource::id, 0: of none); none: nothing is there.
+  std::optional<glm::vec3> surface_in_middle(std::uint32_t without_file = 0) const;
+  // The same; where nothing is there, the point that the view turns around.
   glm::vec3 looked_at_world() const;
   // Picks the surface under a pixel of any camera. visible: flags of the Gaussians that count; null: all.
   std::optional<PickedPoint> hit_in(const Camera& camera, const glm::vec2& pixel, const Flags& visible) const;
@@ -118,6 +125,8 @@ class Viewport {
   bool styles_on_the_way_ = false;
   bool floaters_shown_ = false, say_floaters_ = false;
   std::optional<SelectRange> range_shown_;
+  std::uint32_t placed_file_ = 0;
+  std::uint64_t placed_serial_ = 0;  // serial of the document when its handles came
 
   std::optional<FrameResult> picture_;
   std::uint64_t picture_serial_ = 0;

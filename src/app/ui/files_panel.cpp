@@ -68,9 +68,8 @@ void placing(UiContext& ui, const SceneSource& file) {
   if (button(ui, "Fit", "Scales it on its foot to half of the picture's height", {}, !trouble.empty(),
              row.next()))
     ui.ask(PlaceScene{file.id, fitted(file, camera, up_world)});
-  if (button(ui, "Bring here", "Stands it on the point that the view turns around", {}, false, row.next()))
-    ui.ask(PlaceScene{
-        file.id, stood_on(file, place, ui.studio.camera().pivot_world(), ui.studio.document().up_world)});
+  if (button(ui, "Bring here", "Stands it on what lies in the middle of the picture", {}, false, row.next()))
+    ui.ask(BringHere{file.id});
   if (button(ui, "As in file", "Back to its own coordinates",
              file.place == ScenePlace{} ? "It stands there" : "", false, row.next()))
     ui.ask(PlaceScene{file.id, {}});

@@ -242,8 +242,8 @@ TEST_CASE("several scenes: an added file comes to stand upright on what one look
   const auto a = small_scene(folder, "a.ply", 1), b = small_scene(folder, "b.ply", 2);
   const glm::vec3 seen = studio.viewport().looked_at_world(), beside = seen + glm::vec3(1, 0, 0.5f);
   const Camera camera = studio.viewport().pane_camera();
-  const glm::vec2 middle(0.5f * static_cast<float>(camera.width_px),
-                         0.5f * static_cast<float>(camera.height_px));
+  const float free_px = static_cast<float>(camera.height_px) - studio.viewport().covered_bottom_px();
+  const glm::vec2 middle(0.5f * static_cast<float>(camera.width_px), 0.5f * free_px);
   CHECK(glm::distance(camera.pixel_from_camera(camera.camera_from_world(seen)), middle) < 0.5f);
   const auto stands_on = [&](const SceneSource& file, const glm::vec3& point) {
     const glm::vec3 up = studio.document().up_world;
@@ -263,6 +263,80 @@ TEST_CASE("several scenes: an added file comes to stand upright on what one look
   studio.apply(Undo{});
   REQUIRE(hands.app.settle());
   CHECK(studio.scene()->files[1].place == first.place);
+}
+
+TEST_CASE(
+    "several scenes: a file is brought onto the surface in the middle of the free picture, or not at all") {
+  const ScratchFolder folder("several_here");
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  add(hands, small_scene(folder));
+  hands.app.click(hands.app.screen_of(kOnApple));  // for its thumbnails
+  REQUIRE(hands.app.settle());
+  const std::uint32_t id = last_file(hands).id;
+  REQUIRE(studio.viewport().covered_bottom_px() > 0);
+  // The view turns and is shifted: its pivot hangs in the air or lies under the table.
+  hands.app.drag({{300, 200}, {300, 260}});
+  hands.app.drag({{300, 260}, {300, 190}}, PointerButton::kRight);
+  REQUIRE(hands.app.settle());
+  const auto below = [&] {  // what is under the middle of the free part, but for the file itself
+    const Camera camera = studio.viewport().pane_camera();
+    std::vector<std::uint8_t> others = gaussians_of(*studio.scene(), id);
+    for (std::uint8_t& g : others) g = !g;
+    const glm::vec2 free(camera.width_px,
+                         static_cast<float>(camera.height_px) - studio.viewport().covered_bottom_px());
+    const auto hit = studio.viewport().hit_in(camera, 0.5f * free, make_flags(others));
+    REQUIRE(hit);
+    return hit->position_world;
+  };
+  REQUIRE(glm::distance(below(), studio.camera().pivot_world()) > 0.01f * studio.camera().scene_size());
+  const glm::vec3 up = studio.document().up_world;
+  for (int again = 0; again < 2; ++again) {  // it does not climb upon itself
+    const glm::vec3 place = below();         // without thumbnails the second time
+    studio.apply(BringHere{id});
+    REQUIRE(hands.app.settle());
+    CHECK(glm::distance(foot_world(last_file(hands), up), place) < 1e-3f * studio.camera().scene_size());
+  }
+  const ScenePlace stands = last_file(hands).place;
+  const glm::vec3 outside = 100 * studio.camera().scene_size() * glm::vec3(1, 0, 0);
+  studio.apply(GoToCamera{look_at(outside, 2.0f * outside, up, 0.9f, 640, 480)});  // into the sky
+  REQUIRE(hands.app.settle());
+  studio.apply(BringHere{id});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.said().find("nothing to stand on") != std::string::npos);
+  CHECK(last_file(hands).place == stands);
+}
+
+TEST_CASE("several scenes: F frames what is placed, and the object that was clicked since") {
+  const ScratchFolder folder("several_framed");
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  add(hands, small_scene(folder));
+  hands.app.frames(3);  // its handles show
+  const float size = studio.camera().scene_size();
+  studio.apply(PlaceScene{last_file(hands).id, {{0.4f * size, 0, 0}, {}, 0.1f}});
+  REQUIRE(hands.app.settle());
+  const auto in_middle = [&](const glm::vec3& world) {
+    const Camera camera = studio.viewport().pane_camera();
+    const glm::vec2 middle(0.5f * static_cast<float>(camera.width_px),
+                           0.5f * static_cast<float>(camera.height_px));
+    return glm::distance(camera.pixel_from_camera(camera.camera_from_world(world)), middle) <
+           0.2f * static_cast<float>(camera.height_px);
+  };
+  const SceneSource& file = last_file(hands);
+  const auto middle_of_file = [&] { return moved(file.solid.centre(), similarity_of(file)); };
+  REQUIRE_FALSE(in_middle(middle_of_file()));
+  hands.app.key('F');
+  REQUIRE(hands.app.settle());
+  CHECK(in_middle(middle_of_file()));
+
+  studio.apply(GoToCamera{studio.scene()->views().reference});
+  REQUIRE(hands.app.settle());
+  hands.app.click(hands.app.screen_of(kOnApple));
+  REQUIRE(hands.app.settle());
+  hands.app.key('F');
+  REQUIRE(hands.app.settle());
+  CHECK_FALSE(in_middle(middle_of_file()));
 }
 
 TEST_CASE("several scenes: asked for in haste, cancelled, refused") {
