@@ -110,6 +110,7 @@ Document CarriedDocument::operator()(const Document& document) {
     carry_views(&object);
     object.cut = carried(object.cut);
     object.hand = carried(object.hand);
+    object.of_others = carried(object.of_others);
     if (!current) continue;
     object.cut_key = cut_key(out, object);
     object.cut_kept = true;

@@ -188,7 +188,7 @@ struct RecolourObject {
 struct ShowObject {
   ObjectId object;
   bool visible;
-  std::string title() const { return visible ? "Show object" : "Hide object"; }
+  std::string title() const { return visible ? "Show tint" : "Hide tint"; }
   friend std::string edit(Document* document, const ShowObject& command, const EditContext& context);
 };
 struct LockObject {
@@ -225,6 +225,13 @@ struct SeparateObject {
   std::string title() const { return "Separate object"; }
   static constexpr bool passes = true;
   friend std::string edit(Document* document, const SeparateObject& command, const EditContext& context);
+};
+struct LeaveToOthers {  // whether the object's cut takes what the other objects have now
+  ObjectId object;
+  bool leaves;
+  std::string title() const { return leaves ? "Without the other objects" : "With what others have"; }
+  static constexpr bool passes = true;
+  friend std::string edit(Document* document, const LeaveToOthers& command, const EditContext& context);
 };
 struct DeleteSelected {
   std::string title() const { return "Delete from the scene"; }
@@ -363,10 +370,10 @@ using Command =
                  SelectFlood, SelectScene, SelectRange, ShowRange, EditSelection, ShowPlaced, ShowFloaters,
                  StepScale, ChooseMeaning, ClearStrokes, ComeNearer, NewObject, RemoveObject, RenameObject,
                  RecolourObject, ShowObject, LockObject, ActivateObject, MergeObjects, SplitObject,
-                 DuplicateObject, SeparateObject, DeleteSelected, RestoreDeleted, LeaveOutView, SetSmoothness,
-                 SetPreset, SetBackground, SetUp, CleanAnyway, Undo, Redo, JumpHistory, Cancel, Recompute,
-                 SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop, SetFieldOfView, OpenScene,
-                 AddScene, PlaceScene, BringHere, RemoveScene, SaveWork, DropAutosave, Export, SaveSnapshot,
-                 SaveTurntable>;
+                 DuplicateObject, SeparateObject, LeaveToOthers, DeleteSelected, RestoreDeleted, LeaveOutView,
+                 SetSmoothness, SetPreset, SetBackground, SetUp, CleanAnyway, Undo, Redo, JumpHistory, Cancel,
+                 Recompute, SetView, GoToCamera, LookAlong, NextBackdrop, SetBackdrop, SetFieldOfView,
+                 OpenScene, AddScene, PlaceScene, BringHere, RemoveScene, SaveWork, DropAutosave, Export,
+                 SaveSnapshot, SaveTurntable>;
 
 }  // namespace splatcut

@@ -43,7 +43,8 @@ bool same_but_strokes(const ObjectItem& a, const ObjectItem& b) {
   const auto plain = [](const ObjectItem& o) {
     return std::tie(o.id, o.name, o.colour, o.visible, o.locked, o.within, o.cut_key, o.cut_kept);
   };
-  return plain(a) == plain(b) && same_flags(a.cut, b.cut) && same_flags(a.hand, b.hand);
+  return plain(a) == plain(b) && same_flags(a.cut, b.cut) && same_flags(a.hand, b.hand) &&
+         same_flags(a.of_others, b.of_others);
 }
 
 }  // namespace
@@ -110,6 +111,8 @@ std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& 
   std::vector<std::uint8_t> labels(gaussians, 0);
   if (object.cut) labels = *object.cut;
   assert(labels.size() == gaussians);
+  if (object.of_others)
+    for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && !(*object.of_others)[g];
   if (object.hand)
     for (std::size_t g = 0; g < gaussians; ++g)
       if ((*object.hand)[g] != kFollowCut) labels[g] = (*object.hand)[g] == kHandObject;
@@ -120,6 +123,21 @@ std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& 
     for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && limit[g];
   }
   return labels;
+}
+
+Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians) {
+  const auto is_in = [&](const ObjectItem* part, ObjectId whole) {
+    for (; part; part = document.find(part->within))
+      if (part->within == whole) return true;
+    return false;
+  };
+  std::vector<std::uint8_t> had(gaussians, 0);
+  for (const ObjectItem& other : document.objects) {
+    if (other.id == object.id || is_in(&object, other.id) || is_in(&other, object.id)) continue;
+    const std::vector<std::uint8_t> labels = labels_of(document, other, gaussians);
+    for (std::size_t g = 0; g < gaussians; ++g) had[g] |= labels[g];
+  }
+  return count_flags(had) > 0 ? make_flags(std::move(had)) : nullptr;
 }
 
 void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels) {

@@ -44,7 +44,8 @@ struct ObjectItem {
   std::string cut_key;                // cut_key() of the inputs of `cut`; empty: there is no cut yet
   // True if `cut` is older than the scene's present files: it stays as it is until the next stroke.
   bool cut_kept = false;
-  Flags hand;  // HandMark of each Gaussian
+  Flags hand;      // HandMark of each Gaussian
+  Flags of_others; // Gaussians that stay other objects' own: the cut takes none of them; null: it takes any
 };
 
 inline constexpr std::size_t kMostObjects = 255;  // limit, as one byte per Gaussian names its object
@@ -80,10 +81,13 @@ std::size_t stroke_count(const ObjectItem& object);  // clicks, scribbles and bo
 bool is_stale(const Document& document, const ObjectItem& object);
 bool is_stale(const ObjectItem& object, const std::string& key);
 
-// Final labels, one per Gaussian, 1 = object: the cut, corrected by hand marks, deletions and `within`.
-// gaussians: size of the cloud.
+// Final labels, one per Gaussian, 1 = object: the cut without `of_others`, corrected by hand marks, deletions
+// and `within`. gaussians: size of the cloud.
 std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& object,
                                     std::size_t gaussians);
+
+// All that other objects have, but for parts of this one and wholes that it is a part of; null: nothing.
+Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians);
 
 // Sets hand marks so that the final labels become `labels`.
 void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels);

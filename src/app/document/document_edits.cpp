@@ -238,7 +238,7 @@ std::string edit(Document* document, const RecolourObject& command, const EditCo
 std::string edit(Document* document, const ShowObject& command, const EditContext&) {
   ObjectItem& object = required(document, command.object);
   object.visible = command.visible;
-  return object.name + (command.visible ? " shown" : " hidden");
+  return fmt::format("The tint of {} is {}", object.name, command.visible ? "shown" : "hidden");
 }
 
 std::string edit(Document* document, const LockObject& command, const EditContext&) {
@@ -318,6 +318,18 @@ std::string edit(Document* document, const SeparateObject& command, const EditCo
     set_labels(document, &other, after);
   }
   return fmt::format("{} Gaussians now belong to {} alone", grouped(taken), name);
+}
+
+std::string edit(Document* document, const LeaveToOthers& command, const EditContext& context) {
+  ObjectItem& object = unlocked(document, command.object);
+  object.of_others = command.leaves ? had_by_others(*document, object, context.cloud.size()) : nullptr;
+  if (object.of_others && object.hand) {  // what hands took of them goes back, too
+    std::vector<std::uint8_t> hand = *object.hand;
+    for (std::size_t g = 0; g < hand.size(); ++g)
+      if ((*object.of_others)[g] && hand[g] == kHandObject) hand[g] = kFollowCut;
+    object.hand = make_flags(std::move(hand));
+  }
+  return counted(*document, object, context);
 }
 
 std::string edit(Document* document, const DeleteSelected&, const EditContext& context) {

@@ -30,6 +30,7 @@ std::size_t distinct_bytes(const std::vector<History::Entry>& entries) {
     for (const ObjectItem& object : entry.document.objects) {
       add(object.cut);
       add(object.hand);
+      add(object.of_others);
       for (const StrokedView& view : object.views) add(view.seen);
     }
   }

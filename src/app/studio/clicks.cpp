@@ -72,6 +72,15 @@ std::string Clicks::already_so(const AddStroke& c) const {
   return fmt::format("That is {} of {} already, and stays so", is_part ? "part" : "no part", object->name);
 }
 
+// A new object takes nothing that others have, unless it is clicked on that: then it is a part of it, or they
+// share. A later click there takes it after all.
+void Clicks::leave_to_others(Document* document, const PickedPoint& at, bool first) const {
+  ObjectItem& object = *document->find(document->active);
+  if (first) object.of_others = had_by_others(*document, object, ws_.gaussians());
+  if (object.of_others && (*object.of_others)[static_cast<std::size_t>(at.gaussian)])
+    object.of_others = nullptr;
+}
+
 void Clicks::perform(const AddStroke& c) {
   ws_.require_scene();
   if (!c.stroke.points_px.empty() && !hits_anything(c))
@@ -81,15 +90,14 @@ void Clicks::perform(const AddStroke& c) {
   const ObjectItem* active = ws_.document().active_object();
   const bool first = !active || (!any_mark(*active) && ws_.gaussians_of(active->id) == 0);
   const std::string message = edit(&after, c, ws_.context());
-  const auto on = first ? viewport_.pick(c.stroke.points_px.front()) : std::nullopt;
-  if (on && same_camera(c.camera, viewport_.pane_camera()))
+  const bool adds = c.stroke.label == SeedLabel::kObject && same_camera(c.camera, viewport_.pane_camera());
+  const auto on = adds ? viewport_.pick(c.stroke.points_px.front()) : std::nullopt;
+  if (on && first)
     stand_out(&after, after.active, base_colour(*ws_.scene->cloud, static_cast<std::size_t>(on->gaussian)));
+  if (on) leave_to_others(&after, *on, first);
   // The view turns around what was clicked; around the object as long as that is alone.
-  if (ws_.view.display == DisplayMode::kWhole && c.stroke.is_click() &&
-      c.stroke.label == SeedLabel::kObject && viewport_.panes() == 1 &&
-      same_camera(c.camera, viewport_.pane_camera()))
-    if (const auto hit = viewport_.pick(c.stroke.points_px.front()))
-      viewport_.camera().set_orbit_centre(hit->position_world);
+  if (on && ws_.view.display == DisplayMode::kWhole && c.stroke.is_click() && viewport_.panes() == 1)
+    viewport_.camera().set_orbit_centre(on->position_world);
   edits_.push(c.title(), std::move(after), {}, held.empty() ? message : held);
 }
 

@@ -68,6 +68,7 @@ class Clicks {
   };
 
   bool hits_anything(const AddStroke& c) const;
+  void leave_to_others(Document* document, const PickedPoint& at, bool first) const;
   std::string already_so(const AddStroke& c) const;
   const ClickMeanings* meanings(const ObjectItem& object) const;
   std::optional<HoverAsk> hover_wanted() const;

@@ -42,7 +42,12 @@ std::string shared_with(const Workspace& workspace, ObjectId id) {
   for (const ObjectItem& other : document.objects) {
     if (other.id == id || other.id == object->within || other.within == id) continue;
     const Flags labels = workspace.labels.labels(document, other, workspace.gaussians());
-    std::size_t both = 0;
+    std::size_t both = 0, kept = 0;
+    for (std::size_t g = 0; object->cut && object->of_others && g < own->size(); ++g)
+      kept += (*object->cut)[g] & (*object->of_others)[g] & (*labels)[g] & !(*own)[g];
+    if (kept > 0)
+      return fmt::format(". {} keeps {} that it already had; the menu of {} has a way to take them, too",
+                         other.name, gaussians_text(kept), object->name);
     for (std::size_t g = 0; g < own->size(); ++g) both += (*own)[g] & (*labels)[g];
     if (2 * both > workspace.gaussians_of(other.id) && both > 0)
       return fmt::format(". {} of {}'s are in it, too", grouped(both), other.name);

@@ -30,8 +30,8 @@ std::string first_of(std::initializer_list<std::string> reasons) {
 }
 
 // Greyed, with the reason in its tooltip, unless that is empty.
-bool entry(const char* label, const std::string& reason = {}) {
-  const bool chosen = ImGui::MenuItem(label, nullptr, false, reason.empty());
+bool entry(const char* label, const std::string& reason = {}, bool ticked = false) {
+  const bool chosen = ImGui::MenuItem(label, nullptr, ticked, reason.empty());
   tooltip(reason);
   return chosen;
 }
@@ -60,6 +60,9 @@ void object_menu(UiContext& ui, const ObjectItem& object) {
   merge_menu(ui, object, locked);
   if (entry("Split into connected parts", first_of({locked, empty}))) ui.ask(SplitObject{object.id});
   if (entry("Separate in place", empty)) ui.ask(SeparateObject{object.id});
+  const std::string alone = ui.studio.document().objects.size() < 2 ? "There is no other object" : "";
+  if (entry("Without the other objects", first_of({locked, alone}), object.of_others != nullptr))
+    ui.ask(LeaveToOthers{object.id, !object.of_others});
   ImGui::Separator();
   const bool active = object.id == ui.studio.document().active;
   if (entry("Clear strokes", first_of({locked, object.views.empty() ? "It has no strokes" : "",
@@ -127,7 +130,8 @@ void object_row(UiContext& ui, const ObjectItem& object) {
     ui.ask(ShowObject{object.id, !object.visible});
   ImGui::SameLine(0, 0);
   if (flat_icon(ui, object.locked ? icon::kLock : icon::kUnlock, object.locked,
-                object.locked ? "Locked: nothing changes it" : "Not locked"))
+                object.locked ? "Locked: no click and no edit changes it. Press to unlock"
+                              : "Lock it: then no click and no edit changes it"))
     ui.ask(LockObject{object.id, !object.locked});
   ImGui::SameLine(0, 0);
   if (flat_icon(ui, icon::kMore, true, "More")) ImGui::OpenPopup("more");

@@ -39,6 +39,7 @@ json object_json(const Document& document, const ObjectItem& o, const WriteFlags
   if (o.smoothness) out["smoothness"] = *o.smoothness;
   if (o.up_world) out["up"] = list(*o.up_world);
   if (o.cut_kept) out["cut_is_kept"] = true;
+  if (o.of_others) out["of_others"] = flags(o.of_others);
   return out;
 }
 
@@ -62,6 +63,7 @@ ObjectItem object_from(const json& j, const ReadFlags& flags) {
   o.cut = flags(j.value("cut", json()), 1);
   o.cut_kept = o.cut && j.value("cut_is_kept", false);
   o.hand = flags(j.value("hand", json()), kHandRest);
+  o.of_others = flags(j.value("of_others", json()), 1);
   return o;
 }
 

@@ -42,6 +42,7 @@ class ArrayTable {
     for (const ObjectItem& o : document.objects) {
       count(o.cut);
       count(o.hand);
+      count(o.of_others);
       for (const StrokedView& view : o.views) count(view.seen);
     }
     return length_ < kMostNumbers &&

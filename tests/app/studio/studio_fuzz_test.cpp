@@ -75,7 +75,8 @@ class Fuzz {
       case 21:
         return studio_.apply(DuplicateObject{object()});
       case 22:
-        return studio_.apply(SeparateObject{object()});
+        return chance(50) ? studio_.apply(SeparateObject{object()})
+                          : studio_.apply(LeaveToOthers{object(), chance(70)});
       case 23:
         return chance(30) ? studio_.apply(DeleteSelected{}) : studio_.apply(RestoreDeleted{});
       case 24:

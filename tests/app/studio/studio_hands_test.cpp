@@ -371,6 +371,66 @@ TEST_CASE("hands: Tab goes from the path to the list of files, and Enter opens w
   CHECK(app.studio().scene()->scene->path.filename() == "beta.compressed.ply");
 }
 
+TEST_CASE("hands: a new object leaves to the others what they have, unless it is clicked on that") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  const auto apple = studio.labels(studio.document().active);
+  const glm::vec2 middle = hands.in_viewport(hands.app.screen_of(kOnApple));
+  ViewState view = studio.view();
+  view.see_through = true;
+  studio.apply(SetView{view});
+  const Camera camera = studio.viewport().pane_camera();
+  studio.apply(SelectRegion{
+      camera, rectangle_region({0, 0}, {middle.x, camera.height_px}, camera.width_px, camera.height_px),
+      SetOperation::kIntersect});
+  REQUIRE(hands.app.settle());
+  const auto left_half = studio.labels(1);
+  REQUIRE(count_flags(left_half) > 0);
+  const auto shared = [&](ObjectId object) {
+    const auto labels = studio.labels(object);
+    std::size_t both = 0;
+    for (std::size_t g = 0; g < labels.size(); ++g) both += labels[g] && left_half[g];
+    return both;
+  };
+  const auto click_new = [&](float aside) {
+    studio.apply(NewObject{});
+    hands.app.click(hands.app.screen_of(kOnApple) + glm::vec2(aside, 0));
+    REQUIRE(hands.app.settle());
+    return studio.document().active;
+  };
+  const ObjectId right = click_new(14);
+  CHECK(shared(right) == 0);
+  CHECK(hands.selected() > 0);
+  CHECK(std::ranges::any_of(studio.messages(), [](const Message& m) {
+    return m.text.find("Object 1 keeps") != std::string::npos;
+  }));
+  const ScratchFolder folder("of_others");
+  studio.apply(SaveWork{folder / "two.splatcut.json"});
+  REQUIRE(hands.app.settle());
+  Hands other(false);
+  other.app.open(folder / "two.splatcut.json");
+  REQUIRE(other.app.settle());
+  CHECK(other.studio().labels(right) == studio.labels(right));
+
+  studio.apply(LeaveToOthers{right, false});
+  REQUIRE(hands.app.settle());
+  CHECK(iou_of(studio.labels(right), apple) > 0.95);
+  studio.apply(LeaveToOthers{right, true});
+  REQUIRE(hands.app.settle());
+  CHECK(shared(right) == 0);
+  CHECK(studio.labels(1) == left_half);
+
+  studio.apply(RemoveObject{right});
+  float on_left = 0;  // where the first object shows
+  for (float aside = -2; aside > -40 && on_left == 0; --aside)
+    if (const auto hit = studio.viewport().pick(middle + glm::vec2(aside, 0));
+        hit && left_half[static_cast<std::size_t>(hit->gaussian)])
+      on_left = aside;
+  REQUIRE(on_left != 0);
+  const ObjectId on_it = click_new(on_left);
+  CHECK(shared(on_it) > count_flags(left_half) / 2);
+}
+
 TEST_CASE("hands: no two objects have one colour while others are free") {
   Hands hands(false);
   Studio& studio = hands.studio();
