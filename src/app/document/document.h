@@ -44,8 +44,8 @@ struct ObjectItem {
   std::string cut_key;                // cut_key() of the inputs of `cut`; empty: there is no cut yet
   // True if `cut` is older than the scene's present files: it stays as it is until the next stroke.
   bool cut_kept = false;
-  Flags hand;      // HandMark of each Gaussian
-  Flags of_others; // Gaussians that stay other objects' own: the cut takes none of them; null: it takes any
+  Flags hand;       // HandMark of each Gaussian
+  Flags of_others;  // Gaussians that stay other objects' own: the cut takes none of them; null: it takes any
 };
 
 inline constexpr std::size_t kMostObjects = 255;  // limit, as one byte per Gaussian names its object

@@ -11,7 +11,8 @@ const LabelCache::Kept& LabelCache::kept(const Document& document, const ObjectI
   const Flags limit = whole && whole->id != object.id ? labels(document, *whole, gaussians) : nullptr;
   Kept& kept = kept_[object.id];
   const bool current = kept.labels && kept.labels->size() == gaussians && kept.cut == object.cut &&
-                       kept.hand == object.hand && kept.of_others == object.of_others && kept.deleted == document.deleted && kept.whole == limit;
+                       kept.hand == object.hand && kept.of_others == object.of_others &&
+                       kept.deleted == document.deleted && kept.whole == limit;
   if (current) return kept;
   Flags fresh = make_flags(labels_of(document, object, gaussians));
   const std::size_t count = count_flags(*fresh);

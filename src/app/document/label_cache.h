@@ -18,7 +18,8 @@ class LabelCache {
 
  private:
   struct Kept {
-    Flags cut, hand, of_others, deleted, whole;  // inputs of the labels; whole: labels of the object around it
+    Flags cut, hand, of_others, deleted,
+        whole;  // inputs of the labels; whole: labels of the object around it
     Flags labels;
     std::size_t count = 0;
   };

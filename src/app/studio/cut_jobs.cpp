@@ -46,6 +46,11 @@ const CutRun* CutJobs::run(ObjectId object) const {
   return item ? known_run(object, item->cut_key) : nullptr;
 }
 
+bool CutJobs::comes(const ObjectItem& object) const {
+  const std::string& key = ws_.history.keys(object).cut;
+  return is_stale(object, key) && !given_up_.contains(key);
+}
+
 // Cuts that no object shows now are kept for undo and redo, the last few: one that is forgotten has no
 // pictures of its views then, as in opened work.
 void CutJobs::keep(Known fresh) {
@@ -80,9 +85,7 @@ void CutJobs::update() {
     end({});
   }
   for (const ObjectItem& object : document.objects) {
-    const std::string& key = ws_.history.keys(object).cut;
-    if (!is_stale(object, key) || given_up_.contains(key)) continue;
-    return start(object);
+    if (comes(object)) return start(object);
   }
   recall();
   renew_views();

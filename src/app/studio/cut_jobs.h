@@ -25,6 +25,9 @@ class CutJobs {
   ObjectId cutting() const { return running_ ? running_->object : 0; }  // object whose cut runs; 0: none
   std::uint64_t done() const { return done_; }                          // number of cuts finished so far
 
+  // True if the object's labels are on their way: its cut runs, or will.
+  bool comes(const ObjectItem& object) const;
+
   void reset();   // stops and forgets everything of the last scene
   void update();  // starts and stops cuts as the document asks; called once a frame
   // Cuts the active object again without anything that is cached. Throws Error if it has no strokes.

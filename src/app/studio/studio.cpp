@@ -84,6 +84,7 @@ void Studio::scene_opened(bool same) {
   edits_.reset();
   clicks_.reset();
   held_pointer_.clear();
+  held_actions_ = {};
   abandon_shape();
   hide_cursor();
   if (same) {
@@ -123,6 +124,7 @@ bool Studio::update(double seconds) {
     for (const auto& event : std::exchange(held_pointer_, {})) event();
   follow_document();
   cuts_.update();
+  run_held();
   const bool moves = viewport_.update(seconds, flight());
   clean_edges_.update();
   seen_views_.update();
@@ -205,6 +207,7 @@ bool Studio::cancel_task() {
 }
 
 void Studio::perform(const Cancel&) {
+  held_actions_ = {};
   if (cancel_task() || abandon_shape() || clicks_.decline_offer() || hide_cursor()) return;
   if (viewport_.floaters_shown()) return viewport_.show_floaters(false);
   if (ws_.view.display != DisplayMode::kWhole) return run(Action::kShowAll);

@@ -125,6 +125,8 @@ class Studio {
   void turn_over(DisplayMode mode);       // switches to that display, or back to the whole scene
   void side_by_side();
   void show_seen_heat();
+  bool hold_for_cut(Action action);
+  void run_held();
   void scale_brush(float factor);
   void step_camera(int direction);
   void hold(const Modifiers& modifiers);
@@ -155,6 +157,12 @@ class Studio {
   FreeSides free_sides_;
   std::set<int> held_keys_;
   std::vector<std::function<void()>> held_pointer_;
+  // Asked for while the object's first cut runs, and done when it is there; cut: its key.
+  struct Held {
+    std::string cut;
+    std::optional<Action> display, frame;
+  };
+  Held held_actions_;
   double brush_repeated_s_ = -1e9;
   std::optional<glm::vec2> mouse_px_;         // place of the mouse; none: it is beside the picture
   std::optional<glm::vec2> cursor_px_;        // see cursor_px()

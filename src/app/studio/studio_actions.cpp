@@ -171,11 +171,38 @@ std::string Studio::why_not(Action action) const {
   return row->why_not ? row->why_not(*this) : "";
 }
 
+// What needs the object's Gaussians waits for them where they are on their way: of I, H and B the last one.
+bool Studio::hold_for_cut(Action action) {
+  const bool frames = action == Action::kFrameObject;
+  const bool displays =
+      action == Action::kIsolate || action == Action::kHide || action == Action::kSideBySide;
+  const ObjectItem* object = document().active_object();
+  if ((!frames && !displays) || !object || !cuts_.comes(*object)) return false;
+  const std::string& cut = ws_.history.keys(*object).cut;
+  if (held_actions_.cut != cut) held_actions_ = {cut, {}, {}};
+  (frames ? held_actions_.frame : held_actions_.display) = action;
+  ws_.say(Message::Kind::kInfo, fmt::format("{}: as soon as {} is computed", name_of(action), object->name));
+  return true;
+}
+
+// Another stroke, object or step of the history, and Esc, drop what was held.
+void Studio::run_held() {
+  if (held_actions_.cut.empty()) return;
+  const ObjectItem* object = document().active_object();
+  const bool same = object && ws_.history.keys(*object).cut == held_actions_.cut;
+  if (same && cuts_.comes(*object)) return;
+  const Held held = std::exchange(held_actions_, {});
+  if (!same || gaussians_of(object->id) == 0) return;
+  for (const auto& action : {held.display, held.frame})
+    if (action) run(*action);
+}
+
 void Studio::run(Action action) {
   if (action == Action::kNone) return;
   const ActionRow* row = row_of(action);
   if (row && row->waits && edits_.waiting()) return edits_.in_turn([this, action] { run(action); });
   if (const std::string reason = why_not(action); !reason.empty()) {
+    if (hold_for_cut(action)) return;
     const bool hint = action == Action::kConfirm;  // pressed by the way; nothing is wrong
     ws_.say(hint ? Message::Kind::kInfo : Message::Kind::kRefused,
             hint ? reason : fmt::format("{}: {}", name_of(action), reason));

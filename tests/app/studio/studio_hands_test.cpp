@@ -431,6 +431,41 @@ TEST_CASE("hands: a new object leaves to the others what they have, unless it is
   CHECK(shared(on_it) > count_flags(left_half) / 2);
 }
 
+TEST_CASE("hands: keys that need the object wait for its first cut, the last of a kind") {
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  const auto click = [&](const glm::vec2& at) {
+    studio.apply(AddStroke{studio.viewport().pane_camera(),
+                           {SeedLabel::kObject, 4, {hands.in_viewport(hands.app.screen_of(at))}}});
+  };
+  const CameraPose pose = studio.camera().pose();
+  click(kOnApple);
+  studio.run(Action::kHide);
+  studio.run(Action::kIsolate);
+  studio.run(Action::kFrameObject);
+  CHECK(studio.view().display == DisplayMode::kWhole);
+  REQUIRE(hands.app.settle());
+  CHECK(studio.view().display == DisplayMode::kIsolate);
+  CHECK_FALSE(studio.camera().pose() == pose);
+
+  studio.apply(SetView{});
+  studio.apply(GoToCamera{studio.scene()->views().reference});
+  studio.apply(NewObject{});
+  REQUIRE(hands.app.settle());
+  click(kOnOrange);
+  studio.run(Action::kHide);
+  click(kOnOrange + glm::vec2(6, 0));  // another click drops it
+  REQUIRE(hands.app.settle());
+  CHECK(hands.selected() > 0);
+  CHECK(studio.view().display == DisplayMode::kWhole);
+  studio.apply(NewObject{});
+  click(kOnMug);
+  studio.run(Action::kHide);
+  studio.apply(Cancel{});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.view().display == DisplayMode::kWhole);
+}
+
 TEST_CASE("hands: no two objects have one colour while others are free") {
   Hands hands(false);
   Studio& studio = hands.studio();
