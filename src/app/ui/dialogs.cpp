@@ -378,12 +378,16 @@ void open_anyway_dialog(UiContext& ui) {
   const bool saves = button(ui, "Save...", "Save the work first  (Enter)", {}, true, 100) ||
                      (!opens && !stays && enter_pressed());
   if (opens) ui.state.open_now = ui.state.open_asked;
+  const std::optional<OpenScene> next = ui.state.open_asked;
   if (stays || saves || opens) {
     ui.state.open_asked.reset();
     ImGui::CloseCurrentPopup();
   }
-  if (saves) ui.ask(Action::kSave);
   ImGui::EndPopup();
+  if (!saves) return;
+  ui.state.files.folder.clear();  // it is the other scene's
+  open_file_dialog(ui, FilePurpose::kSaveWork);
+  ui.state.open_after_save = next;
 }
 
 void quit_dialog(UiContext& ui) {

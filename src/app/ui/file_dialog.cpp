@@ -91,6 +91,7 @@ void use_choice(UiContext& ui, std::filesystem::path path, bool asked) {
 void back_to_caller(UiContext& ui) {
   if (ui.state.file_purpose == FilePurpose::kExport) ui.state.export_open = true;
   if (ui.state.file_purpose == FilePurpose::kTurntable) ui.state.turntable_open = true;
+  ui.state.open_after_save.reset();
 }
 
 void entry_list(FileBrowser& files, float height, bool moved, bool double_clicked, bool* chosen) {
@@ -200,6 +201,7 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
   const Kind kind = kind_of(purpose);
   FileBrowser& files = ui.state.files;
   ui.state.file_purpose = purpose;
+  ui.state.open_after_save.reset();
   files.title = kind.title;
   files.extensions = kind.shown;
   files.saving = files.name_first = purpose != FilePurpose::kOpen && purpose != FilePurpose::kAdd;
@@ -215,6 +217,10 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
   if (purpose == FilePurpose::kTurntable && !ui.state.turntable.path.empty()) {
     files.name = std::filesystem::path(ui.state.turntable.path).filename().string();
     start = std::filesystem::path(ui.state.turntable.path).parent_path();
+  }
+  if (const auto& saved = ui.studio.work().work_path(); purpose == FilePurpose::kSaveWork && !saved.empty()) {
+    files.name = saved.filename().string();
+    start = saved.parent_path();
   }
   if (start.empty())
     start = ui.studio.scene() ? std::filesystem::absolute(ui.studio.scene()->scene->path).parent_path()
@@ -304,7 +310,11 @@ void replace_dialog(UiContext& ui) {
   }
   ImGui::EndPopup();
   if (replaces) use(ui, path);
-  if (keeps && ui.state.native_wanted) open_file_dialog(ui, ui.state.file_purpose);
+  if (keeps && ui.state.native_wanted) {
+    const std::optional<OpenScene> next = ui.state.open_after_save;
+    open_file_dialog(ui, ui.state.file_purpose);
+    ui.state.open_after_save = next;
+  }
   if (keeps && !ui.state.native_wanted) ui.state.files.open = ui.state.files.name_first = true;
 }
 

@@ -211,6 +211,7 @@ void Application::handle_one(const FileDropped& event) {
 }
 
 void Application::open(const OpenScene& command) {
+  interface_.state().open_after_save.reset();
   if (studio_.unsaved())
     interface_.state().open_asked = command;
   else
@@ -265,6 +266,8 @@ bool Application::frame(double seconds) {
     else
       studio_.apply(command);
   }
+  auto& next = interface_.state().open_after_save;
+  if (next && !studio_.unsaved()) interface_.state().open_now = std::exchange(next, {});
   if (const auto command = std::exchange(interface_.state().open_now, {})) studio_.apply(*command);
   times.requests = lap();
   if (times.total() > longest_.total()) longest_ = times;

@@ -495,6 +495,43 @@ TEST_CASE("opening asks before unsaved work goes, dropped files and recent ones 
   CHECK(app.studio().scene()->serial != before);
 }
 
+TEST_CASE("what was to be opened is opened once the work is saved, which goes beside its own scene") {
+  const ScratchFolder own("own_scene"), other("other_scene");
+  for (const ScratchFolder* folder : {&own, &other})
+    std::filesystem::copy_file(kSmallSample, folder->path() / kSmallSample.filename());
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  app.open(own.path() / kSmallSample.filename());
+  REQUIRE(app.settle());
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(app.settle());
+  const auto scene = [&] { return app.studio().scene()->scene->path.parent_path(); };
+  const auto ask = [&] {
+    app.interface_state().files.folder = other.path();  // where the other one was chosen
+    app.open(other.path() / kSmallSample.filename());
+    app.frames(3);
+    app.press_item("###open_anyway", {"Save..."});
+    app.frames(3);
+    REQUIRE(app.interface_state().files.saving);
+    CHECK(std::filesystem::equivalent(app.interface_state().files.folder, own.path()));
+  };
+  ask();
+  app.key(key::kEscape);  // neither saved nor opened
+  REQUIRE(app.settle());
+  CHECK(std::filesystem::equivalent(scene(), own.path()));
+  app.studio().apply(SaveWork{own / "by_itself.splatcut.json"});
+  REQUIRE(app.settle());
+  CHECK(std::filesystem::equivalent(scene(), own.path()));
+  app.studio().apply(EditSelection{SelectionEdit::kInvert});
+  REQUIRE(app.settle());
+  ask();
+  CHECK(app.interface_state().files.name == "by_itself.splatcut.json");
+  app.key(key::kEnter);
+  app.frames(3);
+  REQUIRE(app.settle());
+  CHECK(std::filesystem::equivalent(scene(), other.path()));
+  CHECK_FALSE(app.studio().unsaved());
+}
+
 TEST_CASE("objects: one byte per Gaussian names 255 of them, the 256th is refused with a sentence") {
   const ScratchFolder folder("objects");
   Document document;
