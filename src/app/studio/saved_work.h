@@ -66,7 +66,7 @@ class SavedWork {
   // Serials of the documents that the autosave and the user's file hold; 0: the file holds none.
   std::uint64_t autosaved_serial_ = 0, saved_serial_ = 0;
   std::uint64_t waiting_serial_ = 0;  // serial of the document that waits to be autosaved
-  double waited_s_ = 0;
+  double waited_s_ = 0, written_in_s_ = 0;
   CameraPose autosaved_pose_;
 };
 

@@ -10,7 +10,7 @@
 namespace splatcut {
 
 Studio::Studio(const StudioOptions& options)
-    : ws_{.options = options, .tasks = tasks_, .quick = quick_},
+    : ws_{.options = options, .tasks = tasks_, .writes = writes_, .quick = quick_},
       cuts_(ws_),
       viewport_(ws_, cuts_),
       edits_(ws_, viewport_, cuts_),
@@ -25,8 +25,9 @@ Studio::Studio(const StudioOptions& options)
       seen_views_(ws_, viewport_, cuts_),
       free_sides_(ws_, viewport_),
       tasks_(options.wake, options.inline_tasks),
+      writes_(options.wake, options.inline_tasks),
       quick_(options.wake, options.inline_tasks) {
-  tasks_.on_error =
+  tasks_.on_error = writes_.on_error =
       quick_.on_error = [this](const std::string& text) { ws_.say(Message::Kind::kError, text); };
 }
 
@@ -120,6 +121,7 @@ bool Studio::update(double seconds) {
   ws_.clock_s += seconds;
   tasks_.deliver();
   quick_.deliver();
+  writes_.deliver();
   if (viewport_.display_current())
     for (const auto& event : std::exchange(held_pointer_, {})) event();
   follow_document();
@@ -149,7 +151,7 @@ std::size_t Studio::neighbourhoods() const {
 }
 
 bool Studio::idle() const {
-  return tasks_.idle() && quick_.idle() && viewport_.idle();
+  return tasks_.idle() && quick_.idle() && writes_.idle() && viewport_.idle();
 }
 
 ToolOverlay Studio::overlay() const {

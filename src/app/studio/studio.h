@@ -171,7 +171,7 @@ class Studio {
   std::uint64_t followed_serial_ = 0;         // serial of the document that follow_document() saw last
 
   // Last members: the threads end before what they may call is destroyed.
-  TaskThread tasks_, quick_;
+  TaskThread tasks_, writes_, quick_;
 };
 
 }  // namespace splatcut

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <thread>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/work_cut.h"
@@ -213,6 +214,30 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   CHECK_FALSE(std::filesystem::exists(folder / "autosave.splatcut.json"));  // it is in the other now
   const auto again = open_scene(read_work_file(own).files);
   CHECK(same(restored(read_work_file(own), *again).document, saved));
+}
+
+TEST_CASE("a cut is saved by itself within a second of its answer, while pictures of it are made") {
+  const ScratchFolder folder("soon");
+  ApplicationOptions options = with_kept_scenes();
+  options.studio.state_folder = folder.path();
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  opened(app);
+  app.click(app.screen_of(kOnApple));
+  Studio& studio = app.studio();
+  while (studio.gaussians_of(studio.document().active) == 0) app.frames(1);  // in the middle of its work
+  const auto kept = [&] {
+    if (!std::filesystem::exists(studio.work().own_autosave())) return false;
+    const WorkFile work = read_work_file(studio.work().own_autosave());
+    const nlohmann::json& objects = (*work.content)["objects"];
+    return !objects.empty() && objects[0]["cut_is_current"].get<bool>();
+  };
+  for (int tenth = 0; tenth < 8; ++tenth) {  // of a second of the program's clock
+    app->frame(0.1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  for (int i = 0; i < 400 && !kept(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  CHECK(kept());
+  REQUIRE(app.settle());
 }
 
 TEST_CASE("work of a program that a signal ends is offered as it was, without a moment for saving it") {
