@@ -67,8 +67,7 @@ Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::ve
   if (scene.origin != glm::dvec3(0)) cameras = cameras_near(file->path, scene.origin);
   if (stand_otherwise(cameras, scene.up)) {
     cameras.clear();
-    scene.oddity += scene.oddity.empty() ? "" : ". ";
-    scene.oddity += "the cameras beside it stand otherwise than it says of up, and are left out";
+    file->cameras_are_others = true;
   }
   const SceneSource* known = before ? before->file(file->id) : nullptr;
   const std::uint64_t hash = hash_of_file(scene.path);

@@ -59,6 +59,7 @@ struct SceneSource {
   std::size_t file_rows = 0, gaussians = 0;
   SceneLevels levels;  // none of a file that has one
   std::shared_ptr<const FileViews> views;
+  bool cameras_are_others = false;  // those beside it stand otherwise than it says of up, and are left out
   Box bounds;  // framed_bounds() of the file before it is placed; `place` turns and scales about its middle
   Box solid;  // solid_bounds() of a file that was added, before it is placed: what it stands on, what is seen
 };

@@ -62,14 +62,15 @@ bool Clicks::hits_anything(const AddStroke& c) const {
 // A message if the click changes nothing, as the screen shows it so already; else empty.
 std::string Clicks::already_so(const AddStroke& c) const {
   const ObjectItem* object = ws_.document().active_object();
-  if (!object || !any_mark(*object) || !c.stroke.is_click() || viewport_.panes() == 2 ||
+  if (!object || !any_mark(*object) || cuts_.comes(*object) || !c.stroke.is_click() || viewport_.panes() == 2 ||
       !viewport_.active_labels() || !same_camera(c.camera, viewport_.pane_camera()))
     return {};
   const auto hit = viewport_.pick(c.stroke.points_px.front());
   if (!hit) return {};
   const bool is_part = (*viewport_.active_labels())[static_cast<std::size_t>(hit->gaussian)] != 0;
   if (is_part != (c.stroke.label == SeedLabel::kObject)) return {};
-  return fmt::format("That is {} of {} already, and stays so", is_part ? "part" : "no part", object->name);
+  return is_part ? fmt::format("That is part of {} already, and stays so", object->name)
+                 : fmt::format("That is not part of {} as it is", object->name);
 }
 
 // A new object takes nothing that others have, unless it is clicked on that: then it is a part of it, or they

@@ -314,16 +314,22 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
     const ObjectItem* item = ws_.document().find(order.object);
     return item ? ws_.labels.labels(ws_.document(), *item, ws_.gaussians()) : nullptr;
   };
-  const Flags before = labels_now();
+  Flags before = labels_now();
   ws_.history.set_cut(order.object, order.key, labels);
   keep({order.object, std::move(run)});
   if (!before) return;  // the object is gone; undo may bring it back
   const std::string& name = ws_.document().find(order.object)->name;
   if (result->outcome == Outcome::kNothingFound)
     return ws_.say(Message::Kind::kRefused, name + ": " + result->reason);
+  const History::Entry& step = ws_.history.entries()[ws_.history.cursor()];
+  const bool stroked = step.title.starts_with("Click") || step.title.starts_with("Scribble");
+  if (stroked && ws_.history.can_undo()) {  // a cut may be made twice: what counts is what was before the stroke
+    const Document& last = ws_.history.entries()[ws_.history.cursor() - 1].document;
+    const ObjectItem* item = last.find(order.object);
+    before = make_flags(item ? labels_of(last, *item, ws_.gaussians())
+                             : std::vector<std::uint8_t>(ws_.gaussians(), 0));
+  }
   const std::string changed = what_changed(*before, *labels_now(), seconds);
-  const std::string& step = ws_.history.entries()[ws_.history.cursor()].title;
-  const bool stroked = step.starts_with("Click") || step.starts_with("Scribble");
   if (stroked && *before == *labels_now() && count_flags(*before) > 0) {
     if (CutRun* kept = known_run(order.object, order.key)) kept->changed_nothing = true;
     return ws_.say(

@@ -17,17 +17,27 @@ double sum(const Image<float>& image) {
   return std::accumulate(image.pixels().begin(), image.pixels().end(), 0.0);
 }
 
-// The share of the object's picture that others hide.
+// The share of the object's picture that others hide who stand `apart` or more before it. What it is set into,
+// and the blurred splats around it, do not.
 double hidden_share(const OpenedScene& scene, const std::vector<std::uint8_t>& labels, const Camera& camera,
-                    const Job& job) {
+                    float apart, const Job& job) {
   RasterOptions options;
   options.colour = false;
+  options.depth = true;
   options.labels = labels;
   options.blocks = scene.blocks.get();
-  const double seen = sum(rasterize(*scene.cloud, camera, options, job).label_share);
+  const RasterOutput seen = rasterize(*scene.cloud, camera, options, job);
   options.shown = labels;
-  const double alone = sum(rasterize(*scene.cloud, camera, options, job).label_share);
-  return alone > 0 ? 1 - seen / alone : 0;
+  const RasterOutput alone = rasterize(*scene.cloud, camera, options, job);
+  if (job.cancelled()) return 0;
+  double hidden = 0;
+  for (std::size_t i = 0; i < alone.label_share.pixels().size(); ++i) {
+    const float z = seen.median_depth.pixels()[i];  // 0: nothing there is opaque
+    if (z > 0 && z < alone.median_depth.pixels()[i] - apart)
+      hidden += alone.label_share.pixels()[i] - seen.label_share.pixels()[i];
+  }
+  const double all = sum(alone.label_share);
+  return all > 0 ? hidden / all : 0;
 }
 
 }  // namespace
@@ -61,14 +71,16 @@ void FreeSides::frame() {
   for (const glm::quat& rotation : camera.directions_around()) sides.push_back(framed(rotation));
   camera.frame(sides.front());
   if (ws_.view.display != DisplayMode::kWhole) return;
+  constexpr float kApart = 0.25f;  // of the object's size
+  const float apart = kApart * glm::length(robust_bounds(positions).extent());
   const int height_px = std::max(1, kWidthPx * pane.height_px / std::max(1, pane.width_px));
-  ws_.tasks.submit(TaskKind::kSides, [this, sides, height_px, name = object->name, scene = ws_.scene,
+  ws_.tasks.submit(TaskKind::kSides, [this, sides, height_px, apart, name = object->name, scene = ws_.scene,
                                       labels = ws_.labels.labels(ws_.document(), *object, ws_.gaussians())](
                                          const Job& job) {
     constexpr double kMuch = 0.25, kBetter = 0.15, kAsGood = 0.03;
     std::vector<double> hidden;
     for (const Framing& side : sides) {
-      hidden.push_back(hidden_share(*scene, *labels, camera_at(side.pose, kWidthPx, height_px), job));
+      hidden.push_back(hidden_share(*scene, *labels, camera_at(side.pose, kWidthPx, height_px), apart, job));
       if (job.cancelled() || hidden.front() < kMuch) return;
     }
     const double least = std::ranges::min(hidden);

@@ -70,7 +70,10 @@ std::string without_strokes(const Studio& s) {
 
 std::string without_cameras(const Studio& s) {
   if (!s.scene()) return without_scene(s);
-  return s.scene()->views().cameras.empty() ? "No camera file was found beside the scene" : "";
+  if (!s.scene()->views().cameras.empty()) return "";
+  return s.scene()->files.front().cameras_are_others
+             ? "The cameras beside the scene stand otherwise than it says which way is up: they are not its own"
+             : "No camera file was found beside the scene";
 }
 
 std::string without_polygon(const Studio& s) {

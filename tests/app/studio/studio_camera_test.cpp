@@ -12,6 +12,7 @@
 #include "scene/cloud/strays.h"
 #include "scene/raster/rasterizer.h"
 #include "segment/masks/mask_tools.h"
+#include "synthetic_cloud.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -246,6 +247,32 @@ TEST_CASE("hands: where something stands before the object, F again looks from a
   studio.camera().set_pose(worst);  // an offer is for the view in which it was made
   REQUIRE(hands.app.settle());
   CHECK(frame() == first);
+}
+
+TEST_CASE("hands: what an object is set into does not stand before it") {
+  const ScratchFolder folder("rivet");
+  Scene scene;  // half of a ball in a sheet whose blurred splats lie over it, seen from the front
+  GaussianCloud& cloud = scene.cloud;
+  constexpr std::size_t kBall = 400, kSheet = 3000;
+  cloud = random_cloud(kBall + kSheet, 5, 0, 0.04f);
+  for (std::size_t g = 0; g < cloud.size(); ++g) {
+    const bool ball = g < kBall;
+    const glm::vec3 p = cloud.position[g];
+    cloud.position[g] = ball ? 0.1f * glm::normalize(p) : glm::vec3(p.x, p.y, 0.05f * p.z - 0.06f);
+    cloud.opacity[g] = ball ? 0.9f : 0.5f;
+  }
+  scene.file_rows = cloud.size();
+  save_scene(folder / "rivet.ply", scene, {}, SceneFormat::kPly);
+  Hands hands(false, with_kept_scenes(), folder / "rivet.ply");
+  Studio& studio = hands.studio();
+  studio.apply(SelectVolume{{true, {0, 0, 0}, glm::vec3(0.11f)}});
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.selected() > kBall / 2);
+  studio.apply(GoToCamera{look_at({0, 0, -1}, {0, 0, 0}, {0, -1, 0}, 0.9f, 640, 480)});
+  REQUIRE(hands.app.settle());
+  hands.app.key('F');
+  REQUIRE(hands.app.settle());
+  CHECK(hands.said().find("stands before") == std::string::npos);
 }
 
 TEST_CASE("hands: while a flight key is held the wheel changes the speed, else it goes nearer") {

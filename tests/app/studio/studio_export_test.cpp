@@ -177,7 +177,8 @@ TEST_CASE(
         // The capture's cameras stay where they stand as the file does.
         const bool theirs = beside_cameras && turned == ExportUp::kScene;
         CHECK(scene.views().cameras.empty() != theirs);
-        CHECK(scene.remarks.empty() == (theirs || !beside_cameras));
+        CHECK(scene.remarks.empty());
+        CHECK(scene.files.front().cameras_are_others == (beside_cameras && !theirs));
       }
   }
   const auto guessed = [&] {

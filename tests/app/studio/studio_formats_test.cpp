@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "headless_app.h"
+#include "hands.h"
 #include "scene/cloud/scene_memory.h"
 #include "scene_file_helpers.h"
 #include "synthetic_cloud.h"
@@ -114,6 +114,21 @@ TEST_CASE(
   app.open(work);
   REQUIRE(app.settle());
   CHECK(gaussians() == 200);
+}
+
+TEST_CASE("formats: cameras of another scene beside an export that says its up are left out without a toast") {
+  const ScratchFolder folder("others_cameras");
+  std::filesystem::copy_file(kSampleFolder / "cameras.json", folder / "cameras.json");
+  Hands hands;
+  ExportRequest request{ExportWhat::kObject, SceneFormat::kPly, folder / "apple.ply"};
+  request.placement.up = ExportUp::kPlusZ;
+  hands.studio().apply(Export{request});
+  REQUIRE(hands.app.settle());
+  hands.studio().apply(OpenScene{folder / "apple.ply"});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().scene()->views().cameras.empty());
+  for (const Message& m : hands.studio().messages()) CHECK(m.text.find("otherwise") == std::string::npos);
+  CHECK(hands.studio().why_not(Action::kNextCamera).find("not its own") != std::string::npos);
 }
 
 TEST_CASE("formats: a scene on a map is worked on near 0, 0, 0, with its cameras, and exported on the map") {
