@@ -29,28 +29,31 @@ bool is_scene(const std::string& word) {
   return has_scene_extension(word) || word.ends_with(".splatcut.json");
 }
 
-// A scene of several files, by its folder.
-bool is_folder(const std::string& word) {
+// A scene of several files by its folder, or a file that the window says what is wrong with.
+bool is_there(const std::string& word) {
   std::error_code ignored;
-  return std::filesystem::is_directory(word, ignored);
+  return std::filesystem::exists(word, ignored);
 }
 
 bool is_command(const std::string& word) {
   return std::ranges::any_of(kCommands, [&](const Command& command) { return command.name == word; });
 }
 
-// Options first, then a scene and no command: `splatcut --width 1280 scene.ply`.
+// Options first and no command before what could be a scene: `splatcut --width 1280 scene.ply`, also without
+// a scene. Help and version are the program's own.
 bool only_options_before_scene(const std::vector<std::string>& words) {
   if (words.empty() || !words.front().starts_with('-')) return false;
+  constexpr std::array kOwn = {"-h", "--help", "--version"};
+  if (std::ranges::any_of(kOwn, [&](const char* own) { return words.front() == own; })) return false;
   const auto first =
       std::ranges::find_if(words, [](const std::string& word) { return is_scene(word) || is_command(word); });
-  return first != words.end() && is_scene(*first);
+  return first == words.end() || is_scene(*first);
 }
 
 // `splatcut`, `splatcut SCENE` and `splatcut OPTIONS SCENE` mean `splatcut view`.
 std::vector<std::string> with_command(std::vector<std::string> words) {
   if (words.empty() || is_scene(words.front()) || only_options_before_scene(words) ||
-      (!is_command(words.front()) && is_folder(words.front())))
+      (!is_command(words.front()) && is_there(words.front())))
     words.insert(words.begin(), "view");
   return words;
 }

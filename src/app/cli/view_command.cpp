@@ -51,7 +51,7 @@ void add_view_command(CLI::App& program, const CommonOptions& common) {
   command.footer("Example: splatcut view scene.ply");
   command.add_option("scene", args->window.open, "Scene file or .splatcut.json");
   command.add_option("more", args->window.added,
-                     "Further scenes in the same window, each in its own coordinates");
+                     "Further scenes in the same window, upright on what the first view has in its middle");
   args->how.add_to(command);
   command
       .add_option("--renderer", args->renderer,

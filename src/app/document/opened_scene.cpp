@@ -60,7 +60,8 @@ void choose_level(SceneSource* file, std::vector<std::string>* remarks) {
 }
 
 Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::vector<std::string>* remarks) {
-  std::vector<Camera> cameras = cameras_near(file->path);
+  std::string no_cameras;
+  std::vector<Camera> cameras = cameras_near(file->path, {}, &no_cameras);
   choose_level(file, remarks);
   Scene scene = load_scene(file->path, {file->spz_axes, cameras, file->lod.value_or(0), file->origin}, job);
   if (job.cancelled()) return scene;
@@ -75,8 +76,8 @@ Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::ve
     throw Error(scene.path.string(), "was changed by another program since it was opened", "Open it again");
   const bool asked = file->spz_axes.has_value();
   const bool said = file->levels.gaussians.size() > 1;  // that levels are left out
-  for (const std::string& remark :
-       {said ? std::string() : scene.left_out, scene.oddity, asked ? std::string() : scene.axes_note})
+  for (const std::string& remark : {said ? std::string() : scene.left_out, no_cameras, scene.oddity,
+                                    asked ? std::string() : scene.axes_note})
     if (!known && !remark.empty()) remarks->push_back(remark);
   file->path = scene.path;
   file->spz_axes = scene.taken_axes;
@@ -134,15 +135,20 @@ std::string remark_on_level(const SceneLevels& levels, unsigned level,
                      levels.gaussians.size(), why);
 }
 
-std::vector<Camera> cameras_near(const std::filesystem::path& scene, const glm::dvec3& origin) {
+std::vector<Camera> cameras_near(const std::filesystem::path& scene, const glm::dvec3& origin,
+                                 std::string* why_none) {
   std::filesystem::path folder = std::filesystem::absolute(scene).parent_path();
   for (int level = 0; level < 3; ++level) {
     for (const char* name : {"cameras.json", "transforms.json", "sparse/0"}) {
       if (!std::filesystem::exists(folder / name)) continue;
       try {
-        return load_cameras(folder / name, nullptr, origin);
-      } catch (const Error&) {
+        std::vector<Camera> cameras = load_cameras(folder / name, nullptr, origin);
+        if (why_none) why_none->clear();
+        return cameras;
+      } catch (const Error& error) {
         // A file of that name with other content must not keep the scene from opening.
+        if (why_none && why_none->empty())
+          *why_none = fmt::format("No cameras were read from {}: {}", name, error.what());
       }
     }
     if (!folder.has_parent_path() || folder == folder.parent_path()) break;

@@ -48,7 +48,8 @@ std::string remark_on_level(const SceneLevels& levels, unsigned level,
 
 // Capture cameras that lie beside a scene: cameras.json, transforms.json or a COLMAP folder (sparse/0) in its
 // folder or one of the two above. Empty if there are none that can be read. origin: as in load_cameras().
-std::vector<Camera> cameras_near(const std::filesystem::path& scene,
-                                 const glm::dvec3& origin = glm::dvec3(0));
+// why_none: a sentence about such a file that holds none, if none of them holds any.
+std::vector<Camera> cameras_near(const std::filesystem::path& scene, const glm::dvec3& origin = glm::dvec3(0),
+                                 std::string* why_none = nullptr);
 
 }  // namespace splatcut

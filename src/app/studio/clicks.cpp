@@ -62,8 +62,8 @@ bool Clicks::hits_anything(const AddStroke& c) const {
 // A message if the click changes nothing, as the screen shows it so already; else empty.
 std::string Clicks::already_so(const AddStroke& c) const {
   const ObjectItem* object = ws_.document().active_object();
-  if (!object || !any_mark(*object) || cuts_.comes(*object) || !c.stroke.is_click() || viewport_.panes() == 2 ||
-      !viewport_.active_labels() || !same_camera(c.camera, viewport_.pane_camera()))
+  if (!object || !any_mark(*object) || cuts_.comes(*object) || !c.stroke.is_click() ||
+      viewport_.panes() == 2 || !viewport_.active_labels() || !same_camera(c.camera, viewport_.pane_camera()))
     return {};
   const auto hit = viewport_.pick(c.stroke.points_px.front());
   if (!hit) return {};

@@ -323,7 +323,8 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
     return ws_.say(Message::Kind::kRefused, name + ": " + result->reason);
   const History::Entry& step = ws_.history.entries()[ws_.history.cursor()];
   const bool stroked = step.title.starts_with("Click") || step.title.starts_with("Scribble");
-  if (stroked && ws_.history.can_undo()) {  // a cut may be made twice: what counts is what was before the stroke
+  if (stroked &&
+      ws_.history.can_undo()) {  // a cut may be made twice: what counts is what was before the stroke
     const Document& last = ws_.history.entries()[ws_.history.cursor() - 1].document;
     const ObjectItem* item = last.find(order.object);
     before = make_flags(item ? labels_of(last, *item, ws_.gaussians())

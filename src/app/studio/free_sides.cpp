@@ -17,8 +17,8 @@ double sum(const Image<float>& image) {
   return std::accumulate(image.pixels().begin(), image.pixels().end(), 0.0);
 }
 
-// The share of the object's picture that others hide who stand `apart` or more before it. What it is set into,
-// and the blurred splats around it, do not.
+// The share of the object's picture that others hide who stand `apart` or more before it. What it is set
+// into, and the blurred splats around it, do not.
 double hidden_share(const OpenedScene& scene, const std::vector<std::uint8_t>& labels, const Camera& camera,
                     float apart, const Job& job) {
   RasterOptions options;

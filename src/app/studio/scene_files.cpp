@@ -53,28 +53,38 @@ void SceneFiles::perform(const OpenScene& c) {
   stop_for_loading();
   changing_to_.clear();
   std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes, .lod = c.lod}};
-  for (const std::filesystem::path& added : c.added) files.push_back({.path = added});
-  ws_.tasks.submit(
-      TaskKind::kLoad, [this, path = c.path, files, serial, id = next_file_id_](const Job& job) mutable {
-        std::optional<WorkFile> file;
-        if (is_work_file(path)) file = read_work_file(path);
-        if (file && files.size() > 1)
-          throw Error(path.filename().string(), "is saved work: other scenes cannot be opened with it",
-                      "Open it, then add them");
-        if (file) files = file->files;
-        for (SceneSource& source : files) source.id = id++;
-        const std::shared_ptr<OpenedScene> scene = open_scene(files, job);
-        if (job.cancelled()) return;
-        scene->serial = serial;
-        std::optional<RestoredWork> work;
-        if (file) work = restored(*file, *scene);
-        ws_.tasks.post([this, scene, work, id, work_path = file ? path : std::filesystem::path()] {
-          next_file_id_ = std::max(next_file_id_, id);
-          opened(scene, work, work_path);
-          for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
-          if (work && !work->warning.empty()) ws_.say(Message::Kind::kInfo, work->warning);
-        });
-      });
+  ws_.tasks.submit(TaskKind::kLoad, [this, path = c.path, files, added = c.added, serial,
+                                     id = next_file_id_](const Job& job) mutable {
+    std::optional<WorkFile> file;
+    if (is_work_file(path)) file = read_work_file(path);
+    if (file && !added.empty())
+      throw Error(path.filename().string(), "is saved work: other scenes cannot be opened with it",
+                  "Open it, then add them");
+    if (file) files = file->files;
+    for (SceneSource& source : files) source.id = id++;
+    const std::shared_ptr<OpenedScene> scene = open_scene(files, job);
+    if (job.cancelled()) return;
+    scene->serial = serial;
+    std::optional<RestoredWork> work;
+    if (file) work = restored(*file, *scene);
+    ws_.tasks.post([this, scene, work, id, added, work_path = file ? path : std::filesystem::path()] {
+      next_file_id_ = std::max(next_file_id_, id);
+      opened(scene, work, work_path);
+      for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
+      if (work && !work->warning.empty()) ws_.say(Message::Kind::kInfo, work->warning);
+      add_all(added);
+    });
+  });
+}
+
+// Those that were asked for with the scene come in by the door of any other.
+void SceneFiles::add_all(const std::vector<std::filesystem::path>& added) {
+  const glm::vec3 onto_world = viewport_.looked_at_world();
+  for (const std::filesystem::path& path : added) try {
+      perform(AddScene{path, {}, onto_world});
+    } catch (const Error& error) {
+      ws_.say(Message::Kind::kRefused, error.what());
+    }
 }
 
 void SceneFiles::cancel_loading() {

@@ -47,6 +47,7 @@ class SceneFiles {
               const std::filesystem::path& work_path);
   void start_preparing();
   void stop_for_loading();
+  void add_all(const std::vector<std::filesystem::path>& added);
   void take(const std::shared_ptr<const OpenedScene>& scene);
   // Files of the scene after the changes that are under way.
   std::vector<SceneSource> wanted_files() const;

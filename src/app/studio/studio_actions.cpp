@@ -71,9 +71,9 @@ std::string without_strokes(const Studio& s) {
 std::string without_cameras(const Studio& s) {
   if (!s.scene()) return without_scene(s);
   if (!s.scene()->views().cameras.empty()) return "";
-  return s.scene()->files.front().cameras_are_others
-             ? "The cameras beside the scene stand otherwise than it says which way is up: they are not its own"
-             : "No camera file was found beside the scene";
+  return s.scene()->files.front().cameras_are_others ? "The cameras beside the scene stand otherwise than it "
+                                                       "says which way is up: they are not its own"
+                                                     : "No camera file was found beside the scene";
 }
 
 std::string without_polygon(const Studio& s) {

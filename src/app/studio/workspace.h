@@ -31,9 +31,9 @@ struct StudioOptions {
 
 struct Workspace {
   StudioOptions options;
-  TaskThread& tasks;  // worker that loads, prepares, cuts and writes files, which takes seconds
+  TaskThread& tasks;   // worker that loads, prepares, cuts and writes files, which takes seconds
   TaskThread& writes;  // worker for autosaves, which wait for no cut
-  TaskThread& quick;  // worker for selections and styles, which take a few passes over the Gaussians
+  TaskThread& quick;   // worker for selections and styles, which take a few passes over the Gaussians
 
   History history{};
   ViewState view{};

@@ -454,6 +454,14 @@ TEST_CASE("a folder without a command is a scene to view, unless a command has i
   place.make_folder("garden");
   place.make_folder("info");
   CHECK(place.run("garden --check").err.find("subcommand") == std::string::npos);
+  place.write("cam.json", "{}");
+  for (const std::string words : {"--width 800 --height 600", "--width 800 garden", "--width 800 cam.json",
+                                  "cam.json", "--renderer cpu nowhere"}) {
+    CAPTURE(words);
+    CHECK(place.run(words + " --check").err.find("subcommand") == std::string::npos);
+  }
+  CHECK(place.run("--width 800 nowhere").err.find("nowhere: there is no such file") != std::string::npos);
+  CHECK(place.run("--help").code == 0);
   CHECK(place.run("nowhere --check").err.find("subcommand") != std::string::npos);
   CHECK(place.run("info --check").code == 2);  // is no option of `info`
 }

@@ -307,6 +307,32 @@ TEST_CASE(
   CHECK(last_file(hands).place == stands);
 }
 
+TEST_CASE(
+    "several scenes: those opened together stand upright on what the first view shows, as one added later") {
+  const ScratchFolder folder("several_at_once");
+  Scene lying;
+  lying.cloud = random_cloud(kAdded, 4, 0);
+  lying.file_rows = lying.cloud.size();
+  lying.up = glm::vec3(1, 0, 0);
+  save_scene(folder / "lying.ply", lying, {}, SceneFormat::kPly);
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  const auto a = small_scene(folder, "a.ply");
+  studio.apply(OpenScene{kSmallSample, {}, {folder / "lying.ply", a}});
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.scene()->files.size() == 3);
+  const glm::vec3 up = studio.document().up_world;
+  const SceneSource &first = studio.scene()->files[1], &second = studio.scene()->files[2];
+  CHECK(first.path == folder / "lying.ply");
+  CHECK_FALSE(why_upright(first, first.place, up).empty());
+  CHECK(first.place != ScenePlace{});
+  CHECK(glm::distance(foot_world(first, up), foot_world(second, up)) < 1e-3f * studio.camera().scene_size());
+  studio.apply(OpenScene{kSmallSample, {}, {folder / "no.ply"}});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.scene()->files.size() == 1);
+  CHECK(hands.said().find("no.ply") != std::string::npos);
+}
+
 TEST_CASE("several scenes: F frames what is placed, and the object that was clicked since") {
   const ScratchFolder folder("several_framed");
   Hands hands(false);

@@ -265,12 +265,15 @@ TEST_CASE("clicks: what is shown as said already gets a word") {
 TEST_CASE("clicks: of what is still computed nothing is said to be so already") {
   Artist artist(on_sample("apple", kOnApple));
   artist.app.click(artist.screen_of(kOnApple));
-  artist.studio().apply(AddStroke{artist.studio().viewport().pane_camera(), {SeedLabel::kRest, 4, {{60, 60}}}});
-  for (const Message& m : artist.studio().messages()) CHECK(m.text.find("That is not part") == std::string::npos);
+  artist.studio().apply(
+      AddStroke{artist.studio().viewport().pane_camera(), {SeedLabel::kRest, 4, {{60, 60}}}});
+  for (const Message& m : artist.studio().messages())
+    CHECK(m.text.find("That is not part") == std::string::npos);
   REQUIRE(artist.app.settle());
 }
 
-TEST_CASE("clicks: a stroke that changed the object is not said to have changed nothing, computed twice or not") {
+TEST_CASE(
+    "clicks: a stroke that changed the object is not said to have changed nothing, computed twice or not") {
   Artist artist(on_sample("apple", kOnApple));
   artist.click_on_it();
   const Labels before = artist.labels();
@@ -278,5 +281,6 @@ TEST_CASE("clicks: a stroke that changed the object is not said to have changed 
   REQUIRE(artist.labels() != before);
   artist.studio().apply(Recompute{});
   REQUIRE(artist.app.settle());
-  for (const Message& m : artist.studio().messages()) CHECK(m.text.find("changed nothing") == std::string::npos);
+  for (const Message& m : artist.studio().messages())
+    CHECK(m.text.find("changed nothing") == std::string::npos);
 }

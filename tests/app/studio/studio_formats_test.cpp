@@ -116,7 +116,8 @@ TEST_CASE(
   CHECK(gaussians() == 200);
 }
 
-TEST_CASE("formats: cameras of another scene beside an export that says its up are left out without a toast") {
+TEST_CASE(
+    "formats: cameras of another scene beside an export that says its up are left out without a toast") {
   const ScratchFolder folder("others_cameras");
   std::filesystem::copy_file(kSampleFolder / "cameras.json", folder / "cameras.json");
   Hands hands;
@@ -129,6 +130,22 @@ TEST_CASE("formats: cameras of another scene beside an export that says its up a
   CHECK(hands.studio().scene()->views().cameras.empty());
   for (const Message& m : hands.studio().messages()) CHECK(m.text.find("otherwise") == std::string::npos);
   CHECK(hands.studio().why_not(Action::kNextCamera).find("not its own") != std::string::npos);
+}
+
+TEST_CASE("formats: a file of cameras that holds none is said, and hinders nothing") {
+  const ScratchFolder folder("no_cameras");
+  std::filesystem::copy_file(kSmallSample, folder / "s.compressed.ply");
+  std::ofstream(folder / "cameras.json") << R"({"a": 1})";
+  Hands hands(false, with_kept_scenes(), folder / "s.compressed.ply");
+  REQUIRE(hands.studio().scene());
+  CHECK(std::ranges::any_of(hands.studio().messages(), [](const Message& m) {
+    return m.text.find("No cameras were read from cameras.json") != std::string::npos;
+  }));
+  std::filesystem::copy_file(kSampleFolder / "cameras.json", folder / "cameras.json",
+                             std::filesystem::copy_options::overwrite_existing);
+  hands.app.open(folder / "s.compressed.ply");
+  REQUIRE(hands.app.settle());
+  CHECK_FALSE(hands.studio().scene()->views().cameras.empty());
 }
 
 TEST_CASE("formats: a scene on a map is worked on near 0, 0, 0, with its cameras, and exported on the map") {
