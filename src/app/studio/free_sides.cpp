@@ -50,7 +50,7 @@ void FreeSides::frame_placed() {
     if (own[g]) positions.push_back(ws_.scene->cloud->position[g]);
   positions = without_strays(positions);
   if (positions.empty()) return;
-  camera.frame(camera.framing(positions, viewport_.pane_camera(), viewport_.covered_bottom_px(),
+  camera.frame(camera.framing(positions, viewport_.pane_camera(), viewport_.kept_bottom_px(),
                               camera.pose().camera_from_world));
 }
 
@@ -65,7 +65,7 @@ void FreeSides::frame() {
   if (!object || positions.empty()) return;
   const Camera pane = viewport_.pane_camera();
   const auto framed = [&](const glm::quat& rotation) {
-    return camera.framing(positions, pane, viewport_.covered_bottom_px(), rotation);
+    return camera.framing(positions, pane, viewport_.kept_bottom_px(), rotation);
   };
   std::vector<Framing> sides = {framed(camera.pose().camera_from_world)};
   for (const glm::quat& rotation : camera.directions_around()) sides.push_back(framed(rotation));

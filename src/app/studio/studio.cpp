@@ -172,8 +172,9 @@ std::optional<CleanReport> Studio::clean_edges() const {
   return clean ? std::optional(clean->report) : std::nullopt;
 }
 
-void Studio::set_viewport(int width_px, int height_px, float pixels_per_point, float covered_bottom_px) {
-  viewport_.set_size(width_px, height_px, pixels_per_point, covered_bottom_px);
+void Studio::set_viewport(int width_px, int height_px, float pixels_per_point, float covered_bottom_px,
+                          float kept_bottom_px) {
+  viewport_.set_size(width_px, height_px, pixels_per_point, covered_bottom_px, kept_bottom_px);
   if (cursor_px_) cursor_px_ = within_picture(*cursor_px_);
 }
 

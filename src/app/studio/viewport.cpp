@@ -33,8 +33,10 @@ Viewport::Viewport(Workspace& workspace, const CutJobs& cuts)
       style_labels_(std::make_shared<LabelCache>()),
       frames_(workspace.options.wake) {}
 
-void Viewport::set_size(int width_px, int height_px, float pixels_per_point, float covered_bottom_px) {
+void Viewport::set_size(int width_px, int height_px, float pixels_per_point, float covered_bottom_px,
+                        float kept_bottom_px) {
   covered_bottom_px_ = covered_bottom_px;
+  kept_bottom_px_ = std::max(covered_bottom_px, kept_bottom_px);
   width_px_ = std::max(1, width_px);
   height_px_ = std::max(1, height_px);
   pixels_per_point_ = pixels_per_point;

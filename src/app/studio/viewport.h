@@ -20,8 +20,9 @@ class Viewport {
  public:
   Viewport(Workspace& workspace, const CutJobs& cuts);
 
-  // covered_bottom_px: height that thumbnails cover at the bottom; framing keeps clear of it.
-  void set_size(int width_px, int height_px, float pixels_per_point, float covered_bottom_px);
+  // See Studio::set_viewport().
+  void set_size(int width_px, int height_px, float pixels_per_point, float covered_bottom_px,
+                float kept_bottom_px);
   // Says whether a GPU draws the splats. If so, pictures are made for picking only, and only when nothing
   // moves.
   void set_gpu_view(bool gpu) { gpu_view_ = gpu; }
@@ -37,6 +38,7 @@ class Viewport {
   const CameraController& camera() const { return camera_; }
   glm::vec2 size_px() const { return {width_px_, height_px_}; }
   float covered_bottom_px() const { return covered_bottom_px_; }
+  float kept_bottom_px() const { return kept_bottom_px_; }
   std::vector<glm::vec3> object_positions() const;  // of the active object's Gaussians
   Camera pane_camera() const;                       // camera of each pane: two panes show the same view
   int panes() const { return std::max(1, styles_.panes); }  // number of panes that are shown
@@ -114,7 +116,7 @@ class Viewport {
   const CutJobs& cuts_;
   CameraController camera_;
   int width_px_ = 0, height_px_ = 0;
-  float covered_bottom_px_ = 0, pixels_per_point_ = 1;
+  float covered_bottom_px_ = 0, kept_bottom_px_ = 0, pixels_per_point_ = 1;
   bool gpu_view_ = false;
   int pressed_pane_ = 0;  // pane in which a button was pressed last
 

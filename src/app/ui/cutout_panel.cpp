@@ -28,6 +28,16 @@ void method_choice(UiContext& ui) {
   ImGui::EndPopup();
 }
 
+// The number stands beside the slider, not under its handle: in a narrow panel above it.
+void slider_label(const std::string& text) {
+  constexpr float kBeside = 124, kRoomForBoth = 240;
+  const bool beside = ImGui::GetContentRegionAvail().x >= kRoomForBoth;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text.c_str());
+  if (beside) ImGui::SameLine(kBeside);
+  ImGui::SetNextItemWidth(-34);
+}
+
 // A step for each size that the first click can have, the smallest at the left. The picture outlines the step
 // that the pointer is at; it is taken when the button is let go.
 void size_slider(UiContext& ui, const ObjectItem& object) {
@@ -35,16 +45,12 @@ void size_slider(UiContext& ui, const ObjectItem& object) {
   if (!known || known->sizes < 2) return;
   const auto sizes = static_cast<int>(known->sizes),
              taken = static_cast<int>(ui.studio.clicks().size_wanted());
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("Part");
-  ImGui::SameLine(92);
-  ImGui::SetNextItemWidth(-34);
+  slider_label(fmt::format("Part  {} of {}", taken + 1, sizes));
   ImGui::BeginDisabled(object.locked);
   const float from = ImGui::GetCursorScreenPos().x, width = ImGui::CalcItemWidth();
   int step = taken + 1;
-  const std::string format = "%d of " + std::to_string(sizes);
   // It stands at the size that is taken, so the step is read off the pointer.
-  ImGui::SliderInt("##size", &step, 1, sizes, format.c_str(), ImGuiSliderFlags_NoInput);
+  ImGui::SliderInt("##size", &step, 1, sizes, "", ImGuiSliderFlags_NoInput);
   const float share = (ImGui::GetIO().MousePos.x - from) / width;
   const int pointed = std::clamp(static_cast<int>(share * static_cast<float>(sizes)), 0, sizes - 1);
   if (ImGui::IsItemHovered() || ImGui::IsItemActive())
@@ -59,12 +65,9 @@ void size_slider(UiContext& ui, const ObjectItem& object) {
 void smoothness_slider(UiContext& ui, const ObjectItem& object) {
   const float usual = preset(ui.studio.document().preset).last_lambda();
   float value = object.smoothness.value_or(usual);
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("Smoothness");
-  ImGui::SameLine(92);
+  slider_label(fmt::format("Smoothness  {:.2f}", value));
   ImGui::BeginDisabled(object.locked);
-  ImGui::SetNextItemWidth(-34);
-  if (ImGui::SliderFloat("##smoothness", &value, 0.02f, 50, "%.2f", ImGuiSliderFlags_Logarithmic))
+  if (slider_without_text("##smoothness", &value, 0.02f, 50, "%.2f", ImGuiSliderFlags_Logarithmic))
     ui.ask(SetSmoothness{object.id, value});
   tooltip(
       "How much neighbours stay together. Low follows the masks closely, high closes holes and drops stray "

@@ -337,17 +337,22 @@ float keys_width() {
 void help_page(UiContext& ui) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   if (!begin_dialog("Keys and pointer###help", ui.state.help_open,
-                    {std::min(1060.0f, screen.x - 40), std::min(720.0f, screen.y - 40)}))
+                    {std::min(1400.0f, screen.x - 40), std::min(720.0f, screen.y - 40)}))
     return;
   ImGui::BeginChild("keys", {0, -40});
-  const int columns = std::clamp(static_cast<int>(ImGui::GetContentRegionAvail().x / 300), 1, 3);
+  const int columns = std::clamp(static_cast<int>(ImGui::GetContentRegionAvail().x / 310), 1, 4);
   ImGui::Columns(columns, "groups", false);
   for (const char* group : {"File", "Edit", "Selection"}) key_group(ui, group);
   if (columns > 1) ImGui::NextColumn();
   key_group(ui, "Tools");
-  pointer_help(ui);
+  if (columns < 4) pointer_help(ui);
   if (columns > 2) ImGui::NextColumn();
-  for (const char* group : {"Display", "Camera"}) key_group(ui, group);
+  key_group(ui, "Display");
+  if (columns == 4) {
+    pointer_help(ui);
+    ImGui::NextColumn();
+  }
+  key_group(ui, "Camera");
   ImGui::Columns(1);
   ImGui::EndChild();
   const bool closed =

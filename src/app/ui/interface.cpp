@@ -12,7 +12,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kTopHeight = 46, kToolsWidth = 54, kUsualSideWidth = 316, kStatus = 30, kStrip = 96;
+constexpr float kTopHeight = 46, kToolsWidth = 54, kUsualSideWidth = 316, kStatus = 30;
 
 // A third of a small window, so that the picture keeps the most of it.
 float side_width(const glm::vec2& window_size) {
@@ -94,7 +94,11 @@ bool Interface::dialog_open() const {
 }
 
 float Interface::covered_bottom(const Studio& studio) const {
-  return view_strip_width(studio) > 0 ? kStrip : 0;
+  return view_strip_width(studio) > 0 ? kept_bottom(studio) : 0;
+}
+
+float Interface::kept_bottom(const Studio& studio) const {
+  return view_strip_height(studio);
 }
 
 bool Interface::picture_at(const glm::vec2& point, const Studio& studio) const {
@@ -123,7 +127,7 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   state_.items = {{"picture", view.min, view.max}};
   const float cards = view_strip_width(studio);
   fixed_panel("picture", view, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {0, 0},
-              [&] { covered_ = viewport_pane(ui, view, cards > 0 ? kStrip : 0, gpu_picture); });
+              [&] { covered_ = viewport_pane(ui, view, covered_bottom(studio), gpu_picture); });
   fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
               [&] { top_bar(ui); });
   if (state_.options_below) {  // over the picture, under the bar
@@ -149,7 +153,7 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   if (cards > 0) {  // no wider than it must be: it lies on the picture
     constexpr glm::vec2 kStripPadding(8, 7);
     const float right = std::min(view.max.x, view.min.x + std::ceil(cards) + 2 * kStripPadding.x);
-    const UiRect strip = {{view.min.x, view.max.y - kStrip}, {right, view.max.y}};
+    const UiRect strip = {{view.min.x, view.max.y - kept_bottom(studio)}, {right, view.max.y}};
     covered_.push_back(strip);
     Palette clear = p;
     clear.panel.w = 0.9f;

@@ -31,6 +31,7 @@ class Interface {
   bool dragging_handle() const { return state_.placing.grips.drag.has_value(); }  // Esc is for that
   bool dialog_open() const;
   float covered_bottom(const Studio& studio) const;  // of the picture, by thumbnails; points
+  float kept_bottom(const Studio& studio) const;     // what they would cover; framing leaves it free
 
   // Builds the frame; its draw data is ImGui's until the next call.
   void build(const Studio& studio, double seconds, UiRenderer* renderer, ImTextureID gpu_picture[2],

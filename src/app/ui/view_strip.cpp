@@ -11,11 +11,18 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kCardHeight = 76, kCardGap = 6;
+constexpr float kCardGap = 6, kAroundCards = 20;
 constexpr std::uint64_t kCardKey = 1000;  // of the strip's textures
 
-float card_width(const ViewCard& c) {
-  return kCardHeight * static_cast<float>(c.picture->width()) / static_cast<float>(c.picture->height());
+// Smaller ones leave most of a small picture free.
+float card_height(const Studio& studio) {
+  constexpr float kUsual = 76, kSmall = 44, kSmallPicture = 420;
+  const Viewport& viewport = studio.viewport();
+  return viewport.size_px().y < kSmallPicture * viewport.pixels_per_point() ? kSmall : kUsual;
+}
+
+float card_width(const ViewCard& c, float height) {
+  return height * static_cast<float>(c.picture->width()) / static_cast<float>(c.picture->height());
 }
 
 std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
@@ -31,15 +38,15 @@ std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
 }
 
 void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_t index) {
-  const float width = card_width(c);
+  const float height = card_height(ui.studio), width = card_width(c, height);
   ImGui::PushID(static_cast<int>(index));
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  if (ImGui::InvisibleButton("card", {width, kCardHeight})) ui.ask(GoToCamera{c.camera});
+  if (ImGui::InvisibleButton("card", {width, height})) ui.ask(GoToCamera{c.camera});
   ImGui::SetItemAllowOverlap();
   const bool hovered = ImGui::IsItemHovered();
   tooltip(tip_of_card(c, index, ui.state.steady));
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 end = {at.x + width, at.y + kCardHeight};
+  const ImVec2 end = {at.x + width, at.y + height};
   list.AddImageRounded(ui.renderer.texture(kCardKey + index, c.serial, *c.picture), at, end, {0, 0}, {1, 1},
                        c.used || c.only_to_look ? 0xffffffffu : 0x70ffffffu, 4);
   list.AddRect(at, end, packed(hovered ? ui.theme.colour.accent : ui.theme.colour.line), 4, 0,
@@ -52,10 +59,11 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
   }
   const bool left_out =
       std::ranges::any_of(object.left_out, [&](const Camera& v) { return same_view(v, c.camera); });
-  if (index == 0) {
+  constexpr float kLabelWidth = 72;
+  if (index == 0 && width > kLabelWidth) {
     list.AddRectFilled({at.x + 4, end.y - 21}, {at.x + 68, end.y - 4}, packed({0, 0, 0, 1}, 0.6f), 3);
     list.AddText({at.x + 8, end.y - 21}, 0xffffffffu, "your view");
-  } else if (!c.only_to_look && (hovered || left_out)) {
+  } else if (index > 0 && !c.only_to_look && (hovered || left_out)) {
     ImGui::SetCursorScreenPos({end.x - 24, at.y + 3});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {3, 1});
     if (button(ui, left_out ? icon::kCheck : icon::kClose,
@@ -64,7 +72,7 @@ void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_
       ui.ask(LeaveOutView{object.id, c.camera, !left_out});
     ImGui::PopStyleVar();
     ImGui::SetCursorScreenPos(at);
-    ImGui::Dummy({width, kCardHeight});
+    ImGui::Dummy({width, height});
   }
   ImGui::PopID();
 }
@@ -77,8 +85,12 @@ float view_strip_width(const Studio& studio) {
   float width = 0;
   if (run && studio.scene())
     for (const ViewCard& c : run->views)
-      if (c.picture) width += card_width(c) + (width > 0 ? kCardGap : 0);
+      if (c.picture) width += card_width(c, card_height(studio)) + (width > 0 ? kCardGap : 0);
   return width;
+}
+
+float view_strip_height(const Studio& studio) {
+  return card_height(studio) + kAroundCards;
 }
 
 void view_strip(UiContext& ui) {

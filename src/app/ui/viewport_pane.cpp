@@ -172,7 +172,8 @@ std::optional<UiRect> first_run_hint(UiContext& ui, const UiRect& area, float bo
   constexpr float kMargin = 14, kPad = 16, kRow = 28, kSecondColumn = 272;
   const bool wide = area.size().x >= 630;  // two columns, or one
   const std::size_t rows = wide ? 2 : 4;
-  const ImVec2 size = {wide ? 600.0f : 376.0f, kRow * static_cast<float>(rows) + 20};
+  const ImVec2 size = {wide ? 600.0f : std::min(376.0f, area.size().x - 2 * kMargin),
+                       kRow * static_cast<float>(rows) + 20};
   const ImVec2 at = {area.min.x + kMargin,
                      wide ? area.max.y - bottom - size.y - kMargin : area.min.y + kMargin + covered_top(ui)};
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -188,7 +189,7 @@ std::optional<UiRect> first_run_hint(UiContext& ui, const UiRect& area, float bo
   }
   ImGui::SetCursorScreenPos({at.x + size.x - 32, at.y + 6});
   ImGui::PushStyleColor(ImGuiCol_Button, {0, 0, 0, 0});
-  if (ImGui::Button(icon::kClose)) ui.state.hint_wanted = false;
+  if (plain_button(ui, icon::kClose)) ui.state.hint_wanted = false;
   ImGui::PopStyleColor();
   tooltip("Do not show this again");
   return UiRect{{at.x, at.y}, {at.x + size.x, at.y + size.y}};

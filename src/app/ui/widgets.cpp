@@ -40,6 +40,15 @@ bool typing_beside(const char* label) {
   return typed != 0 && typed != ImGui::GetID(label);
 }
 
+bool slider_without_text(const char* id, float* value, float least, float most, const char* format,
+                         ImGuiSliderFlags flags) {
+  const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id));
+  if (!typed) ImGui::PushStyleColor(ImGuiCol_Text, {0, 0, 0, 0});
+  const bool changed = ImGui::SliderFloat(id, value, least, most, format, flags);
+  if (!typed) ImGui::PopStyleColor();
+  return changed;
+}
+
 bool tolerance_slider(float* share) {
   float percent = 100 * *share;
   const bool changed = ImGui::SliderFloat("##tolerance", &percent, 1, 50, "within %.0f %%", kTypedLength);

@@ -41,6 +41,10 @@ bool typing_beside(const char* label);
 inline constexpr ImGuiSliderFlags kTypedLength =
     ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
 
+// A slider whose number stands beside it, by its user; typed into, it shows what is typed.
+bool slider_without_text(const char* id, float* value, float least, float most, const char* format,
+                         ImGuiSliderFlags flags);
+
 bool tolerance_slider(float* share);  // of colours, in percent; true where it changed
 
 // Equal buttons in a row, or each in a row of its own where some label does not fit.

@@ -309,6 +309,40 @@ TEST_CASE("ui: in a window of 640 by 480 the panel takes a third and cuts no but
   CHECK(page.max.y <= kHeight);
 }
 
+TEST_CASE("ui: in a small window the hint can be closed, and thumbnails cover little of the picture") {
+  HeadlessApp app(640, 480);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.frames(2);
+  const UiRect view = app->interface().viewport(), cross = app.button(icon::kClose);
+  REQUIRE(cross.size().x > 0);
+  CHECK(cross.max.x <= view.max.x);
+  app.click(0.5f * (cross.min + cross.max));
+  app.frames(2);
+  CHECK(app.button(icon::kClose).size().x == 0);
+  CHECK(app.studio().document().objects.empty());
+  app.click(app.screen_of(kOnApple));
+  REQUIRE(app.settle());
+  const float covered = app->interface().covered_bottom(app.studio());
+  CHECK(covered > 0);
+  CHECK(covered < 0.18f * view.size().y);
+}
+
+TEST_CASE("ui: the page of keys shows all of them at once in a window of 1600 by 1000") {
+  HeadlessApp app(1600, 1000);
+  app.frames(1);
+  app.key(key::kF1);
+  app.frames(3);
+  app->interface().make_current();
+  std::size_t found = 0;
+  for (const ImGuiWindow* w : GImGui->Windows) {
+    if (!w->WasActive || std::string_view(w->Name).find("/keys") == std::string_view::npos) continue;
+    ++found;
+    CHECK(w->ScrollMax.y == 0);
+  }
+  CHECK(found == 1);
+}
+
 TEST_CASE(
     "ui: the start page lies within the picture's place in a window of any size, with all its buttons") {
   const ScratchFolder folder("start_page");
