@@ -57,8 +57,18 @@ std::filesystem::path FileBrowser::typed_path() const {
 void FileBrowser::follow_typed() {
   typed = true;
   std::string start = typed_folder;
-  const std::string here = (folder / "").string();
-  if (start.starts_with(here)) start.erase(0, here.size());
+  if (start.starts_with('/') ||
+      start.starts_with("~/")) {  // its folder is listed, its last name sought there
+    std::error_code ignored;
+    const std::filesystem::path path = typed_path(),
+                                where = std::filesystem::weakly_canonical(path.parent_path(), ignored);
+    if (where != folder && std::filesystem::is_directory(where, ignored)) {
+      enter(where);
+      typed_folder = start;
+      typed = true;
+    }
+    start = where == folder ? path.filename().string() : "";
+  }
   cursor = -1;
   if (!saving) name.clear();
   if (start.empty() || start.starts_with('~') || start.find('/') != std::string::npos) return;

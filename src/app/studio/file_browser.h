@@ -34,7 +34,8 @@ struct FileBrowser {
 
   void enter(const std::filesystem::path& where);  // reads it
   void go(int entry);                              // the nearest there is; a file is chosen by it
-  // To the first entry that begins with the name in typed_folder; to none where it is a path.
+  // To the first entry that begins with the name in typed_folder, in the folder of a whole path; to none
+  // where it is a path from here.
   void follow_typed();
   std::filesystem::path typed_path() const;  // typed_folder as a path: from the folder, or from home after ~
   // To the first entry that begins with the letters typed within a second, whatever their case. now_s: any

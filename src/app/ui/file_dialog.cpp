@@ -157,7 +157,8 @@ bool path_field(FileBrowser& files, bool* chosen) {
     *chosen = !files.saving;
     return true;
   }
-  if (files.cursor >= 0) return false;  // the entry that was found by it
+  if (files.cursor >= 0 && !std::filesystem::is_directory(path, ignored))
+    return false;  // the entry that was found by it
   files.enter(path);
   files.path_first = !files.saving;
   return true;

@@ -350,6 +350,33 @@ TEST_CASE("hands: a path is typed as soon as the dialog is open, and Enter opens
   }
 }
 
+TEST_CASE("hands: a whole path is completed as a name is") {
+  const ScratchFolder folder("whole_path");
+  std::filesystem::create_directories(folder / "garden");
+  std::filesystem::copy_file(kSmallSample, folder / "garden" / "mug.compressed.ply");
+  HeadlessApp app(kHandsWidth, kHandsHeight);
+  FileBrowser& files = app.interface_state().files;
+  files.folder = std::filesystem::current_path();
+  app.key('O', {.ctrl = true});
+  app.frames(3);
+  for (const char letter : (folder / "gar").string()) {
+    app->handle(TextTyped{static_cast<unsigned>(letter)});
+    app.frames(1);
+  }
+  CHECK(std::filesystem::equivalent(files.folder, folder.path()));
+  REQUIRE(files.cursor >= 0);
+  CHECK(files.entries[static_cast<std::size_t>(files.cursor)].name == "garden");
+  for (const char letter : std::string("den/mu")) {
+    app->handle(TextTyped{static_cast<unsigned>(letter)});
+    app.frames(1);
+  }
+  CHECK(files.typed_folder == (folder / "garden" / "mu").string());
+  CHECK(files.name == "mug.compressed.ply");
+  app.key(key::kEnter);
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().scene());
+}
+
 TEST_CASE("hands: Tab goes from the path to the list of files, and Enter opens what it marks") {
   const ScratchFolder folder("tab_to_list");
   for (const char* name : {"alpha.compressed.ply", "beta.compressed.ply"})
