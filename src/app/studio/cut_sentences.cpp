@@ -35,6 +35,18 @@ bool add_doubt_of_sides(CutRun* run) {
   return true;
 }
 
+std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
+  std::string tip = index == 0 ? "Your view" : fmt::format("View {}", index);
+  if (card.only_to_look)
+    tip = "Around the object";
+  else if (!card.used)
+    tip += "\nDoes not count: " + (card.reason.empty() ? std::string("left out") : card.reason);
+  else if (index > 0 && !steady)
+    tip += fmt::format("\nAgrees with the cutout: {:.0f} %", 100 * card.confidence);
+  if (!card.doubt.empty()) tip += "\nIn doubt: " + card.doubt;
+  return tip + "\nClick to look from there; correct it with strokes.";
+}
+
 std::string shared_with(const Workspace& workspace, ObjectId id) {
   const Document& document = workspace.document();
   const ObjectItem* object = document.find(id);

@@ -22,4 +22,7 @@ bool add_doubt_of_sides(CutRun* run);
 // click that takes most of another one is rarely meant. id: of an object of the document.
 std::string shared_with(const Workspace& workspace, ObjectId id);
 
+// What the thumbnail of a view says of it. steady: without numbers that differ between runs.
+std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady);
+
 }  // namespace splatcut

@@ -31,10 +31,9 @@ void method_choice(UiContext& ui) {
 // The number stands beside the slider, not under its handle: in a narrow panel above it.
 void slider_label(const std::string& text) {
   constexpr float kBeside = 124, kRoomForBoth = 240;
-  const bool beside = ImGui::GetContentRegionAvail().x >= kRoomForBoth;
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
-  if (beside) ImGui::SameLine(kBeside);
+  if (ImGui::GetContentRegionAvail().x >= kRoomForBoth) ImGui::SameLine(kBeside);
   ImGui::SetNextItemWidth(-34);
 }
 

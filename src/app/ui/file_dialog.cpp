@@ -17,35 +17,6 @@ namespace splatcut {
 
 namespace {
 
-std::vector<std::string> with(std::vector<std::string> extensions, const char* one_more) {
-  extensions.emplace_back(one_more);
-  return extensions;
-}
-
-struct Kind {
-  const char *title, *button, *extension;  // extension: added where none is given
-  std::vector<std::string> shown;
-};
-
-Kind kind_of(FilePurpose purpose) {
-  switch (purpose) {
-    case FilePurpose::kOpen:
-      return {"Open a scene or saved work", "Open", "",
-              with(extensions_of(read_formats()), ".splatcut.json")};
-    case FilePurpose::kAdd:
-      return {"Add a scene to this one", "Add", "", extensions_of(read_formats())};
-    case FilePurpose::kSaveWork:
-      return {"Save the work", "Save", ".splatcut.json", {".splatcut.json"}};
-    case FilePurpose::kSnapshot:
-      return {"Save a picture of the view, with transparency", "Save", ".png", {".png"}};
-    case FilePurpose::kTurntable:
-      return {"Where should the turntable go?", "Choose", "", {"/"}};
-    case FilePurpose::kExport:
-      return {"Where should it go?", "Choose", "", extensions_of(written_formats())};
-  }
-  return {};
-}
-
 std::string stem_of_scene(const Studio& studio) {
   std::string name = studio.scene() ? scene_name(studio.scene()->scene->path) : "scene";
   return name.substr(0, name.find('.'));
@@ -74,7 +45,7 @@ void use(UiContext& ui, const std::filesystem::path& path) {
 // asked: replacing that very file is wanted.
 void use_choice(UiContext& ui, std::filesystem::path path, bool asked) {
   const FilePurpose purpose = ui.state.file_purpose;
-  const Kind kind = kind_of(purpose);
+  const FileKind kind = kind_of(purpose);
   if (!std::string(kind.extension).empty() && !path.filename().string().ends_with(kind.extension)) {
     path += kind.extension;
     asked = false;
@@ -199,10 +170,10 @@ void places(UiContext& ui, float height) {
 }  // namespace
 
 void open_file_dialog(UiContext& ui, FilePurpose purpose) {
-  const Kind kind = kind_of(purpose);
+  const FileKind kind = kind_of(purpose);
   FileBrowser& files = ui.state.files;
   ui.state.file_purpose = purpose;
-  ui.state.open_after_save.reset();
+  if (purpose != FilePurpose::kSaveWork) ui.state.open_after_save.reset();
   files.title = kind.title;
   files.extensions = kind.shown;
   files.saving = files.name_first = purpose != FilePurpose::kOpen && purpose != FilePurpose::kAdd;
@@ -279,7 +250,7 @@ void file_dialog(UiContext& ui) {
   if (enters && at_folder)
     files.enter(files.folder / files.entries[static_cast<std::size_t>(files.cursor)].name);
   chosen |= enters && !at_folder;
-  const Kind kind = kind_of(ui.state.file_purpose);
+  const FileKind kind = kind_of(ui.state.file_purpose);
   ImGui::BeginChild("buttons", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);  // Tab comes to it last
   const bool cancelled = plain_button(ui, "Cancel", 110) || escape_pressed();
   ImGui::SameLine(ImGui::GetWindowWidth() - 110);
@@ -311,11 +282,7 @@ void replace_dialog(UiContext& ui) {
   }
   ImGui::EndPopup();
   if (replaces) use(ui, path);
-  if (keeps && ui.state.native_wanted) {
-    const std::optional<OpenScene> next = ui.state.open_after_save;
-    open_file_dialog(ui, ui.state.file_purpose);
-    ui.state.open_after_save = next;
-  }
+  if (keeps && ui.state.native_wanted) open_file_dialog(ui, ui.state.file_purpose);
   if (keeps && !ui.state.native_wanted) ui.state.files.open = ui.state.files.name_first = true;
 }
 

@@ -60,8 +60,7 @@ void object_menu(UiContext& ui, const ObjectItem& object) {
   merge_menu(ui, object, locked);
   if (entry("Split into connected parts", first_of({locked, empty}))) ui.ask(SplitObject{object.id});
   if (entry("Separate in place", empty)) ui.ask(SeparateObject{object.id});
-  const std::string alone = ui.studio.document().objects.size() < 2 ? "There is no other object" : "";
-  if (entry("Without the other objects", first_of({locked, alone}), object.of_others != nullptr))
+  if (entry("Without the other objects", locked, object.of_others != nullptr))
     ui.ask(LeaveToOthers{object.id, !object.of_others});
   ImGui::Separator();
   const bool active = object.id == ui.studio.document().active;

@@ -35,8 +35,8 @@ void draw_placed_file(UiContext& ui, const UiRect& area) {
   PlacingChoice& choice = ui.state.placing;
   const SceneSource* file = ui.studio.scene()->file(choice.file);
   choice.grips.shown.clear();
-  const std::uint32_t shown_file = file && choice.open ? file->id : 0;
-  if (shown_file != ui.studio.viewport().placed_file()) ui.ask(ShowPlaced{shown_file});
+  if (const std::uint32_t now = file && choice.open ? file->id : 0; now != ui.studio.viewport().placed_file())
+    ui.ask(ShowPlaced{now});
   if (!file || !choice.open) return choice.grips.drag.reset();
   take_place(ui, *file);
   SceneSource there = *file;

@@ -38,21 +38,17 @@ void size_buttons(UiContext& ui) {
 void view_rows(UiContext& ui) {
   ViewState view = ui.studio.view();
   row("Flying speed");
-  constexpr float kSliderWidth = 150;
-  ImGui::SetNextItemWidth(kSliderWidth);
+  ImGui::SetNextItemWidth(150);
   bool set = slider_without_text("##speed", &view.fly_speed, kLeastKeptSpeed, kMostKeptSpeed, "%.2g",
                                  ImGuiSliderFlags_Logarithmic | kTypedLength);
   tooltip("Of the keys W, A, S, D, Q and E; the wheel changes it while one is held");
   ImGui::SameLine();
   muted_text(ui, fmt::format("{:.2g} times the usual", view.fly_speed));
   row("Brush radius");
-  ImGui::SetNextItemWidth(kSliderWidth);
-  set |= slider_without_text("##radius", &view.brush_px, kLeastBrushPx, kMostBrushPx, "%.0f pt",
-                             ImGuiSliderFlags_Logarithmic | kTypedLength);
+  set |= ImGui::SliderFloat("##radius", &view.brush_px, kLeastBrushPx, kMostBrushPx, "%.0f pt",
+                            ImGuiSliderFlags_Logarithmic | kTypedLength);
   tooltip(fmt::format("{}, {} and Alt+wheel change it, too", keys_of(Action::kBrushSmaller),
                       keys_of(Action::kBrushLarger)));
-  ImGui::SameLine();
-  muted_text(ui, fmt::format("{:.0f} pt", view.brush_px));
   row("Objects");
   set |= ImGui::Checkbox("Tint", &view.tint);
   tooltip(tip_of(Action::kTint));

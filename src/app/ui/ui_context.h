@@ -9,12 +9,12 @@
 
 #include "app/picture/ground_grid.h"
 #include "app/picture/splat_rings.h"
-#include "app/studio/file_browser.h"
 #include "app/studio/native_dialog.h"
 #include "app/studio/studio.h"
 #include "app/ui/grips.h"
 #include "app/ui/theme.h"
 #include "app/ui/ui_renderer.h"
+#include "app/work/file_browser.h"
 
 namespace splatcut {
 
@@ -100,8 +100,6 @@ struct PlacingChoice {
   std::uint32_t sample_file = 0;
   std::size_t files_before = 1;  // the section opens when there are more
 };
-
-enum class FilePurpose { kOpen, kAdd, kSaveWork, kSnapshot, kTurntable, kExport };
 
 // What can be pressed, and the picture: where it lies in the last frame, in logical points.
 struct ShownItem {

@@ -1,9 +1,8 @@
 // The views that the cut used, each with its mask, and some around the object: click to look from there, or
 // leave out what it used.
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "app/studio/cut_sentences.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
@@ -23,18 +22,6 @@ float card_height(const Studio& studio) {
 
 float card_width(const ViewCard& c, float height) {
   return height * static_cast<float>(c.picture->width()) / static_cast<float>(c.picture->height());
-}
-
-std::string tip_of_card(const ViewCard& card, std::size_t index, bool steady) {
-  std::string tip = index == 0 ? "Your view" : fmt::format("View {}", index);
-  if (card.only_to_look)
-    tip = "Around the object";
-  else if (!card.used)
-    tip += "\nDoes not count: " + (card.reason.empty() ? std::string("left out") : card.reason);
-  else if (index > 0 && !steady)
-    tip += fmt::format("\nAgrees with the cutout: {:.0f} %", 100 * card.confidence);
-  if (!card.doubt.empty()) tip += "\nIn doubt: " + card.doubt;
-  return tip + "\nClick to look from there; correct it with strokes.";
 }
 
 void card(UiContext& ui, const ObjectItem& object, const ViewCard& c, std::size_t index) {

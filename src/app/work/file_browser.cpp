@@ -1,11 +1,40 @@
-#include "app/studio/file_browser.h"
+#include "app/work/file_browser.h"
 
 #include <algorithm>
 #include <cstdlib>
 
 #include "core/lower_case.h"
+#include "scene/formats/scene_formats.h"
 
 namespace splatcut {
+
+namespace {
+
+std::vector<std::string> with(std::vector<std::string> extensions, const char* one_more) {
+  extensions.emplace_back(one_more);
+  return extensions;
+}
+
+}  // namespace
+
+FileKind kind_of(FilePurpose purpose) {
+  switch (purpose) {
+    case FilePurpose::kOpen:
+      return {"Open a scene or saved work", "Open", "",
+              with(extensions_of(read_formats()), ".splatcut.json")};
+    case FilePurpose::kAdd:
+      return {"Add a scene to this one", "Add", "", extensions_of(read_formats())};
+    case FilePurpose::kSaveWork:
+      return {"Save the work", "Save", ".splatcut.json", {".splatcut.json"}};
+    case FilePurpose::kSnapshot:
+      return {"Save a picture of the view, with transparency", "Save", ".png", {".png"}};
+    case FilePurpose::kTurntable:
+      return {"Where should the turntable go?", "Choose", "", {"/"}};
+    case FilePurpose::kExport:
+      return {"Where should it go?", "Choose", "", extensions_of(written_formats())};
+  }
+  return {};
+}
 
 void FileBrowser::enter(const std::filesystem::path& where) {
   namespace fs = std::filesystem;

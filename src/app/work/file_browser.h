@@ -8,6 +8,15 @@
 
 namespace splatcut {
 
+enum class FilePurpose { kOpen, kAdd, kSaveWork, kSnapshot, kTurntable, kExport };
+
+// What a dialog for that is called and lists.
+struct FileKind {
+  const char *title, *button, *extension;  // extension: added where none is given
+  std::vector<std::string> shown;
+};
+FileKind kind_of(FilePurpose purpose);
+
 struct BrowserEntry {
   std::string name;
   bool folder = false;
