@@ -42,7 +42,9 @@ xdotool mousemove 1270 600 sleep 0.7  # beside the picture: hovering outlines wh
 shot 2_clicked
 before=$(stat -c %Y.%s "$autosave")
 xdotool key Escape key 3 mousemove $((x - 8)) $((y - 19)) mousedown 1 mousemove "$x" $((y - 9)) mousemove $((x + 8)) $((y + 6)) mouseup 1
-changed() { [ "$(stat -c %Y.%s "$autosave")" != "$before" ] && ! grep -q '"cut_is_current": *false' "$autosave"; }
+# The newest object stands last; older steps of the history have cuts that are not current.
+newest_is_cut() { grep -o '"cut_is_current": *[a-z]*' "$autosave" | tail -1 | grep -q true; }
+changed() { [ "$(stat -c %Y.%s "$autosave")" != "$before" ] && newest_is_cut; }
 wait_for 240 "new cutout after the stroke" changed
 shot 3_scribbled
 xdotool key i; shot 4_isolated
