@@ -112,16 +112,12 @@ SurfacePatch fill_surface(const Drawer& scene, std::span<const std::uint8_t> lab
   SurfacePatch patch;
   std::vector<std::uint8_t> is_gone(labels.size(), 0);
   for (const std::uint32_t g : gone) is_gone[g] = 1;
-  const ObjectExtent object = object_extent(scene.cloud(), labels);
   job.progress("the hole", 0);
-  const std::vector<SurfaceView> views = surface_views(scene, labels, up_world, cameras, job);
-  const std::optional<SupportPlane> plane = plane_below(views, object);
-  if (!plane) {
-    patch.why_not = "nothing flat touches the object";
-    return patch;
-  }
-  const SurfaceMap map(*plane, object.radius);
-  const Ground ground = ground_of(map, scene, labels, is_gone, views, job);
+  const std::optional<SurfaceBelow> below =
+      surface_below(scene, labels, up_world, cameras, &patch.why_not, job);
+  if (!below) return patch;
+  const SurfaceMap& map = below->map;
+  const Ground ground = ground_of(map, scene, labels, is_gone, below->views, job);
   if (job.cancelled()) return patch;
   const Mask hole = hole_of(ground);
   if (count(hole) < kLeastCells)

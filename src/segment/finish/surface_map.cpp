@@ -12,7 +12,7 @@ namespace splatcut {
 namespace {
 
 constexpr int kSidePx = SurfaceMap::kSidePx;
-constexpr float kNearPlane = 0.2f, kOn = 0.05f;  // of the radius, from the plane
+constexpr float kNearPlane = 0.2f, kOn = SurfaceMap::kOnPlane;  // of the radius, from the plane
 constexpr float kCovers = 0.7f, kCoversWell = 0.9f, kStands = 0.3f;
 
 bool on_map(const glm::ivec2& c) {
@@ -111,6 +111,39 @@ Mask shade_of(const Ground& ground, int near_px, int far_px) {
   return mask_of([&](auto c) { return is_set(near, c) && surface(c) && brightness.at(c.x, c.y) < most; });
 }
 
+std::vector<SurfaceView> surface_views(const Drawer& scene, std::span<const std::uint8_t> labels,
+                                       const glm::vec3& up_world, std::span<const Camera> cameras,
+                                       const Job& job) {
+  constexpr OwnViewOptions kOptions{.object_px = 100, .distance_sizes = 4};
+  constexpr float kLabelled = 0.4f;
+  std::vector<SurfaceView> views;
+  for (const Camera& camera : own_cameras(scene.cloud(), labels, up_world, cameras, kOptions)) {
+    RasterOptions raster;
+    raster.colour = false;
+    raster.depth = true;
+    raster.labels = labels;
+    RasterOutput drawn = scene.draw(camera, raster, job);
+    if (job.cancelled()) break;
+    views.push_back({camera, std::move(drawn.median_depth), thresholded(drawn.label_share, kLabelled)});
+  }
+  return views;
+}
+
+std::optional<SupportPlane> plane_below(std::span<const SurfaceView> views, const ObjectExtent& object) {
+  std::vector<glm::vec3> on_object, on_rest;
+  constexpr int kBorderPx = 2;  // whose depth is between the two
+  for (const SurfaceView& view : views) {
+    const Mask object_px = eroded(view.inside, kBorderPx), near_px = dilated(view.inside, kBorderPx);
+    for (int y = 0; y < view.depth.height(); y += 2)
+      for (int x = 0; x < view.depth.width(); x += 2) {
+        if (!(view.depth.at(x, y) > 0)) continue;
+        if (object_px.at(x, y)) on_object.push_back(view.world(x, y));
+        if (!near_px.at(x, y)) on_rest.push_back(view.world(x, y));
+      }
+  }
+  return support_plane(on_object, on_rest, object);
+}
+
 }  // namespace
 
 SurfaceMap::SurfaceMap(const SupportPlane& plane, float radius) : plane_(plane), radius_(radius) {
@@ -171,37 +204,15 @@ Mask flooded(const Mask& from, const Mask& over) {
   return flood;
 }
 
-std::vector<SurfaceView> surface_views(const Drawer& scene, std::span<const std::uint8_t> labels,
-                                       const glm::vec3& up_world, std::span<const Camera> cameras,
-                                       const Job& job) {
-  constexpr OwnViewOptions kOptions{.object_px = 100, .distance_sizes = 4};
-  constexpr float kLabelled = 0.4f;
-  std::vector<SurfaceView> views;
-  for (const Camera& camera : own_cameras(scene.cloud(), labels, up_world, cameras, kOptions)) {
-    RasterOptions raster;
-    raster.colour = false;
-    raster.depth = true;
-    raster.labels = labels;
-    RasterOutput drawn = scene.draw(camera, raster, job);
-    if (job.cancelled()) break;
-    views.push_back({camera, std::move(drawn.median_depth), thresholded(drawn.label_share, kLabelled)});
-  }
-  return views;
-}
-
-std::optional<SupportPlane> plane_below(std::span<const SurfaceView> views, const ObjectExtent& object) {
-  std::vector<glm::vec3> on_object, on_rest;
-  constexpr int kBorderPx = 2;  // whose depth is between the two
-  for (const SurfaceView& view : views) {
-    const Mask object_px = eroded(view.inside, kBorderPx), near_px = dilated(view.inside, kBorderPx);
-    for (int y = 0; y < view.depth.height(); y += 2)
-      for (int x = 0; x < view.depth.width(); x += 2) {
-        if (!(view.depth.at(x, y) > 0)) continue;
-        if (object_px.at(x, y)) on_object.push_back(view.world(x, y));
-        if (!near_px.at(x, y)) on_rest.push_back(view.world(x, y));
-      }
-  }
-  return support_plane(on_object, on_rest, object);
+std::optional<SurfaceBelow> surface_below(const Drawer& scene, std::span<const std::uint8_t> labels,
+                                          const glm::vec3& up_world, std::span<const Camera> cameras,
+                                          std::string* why_not, const Job& job) {
+  const ObjectExtent object = object_extent(scene.cloud(), labels);
+  std::vector<SurfaceView> views = surface_views(scene, labels, up_world, cameras, job);
+  const std::optional<SupportPlane> plane = plane_below(views, object);
+  if (plane) return SurfaceBelow{std::move(views), {*plane, object.radius}};
+  *why_not = "nothing flat touches the object";
+  return {};
 }
 
 Ground ground_of(const SurfaceMap& map, const Drawer& scene, std::span<const std::uint8_t> labels,

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/image.h"
@@ -23,6 +24,7 @@ class SurfaceMap {
   static constexpr int kSidePx = 192;
   static constexpr float kRadii = 4;  // half of its side, in radii of the object
   static constexpr float kRadiusPx = kSidePx / (2 * kRadii);
+  static constexpr float kOnPlane = 0.05f;  // radii; what lies as near to the plane is the surface
 
   SurfaceMap(const SupportPlane& plane, float radius);
 
@@ -67,11 +69,17 @@ struct SurfaceView {
                                    depth.at(x, y));
   }
 };
-std::vector<SurfaceView> surface_views(const Drawer& scene, std::span<const std::uint8_t> labels,
-                                       const glm::vec3& up_world, std::span<const Camera> cameras,
-                                       const Job& job);
 
-std::optional<SupportPlane> plane_below(std::span<const SurfaceView> views, const ObjectExtent& object);
+// What a dozen views show of the surface that an object stands on, and its map.
+struct SurfaceBelow {
+  std::vector<SurfaceView> views;
+  SurfaceMap map;
+};
+// At least one Gaussian is labelled. None: nothing flat touches the object, or it was cancelled; why_not then
+// says so in a sentence without a full stop.
+std::optional<SurfaceBelow> surface_below(const Drawer& scene, std::span<const std::uint8_t> labels,
+                                          const glm::vec3& up_world, std::span<const Camera> cameras,
+                                          std::string* why_not, const Job& job);
 
 // Masks and colours of the map.
 struct Ground {

@@ -12,7 +12,6 @@ namespace {
 enum class Shown { kGround, kObject, kOther };  // kOther: beside the picture, or behind something else
 
 Shown shown_at(const SurfaceView& view, const SurfaceMap& map, const glm::vec3& world) {
-  constexpr float kOnGround = 0.05f;  // radii above the plane
   const glm::vec3 at = view.camera.camera_from_world(world);
   if (!(at.z > 0)) return Shown::kOther;
   const glm::vec2 px = glm::floor(view.camera.pixel_from_camera(at));
@@ -22,12 +21,14 @@ Shown shown_at(const SurfaceView& view, const SurfaceMap& map, const glm::vec3& 
   const int x = static_cast<int>(px.x), y = static_cast<int>(px.y);
   if (view.inside.at(x, y)) return Shown::kObject;
   const bool empty = !(view.depth.at(x, y) > 0);
-  return empty || map.height_radii(view.world(x, y)) <= kOnGround ? Shown::kGround : Shown::kOther;
+  const bool on_plane = !empty && std::abs(map.height_radii(view.world(x, y))) <= SurfaceMap::kOnPlane;
+  return empty || on_plane ? Shown::kGround : Shown::kOther;
 }
 
 bool never_seen(std::span<const SurfaceView> views, const SurfaceMap& map, const glm::vec3& world) {
   bool behind_object = false;
   for (const SurfaceView& view : views) {
+    if (map.height_radii(view.camera.centre_world()) <= 0) continue;  // it sees the other side
     const Shown shown = shown_at(view, map, world);
     if (shown == Shown::kGround) return false;
     behind_object |= shown == Shown::kObject;
@@ -41,16 +42,13 @@ UnseenGround unseen_ground(const Drawer& scene, std::span<const std::uint8_t> la
                            const glm::vec3& up_world, std::span<const Camera> cameras, const Job& job) {
   UnseenGround ground;
   job.progress("ground that nobody saw", 0);
-  const ObjectExtent object = object_extent(scene.cloud(), labels);
-  const std::vector<SurfaceView> views = surface_views(scene, labels, up_world, cameras, job);
-  const std::optional<SupportPlane> plane = plane_below(views, object);
-  if (!plane) {
-    ground.why_not = "nothing flat touches the object";
-    return ground;
-  }
-  const SurfaceMap map(*plane, object.radius);
-  const Mask hidden =
-      mask_of([&](const glm::ivec2& c) { return never_seen(views, map, map.on_plane(glm::vec2(c) + 0.5f)); });
+  const std::optional<SurfaceBelow> surface =
+      surface_below(scene, labels, up_world, cameras, &ground.why_not, job);
+  if (!surface) return ground;
+  const SurfaceMap& map = surface->map;
+  const Mask hidden = mask_of([&](const glm::ivec2& c) {
+    return never_seen(surface->views, map, map.on_plane(glm::vec2(c) + 0.5f));
+  });
   Mask below(SurfaceMap::kSidePx, SurfaceMap::kSidePx);
   for (std::size_t g = 0; g < labels.size(); ++g)
     if (labels[g])

@@ -1,12 +1,14 @@
-// The part of what an object stands on that no view ever showed: the bottom of the hole that it leaves.
+// The part of what an object stands on that none of twelve views ever showed: the bottom of the hole that it
+// leaves.
 //
-// In: scene, labels, cameras of the capture. Views and plane are those of fill.h. The plane is divided into
-// cells of 1/24 of the object's radius, four radii to each side. A view shows a cell where, in the pixel of
-// its middle, there is no object and the scene's surface lies no more than .05 radii above the plane. A cell
-// is never seen where no view shows it, at least one has the object there, and it hangs together with such
-// cells below the object. Out: area and outline of these
-// cells. Cost: a drawing of the scene a view. Same input, same bits. It knows nothing of ground that is not
-// flat, nor of what hides the ground beside the object: that was there before.
+// In: scene, labels, cameras of the capture. Views and plane are those of fill.h: the views are cameras of
+// the capture where enough of those show the object, else an orbit around it. The plane is divided into cells
+// of 1/24 of the object's radius, four radii to each side. A view from above the plane shows a cell where, in
+// the pixel of its middle, there is no object, and either nothing or a surface within .05 radii of the plane:
+// what is empty hides no ground. A cell is never seen where no such view shows it, at least one has the
+// object there, and it hangs together with such cells below the object. Out: area and outline of these cells.
+// Cost: a drawing of the scene a view. Same input, same bits. It knows nothing of ground that is not flat,
+// nor of what hides the ground beside the object: that was there before.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -83,6 +83,17 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("ground that nobody saw: a camera below the table shows none of it") {
+  Tin tin(45);
+  const double from_above = tin.ground().area;
+  REQUIRE(from_above > 0);
+  for (const float aside : {0.0f, 0.4f}) {  // the table's lower side, and through it as a single layer
+    Tin with_one_below = tin;
+    with_one_below.cameras[0] = look_at({aside, 20, 4}, {0, 0, 0}, {0, 0, -1}, glm::radians(10.0f), 640, 640);
+    CHECK(with_one_below.ground().area == doctest::Approx(from_above).epsilon(0.1));
+  }
+}
+
 TEST_CASE("ground that nobody saw: none where nothing flat touches the object") {
   Tin tin(45);
   for (std::size_t g = 0; g < tin.labels.size(); ++g)
