@@ -10,8 +10,8 @@
 //   missing        sum of alpha short of the truth's, more than 2 px inside of it, over its area
 //   alpha_error    sum of |alpha - truth's alpha| over its area
 // Where the true labels are known, the same also in a ring of twelve cameras around the true object, 22.5
-// degrees above it, 320 px wide, between those that clean edges look from: it shows the sides that no test
-// view does.
+// degrees above it, 320 px wide: it shows the sides that no test view does. Without cameras of a capture,
+// where clean edges look from such a ring, too, these stand between theirs.
 // And of what is left of the scene without the object: PSNR to the scene in the ring from 2 to 12 px outside
 // of the mask, and the mean gradient along the mask's border, levels of 255 a pixel, where a ghost shows.
 #pragma once

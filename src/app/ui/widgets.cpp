@@ -101,7 +101,7 @@ void clean_edges_choice(UiContext& ui) {
   tooltip(
       "Without what the scene around it had hidden, as the object looks alone; else its rows as they are");
   if (!why_edges_stay(ui)) return;
-  ImGui::SameLine();
+  same_line_if_fits("Clean anyway", 8);
   clean_anyway_button(ui);
 }
 
@@ -109,10 +109,7 @@ std::optional<std::string> why_edges_stay(const UiContext& ui) {
   const std::optional<CleanReport> clean =
       ui.studio.view().clean_edges ? ui.studio.clean_edges() : std::nullopt;
   if (!clean || clean->cleaned || clean->views == 0) return {};
-  return clean->agreed < clean->views
-             ? fmt::format("Edges stay: alone, it looks as in the scene from {} of {} sides only.",
-                           clean->agreed, clean->views)
-             : fmt::format("Edges stay: it is seen from {} sides only.", clean->views);
+  return "Edges stay: " + clean->short_reason() + '.';
 }
 
 void clean_anyway_button(UiContext& ui) {

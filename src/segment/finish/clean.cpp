@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 
 #include "segment/finish/carve.h"
 #include "segment/finish/recolour.h"
@@ -40,22 +41,23 @@ std::vector<OwnView> views_that_show(const CleanInput& input, const GaussianClou
 
 // Leaves those that count, and of the others the best, up to as many as it takes.
 void keep_best(std::vector<OwnView>* views) {
-  if (views->empty()) return;
-  std::vector<double> agreement;
-  for (const OwnView& view : *views) agreement.push_back(view.agreement);
-  std::ranges::sort(agreement, std::greater());
-  const std::size_t last = std::min<std::size_t>(kLeastViews, views->size()) - 1;
-  const double least = std::min(kAgrees, agreement[last]);
-  std::erase_if(*views, [&](const OwnView& view) { return view.agreement < least; });
+  std::vector<std::size_t> best(views->size());
+  std::iota(best.begin(), best.end(), 0);
+  std::ranges::stable_sort(best, std::greater(), [&](std::size_t v) { return (*views)[v].agreement; });
+  std::size_t count = 0;
+  while (count < best.size() && (count < kLeastViews || (*views)[best[count]].agreement >= kAgrees)) ++count;
+  best.resize(count);
+  std::ranges::sort(best);
+  std::vector<OwnView> kept;
+  for (const std::size_t v : best) kept.push_back(std::move((*views)[v]));
+  *views = std::move(kept);
 }
 
 std::string why_not(const CleanReport& report) {
-  if (report.views < kLeastViews)
-    return fmt::format("it is seen from {} sides of the {} that it takes", report.views, kLeastViews);
-  return fmt::format(
-      "cut out, it looks as it does in the scene from {} of {} sides only: something is missing, or too much "
-      "is selected; they are cleaned once that is mended",
-      report.agreed, report.views);
+  return report.short_reason() +
+         (report.views < kLeastViews
+              ? fmt::format("; it takes {}", kLeastViews)
+              : ": something is missing, or too much is selected; they are cleaned once that is mended");
 }
 
 // Steps 1 to 3, or the last two alone; `kept` says what left. Returns what was cut off.
@@ -80,6 +82,13 @@ void drop_gone(const std::vector<std::uint8_t>& kept, CleanObject* object) {
 }
 
 }  // namespace
+
+std::string CleanReport::short_reason() const {
+  if (views >= kLeastViews || agreed < views)
+    return fmt::format("alone, it looks as in the scene from {} of {} side{} only", agreed, views,
+                       views == 1 ? "" : "s");
+  return fmt::format("it is seen from {} side{} only", views, views == 1 ? "" : "s");
+}
 
 CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options, const Job& job) {
   CleanObject object;

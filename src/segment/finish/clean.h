@@ -52,6 +52,8 @@ struct CleanReport {
   int used = 0;               // those that it is cleaned by
   bool uncut = false;         // the second guard said no
   std::size_t left = 0, split = 0, made_solid = 0, recoloured = 0;  // Gaussians
+
+  std::string short_reason() const;  // the reason where views were looked at, as a clause
 };
 
 // What CleanInput::anyway may cost, for whoever decides.

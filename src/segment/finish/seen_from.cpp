@@ -22,10 +22,16 @@ std::vector<std::uint32_t> labelled(std::span<const std::uint8_t> labels) {
   return object;
 }
 
+// Level, of what one looks along; zero where that is straight up or down, or nowhere.
+glm::vec3 level_part(const glm::vec3& towards, const glm::vec3& up) {
+  const glm::vec3 level = towards - glm::dot(towards, up) * up;
+  return glm::length(level) < 1e-6f ? glm::vec3(0) : level;
+}
+
 std::array<glm::vec3, 6> side_directions(const glm::vec3& up_world, const glm::vec3& towards) {
   const glm::vec3 up = glm::normalize(up_world);
-  glm::vec3 front = towards - glm::dot(towards, up) * up;
-  if (glm::length(front) < 1e-6f) front = std::abs(up.x) < 0.6f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
+  glm::vec3 front = level_part(towards, up);
+  if (front == glm::vec3(0)) front = std::abs(up.x) < 0.6f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
   front = glm::normalize(front - glm::dot(front, up) * up);
   const glm::vec3 right = glm::cross(up, front);
   return {front, right, -front, -right, up, -up};
@@ -127,14 +133,14 @@ std::vector<glm::vec3> colours_from(const SeenFrom& seen, const glm::vec3& side)
 
 std::vector<std::string> SeenFrom::never() const {
   std::vector<std::string> names;
-  for (std::size_t s = 0; s < side_share.size(); ++s)
+  for (std::size_t s = has_front ? 0 : kLevelSides; s < side_share.size(); ++s)
     if (side_share.at(s) < kLeastSeenShare) names.emplace_back(kSideNames.at(s));
   return names;
 }
 
 float SeenFrom::unseen_share() const {
   float seen = 0;
-  for (const float share : side_share) seen += share;
+  for (const float share : side_share) seen += share >= kEnoughSeenShare ? 1 : share;
   return 1 - seen / static_cast<float>(side_share.size());
 }
 
@@ -186,6 +192,7 @@ SeenFrom seen_sides(const Drawer& scene, std::span<const std::uint8_t> labels, c
   const glm::vec3 towards = from_world - object_extent(scene.cloud(), labels).centre_world;
   SeenFrom seen;
   seen.sides = side_directions(up_world, towards);
+  seen.has_front = level_part(towards, glm::normalize(up_world)) != glm::vec3(0);
   const SeenSides sides(scene, labels, up_world, towards, cameras);
   for (std::size_t s = 0; s < seen.sides.size() && !job.cancelled(); ++s) {
     seen.side_cameras.at(s) = sides.looking_from(seen.sides.at(s));

@@ -22,16 +22,20 @@
 namespace splatcut {
 
 inline constexpr std::array<const char*, 6> kSideNames = {"front", "right", "back", "left", "above", "below"};
+inline constexpr std::size_t kLevelSides = 4;  // the first ones
 
 struct SeenFrom {
   std::vector<glm::vec3> views;  // directions from the object to those that were looked at, unit
   std::vector<std::uint32_t>
       by_views;  // per labelled Gaussian, in the scene's order: a bit for each that sees it
-  std::array<glm::vec3, 6> sides{};        // directions, unit
-  std::array<float, 6> side_share{};       // of kSideNames, in [0, 1]
-  std::array<Camera, 6> side_cameras{};    // that look at the object from there
+  std::array<glm::vec3, 6> sides{};      // directions, unit
+  std::array<float, 6> side_share{};     // of kSideNames, in [0, 1]
+  std::array<Camera, 6> side_cameras{};  // that look at the object from there
+  bool has_front = true;  // false: one looks from straight above or below; level sides have no names then
   std::vector<std::string> never() const;  // names of the sides that were not seen: see kLeastSeenShare
-  float unseen_share() const;  // of the object's surface: the mean over the sides of what no view saw, [0, 1]
+  // Of the object's surface: the mean over the sides of what no view saw, [0, 1]. A side of which as much as
+  // kEnoughSeenShare was seen counts as all seen: no more of it was looked for.
+  float unseen_share() const;
 };
 
 // How much of an object was seen from a side: the share of its picture alone, 160 pixels wide, that the scene

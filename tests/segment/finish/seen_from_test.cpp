@@ -23,7 +23,7 @@ TEST_CASE("seen from: nobody saw a thing on a table from below, with a capture's
                   capture ? std::span<const Camera>(apple.scene.cameras) : std::span<const Camera>(), {});
     CHECK(seen.never() == std::vector<std::string>{"below"});
     float unseen = 0;
-    for (const float share : seen.side_share) unseen += (1 - share) / 6;
+    for (const float share : seen.side_share) unseen += share >= kEnoughSeenShare ? 0 : (1 - share) / 6;
     CHECK(seen.unseen_share() == doctest::Approx(unseen).epsilon(1e-5));
     CHECK(seen.unseen_share() >= (1 - kLeastSeenShare) / 6);
     CHECK(seen.unseen_share() < 0.4f);
@@ -39,6 +39,22 @@ TEST_CASE("seen from: nobody saw a thing on a table from below, with a capture's
     for (const std::uint32_t by : seen.by_views)
       CHECK(std::bit_width(by) <= static_cast<int>(seen.views.size()));
   }
+}
+
+TEST_CASE("seen from: from straight above nothing is in front, and no level side has a name") {
+  StillLifeOptions options;
+  options.gaussians = 20000;
+  const Thing apple(options, "apple");
+  const std::vector<std::uint8_t>& labels = apple.test.truth_labels;
+  const glm::vec3 up(0, -1, 0), middle = object_extent(apple.scene.cloud, labels).centre_world;
+  std::vector<Camera> above = {apple.scene.cameras[0]};
+  above[0] = look_at(middle + up, middle, {0, 0, 1}, 0.9f, 160, 160);
+  const auto never = [&](const glm::vec3& from) {
+    return seen_sides(apple.scene.cloud, labels, up, from, above, {}).never();
+  };
+  CHECK(never(middle) == std::vector<std::string>{"below"});
+  CHECK(never(middle + up) == std::vector<std::string>{"below"});
+  CHECK(never(middle + glm::vec3(0.3f, 0, 0)).size() == 5);
 }
 
 TEST_CASE(
