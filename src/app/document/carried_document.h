@@ -26,6 +26,8 @@ class CarriedDocument {
   // Returns the carried document. Documents that share an array share the carried array, too: calls for all
   // states of a history cost memory for distinct arrays only.
   Document operator()(const Document& document);
+  Flags carried(const Flags& flags);  // one per Gaussian; null stays null
+  std::vector<Flags> carried(const std::vector<Flags>& all);
 
  private:
   struct File {  // a file of the new scene
@@ -33,7 +35,6 @@ class CarriedDocument {
     Similarity to;  // movement from the old place to the new one
   };
   static constexpr std::int32_t kNew = -1, kAnyFile = -1;
-  Flags carried(const Flags& flags);
   Flags seen(const Flags& flags, std::int32_t only_file);
   std::int32_t followed_file(const ObjectItem& object) const;
   void carry_views(ObjectItem* object);

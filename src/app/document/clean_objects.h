@@ -2,15 +2,17 @@
 // what the window shows.
 //
 // Thread-safe; two threads that ask for the same object at the same time both compute it. Memory: labels and
-// Gaussians of the last few objects, and labels of those that are cleaned anyway.
+// Gaussians of the last few objects, and labels of those that are cleaned anyway. Each array of labels is
+// compared with the kept ones once, from then on by its address: asking in every frame costs nothing.
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
+#include "app/document/document.h"
 #include "app/document/opened_scene.h"
 #include "segment/finish/clean.h"
 #include "segment/finish/fill.h"
@@ -19,34 +21,38 @@ namespace splatcut {
 
 class CleanObjects {
  public:
-  explicit CleanObjects(std::shared_ptr<const OpenedScene> scene) : scene_(std::move(scene)) {}
+  // anyway: decisions() so far, in labels of this scene.
+  explicit CleanObjects(std::shared_ptr<const OpenedScene> scene, std::vector<Flags> anyway = {})
+      : scene_(std::move(scene)), anyway_(std::move(anyway)) {}
 
   // Returns the cached object for these labels (one per Gaussian of the scene, 1 = object) and this up
   // direction; null if it is not cached.
-  std::shared_ptr<const CleanObject> known(const std::vector<std::uint8_t>& labels,
-                                           const glm::vec3& up_world) const;
+  std::shared_ptr<const CleanObject> known(const Flags& labels, const glm::vec3& up_world) const;
   // Returns the cached object, or computes it with clean_object() and keeps it; null if cancelled.
-  std::shared_ptr<const CleanObject> made(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world,
-                                          const Job& job);
-  // From now on the object with these labels is cleaned even where the guard says no (clean.h).
-  void clean_anyway(const std::vector<std::uint8_t>& labels);
-  bool is_cleaned_anyway(const std::vector<std::uint8_t>& labels) const;
+  std::shared_ptr<const CleanObject> made(const Flags& labels, const glm::vec3& up_world, const Job& job);
+  // From now on the object with these labels is cleaned even where the guard says no (clean.h), until
+  // kMostDecisions others were decided so.
+  void clean_anyway(const Flags& labels);
+  bool is_cleaned_anyway(const Flags& labels) const;
+  std::vector<Flags> decisions() const;  // labels that clean_anyway() was called with, the newest last
+
+  static constexpr std::size_t kMostDecisions = 32;
 
   // Computes what the rest of the scene loses and gets back without the object; nothing is kept.
-  RestChanges rest_without(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world,
-                           const Job& job) const;
+  RestChanges rest_without(const Flags& labels, const glm::vec3& up_world, const Job& job) const;
 
   // The hole that the object leaves in the rest so changed; nothing is kept.
-  SurfacePatch hole_of(const std::vector<std::uint8_t>& labels, const RestChanges& changes,
-                       const glm::vec3& up_world, const Job& job) const;
+  SurfacePatch hole_of(const Flags& labels, const RestChanges& changes, const glm::vec3& up_world,
+                       const Job& job) const;
 
  private:
-  bool anyway(const std::vector<std::uint8_t>& labels) const;  // under mutex_
-  CleanObject computed(const std::vector<std::uint8_t>& labels, const glm::vec3& up_world, bool rest,
-                       bool anyway, const Job& job) const;
+  Flags first(const Flags& labels) const;  // of equal arrays the one that stands for all; under mutex_
+  bool anyway(const Flags& first) const;   // under mutex_
+  CleanObject computed(const Flags& labels, const glm::vec3& up_world, bool rest, bool anyway,
+                       const Job& job) const;
 
   struct Kept {
-    std::vector<std::uint8_t> labels;
+    Flags labels;  // first()
     glm::vec3 up_world;
     bool anyway;
     std::shared_ptr<const CleanObject> object;
@@ -54,8 +60,9 @@ class CleanObjects {
 
   std::shared_ptr<const OpenedScene> scene_;
   mutable std::mutex mutex_;
-  std::deque<Kept> kept_;                          // cached objects, the newest last
-  std::vector<std::vector<std::uint8_t>> anyway_;  // labels of those that are cleaned anyway
+  std::deque<Kept> kept_;      // cached objects, the newest last
+  std::vector<Flags> anyway_;  // first() of labels that are cleaned anyway, the newest last
+  mutable std::deque<std::pair<Flags, Flags>> asked_;  // arrays asked for last, and first() of each
 };
 
 }  // namespace splatcut

@@ -23,8 +23,8 @@ struct Exporting {
 };
 
 // Null where the object's rows are written as they are, or where it was cancelled.
-std::shared_ptr<const CleanObject> clean_edges_of(const std::vector<std::uint8_t>& labels,
-                                                  const Exporting& what, ExportReport* report) {
+std::shared_ptr<const CleanObject> clean_edges_of(const Flags& labels, const Exporting& what,
+                                                  ExportReport* report) {
   if (!what.request.clean_edges) return nullptr;
   auto object = what.clean->made(labels, what.up_world, what.job);
   if (!object) return nullptr;
@@ -38,9 +38,8 @@ std::shared_ptr<const CleanObject> clean_edges_of(const std::vector<std::uint8_t
 }
 
 // object: the labels of the one that `keep` holds, or that it is the rest of; null: of none.
-void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& keep,
-          const std::vector<std::uint8_t>* object, const std::optional<Similarity>& to, const Exporting& what,
-          ExportReport* report) {
+void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& keep, const Flags& object,
+          const std::optional<Similarity>& to, const Exporting& what, ExportReport* report) {
   const ExportRequest& request = what.request;
   if (count_flags(keep) == 0)
     throw Error(path.filename().string(), "would hold no Gaussians", "Select something first");
@@ -48,13 +47,13 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   check_output_file(path, request.overwrite);
   const bool is_rest = request.what == ExportWhat::kRest;
   const std::shared_ptr<const CleanObject> clean =
-      object && !is_rest ? clean_edges_of(*object, what, report) : nullptr;
+      object && !is_rest ? clean_edges_of(object, what, report) : nullptr;
   RestChanges changes;
   if (object && is_rest && request.clean_edges)
-    changes = what.clean->rest_without(*object, what.up_world, what.job);
+    changes = what.clean->rest_without(object, what.up_world, what.job);
   report->not_given_back += spare_copy(what.scene, request.format, &changes);
   if (object && is_rest && request.fill_hole) {
-    const SurfacePatch patch = what.clean->hole_of(*object, changes, what.up_world, what.job);
+    const SurfacePatch patch = what.clean->hole_of(object, changes, what.up_world, what.job);
     report->hole_kept = patch.why_not;
     add(patch.changes, &changes);
   }
@@ -180,7 +179,7 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
     const auto to = place(exported(document, object, request.what, n));  // objects stay beside each other
     visit_objects(document, n, [&](const ObjectToSave& o) {
       if (!job.cancelled())
-        save(request.path / (o.file + request.format.extension), o.labels, &o.labels, to, what, &report);
+        save(request.path / (o.file + request.format.extension), o.labels, make_flags(o.labels), to, what, &report);
     });
     if (report.files == 0 && !job.cancelled())
       throw Error("export", "no object holds any Gaussians", "Select something first");
@@ -192,9 +191,8 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
   if (request.what != ExportWhat::kScene && !document.find(object))
     throw Error("export", "no object is chosen", "Click an object first");
   const std::vector<std::uint8_t> keep = exported(document, object, request.what, n);
-  std::vector<std::uint8_t> labels;
-  if (const ObjectItem* item = document.find(object)) labels = labels_of(document, *item, n);
-  save(request.path, keep, request.what == ExportWhat::kScene ? nullptr : &labels, place(keep), what,
+  const ObjectItem* item = request.what == ExportWhat::kScene ? nullptr : document.find(object);
+  save(request.path, keep, item ? make_flags(labels_of(document, *item, n)) : nullptr, place(keep), what,
        &report);
   return report;
 }

@@ -98,7 +98,7 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
     out.style[1] = plain;
     out.style[1].heat = nullptr;
   }
-  const auto clean = shows_clean_edges(order.view) ? order.clean->known(*active, document.up_world) : nullptr;
+  const auto clean = shows_clean_edges(order.view) ? order.clean->known(active, document.up_world) : nullptr;
   if (clean && clean->report.cleaned) {
     const std::size_t pane = two ? 1 : 0;
     out.clean[pane] = clean;

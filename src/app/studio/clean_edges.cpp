@@ -11,41 +11,47 @@ void CleanEdges::update() {
   if (std::exchange(seen_, labels) != labels || !ws_.tasks.idle()) seen_since_s_ = ws_.clock_s;
   const bool alone = shows_clean_edges(ws_.view), calm = ws_.clock_s - seen_since_s_ > kCalmSeconds;
   const bool wanted = alone || (calm && ws_.view.clean_edges);
-  if (!wanted || !labels || settled_ == labels || !ws_.tasks.idle()) return;
-  settled_ = labels;
-  if (count_flags(*labels) > 0 && !ws_.clean->known(*labels, ws_.document().up_world)) start(labels);
+  if (!wanted || !labels || !ws_.tasks.idle() || settled_ == now()) return;
+  settled_ = now();
+  if (count_flags(*labels) > 0 && !ws_.clean->known(labels, ws_.document().up_world)) start();
+}
+
+CleanEdges::Asked CleanEdges::now() const {
+  return {seen_, ws_.document().up_world, ws_.clean->is_cleaned_anyway(seen_)};
 }
 
 void CleanEdges::perform(const CleanAnyway&) {
   const ObjectItem* object = ws_.document().active_object();
   if (!ws_.scene || !object || ws_.gaussians_of(object->id) == 0)
     throw Error("clean edges", "there is no object to clean", "Click an object first");
-  ws_.clean->clean_anyway(*ws_.labels.labels(ws_.document(), *object, ws_.gaussians()));
-  settled_ = nullptr;
+  ws_.clean->clean_anyway(ws_.labels.labels(ws_.document(), *object, ws_.gaussians()));
+  ws_.tasks.cancel(TaskKind::kClean);  // what it computes is not wanted any more
+  settled_ = {};
   ++ws_.view_serial;
   ws_.view.clean_edges = true;
 }
 
-void CleanEdges::start(const Flags& labels) {
-  settled_ = nullptr;
-  const TaskThread::Order order(TaskKind::kClean, [this, labels] { settled_ = labels; });
-  ws_.tasks.submit(order,
-                   [this, labels, clean = ws_.clean, up_world = ws_.document().up_world](const Job& job) {
-                     const auto object = clean->made(*labels, up_world, job);
-                     if (!object) return;
-                     ws_.tasks.post([this, labels, object] {
-                       settled_ = labels;
-                       ++ws_.view_serial;
-                       if (!object->report.cleaned && shows_clean_edges(ws_.view))
-                         ws_.say(Message::Kind::kInfo, "Edges stay as they are: " + object->report.reason);
-                     });
-                   });
+void CleanEdges::start() {
+  settled_ = {};
+  const Asked asked = now();
+  const TaskThread::Order order(TaskKind::kClean, [this, asked] { settled_ = asked; });
+  ws_.tasks.submit(order, [this, asked, clean = ws_.clean](const Job& job) {
+    const auto object = clean->made(asked.labels, asked.up_world, job);
+    if (!object) return;
+    ws_.tasks.post([this, asked, clean, object] {
+      if (clean != ws_.clean || clean->known(asked.labels, ws_.document().up_world) != object) return;
+      settled_ = asked;
+      ++ws_.view_serial;
+      if (!object->report.cleaned && shows_clean_edges(ws_.view))
+        ws_.say(Message::Kind::kInfo, "Edges stay as they are: " + object->report.reason);
+    });
+  });
 }
 
 bool CleanEdges::cancel() {
   if (!shows_clean_edges(ws_.view) || !ws_.tasks.busy(TaskKind::kClean)) return false;
   ws_.tasks.cancel(TaskKind::kClean);
-  settled_ = seen_;
+  settled_ = now();
   return true;
 }
 

@@ -1,7 +1,8 @@
 // Computes the active object with clean edges on the worker: at once if the object is shown alone, else while
 // the worker has nothing else to do, so that the object is there when the user asks for it.
 //
-// A new cut, a scene that opens and a change of labels stop the computation; it starts anew by itself.
+// A new cut, a scene that opens and a change of labels stop the computation; it starts anew by itself, as it
+// does where up changes, or the user asks to clean anyway.
 #pragma once
 
 #include "app/document/document.h"
@@ -17,17 +18,24 @@ class CleanEdges {
 
   void perform(const CleanAnyway&);
   void update();  // starts what is needed; called once a frame
-  // Stops the computation that a view waits for, and gives it up for these labels. Returns false if no view
-  // waits.
+  // Stops the computation that a view waits for, and gives it up as it was asked for. Returns false if no
+  // view waits.
   bool cancel();
 
  private:
-  void start(const Flags& labels);
+  struct Asked {
+    Flags labels;
+    glm::vec3 up_world{0};
+    bool anyway = false;
+    bool operator==(const Asked&) const = default;
+  };
+  Asked now() const;  // what seen_ asks for
+  void start();
 
   Workspace& ws_;
   const Viewport& viewport_;
   const CutJobs& cuts_;
-  Flags settled_;            // labels whose edges are computed, or were given up
+  Asked settled_;            // what is computed, or was given up
   Flags seen_;               // labels at the last update()
   double seen_since_s_ = 0;  // clock time since which labels and worker are quiet
 };

@@ -79,7 +79,7 @@ void Exports::perform(const SaveTurntable& c) {
         const std::vector<Camera> cameras =
             cameras_of_turn(object_extent(*scene->cloud, *own), front, up_world, c);
         const TurntableOptions options{c.as, c.path, c.turn_s, background};
-        auto clean = c.clean_edges ? made->made(*own, up_world, job) : nullptr;
+        auto clean = c.clean_edges ? made->made(own, up_world, job) : nullptr;
         if (clean && !clean->report.cleaned) clean = nullptr;
         if (!save_turntable(clean ? clean->cloud : *scene->cloud, cameras, clean ? nullptr : own, limits,
                             options, job))

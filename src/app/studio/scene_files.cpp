@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "app/document/carried_document.h"
 #include "app/document/words.h"
@@ -166,19 +167,24 @@ void SceneFiles::change_files(std::vector<SceneSource> files, const std::string&
 // meanwhile.
 void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const std::string& done) {
   const TaskThread::Order order(TaskKind::kLoad, [this] { changing_to_.clear(); });
-  ws_.tasks.submit(order, [this, scene, done, before = ws_.scene, history = ws_.history,
-                           serial = ws_.history.serial()](const Job& job) mutable {
-    job.progress("carrying labels", 0);
-    history.carry(CarriedDocument(*before, *scene));
-    if (job.cancelled()) return;
-    ws_.tasks.post([this, scene, done, before, history = std::move(history), serial] {
-      calls_.in_turn([this, scene, done, before, history, serial] {
-        if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
-        if (before != ws_.scene || serial != ws_.history.serial()) return carry_document(scene, done);
-        files_changed(scene, history, done);
+  ws_.tasks.submit(
+      order, [this, scene, done, before = ws_.scene, history = ws_.history, serial = ws_.history.serial(),
+              decided = ws_.clean->decisions()](const Job& job) mutable {
+        job.progress("carrying labels", 0);
+        CarriedDocument carry(*before, *scene);
+        history.carry(std::ref(carry));
+        const std::vector<Flags> anyway = carry.carried(decided);
+        if (job.cancelled()) return;
+        ws_.tasks.post([this, scene, done, before, history = std::move(history), serial, decided, anyway] {
+          calls_.in_turn([this, scene, done, before, history, serial, decided, anyway] {
+            if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
+            if (before != ws_.scene || serial != ws_.history.serial() || decided != ws_.clean->decisions())
+              return carry_document(scene, done);
+            files_changed(scene, history, done);
+            ws_.clean = std::make_shared<CleanObjects>(scene, anyway);
+          });
+        });
       });
-    });
-  });
 }
 
 void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, History history,
@@ -204,7 +210,7 @@ void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Histor
 }
 
 SceneFiles::Kept SceneFiles::kept_now(std::uint64_t step) const {
-  return {step, ws_.scene, ws_.graph, ws_.session, ws_.coarse, ws_.history};
+  return {step, ws_.scene, ws_.graph, ws_.session, ws_.clean, ws_.coarse, ws_.history};
 }
 
 void SceneFiles::go_back_to(Kept kept) {
@@ -214,6 +220,7 @@ void SceneFiles::go_back_to(Kept kept) {
   take(kept.scene);
   ws_.graph = std::move(kept.graph);
   ws_.session = std::move(kept.session);
+  ws_.clean = std::move(kept.clean);
   ws_.coarse = std::move(kept.coarse);
   ws_.history = std::move(kept.history);
   calls_.opened(true);

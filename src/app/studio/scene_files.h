@@ -73,6 +73,7 @@ class SceneFiles {
     std::shared_ptr<const OpenedScene> scene;
     std::shared_ptr<SceneGraph> graph;
     std::shared_ptr<Session> session;
+    std::shared_ptr<CleanObjects> clean;
     std::shared_ptr<const CoarseCloud> coarse;
     History history;
   };

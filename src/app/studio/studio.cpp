@@ -168,7 +168,7 @@ std::optional<CleanReport> Studio::clean_edges() const {
   const ObjectItem* object = document().active_object();
   if (!object || !ws_.scene) return {};
   const Flags own = ws_.labels.labels(document(), *object, ws_.gaussians());
-  const auto clean = ws_.clean->known(*own, document().up_world);
+  const auto clean = ws_.clean->known(own, document().up_world);
   return clean ? std::optional(clean->report) : std::nullopt;
 }
 
