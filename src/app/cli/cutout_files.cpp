@@ -103,13 +103,17 @@ void look_from_all_sides(const CutoutFolder& to, const ObjectFiles& files,
   report->seen_ms = ms_since(start);
 }
 
-// What was invented comes last.
-RestChanges changes_of(std::span<const EdgesReport> objects) {
-  RestChanges all;
+// What was invented comes last. What is not given back is told in the reports.
+RestChanges changes_of(const CutoutFolder& to, std::span<EdgesReport> objects) {
+  RestChanges all, filled;
   for (const EdgesReport& object : objects)
-    if (object.rest) add(*object.rest, &all);
-  for (const EdgesReport& object : objects)
-    if (object.fill) add(object.fill->changes, &all);
+    if (object.fill) add(object.fill->changes, &filled);
+  for (EdgesReport& object : objects) {
+    if (!object.rest) continue;
+    object.not_given_back = spare_copy(to.scene, SceneFormat::kPly, to.to.has_value(), filled, &*object.rest);
+    add(*object.rest, &all);
+  }
+  add(filled, &all);
   return all;
 }
 
@@ -117,7 +121,8 @@ nlohmann::json seen_json(const SeenFrom& seen) {
   nlohmann::json json = {{"never_from", seen.never()}, {"unseen_share", seen.unseen_share()}};
   if (!seen.views.empty())
     json.update({{"views", seen.views.size()}, {"unseen", std::ranges::count(seen.by_views, 0)}});
-  for (std::size_t s = 0; s < kSideNames.size(); ++s) json["sides"][kSideNames.at(s)] = seen.side_share.at(s);
+  for (std::size_t s = seen.has_front ? 0 : kLevelSides; s < kSideNames.size(); ++s)
+    json["sides"][kSideNames.at(s)] = seen.side_share.at(s);
   return json;
 }
 
@@ -128,6 +133,23 @@ nlohmann::json fill_json(const SurfacePatch& patch) {
   return {{"filled", true},         {"invented", patch.changes.given_back.size()},
           {"pieces", patch.pieces}, {"replaced", patch.changes.ghosts.size()},
           {"area", patch.area},     {"rim_error", patch.rim_error}};
+}
+
+nlohmann::json clean_json(const std::optional<CleanReport>& clean) {
+  nlohmann::json json = {{"edges", clean && clean->cleaned ? "clean" : "keep"}};
+  if (!clean) return json;
+  json.update({{"views", clean->views}, {"agreed", clean->agreed}});
+  if (!clean->cleaned) {
+    json["why_kept"] = clean->reason;
+    return json;
+  }
+  if (clean->forced) json.update({{"forced", true}, {"used", clean->used}, {"doubt", clean->reason}});
+  if (clean->uncut) json["uncut"] = true;
+  json.update({{"left", clean->left},
+               {"split", clean->split},
+               {"made_solid", clean->made_solid},
+               {"recoloured", clean->recoloured}});
+  return json;
 }
 
 void CutoutOptions::add_to(CLI::App& command) {
@@ -181,24 +203,15 @@ std::string EdgesReport::sentence() const {
 }
 
 nlohmann::json EdgesReport::json(bool times) const {
-  nlohmann::json json = {{"edges", clean && clean->cleaned ? "clean" : "keep"}, {"gaussians", gaussians}};
+  nlohmann::json json = clean_json(clean);
+  json["gaussians"] = gaussians;
   if (fill) json["fill"] = fill_json(*fill);
   if (seen) json["seen"] = seen_json(*seen);
   if (ground && ground->why_not.empty()) json["seen"]["ground_area"] = ground->area;
   if (ground && !ground->why_not.empty()) json["seen"]["no_ground"] = ground->why_not;
   if (!clean) return json;
-  json.update({{"views", clean->views}, {"agreed", clean->agreed}});
   if (times) json["ms"] = ms;
-  if (!clean->cleaned) {
-    json["why_kept"] = clean->reason;
-    return json;
-  }
-  if (clean->forced) json.update({{"forced", true}, {"used", clean->used}, {"doubt", clean->reason}});
-  if (clean->uncut) json["uncut"] = true;
-  json.update({{"left", clean->left},
-               {"split", clean->split},
-               {"made_solid", clean->made_solid},
-               {"recoloured", clean->recoloured}});
+  if (!clean->cleaned) return json;
   if (rest) json.update({{"ghosts", rest->ghosts.size()}, {"given_back", rest->given_back.size()}});
   if (not_given_back > 0) json["not_given_back"] = not_given_back;
   return json;
@@ -251,10 +264,7 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
                          {}, job);
     report.ms = ms_since(start);
     report.clean = clean->report;
-    if (to.rest) {
-      report.not_given_back = spare_copy(to.scene, SceneFormat::kPly, &clean->rest);
-      report.rest = std::move(clean->rest);
-    }
+    if (to.rest) report.rest = std::move(clean->rest);
     if (!clean->report.cleaned) clean.reset();
   }
   if (to.rest && to.options.fill == "surface")
@@ -271,6 +281,7 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
     write_hull(to, files.hull, clean ? clean->cloud : to.scene.cloud,
                clean ? std::span<const std::uint8_t>() : labels);
   look_from_all_sides(to, files, labels, shown, &report, job);
+  if (job.cancelled()) return report;
   if (!files.labels.empty() && to.options.writes("labels"))
     write_labels(to.folder.file(files.labels), to.scene, labels);
   if (!pictures) return report;
@@ -283,21 +294,23 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
 }
 
 std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner,
-                       std::span<const EdgesReport> objects, const Camera& camera) {
+                       std::span<EdgesReport> objects, const Camera& camera) {
   std::vector<std::uint8_t> rest(owner.size());
   std::ranges::transform(owner, rest.begin(),
                          [](std::uint8_t o) { return static_cast<std::uint8_t>(o == 0); });
   std::size_t gaussians = static_cast<std::size_t>(std::ranges::count(rest, 1));
   if (to.options.writes("rest")) {
-    const RestChanges changes = changes_of(objects);
+    const RestChanges changes = changes_of(to, objects);
     gaussians = save_rest(to.folder.file("rest.ply"), to.scene, rest, changes, SceneFormat::kPly, to.to,
                           {.may_be_empty = true, .up = to.up})
                     .gaussians;
     if (to.options.writes("pictures")) {
-      const bool as_it_was = changes.ghosts.empty() && changes.given_back.size() == 0;
+      std::vector<std::uint8_t> shown = rest;
+      for (const std::uint32_t g : changes.ghosts) shown[g] = 0;
       write_png(to.folder.file("rest.png"),
-                as_it_was ? cutout_picture(to.drawer(), camera, rest)
-                          : cutout_picture(Drawer(rest_of(to.scene.cloud, rest, changes)), camera, {}));
+                changes.given_back.empty()
+                    ? cutout_picture(to.drawer(), camera, shown)
+                    : cutout_picture(Drawer(rest_of(to.scene.cloud, rest, changes)), camera, {}));
     }
   }
   if (to.options.writes("labels")) write_labels(to.folder.file("labels.u8"), to.scene, owner);

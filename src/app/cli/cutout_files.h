@@ -70,6 +70,7 @@ struct CutoutFolder {
 };
 
 nlohmann::json fill_json(const SurfacePatch& patch);
+nlohmann::json clean_json(const std::optional<CleanReport>& clean);  // {"edges": "clean" or "keep", ...}
 
 // Names of an object's files; an empty one is not written.
 struct ObjectFiles {
@@ -104,9 +105,9 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
 
 // Of these, what the options name: rest.ply (without Gaussians where all are an object's), rest.png from
 // `camera`, labels.u8 and labels.npy (`owner` in file order), objects.ply (all objects, rows as they are,
-// each with its owner as object_id). objects: what was done to them changes the rest. Returns the number of
-// Gaussians of the rest.
+// each with its owner as object_id). objects: what was done to them changes the rest; what is not given back
+// leaves them. Returns the number of Gaussians of the rest.
 std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner,
-                       std::span<const EdgesReport> objects, const Camera& camera);
+                       std::span<EdgesReport> objects, const Camera& camera);
 
 }  // namespace splatcut

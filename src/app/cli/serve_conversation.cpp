@@ -318,43 +318,38 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
       throw Error("export", "has both \"scale\" and \"scale-by\"", "Leave one out");
     placement.scale = placement_of(args.cutout, open.drawer(), open.chosen.camera, job).scale;
   }
-  const bool rest = request.value("what", "object") == "rest", wants_clean = args.cutout.clean();
+  const bool rest = request.value("what", "object") == "rest";
   const std::vector<std::uint8_t>& labels = object().labels;
   std::vector<std::uint8_t> keep = labels;
   if (rest)
     for (std::uint8_t& flag : keep) flag = !flag;
   std::optional<CleanObject> clean;
-  if (wants_clean)
+  if (args.cutout.clean())
     clean = clean_object(
         {open.drawer(), labels, open.chosen.up_world, open.chosen.given, rest, args.cutout.clean_anyway()},
         {}, job);
   const bool cleaned = clean && clean->report.cleaned;
   RestChanges changes = cleaned && rest ? clean->rest : RestChanges();
-  const std::size_t not_given_back = spare_copy(scene, format, &changes);
   std::optional<SurfacePatch> patch;
-  if (rest && args.cutout.fill == "surface") {
+  if (rest && args.cutout.fill == "surface")
     patch = fill_surface(open.drawer(), labels, changes.ghosts, open.chosen.up_world, open.chosen.given, job);
-    add(patch->changes, &changes);
-  }
   refuse_cancelled(job);
   std::optional<MovedTo> to;
   if (placement != ExportPlacement{})
     to = {similarity_of(placement, scene.cloud, keep, open.chosen.up_world, format.axes),
           placement.origin == ExportOrigin::kScene};
+  const RestChanges filled = patch ? patch->changes : RestChanges();
+  const std::size_t not_given_back = spare_copy(scene, format, to.has_value(), filled, &changes);
+  add(filled, &changes);
   const SaveOptions how{.up = up_to_write(open.chosen, placement)};
   const SaveReport saved =
       rest ? save_rest(path, scene, keep, changes, format, to, how)
            : save_gaussians(path, scene, keep, cleaned ? &clean->cloud : nullptr, format, to, how);
-  nlohmann::json reply = {{"gaussians", saved.gaussians},
-                          {"bytes", saved.bytes},
-                          {"edges", cleaned ? "clean" : "keep"},
-                          {"path", path.string()}};
+  nlohmann::json reply = clean_json(clean ? std::optional(clean->report) : std::nullopt);
+  reply.update({{"gaussians", saved.gaussians}, {"bytes", saved.bytes}, {"path", path.string()}});
   if (!saved.loss.empty()) reply["loss"] = saved.loss;
   if (patch) reply["fill"] = fill_json(*patch);
   if (not_given_back > 0) reply["not_given_back"] = not_given_back;
-  if (wants_clean && !cleaned) reply["why_kept"] = clean->report.reason;
-  if (cleaned && clean->report.forced)
-    reply.update({{"forced", true}, {"views", clean->report.views}, {"agreed", clean->report.agreed}});
   return reply;
 }
 

@@ -111,7 +111,9 @@ const std::vector<RequestKind>& kinds() {
         {"scale", kNumber, false, "Factor of all lengths"},
         kReplaces},
        {"edges", "fill", "scale-by"},
-       "gaussians, bytes, edges, why_kept or forced, fill, loss of the format, path"},
+       "gaussians, bytes, path; edges with views, agreed, and why_kept or what was done (forced with used "
+       "and "
+       "doubt); fill, not_given_back, loss of the format"},
       {Ask::kCancel,
        "cancel",
        "Stops a request that is running or waiting, which then replies that it was cancelled",

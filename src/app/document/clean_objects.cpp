@@ -26,8 +26,8 @@ std::shared_ptr<const CleanObject> CleanObjects::made(const Flags& labels, const
   return object;
 }
 
-RestChanges CleanObjects::rest_without(const Flags& labels, const glm::vec3& up_world, const Job& job) const {
-  return computed(labels, up_world, true, is_cleaned_anyway(labels), job).rest;
+CleanObject CleanObjects::with_rest(const Flags& labels, const glm::vec3& up_world, const Job& job) const {
+  return computed(labels, up_world, true, is_cleaned_anyway(labels), job);
 }
 
 void CleanObjects::clean_anyway(const Flags& labels) {

@@ -38,8 +38,8 @@ class CleanObjects {
 
   static constexpr std::size_t kMostDecisions = 32;
 
-  // Computes what the rest of the scene loses and gets back without the object; nothing is kept.
-  RestChanges rest_without(const Flags& labels, const glm::vec3& up_world, const Job& job) const;
+  // Computes the object with what the rest of the scene loses and gets back without it; nothing is kept.
+  CleanObject with_rest(const Flags& labels, const glm::vec3& up_world, const Job& job) const;
 
   // The hole that the object leaves in the rest so changed; nothing is kept.
   SurfacePatch hole_of(const Flags& labels, const RestChanges& changes, const glm::vec3& up_world,

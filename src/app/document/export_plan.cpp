@@ -7,6 +7,7 @@
 
 #include "app/console/kept_inputs.h"
 #include "app/console/output_folder.h"
+#include "app/document/words.h"
 #include "core/error.h"
 
 namespace splatcut {
@@ -28,13 +29,8 @@ std::shared_ptr<const CleanObject> clean_edges_of(const Flags& labels, const Exp
   if (!what.request.clean_edges) return nullptr;
   auto object = what.clean->made(labels, what.up_world, what.job);
   if (!object) return nullptr;
-  if (!object->report.cleaned) {
-    report->edges_kept = object->report.reason;
-    return nullptr;
-  }
-  ++report->clean;
-  report->forced += object->report.forced;
-  return object;
+  count_edges(object->report, report);
+  return object->report.cleaned ? object : nullptr;
 }
 
 // object: the labels of the one that `keep` holds, or that it is the rest of; null: of none.
@@ -49,14 +45,19 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   const std::shared_ptr<const CleanObject> clean =
       object && !is_rest ? clean_edges_of(object, what, report) : nullptr;
   RestChanges changes;
-  if (object && is_rest && request.clean_edges)
-    changes = what.clean->rest_without(object, what.up_world, what.job);
-  report->not_given_back += spare_copy(what.scene, request.format, &changes);
-  if (object && is_rest && request.fill_hole) {
-    const SurfacePatch patch = what.clean->hole_of(object, changes, what.up_world, what.job);
-    report->hole_kept = patch.why_not;
-    add(patch.changes, &changes);
+  if (object && is_rest && request.clean_edges) {
+    CleanObject without = what.clean->with_rest(object, what.up_world, what.job);
+    count_edges(without.report, report);
+    changes = std::move(without.rest);
   }
+  RestChanges filled;
+  if (object && is_rest && request.fill_hole) {
+    SurfacePatch patch = what.clean->hole_of(object, changes, what.up_world, what.job);
+    report->hole_kept = patch.why_not;
+    filled = std::move(patch.changes);
+  }
+  report->not_given_back += spare_copy(what.scene, request.format, to.has_value(), filled, &changes);
+  add(filled, &changes);
   if (what.job.cancelled()) return;
   std::optional<MovedTo> moved;
   if (to) moved = {*to, request.placement.origin == ExportOrigin::kScene};
@@ -140,23 +141,54 @@ SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
   return save_scene(path, other, {}, format, of_other);
 }
 
-std::size_t spare_copy(const Scene& scene, const SceneFormat& format, RestChanges* changes) {
+bool rest_is_copy(const Scene& scene, const SceneFormat& format, bool moved, const RestChanges& changes) {
   const bool beside = format.name == SceneFormat::kPly.name && scene.rows_can_be_changed;
-  if (beside || scene.cloud.size() <= kMostToCopy) return 0;
+  return moved || (!changes.given_back.empty() && !beside);
+}
+
+std::size_t spare_copy(const Scene& scene, const SceneFormat& format, bool moved, const RestChanges& filled,
+                       RestChanges* changes) {
+  const bool copied_for_them =
+      rest_is_copy(scene, format, moved, *changes) && !rest_is_copy(scene, format, moved, filled);
+  if (!copied_for_them || scene.cloud.size() <= kMostToCopy) return 0;
   return std::exchange(changes->given_back, {}).size();
 }
 
 SaveReport save_rest(const std::filesystem::path& path, const Scene& scene, std::vector<std::uint8_t> keep,
                      const RestChanges& changes, const SceneFormat& format, const std::optional<MovedTo>& to,
                      SaveOptions options) {
-  if (!changes.given_back.empty() &&
-      (to || format.name != SceneFormat::kPly.name || !scene.rows_can_be_changed)) {
+  if (!changes.given_back.empty() && rest_is_copy(scene, format, to.has_value(), changes)) {
     const GaussianCloud rest = rest_of(scene.cloud, keep, changes);
     return save_gaussians(path, scene, {}, &rest, format, to, options);
   }
   for (const std::uint32_t g : changes.ghosts) keep[g] = 0;
   if (!changes.given_back.empty()) options.changed_rows = &changes.given_back;
   return save_gaussians(path, scene, keep, nullptr, format, to, options);
+}
+
+void count_edges(const CleanReport& clean, ExportReport* report) {
+  if (!clean.cleaned) report->edges_kept = clean.reason;
+  report->clean += clean.cleaned;
+  report->forced += clean.forced;
+}
+
+std::string edges_text(const ExportReport& report) {
+  std::string text;
+  if (report.clean > 0) text += report.edges_kept.empty() ? ", edges clean" : ", edges of some clean";
+  if (report.forced > 0) text += report.forced == report.clean ? " anyway" : ", some of them anyway";
+  if (!report.edges_kept.empty()) text += ". Edges stay as they are: " + report.edges_kept;
+  return text;
+}
+
+std::string text_of(const ExportReport& report, const std::filesystem::path& path) {
+  std::string text = fmt::format("{} Gaussians, {} saved to {}{}", grouped(report.gaussians),
+                                 human_bytes(report.bytes), path.string(), edges_text(report));
+  if (report.not_given_back > 0)
+    text += fmt::format(". {} pieces cut off the object are not in the rest, which is too large to copy",
+                        report.not_given_back);
+  if (!report.hole_kept.empty()) text += ". The hole stays: " + report.hole_kept;
+  if (!report.loss.empty()) text += ". Lost: " + report.loss;
+  return text;
 }
 
 ExportReport run_export(const Scene& scene, const Document& document, ObjectId object,
@@ -179,7 +211,8 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
     const auto to = place(exported(document, object, request.what, n));  // objects stay beside each other
     visit_objects(document, n, [&](const ObjectToSave& o) {
       if (!job.cancelled())
-        save(request.path / (o.file + request.format.extension), o.labels, make_flags(o.labels), to, what, &report);
+        save(request.path / (o.file + request.format.extension), o.labels, make_flags(o.labels), to, what,
+             &report);
     });
     if (report.files == 0 && !job.cancelled())
       throw Error("export", "no object holds any Gaussians", "Select something first");

@@ -38,12 +38,17 @@ struct ExportReport {
   std::size_t gaussians = 0, files = 0;
   std::uint64_t bytes = 0;
   std::string loss;                // sentence about what the format lost; empty: nothing
-  std::size_t clean = 0;           // number of files whose object has clean edges
+  std::size_t clean = 0;           // number of files whose object has clean edges, or that are its rest
   std::size_t forced = 0;          // of these, files whose object was cleaned anyway
   std::string edges_kept;          // reason why an object has none, if they were asked for
   std::string hole_kept;           // reason why a hole is not filled, if that was asked for
   std::size_t not_given_back = 0;  // Gaussians, see spare_copy()
 };
+
+void count_edges(const CleanReport& clean, ExportReport* report);  // of one more file
+// What the user reads: of the edges alone, to stand behind a sentence without a full stop, and of all.
+std::string edges_text(const ExportReport& report);
+std::string text_of(const ExportReport& report, const std::filesystem::path& path);
 
 // Flags per Gaussian of the scene: 1 if the export writes it, for kAllObjects into any of its files.
 // gaussians: size of the cloud.
@@ -65,12 +70,18 @@ SaveReport save_gaussians(const std::filesystem::path& path, const Scene& scene,
                           const SceneFormat& format, const std::optional<MovedTo>& to = {},
                           const SaveOptions& options = {});
 
-// What is given back to the rest goes beside rows that are copied only into a .ply, and where the scene's
-// rows can be changed. Else it would take a copy of all of them: in a scene of more Gaussians it is left out.
+// Whether the rest of a scene, so changed, is written from a copy of its Gaussians. Moved, it always is. What
+// is added goes beside rows that are copied as they are only into a .ply, and where the scene's rows can be
+// changed; else it takes a copy of all of them.
+bool rest_is_copy(const Scene& scene, const SceneFormat& format, bool moved, const RestChanges& changes);
+
+// In a scene of more Gaussians, what is given back to the rest is left out where it alone would take that
+// copy.
 inline constexpr std::size_t kMostToCopy = 2'000'000;
 
-// Leaves that out of the changes. Returns how many Gaussians it was.
-std::size_t spare_copy(const Scene& scene, const SceneFormat& format, RestChanges* changes);
+// Leaves that out of the changes. filled: what else is added. Returns how many Gaussians it was.
+std::size_t spare_copy(const Scene& scene, const SceneFormat& format, bool moved, const RestChanges& filled,
+                       RestChanges* changes);
 
 // The same for the rest of a scene, of which ghosts are left out, and with what was given back.
 SaveReport save_rest(const std::filesystem::path& path, const Scene& scene, std::vector<std::uint8_t> keep,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "app/console/kept_inputs.h"
-#include "app/document/words.h"
 #include "app/picture/capture.h"
 #include "app/picture/turntable.h"
 #include "app/work/work_file.h"
@@ -20,27 +19,17 @@ void Exports::perform(const Export& c) {
   }
   const TaskThread::Order export_order(TaskKind::kExport,
                                        [this] { ws_.ui_requests.push_back(UiRequest::kExportFailed); });
-  ws_.tasks.submit(export_order, [this, request = c.request, document = ws_.document(),
-                                  object = ws_.document().active, scene = ws_.scene,
-                                  clean = ws_.clean](const Job& job) {
-    job.progress("exporting", 0);
-    const ExportReport report = run_export(*scene->scene, document, object, request, clean.get(), job);
-    if (job.cancelled()) return;
-    std::string text = fmt::format("{} Gaussians, {} saved to {}", grouped(report.gaussians),
-                                   human_bytes(report.bytes), request.path.string());
-    if (report.clean > 0) text += report.edges_kept.empty() ? ", edges clean" : ", edges of some clean";
-    if (report.forced > 0) text += report.forced == report.clean ? " anyway" : ", some of them anyway";
-    if (report.not_given_back > 0)
-      text += fmt::format(". {} pieces cut off the object are not in the rest, which is too large to copy",
-                          report.not_given_back);
-    if (!report.hole_kept.empty()) text += ". The hole stays: " + report.hole_kept;
-    if (!report.edges_kept.empty()) text += ". Edges stay as they are: " + report.edges_kept;
-    if (!report.loss.empty()) text += ". Lost: " + report.loss;
-    ws_.tasks.post([this, text, path = request.path] {
-      last_ = path;
-      ws_.say(Message::Kind::kDone, text);
-    });
-  });
+  ws_.tasks.submit(
+      export_order, [this, request = c.request, document = ws_.document(), object = ws_.document().active,
+                     scene = ws_.scene, clean = ws_.clean](const Job& job) {
+        job.progress("exporting", 0);
+        const ExportReport report = run_export(*scene->scene, document, object, request, clean.get(), job);
+        if (job.cancelled()) return;
+        ws_.tasks.post([this, text = text_of(report, request.path), path = request.path] {
+          last_ = path;
+          ws_.say(Message::Kind::kDone, text);
+        });
+      });
 }
 
 void Exports::perform(const SaveSnapshot& c) {
@@ -72,22 +61,24 @@ void Exports::perform(const SaveTurntable& c) {
   const Flags own = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
   DrawLimits limits = viewport_.draw_limits();
   limits.far_plane = DrawLimits{}.far_plane;  // that of another view
-  ws_.tasks.submit(
-      TaskKind::kExport,
-      [this, c, own, limits, front = viewport_.pane_camera(), up_world = ws_.document().up_world,
-       background = ws_.document().background, scene = ws_.scene, made = ws_.clean](const Job& job) {
-        const std::vector<Camera> cameras =
-            cameras_of_turn(object_extent(*scene->cloud, *own), front, up_world, c);
-        const TurntableOptions options{c.as, c.path, c.turn_s, background};
-        auto clean = c.clean_edges ? made->made(own, up_world, job) : nullptr;
-        if (clean && !clean->report.cleaned) clean = nullptr;
-        if (!save_turntable(clean ? clean->cloud : *scene->cloud, cameras, clean ? nullptr : own, limits,
-                            options, job))
-          return;
-        ws_.tasks.post([this, c] {
-          ws_.say(Message::Kind::kDone, fmt::format("{} frames saved to {}", c.frames, c.path.string()));
-        });
-      });
+  ws_.tasks.submit(TaskKind::kExport, [this, c, own, limits, front = viewport_.pane_camera(),
+                                       up_world = ws_.document().up_world,
+                                       background = ws_.document().background, scene = ws_.scene,
+                                       made = ws_.clean](const Job& job) {
+    const std::vector<Camera> cameras =
+        cameras_of_turn(object_extent(*scene->cloud, *own), front, up_world, c);
+    const TurntableOptions options{c.as, c.path, c.turn_s, background};
+    auto clean = c.clean_edges ? made->made(own, up_world, job) : nullptr;
+    ExportReport report;
+    if (clean) count_edges(clean->report, &report);
+    if (clean && !clean->report.cleaned) clean = nullptr;
+    if (!save_turntable(clean ? clean->cloud : *scene->cloud, cameras, clean ? nullptr : own, limits, options,
+                        job))
+      return;
+    ws_.tasks.post([this, c, edges = edges_text(report)] {
+      ws_.say(Message::Kind::kDone, fmt::format("{} frames saved to {}{}", c.frames, c.path.string(), edges));
+    });
+  });
 }
 
 }  // namespace splatcut
