@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "app/document/selection.h"
 #include "app/document/tool_id.h"
@@ -27,11 +28,12 @@ struct ViewState {
   bool by_centre = false;                       // hand tools go by centres, not by footprints, see TakenBy
   float depth_limit = 0;                        // reach behind the surface over the scene's size; 0: no limit
   DisplayMode display = DisplayMode::kWhole;
-  bool clean_edges = true;   // an object shown alone, or exported, has clean edges
-  bool tint = true;          // objects are tinted
-  bool outline = true;       // objects have outlines
-  bool heat = false;         // the heat map of the likelihood replaces the tint
-  bool seen_heat = false;    // an object shown alone is coloured by how many views saw it
+  bool clean_edges = true;  // an object shown alone, or exported, has clean edges
+  bool tint = true;         // objects are tinted
+  bool outline = true;      // objects have outlines
+  bool heat = false;        // the heat map of the likelihood replaces the tint
+  // Set: the object, shown alone, is coloured by how many views saw it; what was shown before, to go back to.
+  std::optional<DisplayMode> seen_heat;
   float near_share = 0.01f;  // distance of the near plane over the scene's size; see natural_near_plane()
   float far_share = 0;       // distance of the far plane over the scene's size; 0: no far plane
   float fly_speed = 1;       // speed of flight over the usual speed
@@ -54,6 +56,28 @@ inline void set_what_is_kept(const ViewState& kept, ViewState* view) {
   view->web_low_pass = kept.web_low_pass;
 }
 
+// Shows something else; what belongs to the object shown alone ends with that.
+inline void show(DisplayMode mode, ViewState* view) {
+  view->display = mode;
+  if (mode != DisplayMode::kIsolate) view->seen_heat.reset();
+}
+
+// The view after a key that switches to a display, or from it back to the whole scene.
+ViewState turned_over(ViewState view, DisplayMode mode);
+// Side by side with the scene; where the object is shown alone already, beside itself as its rows are.
+ViewState turned_side_by_side(ViewState view);
+// The object alone by how many views saw it, or back.
+ViewState turned_seen_heat(ViewState view);
+
+// What is known of the object that a pane shows.
+struct ShownObject {
+  bool clean = false, forced = false;  // drawn with clean edges; which the guard had refused
+  bool heat = false, looking = false;  // by how many views it was seen is known; is being looked for
+  bool outlined = false;               // the ground that no view showed has an outline
+};
+// The label of a pane that shows something else than the scene as it is; null: it needs none.
+const char* label_of(const ViewState& view, const ShownObject& object);
+
 // True if a pane shows an object with clean edges.
 inline bool shows_clean_edges(const ViewState& view) {
   const bool alone = view.display == DisplayMode::kIsolate || view.display == DisplayMode::kSideBySide;
@@ -62,7 +86,7 @@ inline bool shows_clean_edges(const ViewState& view) {
 
 // True if the pane shows by how many views the object was seen.
 inline bool shows_seen_heat(const ViewState& view) {
-  return view.seen_heat && view.display == DisplayMode::kIsolate;
+  return view.seen_heat.has_value() && view.display == DisplayMode::kIsolate;
 }
 
 }  // namespace splatcut

@@ -67,7 +67,7 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
   if (any) style.owner = make_flags(std::move(owner));
   if (!active) active = make_flags(std::vector<std::uint8_t>(n, 0));
   if (shows_seen_heat(order.view))
-    style.heat = order.seen && *order.seen->labels == *active ? order.seen->heat : nullptr;
+    style.heat = order.seen && order.seen->is_of(active, document.up_world) ? order.seen->heat : nullptr;
   else if (order.view.heat)
     style.heat = order.likelihood;
   Styles out;

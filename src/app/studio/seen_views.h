@@ -2,7 +2,8 @@
 // that: with the object alone and its heat on, by how many views each Gaussian was seen; without the object,
 // the ground that it hid from all of them. Kept in the workspace until labels or the scene's up change.
 //
-// A new cut stops the computation; it starts anew by itself.
+// A new cut stops the computation; it starts anew by itself. Where the user stopped it, it starts anew once
+// the view is shown anew.
 #pragma once
 
 #include "app/studio/viewport.h"
@@ -16,18 +17,21 @@ class SeenViews {
       : ws_(workspace), viewport_(viewport), cuts_(cuts) {}
 
   void update();  // starts what is needed; called once a frame
-  // Stops the computation, and gives it up for these labels. Returns false if none runs.
+  // Stops the computation that a view waits for, and gives it up as long as that view stays. Returns false if
+  // no view waits.
   bool cancel();
   const UnseenGround* ground() const;  // of the active object; null: not known
+  bool looking() const;                // the computation waits or runs
 
  private:
-  bool known(const Flags& labels) const;  // the workspace holds something of the object with these labels
-  void start(const Flags& labels, bool heat);
+  SeenQuestion asked() const;
+  void start(const SeenQuestion& asked);
 
   Workspace& ws_;
   const Viewport& viewport_;
   const CutJobs& cuts_;
-  Flags given_up_;  // labels for which it was cancelled, or failed
+  SeenQuestion answered_;  // what the workspace was found to know
+  SeenQuestion given_up_;  // what was cancelled, or failed
 };
 
 }  // namespace splatcut

@@ -93,8 +93,8 @@ void Studio::scene_opened(bool same) {
     return viewport_.change_scene();
   }
   ViewState& view = ws_.view;
-  view.display = DisplayMode::kWhole;
-  view.heat = view.seen_heat = false;
+  show(DisplayMode::kWhole, &view);
+  view.heat = false;
   view.tool = Tool::kClick;
   view.fly_speed = std::clamp(view.fly_speed, kLeastKeptSpeed, kMostKeptSpeed);
   view.operation = SetOperation::kAdd;
@@ -112,7 +112,7 @@ void Studio::follow_document() {
   // Alone, an empty object would be a black picture.
   if (ws_.scene && ws_.view.display != DisplayMode::kWhole && gaussians_of(document().active) == 0 &&
       cuts_.cutting() == 0) {
-    ws_.view.display = DisplayMode::kWhole;
+    show(DisplayMode::kWhole, &ws_.view);
     ++ws_.view_serial;
   }
 }
@@ -244,6 +244,7 @@ void Studio::perform(const SetView& c) {
   if (c.view.display != ws_.view.display && c.view.display == DisplayMode::kIsolate)
     viewport_.turn_about_object();
   ws_.view = c.view;
+  show(c.view.display, &ws_.view);
   ++ws_.view_serial;
 }
 

@@ -124,9 +124,6 @@ class Studio {
   void ask(UiRequest request) { ws_.ui_requests.push_back(request); }
   void close_shape();
   void turn_over(bool ViewState::*part);  // switches a setting of the view on or off
-  void turn_over(DisplayMode mode);       // switches to that display, or back to the whole scene
-  void side_by_side();
-  void show_seen_heat();
   bool hold_for_cut(Action action);
   void run_held();
   void scale_brush(float factor);

@@ -140,15 +140,20 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kBrushLarger, without_scene, [](S& s) { s.scale_brush(kBrushStep); }},
       {Action::kPartLarger, without_size<1>, [](S& s) { s.apply(StepScale{1}); }},
       {Action::kPartSmaller, without_size<-1>, [](S& s) { s.apply(StepScale{-1}); }},
-      {Action::kIsolate, without_gaussians, [](S& s) { s.turn_over(DisplayMode::kIsolate); }, kWaits},
-      {Action::kHide, without_gaussians, [](S& s) { s.turn_over(DisplayMode::kHide); }, kWaits},
-      {Action::kSideBySide, without_gaussians, [](S& s) { s.side_by_side(); }, kWaits},
+      {Action::kIsolate, without_gaussians,
+       [](S& s) { s.apply(SetView{turned_over(s.view(), DisplayMode::kIsolate)}); }, kWaits},
+      {Action::kHide, without_gaussians,
+       [](S& s) { s.apply(SetView{turned_over(s.view(), DisplayMode::kHide)}); }, kWaits},
+      {Action::kSideBySide, without_gaussians, [](S& s) { s.apply(SetView{turned_side_by_side(s.view())}); },
+       kWaits},
       {Action::kCleanEdges, without_scene, [](S& s) { s.turn_over(&ViewState::clean_edges); }},
-      {Action::kShowAll, without_scene, [](S& s) { s.turn_over(s.ws_.view.display); }},
+      {Action::kShowAll, without_scene,
+       [](S& s) { s.apply(SetView{turned_over(s.view(), s.view().display)}); }},
       {Action::kTint, without_scene, [](S& s) { s.turn_over(&ViewState::tint); }},
       {Action::kOutline, without_scene, [](S& s) { s.turn_over(&ViewState::outline); }},
       {Action::kHeat, without_cutout, [](S& s) { s.turn_over(&ViewState::heat); }},
-      {Action::kSeenHeat, without_gaussians, [](S& s) { s.show_seen_heat(); }, kWaits},
+      {Action::kSeenHeat, without_gaussians, [](S& s) { s.apply(SetView{turned_seen_heat(s.view())}); },
+       kWaits},
       {Action::kCentres, without_scene, [](S& s) { s.turn_over(&ViewState::centres); }},
       {Action::kRings, without_scene, [](S& s) { s.turn_over(&ViewState::rings); }},
       {Action::kGrid, without_scene, [](S& s) { s.turn_over(&ViewState::grid); }},
@@ -226,30 +231,6 @@ void Studio::close_shape() {
 void Studio::turn_over(bool ViewState::*part) {
   ViewState view = ws_.view;
   view.*part = !(view.*part);
-  apply(SetView{view});
-}
-
-void Studio::turn_over(DisplayMode mode) {
-  ViewState view = ws_.view;
-  view.display = view.display == mode ? DisplayMode::kWhole : mode;
-  apply(SetView{view});
-}
-
-// Beside the scene; where the object is shown alone already, beside itself as its rows are.
-void Studio::side_by_side() {
-  ViewState view = ws_.view;
-  const DisplayMode before = view.display;
-  view.display = before == DisplayMode::kIsolate       ? DisplayMode::kBeforeAfter
-                 : before == DisplayMode::kBeforeAfter ? DisplayMode::kIsolate
-                 : before == DisplayMode::kSideBySide  ? DisplayMode::kWhole
-                                                       : DisplayMode::kSideBySide;
-  apply(SetView{view});
-}
-
-void Studio::show_seen_heat() {
-  ViewState view = ws_.view;
-  view.seen_heat = !shows_seen_heat(view);
-  if (view.seen_heat) view.display = DisplayMode::kIsolate;
   apply(SetView{view});
 }
 

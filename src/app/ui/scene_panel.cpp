@@ -135,7 +135,8 @@ void scene_panel(UiContext& ui) {
   tooltip(tip_of(Action::kGrid));
   bool seen = shows_seen_heat(view);
   if (ImGui::Checkbox("Seen by how many views", &seen)) ui.ask(Action::kSeenHeat);
-  tooltip(tip_of(Action::kSeenHeat) + "\nRed: no view of the capture saw it; blue: many did");
+  tooltip(tip_of(Action::kSeenHeat) +
+          "\nOf at most twelve views, cameras of the capture or around it. Red: none saw it; blue: many did");
   level_row(ui);
   axes_row(ui);
   up_buttons(ui);

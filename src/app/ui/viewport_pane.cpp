@@ -75,20 +75,12 @@ const std::vector<std::pair<glm::vec3, glm::vec3>>* unseen_outline(const Studio&
 }
 
 const char* mode_label(const Studio& studio) {
-  switch (studio.view().display) {
-    case DisplayMode::kIsolate:
-      if (shows_seen_heat(studio.view()))
-        return studio.viewport().style(0).heat ? "Seen by views: red none, blue many  (Shift+M: back)"
-                                               : "Looking who saw it...  (Esc: stop)";
-      return !studio.viewport().clean(0)                 ? "Only the object  (I: back)"
-             : studio.viewport().clean(0)->report.forced ? "Only the object, edges cleaned anyway  (I: back)"
-                                                         : "Only the object, edges clean  (I: back)";
-    case DisplayMode::kHide:
-      return unseen_outline(studio) ? "Without it; outlined is ground that no view ever showed  (H: back)"
-                                    : "Without the object  (H: back)";
-    default:
-      return studio.view().heat ? "Likelihood: blue rest, red object  (M: back)" : nullptr;
-  }
+  const CleanObject* clean = studio.viewport().clean(0).get();
+  return label_of(studio.view(), {.clean = clean != nullptr,
+                                  .forced = clean && clean->report.forced,
+                                  .heat = studio.viewport().style(0).heat != nullptr,
+                                  .looking = studio.seen_views().looking(),
+                                  .outlined = unseen_outline(studio) != nullptr});
 }
 
 // The bar with the meanings as buttons.
@@ -126,23 +118,30 @@ std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
   return bar;
 }
 
-// A sentence, with room for a button of that label behind it, where the cursor then is.
-UiRect line_before_button(const UiContext& ui, const ImVec2& at, const char* text, const char* label) {
+// A sentence, with room for a button of that label behind it, where the cursor then is; below it where both
+// are not left of `right`.
+UiRect line_before_button(const UiContext& ui, const ImVec2& at, float right, const char* text,
+                          const char* label) {
   constexpr float kPad = 8, kButton = 26;
-  const ImVec2 words = ImGui::CalcTextSize(text);
-  const ImVec2 end = {at.x + words.x + ImGui::CalcTextSize(label).x + 5 * kPad + 16,
-                      at.y + kButton + 2 * kPad};
+  const float for_button = ImGui::CalcTextSize(label).x + 5 * kPad + 16;
+  const bool beside = at.x + ImGui::CalcTextSize(text).x + for_button <= right;
+  const float wrap = beside ? 0 : right - at.x - 2 * kPad;
+  const ImVec2 words = ImGui::CalcTextSize(text, nullptr, false, wrap > 0 ? wrap : -1);
+  const ImVec2 end = {at.x + words.x + (beside ? for_button : 2 * kPad),
+                      at.y + kButton + 2 * kPad + (beside ? 0 : words.y + kPad)};
   floating_box(ui, at, end);
-  ImGui::GetWindowDrawList()->AddText({at.x + kPad, at.y + 0.5f * (end.y - at.y - words.y)},
-                                      packed(ui.theme.colour.text), text);
-  ImGui::SetCursorScreenPos({at.x + words.x + 2 * kPad, at.y + kPad});
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0,
+                                      {at.x + kPad, at.y + (beside ? 0.5f * (end.y - at.y - words.y) : kPad)},
+                                      packed(ui.theme.colour.text), text, nullptr, wrap);
+  ImGui::SetCursorScreenPos({at.x + (beside ? words.x + 2 * kPad : kPad), end.y - kPad - kButton});
   return UiRect{{at.x, at.y}, {end.x, end.y}};
 }
 
 // Where a click from afar found nothing, or an object shown alone is not as clean as it is wanted.
-std::optional<UiRect> advice_line(UiContext& ui, const ImVec2& at) {
+std::optional<UiRect> advice_line(UiContext& ui, const ImVec2& at, float right) {
   if (ui.studio.clicks().found_nothing()) {
-    const UiRect line = line_before_button(ui, at, "Nothing stands out where you clicked.", "Come nearer");
+    const UiRect line =
+        line_before_button(ui, at, right, "Nothing stands out where you clicked.", "Come nearer");
     if (button(ui, "Come nearer", "Goes to where you clicked: click again from there", {}, true))
       ui.ask(ComeNearer{});
     return line;
@@ -150,7 +149,7 @@ std::optional<UiRect> advice_line(UiContext& ui, const ImVec2& at) {
   if (ui.studio.clicks().offer() || !shows_clean_edges(ui.studio.view())) return {};
   const std::optional<std::string> why = why_edges_stay(ui);
   if (!why) return {};
-  const UiRect line = line_before_button(ui, at, why->c_str(), "Clean anyway");
+  const UiRect line = line_before_button(ui, at, right, why->c_str(), "Clean anyway");
   clean_anyway_button(ui);
   return line;
 }
@@ -260,7 +259,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     pane_label(ui, {area.min.x + 12, top}, label);
   }
   float above_axes = area.min.y + covered_top(ui);
-  for (const auto& line : {offer_line(ui, offers_at), advice_line(ui, offers_at)}) {
+  for (const auto& line : {offer_line(ui, offers_at), advice_line(ui, offers_at, area.max.x - 12)}) {
     if (line) covered.push_back(*line);
     if (line && line->max.x > area.max.x - kAxesWidth) above_axes = line->max.y;
   }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "core/png_file.h"
 #include "hands.h"
 #include "scene/raster/rasterizer.h"
 #include "scene/raster/splat_math.h"
@@ -111,16 +112,16 @@ void take_what_touches_it(Hands& hands) {
 }
 
 // Without the larger half of its Gaussians the apple, alone, looks from no side as in the scene.
-void leave_the_small_ones(Hands& hands) {
-  const auto labels = hands.studio().labels(hands.studio().document().active);
-  const std::vector<float> size = property_values(*hands.studio().scene()->cloud, Property::kSize);
+void leave_the_small_ones(HeadlessApp& app) {
+  const auto labels = app.studio().labels(app.studio().document().active);
+  const std::vector<float> size = property_values(*app.studio().scene()->cloud, Property::kSize);
   std::vector<float> own;
   for (std::size_t g = 0; g < size.size(); ++g)
     if (labels[g]) own.push_back(size[g]);
   const auto middle = own.begin() + static_cast<std::ptrdiff_t>(own.size() / 2);
   std::ranges::nth_element(own, middle);
-  hands.studio().apply(SelectRange{Property::kSize, *middle, 1e9f, SetOperation::kRemove});
-  REQUIRE(hands.app.settle());
+  app.studio().apply(SelectRange{Property::kSize, *middle, 1e9f, SetOperation::kRemove});
+  REQUIRE(app.settle());
 }
 
 bool changed(const CleanReport& report) {
@@ -407,7 +408,7 @@ TEST_CASE("hands: an export that would move everything to nowhere is refused") {
 TEST_CASE("hands: edges that the guard keeps are cleaned anyway by a button, shown and exported so") {
   const ScratchFolder folder("anyway");
   Hands hands = hands_on_sample();
-  leave_the_small_ones(hands);
+  leave_the_small_ones(hands.app);
   const std::size_t labelled = hands.selected();
   hands.app.key('I');
   REQUIRE(hands.app.settle());
@@ -435,14 +436,117 @@ TEST_CASE("hands: edges that the guard keeps are cleaned anyway by a button, sho
   REQUIRE(hands.app.settle());
   CHECK(load_scene(folder / "anyway.ply").cloud.size() == expected.cloud.size());
   CHECK(hands.said().find("edges clean anyway") != std::string::npos);
+  hands.studio().apply(Export{{ExportWhat::kRest, SceneFormat::kPly, folder / "rest.ply", false, {}, true}});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.said().find("edges clean anyway") != std::string::npos);
+  SaveTurntable turn{.path = folder / "turn", .frames = 2, .clean_edges = true};
+  turn.width_px = turn.height_px = 64;
+  hands.studio().apply(turn);
+  REQUIRE(hands.app.settle());
+  CHECK(hands.said().find("edges clean anyway") != std::string::npos);
   // Other labels are another question.
   hands.studio().apply(EditSelection{SelectionEdit::kShrink});
   REQUIRE(hands.app.settle());
   hands.app.frames(2);
   const auto after = hands.studio().clean_edges();
   REQUIRE(after);
+  REQUIRE_FALSE(after->cleaned);
   CHECK_FALSE(after->forced);
   CHECK(hands.selected() != labelled);
+}
+
+TEST_CASE("hands: what the guard says and its button fit into a small window") {
+  HeadlessApp app(640, 480);
+  app.interface_state().hint_wanted = false;
+  app.open(kSample);
+  REQUIRE(app.settle());
+  app.click(app.screen_of(kOnApple));
+  REQUIRE(app.settle());
+  leave_the_small_ones(app);
+  app.key('I');
+  app.wait_for_message_to_go();
+  REQUIRE(app.studio().clean_edges());
+  REQUIRE_FALSE(app.studio().clean_edges()->cleaned);
+  const UiRect button = app.button("Clean anyway"), view = app->interface().viewport();
+  REQUIRE(button.size().x > 0);
+  CHECK(button.min.x >= view.min.x);
+  CHECK(button.max.x <= view.max.x);
+  if (const char* folder = std::getenv("SHOT")) write_png(std::string(folder) + "/small.png", app.picture());
+  app.click(0.5f * (button.min + button.max));
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().clean_edges());
+  CHECK(app.studio().clean_edges()->forced);
+}
+
+TEST_CASE("hands: edges are cleaned anew where up changes") {
+  Hands hands = hands_on_sample();
+  hands.app.key('I');
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  const auto before = hands.studio().viewport().clean(0);
+  REQUIRE(before);
+  const glm::vec3& up = hands.studio().document().up_world;
+  hands.studio().apply(SetUp{glm::normalize(up + glm::vec3(0.3f, 0, 0.2f))});
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.studio().viewport().clean(0));
+  CHECK(hands.studio().viewport().clean(0) != before);
+}
+
+TEST_CASE("hands: to clean anyway is decided while the worker finds out that edges stay") {
+  Hands hands = hands_on_sample();
+  leave_the_small_ones(hands.app);
+  hands.app.key('I');
+  for (int i = 0; i < 2000 && hands.studio().progress().kind != TaskKind::kClean; ++i) hands.app.frames(1);
+  hands.studio().apply(CleanAnyway{});
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  REQUIRE(hands.studio().viewport().clean(0));
+  CHECK(hands.studio().viewport().clean(0)->report.forced);
+}
+
+TEST_CASE("hands: what was decided of edges outlives files that are added and taken out") {
+  Hands hands = hands_on_sample();
+  leave_the_small_ones(hands.app);
+  hands.app.key('I');
+  hands.studio().apply(CleanAnyway{});
+  REQUIRE(hands.app.settle());
+  const auto forced = [&] {
+    REQUIRE(hands.app.settle());
+    hands.app.frames(120);
+    REQUIRE(hands.app.settle());
+    const auto clean = hands.studio().clean_edges();
+    return clean && clean->forced;
+  };
+  CHECK(forced());
+  hands.studio().apply(AddScene{.path = kSmallSample});
+  CHECK(forced());
+  hands.studio().apply(Undo{});
+  CHECK(forced());
+  hands.studio().apply(Redo{});
+  CHECK(forced());
+  hands.studio().apply(RemoveScene{hands.studio().scene()->files.back().id});
+  CHECK(forced());
+}
+
+TEST_CASE("clean objects: so many decisions are kept, and equal labels are one") {
+  Hands hands(false);
+  CleanObjects clean(std::shared_ptr<const OpenedScene>(std::shared_ptr<void>(), hands.studio().scene()));
+  std::vector<std::uint8_t> labels(hands.studio().scene()->cloud->size(), 0);
+  const auto numbered = [&](std::size_t i) {
+    std::vector<std::uint8_t> one = labels;
+    one[i] = 1;
+    return make_flags(std::move(one));
+  };
+  for (std::size_t i = 0; i < CleanObjects::kMostDecisions; ++i) clean.clean_anyway(numbered(i));
+  clean.clean_anyway(numbered(0));
+  CHECK(clean.decisions().size() == CleanObjects::kMostDecisions);
+  clean.clean_anyway(numbered(CleanObjects::kMostDecisions));
+  CHECK(clean.decisions().size() == CleanObjects::kMostDecisions);
+  CHECK(clean.is_cleaned_anyway(numbered(0)));
+  CHECK_FALSE(clean.is_cleaned_anyway(numbered(1)));
+  CHECK(clean.is_cleaned_anyway(numbered(2)));
 }
 
 TEST_CASE("hands: how many Gaussians clean edges leave out of an export is known before") {
@@ -513,6 +617,61 @@ TEST_CASE("hands: the object alone is red where no view saw it and blue where ma
   CHECK(hands.studio().viewport().style(0).heat == nullptr);
 }
 
+TEST_CASE("hands: Esc stops looking who saw the object, and the key asked again looks again") {
+  Hands hands = hands_on_sample();
+  const auto stop = [&] {
+    for (int i = 0; i < 2000 && !hands.studio().seen_views().looking(); ++i) hands.app.frames(1);
+    REQUIRE(hands.studio().seen_views().looking());
+    hands.app.key(key::kEscape);
+    REQUIRE(hands.app.settle());
+    CHECK_FALSE(hands.studio().seen_views().looking());
+  };
+  hands.app.key('M', {.shift = true});
+  stop();
+  CHECK(shows_seen_heat(hands.studio().view()));
+  CHECK(hands.studio().viewport().style(0).heat == nullptr);
+  for (int i = 0; i < 2; ++i) hands.app.key('M', {.shift = true});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().viewport().style(0).heat != nullptr);
+  hands.app.key('H');
+  stop();
+  CHECK(hands.studio().view().display == DisplayMode::kHide);
+  CHECK(hands.studio().seen_views().ground() == nullptr);
+  for (int i = 0; i < 2; ++i) hands.app.key('H');
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().seen_views().ground() != nullptr);
+  // Nobody waits for it any more.
+  hands.studio().apply(EditSelection{SelectionEdit::kGrow});
+  for (int i = 0; i < 2000 && !hands.studio().seen_views().looking(); ++i) hands.app.frames(1);
+  hands.app.key('H');
+  hands.app.frames(2);
+  CHECK_FALSE(hands.studio().seen_views().looking());
+}
+
+TEST_CASE(
+    "hands: who saw the object is shown until it is not alone any more, and goes back to where it was") {
+  Hands hands = hands_on_sample();
+  const auto shown = [&] {
+    REQUIRE(hands.app.settle());
+    return std::pair(hands.studio().view().display, hands.studio().view().seen_heat.has_value());
+  };
+  hands.app.key('M', {.shift = true});
+  CHECK(shown() == std::pair(DisplayMode::kIsolate, true));
+  hands.app.key('M', {.shift = true});
+  CHECK(shown() == std::pair(DisplayMode::kWhole, false));
+  hands.app.key('I');
+  hands.app.key('M', {.shift = true});
+  CHECK(shown() == std::pair(DisplayMode::kIsolate, true));
+  hands.app.key('M', {.shift = true});
+  CHECK(shown() == std::pair(DisplayMode::kIsolate, false));
+  hands.app.key('M', {.shift = true});
+  REQUIRE(shown() == std::pair(DisplayMode::kIsolate, true));
+  hands.app.key(key::kEscape);
+  CHECK(shown() == std::pair(DisplayMode::kWhole, false));
+  hands.app.key('I');
+  CHECK(shown() == std::pair(DisplayMode::kIsolate, false));
+}
+
 TEST_CASE(
     "exports: what is given back is left out where it would take a copy of a large scene, and only there") {
   Scene scene;
@@ -520,18 +679,19 @@ TEST_CASE(
   changes.ghosts = {3};
   changes.given_back = hands_on_sample(false).studio().scene()->scene->cloud;
   const std::size_t given_back = changes.given_back.size();
-  for (const bool large : {false, true})
-    for (const bool changeable : {false, true})
-      for (const SceneFormat& format : {SceneFormat::kPly, SceneFormat::kSpz}) {
-        CAPTURE(large);
-        CAPTURE(changeable);
-        CAPTURE(format.name);
-        scene.cloud.position.resize(large ? kMostToCopy + 1 : 10);
-        scene.rows_can_be_changed = changeable;
-        const bool copies = !changeable || format == SceneFormat::kSpz;
-        RestChanges of_this = changes;
-        CHECK(spare_copy(scene, format, &of_this) == (large && copies ? given_back : 0));
-        CHECK(of_this.given_back.size() == (large && copies ? 0 : given_back));
-        CHECK(of_this.ghosts == changes.ghosts);
-      }
+  for (int bits = 0; bits < 32; ++bits) {
+    const auto is = [bits](int bit) { return (bits >> bit & 1) != 0; };
+    const bool large = is(0), changeable = is(1), moved = is(3), filled = is(4);
+    const SceneFormat& format = is(2) ? SceneFormat::kPly : SceneFormat::kSpz;
+    CAPTURE(bits);
+    scene.cloud.position.resize(large ? kMostToCopy + 1 : 10);
+    scene.rows_can_be_changed = changeable;
+    const bool beside = changeable && is(2);
+    const bool left_out = large && !beside && !moved && !filled;  // copied for their sake alone
+    RestChanges of_this = changes;
+    CHECK(spare_copy(scene, format, moved, filled ? changes : RestChanges(), &of_this) ==
+          (left_out ? given_back : 0));
+    CHECK(of_this.given_back.size() == (left_out ? 0 : given_back));
+    CHECK(of_this.ghosts == changes.ghosts);
+  }
 }

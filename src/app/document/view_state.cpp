@@ -1,0 +1,45 @@
+#include "app/document/view_state.h"
+
+namespace splatcut {
+
+ViewState turned_over(ViewState view, DisplayMode mode) {
+  view.display = view.display == mode ? DisplayMode::kWhole : mode;
+  return view;
+}
+
+ViewState turned_side_by_side(ViewState view) {
+  const DisplayMode before = view.display;
+  view.display = before == DisplayMode::kIsolate       ? DisplayMode::kBeforeAfter
+                 : before == DisplayMode::kBeforeAfter ? DisplayMode::kIsolate
+                 : before == DisplayMode::kSideBySide  ? DisplayMode::kWhole
+                                                       : DisplayMode::kSideBySide;
+  return view;
+}
+
+ViewState turned_seen_heat(ViewState view) {
+  if (shows_seen_heat(view)) {
+    view.display = *view.seen_heat;
+    view.seen_heat.reset();
+  } else {
+    view.seen_heat = view.display;
+    view.display = DisplayMode::kIsolate;
+  }
+  return view;
+}
+
+const char* label_of(const ViewState& view, const ShownObject& object) {
+  if (shows_seen_heat(view))
+    return object.heat      ? "Seen by views: red none, blue many  (Shift+M: back)"
+           : object.looking ? "Looking who saw it...  (Esc: stop)"
+                            : "Who saw it is not known  (Shift+M: back)";
+  if (view.display == DisplayMode::kIsolate)
+    return !object.clean   ? "Only the object  (I: back)"
+           : object.forced ? "Only the object, edges cleaned anyway  (I: back)"
+                           : "Only the object, edges clean  (I: back)";
+  if (view.display == DisplayMode::kHide)
+    return object.outlined ? "Without it; outlined: ground no view saw  (H: back)"
+                           : "Without the object  (H: back)";
+  return view.heat ? "Likelihood: blue rest, red object  (M: back)" : nullptr;
+}
+
+}  // namespace splatcut
