@@ -327,8 +327,9 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
       ws_.history.can_undo()) {  // a cut may be made twice: what counts is what was before the stroke
     const Document& last = ws_.history.entries()[ws_.history.cursor() - 1].document;
     const ObjectItem* item = last.find(order.object);
-    before = make_flags(item ? labels_of(last, *item, ws_.gaussians())
-                             : std::vector<std::uint8_t>(ws_.gaussians(), 0));
+    if (!item || cut_key(last, *item) != order.key)  // else the stroke was another object's
+      before = make_flags(item ? labels_of(last, *item, ws_.gaussians())
+                               : std::vector<std::uint8_t>(ws_.gaussians(), 0));
   }
   const std::string changed = what_changed(*before, *labels_now(), seconds);
   if (stroked && *before == *labels_now() && count_flags(*before) > 0) {

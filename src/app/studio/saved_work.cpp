@@ -19,11 +19,11 @@ namespace splatcut {
 
 namespace {
 
-// Changes of the view alone are saved later: the view changes all the time. What takes long to write is
-// written after a rest in proportion, so that it takes a
-// quarter of a core at most: 8 to 60 ms for .3 M Gaussians, 40 to 450 ms for 1.5 M.
-constexpr double kAutosaveAfterSeconds = 0.3, kAutosaveViewAfterSeconds = 10, kAutosaveAgainSeconds = 30,
-                 kRestOverWriting = 3;
+// A change is saved once nothing more has changed for a moment, or after some seconds of changes without a
+// pause. What takes long to write is written after a rest in proportion. Changes of the view alone are saved
+// later: the view changes all the time.
+constexpr double kAutosaveAfterSeconds = 0.3, kAutosaveAtLatestSeconds = 2, kAutosaveViewAfterSeconds = 10,
+                 kAutosaveAgainSeconds = 30, kRestOverWriting = 3;
 
 LeftWork left_work(const std::filesystem::path& work) {
   std::error_code ignored;  // it may go in this moment
@@ -89,6 +89,7 @@ void SavedWork::opened(const std::optional<RestoredWork>& work, const std::files
   autosaved_serial_ = saved_serial_ = ws_.history.serial();
   autosaved_pose_ = viewport_.camera().kept_pose();
   if (work && !own) autosaved_serial_ = saved_serial_ = 0;  // restored: nowhere else yet
+  written_in_s_ = 0;
   find_offers();
 }
 
@@ -108,19 +109,22 @@ void SavedWork::update(double seconds) {
   look_for_more(seconds);
   if (!ws_.scene || ws_.tasks.busy(TaskKind::kLoad) || autosaves_.own().empty()) return;
   const std::uint64_t serial = ws_.history.serial();
-  if (std::exchange(waiting_serial_, serial) != serial) waited_s_ = 0;
+  rested_s_ += seconds;
+  if (std::exchange(waiting_serial_, serial) != serial) quiet_s_ = 0;
   const bool changed = autosaved_serial_ != serial;
   const bool looks_elsewhere = unsaved() && autosaved_pose_ != viewport_.camera().kept_pose();
   if (!changed && !looks_elsewhere) return;
-  waited_s_ += seconds;
-  const double after_s = std::max(kAutosaveAfterSeconds, kRestOverWriting * written_in_s_);
-  if (waited_s_ < (changed ? after_s : kAutosaveViewAfterSeconds)) return;
-  waited_s_ = 0;
+  quiet_s_ += seconds;
+  unkept_s_ = changed ? unkept_s_ + seconds : 0;
+  const bool due = quiet_s_ >= (changed ? kAutosaveAfterSeconds : kAutosaveViewAfterSeconds) ||
+                   unkept_s_ >= kAutosaveAtLatestSeconds;
+  if (!due || rested_s_ < kRestOverWriting * written_in_s_) return;
+  quiet_s_ = unkept_s_ = rested_s_ = 0;
   autosaved_serial_ = serial;
   autosaved_pose_ = viewport_.camera().kept_pose();
   const auto failed = [this] {  // not forgotten: tried again without another change
     autosaved_serial_ = 0;
-    waited_s_ = -kAutosaveAgainSeconds;
+    rested_s_ = kRestOverWriting * written_in_s_ - kAutosaveAgainSeconds;
   };
   ws_.writes.submit({TaskKind::kAutosave, failed}, autosaving());
 }
@@ -140,6 +144,7 @@ TaskThread::Work SavedWork::autosaving() {
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
         ws_.writes.post([this, restored, seconds = took.count()] {
           written_in_s_ = seconds;
+          rested_s_ = 0;
           forget_restored(restored);
         });
       };
@@ -190,6 +195,7 @@ void SavedWork::perform(const SaveWork& c) {
       if (scene != ws_.scene) return;
       work_path_ = path;
       saved_serial_ = serial;
+      ++saves_;
     });
   });
 }

@@ -35,6 +35,7 @@ class SavedWork {
 
   const std::filesystem::path& work_path() const { return work_path_; }  // the user's file; empty: none yet
   bool unsaved() const;
+  std::size_t saves() const { return saves_; }  // files that the user had written since the program began
   // Unsaved work that crashes left is offered until the user restores it, by opening its file, or drops it:
   // that of the scene that is open first, then the newest.
   const std::vector<LeftWork>& offers() const { return offers_; }
@@ -66,7 +67,10 @@ class SavedWork {
   // Serials of the documents that the autosave and the user's file hold; 0: the file holds none.
   std::uint64_t autosaved_serial_ = 0, saved_serial_ = 0;
   std::uint64_t waiting_serial_ = 0;  // serial of the document that waits to be autosaved
-  double waited_s_ = 0, written_in_s_ = 0;
+  // Since the last change; since the first one that the autosave lacks; since the last writing ended.
+  double quiet_s_ = 0, unkept_s_ = 0, rested_s_ = 0;
+  double written_in_s_ = 0;
+  std::size_t saves_ = 0;
   CameraPose autosaved_pose_;
 };
 

@@ -393,6 +393,8 @@ void open_anyway_dialog(UiContext& ui) {
   ui.state.files.folder.clear();  // it is the other scene's
   open_file_dialog(ui, FilePurpose::kSaveWork);
   ui.state.open_after_save = next;
+  ui.state.saves_before = ui.studio.work().saves();
+  ui.state.step_before = ui.studio.history().cursor();
 }
 
 void quit_dialog(UiContext& ui) {

@@ -27,8 +27,8 @@ void scene_panel(UiContext& ui);
 void files_panel(UiContext& ui);  // what the scene is made of
 void history_panel(UiContext& ui);
 void view_strip(UiContext& ui);
-float view_strip_width(const Studio& studio);
-float view_strip_height(const Studio& studio);  // as it is, or would be  // of all its cards, points; 0: none
+float view_strip_width(const Studio& studio);   // of all its cards, points; 0: none
+float view_strip_height(const Studio& studio);  // as it is, or would be
 void status_bar(UiContext& ui);
 
 // Pictures, strokes, tool shapes, messages; these stay above the lowest `bottom` points. Returns what covers

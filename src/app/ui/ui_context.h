@@ -115,7 +115,8 @@ struct UiState {
   bool help_open = false, settings_open = false, history_open = false, quit_asked = false,
        quit_wanted = false, export_open = false;
   std::optional<OpenScene> open_asked, open_now;  // open_asked: would discard unsaved work
-  std::optional<OpenScene> open_after_save;       // asked for by "Save..." of what is open
+  std::optional<OpenScene> open_after_save;       // asked for by "Save..." of what is open,
+  std::size_t saves_before = 0, step_before = 0;  // when so many were saved, at that step of the history
   std::optional<bool> history_wanted;             // opens or closes the history section
   bool hint_wanted = true;                        // the first-run hint, until the first click
   bool options_below = false;                     // those of the tool have no room in the bar

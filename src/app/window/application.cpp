@@ -267,9 +267,12 @@ bool Application::frame(double seconds) {
     else
       studio_.apply(command);
   }
-  auto& next = interface_.state().open_after_save;
-  if (next && !studio_.unsaved()) interface_.state().open_now = std::exchange(next, {});
-  if (const auto command = std::exchange(interface_.state().open_now, {})) studio_.apply(*command);
+  UiState& state = interface_.state();
+  if (state.open_after_save && studio_.history().cursor() != state.step_before)
+    state.open_after_save.reset();  // what was to be saved before is no longer what stands there
+  if (state.open_after_save && studio_.work().saves() != state.saves_before)
+    state.open_now = std::exchange(state.open_after_save, {});
+  if (const auto command = std::exchange(state.open_now, {})) studio_.apply(*command);
   times.requests = lap();
   if (times.total() > longest_.total()) longest_ = times;
   return busy || walk_.searching() || !held_back_.empty() || !ask.actions.empty() || !ask.commands.empty();

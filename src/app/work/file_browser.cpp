@@ -101,8 +101,10 @@ void FileBrowser::follow_typed() {
   cursor = -1;
   if (!saving) name.clear();
   if (start.empty() || start.starts_with('~') || start.find('/') != std::string::npos) return;
-  const auto found = std::ranges::find_if(
-      entries, [&](const BrowserEntry& e) { return lower_case(e.name).starts_with(lower_case(start)); });
+  const auto found = std::ranges::find_if(entries, [&](const BrowserEntry& e) {
+    return (e.folder || !saving) &&
+           lower_case(e.name).starts_with(lower_case(start));  // a file's name is given
+  });
   if (found != entries.end()) go(static_cast<int>(found - entries.begin()));
 }
 

@@ -240,6 +240,23 @@ TEST_CASE("a cut is saved by itself within a second of its answer, while picture
   REQUIRE(app.settle());
 }
 
+TEST_CASE("steady work is saved by itself, though it never rests") {
+  const ScratchFolder folder("steady");
+  ApplicationOptions options = with_kept_scenes();
+  options.studio.state_folder = folder.path();
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  opened(app);
+  const std::filesystem::path own = app.studio().work().own_autosave();
+  for (int fifth = 0; fifth < 15; ++fifth) {  // of a second; a step in each
+    app.studio().apply(EditSelection{fifth == 0 ? SelectionEdit::kAll : SelectionEdit::kInvert});
+    app->frame(0.2);
+  }
+  for (int i = 0; i < 200 && !std::filesystem::exists(own); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  CHECK(std::filesystem::exists(own));
+  REQUIRE(app.settle());
+}
+
 TEST_CASE("work of a program that a signal ends is offered as it was, without a moment for saving it") {
   const ScratchFolder folder("state_signal");
   ApplicationOptions options = with_kept_scenes();
@@ -547,6 +564,13 @@ TEST_CASE("what was to be opened is opened once the work is saved, which goes be
   REQUIRE(app.settle());
   CHECK(std::filesystem::equivalent(scene(), own.path()));
   app.studio().apply(EditSelection{SelectionEdit::kInvert});
+  REQUIRE(app.settle());
+  ask();
+  app.studio().apply(Undo{});  // back to what is saved: it was not this that should be saved before
+  REQUIRE(app.settle());
+  CHECK(std::filesystem::equivalent(scene(), own.path()));
+  app.key(key::kEscape);
+  app.studio().apply(Redo{});
   REQUIRE(app.settle());
   ask();
   CHECK(app.interface_state().files.name == "by_itself.splatcut.json");

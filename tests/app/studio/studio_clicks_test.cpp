@@ -272,6 +272,17 @@ TEST_CASE("clicks: of what is still computed nothing is said to be so already") 
   REQUIRE(artist.app.settle());
 }
 
+TEST_CASE("clicks: a cut that ends after another object was begun is not said to have changed nothing") {
+  Artist artist(on_sample("apple", kOnApple));
+  artist.app.click(artist.screen_of(kOnApple));
+  artist.studio().apply(NewObject{});
+  artist.app.click(artist.screen_of(kOnOrange));
+  REQUIRE(artist.app.settle());
+  REQUIRE(artist.studio().document().objects.size() == 2);
+  for (const Message& m : artist.studio().messages())
+    CHECK_MESSAGE(m.text.find("changed nothing") == std::string::npos, m.text);
+}
+
 TEST_CASE(
     "clicks: a stroke that changed the object is not said to have changed nothing, computed twice or not") {
   Artist artist(on_sample("apple", kOnApple));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "headless_app.h"
 #include "only_path.h"
@@ -137,6 +138,22 @@ TEST_CASE(
   app.key(key::kEnter);
   REQUIRE(app.settle());
   CHECK(std::filesystem::exists(folder / "gamma.splatcut.json"));
+}
+
+TEST_CASE("dialogs: a folder typed where something is saved leaves the file's name as it is") {
+  const ScratchFolder folder("typed");
+  std::filesystem::create_directories(folder / "out");
+  std::ofstream(folder / "old.splatcut.json") << "{}";
+  FileBrowser files;
+  files.extensions = {".splatcut.json"};
+  files.saving = true;
+  files.name = "mug.splatcut.json";
+  files.enter(folder.path());
+  for (const char* typed : {"o", "old", "out"}) {
+    files.typed_folder = (folder / typed).string();
+    files.follow_typed();
+    CHECK(files.name == "mug.splatcut.json");
+  }
 }
 
 TEST_CASE("dialogs: a double-click on a folder goes into it, and chooses nothing there") {
