@@ -32,8 +32,9 @@ struct Surroundings {
 // What the views say of each Gaussian of the scene, px.
 struct Seen {
   std::vector<double> all, inside, agreed;
+  PlaneSums sums;  // all and inside, in the rasteriser's units
 
-  explicit Seen(std::size_t n) : all(n), inside(n), agreed(n) {}
+  explicit Seen(std::size_t n) : all(n), inside(n), agreed(n), sums(n, 2) {}
   bool shown(std::size_t g) const {
     constexpr double kLeastPx = 0.5;
     return all[g] > kLeastPx;
@@ -47,20 +48,20 @@ struct Seen {
 
 void add_view(const Drawer& scene, const OwnView& view, Seen* seen, const Job& job) {
   constexpr int kMarginPx = 32;  // enough of the rest to know whose the places beside the object are
-  const std::size_t n = scene.cloud().size();
   const Surroundings around(view, kMarginPx);
   std::vector<Image<float>> planes(2, Image<float>(around.rect.width(), around.rect.height(), 1));
   for (std::size_t i = 0; i < around.inside.size(); ++i)
     planes[1].pixels()[i] = around.inside.pixels()[i] ? 1.0f : 0.0f;
-  PlaneSums sums(n, planes.size());
   RasterOptions raster;
   raster.colour = false;
   raster.roi = around.rect;
   raster.sum_planes = planes;
-  raster.plane_sums = &sums;
+  raster.plane_sums = &seen->sums;
   scene.draw(view.camera, raster, job);
-  for_each_index(n, [&](std::size_t g) {
-    const double all = sums.at(g, 0), inside = sums.at(g, 1);
+  for_each_index(seen->all.size(), [&](std::size_t g) {  // sums are exact, and so are their differences
+    const double all = seen->sums.at(g, 0) - seen->all[g];
+    if (all == 0) return;
+    const double inside = seen->sums.at(g, 1) - seen->inside[g];
     seen->all[g] += all;
     seen->inside[g] += inside;
     seen->agreed[g] += std::abs(2 * inside - all);
