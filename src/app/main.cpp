@@ -43,8 +43,9 @@ bool is_command(const std::string& word) {
 // a scene. Help and version are the program's own.
 bool only_options_before_scene(const std::vector<std::string>& words) {
   if (words.empty() || !words.front().starts_with('-')) return false;
-  constexpr std::array kOwn = {"-h", "--help", "--version"};
-  if (std::ranges::any_of(kOwn, [&](const char* own) { return words.front() == own; })) return false;
+  const std::array<std::string, 3> kOwn = {"-h", "--help", "--version"};
+  const auto is_own = [&](const std::string& word) { return std::ranges::count(kOwn, word) > 0; };
+  if (std::ranges::any_of(words, is_own) && std::ranges::none_of(words, is_scene)) return false;
   const auto first =
       std::ranges::find_if(words, [](const std::string& word) { return is_scene(word) || is_command(word); });
   return first == words.end() || is_scene(*first);
