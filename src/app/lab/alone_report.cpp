@@ -67,7 +67,7 @@ nlohmann::json cutout_json(const CutoutScore& s) {
 
 namespace {
 
-void print_table(const nlohmann::json& result, const char* title, const char* kept, const char* clean) {
+void print_alone_table(const nlohmann::json& result, const char* title, const char* kept, const char* clean) {
   fmt::print("\n{:<16} {:<5} {:>6} {:>6} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6}\n", title, "edges", "IoU",
              "b 2px", "b 2%", "black", "magenta", "SSIM", "halo", "miss", "alpha");
   for (const nlohmann::json& row : rows_and_mean(result))
@@ -85,8 +85,9 @@ void print_table(const nlohmann::json& result, const char* title, const char* ke
 }  // namespace
 
 void print_alone(const nlohmann::json& result) {
-  print_table(result, "alone", "alone", "clean");
-  if (result.at("mean").contains("alone_ring")) print_table(result, "in a ring", "alone_ring", "clean_ring");
+  print_alone_table(result, "alone", "alone", "clean");
+  if (result.at("mean").contains("alone_ring"))
+    print_alone_table(result, "in a ring", "alone_ring", "clean_ring");
   print_rest(result);
 }
 
