@@ -45,37 +45,7 @@ std::string left_out_text(const Studio& studio, ExportWhat what) {
 
 void propose_path(UiContext& ui) {
   ExportChoice& choice = ui.state.exporting;
-  const Studio& s = ui.studio;
-  const std::filesystem::path folder = choice.path.empty()
-                                           ? std::filesystem::absolute(s.scene()->scene->path).parent_path()
-                                           : std::filesystem::path(choice.path).parent_path();
-  std::string stem = scene_name(s.scene()->scene->path);
-  stem = stem.substr(0, stem.find('.'));
-  const ObjectItem* active = s.document().active_object();
-  std::string name = choice.what == ExportWhat::kRest         ? "rest"
-                     : choice.what == ExportWhat::kScene      ? "scene"
-                     : choice.what == ExportWhat::kAllObjects ? "objects"
-                     : active                                 ? active->name
-                                                              : "object";
-  for (char& c : name)
-    if (c == ' ' || c == '/') c = '_';
-  const bool folder_of_all = choice.what == ExportWhat::kAllObjects;
-  const std::filesystem::path proposed =
-      (folder / (stem + "_" + name + (folder_of_all ? "" : choice.format.extension)));
-  choice.path = free_path(proposed, folder_of_all ? "" : choice.format.extension).string();
-}
-
-// Where it goes: under another ending the file could not be opened again.
-std::filesystem::path target_of(const ExportChoice& choice) {
-  const bool folder = choice.what == ExportWhat::kAllObjects;
-  if (folder || choice.path.empty() || choice.path.ends_with(choice.format.extension)) return choice.path;
-  return choice.path + choice.format.extension;
-}
-
-// A name that ends like another format means that format.
-void follow_typed_name(ExportChoice& choice) {
-  const SceneFormat* named = choice.what == ExportWhat::kAllObjects ? nullptr : find_format(choice.path);
-  if (named && named->write && choice.path.ends_with(named->extension)) choice.format = *named;
+  choice.path = proposed_path(choice, ui.studio.scene()->scene->path, ui.studio.document().active_object());
 }
 
 void fact(const char* symbol, const ImVec4& colour, const std::string& text) {

@@ -7,14 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "app/document/export_choice.h"
 #include "app/picture/ground_grid.h"
 #include "app/picture/splat_rings.h"
-#include "app/studio/native_dialog.h"
 #include "app/studio/studio.h"
 #include "app/ui/grips.h"
 #include "app/ui/theme.h"
 #include "app/ui/ui_renderer.h"
 #include "app/work/file_browser.h"
+#include "app/work/native_dialog.h"
 
 namespace splatcut {
 
@@ -25,21 +26,6 @@ struct Requests {
 
   void operator()(Action action) { actions.push_back(action); }
   void operator()(Command command) { commands.push_back(std::move(command)); }
-};
-
-// Choices in the export dialog.
-struct ExportChoice {
-  ExportWhat what = ExportWhat::kObject;
-  bool for_want_of_object = false;  // the whole scene, as there was no object when it was asked for
-  SceneFormat format = SceneFormat::kPly;
-  std::string path;
-  bool overwrite = false;
-  bool fill_hole = false;         // of the rest
-  ExportPlacement placement;      // kept for the next export of the scene
-  std::uint32_t placed_file = 0;  // the scene's first, that it is for
-  FormatPlan plan;
-  std::string plan_key;  // what it was made for
-  std::string trouble;   // why the last try failed
 };
 
 // What the export dialog shows of where things will stand in the file.

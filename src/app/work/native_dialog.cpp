@@ -1,4 +1,4 @@
-#include "app/studio/native_dialog.h"
+#include "app/work/native_dialog.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>

@@ -1,0 +1,38 @@
+// What a user chose of an export so far, and where it goes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "app/document/export_plan.h"
+#include "scene/formats/scene_formats.h"
+
+namespace splatcut {
+
+struct ExportChoice {
+  ExportWhat what = ExportWhat::kObject;
+  bool for_want_of_object = false;  // the whole scene, as there was no object when it was asked for
+  SceneFormat format = SceneFormat::kPly;
+  std::string path;
+  bool overwrite = false;
+  bool fill_hole = false;         // of the rest
+  ExportPlacement placement;      // kept for the next export of the scene
+  std::uint32_t placed_file = 0;  // the scene's first, that it is for
+  FormatPlan plan;
+  std::string plan_key;  // what it was made for
+  std::string trouble;   // why the last try failed
+};
+
+// A free path for that, beside the scene or in the folder of the present path. object: null if there is none.
+std::string proposed_path(const ExportChoice& choice, const std::filesystem::path& scene,
+                          const ObjectItem* object);
+
+// Where it goes: the path with the format's extension, as under another one the file could not be opened
+// again.
+std::filesystem::path target_of(const ExportChoice& choice);
+
+// A typed path that ends like another format means that format.
+void follow_typed_name(ExportChoice& choice);
+
+}  // namespace splatcut
