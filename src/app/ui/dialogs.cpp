@@ -215,6 +215,35 @@ void pointer_help(UiContext& ui) {
   ImGui::PopTextWrapPos();
 }
 
+// What to do with work that would be lost.
+enum class UnsavedAnswer { kNone, kStay, kGoOn, kSave };
+
+UnsavedAnswer unsaved_dialog(UiContext& ui, const char* id, bool wanted, const std::string& text,
+                             const char* go_on) {
+  if (!begin_dialog(id, wanted, {430, 150})) return UnsavedAnswer::kNone;
+  wrapped_muted(ui, text);
+  ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
+  const bool stays = plain_button(ui, "Stay", 100) || escape_pressed();
+  ImGui::SameLine();
+  const bool goes_on = plain_button(ui, go_on, 100);
+  ImGui::SameLine(ImGui::GetWindowWidth() - 112);
+  const bool saves = button(ui, "Save...", "Save the work first  (Enter)", {}, true, 100) ||
+                     (!goes_on && !stays && enter_pressed());
+  if (stays || goes_on || saves) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+  return stays     ? UnsavedAnswer::kStay
+         : goes_on ? UnsavedAnswer::kGoOn
+         : saves   ? UnsavedAnswer::kSave
+                   : UnsavedAnswer::kNone;
+}
+
+// next: opened once the work is saved; none: the program ends then.
+void save_first(UiContext& ui, const std::optional<OpenScene>& next) {
+  if (next) ui.state.files.folder.clear();  // it is the other scene's
+  open_file_dialog(ui, FilePurpose::kSaveWork);
+  ui.state.after_save = {next, ui.studio.work().saves(), ui.studio.history().cursor()};
+}
+
 }  // namespace
 
 void export_dialog(UiContext& ui) {
@@ -339,52 +368,28 @@ void help_page(UiContext& ui) {
 }
 
 void open_anyway_dialog(UiContext& ui) {
-  if (!begin_dialog("Open without saving?###open_anyway", ui.state.open_asked.has_value(), {430, 150}))
-    return;
   const std::string name = ui.state.open_asked ? scene_name(ui.state.open_asked->path) : "";
-  wrapped_muted(
-      ui, fmt::format("The objects and strokes were not saved since they changed; opening {} ends that work.",
-                      name));
-  ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool stays = plain_button(ui, "Stay", 100) || escape_pressed();
-  ImGui::SameLine();
-  const bool opens = plain_button(ui, "Open", 100);
-  ImGui::SameLine(ImGui::GetWindowWidth() - 112);
-  const bool saves = button(ui, "Save...", "Save the work first  (Enter)", {}, true, 100) ||
-                     (!opens && !stays && enter_pressed());
-  if (opens) ui.state.open_now = ui.state.open_asked;
-  const std::optional<OpenScene> next = ui.state.open_asked;
-  if (stays || saves || opens) {
-    ui.state.open_asked.reset();
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndPopup();
-  if (!saves) return;
-  ui.state.files.folder.clear();  // it is the other scene's
-  open_file_dialog(ui, FilePurpose::kSaveWork);
-  ui.state.open_after_save = next;
-  ui.state.saves_before = ui.studio.work().saves();
-  ui.state.step_before = ui.studio.history().cursor();
+  const UnsavedAnswer answer = unsaved_dialog(
+      ui, "Open without saving?###open_anyway", ui.state.open_asked.has_value(),
+      fmt::format("The objects and strokes were not saved since they changed; opening {} ends that work.",
+                  name),
+      "Open");
+  if (answer == UnsavedAnswer::kNone) return;
+  const std::optional<OpenScene> next = std::exchange(ui.state.open_asked, {});
+  if (answer == UnsavedAnswer::kGoOn) ui.state.open_now = next;
+  if (answer == UnsavedAnswer::kSave) save_first(ui, next);
 }
 
 void quit_dialog(UiContext& ui) {
-  if (!begin_dialog("Leave without saving?###quit", ui.state.quit_asked, {430, 150})) return;
-  wrapped_muted(ui,
-                "The objects and strokes were not saved since they changed. A copy is kept all the same and "
-                "offered at the next start.");
-  ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
-  const bool stays = plain_button(ui, "Stay", 100) || escape_pressed();
-  ImGui::SameLine();
-  if (plain_button(ui, "Leave", 100)) ui.state.quit_wanted = true;
-  ImGui::SameLine(ImGui::GetWindowWidth() - 112);
-  const bool saves = button(ui, "Save...", "Save the work first  (Enter)", {}, true, 100) ||
-                     (!stays && !ui.state.quit_wanted && enter_pressed());
-  if (stays || saves || ui.state.quit_wanted) {
-    ui.state.quit_asked = false;
-    ImGui::CloseCurrentPopup();
-  }
-  if (saves) ui.ask(Action::kSave);
-  ImGui::EndPopup();
+  const UnsavedAnswer answer = unsaved_dialog(
+      ui, "Leave without saving?###quit", ui.state.quit_asked,
+      "The objects and strokes were not saved since they changed. A copy is kept all the same and offered at "
+      "the next start.",
+      "Leave");
+  if (answer == UnsavedAnswer::kNone) return;
+  ui.state.quit_asked = false;
+  if (answer == UnsavedAnswer::kGoOn) ui.state.quit_wanted = true;
+  if (answer == UnsavedAnswer::kSave) save_first(ui, {});
 }
 
 }  // namespace splatcut

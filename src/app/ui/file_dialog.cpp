@@ -62,7 +62,7 @@ void use_choice(UiContext& ui, std::filesystem::path path, bool asked) {
 void back_to_caller(UiContext& ui) {
   if (ui.state.file_purpose == FilePurpose::kExport) ui.state.export_open = true;
   if (ui.state.file_purpose == FilePurpose::kTurntable) ui.state.turntable_open = true;
-  ui.state.open_after_save.reset();
+  ui.state.after_save.reset();
 }
 
 void entry_list(FileBrowser& files, float height, bool moved, bool double_clicked, bool* chosen) {
@@ -173,7 +173,7 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
   const FileKind kind = kind_of(purpose);
   FileBrowser& files = ui.state.files;
   ui.state.file_purpose = purpose;
-  if (purpose != FilePurpose::kSaveWork) ui.state.open_after_save.reset();
+  if (purpose != FilePurpose::kSaveWork) ui.state.after_save.reset();
   files.title = kind.title;
   files.extensions = kind.shown;
   files.saving = files.name_first = purpose != FilePurpose::kOpen && purpose != FilePurpose::kAdd;

@@ -197,7 +197,7 @@ void Interface::show(UiRequest request, const Studio& studio, UiRenderer* render
     case UiRequest::kAddDialog:
       return open_file_dialog(ui, FilePurpose::kAdd);
     case UiRequest::kSaveDialog:
-      state_.open_after_save.reset();
+      state_.after_save.reset();
       return open_file_dialog(ui, FilePurpose::kSaveWork);
     case UiRequest::kSnapshotDialog:
       return open_file_dialog(ui, FilePurpose::kSnapshot);

@@ -87,6 +87,12 @@ struct PlacingChoice {
   std::size_t files_before = 1;  // the section opens when there are more
 };
 
+// What "Save..." was pressed before, where unsaved work would have been lost.
+struct AfterSave {
+  std::optional<OpenScene> open;      // none: the program ends
+  std::size_t saves = 0, cursor = 0;  // number of saves before; step of the history that is to be saved
+};
+
 // What can be pressed, and the picture: where it lies in the last frame, in logical points.
 struct ShownItem {
   std::string name;  // what stands on it, without ImGui's ids; "picture"
@@ -101,8 +107,7 @@ struct UiState {
   bool help_open = false, settings_open = false, history_open = false, quit_asked = false,
        quit_wanted = false, export_open = false;
   std::optional<OpenScene> open_asked, open_now;  // open_asked: would discard unsaved work
-  std::optional<OpenScene> open_after_save;       // asked for by "Save..." of what is open,
-  std::size_t saves_before = 0, step_before = 0;  // when so many were saved, at that step of the history
+  std::optional<AfterSave> after_save;            // waits for the file dialog and for the save
   std::optional<bool> history_wanted;             // opens or closes the history section
   bool hint_wanted = true;                        // the first-run hint, until the first click
   bool options_below = false;                     // those of the tool have no room in the bar

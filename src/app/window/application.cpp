@@ -211,7 +211,7 @@ void Application::handle_one(const FileDropped& event) {
 }
 
 void Application::open(const OpenScene& command) {
-  interface_.state().open_after_save.reset();
+  interface_.state().after_save.reset();
   if (studio_.unsaved())
     interface_.state().open_asked = command;
   else
@@ -268,10 +268,12 @@ bool Application::frame(double seconds) {
       studio_.apply(command);
   }
   UiState& state = interface_.state();
-  if (state.open_after_save && studio_.history().cursor() != state.step_before)
-    state.open_after_save.reset();  // what was to be saved before is no longer what stands there
-  if (state.open_after_save && studio_.work().saves() != state.saves_before)
-    state.open_now = std::exchange(state.open_after_save, {});
+  if (state.after_save && studio_.history().cursor() != state.after_save->cursor)
+    state.after_save.reset();  // what was to be saved before is no longer what stands there
+  if (state.after_save && studio_.work().saves() != state.after_save->saves) {
+    state.open_now = std::exchange(state.after_save, {})->open;
+    if (!state.open_now) studio_.run(Action::kQuit);  // asks again where more was done meanwhile
+  }
   if (const auto command = std::exchange(state.open_now, {})) studio_.apply(*command);
   times.requests = lap();
   if (times.total() > longest_.total()) longest_ = times;

@@ -140,6 +140,46 @@ TEST_CASE(
   CHECK(std::filesystem::exists(folder / "gamma.splatcut.json"));
 }
 
+TEST_CASE("dialogs: Save... where the program would be left saves the work, then leaves") {
+  const ScratchFolder folder("save_and_leave");
+  HeadlessApp app(760, 420);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(app.settle());
+  FileBrowser& files = app.interface_state().files;
+  const auto ask_to_save = [&] {
+    files.folder = folder.path();
+    app.studio().run(Action::kQuit);
+    app.frames(3);
+    REQUIRE(app->interface().dialog_open());
+    app.key(key::kEnter);
+    app.frames(3);
+    REQUIRE(files.open);
+  };
+  const auto save = [&] {
+    app.key(key::kEnter);
+    REQUIRE(app.settle());
+    app.frames(2);
+  };
+  ask_to_save();
+  app.key(key::kEscape);  // not saved after all
+  app.frames(3);
+  files.folder = folder.path();
+  app.key('S', {.ctrl = true});  // a save by itself ends nothing
+  app.frames(3);
+  save();
+  CHECK(std::filesystem::exists(folder / "small_sample.splatcut.json"));
+  CHECK_FALSE(app->wants_to_close());
+
+  app.studio().apply(EditSelection{SelectionEdit::kInvert});
+  REQUIRE(app.settle());
+  ask_to_save();
+  save();
+  CHECK_FALSE(app.studio().unsaved());
+  CHECK(app->wants_to_close());
+}
+
 TEST_CASE("dialogs: a folder typed where something is saved leaves the file's name as it is") {
   const ScratchFolder folder("typed");
   std::filesystem::create_directories(folder / "out");
