@@ -41,7 +41,8 @@ bool same_flags(const Flags& a, const Flags& b) {
 
 bool same_but_strokes(const ObjectItem& a, const ObjectItem& b) {
   const auto plain = [](const ObjectItem& o) {
-    return std::tie(o.id, o.name, o.colour, o.visible, o.locked, o.within, o.cut_key, o.cut_kept);
+    return std::tie(o.id, o.name, o.colour, o.visible, o.locked, o.within, o.cut_key, o.cut_kept,
+                    o.leaves_also);
   };
   return plain(a) == plain(b) && same_flags(a.cut, b.cut) && same_flags(a.hand, b.hand) &&
          same_flags(a.of_others, b.of_others);
@@ -115,7 +116,8 @@ std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& 
     for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && !(*object.of_others)[g];
   if (object.hand)
     for (std::size_t g = 0; g < gaussians; ++g)
-      if ((*object.hand)[g] != kFollowCut) labels[g] = (*object.hand)[g] == kHandObject;
+      if (const std::uint8_t mark = (*object.hand)[g]; mark == kHandObject || mark == kHandRest)
+        labels[g] = mark == kHandObject;
   if (document.deleted)
     for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && !(*document.deleted)[g];
   if (const ObjectItem* whole = document.find(object.within); whole && whole->id != object.id) {
@@ -125,7 +127,8 @@ std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& 
   return labels;
 }
 
-Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians) {
+Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
+                    std::span<const ObjectId> these) {
   const auto is_in = [&](const ObjectItem* part, ObjectId whole) {
     for (; part; part = document.find(part->within))
       if (part->within == whole) return true;
@@ -134,10 +137,51 @@ Flags had_by_others(const Document& document, const ObjectItem& object, std::siz
   std::vector<std::uint8_t> had(gaussians, 0);
   for (const ObjectItem& other : document.objects) {
     if (other.id == object.id || is_in(&object, other.id) || is_in(&other, object.id)) continue;
+    if (!these.empty() && std::ranges::find(these, other.id) == these.end()) continue;
     const std::vector<std::uint8_t> labels = labels_of(document, other, gaussians);
     for (std::size_t g = 0; g < gaussians; ++g) had[g] |= labels[g];
   }
   return count_flags(had) > 0 ? make_flags(std::move(had)) : nullptr;
+}
+
+void set_of_others(ObjectItem* object, Flags of_others) {
+  object->of_others = std::move(of_others);
+  object->leaves_also.clear();
+  if (!object->hand) return;
+  std::vector<std::uint8_t> hand = *object->hand;
+  for (std::size_t g = 0; g < hand.size(); ++g)
+    if (hand[g] == kHandObject || hand[g] == kHandLeft)
+      hand[g] = object->of_others && (*object->of_others)[g] ? kHandLeft : kHandObject;
+  if (hand != *object->hand) object->hand = make_flags(std::move(hand));
+}
+
+void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians) {
+  set_of_others(object, had_by_others(document, *object, gaussians));
+  for (const ObjectItem& other : document.objects)
+    if (other.id != object->id && is_stale(document, other)) object->leaves_also.push_back(other.id);
+}
+
+bool is_made_on(const Flags& flags, std::span<const std::int32_t> hits) {
+  if (!flags) return false;
+  const auto on =
+      std::ranges::count_if(hits, [&](std::int32_t g) { return (*flags)[static_cast<std::size_t>(g)] != 0; });
+  return 2 * on > std::ssize(hits);
+}
+
+ObjectItem left_what_came(const Document& document, const ObjectItem& object, std::span<const ObjectId> came,
+                          std::span<const std::vector<std::int32_t>> hits, std::size_t gaussians) {
+  ObjectItem out = object;
+  std::erase_if(out.leaves_also, [&](ObjectId id) { return std::ranges::find(came, id) != came.end(); });
+  const Flags had = had_by_others(document, object, gaussians, came);
+  if (!had) return out;
+  if (std::ranges::any_of(hits, [&](const auto& of_stroke) { return is_made_on(had, of_stroke); })) {
+    set_of_others(&out, nullptr);
+    return out;
+  }
+  std::vector<std::uint8_t> all = *had;  // hand marks are younger than that, and count
+  for (std::size_t g = 0; out.of_others && g < all.size(); ++g) all[g] |= (*out.of_others)[g];
+  out.of_others = make_flags(std::move(all));
+  return out;
 }
 
 void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels) {

@@ -24,8 +24,9 @@ Flags make_flags(std::vector<std::uint8_t> values);
 
 using ObjectId = std::uint32_t;  // id of an object, never used twice in a document; 0: no object
 
-// Mark that the user gave a Gaussian by hand; it overrides the cut.
-enum HandMark : std::uint8_t { kFollowCut = 0, kHandObject = 1, kHandRest = 2 };
+// Mark that the user gave a Gaussian by hand; it overrides the cut. kHandLeft: kHandObject that was left to
+// other objects afterwards, see set_of_others(): it counts as kFollowCut until they give it back.
+enum HandMark : std::uint8_t { kFollowCut = 0, kHandObject = 1, kHandRest = 2, kHandLeft = 3 };
 
 struct ObjectItem {
   ObjectId id = 0;
@@ -46,6 +47,9 @@ struct ObjectItem {
   bool cut_kept = false;
   Flags hand;       // HandMark of each Gaussian
   Flags of_others;  // Gaussians that stay other objects' own: the cut takes none of them; null: it takes any
+  // Objects whose cut was on its way when `of_others` was set: what it gives them joins that once it is
+  // there.
+  std::vector<ObjectId> leaves_also;
 };
 
 inline constexpr std::size_t kMostObjects = 255;  // limit, as one byte per Gaussian names its object
@@ -87,7 +91,23 @@ std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& 
                                     std::size_t gaussians);
 
 // All that other objects have, but for parts of this one and wholes that it is a part of; null: nothing.
-Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians);
+// these: the others that count, empty: all.
+Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
+                    std::span<const ObjectId> these = {});
+
+// Sets ObjectItem::of_others, with nothing on its way. What hands took of that is left to the others, too;
+// what hands had taken of what was left before is the object's again.
+void set_of_others(ObjectItem* object, Flags of_others);
+// Sets it to all that other objects have, and have on their way.
+void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians);
+// The object with what the objects `came`, of its `leaves_also`, have now. hits: for each of its strokes, see
+// is_made_on(): a stroke that is made on that takes it.
+ObjectItem left_what_came(const Document& document, const ObjectItem& object, std::span<const ObjectId> came,
+                          std::span<const std::vector<std::int32_t>> hits, std::size_t gaussians);
+
+// Whether a stroke that hits these Gaussians means what has the flags: more than half of them do. Null: no
+// flags.
+bool is_made_on(const Flags& flags, std::span<const std::int32_t> hits);
 
 // Sets hand marks so that the final labels become `labels`.
 void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels);

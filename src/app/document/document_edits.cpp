@@ -55,6 +55,26 @@ std::string counted(const Document& document, const ObjectItem& object, const Ed
                      grouped(count_flags(labels(document, object, context))), grouped(context.cloud.size()));
 }
 
+// Whether a stroke on the object begins it: nothing marks it yet, and it has no Gaussians.
+bool begins(const Document& document, const ObjectItem& object, const EditContext& context) {
+  if (std::ranges::any_of(object.views, marks_object)) return false;
+  return (!object.cut && !object.hand) || count_flags(labels(document, object, context)) == 0;
+}
+
+// A new object shows on what it was begun on, and takes nothing that others have, unless it is begun on that:
+// then it is a part of it, or they share. A later stroke there takes it after all. hits: what a stroke on the
+// object was made on.
+void settle_with_others(Document* document, ObjectItem* object, std::span<const std::int32_t> hits,
+                        bool first, const EditContext& context) {
+  if (first) {
+    if (!hits.empty())  // of a box the one in its middle
+      stand_out(document, object->id,
+                base_colour(context.cloud, static_cast<std::size_t>(hits[hits.size() / 2])));
+    leave_to_others(*document, object, context.cloud.size());
+  }
+  if (is_made_on(object->of_others, hits)) set_of_others(object, nullptr);
+}
+
 // Where the next stroke goes: strokes stay in order, so another view in between starts a new entry.
 StrokedView& view_for(ObjectItem* object, const Camera& camera, const Flags& seen) {
   std::vector<StrokedView>& views = object->views;
@@ -101,13 +121,30 @@ bool shows(const Backdrop& backdrop, const Document& document, const ViewState& 
   return std::max({d.r, d.g, d.b}) < kSame;
 }
 
-std::string edit(Document* document, const AddStroke& command, const EditContext&) {
+std::string edit(Document* document, const AddStroke& command, const EditContext& context) {
   if (command.stroke.points_px.empty()) throw Error("stroke", "it has no points");
   ObjectItem& object = stroked(document);
-  view_for(&object, command.camera, command.seen).strokes.push_back(command.stroke);
   const bool dot = command.stroke.is_click();
   const bool rest = command.stroke.label == SeedLabel::kRest;
+  if (!rest) settle_with_others(document, &object, command.hits, begins(*document, object, context), context);
+  view_for(&object, command.camera, command.seen).strokes.push_back(command.stroke);
   return fmt::format("{} {} {}", dot ? "Click:" : "Scribble:", rest ? "not part of" : "part of", object.name);
+}
+
+Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<std::uint8_t> before,
+                 std::vector<std::uint8_t> after, const EditContext& context) {
+  const auto with_cut = [&](Document now, std::vector<std::uint8_t> cut) {
+    ObjectItem* object = now.find(now.active);
+    if (!object) return cut;  // nothing is begun yet
+    object->cut = make_flags(std::move(cut));
+    return labels(now, *object, context);
+  };
+  Document stroked_document = document;
+  edit(&stroked_document, stroke, context);
+  std::vector<std::uint8_t> change = with_cut(document, std::move(before));
+  const std::vector<std::uint8_t> then = with_cut(std::move(stroked_document), std::move(after));
+  for (std::size_t g = 0; g < change.size(); ++g) change[g] = change[g] != then[g];
+  return make_flags(std::move(change));
 }
 
 Stroke stroke_of(const AddBox& command, SeedLabel label) {
@@ -117,9 +154,10 @@ Stroke stroke_of(const AddBox& command, SeedLabel label) {
   return box;
 }
 
-std::string edit(Document* document, const AddBox& command, const EditContext&) {
+std::string edit(Document* document, const AddBox& command, const EditContext& context) {
   const Stroke box = stroke_of(command, SeedLabel::kObject);
   ObjectItem& object = stroked(document);
+  settle_with_others(document, &object, command.hits, begins(*document, object, context), context);
   view_for(&object, command.camera, command.seen).strokes.push_back(box);
   return "Box around " + object.name;
 }
@@ -322,13 +360,10 @@ std::string edit(Document* document, const SeparateObject& command, const EditCo
 
 std::string edit(Document* document, const LeaveToOthers& command, const EditContext& context) {
   ObjectItem& object = unlocked(document, command.object);
-  object.of_others = command.leaves ? had_by_others(*document, object, context.cloud.size()) : nullptr;
-  if (object.of_others && object.hand) {  // what hands took of them goes back, too
-    std::vector<std::uint8_t> hand = *object.hand;
-    for (std::size_t g = 0; g < hand.size(); ++g)
-      if ((*object.of_others)[g] && hand[g] == kHandObject) hand[g] = kFollowCut;
-    object.hand = make_flags(std::move(hand));
-  }
+  if (command.leaves)
+    leave_to_others(*document, &object, context.cloud.size());
+  else
+    set_of_others(&object, nullptr);
   return counted(*document, object, context);
 }
 

@@ -23,6 +23,11 @@ bool shows(const Backdrop& backdrop, const Document& document, const ViewState& 
 std::string edit_selection(Document* document, const Selection& region, SetOperation operation,
                            const EditContext& context);
 
+// Gaussians whose labels a stroke changes, where the cut alone gives the active object `before` without it
+// and `after` it with it.
+Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<std::uint8_t> before,
+                 std::vector<std::uint8_t> after, const EditContext& context);
+
 // The stroke that a box stands for. Throws Error if the box is too small.
 Stroke stroke_of(const AddBox& command, SeedLabel label);
 

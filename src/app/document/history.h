@@ -74,7 +74,7 @@ class History {
 
   // Replaces every state by what `carried` makes of it, as the scene has other Gaussians now.
   void carry(const std::function<Document(const Document&)>& carried);
-  // Changes every state. `change` must not touch anything that labels depend on.
+  // Changes every state. `change` must not touch anything that cuts depend on.
   void change_all(const std::function<void(Document*)>& change);
 
  private:

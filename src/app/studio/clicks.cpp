@@ -36,17 +36,7 @@ bool Clicks::hits_anything(const AddStroke& c) const {
   const std::shared_ptr<const Frame> frame =
       viewport_.panes() == 1 ? viewport_.full_picture_of(c.camera) : nullptr;
   Image<float> drawn;
-  if (!frame) {
-    const DrawLimits limits = viewport_.draw_limits();
-    RasterOptions options;
-    options.colour = false;
-    options.near_plane = limits.near_plane;
-    options.low_pass_px2 = limits.low_pass_px2;
-    options.roi = around;
-    options.blocks = ws_.scene->blocks.get();
-    if (c.seen) options.shown = *c.seen;
-    drawn = rasterize(*ws_.scene->cloud, c.camera, options).alpha;
-  }
+  if (!frame) drawn = viewport_.drawn(c.camera, around, c.seen).alpha;
   const auto alpha = [&](int x, int y) {
     return frame ? frame->alpha.at(x, y) : drawn.at(x - from.x, y - from.y);
   };
@@ -73,29 +63,17 @@ std::string Clicks::already_so(const AddStroke& c) const {
                  : fmt::format("That is not part of {} as it is", object->name);
 }
 
-// A new object takes nothing that others have, unless it is clicked on that: then it is a part of it, or they
-// share. A later click there takes it after all.
-void Clicks::leave_to_others(Document* document, const PickedPoint& at, bool first) const {
-  ObjectItem& object = *document->find(document->active);
-  if (first) object.of_others = had_by_others(*document, object, ws_.gaussians());
-  if (object.of_others && (*object.of_others)[static_cast<std::size_t>(at.gaussian)])
-    object.of_others = nullptr;
-}
-
 void Clicks::perform(const AddStroke& c) {
   ws_.require_scene();
   if (!c.stroke.points_px.empty() && !hits_anything(c))
     throw Error("click", "there is nothing in that place", "Click on something that can be seen");
   const std::string held = already_so(c);
+  AddStroke made = c;
+  made.hits = viewport_.hit_by({c.camera, c.stroke, c.seen});
   Document after = ws_.document();
-  const ObjectItem* active = ws_.document().active_object();
-  const bool first = !active || (!any_mark(*active) && ws_.gaussians_of(active->id) == 0);
-  const std::string message = edit(&after, c, ws_.context());
+  const std::string message = edit(&after, made, ws_.context());
   const bool adds = c.stroke.label == SeedLabel::kObject && same_camera(c.camera, viewport_.pane_camera());
   const auto on = adds ? viewport_.pick(c.stroke.points_px.front()) : std::nullopt;
-  if (on && first)
-    stand_out(&after, after.active, base_colour(*ws_.scene->cloud, static_cast<std::size_t>(on->gaussian)));
-  if (on) leave_to_others(&after, *on, first);
   // The view turns around what was clicked; around the object as long as that is alone.
   if (on && ws_.view.display == DisplayMode::kWhole && c.stroke.is_click() && viewport_.panes() == 1)
     viewport_.camera().set_orbit_centre(on->position_world);
@@ -176,7 +154,8 @@ void Clicks::perform(const StepScale& c) {
 // Whether the next click is thought about: by a click tool, in a still picture, while no cut runs.
 bool Clicks::asks_ahead() const {
   const ObjectItem* active = ws_.document().active_object();
-  if (!ws_.session || ws_.view.tool != Tool::kClick || viewport_.panes() != 1 || ws_.view.heat ||
+  const bool has_room = active || ws_.document().objects.size() < kMostObjects;
+  if (!ws_.session || !has_room || ws_.view.tool != Tool::kClick || viewport_.panes() != 1 || ws_.view.heat ||
       ws_.tools.dragging() || viewport_.floaters_shown() || viewport_.range_shown() || cuts_.cutting() != 0 ||
       (active && active->locked))
     return false;
@@ -193,8 +172,12 @@ std::optional<Clicks::HoverAsk> Clicks::hover_wanted() const {
   const bool on_object =
       viewport_.active_labels() && (*viewport_.active_labels())[static_cast<std::size_t>(hit->gaussian)] != 0;
   const bool corrects = active && any_mark(*active);
-  return HoverAsk{ws_.history.serial(), ws_.view_serial, camera, glm::floor(ws_.tools.pointer_px()),
-                  corrects && (on_object || ws_.held_modifiers.ctrl)};
+  return HoverAsk{ws_.history.serial(),
+                  ws_.view_serial,
+                  camera,
+                  glm::floor(ws_.tools.pointer_px()),
+                  corrects && (on_object || ws_.held_modifiers.ctrl),
+                  hit->gaussian};
 }
 
 // Outlines what a click would change: outside of the object a click that adds, on it one that removes. The
@@ -218,19 +201,20 @@ void Clicks::refresh_hover() {
   if (object) stroke.camera = known_camera(*object, stroke.camera);
   if (!shows_clean_edges(ws_.view)) ws_.tasks.cancel(TaskKind::kClean);  // nobody waits for it
   ws_.tasks.cancel(TaskKind::kAhead);
-  ws_.tasks.submit(TaskKind::kHover, [this, ask = *ask, stroke, session = ws_.session, scene = ws_.scene,
-                                      request = cut_request(ws_.document(), object ? *object : none),
-                                      settings = cut_settings(ws_.document(), object ? *object : none)](
-                                         const Job& job) {
-    const Session::Preview preview = session->preview(request, stroke, settings, job);
-    if (preview.after.empty()) return;
-    std::vector<std::uint8_t> change(preview.after.size());
-    std::ranges::transform(preview.before, preview.after, change.begin(),
-                           [](std::uint8_t before, std::uint8_t after) { return before != after ? 1 : 0; });
-    ws_.tasks.post([this, ask, scene, change = make_flags(std::move(change))] {
-      if (scene == ws_.scene && hover_ && hover_->same_but_pixel(ask)) show_hover(change, ask.rest);
-    });
-  });
+  ws_.tasks.submit(
+      TaskKind::kHover,
+      [this, ask = *ask, stroke, session = ws_.session, scene = ws_.scene, document = ws_.document(),
+       request = cut_request(ws_.document(), object ? *object : none),
+       settings = cut_settings(ws_.document(), object ? *object : none)](const Job& job) {
+        const Session::Preview preview = session->preview(request, stroke, settings, job);
+        if (preview.after.empty()) return;
+        const AddStroke click{stroke.camera, stroke.stroke, stroke.seen, {ask.on}};
+        const EditContext context{*scene->cloud};
+        ws_.tasks.post(
+            [this, ask, scene, change = changed_by(document, click, preview.before, preview.after, context)] {
+              if (scene == ws_.scene && hover_ && hover_->same_but_pixel(ask)) show_hover(change, ask.rest);
+            });
+      });
 }
 
 // Where nothing else is done and no object is begun, what a first click needs is built: where the pointer
@@ -261,7 +245,33 @@ void Clicks::show_hover(const Flags& change, bool rest) {
   viewport_.highlight(change, rest ? kRemoves : kAdds);
 }
 
+// What objects get whose cut was on its way when another was begun is left to them, too, in every state of
+// the history in which the other waits for it.
+void Clicks::leave_what_came() {
+  const Document& document = ws_.document();
+  for (const ObjectItem& object : document.objects) {
+    std::vector<ObjectId> came;
+    for (const ObjectId id : object.leaves_also)
+      if (const ObjectItem* other = document.find(id); !other || !cuts_.comes(*other)) came.push_back(id);
+    if (came.empty()) continue;
+    std::vector<std::vector<std::int32_t>> hits;
+    for (const StrokedView& view : object.views)
+      for (const Stroke& stroke : view.strokes)
+        if (stroke.label == SeedLabel::kObject)
+          hits.push_back(viewport_.hit_by({view.camera, stroke, view.seen}));
+    const ObjectItem before = object, after = left_what_came(document, object, came, hits, ws_.gaussians());
+    return ws_.history.change_all([&](Document* state) {
+      ObjectItem* same = state->find(before.id);
+      if (!same || same->leaves_also != before.leaves_also || same->of_others != before.of_others) return;
+      same->leaves_also = after.leaves_also;
+      same->of_others = after.of_others;
+      if (same->hand == before.hand) same->hand = after.hand;
+    });
+  }
+}
+
 void Clicks::update() {
+  leave_what_came();
   if (std::exchange(cuts_done_, cuts_.done()) != cuts_.done()) note_sizes();
   refresh_hover();
   make_ready();

@@ -50,17 +50,18 @@ class Clicks {
   void perform(const AddBox& c);
 
  private:
-  // A question to the worker about the click under the pointer.
   // Places of the picture that were prepared for a first click, those asked for last.
   struct Ready {
     std::optional<Camera> camera;
     std::optional<glm::vec2> pointer_px, middle_px;
   };
+  // A question to the worker about the click under the pointer.
   struct HoverAsk {
     std::uint64_t document = 0, view = 0;  // serials of the document and of the view
     Camera camera;
     glm::vec2 pixel{0};
     bool rest = false;
+    std::int32_t on = -1;  // Gaussian under the pixel
     bool same_but_pixel(const HoverAsk& other) const {
       return document == other.document && view == other.view && rest == other.rest &&
              same_camera(camera, other.camera);
@@ -68,13 +69,13 @@ class Clicks {
   };
 
   bool hits_anything(const AddStroke& c) const;
-  void leave_to_others(Document* document, const PickedPoint& at, bool first) const;
   std::string already_so(const AddStroke& c) const;
   const ClickMeanings* meanings(const ObjectItem& object) const;
   std::optional<HoverAsk> hover_wanted() const;
   bool asks_ahead() const;
   void refresh_hover();
   void make_ready();
+  void leave_what_came();
   void show_hover(const Flags& change, bool rest);
   void combine_with(const CameraStroke& stroke, SetOperation operation, const std::string& title);
   void note_sizes();

@@ -43,8 +43,10 @@ void Clicks::perform(const AddBox& c) {
     return combine_with({c.camera, stroke_of(c, SeedLabel::kObject), c.seen}, c.operation,
                         removes ? "Remove (box)" : "Intersect (box)");
   }
+  AddBox made = c;
+  made.hits = viewport_.hit_by({c.camera, stroke_of(c, SeedLabel::kObject), c.seen});
   Document after = ws_.document();
-  const std::string message = edit(&after, c, ws_.context());
+  const std::string message = edit(&after, made, ws_.context());
   edits_.push(c.title(), std::move(after), {}, message);
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "app/document/words.h"
-#include "scene/raster/rasterizer.h"
 
 namespace splatcut {
 
@@ -288,23 +287,49 @@ glm::vec3 Viewport::looked_at_world() const {
 }
 
 std::optional<PickedPoint> Viewport::hit_in(const Camera& camera, const glm::vec2& pixel,
-                                            const Flags& visible_set) const {
+                                            const Flags& visible) const {
   const glm::vec2 size(camera.width_px, camera.height_px);
   if (!(pixel.x >= 0 && pixel.y >= 0 && pixel.x < size.x && pixel.y < size.y)) return {};
   const auto x = static_cast<int>(std::floor(pixel.x)), y = static_cast<int>(std::floor(pixel.y));
+  const RasterOutput out = drawn(camera, {x, y, x + 1, y + 1}, visible);
+  if (out.first_hit.at(0, 0) < 0) return {};
+  return PickedPoint{camera.world_from_pixel(pixel, out.median_depth.at(0, 0)), out.first_hit.at(0, 0)};
+}
+
+std::vector<std::int32_t> Viewport::hit_by(const CameraStroke& s) const {
+  const Stroke& stroke = s.stroke;
+  if (stroke.points_px.empty()) return {};
+  const glm::vec2& first = stroke.points_px.front();
+  if (!stroke.is_box()) {
+    const auto hit = same_camera(s.camera, pane_camera()) ? pick(first) : hit_in(s.camera, first, s.seen);
+    return hit ? std::vector{hit->gaussian} : std::vector<std::int32_t>();
+  }
+  constexpr int kWidthPx = 160;
+  const Camera small = limited_to_width(s.camera, kWidthPx);
+  const float scale = static_cast<float>(small.width_px) / static_cast<float>(s.camera.width_px);
+  const glm::ivec2 most(small.width_px, small.height_px),
+      low = glm::clamp(glm::ivec2(scale * first), glm::ivec2(0), most),
+      high = glm::clamp(glm::ivec2(scale * stroke.points_px[1]) + 1, glm::ivec2(0), most);
+  const PixelRect part{low.x, low.y, high.x, high.y};
+  if (part.empty()) return {};
+  const RasterOutput picture = drawn(small, part, s.seen);
+  std::vector<std::int32_t> hits;
+  std::ranges::copy_if(picture.first_hit.pixels(), std::back_inserter(hits), [](auto g) { return g >= 0; });
+  return hits;
+}
+
+RasterOutput Viewport::drawn(const Camera& camera, const PixelRect& part, const Flags& visible_set) const {
   const DrawLimits limits = draw_limits();
   RasterOptions options;
   options.colour = false;
   options.depth = true;
   options.near_plane = limits.near_plane;
   options.low_pass_px2 = limits.low_pass_px2;
-  options.roi = PixelRect{x, y, x + 1, y + 1};
+  options.roi = part;
   options.blocks = ws_.scene->blocks.get();
   const Flags visible = within_far_plane(*ws_.scene->cloud, camera, visible_set, limits.far_plane);
   if (visible) options.shown = *visible;
-  const RasterOutput out = rasterize(*ws_.scene->cloud, camera, options);
-  if (out.first_hit.at(0, 0) < 0) return {};
-  return PickedPoint{camera.world_from_pixel(pixel, out.median_depth.at(0, 0)), out.first_hit.at(0, 0)};
+  return rasterize(*ws_.scene->cloud, camera, options);
 }
 
 std::optional<float> Viewport::depth_on_screen(const glm::vec2& pixel) const {

@@ -142,7 +142,7 @@ SavedSteps history_from(const json& j, const Scene& scene, const Document& docum
     const json& runs = arrays.at(whole_number(number));
     ReadArray& known = read[whole_number(number)];
     if (!known.flags) {
-      known.flags = flags_from(runs, scene, kHandRest);
+      known.flags = flags_from(runs, scene, kHandLeft);
       for (const std::uint8_t value : *known.flags) known.largest = std::max(known.largest, value);
     }
     if (known.largest > most)

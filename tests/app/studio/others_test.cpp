@@ -1,0 +1,210 @@
+// What objects leave to one another: however they are begun, while others are still cut, given back and saved.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "hands.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+using Labels = std::vector<std::uint8_t>;
+
+std::size_t shared(const Labels& a, const Labels& b) {
+  std::size_t both = 0;
+  for (std::size_t g = 0; g < a.size(); ++g) both += a[g] && b[g];
+  return both;
+}
+
+// The small sample with its apple as object 1, and what else the cases below do in it.
+struct Others : Hands {
+  explicit Others(bool cut = true) : Hands(cut) {}
+  Camera camera() { return studio().viewport().pane_camera(); }
+  glm::vec2 place(const glm::vec2& on_sample) { return in_viewport(app.screen_of(on_sample)); }
+  void settle() { REQUIRE(app.settle()); }
+  void click(const glm::vec2& on_sample, SeedLabel label = SeedLabel::kObject) {
+    studio().apply(AddStroke{camera(), {label, 4, {place(on_sample)}}});
+  }
+  // A box between two places of the sample.
+  void box(const glm::vec2& a, const glm::vec2& b) { studio().apply(AddBox{camera(), place(a), place(b)}); }
+  // By hand, through all that is seen left of a place.
+  void take_left_of(const glm::vec2& on_sample, SetOperation operation) {
+    ViewState view = studio().view();
+    view.see_through = true;
+    studio().apply(SetView{view});
+    const Camera now = camera();
+    studio().apply(SelectRegion{
+        now, rectangle_region({0, 0}, {place(on_sample).x, now.height_px}, now.width_px, now.height_px),
+        operation});
+    settle();
+  }
+  Labels labels(ObjectId object) { return studio().labels(object); }
+};
+
+constexpr glm::vec2 kAppleFrom{605, 415}, kAppleTo{735, 560};  // around it
+constexpr glm::vec2 kLeft = kOnApple - glm::vec2(35, 0), kRight = kOnApple + glm::vec2(35, 0);
+
+}  // namespace
+
+TEST_CASE("others: an object begun by a box leaves to the others what they have, unless that fills the box") {
+  Others hands;
+  Studio& studio = hands.studio();
+  const Labels apple = hands.labels(1);
+  const auto boxed = [&] {
+    studio.apply(NewObject{});
+    hands.box(kAppleFrom, kAppleTo);
+    hands.settle();
+    return studio.document().active;
+  };
+  CHECK(shared(hands.labels(boxed()), apple) > count_flags(apple) / 2);
+  studio.apply(RemoveObject{studio.document().active});
+  studio.apply(ActivateObject{1});
+  hands.take_left_of(kOnApple, SetOperation::kIntersect);
+  const Labels left = hands.labels(1);
+  REQUIRE(count_flags(left) > 0);
+  const ObjectId right = boxed();
+  CHECK(hands.selected() > 0);
+  CHECK(shared(hands.labels(right), left) == 0);
+  studio.apply(LeaveToOthers{right, false});
+  hands.settle();
+  CHECK(2 * shared(hands.labels(right), left) > count_flags(left));  // the box takes it without
+}
+
+TEST_CASE("others: what another object gets while this one is begun is left to it, too") {
+  const ScratchFolder folder("others_come");
+  Others hands(false);
+  Studio& studio = hands.studio();
+  hands.click(kLeft);
+  hands.click(kRight, SeedLabel::kRest);
+  studio.apply(NewObject{});
+  hands.click(kRight);
+  REQUIRE(hands.labels(1) == Labels(studio.scene()->cloud->size(), 0));  // on its way
+  CHECK(studio.document().find(2)->leaves_also == std::vector<ObjectId>{1});
+  const auto scene = open_scene(kSmallSample);
+  write_work_file(folder / "begun.splatcut.json", *scene, studio.document());
+  hands.settle();
+  const Labels left = hands.labels(1), beside = hands.labels(2);
+  REQUIRE(count_flags(left) > 0);
+  CHECK(count_flags(beside) > 0);
+  CHECK(shared(beside, left) == 0);
+  CHECK(studio.document().find(2)->leaves_also.empty());
+  // Undone and redone, and from a file that was written in between.
+  studio.apply(Undo{});
+  studio.apply(Redo{});
+  hands.settle();
+  CHECK(hands.labels(2) == beside);
+  Others again(false);
+  again.app.open(folder / "begun.splatcut.json");
+  again.settle();
+  CHECK(again.labels(1) == left);
+  CHECK(again.labels(2) == beside);
+  studio.apply(LeaveToOthers{2, false});
+  hands.settle();
+  CHECK(shared(hands.labels(2), left) > 0);  // it takes that without
+}
+
+TEST_CASE("others: an object begun on what another one then gets shares it") {
+  Others hands(false);
+  Studio& studio = hands.studio();
+  hands.click(kOnApple);
+  studio.apply(NewObject{});
+  hands.click(kOnApple + glm::vec2(4, 0));
+  hands.settle();
+  const Labels apple = hands.labels(1);
+  REQUIRE(count_flags(apple) > 0);
+  CHECK(shared(hands.labels(2), apple) > count_flags(apple) / 2);
+}
+
+TEST_CASE("others: of two objects begun while a third is cut the earlier one leaves nothing to the later") {
+  Others hands(false);
+  Studio& studio = hands.studio();
+  hands.click(kOnMug);
+  studio.apply(NewObject{});
+  hands.click(kLeft);
+  hands.click(kRight, SeedLabel::kRest);
+  studio.apply(NewObject{});
+  hands.click(kRight);
+  hands.settle();
+  const Labels second = hands.labels(2), third = hands.labels(3);
+  CHECK(count_flags(second) > 0);
+  CHECK(count_flags(third) > 0);
+  CHECK(shared(third, second) == 0);
+  studio.apply(LeaveToOthers{2, false});  // it was begun first: it gave nothing to the third
+  hands.settle();
+  CHECK(hands.labels(2) == second);
+}
+
+TEST_CASE("others: what a click would take is outlined without what the others have") {
+  Others hands;
+  Studio& studio = hands.studio();
+  const Labels apple = hands.labels(1);
+  hands.take_left_of(kOnApple, SetOperation::kIntersect);
+  const Labels left = hands.labels(1);
+  REQUIRE(shared(left, apple) > 0);
+  studio.apply(NewObject{});
+  const glm::vec2 at = hands.app.screen_of(kOnApple) + glm::vec2(14, 0);
+  hands.app.move(at);
+  hands.settle();
+  REQUIRE(studio.viewport().style(0).highlight);
+  const Labels outlined = *studio.viewport().style(0).highlight;
+  hands.app.click(at);
+  hands.settle();
+  const Labels taken = hands.labels(studio.document().active);
+  CHECK(count_flags(outlined) > 0);
+  CHECK(shared(outlined, left) == 0);
+  CHECK(iou_of(outlined, taken) > 0.6);
+}
+
+TEST_CASE("others: what hands took and left to the others is the object's again where it is given back") {
+  const ScratchFolder folder("given_back");
+  Others hands;
+  Studio& studio = hands.studio();
+  const Labels apple = hands.labels(1);
+  studio.apply(NewObject{});
+  hands.take_left_of(kOnApple, SetOperation::kAdd);
+  const ObjectId by_hand = studio.document().active;
+  const Labels before = hands.labels(by_hand);
+  REQUIRE(shared(before, apple) > 0);
+  studio.apply(LeaveToOthers{by_hand, true});
+  hands.settle();
+  CHECK(shared(hands.labels(by_hand), apple) == 0);
+  studio.apply(SaveWork{folder / "left.splatcut.json"});
+  hands.settle();
+  studio.apply(LeaveToOthers{by_hand, false});
+  hands.settle();
+  CHECK(hands.labels(by_hand) == before);
+
+  Others other(false);
+  other.app.open(folder / "left.splatcut.json");
+  other.settle();
+  CHECK(shared(other.labels(by_hand), apple) == 0);
+  other.studio().apply(LeaveToOthers{by_hand, false});
+  other.settle();
+  CHECK(other.labels(by_hand) == before);
+}
+
+TEST_CASE("others: work says by its version that it holds what is left to others, and older work opens") {
+  const ScratchFolder folder("work_version");
+  const auto file = folder / "two.splatcut.json";
+  const auto scene = open_scene(kSmallSample);
+  Document document;
+  add_object(&document, "one");
+  ObjectItem& two = add_object(&document, "two");
+  Labels some(scene->cloud->size(), 0);
+  some[3] = 1;
+  two.of_others = make_flags(some);
+  write_work_file(file, *scene, document);
+  nlohmann::json work = nlohmann::json::parse(std::ifstream(file));
+  CHECK(work["splatcut_work"] == 8);  // a program that knows up to 7 refuses it in words
+  const RestoredWork read = restored(read_work_file(file), *scene);
+  REQUIRE(read.document.find(2)->of_others);
+  CHECK(*read.document.find(2)->of_others == some);
+  work["splatcut_work"] = 7;
+  work["objects"][1].erase("of_others");
+  std::ofstream(file) << work;
+  CHECK_FALSE(restored(read_work_file(file), *scene).document.find(2)->of_others);
+}
