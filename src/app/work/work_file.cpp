@@ -19,8 +19,10 @@ namespace {
 
 using nlohmann::json;
 
-// Version 7: the scene's hash is XXH3.
-constexpr int kVersion = 7;
+// Version 7: the scene's hash is XXH3. Version 8: what an object leaves to others; a program that knew
+// nothing of it would give objects Gaussians that they do not have. All of version 7 means the same in
+// version 8.
+constexpr int kOldest = 7, kVersion = 8;
 
 json parse(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -30,9 +32,10 @@ json parse(const std::filesystem::path& path) {
   if (!work.is_object() || !work.contains("splatcut_work"))
     throw Error(path.string(), "is no work file of splatcut");
   const json& version = work["splatcut_work"];
-  if (!version.is_number_integer() || version != kVersion)
+  if (!version.is_number_integer() || version < kOldest || version > kVersion)
     throw Error(path.string(),
-                fmt::format("is of version {}, this splatcut reads version {}", json_text(version), kVersion),
+                fmt::format("is of version {}, this splatcut reads versions {} to {}", json_text(version),
+                            kOldest, kVersion),
                 "Open the scene itself to start anew");
   return work;
 }
