@@ -1,5 +1,6 @@
 // splatcut view: the window.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -20,18 +21,18 @@ struct ViewArguments {
   bool check = false, frame_times = false;
 };
 
-void require_file(const std::filesystem::path& path) {
+bool is_missing(const std::filesystem::path& path) {
   std::error_code unreadable;
-  if (!path.empty() && !std::filesystem::exists(path, unreadable) && !unreadable)
-    throw Error(path.string(), "there is no such file or folder");
+  return !path.empty() && !std::filesystem::exists(path, unreadable) && !unreadable;
 }
 
 void run_view(ViewArguments args) {
   if (const std::string reason = args.check ? why_no_window() : ""; !reason.empty())
     throw Error("window", "cannot be opened here: " + reason);
   if (args.check) return;
-  require_file(args.window.open);  // said here, not in a window that stays empty
-  for (const std::filesystem::path& added : args.window.added) require_file(added);
+  // Said here, not in a window that stays empty; one that opens some of the files says it of the others.
+  if (is_missing(args.window.open) && std::ranges::all_of(args.window.added, is_missing))
+    throw Error(args.window.open.string(), "there is no such file or folder");
   args.window.renderer = args.renderer == "gl"    ? RendererChoice::kGl
                          : args.renderer == "cpu" ? RendererChoice::kCpu
                                                   : RendererChoice::kAuto;
@@ -51,7 +52,7 @@ void add_view_command(CLI::App& program, const CommonOptions& common) {
   command.footer("Example: splatcut view scene.ply");
   command.add_option("scene", args->window.open, "Scene file or .splatcut.json");
   command.add_option("more", args->window.added,
-                     "Further scenes in the same window, upright on what the first view has in its middle");
+                     "Further scenes in the same window, side by side on what the first view shows");
   args->how.add_to(command);
   command
       .add_option("--renderer", args->renderer,

@@ -6,9 +6,8 @@ namespace splatcut {
 
 std::string proposed_path(const ExportChoice& choice, const std::filesystem::path& scene,
                           const ObjectItem* object) {
-  const std::filesystem::path folder = choice.path.empty()
-                                           ? std::filesystem::absolute(scene).parent_path()
-                                           : std::filesystem::path(choice.path).parent_path();
+  const std::filesystem::path folder = choice.path.empty() ? std::filesystem::absolute(scene).parent_path()
+                                                           : std::filesystem::path(choice.path).parent_path();
   std::string stem = scene_name(scene);
   stem = stem.substr(0, stem.find('.'));
   std::string name = choice.what == ExportWhat::kRest         ? "rest"

@@ -1,11 +1,13 @@
 #include "app/document/opened_scene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
 
 #include "app/document/camera_pose.h"
+#include "app/document/words.h"
 #include "core/byte_hash.h"
 #include "core/error.h"
 #include "scene/camera/camera_file.h"
@@ -158,23 +160,30 @@ std::vector<Camera> cameras_near(const std::filesystem::path& scene, const glm::
 }
 
 std::shared_ptr<OpenedScene> open_scene(std::vector<SceneSource> files, const Job& job,
-                                        const OpenedScene* before) {
+                                        const OpenedScene* before, std::vector<std::string>* refused) {
   assert(!files.empty());
   auto opened = std::make_shared<OpenedScene>();
   std::vector<Scene> scenes;
-  for (SceneSource& file : files) {
-    if (!file.origin) file.origin = files.front().origin;
-    scenes.push_back(load(&file, before, job, &opened->remarks));
+  for (auto file = files.begin(); file != files.end();) {
+    if (!file->origin) file->origin = files.front().origin;
+    const bool may_go = refused && file != files.begin() && !(before && before->file(file->id));
+    try {
+      scenes.push_back(load(&*file, before, job, &opened->remarks));
+    } catch (const Error& error) {
+      if (!may_go) throw;
+      refused->push_back(error.what());
+      file = files.erase(file);
+      continue;
+    }
     if (job.cancelled()) return opened;
-    if (&file != &files.front() && glm::length(file.solid.extent()) == 0)
-      file.solid = solid_bounds(scenes.back().cloud);
-    if (file.onto)
-      file.place = stood_on(file, stood_upright(file, file.place, file.onto->up_world),
-                            file.onto->point_world, file.onto->up_world);
-    file.onto.reset();
-    if (file.place != ScenePlace{})
-      scenes.back().cloud = placed(scenes.back().cloud, {}, similarity_of(file));
+    if (file != files.begin() && glm::length(file->solid.extent()) == 0)
+      file->solid = solid_bounds(scenes.back().cloud);
+    ++file;
   }
+  stand(&files);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (files[i].place != ScenePlace{})
+      scenes[i].cloud = placed(scenes[i].cloud, {}, similarity_of(files[i]));
   auto scene = std::make_shared<Scene>(one_of(std::move(scenes), job));
   if (job.cancelled()) return opened;
   opened->cloud = std::shared_ptr<const GaussianCloud>(scene, &scene->cloud);
@@ -187,6 +196,50 @@ std::shared_ptr<OpenedScene> open_scene(std::vector<SceneSource> files, const Jo
 
 std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const Job& job) {
   return open_scene(std::vector{SceneSource{.path = file}}, job);
+}
+
+std::shared_ptr<OpenedScene> open_first(std::vector<SceneSource> files,
+                                        std::vector<std::filesystem::path>* added,
+                                        std::vector<std::string>* refused, const Job& job) {
+  while (true) try {
+      return open_scene(files, job);
+    } catch (const Error& error) {
+      if (added->empty() && refused->empty()) throw;
+      refused->push_back(error.what());
+      if (added->empty()) {
+        const std::string all = fmt::format("{}", fmt::join(*refused, "\n"));
+        throw Error("open", "none of the files is a scene", all.substr(0, all.find_last_not_of('.') + 1));
+      }
+      files.front().path = added->front();
+      added->erase(added->begin());
+    }
+}
+
+std::string described(const OpenedScene& opened) {
+  const Scene& scene = *opened.scene;
+  const std::size_t more = opened.files.size() - 1;
+  std::string text =
+      fmt::format("{}{}: {}", scene_name(scene.path), more ? fmt::format(" and {} more", more) : "",
+                  gaussians_text(scene.cloud.size()));
+  if (scene.dropped) text += fmt::format(", {} unusable rows left out", grouped(scene.dropped));
+  if (!opened.views().cameras.empty())
+    text += fmt::format(", {} cameras (N, P)", opened.views().cameras.size());
+  return text + (opened.views().up_is_guess ? ". Which way is up is guessed: View has other ways" : "");
+}
+
+std::string added_text(const OpenedScene& scene, const OpenedScene& before) {
+  std::string names;
+  std::size_t count = 0;
+  bool moved = false;
+  for (const SceneSource& file : scene.files) {
+    if (before.file(file.id)) continue;
+    names += (count++ == 0 ? "" : ", ") + scene_name(file.path);
+    moved |= file.place != ScenePlace{};
+  }
+  return fmt::format("{} added; place {} under Files{}", names, count == 1 ? "it" : "them",
+                     !moved       ? ""
+                     : count == 1 ? ", also as in its own file"
+                                  : ", also as in their own files");
 }
 
 Session session_on(const OpenedScene& scene, const PreparedCache& cache) {

@@ -34,10 +34,23 @@ std::vector<std::uint8_t> gaussians_of(const OpenedScene& scene, std::uint32_t f
 
 // Opens files as one scene. before: an open scene that shares some of the files, matched by their ids; null:
 // none. Throws Error for a file that is no scene, and for a shared file that has changed on the disk since.
-// If cancelled, the result holds no scene.
+// refused: takes a sentence for each file that is no scene and that is neither the first nor shared, and the
+// others are opened without it; null: it throws, too. If cancelled, the result holds no scene.
 std::shared_ptr<OpenedScene> open_scene(std::vector<SceneSource> files, const Job& job = {},
-                                        const OpenedScene* before = nullptr);
+                                        const OpenedScene* before = nullptr,
+                                        std::vector<std::string>* refused = nullptr);
 std::shared_ptr<OpenedScene> open_scene(const std::filesystem::path& file, const Job& job = {});
+
+// Opens one file, in place of one that is no scene the first of `added` that is one, which leaves `added`.
+// refused: takes a sentence for each that is none. Throws as open_scene() does; where none of several is a
+// scene an Error with all sentences.
+std::shared_ptr<OpenedScene> open_first(std::vector<SceneSource> file,
+                                        std::vector<std::filesystem::path>* added,
+                                        std::vector<std::string>* refused, const Job& job);
+
+std::string described(const OpenedScene& scene);  // what is said of a scene that was opened
+// The same of files that were added; before: the scene without them.
+std::string added_text(const OpenedScene& scene, const OpenedScene& before);
 
 // Makes a session on the scene. The cameras beside its first file observe what the user clicks.
 Session session_on(const OpenedScene& scene, const PreparedCache& cache = {});

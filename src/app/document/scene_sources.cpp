@@ -27,12 +27,38 @@ Box seen_box(const SceneSource& file) {
 
 }  // namespace
 
-glm::vec3 foot_world(const SceneSource& file, const glm::vec3& up_world) {
+float half_extent(const SceneSource& file, const glm::vec3& direction_world) {
   const Similarity to = similarity_of(file);
-  const Box box = seen_box(file);
-  const glm::vec3 up = glm::normalize(up_world), up_in_file = glm::conjugate(to.rotation) * up;
-  const float half = 0.5f * to.scale * glm::dot(glm::abs(up_in_file), box.extent());
-  return moved(box.centre(), to) - half * up;
+  const glm::vec3 in_file = glm::conjugate(to.rotation) * direction_world;
+  return 0.5f * to.scale * glm::dot(glm::abs(in_file), seen_box(file).extent());
+}
+
+glm::vec3 foot_world(const SceneSource& file, const glm::vec3& up_world) {
+  const glm::vec3 up = glm::normalize(up_world);
+  return moved(seen_box(file).centre(), similarity_of(file)) - half_extent(file, up) * up;
+}
+
+StandsOn beside(const SceneSource& file, const glm::vec3& row_world, const glm::vec3& up_world) {
+  return {foot_world(file, up_world) + half_extent(file, row_world) * row_world, up_world, row_world, true};
+}
+
+void stand(std::vector<SceneSource>* files) {
+  constexpr float kGap = 0.2f;  // between two of the row, over half of the width of the second
+  std::vector<std::pair<SceneSource*, float>> row;  // with where its middle is along it
+  float along = 0;
+  for (SceneSource& file : *files) {
+    if (!file.onto) continue;
+    const auto& [point_world, up_world, row_world, begins_there] = *file.onto;
+    file.place = stood_on(file, stood_upright(file, file.place, up_world), point_world, up_world);
+    if (row_world == glm::vec3(0)) continue;
+    const float half = half_extent(file, row_world);
+    if (begins_there || !row.empty()) along += kGap * half;
+    row.emplace_back(&file, along + half);
+    along += 2 * half;
+  }
+  for (const auto& [file, middle] : row)
+    file->place.move += (file->onto->begins_there ? middle : middle - 0.5f * along) * file->onto->row_world;
+  for (SceneSource& file : *files) file.onto.reset();
 }
 
 void check(const ScenePlace& place, const std::filesystem::path& file) {

@@ -26,9 +26,12 @@ struct ScenePlace {
   bool operator==(const ScenePlace&) const = default;
 };
 
-// Where a file that is added comes to stand, upright.
+// Where a file that is added comes to stand, upright: its foot on the point. With a row, files that are added
+// together stand beside one another in that direction, across up, by their boxes.
 struct StandsOn {
   glm::vec3 point_world, up_world;
+  glm::vec3 row_world{0};     // direction of the row, unit length; 0: none
+  bool begins_there = false;  // the row begins at the point; else the point is in its middle
 };
 
 // Views of a file's scene, in the file's own coordinates.
@@ -83,6 +86,12 @@ std::string why_upright(const SceneSource& file, const ScenePlace& place, const 
 // The lowest point of the placed file: below the middle of its solid box, by half of the box's extent along
 // up.
 glm::vec3 foot_world(const SceneSource& file, const glm::vec3& up_world);
+// Half of the placed file's extent along a direction of unit length.
+float half_extent(const SceneSource& file, const glm::vec3& direction_world);
+// Sets the places of files with `onto` by it; those with a row are one row.
+void stand(std::vector<SceneSource>* files);
+// Where a row beside the first file of a scene begins, on the height of its foot.
+StandsOn beside(const SceneSource& file, const glm::vec3& row_world, const glm::vec3& up_world);
 // The place, moved so that the file's foot comes to the point.
 ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& point_world,
                     const glm::vec3& up_world);

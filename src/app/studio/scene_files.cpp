@@ -15,18 +15,6 @@ namespace {
 
 constexpr std::size_t kCoarseFrom = 300000;  // Gaussians; fewer are drawn fast enough as they are
 
-std::string described(const OpenedScene& opened) {
-  const Scene& scene = *opened.scene;
-  const std::size_t more = opened.files.size() - 1;
-  std::string text =
-      fmt::format("{}{}: {}", scene_name(scene.path), more ? fmt::format(" and {} more", more) : "",
-                  gaussians_text(scene.cloud.size()));
-  if (scene.dropped) text += fmt::format(", {} unusable rows left out", grouped(scene.dropped));
-  if (!opened.views().cameras.empty())
-    text += fmt::format(", {} cameras (N, P)", opened.views().cameras.size());
-  return text + (opened.views().up_is_guess ? ". Which way is up is guessed: View has other ways" : "");
-}
-
 bool same_files(const std::vector<SceneSource>& a, const std::vector<SceneSource>& b) {
   return std::ranges::equal(a, b, [](const SceneSource& left, const SceneSource& right) {
     return left.id == right.id && (left.onto || left.place == right.place);
@@ -63,29 +51,58 @@ void SceneFiles::perform(const OpenScene& c) {
                   "Open it, then add them");
     if (file) files = file->files;
     for (SceneSource& source : files) source.id = id++;
-    const std::shared_ptr<OpenedScene> scene = open_scene(files, job);
+    std::vector<std::string> refused;
+    const std::shared_ptr<OpenedScene> scene = open_first(files, &added, &refused, job);
     if (job.cancelled()) return;
     scene->serial = serial;
     std::optional<RestoredWork> work;
     if (file) work = restored(*file, *scene);
-    ws_.tasks.post([this, scene, work, id, added, work_path = file ? path : std::filesystem::path()] {
-      next_file_id_ = std::max(next_file_id_, id);
-      opened(scene, work, work_path);
-      for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
-      if (work && !work->warning.empty()) ws_.say(Message::Kind::kInfo, work->warning);
-      add_all(added);
-    });
+    ws_.tasks.post(
+        [this, scene, work, id, added, refused, work_path = file ? path : std::filesystem::path()] {
+          next_file_id_ = std::max(next_file_id_, id);
+          opened(scene, work, work_path);
+          for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
+          if (work && !work->warning.empty()) ws_.say(Message::Kind::kInfo, work->warning);
+          add_all(added, refused);
+        });
   });
 }
 
-// Those that were asked for with the scene come in by the door of any other.
-void SceneFiles::add_all(const std::vector<std::filesystem::path>& added) {
-  const glm::vec3 onto_world = viewport_.looked_at_world();
-  for (const std::filesystem::path& path : added) try {
-      perform(AddScene{path, {}, onto_world});
-    } catch (const Error& error) {
-      ws_.say(Message::Kind::kRefused, error.what());
+StandsOn SceneFiles::row_of_added() const {
+  const glm::vec3 up = glm::normalize(ws_.document().up_world);
+  const Camera camera = viewport_.pane_camera();
+  const glm::vec3 right = glm::transpose(camera.camera_from_world_rotation)[0];
+  const glm::vec3 level = right - glm::dot(right, up) * up;
+  const glm::vec3 row = glm::length(level) > 0.1f ? glm::normalize(level) : glm::vec3(0);
+  const SceneSource& first = ws_.scene->files.front();
+  const bool alone = first.views->cameras.empty() && !contains(first.bounds, camera.centre_world());
+  return alone && row != glm::vec3(0) ? beside(first, row, up)
+                                      : StandsOn{viewport_.looked_at_world(), up, row};
+}
+
+// Those that were asked for with the scene, in one change of its files.
+void SceneFiles::add_all(const std::vector<std::filesystem::path>& added, std::vector<std::string> refused) {
+  if (added.empty()) return say_refused(refused);
+  std::vector<SceneSource> files = wanted_files();
+  const StandsOn row = row_of_added();
+  std::string names;
+  for (const std::filesystem::path& path : added) {
+    if (is_work_file(path)) {
+      refused.push_back(path.filename().string() + ": is saved work, not a scene. Open it alone");
+      continue;
     }
+    files.push_back({.id = next_file_id_++, .path = path, .onto = row});
+    put_before_view_ = files.back().id;
+    names += (names.empty() ? "" : ", ") + scene_name(path);
+  }
+  if (names.empty()) return say_refused(refused);
+  change_files(std::move(files), "Adding " + names, {{}, std::move(refused), row.begins_there});
+}
+
+void SceneFiles::say_refused(const std::vector<std::string>& refused) {
+  std::string text;
+  for (const std::string& sentence : refused) text += (text.empty() ? "" : "\n") + sentence;
+  if (!text.empty()) ws_.say(Message::Kind::kError, text);
 }
 
 void SceneFiles::cancel_loading() {
@@ -115,9 +132,7 @@ void SceneFiles::perform(const AddScene& c) {
     files.back().onto = StandsOn{*c.onto_world, ws_.document().up_world};
     put_before_view_ = files.back().id;
   }
-  const std::string name = scene_name(c.path);
-  change_files(std::move(files), "Adding " + name,
-               name + " added; place it under Files" + (c.onto_world ? ", also as in its own file" : ""));
+  change_files(std::move(files), "Adding " + scene_name(c.path), {});
 }
 
 void SceneFiles::perform(const PlaceScene& c) {
@@ -128,7 +143,7 @@ void SceneFiles::perform(const PlaceScene& c) {
   file.place = c.place;
   file.onto.reset();
   const std::string name = scene_name(file.path);
-  change_files(std::move(files), "Placing " + name, name + " placed");
+  change_files(std::move(files), "Placing " + name, {name + " placed"});
 }
 
 void SceneFiles::perform(const BringHere& c) {
@@ -145,50 +160,57 @@ void SceneFiles::perform(const RemoveScene& c) {
   std::vector<SceneSource> files = wanted_files();
   const std::string name = scene_name(added_file(&files, c.file).path);
   std::erase_if(files, [&](const SceneSource& file) { return file.id == c.file; });
-  change_files(std::move(files), "Taking out " + name, name + " taken out; the file stays as it is");
+  change_files(std::move(files), "Taking out " + name, {name + " taken out; the file stays as it is"});
 }
 
-void SceneFiles::change_files(std::vector<SceneSource> files, const std::string& doing,
-                              const std::string& done) {
+void SceneFiles::change_files(std::vector<SceneSource> files, const std::string& doing, Said said) {
   ws_.say(Message::Kind::kInfo, doing);
   stop_for_loading();
   changing_to_ = files;
   const TaskThread::Order order(TaskKind::kLoad, [this] { changing_to_.clear(); });
   ws_.tasks.submit(order, [this, files = std::move(files), before = ws_.scene, serial = next_scene_serial_++,
-                           done](const Job& job) {
-    const std::shared_ptr<OpenedScene> scene = open_scene(files, job, before.get());
+                           said = std::move(said)](const Job& job) mutable {
+    const std::shared_ptr<OpenedScene> scene = open_scene(files, job, before.get(), &said.refused);
     if (job.cancelled()) return;
     scene->serial = serial;
-    ws_.tasks.post([this, scene, done] { carry_document(scene, done); });
+    const bool none_came = same_files(scene->files, before->files);
+    if (said.done.empty()) said.done = added_text(*scene, *before);
+    ws_.tasks.post([this, files, scene, said, none_came] {
+      std::erase_if(changing_to_, [&](const SceneSource& file) {
+        return std::ranges::count(files, file.id, &SceneSource::id) > 0 && !scene->file(file.id);
+      });
+      if (!none_came) return carry_document(scene, said);
+      changing_to_.clear();
+      say_refused(said.refused);
+    });
   });
 }
 
 // Labels pass over the Gaussians, so that it is done on the worker; again where the document changed
 // meanwhile.
-void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const std::string& done) {
+void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const Said& said) {
   const TaskThread::Order order(TaskKind::kLoad, [this] { changing_to_.clear(); });
   ws_.tasks.submit(
-      order, [this, scene, done, before = ws_.scene, history = ws_.history, serial = ws_.history.serial(),
+      order, [this, scene, said, before = ws_.scene, history = ws_.history, serial = ws_.history.serial(),
               decided = ws_.clean->decisions()](const Job& job) mutable {
         job.progress("carrying labels", 0);
         CarriedDocument carry(*before, *scene);
         history.carry(std::ref(carry));
         const std::vector<Flags> anyway = carry.carried(decided);
         if (job.cancelled()) return;
-        ws_.tasks.post([this, scene, done, before, history = std::move(history), serial, decided, anyway] {
-          calls_.in_turn([this, scene, done, before, history, serial, decided, anyway] {
+        ws_.tasks.post([this, scene, said, before, history = std::move(history), serial, decided, anyway] {
+          calls_.in_turn([this, scene, said, before, history, serial, decided, anyway] {
             if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
             if (before != ws_.scene || serial != ws_.history.serial() || decided != ws_.clean->decisions())
-              return carry_document(scene, done);
-            files_changed(scene, history, done);
+              return carry_document(scene, said);
+            files_changed(scene, history, said);
             ws_.clean = std::make_shared<CleanObjects>(scene, anyway);
           });
         });
       });
 }
 
-void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, History history,
-                               const std::string& done) {
+void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, History history, const Said& said) {
   preparing_stopped_ = false;
   if (same_files(changing_to_, scene->files)) changing_to_.clear();
   constexpr std::size_t kMostKept = 3;  // each holds a scene
@@ -198,14 +220,16 @@ void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Histor
   undone_files_.clear();
   take(scene);
   ws_.history = std::move(history);
-  ws_.history.push_other_files(done.substr(0, done.find(';')), next_step_++);
+  ws_.history.push_other_files(said.done.substr(0, said.done.find(';')), next_step_++);
   calls_.opened(true);
-  ws_.say(Message::Kind::kDone, done);
+  if (said.frames) viewport_.camera().frame_scene();
+  ws_.say(Message::Kind::kDone, said.done);
   for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
   if (const SceneSource* put = scene->file(std::exchange(put_before_view_, 0)))
     if (const std::string says = misfit(*put, viewport_.pane_camera(), ws_.document().up_world);
         !says.empty())
       ws_.say(Message::Kind::kInfo, says);
+  say_refused(said.refused);
   start_preparing();
 }
 

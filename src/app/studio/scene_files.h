@@ -47,14 +47,23 @@ class SceneFiles {
               const std::filesystem::path& work_path);
   void start_preparing();
   void stop_for_loading();
-  void add_all(const std::vector<std::filesystem::path>& added);
+  void add_all(const std::vector<std::filesystem::path>& added, std::vector<std::string> refused);
+  // Where files that are opened with the scene stand: a thing that stands alone has them beside it.
+  StandsOn row_of_added() const;
   void take(const std::shared_ptr<const OpenedScene>& scene);
   // Files of the scene after the changes that are under way.
   std::vector<SceneSource> wanted_files() const;
   SceneSource& added_file(std::vector<SceneSource>* files, std::uint32_t id) const;
-  void change_files(std::vector<SceneSource> files, const std::string& doing, const std::string& done);
-  void carry_document(const std::shared_ptr<OpenedScene>& scene, const std::string& done);
-  void files_changed(const std::shared_ptr<OpenedScene>& scene, History history, const std::string& done);
+  // What is said once files have changed.
+  struct Said {
+    std::string done;                  // title of the step up to a semicolon; empty: which files were added
+    std::vector<std::string> refused;  // a sentence for each file that could not be opened
+    bool frames = false;               // the view is then to show the whole scene
+  };
+  void change_files(std::vector<SceneSource> files, const std::string& doing, Said said);
+  void say_refused(const std::vector<std::string>& refused);
+  void carry_document(const std::shared_ptr<OpenedScene>& scene, const Said& said);
+  void files_changed(const std::shared_ptr<OpenedScene>& scene, History history, const Said& said);
 
   Workspace& ws_;
   Viewport& viewport_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
@@ -326,11 +327,107 @@ TEST_CASE(
   CHECK(first.path == folder / "lying.ply");
   CHECK_FALSE(why_upright(first, first.place, up).empty());
   CHECK(first.place != ScenePlace{});
-  CHECK(glm::distance(foot_world(first, up), foot_world(second, up)) < 1e-3f * studio.camera().scene_size());
+  const glm::vec3 apart = foot_world(first, up) - foot_world(second, up);
+  CHECK(std::abs(glm::dot(apart, glm::normalize(up))) < 1e-3f * studio.camera().scene_size());
   studio.apply(OpenScene{kSmallSample, {}, {folder / "no.ply"}});
   REQUIRE(hands.app.settle());
   CHECK(studio.scene()->files.size() == 1);
   CHECK(hands.said().find("no.ply") != std::string::npos);
+}
+
+TEST_CASE(
+    "several scenes: those opened together stand side by side, and one that is none is said while they "
+    "open") {
+  const ScratchFolder folder("several_beside");
+  const auto bad = folder / "bad.ply";
+  std::ofstream(bad) << "no scene";
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  const glm::vec3 seen = studio.viewport().looked_at_world();
+  const auto a = small_scene(folder, "a.ply", 1), b = small_scene(folder, "b.ply", 2),
+             c = small_scene(folder, "c.ply", 3);
+  const auto said = [&](const std::string& words) {
+    return std::ranges::any_of(studio.messages(),
+                               [&](const Message& m) { return m.text.find(words) != std::string::npos; });
+  };
+  studio.apply(OpenScene{kSmallSample, {}, {a, bad, b, folder / "gone.ply", c}});
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.scene()->files.size() == 4);
+  CHECK(hands.said().find("bad.ply") != std::string::npos);
+  CHECK(hands.said().find("gone.ply") != std::string::npos);
+  CHECK(said("a.ply, b.ply, c.ply added"));
+  const glm::vec3 up = studio.document().up_world;
+  const glm::vec3 row = glm::row(studio.viewport().pane_camera().camera_from_world_rotation, 0);
+  const auto along = [&](const SceneSource& file) { return glm::dot(foot_world(file, up) - seen, row); };
+  const std::vector<SceneSource> files = studio.scene()->files;
+  float first = 0, last = 0;
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    CHECK(std::abs(glm::dot(foot_world(files[i], up) - seen, up)) < 1e-3f);  // on one height
+    const float half = half_extent(files[i], row);
+    if (i == 1) first = along(files[i]) - half;
+    if (i > 1) CHECK(along(files[i]) - half > last);  // beside the one before
+    last = along(files[i]) + half;
+  }
+  CHECK(std::abs(first + last) < 1e-3f * (last - first));  // what one looks at is in the middle
+
+  // One that is added later and is none leaves nothing behind: the next one comes in.
+  studio.apply(AddScene{bad});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.said().find("bad.ply") != std::string::npos);
+  CHECK(studio.scene()->files.size() == 4);
+  studio.apply(AddScene{bad});
+  studio.apply(AddScene{small_scene(folder, "d.ply", 4)});  // while that is read
+  REQUIRE(hands.app.settle());
+  CHECK(studio.scene()->files.size() == 5);
+  add(hands, small_scene(folder, "e.ply", 5));
+  CHECK(studio.scene()->files.size() == 6);
+  CHECK(hands.said().find("bad.ply") == std::string::npos);
+
+  // The first of all is none.
+  studio.apply(OpenScene{bad, {}, {a, b}});
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.scene()->files.size() == 2);
+  CHECK(studio.scene()->files[0].path == a);
+  CHECK(hands.said().find("bad.ply") != std::string::npos);
+  studio.apply(OpenScene{bad, {}, {folder / "gone.ply"}});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.scene()->files[0].path == a);
+  CHECK(hands.said().find("bad.ply") != std::string::npos);
+  CHECK(hands.said().find("gone.ply") != std::string::npos);
+}
+
+TEST_CASE("several scenes: beside a thing that stands alone others stand on its ground, and all are seen") {
+  const ScratchFolder folder("several_alone");
+  const auto thing = [&](const char* name, const glm::vec3& size) {
+    Scene scene;
+    scene.cloud = random_cloud(kAdded, 7, 1);
+    for (glm::vec3& p : scene.cloud.position) p = size * glm::normalize(p);
+    scene.file_rows = scene.cloud.size();
+    scene.up = glm::vec3(0, -1, 0);
+    save_scene(folder / name, scene, {}, SceneFormat::kPly);
+    return folder / name;
+  };
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  studio.apply(
+      OpenScene{thing("a.ply", {1, 2, 1}), {}, {thing("b.ply", {2, 1, 1}), thing("c.ply", {1, 1, 3})}});
+  REQUIRE(hands.app.settle());
+  const std::vector<SceneSource> files = studio.scene()->files;
+  REQUIRE(files.size() == 3);
+  const glm::vec3 up = studio.document().up_world;
+  const Camera camera = studio.viewport().pane_camera();
+  const glm::vec3 row = glm::row(camera.camera_from_world_rotation, 0);
+  float last = glm::dot(foot_world(files[0], up), row) + half_extent(files[0], row);
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    CHECK(std::abs(glm::dot(foot_world(files[i], up) - foot_world(files[0], up), up)) < 0.02f);
+    CHECK(glm::dot(foot_world(files[i], up), row) - half_extent(files[i], row) > last);
+    last = glm::dot(foot_world(files[i], up), row) + half_extent(files[i], row);
+  }
+  for (const SceneSource& file : files) {
+    const glm::vec2 at = camera.pixel_from_camera(camera.camera_from_world(foot_world(file, up)));
+    CHECK(at.x > 0);
+    CHECK(at.x < static_cast<float>(camera.width_px));
+  }
 }
 
 TEST_CASE("several scenes: F frames what is placed, and the object that was clicked since") {
