@@ -74,6 +74,7 @@ class CameraController {
   void finish_transition();
 
   const CameraPose& pose() const { return pose_; }
+  const CameraPose& goal() const { return target_ ? *target_ : pose_; }  // where a running transition ends
   void set_pose(const CameraPose& pose);
   CameraPose kept_pose() const;  // pose for files: its pivot has the depth of the orbit centre
   const glm::vec3& up_world() const { return up_world_; }

@@ -156,10 +156,12 @@ class Studio {
   FreeSides free_sides_;
   std::set<int> held_keys_;
   std::vector<std::function<void()>> held_pointer_;
-  // Asked for while the object's first cut runs, and done when it is there; cut: its key.
+  // Asked for while the object's first cut runs, and done when it is there; cut: its key; seen_from: the view
+  // when a frame was asked for, which is not wanted any more once the user has moved that.
   struct Held {
     std::string cut;
     std::optional<Action> display, frame;
+    CameraPose seen_from{};
   };
   Held held_actions_;
   double brush_repeated_s_ = -1e9;

@@ -189,6 +189,7 @@ bool Studio::hold_for_cut(Action action) {
   const std::string& cut = ws_.history.keys(*object).cut;
   if (held_actions_.cut != cut) held_actions_ = {cut, {}, {}};
   (frames ? held_actions_.frame : held_actions_.display) = action;
+  if (frames) held_actions_.seen_from = camera().goal();
   ws_.say(Message::Kind::kInfo, fmt::format("{}: as soon as {} is computed", name_of(action), object->name));
   return true;
 }
@@ -199,8 +200,9 @@ void Studio::run_held() {
   const ObjectItem* object = document().active_object();
   const bool same = object && ws_.history.keys(*object).cut == held_actions_.cut;
   if (same && cuts_.comes(*object)) return;
-  const Held held = std::exchange(held_actions_, {});
+  Held held = std::exchange(held_actions_, {});
   if (!same || gaussians_of(object->id) == 0) return;
+  if (!(held.seen_from == camera().goal())) held.frame.reset();
   for (const auto& action : {held.display, held.frame})
     if (action) run(*action);
 }

@@ -479,6 +479,17 @@ TEST_CASE("hands: keys that need the object wait for its first cut, the last of 
   studio.apply(GoToCamera{studio.scene()->views().reference});
   studio.apply(NewObject{});
   REQUIRE(hands.app.settle());
+  click(kOnMug);
+  studio.run(Action::kFrameObject);
+  studio.camera().orbit({20, 0});  // another view is wanted now
+  const CameraPose turned = studio.camera().pose();
+  REQUIRE(hands.app.settle());
+  CHECK(hands.selected() > 0);
+  CHECK(studio.camera().pose() == turned);
+
+  studio.apply(GoToCamera{studio.scene()->views().reference});
+  studio.apply(NewObject{});
+  REQUIRE(hands.app.settle());
   click(kOnOrange);
   studio.run(Action::kHide);
   click(kOnOrange + glm::vec2(6, 0));  // another click drops it
