@@ -81,13 +81,15 @@ Similarity similarity_between(const SceneSource& before, const SceneSource& afte
   return {to.rotation * glm::conjugate(from.rotation), to.scale / from.scale, from.move, to.move};
 }
 
-ScenePlace changed(ScenePlace place, const PlacingChange& change) {
+ScenePlace changed(const SceneSource& file, ScenePlace place, const PlacingChange& change,
+                   const glm::vec3& up_world) {
   constexpr float kLeastScale = 1e-3f, kMostScale = 1e3f;
   place.move += change.move_world;
   if (change.angle_rad != 0)  // angles that say the same would be others
     place.turn_deg = glm::degrees(glm::eulerAngles(change.turn * rotation_of(place)));
-  place.scale = glm::clamp(place.scale * change.scale, kLeastScale, kMostScale);
-  return place;
+  if (change.scale == 1) return place;
+  return scaled_on_foot(file, place, glm::clamp(place.scale * change.scale, kLeastScale, kMostScale),
+                        up_world);
 }
 
 ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::vec3& up_world) {

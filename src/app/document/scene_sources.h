@@ -75,8 +75,10 @@ Similarity similarity_of(const SceneSource& file);
 // The transform from the file's place in `before` to its place in `after`.
 Similarity similarity_between(const SceneSource& before, const SceneSource& after);
 
-// The place after a drag of handles whose centre is the placed middle of the file.
-ScenePlace changed(ScenePlace place, const PlacingChange& change);
+// The place after a drag of handles whose centre is the placed middle of the file. Scaled, the file stays on
+// its foot, as it does by numbers.
+ScenePlace changed(const SceneSource& file, ScenePlace place, const PlacingChange& change,
+                   const glm::vec3& up_world);
 
 // The place, turned so that the file's own up becomes `up_world`.
 ScenePlace stood_upright(const SceneSource& file, ScenePlace place, const glm::vec3& up_world);

@@ -22,6 +22,12 @@ glm::mat3 world_from_camera(const CameraPose& pose) {
   return glm::transpose(glm::mat3_cast(pose.camera_from_world));
 }
 
+// Of the picture above what is covered, which leaves some of it at least.
+float free_height_px(const Camera& camera, float covered_bottom_px) {
+  const auto height = static_cast<float>(camera.height_px);
+  return std::max(0.3f * height, height - covered_bottom_px);
+}
+
 // Across `up`, as near to `direction` as that allows.
 glm::vec3 level(const glm::vec3& direction, const glm::vec3& up) {
   glm::vec3 across = direction - glm::dot(direction, up) * up;
@@ -159,7 +165,7 @@ Framing CameraController::framing(std::span<const glm::vec3> points_world, const
   constexpr std::size_t kMostPoints = 20000;
   constexpr int kRounds = 6;  // perspective moves and scales the silhouette a little less in each
   const auto width = static_cast<float>(camera.width_px), height = static_cast<float>(camera.height_px);
-  const float free = std::max(0.3f * height, height - covered_bottom_px);
+  const float free = free_height_px(camera, covered_bottom_px);
   const glm::vec2 wanted = kFilled * glm::vec2(width / camera.fx_px, free / camera.fy_px);
   CameraPose target = pose_;
   target.camera_from_world = camera_from_world_rotation;
@@ -193,6 +199,18 @@ Framing CameraController::framing(std::span<const glm::vec3> points_world, const
   const glm::vec3 middle_world = axes * middle;
   target.position_world = middle_world - target.distance * axes[2] + lower * axes[1];
   return {target, middle_world};
+}
+
+void CameraController::keep_clear(const Camera& camera, float covered_bottom_px) {
+  finish_transition();
+  const auto height = static_cast<float>(camera.height_px);
+  const float free = free_height_px(camera, covered_bottom_px);
+  const glm::mat3 axes = world_from_camera(pose_);
+  const glm::vec3 pivot = pivot_world();
+  pose_.distance *= height / free;
+  const float lower = 0.5f * (height - free) * pose_.distance / camera.fy_px;
+  pose_.position_world = pivot - pose_.distance * axes[2] + lower * axes[1];
+  orbit_centre_ = pivot;
 }
 
 void CameraController::frame(const Framing& framing) {

@@ -56,7 +56,7 @@ void draw_placed_file(UiContext& ui, const UiRect& area) {
   const bool free = ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered();
   const GripsMoved hand = grips(&choice.grips, shown, camera, free, ui.theme);
   if (hand.began) choice.before = choice.place;
-  if (hand.change) choice.place = changed(choice.before, *hand.change);
+  if (hand.change) choice.place = changed(*file, choice.before, *hand.change, ui.studio.document().up_world);
   if (hand.done && choice.place != file->place) ui.ask(PlaceScene{file->id, choice.place});
 }
 

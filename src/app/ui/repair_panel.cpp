@@ -147,7 +147,7 @@ void property_selection(UiContext& ui) {
     ImGui::SetNextItemWidth(-1);
     ImGui::ColorEdit3("##colour", &choice.colour.x, ImGuiColorEditFlags_DisplayRGB);
     ImGui::SetNextItemWidth(-1);
-    tolerance_slider(&choice.tolerance);
+    tolerance_slider(ui, &choice.tolerance);
   } else {
     property_range(ui);
   }

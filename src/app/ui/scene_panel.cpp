@@ -107,12 +107,13 @@ void scene_panel(UiContext& ui) {
     if (ImGui::InputFloat("##fov", &degrees, 1, 10, "%.1f deg", ImGuiInputTextFlags_EnterReturnsTrue))
       ui.ask(SetFieldOfView{glm::radians(degrees)});
   });
+  constexpr const char* kWidest = "0.00123";
   slider_row("Near limit", "What is nearer than this is not drawn, in scene units", [&] {
     const float unit = s.viewport().draw_limits().near_plane / view.near_share;
     float units = s.viewport().draw_limits().near_plane;
     const std::string format = s.scene() ? length_format(units) : "-";
-    if (!ImGui::SliderFloat("##near", &units, 0.0005f * unit, 0.2f * unit, format.c_str(),
-                            ImGuiSliderFlags_Logarithmic | kTypedLength))
+    if (!numbered_slider(ui, "##near", &units, 0.0005f * unit, 0.2f * unit, format.c_str(),
+                         ImGuiSliderFlags_Logarithmic | kTypedLength, kWidest))
       return;
     view.near_share = units / unit;
     ui.ask(SetView{view});
@@ -123,7 +124,8 @@ void scene_panel(UiContext& ui) {
                const float size = s.camera().scene_size();
                float units = view.far_share * size;
                const std::string format = units > 0 ? length_format(units) : "none";
-               if (!ImGui::SliderFloat("##far", &units, 0, 3 * size, format.c_str(), kTypedLength)) return;
+               if (!numbered_slider(ui, "##far", &units, 0, 3 * size, format.c_str(), kTypedLength, kWidest))
+                 return;
                view.far_share = units / size;
                ui.ask(SetView{view});
              });

@@ -38,15 +38,14 @@ void size_buttons(UiContext& ui) {
 void view_rows(UiContext& ui) {
   ViewState view = ui.studio.view();
   row("Flying speed");
-  ImGui::SetNextItemWidth(150);
-  bool set = slider_without_text("##speed", &view.fly_speed, kLeastKeptSpeed, kMostKeptSpeed, "%.2g",
-                                 ImGuiSliderFlags_Logarithmic | kTypedLength);
+  constexpr auto kProportional = ImGuiSliderFlags_Logarithmic | kTypedLength;
+  constexpr const char* kWidest = "1.25 times the usual";
+  bool set = numbered_slider(ui, "##speed", &view.fly_speed, kLeastKeptSpeed, kMostKeptSpeed,
+                             "%.2g times the usual", kProportional, kWidest);
   tooltip("Of the keys W, A, S, D, Q and E; the wheel changes it while one is held");
-  ImGui::SameLine();
-  muted_text(ui, fmt::format("{:.2g} times the usual", view.fly_speed));
   row("Brush radius");
-  set |= ImGui::SliderFloat("##radius", &view.brush_px, kLeastBrushPx, kMostBrushPx, "%.0f pt",
-                            ImGuiSliderFlags_Logarithmic | kTypedLength);
+  set |= numbered_slider(ui, "##radius", &view.brush_px, kLeastBrushPx, kMostBrushPx, "%.0f pt",
+                         kProportional, kWidest);
   tooltip(fmt::format("{}, {} and Alt+wheel change it, too", keys_of(Action::kBrushSmaller),
                       keys_of(Action::kBrushLarger)));
   row("Objects");

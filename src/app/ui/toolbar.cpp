@@ -33,10 +33,11 @@ void brush_size(UiContext& ui) {
   ImGui::AlignTextToFramePadding();
   muted_text(ui, "Size");
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(110);
+  constexpr float kUsual = 130, kNarrow = 100, kNarrowRow = 400;
+  ImGui::SetNextItemWidth(ImGui::GetWindowWidth() < kNarrowRow ? kNarrow : kUsual);
   float shown = share * view.brush_px;
-  if (ImGui::SliderFloat("##brush", &shown, share * kLeastBrushPx, share * kMostBrushPx, "%.0f pt",
-                         ImGuiSliderFlags_Logarithmic)) {
+  if (numbered_slider(ui, "##brush", &shown, share * kLeastBrushPx, share * kMostBrushPx, "%.0f pt",
+                      ImGuiSliderFlags_Logarithmic, "120 pt")) {
     view.brush_px = shown / share;
     set_view(ui, view);
   }
@@ -61,7 +62,7 @@ void tool_hint(UiContext& ui) {
 void tolerance(UiContext& ui) {
   ViewState view = ui.studio.view();
   ImGui::SetNextItemWidth(150);
-  if (tolerance_slider(&view.colour_tolerance)) set_view(ui, view);
+  if (tolerance_slider(ui, &view.colour_tolerance)) set_view(ui, view);
   tooltip("How far a colour may differ, in any of red, green and blue");
 }
 
@@ -98,7 +99,8 @@ void region_options(UiContext& ui) {
   if ((visible && view.see_through) || (through && !view.see_through)) ui.ask(Action::kSeeThrough);
   if (!view.see_through) return;
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(130);
+  constexpr float kUsual = 130, kNarrow = 100, kNarrowRow = 400;
+  ImGui::SetNextItemWidth(ImGui::GetWindowWidth() < kNarrowRow ? kNarrow : kUsual);
   const float size = ui.studio.camera().scene_size();
   float depth = view.depth_limit * size;
   const std::string text = depth > 0 ? length_format(depth) + " units deep" : "no depth limit";
@@ -111,7 +113,7 @@ void region_options(UiContext& ui) {
 
 // With signs in place of words; hints go where there is no room for them.
 float options_width(const UiContext& ui) {
-  constexpr float kBrush = 185, kRegion = 310, kDepth = 135, kColour = 245, kSpace = 170;
+  constexpr float kBrush = 205, kRegion = 310, kDepth = 135, kColour = 245, kSpace = 170;
   if (!ui.studio.scene()) return 0;
   const ViewState& view = ui.studio.view();
   const float brush = tool_of(view.tool).brush > 0 ? kBrush : 0;

@@ -85,26 +85,37 @@ const char* mode_label(const Studio& studio) {
 
 // The bar with the meanings as buttons.
 constexpr float kOfferPad = 8, kOfferButton = 26;
-constexpr const char* kOfferWords = "what else this can mean  (Esc: keep this one)";
 
-std::optional<UiRect> offer_bar(const UiContext& ui, const ImVec2& at) {
+struct OfferBar {
+  UiRect rect;
+  const char* words;  // behind the buttons
+};
+
+// As many words as fit left of `right`.
+std::optional<OfferBar> offer_bar(const UiContext& ui, const ImVec2& at, float right) {
+  constexpr const char* kWords[] = {"what else this can mean  (Esc: keep this one)",
+                                    "what else this can mean", "Esc: keep this one"};
   const ClickMeanings* offer = ui.studio.clicks().offer();
   if (!offer) return {};
   const auto count = static_cast<float>(offer->outlines.size());
-  const float width = 2 * kOfferPad + count * (kOfferButton + 4) + 6 + ImGui::CalcTextSize(kOfferWords).x;
-  return UiRect{{at.x, at.y}, {at.x + width, at.y + kOfferButton + 2 * kOfferPad}};
+  const float buttons = 2 * kOfferPad + count * (kOfferButton + 4) + 6,
+              bottom = at.y + kOfferButton + 2 * kOfferPad;
+  for (const char* words : kWords)
+    if (const float end = at.x + buttons + ImGui::CalcTextSize(words).x; end <= right)
+      return OfferBar{{{at.x, at.y}, {end, bottom}}, words};
+  return OfferBar{{{at.x, at.y}, {at.x + buttons, bottom}}, ""};
 }
 
 // The meanings as buttons with their keys.
-std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
-  const std::optional<UiRect> bar = offer_bar(ui, at);
+std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at, float right) {
+  const std::optional<OfferBar> bar = offer_bar(ui, at, right);
   if (!bar) return {};
   constexpr float kPad = kOfferPad, kButton = kOfferButton;
   const ClickMeanings* offer = ui.studio.clicks().offer();
   const int taken = ui.studio.document().active_object()->choice;
-  const ImVec2 words = ImGui::CalcTextSize(kOfferWords), size = vec(bar->size());
+  const ImVec2 words = ImGui::CalcTextSize(bar->words), size = vec(bar->rect.size());
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  floating_box(ui, at, vec(bar->max));
+  floating_box(ui, at, vec(bar->rect.max));
   ImGui::SetCursorScreenPos({at.x + kPad, at.y + kPad});
   for (int i = 0; i < std::ssize(offer->outlines); ++i) {
     if (i > 0) ImGui::SameLine(0, 4);
@@ -114,8 +125,8 @@ std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at) {
       ui.ask(ChooseMeaning{i});
   }
   list.AddText({at.x + size.x - kPad - words.x, at.y + 0.5f * (size.y - words.y)},
-               packed(ui.theme.colour.text), kOfferWords);
-  return bar;
+               packed(ui.theme.colour.text), bar->words);
+  return bar->rect;
 }
 
 // A sentence, with room for a button of that label behind it, where the cursor then is; below it where both
@@ -234,7 +245,9 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
   const float top = area.min.y + covered_top(ui) + 12;
   const float below_label = panes == 2 || mode_label(studio) ? 40.0f : 0.0f;
   const ImVec2 offers_at = {area.min.x + 12, top + below_label};
-  const UiRect bar = offer_bar(ui, offers_at).value_or(UiRect{});
+  const float offers_end = area.min.x + pane_width - 12;
+  const auto offer = offer_bar(ui, offers_at, offers_end);
+  const UiRect bar = offer ? offer->rect : UiRect{};
   draw_offer(ui, area, bottom, bar);
   draw_sizes(ui, area, bottom, bar);
   draw_strokes(ui, area);
@@ -259,7 +272,8 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     pane_label(ui, {area.min.x + 12, top}, label);
   }
   float above_axes = area.min.y + covered_top(ui);
-  for (const auto& line : {offer_line(ui, offers_at), advice_line(ui, offers_at, area.max.x - 12)}) {
+  for (const auto& line :
+       {offer_line(ui, offers_at, offers_end), advice_line(ui, offers_at, area.max.x - 12)}) {
     if (line) covered.push_back(*line);
     if (line && line->max.x > area.max.x - kAxesWidth) above_axes = line->max.y;
   }

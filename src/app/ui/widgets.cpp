@@ -49,9 +49,27 @@ bool slider_without_text(const char* id, float* value, float least, float most, 
   return changed;
 }
 
-bool tolerance_slider(float* share) {
+bool numbered_slider(UiContext& ui, const char* id, float* value, float least, float most, const char* format,
+                     ImGuiSliderFlags flags, const char* widest) {
+  constexpr float kGap = 8;
+  const float room = ImGui::CalcTextSize(widest).x, width = ImGui::CalcItemWidth();
+  ImGui::BeginGroup();  // one item, with one tooltip
+  ImGui::SetNextItemWidth(width - room - kGap);
+  const bool changed = slider_without_text(id, value, least, most, format, flags);
+  char number[64];
+  ImFormatString(number, sizeof(number), format, *value);
+  ImGui::SameLine(0, kGap);
+  muted_text(ui, number);
+  ImGui::SameLine(0, std::max(0.0f, room - ImGui::CalcTextSize(number).x));
+  ImGui::Dummy({0, 0});
+  ImGui::EndGroup();
+  return changed;
+}
+
+bool tolerance_slider(UiContext& ui, float* share) {
   float percent = 100 * *share;
-  const bool changed = ImGui::SliderFloat("##tolerance", &percent, 1, 50, "within %.0f %%", kTypedLength);
+  const bool changed =
+      numbered_slider(ui, "##tolerance", &percent, 1, 50, "within %.0f %%", kTypedLength, "within 50 %");
   if (changed) *share = percent / 100;
   return changed;
 }

@@ -45,7 +45,11 @@ inline constexpr ImGuiSliderFlags kTypedLength =
 bool slider_without_text(const char* id, float* value, float least, float most, const char* format,
                          ImGuiSliderFlags flags);
 
-bool tolerance_slider(float* share);  // of colours, in percent; true where it changed
+// The same with its number beside it. widest: the longest number that comes, which is left room.
+bool numbered_slider(UiContext& ui, const char* id, float* value, float least, float most, const char* format,
+                     ImGuiSliderFlags flags, const char* widest);
+
+bool tolerance_slider(UiContext& ui, float* share);  // of colours, in percent; true where it changed
 
 // Equal buttons in a row, or each in a row of its own where some label does not fit.
 class ButtonRow {

@@ -186,12 +186,20 @@ TEST_CASE("placing: a file and an export go where their handles went, whatever s
     file.bounds = {{-1, -2, -3}, {2, 1, 4}};
     file.place = {vector(), 60.0f * vector(), std::exp(normal(random))};
     const Similarity before = similarity_of(file);
-    file.place = changed(file.place, change);
+    const glm::vec3 up(0.2f, -1, 0.1f);
+    PlacingChange as_large = change;
+    as_large.scale = 1;
+    file.place = changed(file, file.place, as_large, up);
     const Similarity now = similarity_of(file);
     for (int i = 0; i < 5; ++i) {
       const glm::vec3 p = 3.0f * vector();
-      CHECK(glm::distance(moved(p, now), after(moved(p, before), change, before.move)) < 2e-4f);
+      CHECK(glm::distance(moved(p, now), after(moved(p, before), as_large, before.move)) < 2e-4f);
     }
+    const glm::vec3 foot = foot_world(file, up);
+    const float scale = file.place.scale;
+    file.place = changed(file, file.place, {.scale = change.scale}, up);  // it stays on its foot
+    CHECK(file.place.scale == doctest::Approx(scale * change.scale));
+    CHECK(glm::distance(foot_world(file, up), foot) < 2e-4f);
 
     ExportPlacement placement{static_cast<ExportOrigin>(round % 3), static_cast<ExportUp>(round % 4),
                               50 * normal(random), std::exp(normal(random)), vector()};

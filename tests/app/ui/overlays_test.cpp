@@ -109,3 +109,23 @@ TEST_CASE("overlays: strokes fade where the object is looked at alone") {
   REQUIRE(hands.studio().view().tool == Tool::kClick);
   CHECK(far_from_ink() > 40);
 }
+
+TEST_CASE("overlays: the bar with a click's meanings ends within the picture of a small window") {
+  HeadlessApp app(640, 480);
+  app.interface_state().hint_wanted = false;
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  for (const glm::vec2& at : {kOnMug, kOnApple, kOnOrange}) {
+    if (app.studio().clicks().offer()) break;
+    app.studio().apply(NewObject{});
+    app.click(app.screen_of(at));
+    REQUIRE(app.settle());
+  }
+  REQUIRE(app.studio().clicks().offer());
+  app.frames(2);
+  const UiRect view = app->interface().viewport(), first = app.button("1");
+  REQUIRE(first.size().x > 0);
+  const float y = 0.5f * (first.min.y + first.max.y);
+  CHECK_FALSE(app->interface().picture_at({first.min.x + 2, y}, app.studio()));
+  CHECK(app->interface().picture_at({view.max.x - 6, y}, app.studio()));
+}
