@@ -360,10 +360,7 @@ std::string edit(Document* document, const SeparateObject& command, const EditCo
 
 std::string edit(Document* document, const LeaveToOthers& command, const EditContext& context) {
   ObjectItem& object = unlocked(document, command.object);
-  if (command.leaves)
-    leave_to_others(*document, &object, context.cloud.size());
-  else
-    set_of_others(&object, nullptr);
+  set_of_others(&object, command.leaves ? had_by_others(*document, object, context.cloud.size()) : nullptr);
   return counted(*document, object, context);
 }
 

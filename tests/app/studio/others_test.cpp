@@ -1,4 +1,5 @@
-// What objects leave to one another: however they are begun, while others are still cut, given back and saved.
+// What objects leave to one another: however they are begun, while others are still cut, given back and
+// saved.
 #include <doctest/doctest.h>
 
 #include <algorithm>
