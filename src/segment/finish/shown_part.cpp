@@ -28,12 +28,13 @@ std::vector<std::uint8_t> in_box(const GaussianCloud& cloud, std::span<const std
 
 }  // namespace
 
-ShownPart shown_part(const Drawer& scene, std::span<const std::uint8_t> labels, std::span<const Camera> cameras,
-                     const Job& job) {
+ShownPart shown_part(const Drawer& scene, std::span<const std::uint8_t> labels,
+                     std::span<const Camera> cameras, const Job& job) {
   const GaussianCloud& cloud = scene.cloud();
   const std::vector<std::uint8_t> box = in_box(cloud, labels);
   std::vector<std::uint8_t> outside(box.size());
-  std::ranges::transform(box, outside.begin(), [](std::uint8_t in) { return static_cast<std::uint8_t>(in == 0); });
+  std::ranges::transform(box, outside.begin(),
+                         [](std::uint8_t in) { return static_cast<std::uint8_t>(in == 0); });
   PlaneSums sums(cloud.size(), 1);
   for (std::size_t v = 0; v < cameras.size() && !job.cancelled(); ++v) {
     job.progress("what the own views show", static_cast<double>(v) / static_cast<double>(cameras.size()));

@@ -28,7 +28,7 @@ struct ShownPart {
 };
 
 // Cancelled: unspecified.
-ShownPart shown_part(const Drawer& scene, std::span<const std::uint8_t> labels, std::span<const Camera> cameras,
-                     const Job& job);
+ShownPart shown_part(const Drawer& scene, std::span<const std::uint8_t> labels,
+                     std::span<const Camera> cameras, const Job& job);
 
 }  // namespace splatcut
