@@ -6,6 +6,22 @@
 
 namespace splatcut {
 
+namespace {
+
+// The ninth decile of the largest axes, of 100,000 Gaussians at most, evenly over the rows.
+float large_size(std::span<const glm::vec3> scales) {
+  constexpr std::size_t kEnough = 100'000;
+  std::vector<float> sizes;
+  for (std::size_t g = 0; g < scales.size(); g += scales.size() / kEnough + 1)
+    sizes.push_back(std::max({scales[g].x, scales[g].y, scales[g].z}));
+  if (sizes.empty()) return 0;
+  const auto decile = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 9 / 10);
+  std::ranges::nth_element(sizes, decile);
+  return *decile;
+}
+
+}  // namespace
+
 void GaussianCloud::resize(std::size_t n, int degree) {
   assert(degree >= 0 && degree <= 3);
   sh_degree = degree;
@@ -76,9 +92,16 @@ float natural_near_plane(std::span<const glm::vec3> positions) {
 }
 
 float near_plane_of(const GaussianCloud& cloud) {
-  if (glm::length(robust_bounds(cloud.position).extent()) > 0) return natural_near_plane(cloud.position);
-  const Box box = framed_bounds(cloud);
-  return natural_near_plane(std::array{box.min, box.max});
+  constexpr float kBlurredWithin = 7.5f;  // sizes of a large Gaussian
+  float natural = 0;
+  if (glm::length(robust_bounds(cloud.position).extent()) > 0) {
+    natural = natural_near_plane(cloud.position);
+  } else {
+    const Box box = framed_bounds(cloud);
+    natural = natural_near_plane(std::array{box.min, box.max});
+  }
+  const float large = large_size(cloud.scale);
+  return large > 0 ? std::min(natural, kBlurredWithin * large) : natural;
 }
 
 }  // namespace splatcut

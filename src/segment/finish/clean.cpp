@@ -8,6 +8,7 @@
 
 #include "segment/finish/carve.h"
 #include "segment/finish/recolour.h"
+#include "segment/finish/shown_part.h"
 #include "segment/finish/solid.h"
 
 namespace splatcut {
@@ -21,13 +22,10 @@ constexpr std::size_t kLeastShownPx = 64;
 
 // Those that show the object; the report says how many there are, and how many of them count.
 std::vector<OwnView> views_that_show(const CleanInput& input, const GaussianCloud& object,
-                                     const OwnViewOptions& options, CleanReport* report, const Job& job) {
+                                     std::span<const Camera> cameras, CleanReport* report, const Job& job) {
   std::vector<OwnView> views;
   KeptViews last(input.scene.cloud(), 0);
-  const Drawer drawer =
-      input.scene.cloud().size() <= kMostProjected ? Drawer(input.scene.cloud(), &last) : input.scene;
-  const std::vector<Camera> cameras =
-      own_cameras(input.scene.cloud(), input.labels, input.up_world, input.cameras, options);
+  const Drawer drawer(input.scene.cloud(), &last);
   for (std::size_t v = 0; v < cameras.size() && !job.cancelled(); ++v) {
     job.progress("own views", static_cast<double>(v) / static_cast<double>(cameras.size()));
     OwnView view = own_view(drawer, object, input.labels, cameras[v], job);
@@ -81,28 +79,19 @@ void drop_gone(const std::vector<std::uint8_t>& kept, CleanObject* object) {
   object->cloud = permuted(object->cloud, stays);
 }
 
-}  // namespace
-
-std::string CleanReport::short_reason() const {
-  if (views >= kLeastViews || agreed < views)
-    return fmt::format("alone, it looks as in the scene from {} of {} side{} only", agreed, views,
-                       views == 1 ? "" : "s");
-  return fmt::format("it is seen from {} side{} only", views, views == 1 ? "" : "s");
+CleanObject as_labelled(const CleanInput& input) {
+  CleanObject object;
+  for (std::uint32_t g = 0; g < input.labels.size(); ++g)
+    if (input.labels[g]) object.gaussian.push_back(g);
+  object.cloud = permuted(input.scene.cloud(), object.gaussian);
+  return object;
 }
 
-CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options, const Job& job) {
-  CleanObject object;
-  const GaussianCloud& cloud = input.scene.cloud();
-  for (std::uint32_t g = 0; g < cloud.size(); ++g)
-    if (input.labels[g]) object.gaussian.push_back(g);
-  object.cloud = permuted(cloud, object.gaussian);
+// Cleans the labelled of a scene that holds what the cameras show.
+CleanObject cleaned(const CleanInput& input, std::span<const Camera> cameras, const Job& job) {
+  CleanObject object = as_labelled(input);
   CleanReport& report = object.report;
-  constexpr std::size_t kLeastGaussians = 8;
-  if (object.gaussian.size() < kLeastGaussians) {
-    report.reason = fmt::format("{} Gaussians have no edges", object.gaussian.size());
-    return object;
-  }
-  std::vector<OwnView> views = views_that_show(input, object.cloud, options, &report, job);
+  std::vector<OwnView> views = views_that_show(input, object.cloud, cameras, &report, job);
   if (report.agreed < kLeastViews || 2 * report.agreed < report.views) {
     report.reason = why_not(report);
     if (!input.anyway || views.empty()) return object;
@@ -117,13 +106,42 @@ CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options,
   report.uncut = std::ranges::count(kept, 1) == 0 ||
                  own_picture_error(views, object.cloud, kept, job) > kMostLost * as_it_is;
   if (report.uncut) {
-    object.cloud = permuted(cloud, object.gaussian);
+    object.cloud = permuted(input.scene.cloud(), object.gaussian);
     std::ranges::fill(kept, 1);
     cut_off = finish(views, false, &kept, &object, job);
   }
-  if (input.rest) object.rest = forget(input.scene, input.labels, object.gaussian, views, cut_off, job);
+  if (input.rest)
+    object.rest = forget(input.scene.cloud(), input.labels, object.gaussian, views, cut_off, job);
   report.cleaned = !job.cancelled();
   drop_gone(kept, &object);
+  return object;
+}
+
+}  // namespace
+
+std::string CleanReport::short_reason() const {
+  if (views >= kLeastViews || agreed < views)
+    return fmt::format("alone, it looks as in the scene from {} of {} side{} only", agreed, views,
+                       views == 1 ? "" : "s");
+  return fmt::format("it is seen from {} side{} only", views, views == 1 ? "" : "s");
+}
+
+CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options, const Job& job) {
+  constexpr int kLeastGaussians = 8;
+  if (std::ranges::count_if(input.labels, std::identity()) < kLeastGaussians) {
+    CleanObject few = as_labelled(input);
+    few.report.reason = fmt::format("{} Gaussians have no edges", few.gaussian.size());
+    return few;
+  }
+  const std::vector<Camera> cameras =
+      own_cameras(input.scene.cloud(), input.labels, input.up_world, input.cameras, options);
+  const ShownPart part = shown_part(input.scene, input.labels, cameras, job);
+  CleanInput within = input;  // rows of `part`, until the end
+  within.scene = part.cloud;
+  within.labels = part.labels;
+  CleanObject object = cleaned(within, cameras, job);
+  for (std::uint32_t& g : object.gaussian) g = part.row[g];
+  for (std::uint32_t& g : object.rest.ghosts) g = part.row[g];
   return object;
 }
 

@@ -19,8 +19,9 @@
 // was cut off was seen. Nothing is cut off then; steps 2 and 3 stay.
 //
 // Constants were chosen on six captures with masks of photographs and held on others: docs/edges.md.
-// Same input, same bits, on any number of threads. Cost: two drawings of the scene and eleven of the object
-// a view, and of the scene nine more with the rest. Cancelled: the result is unspecified.
+// Same input, same bits, on any number of threads. Cost: one drawing of the scene a view, two of the part of
+// it that the views show (shown_part.h), nine of that with the rest, and eleven of the object. Cancelled: the
+// result is unspecified.
 #pragma once
 
 #include <cstdint>

@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "scene/cloud/joined_clouds.h"
 #include "scene/raster/rasterizer.h"
+#include "segment/finish/shown_part.h"
 #include "segment/graphcut/k_nearest.h"
 #include "segment/masks/mask_tools.h"
 
@@ -47,8 +48,7 @@ struct Seen {
 };
 
 void add_view(const Drawer& scene, const OwnView& view, Seen* seen, const Job& job) {
-  constexpr int kMarginPx = 32;  // enough of the rest to know whose the places beside the object are
-  const Surroundings around(view, kMarginPx);
+  const Surroundings around(view, kSurroundingsPx);
   std::vector<Image<float>> planes(2, Image<float>(around.rect.width(), around.rect.height(), 1));
   for (std::size_t i = 0; i < around.inside.size(); ++i)
     planes[1].pixels()[i] = around.inside.pixels()[i] ? 1.0f : 0.0f;
@@ -207,12 +207,11 @@ GaussianCloud given_back(const GaussianCloud& cloud, std::span<const std::uint32
 
 }  // namespace
 
-RestChanges forget(const Drawer& scene, std::span<const std::uint8_t> labels,
+RestChanges forget(const GaussianCloud& cloud, std::span<const std::uint8_t> labels,
                    std::span<const std::uint32_t> object, std::span<const OwnView> views,
                    std::span<const CutOff> cut_off, const Job& job) {
-  const GaussianCloud& cloud = scene.cloud();
   KeptViews last(cloud, 0);
-  const Drawer drawer = cloud.size() <= kMostProjected ? Drawer(cloud, &last) : scene;
+  const Drawer drawer(cloud, &last);
   std::vector<std::uint8_t> rest(labels.size());
   std::ranges::transform(labels, rest.begin(), [](std::uint8_t l) { return l == 0 ? 1 : 0; });
   Seen seen(cloud.size());

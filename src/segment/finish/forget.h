@@ -11,8 +11,9 @@
 //               with and without the ghosts, e = by how much its squared error against the scene grows by
 //               their leaving, per pixel up to 8 px outside of the mask. Where the mean of e over all that a
 //               ghost shows is above 2e-6, it stays. Two rounds, as fewer then leave beside the others.
-// Cost: three drawings of the scene a view and two a round, a k-d tree over the sure ones, and some 60 bytes
-// a Gaussian of the scene.
+// In a large scene the cloud is the part of it that the views show (shown_part.h): nothing else matters.
+// Cost: three drawings of the cloud a view and two a round, a k-d tree over the sure ones, and some 60 bytes
+// a Gaussian.
 #pragma once
 
 #include <cstdint>
@@ -26,12 +27,12 @@
 namespace splatcut {
 
 struct RestChanges {
-  std::vector<std::uint32_t> ghosts;  // indices in the scene, ascending: leave with the object
+  std::vector<std::uint32_t> ghosts;  // indices in the cloud, ascending: leave with the object
   GaussianCloud given_back;           // file_row: of the Gaussian that each was or was a part of
 };
 
-// object: index in the scene of each Gaussian that CutOff::of counts. Cancelled: unspecified.
-RestChanges forget(const Drawer& scene, std::span<const std::uint8_t> labels,
+// object: index in the cloud of each Gaussian that CutOff::of counts. Cancelled: unspecified.
+RestChanges forget(const GaussianCloud& cloud, std::span<const std::uint8_t> labels,
                    std::span<const std::uint32_t> object, std::span<const OwnView> views,
                    std::span<const CutOff> cut_off, const Job& job);
 

@@ -24,10 +24,6 @@
 
 namespace splatcut {
 
-// Scenes of at most so many Gaussians are projected once for a view that is drawn several times in a row; of
-// larger ones blocks that a view does not show spare more than that.
-inline constexpr std::size_t kMostProjected = 1'000'000;
-
 struct OwnView {
   Camera camera;
   PixelRect rect;            // of the camera's picture; images below have its size

@@ -19,6 +19,22 @@ TEST_CASE("the natural near plane is a hundredth of the scene's diagonal, and ne
   CHECK(natural_near_plane({}) > 0);
 }
 
+TEST_CASE("the near plane of a scene stays where it is when a hundred copies of it stand far apart") {
+  const GaussianCloud& one = table().cloud;
+  CHECK(near_plane_of(one) == natural_near_plane(one.position));
+  constexpr std::size_t kCopies = 100;
+  GaussianCloud street;
+  street.resize(kCopies * one.size(), 0);
+  for (std::size_t g = 0; g < street.size(); ++g) {
+    street.position[g] = one.position[g / kCopies] + glm::vec3(50.0f * static_cast<float>(g % kCopies), 0, 0);
+    street.scale[g] = one.scale[g / kCopies];
+  }
+  CHECK(natural_near_plane(street.position) > 45);
+  CHECK(near_plane_of(street) < 10 * near_plane_of(one));
+  for (glm::vec3& scale : street.scale) scale = glm::vec3(0);
+  CHECK(near_plane_of(street) == natural_near_plane(street.position));
+}
+
 TEST_CASE("parts: a scene in other units is cut the same") {
   const Table& t = table();
   const Target mug = target(t, "mug");
