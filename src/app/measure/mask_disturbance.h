@@ -1,7 +1,6 @@
 // Masks made worse on purpose, to see what a method stands.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "core/image.h"
@@ -9,13 +8,12 @@
 namespace splatcut {
 
 struct MaskDisturbance {
-  // none, erode, dilate, shift (to the right), holes (a third of the discs of that radius on a grid), empty,
-  // full
+  // none, erode, dilate, shift (to the right), empty, full
   std::string kind = "none";
   int px = 0;
 };
 
 // Throws Error for an unknown kind.
-Mask disturbed(const Mask& mask, const MaskDisturbance& disturbance, std::uint64_t seed);
+Mask disturbed(const Mask& mask, const MaskDisturbance& disturbance);
 
 }  // namespace splatcut

@@ -24,9 +24,8 @@ double share_of_frame(const Mask& mask) {
 
 // Whether the view that was clicked in shows the object large enough, and whole.
 void add_doubts_of_first(const ViewReport& view, std::vector<std::string>* sentences) {
-  constexpr double kSmall = 0.08,
-                   kMuchOfFrame =
-                       0.15;  // docs/study.md: failed cuts lie beyond these, successful ones rarely
+  // Set where cuts of an earlier program failed; how many do today: docs/study.md.
+  constexpr double kSmall = 0.08, kMuchOfFrame = 0.15;
   const double across = std::sqrt(static_cast<double>(count(view.mask))) / std::max(1, view.mask.width());
   if (across > 0 && across < kSmall)
     sentences->push_back(fmt::format(

@@ -64,7 +64,7 @@ TEST_CASE(
   for (const StabilityAxis& axis : stability_axes())
     for (const char* ending : {".csv", ".svg", ".png"})
       CHECK_MESSAGE(place.exists("study/charts/" + axis.file + ending), axis.file);
-  CHECK(planned.size() >= stability_axes().size() + 12);
+  CHECK(planned.size() >= stability_axes().size() + 9);
   const std::string page = place.text("study/study.md");
   std::size_t pictures = 0, named = 0;
   for (std::size_t at = 0; (at = page.find("](", at)) != std::string::npos; at += 2) {

@@ -7,8 +7,10 @@
 #include "app/lab/study/study_scenes.h"
 #include "app/lab/study/study_tables.h"
 #include "app/lab/study/study_variants.h"
+#include "app/measure/robot_user.h"
 #include "program_runner.h"
 #include "segment/masks/mask_tools.h"
+#include "segment/superpoints/orbit.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -61,12 +63,21 @@ TEST_CASE("scores over scenes and draws: quantiles, failures, and whether they w
   CHECK(s.least == doctest::Approx(0.05));
   CHECK(s.p10 == doctest::Approx(0.1));
   CHECK(s.median == doctest::Approx(0.5));
-  CHECK(s.p90 == doctest::Approx(0.9));
   CHECK(s.cpu_ms == 10);
   CHECK(s.failed == 17);  // .05 to .85
   CHECK(s.failed_warned == 1);
   CHECK(s.fine_warned == 1);
   CHECK(s.stages.at("cut") == doctest::Approx(10.5));
+}
+
+TEST_CASE("what is nearly as good as the best of its scene does not fail") {
+  const StudyResults results = {result("a", 1, 0.7, 1), result("a", 2, 0.82, 1), result("a", 3, 0.86, 1)};
+  const StudyResults some = failing(results);
+  REQUIRE(some.size() == 1);
+  CHECK(some[0]["x"] == 1);
+  const std::vector<SettingScore> scores = scores_of(results);
+  CHECK(scores[0].failed == 1);
+  CHECK(scores[1].failed == 0);
 }
 
 TEST_CASE("the front: what nothing cheaper beats, and how far others are behind it") {
@@ -100,18 +111,25 @@ TEST_CASE("a board hides the stated share of the object in the first view, and n
   CHECK(with_board(loaded->test, 0).size() == loaded->scene.cloud.size());
 }
 
-TEST_CASE("the first view is aimed so that the object fills the stated share of it") {
+TEST_CASE("a view is aimed so that the object fills the stated share of it, and shows the clicked surface") {
   const Workplace place;
   const auto loaded = apple(place);
+  const EvaluationCase& test = loaded->test;
+  const Mask& truth = *test.reference_truth;
+  const ViewClick click{test.reference, *robot_click(truth, Mask(truth.width(), truth.height()))};
+  const auto point = clicked_point(*test.cloud, click);
+  REQUIRE(point);
   for (const double share : {0.002, 0.05, 0.3}) {
-    EvaluationCase test = loaded->test;
-    fill_picture(&test, share);
-    CHECK(share_seen(test, 640) == doctest::Approx(share).epsilon(0.15));
-    CHECK(test.reference.centre_world().x == doctest::Approx(loaded->test.reference.centre_world().x));
-    REQUIRE(test.reference_truth);
-    CHECK(test.reference_truth->width() == test.reference.width_px);
+    EvaluationCase aimed = test;
+    aimed.reference = framed(test.reference, *point, truth, share);
+    CHECK(share_seen(aimed, 640) == doctest::Approx(share).epsilon(0.15));
+    CHECK(aimed.reference.centre_world().x == doctest::Approx(test.reference.centre_world().x));
+    const auto there = clicked_from(aimed.reference, *test.cloud, click);
+    REQUIRE(there);
+    CHECK(there->stroke.points_px.front().x == doctest::Approx(0.5 * test.reference.width_px).epsilon(0.01));
   }
-  EvaluationCase half = loaded->test;
+  CHECK(!clicked_from(approached(test.reference, *point, -1), *test.cloud, click));  // from behind it
+  EvaluationCase half = test;
   resize_tests(&half, 0.5);
   CHECK(half.test_views[0].width_px == 504);
   CHECK(half.truth_masks[0].height() == 378);

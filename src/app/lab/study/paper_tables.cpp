@@ -22,10 +22,6 @@ const std::vector<PaperTable>& tables() {
        "30 views of scenes taken from the front, 40 of others",
        {{2, "2 (5 %)"}, {4, "4 (10 %)"}, {8, "8 (20 %)"}, {20, "20 (50 %)"}, {40, "40 (100 %)"}}},
       {"neighbours", "Number of neighbours", "takes 10; its published code 9", {}},
-      {"clusters",
-       "Number of clusters (of the rest, cluster term on)",
-       "takes 1 of the object and 4 of the rest; its published code 5 and 5",
-       {}},
       {"lambda", "Lambda", "takes 0.5, of its own energy", {}},
       {"gamma of position",
        "Gamma of position",
@@ -36,15 +32,7 @@ const std::vector<PaperTable>& tables() {
        "Threshold against the cut",
        "takes .9 for scenes taken from the front, .3 for others",
        {{0, "the cut"}}},
-      {"soft and hard counts",
-       "Soft and hard weights",
-       "within .005 of one another",
-       {{0, "soft"}, {1, "hard"}}},
       {"energy terms", "Terms of the energy left out", "every term helps", {}},
-      {"sparse input",
-       "Little input, with and without the cut",
-       "the cut counts most where there is least",
-       {{0, "strokes only"}, {1, "one mask"}, {2, "masks of 13 views"}}},
   };
   return all;
 }
@@ -73,36 +61,6 @@ std::string pivot(const PaperTable& table, const std::vector<SettingScore>& scor
     text += row_of(row);
   }
   return text;
-}
-
-// What was found here, in one sentence a series: where it is best and how much it matters.
-std::string found(const PaperTable& table, const std::vector<SettingScore>& scores) {
-  std::vector<std::string> series;
-  std::string words;
-  for (const SettingScore& s : scores)
-    if (std::ranges::find(series, s.series) == series.end()) series.push_back(s.series);
-  if (table.experiment == "energy terms") {
-    const auto of = [&](const std::string& name) {
-      return std::ranges::find(scores, name, &SettingScore::series);
-    };
-    for (const SettingScore& s : scores) {
-      const auto all = of(s.series.substr(0, s.series.find(':')) + ": all terms");
-      if (all != scores.end() && s.series != all->series)
-        words += fmt::format("{}{} {:+.3f}", words.empty() ? "" : ", ", s.series, s.iou - all->iou);
-    }
-    return words;
-  }
-  for (const std::string& name : series) {
-    const SettingScore *best = nullptr, *worst = nullptr;
-    for (const SettingScore& s : scores) {
-      if (s.series != name) continue;
-      if (!best || s.iou > best->iou) best = &s;
-      if (!worst || s.iou < worst->iou) worst = &s;
-    }
-    words += fmt::format("{}{}: best at {} ({:.3f}), worst at {} ({:.3f})", words.empty() ? "" : "; ", name,
-                         column_name(table, best->x), best->iou, column_name(table, worst->x), worst->iou);
-  }
-  return words;
 }
 
 // What was published of the benchmarks, and the same methods here: other scenes, so the order counts, not the
@@ -135,8 +93,7 @@ std::string paper_tables(const StudyResults& results) {
   for (const PaperTable& table : tables()) {
     const std::vector<SettingScore> scores = scores_of(of_experiment(results, table.experiment));
     if (scores.empty()) continue;
-    text += "\n### " + table.title + "\n" + pivot(table, scores) + "\nThe paper: " + table.published +
-            ". Here: " + found(table, scores) + ".\n";
+    text += "\n### " + table.title + "\n" + pivot(table, scores) + "\nThe paper: " + table.published + ".\n";
   }
   if (!of_experiment(results, "trade-off").empty()) text += yardsticks(results);
   if (text.empty()) return text;

@@ -10,6 +10,9 @@
 
 namespace splatcut {
 
+// What is said of the object: true masks, where there are any; else by draw 0 the scene's own clicks, in one
+// view; else those of the any-view robot with an unsteady hand (any_view.h), each where its answers are
+// wrong.
 struct StudyCell {
   std::string experiment;  // chart or table
   std::string series;      // line of the chart, row of the table
@@ -18,22 +21,20 @@ struct StudyCell {
   double x = 0;            // severity or size; its unit is the experiment's
   std::string preset = "default";
   std::vector<std::string> set;  // NAME=VALUE, see settings_table.h
-  std::string first =
-      "clicks";  // clicks; truth: the true mask of the reference; strokes: nothing but their own pixels
   bool parts_only = false;
-  bool true_masks = false;  // in the other views
+  int masks = 0;  // true ones that are given, of the reference and of views around the object
   int clicks = 3;
-  std::uint64_t draw = 0;       // of the robot's hand, and of all else by chance; 0 is steady
-  std::uint64_t order = 0;      // of the clicks, by chance; 0 as they were made
+  std::uint64_t draw = 0;       // of the hand, and of all else by chance
+  bool reordered = false;       // another click is told first
   MaskDisturbance disturbance;  // of true masks ...
-  double disturbed_share = 1;   // ... in that share of the views
+  double disturbed_share = 1;   // ... in that share of the views around
   double stroke_px = 0;         // clicks drawn out to strokes of that length, in a direction by chance
   double scene_scale = 1;       // of positions, sizes and cameras
   double up_tilt_deg = 0;       // of what is taken for up
-  double step_back = 1;         // the reference's distance, in its own
-  double hidden = 0;            // share of the object that a board hides in the reference
-  double object_share = 0;      // of the reference's pixels, by its focal length; 0: as it is
-  double score_scale = 1;       // width of the test pictures, in their own
+  double step_back = 1;         // the distance of the clicked views, in their own
+  double hidden = 0;            // share of the object that a board hides in the reference, clicked first
+  double object_share = 0;      // of the clicked views' pixels, by their focal length; 0: as it is
+  double picture_scale = 0.5;   // width of the views that a hand clicks and is scored in, in their own
 };
 
 inline nlohmann::json to_json(const StudyCell& c) {
@@ -43,12 +44,11 @@ inline nlohmann::json to_json(const StudyCell& c) {
           {"x", c.x},
           {"preset", c.preset},
           {"set", c.set},
-          {"first", c.first},
           {"parts_only", c.parts_only},
-          {"true_masks", c.true_masks},
+          {"masks", c.masks},
           {"clicks", c.clicks},
           {"draw", c.draw},
-          {"order", c.order},
+          {"reordered", c.reordered},
           {"disturbance", c.disturbance.kind},
           {"disturbance_px", c.disturbance.px},
           {"disturbed_share", c.disturbed_share},
@@ -58,7 +58,7 @@ inline nlohmann::json to_json(const StudyCell& c) {
           {"step_back", c.step_back},
           {"hidden", c.hidden},
           {"object_share", c.object_share},
-          {"score_scale", c.score_scale}};
+          {"picture_scale", c.picture_scale}};
 }
 
 }  // namespace splatcut

@@ -34,14 +34,14 @@ std::vector<SettingScore> of_series(const std::vector<SettingScore>& scores, con
   return own;
 }
 
-// Columns 1 to 8; the first is headed by the block's name, which becomes its title in the key.
+// Columns 1 to 7; the first is headed by the block's name, which becomes its title in the key.
 void add_block(const std::string& name, const std::vector<SettingScore>& scores, Chart* chart) {
   chart->blocks = chart->csv.empty() ? 1 : chart->blocks + 1;
   if (!chart->csv.empty()) chart->csv += "\n\n";
-  chart->csv += csv_field(name) + ",iou,least,p10,median,p90,cpu_seconds,label\n";
+  chart->csv += csv_field(name) + ",iou,least,p10,median,cpu_seconds,label\n";
   for (const SettingScore& s : scores)
-    chart->csv += fmt::format("{},{},{},{},{},{},{},{}\n", s.x, s.iou, s.least, s.p10, s.median, s.p90,
-                              s.cpu_ms / 1000, csv_field(s.label));
+    chart->csv += fmt::format("{},{},{},{},{},{},{}\n", s.x, s.iou, s.least, s.p10, s.median, s.cpu_ms / 1000,
+                              csv_field(s.label));
 }
 
 void add_blocks(const std::vector<SettingScore>& scores, Chart* chart) {
@@ -65,10 +65,10 @@ Chart trade_off(const StudyResults& results) {
       "set logscale x\nset xlabel 'CPU seconds from strokes to labels (median over the scenes)'\n"
       "set ylabel 'image IoU (mean over the scenes)'\nset yrange [*:1]\n"
       "set offsets graph 0.05, graph 0.05, graph 0.06, graph 0.06\n"
-      "plot data index 0 using 7:2 with steps lw 2 lc rgb '#222222' title columnheader(1), \\\n"
-      "     for [i=2:last] data index i using 7:2 with points pt i+2 lc i title columnheader(1), \\\n"
-      "     data index 1 using 7:2 with points pt 3 ps 2 lw 2 lc rgb '#c00000' title columnheader(1), \\\n"
-      "     data index 1 using 7:2:8 with labels offset 0,1 tc rgb '#c00000' notitle\n";
+      "plot data index 0 using 6:2 with steps lw 2 lc rgb '#222222' title columnheader(1), \\\n"
+      "     for [i=2:last] data index i using 6:2 with points pt i+2 lc i title columnheader(1), \\\n"
+      "     data index 1 using 6:2 with points pt 3 ps 2 lw 2 lc rgb '#c00000' title columnheader(1), \\\n"
+      "     data index 1 using 6:2:7 with labels offset 0,1 tc rgb '#c00000' notitle\n";
   return chart;
 }
 
@@ -121,8 +121,7 @@ Chart lines(const StudyResults& results, ChartName named, const std::string& x_l
   return chart;
 }
 
-// The median, the least and the 10th to 90th percentile; x is a number, or a list of names that no line
-// joins.
+// The mean, the 10th percentile and the least; x is a number, or a list of names that no line joins.
 Chart spread(const StudyResults& results, const StabilityAxis& axis) {
   Chart chart{.named = {axis.file, axis.title}};
   add_blocks(scores_of(results), &chart);
@@ -133,30 +132,11 @@ Chart spread(const StudyResults& results, const StabilityAxis& axis) {
       label_command("xlabel", axis.x_label) +
       "set ylabel 'image IoU (all scenes and draws)'\nset yrange [-0.03:1.03]\n" + axis.gnuplot +
       fmt::format(
-          "plot for [i=0:last] data index i using {0}:5:4:6 with yerrorbars pt 0 lw 1.5 lc i+1 "
-          "title '10th to 90th percentile', \\\n"
-          "     for [i=0:last] data index i using {0}:5 with {1} pt 7 lw 2 lc i+1 title columnheader(1), \\\n"
-          "     for [i=0:last] data index i using {0}:3 with {1} pt 1 lw 1.5 lc i+1 title 'least'\n",
+          "plot for [i=0:last] data index i using {0}:2 with {1} pt 7 lw 2 lc i+1 title "
+          "columnheader(1).': mean', \\\n"
+          "     for [i=0:last] data index i using {0}:4 with {1} pt 8 lw 1.5 dt 2 lc i+1 title '10 %', \\\n"
+          "     for [i=0:last] data index i using {0}:3 with {1} pt 1 lw 1 dt 3 lc i+1 title 'least'\n",
           x, style);
-  return chart;
-}
-
-// Of each kind of wrong mask the first strength, one line a kind.
-Chart bad_masks(const StudyResults& results, const StabilityAxis& axis) {
-  Chart chart{.named = {axis.file, axis.title}};
-  const std::vector<SettingScore> scores = scores_of(results);
-  std::map<std::string, std::string> strength;
-  for (const std::string& series : series_of(scores)) {
-    const std::string kind = series.substr(0, series.find_first_of(" ,")),
-                      px = series.substr(0, series.find(','));
-    if (strength.try_emplace(kind, px).first->second == px)
-      add_block(series, of_series(scores, series), &chart);
-  }
-  chart.commands =
-      label_command("xlabel", axis.x_label) +
-      "set ylabel 'image IoU (10th percentile of scenes and draws)'\nset yrange [-0.03:1.03]\n"
-      "plot for [i=0:last] data index i using 1:4 with linespoints pt 7 lw 2 dt i%2+1 lc i/2+1 title "
-      "columnheader(1)\n";
   return chart;
 }
 
@@ -168,12 +148,12 @@ Chart bars(const StudyResults& results, ChartName named) {
   chart.commands =
       "set style fill solid 0.7 border -1\nset boxwidth 0.6\nset ylabel 'image IoU (mean)'\n"
       "set yrange [0:1.08]\nset xtics rotate by -35\nset rmargin 12\nunset key\n"
-      "plot data using 0:2:xtic(8) with boxes lc rgb '#3b7dd8', \\\n"
+      "plot data using 0:2:xtic(7) with boxes lc rgb '#3b7dd8', \\\n"
       "     data using 0:2:(sprintf('%.3f', $2)) with labels offset 0,0.7\n";
   return chart;
 }
 
-// One chart a series of the experiment, one line a scene.
+// One chart a series of the experiment.
 std::vector<Chart> needed(const StudyResults& results) {
   std::vector<Chart> charts;
   for (const auto& [series, name] : {std::pair{"views", "needed_views"},
@@ -182,7 +162,6 @@ std::vector<Chart> needed(const StudyResults& results) {
     StudyResults some;
     std::ranges::copy_if(results, std::back_inserter(some),
                          [&, wanted = series](const nlohmann::json& r) { return r.at("series") == wanted; });
-    for (nlohmann::json& r : some) r["series"] = r.at("scene");
     if (!some.empty())
       charts.push_back(lines(some, {name, fmt::format("No more than needed: {}", series)}, series));
   }
@@ -205,9 +184,7 @@ std::vector<Chart> all_charts(const StudyResults& results) {
     return bars(some, {"energy_terms", "Terms of the energy left out, true masks of 7 views"});
   });
   for (const StabilityAxis& axis : stability_axes())
-    add(axis.experiment, [&](const StudyResults& some) {
-      return axis.experiment == "bad masks" ? bad_masks(some, axis) : spread(some, axis);
-    });
+    add(axis.experiment, [&](const StudyResults& some) { return spread(some, axis); });
   std::ranges::move(needed(of_experiment(results, "needed")), std::back_inserter(charts));
   return charts;
 }

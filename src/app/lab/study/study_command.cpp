@@ -103,7 +103,7 @@ void measure_cells(const StudyArguments& args, const std::vector<StudyScene>& sc
 void keep_first(std::size_t most, std::vector<StudyCell>* cells) {
   std::map<std::string, std::set<std::string>> kept;
   std::erase_if(*cells, [&](StudyCell cell) {
-    cell.draw = cell.order = 0;
+    cell.draw = 0;
     std::set<std::string>& settings = kept[cell.experiment];
     const std::string setting = json_text(to_json(cell));
     if (settings.contains(setting)) return false;
@@ -183,10 +183,8 @@ std::vector<WorstCase> worst_cases(const StudyArguments& args, std::vector<Lowes
       throw Error("splatcut-lab study", "cancelled; what is finished is kept in " + args.output.string() +
                                             ", the same command goes on");
     write_png(args.output / png, picture);
-    const std::string warned = result.at("warned"), draw = cell->draw ? fmt::format(", draw {}", cell->draw)
-                                                           : cell->order
-                                                               ? fmt::format(", order {}", cell->order)
-                                                               : "";
+    const std::string warned = result.at("warned"),
+                      draw = cell->draw ? fmt::format(", draw {}", cell->draw) : "";
     worst.push_back({fmt::format("{}: {}, {}, at {:g}{}: image IoU {:.3f}. Said: {}", cell->experiment,
                                  scene->name, cell->series, cell->x, draw,
                                  result.at("image_iou").get<double>(), warned.empty() ? "nothing" : warned),

@@ -27,12 +27,12 @@ std::string table_of(const StudyResults& results) {
 
 // Of all scenes, then of each.
 std::string spread_table(const StudyResults& results) {
-  std::string text = head_of({"series", "x", "scene", "least", "10 %", "median", "90 %", "runs", "failed",
-                              "of those warned", "warned though fine"});
+  std::string text = head_of({"series", "x", "scene", "least", "10 %", "median", "mean", "runs", "failed",
+                              "of those said", "said though fine"});
   const auto add = [&](const StudyResults& some, const std::string& scene) {
     for (const SettingScore& s : scores_of(some))
       text += row_of({s.series, fmt::format("{:g}", s.x), scene, iou_text(s.least), iou_text(s.p10),
-                      iou_text(s.median), iou_text(s.p90), std::to_string(s.runs), std::to_string(s.failed),
+                      iou_text(s.median), iou_text(s.iou), std::to_string(s.runs), std::to_string(s.failed),
                       std::to_string(s.failed_warned), std::to_string(s.fine_warned)});
   };
   add(results, "all");
@@ -43,24 +43,29 @@ std::string spread_table(const StudyResults& results) {
   return text;
 }
 
-// The regimes in which something fails, and whether the user is told.
-std::string failure_table(const StudyResults& results) {
+// The draws that fail and nothing is said of.
+std::string silence_table(const StudyResults& results) {
   std::string rows;
-  for (const StabilityAxis& axis : stability_axes())
-    for (const SettingScore& s : scores_of(of_experiment(results, axis.experiment)))
-      if (s.failed > 0)
-        rows += row_of({axis.experiment, s.series, fmt::format("{:g}", s.x),
-                        fmt::format("{:.0f} % of {}", 100.0 * s.failed / s.runs, s.runs),
-                        fmt::format("{:.0f} %", 100.0 * s.failed_warned / s.failed), iou_text(s.least),
-                        iou_text(s.p10), iou_text(s.median), iou_text(s.p90)});
+  for (const StabilityAxis& axis : stability_axes()) {
+    StudyResults silent = failing(of_experiment(results, axis.experiment));
+    std::erase_if(silent, [](const nlohmann::json& r) { return r.at("warned") != ""; });
+    std::map<std::array<std::string, 3>, StudyResults> by_scene;
+    for (const nlohmann::json& r : silent)
+      by_scene[{r.at("series"), fmt::format("{:g}", r.at("x").get<double>()), r.at("scene")}].push_back(r);
+    for (const auto& [at, some] : by_scene) {
+      std::string draws;
+      for (const nlohmann::json& r : some)
+        draws += fmt::format("{}{}: {:.3f}", draws.empty() ? "" : ", ", r.at("draw").get<int>(),
+                             r.at("image_iou").get<double>());
+      rows += row_of({axis.experiment, at[0], at[1], at[2], draws});
+    }
+  }
   if (rows.empty()) return {};
   return fmt::format(
-             "\n## What fails, and is it said?\n\nFailed: image IoU below {}. Said: the program called the "
-             "click ambiguous, found nothing, or left views out because they disagree.\n",
-             kFails) +
-         head_of(
-             {"experiment", "series", "x", "failed", "of those said", "least", "10 %", "median", "90 %"}) +
-         rows;
+             "\n## What fails without a word\n\nImage IoU below {}, and below the best of the scene in the "
+             "experiment less {}, and the program said nothing.\n",
+             kFails, kNearBest) +
+         head_of({"experiment", "series", "x", "scene", "draws"}) + rows;
 }
 
 std::string text_of(const nlohmann::json& value) {
@@ -76,9 +81,8 @@ std::string study_csv(const StudyResults& results) {
                                    "scene",
                                    "preset",
                                    "set",
-                                   "first",
                                    "parts_only",
-                                   "true_masks",
+                                   "masks",
                                    "clicks",
                                    "draw",
                                    "disturbance",
@@ -88,10 +92,10 @@ std::string study_csv(const StudyResults& results) {
                                    "scene_scale",
                                    "up_tilt_deg",
                                    "step_back",
-                                   "order",
+                                   "reordered",
                                    "hidden",
                                    "object_share",
-                                   "score_scale",
+                                   "picture_scale",
                                    "still_life",
                                    "image_iou",
                                    "boundary_iou",
@@ -123,7 +127,7 @@ std::string study_page(const StudyResults& results, const std::vector<ChartName>
     text += fmt::format("\n## {0}\n\n![{0}](charts/{1}.svg)\n", chart.title, chart.name);
   if (!worst.empty()) text += "\n## Where it failed worst\n";
   for (const WorstCase& w : worst) text += fmt::format("\n![worst case]({})\n\n{}\n", w.picture, w.caption);
-  text += failure_table(results) + paper_tables(results);
+  text += silence_table(results) + paper_tables(results);
   for (const std::string& experiment : experiments_of(results)) {
     const StudyResults some = of_experiment(results, experiment);
     text += "\n## " + experiment + "\n" + (is_stability(experiment) ? spread_table(some) : table_of(some));

@@ -8,47 +8,31 @@ namespace splatcut {
 
 namespace {
 
+// A draw's clicks are made once, for all that is asked of them.
 void plan_clicks(StudyGrid* grid) {
-  for (const int clicks : {1, 2, 3})
-    grid->drawn("click jitter", "unsteady robot", clicks, {}, [&](StudyCell& cell) { cell.clicks = clicks; });
-  for (const int clicks : {2, 3, 5}) {
-    if (grid->quick() && clicks == 2) continue;
-    grid->drawn("click order", "steady robot's clicks, shuffled", clicks, {}, [&](StudyCell& cell) {
-      cell.clicks = clicks;
-      cell.order = std::exchange(cell.draw, 0);
-    });
-  }
-  for (const double length : grid->some({4, 32, 8, 16, 64}))
-    grid->drawn("strokes across the border", "3 strokes", length, {},
-                [&](StudyCell& cell) { cell.stroke_px = length; });
+  for (int draw = 1; draw <= grid->draws(); ++draw)
+    for (const bool reordered : {false, true})
+      for (int clicks = reordered ? 2 : 1; clicks <= 3; ++clicks) {
+        StudyCell& cell = grid->add(reordered ? "click order" : "click jitter", "unsteady hand", clicks);
+        cell.clicks = clicks;
+        cell.reordered = reordered;
+        cell.draw = static_cast<std::uint64_t>(draw);
+      }
 }
 
 void plan_views_of_it(StudyGrid* grid) {
-  const Settings six = {"views.settled_change=0", "views.most=6"};
-  for (const double scale : grid->some({0.01, 100, 0.1, 10, 1}))
-    grid->drawn("scene scale", "3 clicks", scale, {}, [&](StudyCell& c) { c.scene_scale = scale; });
-  for (const double tilt : grid->some({30, 180, 90, 0}))
-    grid->drawn("wrong up", "3 clicks", tilt, six, [&](StudyCell& c) { c.up_tilt_deg = tilt; });
-  for (const double sizes : grid->some({0.8, 4, 1.2, 1.6, 2.5})) {
-    Settings set = six;
-    set.push_back(fmt::format("views.distance_sizes={}", sizes));
-    grid->drawn("orbit distance", "3 clicks", sizes, set, [](StudyCell&) {});
-  }
-  for (const double back : grid->some({0.6, 3, 1, 2, 6}))
-    grid->drawn("step back", "3 clicks", back, {}, [&](StudyCell& c) { c.step_back = back; });
-  for (const double percent : grid->some({0.2, 50, 1, 5, 20}))
-    grid->drawn("object share", "3 clicks", percent, {},
-                [&](StudyCell& c) { c.object_share = percent / 100; });
-  for (const double hidden : grid->some({25, 75, 0, 50}))
-    grid->drawn("occlusion", "3 clicks", hidden, {}, [&](StudyCell& c) { c.hidden = hidden / 100; });
-  for (const double times : grid->some({0.25, 2, 0.5, 1}))
-    grid->drawn("other resolution", "3 clicks", times, {}, [&](StudyCell& c) { c.score_scale = times; });
-  for (const double views : grid->some({0, 2, 1, 4})) {
-    Settings set = {"first.from=pixels", "views.settled_change=0", fmt::format("views.most={}", views)};
-    grid->drawn("too few views", "from pixels, 3 clicks", views, set, [](StudyCell&) {});
-    set.erase(set.begin());
-    grid->drawn("too few views", "from parts, 3 clicks", views, set, [](StudyCell&) {});
-  }
+  const auto drawn = [&](const char* experiment, double StudyCell::*what, double unit,
+                         std::initializer_list<double> values) {
+    for (const double x : grid->some(values))
+      grid->drawn(experiment, "3 clicks", x, {}, [&](StudyCell& cell) { cell.*what = unit * x; });
+  };
+  drawn("strokes", &StudyCell::stroke_px, 1, {16, 64});
+  drawn("step back", &StudyCell::step_back, 1, {0.6, 3, 1, 2, 4, 6});
+  drawn("object share", &StudyCell::object_share, 0.01, {1, 50, 5, 20});
+  drawn("occlusion", &StudyCell::hidden, 0.01, {50, 75});
+  drawn("other resolution", &StudyCell::picture_scale, 1, {0.25, 1});
+  drawn("wrong up", &StudyCell::up_tilt_deg, 1, {90});
+  drawn("scene scale", &StudyCell::scene_scale, 1, {0.01, 100});
 }
 
 struct Bad {
@@ -57,45 +41,31 @@ struct Bad {
 };
 
 void plan_bad_masks(StudyGrid* grid) {
-  for (const Bad& bad : {Bad{"erode", {4, 2, 8}}, Bad{"dilate", {4, 2, 8}}, Bad{"shift", {16, 8, 32}},
-                         Bad{"holes", {6, 3}}, Bad{"empty", {0}}, Bad{"full", {0}}})
+  for (const Bad& bad : {Bad{"erode", {4, 8}}, Bad{"dilate", {8}}, Bad{"shift", {16, 32}}, Bad{"empty", {0}},
+                         Bad{"full", {0}}})
     for (const int px : bad.px) {
-      if (grid->quick() &&
-          (px != bad.px.front() || bad.kind == std::string("dilate") || bad.kind == std::string("holes")))
-        continue;
-      for (const double percent : grid->some({25, 50, 12.5}))
-        for (const char* solver : {"cut", "threshold"})
-          grid->drawn("bad masks",
-                      px == 0 ? fmt::format("{}, {}", bad.kind, solver)
-                              : fmt::format("{} {} px, {}", bad.kind, px, solver),
-                      percent,
-                      {"first.from=pixels", "views.most=8", "views.settled_change=0",
-                       std::string("energy.coarse=") + (std::string(solver) == "cut" ? "0" : "1")},
-                      [&](StudyCell& cell) {
-                        cell.first = "truth";
-                        cell.true_masks = true;
-                        cell.disturbance = {bad.kind, std::max(1, px)};  // 0 px would be no disturbance
-                        cell.disturbed_share = percent / 100;
-                      });
+      if (grid->quick() && px != bad.px.front()) continue;
+      for (const double percent : grid->some({25, 50}))
+        grid->drawn("bad masks", px == 0 ? bad.kind : fmt::format("{} {} px", bad.kind, px), percent, {},
+                    [&](StudyCell& cell) {
+                      cell.masks = 9;
+                      cell.disturbance = {bad.kind, std::max(1, px)};  // 0 px would be no disturbance
+                      cell.disturbed_share = percent / 100;
+                    });
     }
 }
 
 // On still lifes that have what is hard.
 void plan_still_lifes(StudyGrid* grid) {
-  double number = 0;
-  for (const HardStillLife& hard : hard_still_lifes()) {
-    const bool thin = hard.thin_width > 0;
-    if (grid->quick() && !hard.quick) continue;
-    for (const int clicks : {1, 3}) {
-      if (thin && clicks == 1) continue;
-      grid->drawn(thin ? "thin parts" : "hard scenes",
-                  fmt::format("{} click{}", clicks, clicks == 1 ? "" : "s"), thin ? hard.thin_width : number,
-                  {}, [&](StudyCell& cell) {
-                    cell.still_life = hard.name;
-                    cell.clicks = clicks;
-                  });
-    }
-    if (!thin) ++number;
+  for (double number = 0; const HardStillLife& hard : hard_still_lifes()) {
+    for (int draw = 1; draw <= grid->draws() && (hard.quick || !grid->quick()); ++draw)
+      for (const int clicks : {1, 3}) {
+        StudyCell& cell = grid->add("hard scenes", clicks == 1 ? "1 click" : "3 clicks", number);
+        cell.still_life = hard.name;
+        cell.clicks = clicks;
+        cell.draw = static_cast<std::uint64_t>(draw);
+      }
+    ++number;
   }
 }
 
@@ -115,30 +85,24 @@ const std::vector<StabilityAxis>& stability_axes() {
          "set xtics 1\nset offsets 0.2, 0.2, 0, 0\n"},
         {"click order", "click_order", "The same clicks in another order", "clicks",
          "set xtics 1\nset offsets 0.2, 0.2, 0, 0\n"},
-        {"strokes across the border", "long_strokes", "Strokes that run across the border",
-         "length of each stroke (pixels of the reference)", "set logscale x 2\n"},
-        {"scene scale", "scene_scale", "The same scene in other units", "scale (times)", "set logscale x\n"},
-        {"wrong up", "wrong_up", "Up is not up", "tilt (degrees)", ""},
-        {"orbit distance", "orbit_distance", "Orbit views nearer and farther", "distance (object sizes)", ""},
-        {"step back", "step_back", "The first view nearer and farther", "distance (of the reference's own)",
+        {"strokes", "long_strokes", "Strokes across whatever comes in place of clicks",
+         "length of each stroke (pixels of its view)", "set logscale x 2\n"},
+        {"step back", "step_back", "Clicked from nearer and farther", "distance (of each view's own)",
          "set logscale x 2\n"},
-        {"object share", "object_share", "Small and large in the first view",
+        {"object share", "object_share", "Small and large in the clicked views",
          "object's share of the picture (%)", "set logscale x\n"},
         {"occlusion", "occlusion", "Hidden in the first view by a board", "hidden share of the object (%)",
          ""},
-        {"other resolution", "other_resolution", "Rendered larger and smaller than it was cut",
-         "width of the test pictures (of their own)", "set logscale x 2\n"},
-        {"too few views", "too_few_views", "Few views", "views beside the first", "set xtics 1\n"},
+        {"other resolution", "other_resolution", "Clicked in smaller pictures",
+         "width of the pictures (of their own)", "set logscale x 2\n"},
+        {"wrong up", "wrong_up", "Up is not up", "tilt (degrees)", ""},
+        {"scene scale", "scene_scale", "The same scene in other units", "scale (times)", "set logscale x\n"},
         {"bad masks", "bad_masks", "Some of the masks are wrong",
          "share of the views whose mask is wrong (%)", ""},
-        {"thin parts", "thin_parts", "Thin parts by width (lamp, plant, mug)",
-         "width of leaves, handle and cable (of the usual)", "set logscale x 2\n"},
     };
     std::string names;
-    int number = 0;
-    for (const HardStillLife& hard : hard_still_lifes())
-      if (hard.thin_width == 0)
-        names += fmt::format("{}'{}' {}", number ? ", " : "", hard.name, number), ++number;
+    for (int number = 0; const HardStillLife& hard : hard_still_lifes())
+      names += fmt::format("{}'{}' {}", number ? ", " : "", hard.name, number), ++number;
     all.push_back(
         {"hard scenes", "hard_scenes", "Still lifes that have what is hard", "",
          fmt::format(

@@ -14,54 +14,74 @@
 #include "app/measure/robot_user.h"
 #include "core/byte_hash.h"
 #include "core/counter_rng.h"
-#include "core/error.h"
+#include "core/json_file.h"
 #include "core/png_file.h"
 #include "scene/raster/rasterizer.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/session/doubts.h"
 #include "segment/session/settings_table.h"
+#include "segment/superpoints/orbit.h"
 
 namespace splatcut {
 
 namespace {
 
-// Where true masks are asked for, or the first view is changed, only labels of all Gaussians help.
+// Where masks are given, or the object is hidden, only labels of all Gaussians help.
 bool can_run(const StudyCell& cell, const EvaluationCase& test) {
-  const bool needs_labels = cell.true_masks || cell.first == "truth" || cell.step_back != 1 ||
-                            cell.hidden > 0 || cell.object_share > 0;
-  return !needs_labels || !test.truth_labels.empty();
+  return (cell.masks == 0 && cell.hidden == 0) || !test.truth_labels.empty();
 }
 
-void shake(Strokes* strokes, double most_px, std::uint64_t draw) {
-  for (std::size_t i = 0; i < strokes->size(); ++i) {
-    CounterRng random(draw, i);
-    const float radius = static_cast<float>(most_px) * std::sqrt(random.unit()),
-                angle = random.between(0, 6.2831853f);
-    for (glm::vec2& p : (*strokes)[i].points_px) p += radius * glm::vec2(std::cos(angle), std::sin(angle));
+// A click becomes a straight stroke.
+void draw_out(double length_px, std::uint64_t draw, Stroke* stroke) {
+  const float angle = CounterRng(draw, 100).between(0, 6.2831853f);
+  const glm::vec2 from = stroke->points_px.front(), along(std::cos(angle), std::sin(angle));
+  for (double at = 2; at <= length_px; at += 2)
+    stroke->points_px.push_back(from + static_cast<float>(at) * along);
+}
+
+// Another click comes first, the others after it as before.
+void reorder(std::uint64_t draw, ViewClicks* clicks) {
+  if (clicks->size() < 2) return;
+  const auto first = 1 + static_cast<std::ptrdiff_t>(draw % (clicks->size() - 1));
+  std::rotate(clicks->begin(), clicks->begin() + first, clicks->begin() + first + 1);
+}
+
+// The click as it is made where the cell changes how; none where it cannot be. object: what the first of all
+// clicks hit.
+std::optional<ViewClick> as_made(const StudyCell& cell, const EvaluationCase& test,
+                                 std::span<const TruthView> views, const glm::vec3& object, ViewClick click,
+                                 std::uint64_t draw) {
+  std::optional<ViewClick> made = click;
+  if (cell.step_back != 1)
+    made = clicked_from(approached(click.camera, object, static_cast<float>(cell.step_back)), *test.cloud,
+                        click);
+  if (cell.object_share > 0) {
+    const auto view =
+        std::ranges::find_if(views, [&](const TruthView& v) { return same_camera(v.camera, click.camera); });
+    made = clicked_from(framed(click.camera, object, view->truth, cell.object_share), *test.cloud, click);
   }
+  if (made && cell.stroke_px > 0) draw_out(cell.stroke_px, draw, &made->stroke);
+  return made;
 }
 
-// Clicks become straight strokes.
-void draw_out(Strokes* strokes, double length_px, std::uint64_t draw) {
-  for (std::size_t i = 0; i < strokes->size(); ++i) {
-    const float angle = CounterRng(draw, 100 + i).between(0, 6.2831853f);
-    const glm::vec2 from = (*strokes)[i].points_px.front(), along(std::cos(angle), std::sin(angle));
-    for (double at = 2; at <= length_px; at += 2)
-      (*strokes)[i].points_px.push_back(from + static_cast<float>(at) * along);
-  }
+CutRequest request_of_clicks(std::span<const ViewClick> clicks) {
+  CutRequest request;
+  for (const ViewClick& click : clicks) request.strokes.push_back({click.camera, {click.stroke}});
+  return request;
 }
 
-Mask mask_of_strokes(const Strokes& strokes, const Camera& camera) {
-  const Image<std::uint8_t> seeds = draw_seeds(strokes, camera.width_px, camera.height_px);
-  Mask mask(seeds.width(), seeds.height());
-  std::ranges::transform(seeds.pixels(), mask.pixels().begin(),
-                         [](std::uint8_t s) { return s == kObjectSeed ? kMaskObject : std::uint8_t{0}; });
-  return mask;
+TimedCut timed_cut(Session* session, const CutRequest& request, const CutSettings& settings, const Job& job) {
+  const std::clock_t start = std::clock();
+  CutResult result = session->cut(request, settings, job);
+  return {std::move(result), 1000.0 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC};
 }
 
-void shuffle(Strokes* strokes, std::uint64_t order) {
-  CounterRng random(order, 0x5467);
-  for (std::size_t i = strokes->size(); i > 1; --i) std::swap((*strokes)[i - 1], (*strokes)[random.below(i)]);
+// What cells of one hand have in common.
+std::string hand_of(StudyCell cell) {
+  cell.experiment = cell.series = "";
+  cell.x = cell.clicks = 0;
+  cell.reordered = false;
+  return json_text(to_json(cell));
 }
 
 // Which of so many views get a wrong mask: the stated share, spread evenly, or by chance where there is a
@@ -80,16 +100,19 @@ std::vector<bool> wrong_views(const StudyCell& cell, std::size_t views) {
   return wrong;
 }
 
-// True masks of the views in the order in which they are asked for, the stated share of them disturbed.
-MaskSource true_masks(const EvaluationCase& test, const StudyCell& cell, int views) {
-  auto asked = std::make_shared<std::size_t>(0);
-  return [&test, &cell, asked,
-          wrong = wrong_views(cell, static_cast<std::size_t>(views))](const Camera& camera) {
-    const std::size_t view = (*asked)++;
-    const Mask mask = labels_seen(test, camera, test.truth_labels);
-    return view < wrong.size() && wrong[view] ? disturbed(mask, cell.disturbance, 1000 * cell.draw + view)
-                                              : mask;
-  };
+// The reference's true mask, and those of views around the object, the stated share of them disturbed.
+CutRequest request_of_masks(const EvaluationCase& test, const StudyCell& cell) {
+  CutRequest request;
+  request.first_mask = {test.reference, test.reference_truth.value()};
+  const std::vector<Camera> around =
+      orbit_cameras(test.reference, test.up_world, object_extent(*test.cloud, test.truth_labels),
+                    {.views = cell.masks - 1});
+  const std::vector<bool> wrong = wrong_views(cell, around.size());
+  for (std::size_t v = 0; v < around.size(); ++v) {
+    const Mask mask = labels_seen(test, around[v], test.truth_labels);
+    request.masks.push_back({around[v], wrong[v] ? disturbed(mask, cell.disturbance) : mask});
+  }
+  return request;
 }
 
 // What `splatcut cut` says of such a run.
@@ -149,32 +172,55 @@ void StudyRunner::change_scene(const StudyCell& cell, EvaluationCase* test) {
 
 void StudyRunner::say(const StudyCell& cell, const Job& job, Setup* setup) const {
   const EvaluationCase& test = setup->test;
-  if (cell.true_masks) {
-    const int views = setup->settings.orbit.views;
-    setup->request.mask_source = true_masks(test, cell, views == kViewsAsNeeded ? kViewsAround : views);
-  }
-  if (cell.first == "truth") {
-    setup->request.first_mask = {test.reference, test.reference_truth.value()};
-    return;
-  }
-  Strokes strokes;
-  const Strokes& given = test.scribbles_alone ? test.scribbles : test.clicks;
-  if (!given.empty()) {
-    constexpr double kHandPx = 6;
-    const auto told = test.scribbles_alone ? std::ssize(given)  // one answer: all of them
-                                           : std::min<std::ptrdiff_t>(cell.clicks, std::ssize(given));
-    strokes = Strokes(given.begin(), given.begin() + told);
-    if (cell.draw) shake(&strokes, kHandPx, cell.draw);
-  } else {
+  Strokes strokes = test.scribbles_alone ? test.scribbles : test.clicks;
+  if (strokes.empty()) {
     Session session = session_of(test);
-    strokes = robot_session(test, &session, setup->settings, cell.clicks, cell.draw, job).strokes;
+    strokes = robot_session(test, &session, setup->settings, cell.clicks, 0, job).strokes;
+  } else if (!test.scribbles_alone && std::ssize(strokes) > cell.clicks) {
+    strokes.resize(static_cast<std::size_t>(cell.clicks));
   }
-  if (cell.order) shuffle(&strokes, cell.order);
-  if (cell.stroke_px > 0) draw_out(&strokes, cell.stroke_px, cell.draw);
-  if (cell.first == "strokes")
-    setup->request.first_mask = {test.reference, mask_of_strokes(strokes, test.reference)};
-  else
-    setup->request.strokes = {{test.reference, std::move(strokes)}};
+  setup->request.strokes = {{test.reference, std::move(strokes)}};
+}
+
+// Every draw begins in another view; where the first one matters, in the reference. A reference without truth
+// comes before them: nobody knows where the object is in it.
+void StudyRunner::watch_hand(const StudyCell& cell, const Setup& setup, Session* session, const Job& job) {
+  constexpr int kClicks = 3;
+  const EvaluationCase& test = setup.test;
+  const std::vector<TruthView> views = truth_views(test);
+  const std::vector<AnyViewStart> starts =
+      any_view_starts(test, views, {.box_margin = {}, .draw = cell.draw});
+  auto start = starts.end() - 1 - static_cast<std::ptrdiff_t>((cell.draw - 1) % views.size());
+  if (cell.hidden > 0 || !cell.still_life.empty())
+    start = std::ranges::find_if(
+        starts, [&](const AnyViewStart& s) { return same_camera(s.camera, test.reference); });
+  const auto object = clicked_point(*test.cloud, {start->camera, start->first});
+  if (!object || !as_made(cell, test, views, *object, {start->camera, start->first}, 1)) return;
+  const auto answer = [&](std::span<const ViewClick> told, int, const Job& within) {
+    const std::uint64_t draw = 16 * cell.draw + told.size();
+    hand_.clicks.push_back(as_made(cell, test, views, *object, told.back(), draw).value_or(told.back()));
+    hand_.after.push_back(timed_cut(session, request_of_clicks(hand_.clicks), setup.settings, within));
+    return CutAnswer{hand_.after.back().result.labels, {}};
+  };
+  const auto picture = [&](const Camera& camera, const std::vector<std::uint8_t>& labels) {
+    return labels_seen(test, camera, labels);
+  };
+  any_view_session({views, answer, picture}, *start, kClicks, {.draw = cell.draw}, job);
+}
+
+void StudyRunner::say_by_hand(const StudyCell& cell, const Job& job, Setup* setup) {
+  const std::string scene = fmt::format("{} {} {}", cell.scene_scale, cell.hidden, cell.up_tilt_deg);
+  if (std::exchange(session_key_, scene) != scene) session_.emplace(session_of(setup->test));
+  if (const std::string key = hand_of(cell); hand_.key != key) {
+    hand_ = {key, {}, {}};
+    watch_hand(cell, *setup, &*session_, job);
+  }
+  if (job.cancelled() || hand_.after.empty()) return;
+  const std::size_t told = std::min(static_cast<std::size_t>(cell.clicks), hand_.after.size());
+  ViewClicks clicks(hand_.clicks.begin(), hand_.clicks.begin() + static_cast<std::ptrdiff_t>(told));
+  if (cell.reordered) reorder(cell.draw, &clicks);
+  setup->answer = cell.reordered ? timed_cut(&*session_, request_of_clicks(clicks), setup->settings, job)
+                                 : hand_.after[told - 1];
 }
 
 std::unique_ptr<StudyRunner::Setup> StudyRunner::set_up(const StudyCell& cell, const Job& job) {
@@ -186,19 +232,25 @@ std::unique_ptr<StudyRunner::Setup> StudyRunner::set_up(const StudyCell& cell, c
   EvaluationCase& test = setup->test = loaded_->test;
   if (job.cancelled() || !can_run(cell, test)) return nullptr;
   change_scene(cell, &test);
-  if (cell.step_back != 1) step_back(&test, static_cast<float>(cell.step_back));
-  if (cell.object_share > 0) fill_picture(&test, cell.object_share);
-  if (cell.score_scale != 1) resize_tests(&test, cell.score_scale);
+  const bool by_hand = cell.draw > 0 && cell.masks == 0;
+  if (by_hand) resize_tests(&test, cell.picture_scale);
   test.up_world = tilted(test.up_world, test.reference, cell.up_tilt_deg);
-  if (!job.cancelled()) say(cell, job, setup.get());
+  if (job.cancelled()) return nullptr;
+  if (by_hand) {
+    say_by_hand(cell, job, setup.get());
+    if (!setup->answer) return nullptr;
+  } else if (cell.masks > 0) {
+    setup->request = request_of_masks(test, cell);
+  } else {
+    say(cell, job, setup.get());
+  }
   return job.cancelled() ? nullptr : std::move(setup);
 }
 
-StudyRunner::Timed StudyRunner::cut(const Setup& setup, const Job& job) const {
+TimedCut StudyRunner::cut(const Setup& setup, const Job& job) const {
+  if (setup.answer) return *setup.answer;
   Session session = session_of(setup.test);
-  const std::clock_t start = std::clock();
-  CutResult result = session.cut(setup.request, setup.settings, job);
-  return {std::move(result), 1000.0 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC};
+  return timed_cut(&session, setup.request, setup.settings, job);
 }
 
 // Many draws end in the same labels: they are drawn and measured once.
@@ -206,7 +258,7 @@ ImageScore StudyRunner::score_of(const StudyCell& cell, const EvaluationCase& te
                                  const std::vector<std::uint8_t>& labels) {
   Hasher key;
   for (const double changed :
-       {cell.scene_scale, cell.hidden, cell.step_back, cell.object_share, cell.score_scale})
+       {cell.scene_scale, cell.hidden, static_cast<double>(test.test_views[0].width_px)})
     key.number(changed);
   key.add(std::span(labels));
   const auto found = scores_.find(key.value());
@@ -215,12 +267,10 @@ ImageScore StudyRunner::score_of(const StudyCell& cell, const EvaluationCase& te
 }
 
 nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
-  auto setup = set_up(cell, job);
+  const auto setup = set_up(cell, job);
   if (!setup) return nullptr;
   if (std::exchange(first_, false)) {  // what a scene's first cut prepares is no setting's cost
     cut(*setup, job);
-    setup = set_up(cell, job);  // its masks are asked for anew
-    if (!setup) return nullptr;
   }
   const EvaluationCase& test = setup->test;
   const auto [report, cpu_ms] = cut(*setup, job);

@@ -8,9 +8,15 @@
 
 #include "app/lab/eval_suite.h"
 #include "app/lab/study/study_cell.h"
+#include "app/measure/any_view.h"
 #include "scene/raster/projected_view.h"
 
 namespace splatcut {
+
+struct TimedCut {
+  CutResult result;
+  double cpu_ms = 0;  // of all threads, from the strokes to the labels
+};
 
 class StudyRunner {
  public:
@@ -18,8 +24,8 @@ class StudyRunner {
   StudyRunner(nlohmann::json entry, std::filesystem::path folder, PreparedCache cache);
 
   // What was measured, with the scene's name and the cell's settings; null where the scene cannot be asked
-  // this (photographs without true labels), or where the job was cancelled. "warned": what the program tells
-  // its user, in words, or empty.
+  // this (photographs without true labels, a first click that nobody can make from there), or where the job
+  // was cancelled. "warned": what the program tells its user, in words, or empty.
   nlohmann::json run(const StudyCell& cell, const Job& job);
 
   // For a look at what failed: the cell's cutout in the view asked from (or, of photographs, in the first
@@ -30,7 +36,14 @@ class StudyRunner {
   struct Setup {
     EvaluationCase test;
     CutSettings settings;
-    CutRequest request;  // its mask source refers to `test`
+    CutRequest request;
+    std::optional<TimedCut> answer;  // where it is known already
+  };
+  // What the last unsteady hand did, and what came of each click.
+  struct Hand {
+    std::string key;
+    ViewClicks clicks;
+    std::vector<TimedCut> after;
   };
   // The scene in other units, or with a board in it.
   struct Variant {
@@ -40,15 +53,13 @@ class StudyRunner {
   };
   ImageScore score_of(const StudyCell& cell, const EvaluationCase& test,
                       const std::vector<std::uint8_t>& labels);
-  struct Timed {
-    CutResult result;
-    double cpu_ms = 0;  // of all threads, from the strokes to the labels
-  };
-  Timed cut(const Setup& setup, const Job& job) const;
+  TimedCut cut(const Setup& setup, const Job& job) const;
   void load(const Job& job);
-  // Null where the scene cannot be asked this, or the job was cancelled. The cell must outlive it.
+  // Null where the scene cannot be asked this, or the job was cancelled.
   std::unique_ptr<Setup> set_up(const StudyCell& cell, const Job& job);
   void say(const StudyCell& cell, const Job& job, Setup* setup) const;
+  void say_by_hand(const StudyCell& cell, const Job& job, Setup* setup);
+  void watch_hand(const StudyCell& cell, const Setup& setup, Session* session, const Job& job);
   void change_scene(const StudyCell& cell, EvaluationCase* test);
 
   nlohmann::json entry_;
@@ -59,7 +70,10 @@ class StudyRunner {
   std::optional<KeptViews>
       measured_views_;  // of the scene as it was loaded; cuts, which are timed, have their own
   std::map<std::uint64_t, ImageScore> scores_;
-  bool first_ = true;  // nothing was cut yet
+  Hand hand_;
+  std::string session_key_;         // what the scene of that session was
+  std::optional<Session> session_;  // of unsteady hands
+  bool first_ = true;               // nothing was cut yet
 };
 
 }  // namespace splatcut

@@ -15,8 +15,7 @@ namespace splatcut {
 struct HardStillLife {
   std::string name;
   StillLifeOptions options;
-  double thin_width = 0;  // one of the series of thin parts, or 0
-  bool quick = true;      // part of --quick
+  bool quick = true;  // part of --quick
 };
 const std::vector<HardStillLife>& hard_still_lifes();
 

@@ -22,10 +22,20 @@ struct Group {
   int with_labels = 0;
 };
 
-void add(const nlohmann::json& r, Group* group) {
+// Below that image IoU a cutout of the scene fails.
+std::map<std::string, double> limits_of(const StudyResults& results) {
+  std::map<std::string, double> limits;
+  for (const nlohmann::json& r : results) {
+    double& limit = limits[r.at("scene")];
+    limit = std::clamp(r.at("image_iou").get<double>() - kNearBest, limit, kFails);
+  }
+  return limits;
+}
+
+void add(const nlohmann::json& r, double limit, Group* group) {
   SettingScore& s = group->score;
   const double iou = r.at("image_iou");
-  const bool failed = iou < kFails, warned = !r.at("warned").get<std::string>().empty();
+  const bool failed = iou < limit, warned = !r.at("warned").get<std::string>().empty();
   s.iou += iou;
   s.boundary += r.at("boundary_iou").get<double>();
   if (r.at("gaussian_iou").is_number()) {
@@ -52,7 +62,6 @@ SettingScore finished(Group g) {
   s.least = quantile(g.iou, 0);
   s.p10 = quantile(g.iou, 0.1);
   s.median = quantile(g.iou, 0.5);
-  s.p90 = quantile(g.iou, 0.9);
   return std::move(s);
 }
 
@@ -65,6 +74,15 @@ StudyResults of_experiment(const StudyResults& all, const std::string& experimen
   return some;
 }
 
+StudyResults failing(const StudyResults& of_one_experiment) {
+  StudyResults some;
+  const auto limits = limits_of(of_one_experiment);
+  std::ranges::copy_if(of_one_experiment, std::back_inserter(some), [&](const nlohmann::json& r) {
+    return r.at("image_iou").get<double>() < limits.at(r.at("scene"));
+  });
+  return some;
+}
+
 double quantile(std::vector<double> values, double share) {
   std::ranges::sort(values);
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
@@ -73,6 +91,7 @@ double quantile(std::vector<double> values, double share) {
 
 std::vector<SettingScore> scores_of(const StudyResults& results) {
   std::vector<Group> groups;
+  const auto limits = limits_of(results);
   for (const nlohmann::json& r : results) {
     const std::string label = label_of(r), series = r.at("series");
     const double x = r.at("x");
@@ -86,7 +105,7 @@ std::vector<SettingScore> scores_of(const StudyResults& results) {
       it->score.label = label;
       it->score.x = x;
     }
-    add(r, &*it);
+    add(r, limits.at(r.at("scene")), &*it);
   }
   std::vector<SettingScore> scores;
   for (Group& g : groups) scores.push_back(finished(std::move(g)));

@@ -7,7 +7,6 @@
 
 #include "scene/raster/rasterizer.h"
 #include "segment/masks/mask_tools.h"
-#include "segment/superpoints/orbit.h"
 
 namespace splatcut {
 
@@ -43,6 +42,17 @@ float nearest_depth(const Image<float>& depth, const Mask& object) {
   return nearest;
 }
 
+// In a small picture of the view.
+float depth_at(const GaussianCloud& cloud, const Camera& camera, const glm::vec2& pixel) {
+  const Camera small = limited_to_width(camera, kLookWidthPx);
+  const float scale = static_cast<float>(small.width_px) / static_cast<float>(camera.width_px);
+  RasterOptions options;
+  options.depth = true;
+  return rasterize(cloud, small, options)
+      .median_depth.at(std::min(small.width_px - 1, static_cast<int>(scale * pixel.x)),
+                       std::min(small.height_px - 1, static_cast<int>(scale * pixel.y)));
+}
+
 void add_disc(const glm::vec3& at, float radius, const glm::quat& facing, GaussianCloud* cloud) {
   constexpr float kOpacity = 0.99f;
   const std::uint32_t row = static_cast<std::uint32_t>(cloud->size());
@@ -74,9 +84,10 @@ EvaluationCase rescaled(EvaluationCase test, float scale) {
 
 GaussianCloud with_board(const EvaluationCase& test, double hidden_share) {
   GaussianCloud cloud = *test.cloud;
+  if (hidden_share <= 0) return cloud;
   const Camera camera = limited_to_width(test.reference, kLookWidthPx);
   const Mask object = labels_seen(test, camera, test.truth_labels);
-  if (hidden_share <= 0 || count(object) == 0) return cloud;
+  if (count(object) == 0) return cloud;
   constexpr float kNearness = 0.6f, kStepPx = 4,
                   kOverlap = 0.75f;  // standard deviation over the discs' distance
   RasterOptions options;
@@ -92,29 +103,35 @@ GaussianCloud with_board(const EvaluationCase& test, double hidden_share) {
   return cloud;
 }
 
-void step_back(EvaluationCase* test, float factor) {
-  const ObjectExtent object = object_extent(*test->cloud, test->truth_labels);
-  test->reference = approached(test->reference, object.centre_world, factor);
-  test->reference_truth = labels_seen(*test, test->reference, test->truth_labels);
+std::optional<glm::vec3> clicked_point(const GaussianCloud& cloud, const ViewClick& click) {
+  const glm::vec2 pixel = click.stroke.points_px.front();
+  const float z = depth_at(cloud, click.camera, pixel);
+  return z > 0 ? std::optional(click.camera.world_from_pixel(pixel, z)) : std::nullopt;
 }
 
-void fill_picture(EvaluationCase* test, double share) {
-  Camera& camera = test->reference;
-  const std::string name = camera.name;
-  const glm::vec3 centre = object_extent(*test->cloud, test->truth_labels).centre_world;
-  float focal_px = camera.fy_px;
-  constexpr int kTries = 4;  // the area grows with the focal length's square, but for the picture's edge
-  for (int i = 0; i < kTries; ++i) {
-    const float height = static_cast<float>(camera.height_px);
-    camera = look_at(camera.centre_world(), centre, -test->reference.down_world(),
-                     2 * std::atan(0.5f * height / focal_px), camera.width_px, camera.height_px);
-    const double now =
-        share_of(labels_seen(*test, limited_to_width(camera, kLookWidthPx), test->truth_labels));
-    if (i + 1 == kTries || now <= 0) break;
-    focal_px = std::clamp(focal_px * static_cast<float>(std::sqrt(share / now)), 0.2f * height, 60 * height);
-  }
-  camera.name = name;
-  test->reference_truth = labels_seen(*test, camera, test->truth_labels);
+std::optional<ViewClick> clicked_from(const Camera& other, const GaussianCloud& cloud,
+                                      const ViewClick& click) {
+  constexpr float kSameThing = 0.2f;  // of the depth
+  const auto point = clicked_point(cloud, click);
+  if (!point) return std::nullopt;
+  const glm::vec3 there = other.camera_from_world(*point);
+  if (!(there.z > 0)) return std::nullopt;
+  const glm::vec2 pixel = other.pixel_from_camera(there);
+  const bool inside = pixel.x >= 0 && pixel.y >= 0 && pixel.x < static_cast<float>(other.width_px) &&
+                      pixel.y < static_cast<float>(other.height_px);
+  if (!inside || std::abs(depth_at(cloud, other, pixel) / there.z - 1) > kSameThing) return std::nullopt;
+  return ViewClick{other, splatcut::click(pixel, click.stroke.label)};
+}
+
+Camera framed(const Camera& camera, const glm::vec3& point_world, const Mask& object, double share) {
+  const float height = static_cast<float>(camera.height_px);
+  const float focal_px =
+      std::clamp(camera.fy_px * static_cast<float>(std::sqrt(share / std::max(1e-6, share_of(object)))),
+                 0.2f * height, 60 * height);
+  Camera turned = look_at(camera.centre_world(), point_world, -camera.down_world(),
+                          2 * std::atan(0.5f * height / focal_px), camera.width_px, camera.height_px);
+  turned.name = camera.name;
+  return turned;
 }
 
 void resize_tests(EvaluationCase* test, double factor) {

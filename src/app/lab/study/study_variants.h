@@ -1,7 +1,9 @@
 // What the study does to a scene and to its first view before it asks.
 #pragma once
 
-#include "app/measure/evaluate.h"
+#include <optional>
+
+#include "app/measure/any_view.h"
 #include "scene/cloud/gaussian_cloud.h"
 
 namespace splatcut {
@@ -14,12 +16,16 @@ EvaluationCase rescaled(EvaluationCase test, float scale);
 // pixels from the left. cloud: test's, copied; the board's Gaussians come last.
 GaussianCloud with_board(const EvaluationCase& test, double hidden_share);
 
-// Moves the reference to `factor` of its distance from the object.
-void step_back(EvaluationCase* test, float factor);
+// What the click hits; none where that is nothing.
+std::optional<glm::vec3> clicked_point(const GaussianCloud& cloud, const ViewClick& click);
 
-// Turns the reference to the object and sets its focal length so that the object covers about that share of
-// the picture; less where the frame would cut it off first.
-void fill_picture(EvaluationCase* test, double share);
+// The click on the same surface in another view; none where that does not see it.
+std::optional<ViewClick> clicked_from(const Camera& other, const GaussianCloud& cloud,
+                                      const ViewClick& click);
+
+// Turned to the point, with the focal length by which the object, whose mask in `camera` is given, covers
+// about that share of the picture.
+Camera framed(const Camera& camera, const glm::vec3& point_world, const Mask& object, double share);
 
 // Test pictures and their truth, `factor` times as wide.
 void resize_tests(EvaluationCase* test, double factor);
