@@ -91,23 +91,24 @@ std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& 
                                     std::size_t gaussians);
 
 // All that other objects have, but for parts of this one and wholes that it is a part of; null: nothing.
-// these: the others that count, empty: all.
+// only: the one that counts, 0: all.
 Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
-                    std::span<const ObjectId> these = {});
+                    ObjectId only = 0);
 
 // Sets ObjectItem::of_others, with nothing on its way. What hands took of that is left to the others, too;
 // what hands had taken of what was left before is the object's again.
 void set_of_others(ObjectItem* object, Flags of_others);
 // Sets it to all that other objects have, and have on their way.
 void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians);
-// The object with what the objects `came`, of its `leaves_also`, have now. hits: for each of its strokes, see
-// is_made_on(): a stroke that is made on that takes it.
+// The object with what the objects `came`, of its `leaves_also`, have now. hits: of each of its strokes; one
+// that means one of these takes it.
 ObjectItem left_what_came(const Document& document, const ObjectItem& object, std::span<const ObjectId> came,
                           std::span<const std::vector<std::int32_t>> hits, std::size_t gaussians);
 
-// Whether a stroke that hits these Gaussians means what has the flags: more than half of them do. Null: no
-// flags.
-bool is_made_on(const Flags& flags, std::span<const std::int32_t> hits);
+// Whether a stroke that hits these Gaussians means what the object leaves to one of the others: that has more
+// than half of them.
+bool means_what_is_left(const Document& document, const ObjectItem& object,
+                        std::span<const std::int32_t> hits, std::size_t gaussians);
 
 // Sets hand marks so that the final labels become `labels`.
 void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels);

@@ -72,7 +72,7 @@ void settle_with_others(Document* document, ObjectItem* object, std::span<const 
                 base_colour(context.cloud, static_cast<std::size_t>(hits[hits.size() / 2])));
     leave_to_others(*document, object, context.cloud.size());
   }
-  if (is_made_on(object->of_others, hits)) set_of_others(object, nullptr);
+  if (means_what_is_left(*document, *object, hits, context.cloud.size())) set_of_others(object, nullptr);
 }
 
 // Where the next stroke goes: strokes stay in order, so another view in between starts a new entry.

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hands.h"
+#include "synthetic_cloud.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -73,6 +74,40 @@ TEST_CASE("others: an object begun by a box leaves to the others what they have,
   studio.apply(LeaveToOthers{right, false});
   hands.settle();
   CHECK(2 * shared(hands.labels(right), left) > count_flags(left));  // the box takes it without
+}
+
+TEST_CASE("others: a box that two others fill together, neither of them by more than half, leaves both out") {
+  constexpr std::size_t kCount = 10;
+  const GaussianCloud cloud = random_cloud(kCount, 1, 0);
+  const EditContext context{cloud};
+  Document document;
+  const auto has = [&](std::size_t from, std::size_t to) {
+    Labels labels(kCount, 0);
+    std::fill(labels.begin() + static_cast<std::ptrdiff_t>(from),
+              labels.begin() + static_cast<std::ptrdiff_t>(to), std::uint8_t{1});
+    set_labels(&document, &add_object(&document), labels);
+  };
+  has(0, 4);
+  has(4, 7);
+  add_object(&document);
+  AddBox box{look_at({0, 0, -5}, {0, 0, 0}, {0, -1, 0}, 1, 100, 100), {10, 10}, {90, 90}};
+  box.hits = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  Document boxed = document;
+  edit(&boxed, box, context);
+  REQUIRE(boxed.active_object()->of_others);
+  CHECK(count_flags(*boxed.active_object()->of_others) == 7);
+  box.hits = {0, 1, 2, 3, 4, 5, 9};  // the first alone has more than half
+  boxed = document;
+  edit(&boxed, box, context);
+  CHECK_FALSE(boxed.active_object()->of_others);
+  // A later one means what was left, also where nobody has it any more.
+  box.hits = {7, 8, 9};
+  boxed = document;
+  edit(&boxed, box, context);
+  edit(&boxed, RemoveObject{1}, context);
+  box.hits = {0, 1, 2, 7, 8};
+  edit(&boxed, box, context);
+  CHECK_FALSE(boxed.active_object()->of_others);
 }
 
 TEST_CASE("others: what another object gets while this one is begun is left to it, too") {
