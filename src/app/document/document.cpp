@@ -187,23 +187,23 @@ bool means_what_is_left(const Document& document, const ObjectItem& object,
 }
 
 ObjectItem left_what_came(const Document& document, const ObjectItem& object, std::span<const ObjectId> came,
-                          std::span<const std::vector<std::int32_t>> hits, std::size_t gaussians) {
+                          const HitsOfStrokes& hits, std::size_t gaussians) {
   ObjectItem out = object;
   std::erase_if(out.leaves_also, [&](ObjectId id) { return std::ranges::find(came, id) != came.end(); });
-  std::vector<std::uint8_t> all(gaussians, 0);  // hand marks are younger than that, and count
-  if (out.of_others) all = *out.of_others;
-  bool any = false;
-  for (const ObjectId id : came) {
-    const Flags had = had_by_others(document, object, gaussians, id);
-    if (!had) continue;
-    any = true;
-    if (std::ranges::any_of(hits, [&](const auto& of_stroke) { return is_made_on(had, of_stroke); })) {
+  std::vector<Flags> had;
+  for (const ObjectId id : came)
+    if (Flags of_one = had_by_others(document, object, gaussians, id)) had.push_back(std::move(of_one));
+  if (had.empty()) return out;
+  for (const std::vector<std::int32_t>& of_stroke : hits())
+    if (std::ranges::any_of(had, [&](const Flags& of_one) { return is_made_on(of_one, of_stroke); })) {
       set_of_others(&out, nullptr);
       return out;
     }
-    for (std::size_t g = 0; g < gaussians; ++g) all[g] |= (*had)[g];
-  }
-  if (any) out.of_others = make_flags(std::move(all));
+  std::vector<std::uint8_t> all(gaussians, 0);  // hand marks are younger than that, and count
+  if (out.of_others) all = *out.of_others;
+  for (const Flags& of_one : had)
+    for (std::size_t g = 0; g < gaussians; ++g) all[g] |= (*of_one)[g];
+  out.of_others = make_flags(std::move(all));
   return out;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
@@ -100,10 +101,11 @@ Flags had_by_others(const Document& document, const ObjectItem& object, std::siz
 void set_of_others(ObjectItem* object, Flags of_others);
 // Sets it to all that other objects have, and have on their way.
 void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians);
-// The object with what the objects `came`, of its `leaves_also`, have now. hits: of each of its strokes; one
-// that means one of these takes it.
+// The object with what the objects `came`, of its `leaves_also`, have now. hits: asked for the Gaussians that
+// each of its strokes hits where they have anything; a stroke that means one of these objects takes it.
+using HitsOfStrokes = std::function<std::vector<std::vector<std::int32_t>>()>;
 ObjectItem left_what_came(const Document& document, const ObjectItem& object, std::span<const ObjectId> came,
-                          std::span<const std::vector<std::int32_t>> hits, std::size_t gaussians);
+                          const HitsOfStrokes& hits, std::size_t gaussians);
 
 // Whether a stroke that hits these Gaussians means what the object leaves to one of the others: that has more
 // than half of them.

@@ -121,6 +121,11 @@ bool shows(const Backdrop& backdrop, const Document& document, const ViewState& 
   return std::max({d.r, d.g, d.b}) < kSame;
 }
 
+bool asks_what_is_hit(const Document& document, const EditContext& context) {
+  const ObjectItem* object = document.active_object();
+  return !object || object->of_others || begins(document, *object, context);
+}
+
 std::string edit(Document* document, const AddStroke& command, const EditContext& context) {
   if (command.stroke.points_px.empty()) throw Error("stroke", "it has no points");
   ObjectItem& object = stroked(document);

@@ -23,6 +23,10 @@ bool shows(const Backdrop& backdrop, const Document& document, const ViewState& 
 std::string edit_selection(Document* document, const Selection& region, SetOperation operation,
                            const EditContext& context);
 
+// Whether it matters what a stroke that marks the active object is made on: it begins the object, or the
+// object leaves something to others.
+bool asks_what_is_hit(const Document& document, const EditContext& context);
+
 // Gaussians whose labels a stroke changes, where the cut alone gives the active object `before` without it
 // and `after` it with it.
 Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<std::uint8_t> before,

@@ -69,7 +69,8 @@ void Clicks::perform(const AddStroke& c) {
     throw Error("click", "there is nothing in that place", "Click on something that can be seen");
   const std::string held = already_so(c);
   AddStroke made = c;
-  made.hits = viewport_.hit_by({c.camera, c.stroke, c.seen});
+  if (c.stroke.label == SeedLabel::kObject && asks_what_is_hit(ws_.document(), ws_.context()))
+    made.hits = viewport_.hit_by({c.camera, c.stroke, c.seen});
   Document after = ws_.document();
   const std::string message = edit(&after, made, ws_.context());
   const bool adds = c.stroke.label == SeedLabel::kObject && same_camera(c.camera, viewport_.pane_camera());
@@ -254,11 +255,7 @@ void Clicks::leave_what_came() {
     for (const ObjectId id : object.leaves_also)
       if (const ObjectItem* other = document.find(id); !other || !cuts_.comes(*other)) came.push_back(id);
     if (came.empty()) continue;
-    std::vector<std::vector<std::int32_t>> hits;
-    for (const StrokedView& view : object.views)
-      for (const Stroke& stroke : view.strokes)
-        if (stroke.label == SeedLabel::kObject)
-          hits.push_back(viewport_.hit_by({view.camera, stroke, view.seen}));
+    const auto hits = [&] { return hits_of(object, viewport_.drawn_part()); };
     const ObjectItem before = object, after = left_what_came(document, object, came, hits, ws_.gaussians());
     return ws_.history.change_all([&](Document* state) {
       ObjectItem* same = state->find(before.id);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/document/stroke_hits.h"
 #include "app/picture/camera_controller.h"
 #include "app/picture/frame_thread.h"
 #include "app/picture/styles.h"
@@ -103,11 +104,11 @@ class Viewport {
   glm::vec3 looked_at_world() const;
   // Picks the surface under a pixel of any camera. visible: flags of the Gaussians that count; null: all.
   std::optional<PickedPoint> hit_in(const Camera& camera, const glm::vec2& pixel, const Flags& visible) const;
-  // Gaussians that a stroke is made on: the one under its first point; of a box those that show in it, one a
-  // pixel of a small picture.
+  // hits_of(), from the last picture where that shows this view.
   std::vector<std::int32_t> hit_by(const CameraStroke& stroke) const;
   // Opacity and depth of a part of the picture that any camera shows of the visible Gaussians.
   RasterOutput drawn(const Camera& camera, const PixelRect& part, const Flags& visible) const;
+  DrawnPart drawn_part() const;  // the same, for hits_of()
   // Camera z of the surface under a pixel, scene units, from the last picture; none: unknown. While the view
   // moves, the picture lags behind, and so does the answer.
   std::optional<float> depth_on_screen(const glm::vec2& pixel) const;
