@@ -302,7 +302,8 @@ std::optional<PickedPoint> Viewport::hit_in(const Camera& camera, const glm::vec
 
 std::vector<std::int32_t> Viewport::hit_by(const CameraStroke& s) const {
   const bool is_dot = !s.stroke.points_px.empty() && !s.stroke.is_box();
-  if (!is_dot || !same_camera(s.camera, pane_camera())) return hits_of(s, drawn_part());
+  if (!is_dot || !same_camera(s.camera, pane_camera()) || !same_set(s.seen, seen(pressed_pane())))
+    return hits_of(s, drawn_part());
   const auto hit = pick(s.stroke.points_px.front());
   return hit ? std::vector{hit->gaussian} : std::vector<std::int32_t>();
 }

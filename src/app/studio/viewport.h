@@ -104,7 +104,7 @@ class Viewport {
   glm::vec3 looked_at_world() const;
   // Picks the surface under a pixel of any camera. visible: flags of the Gaussians that count; null: all.
   std::optional<PickedPoint> hit_in(const Camera& camera, const glm::vec2& pixel, const Flags& visible) const;
-  // hits_of(), from the last picture where that shows this view.
+  // hits_of(), from the last picture where that shows this view and these Gaussians.
   std::vector<std::int32_t> hit_by(const CameraStroke& stroke) const;
   // Opacity and depth of a part of the picture that any camera shows of the visible Gaussians.
   RasterOutput drawn(const Camera& camera, const PixelRect& part, const Flags& visible) const;
