@@ -29,7 +29,8 @@ std::vector<std::vector<std::int32_t>> hits_of(const ObjectItem& object, const D
   std::vector<std::vector<std::int32_t>> hits;
   for (const StrokedView& view : object.views)
     for (const Stroke& stroke : view.strokes)
-      if (stroke.label == SeedLabel::kObject) hits.push_back(hits_of({view.camera, stroke, view.seen}, drawn));
+      if (stroke.label == SeedLabel::kObject)
+        hits.push_back(hits_of({view.camera, stroke, view.seen}, drawn));
   return hits;
 }
 

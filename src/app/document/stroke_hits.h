@@ -10,7 +10,8 @@
 namespace splatcut {
 
 // Draws a part of the picture that a camera shows of the visible Gaussians (null: all), with its first hits.
-using DrawnPart = std::function<RasterOutput(const Camera& camera, const PixelRect& part, const Flags& visible)>;
+using DrawnPart =
+    std::function<RasterOutput(const Camera& camera, const PixelRect& part, const Flags& visible)>;
 
 // Gaussians that a stroke is made on: the one under its first point; of a box those that show in it, one a
 // pixel of a small picture.

@@ -246,25 +246,44 @@ void Clicks::show_hover(const Flags& change, bool rest) {
   viewport_.highlight(change, rest ? kRemoves : kAdds);
 }
 
-// What objects get whose cut was on its way when another was begun is left to them, too, in every state of
-// the history in which the other waits for it.
+// What objects get whose cut was on its way when another was begun is left to them, too. One that is gone
+// now, or whose cut was given up, may still come.
 void Clicks::leave_what_came() {
   const Document& document = ws_.document();
   for (const ObjectItem& object : document.objects) {
     std::vector<ObjectId> came;
     for (const ObjectId id : object.leaves_also)
-      if (const ObjectItem* other = document.find(id); !other || !cuts_.comes(*other)) came.push_back(id);
+      if (const ObjectItem* other = document.find(id);
+          other && !is_stale(*other, ws_.history.keys(*other).cut))
+        came.push_back(id);
     if (came.empty()) continue;
     const auto hits = [&] { return hits_of(object, viewport_.drawn_part()); };
-    const ObjectItem before = object, after = left_what_came(document, object, came, hits, ws_.gaussians());
-    return ws_.history.change_all([&](Document* state) {
-      ObjectItem* same = state->find(before.id);
-      if (!same || same->leaves_also != before.leaves_also || same->of_others != before.of_others) return;
-      same->leaves_also = after.leaves_also;
-      same->of_others = after.of_others;
-      if (same->hand == before.hand) same->hand = after.hand;
-    });
+    return leave_in_history(object, left_what_came(document, object, came, hits, ws_.gaussians()), came);
   }
+}
+
+// In every state in which the object waits for the same others, and these have what they have now. In others
+// it is done when they become the present one.
+void Clicks::leave_in_history(const ObjectItem before, const ObjectItem& after,
+                              std::span<const ObjectId> came) {
+  const Document now = ws_.document();
+  const auto has_the_same = [&](const Document& state, ObjectId id) {
+    const ObjectItem *here = now.find(id), *there = state.find(id);
+    return here && there && there->cut == here->cut && there->hand == here->hand &&
+           there->of_others == here->of_others && there->within == here->within;
+  };
+  ws_.history.change_all([&](Document* state) {
+    ObjectItem* same = state->find(before.id);
+    if (!same || same->leaves_also != before.leaves_also || same->of_others != before.of_others ||
+        !std::ranges::all_of(came, [&](ObjectId id) { return has_the_same(*state, id); }))
+      return;
+    if (same->hand == before.hand)
+      same->hand = after.hand;
+    else if (!after.of_others)
+      set_of_others(same, nullptr);
+    same->leaves_also = after.leaves_also;
+    same->of_others = after.of_others;
+  });
 }
 
 void Clicks::update() {

@@ -143,6 +143,43 @@ TEST_CASE("others: what another object gets while this one is begun is left to i
   CHECK(shared(hands.labels(2), left) > 0);  // it takes that without
 }
 
+TEST_CASE(
+    "others: what an object gets that was removed or given up meanwhile is left to it when it comes after "
+    "all") {
+  Others hands(false);
+  Studio& studio = hands.studio();
+  hands.click(kLeft);
+  hands.click(kRight, SeedLabel::kRest);
+  studio.apply(NewObject{});
+  hands.click(kRight);
+  bool settled = true;  // before it comes
+  SUBCASE("removed, and undone") {
+    studio.apply(RemoveObject{1});
+    settled = hands.app.settle();
+    CHECK(count_flags(hands.labels(2)) > 0);
+    studio.apply(Undo{});
+  }
+  SUBCASE("given up, and computed after all") {
+    hands.app.frame();
+    REQUIRE(studio.cuts().cutting() == 1);
+    studio.apply(Cancel{});
+    settled = hands.app.settle();
+    CHECK(count_flags(hands.labels(1)) == 0);
+    studio.apply(ActivateObject{1});
+    studio.apply(Recompute{});
+  }
+  REQUIRE(settled);
+  hands.settle();
+  const Labels left = hands.labels(1), beside = hands.labels(2);
+  REQUIRE(count_flags(left) > 0);
+  CHECK(count_flags(beside) > 0);
+  CHECK(shared(beside, left) == 0);
+  CHECK(studio.document().find(2)->leaves_also.empty());
+  studio.apply(LeaveToOthers{2, false});
+  hands.settle();
+  CHECK(shared(hands.labels(2), left) > 0);
+}
+
 TEST_CASE("others: an object begun on what another one then gets shares it") {
   Others hands(false);
   Studio& studio = hands.studio();
