@@ -6,6 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/work_cut.h"
+#include "app/work/work_file.h"
 #include "hands.h"
 #include "synthetic_cloud.h"
 
@@ -138,6 +140,10 @@ TEST_CASE("others: what another object gets while this one is begun is left to i
   again.settle();
   CHECK(again.labels(1) == left);
   CHECK(again.labels(2) == beside);
+  const Document computed =
+      computed_again(*scene, restored(read_work_file(folder / "begun.splatcut.json"), *scene).document);
+  CHECK(labels_of(computed, *computed.find(1), left.size()) == left);
+  CHECK(labels_of(computed, *computed.find(2), left.size()) == beside);
   studio.apply(LeaveToOthers{2, false});
   hands.settle();
   CHECK(shared(hands.labels(2), left) > 0);  // it takes that without
@@ -160,7 +166,7 @@ TEST_CASE(
     studio.apply(Undo{});
   }
   SUBCASE("given up, and computed after all") {
-    hands.app.frame();
+    hands.app.frames(1);
     REQUIRE(studio.cuts().cutting() == 1);
     studio.apply(Cancel{});
     settled = hands.app.settle();
@@ -186,10 +192,13 @@ TEST_CASE("others: an object begun on what another one then gets shares it") {
   hands.click(kOnApple);
   studio.apply(NewObject{});
   hands.click(kOnApple + glm::vec2(4, 0));
+  const Document begun = studio.document();
   hands.settle();
   const Labels apple = hands.labels(1);
   REQUIRE(count_flags(apple) > 0);
   CHECK(shared(hands.labels(2), apple) > count_flags(apple) / 2);
+  const Document computed = computed_again(*open_scene(kSmallSample), begun);
+  CHECK(labels_of(computed, *computed.find(2), apple.size()) == hands.labels(2));
 }
 
 TEST_CASE("others: of two objects begun while a third is cut the earlier one leaves nothing to the later") {
