@@ -207,12 +207,18 @@ ObjectItem left_what_came(const Document& document, const ObjectItem& object, st
   return out;
 }
 
-void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels) {
+void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels,
+                std::span<const std::uint8_t> taken_out) {
   const std::vector<std::uint8_t> before = labels_of(*document, *object, labels.size());
   std::vector<std::uint8_t> hand(labels.size(), kFollowCut);
   if (object->hand) hand = *object->hand;
   for (std::size_t g = 0; g < labels.size(); ++g)
     if ((labels[g] != 0) != (before[g] != 0)) hand[g] = labels[g] ? kHandObject : kHandRest;
+  for (std::size_t g = 0; object->of_others && g < taken_out.size(); ++g) {
+    const bool comes_back =
+        hand[g] == kHandLeft || (hand[g] == kFollowCut && object->cut && (*object->cut)[g]);
+    if (taken_out[g] && !labels[g] && (*object->of_others)[g] && comes_back) hand[g] = kHandRest;
+  }
   object->hand = make_flags(std::move(hand));
 }
 

@@ -112,8 +112,10 @@ ObjectItem left_what_came(const Document& document, const ObjectItem& object, st
 bool means_what_is_left(const Document& document, const ObjectItem& object,
                         std::span<const std::int32_t> hits, std::size_t gaussians);
 
-// Sets hand marks so that the final labels become `labels`.
-void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels);
+// Sets hand marks so that the final labels become `labels`. taken_out: Gaussians that hands took out, which
+// the object does not get back from others either; empty: none.
+void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels,
+                std::span<const std::uint8_t> taken_out = {});
 
 // Adds an object with a name and a colour of its own, and makes it active. Throws Error if there are
 // kMostObjects already.

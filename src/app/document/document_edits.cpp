@@ -93,6 +93,12 @@ std::string free_name(const Document& document, const std::string& base) {
   return name;
 }
 
+Selection inverted(const Selection& selection) {
+  Selection out(selection.size());
+  std::ranges::transform(selection, out.begin(), [](std::uint8_t s) { return s ? 0 : 1; });
+  return out;
+}
+
 // Adds an object that holds exactly `labels`, by manual marks and without strokes.
 ObjectItem& add_by_hand(Document* document, const std::string& name,
                         const std::vector<std::uint8_t>& labels) {
@@ -186,7 +192,10 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
   const Selection after = combined(before, region, operation);
   std::size_t changed = 0;
   for (std::size_t g = 0; g < after.size(); ++g) changed += (before[g] != 0) != (after[g] != 0);
-  set_labels(document, &object, after);
+  Selection taken_out = region;
+  if (operation == SetOperation::kAdd) taken_out.clear();
+  if (operation == SetOperation::kIntersect) taken_out = inverted(region);
+  set_labels(document, &object, after, taken_out);
   const char* what = operation == SetOperation::kAdd      ? "added"
                      : operation == SetOperation::kRemove ? "removed"
                                                           : "changed";
@@ -225,7 +234,7 @@ std::string edit(Document* document, const EditSelection& command, const EditCon
     case SelectionEdit::kNone:
       break;
     case SelectionEdit::kInvert:
-      std::ranges::transform(before, after.begin(), [](std::uint8_t l) { return l ? 0 : 1; });
+      after = inverted(before);
       break;
     case SelectionEdit::kGrow:
       after = grown(required_graph(context), before);
@@ -241,7 +250,8 @@ std::string edit(Document* document, const EditSelection& command, const EditCon
           combined(before, floaters(context.cloud, required_graph(context), before), SetOperation::kRemove);
       break;
   }
-  set_labels(document, &object, after);
+  const bool none = command.edit == SelectionEdit::kNone;
+  set_labels(document, &object, after, none ? Selection(n, 1) : Selection());
   if (command.edit == SelectionEdit::kAll)
     return fmt::format("All {} are selected. Ctrl+Z takes it back",
                        gaussians_text(count_flags(labels(*document, object, context))));
@@ -358,7 +368,7 @@ std::string edit(Document* document, const SeparateObject& command, const EditCo
     const Selection before = labels(*document, other, context);
     const Selection after = combined(before, own, SetOperation::kRemove);
     taken += count_flags(before) - count_flags(after);
-    set_labels(document, &other, after);
+    set_labels(document, &other, after, own);
   }
   return fmt::format("{} Gaussians now belong to {} alone", grouped(taken), name);
 }

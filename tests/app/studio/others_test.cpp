@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/work_cut.h"
+#include "app/document/document_edits.h"
 #include "app/work/work_file.h"
 #include "hands.h"
 #include "synthetic_cloud.h"
@@ -269,6 +270,33 @@ TEST_CASE("others: what hands took and left to the others is the object's again 
   CHECK(other.labels(by_hand) == before);
 }
 
+TEST_CASE("others: what hands took out does not come back where what was left to others is given back") {
+  constexpr std::size_t kCount = 6;
+  const GaussianCloud cloud = random_cloud(kCount, 1, 0);
+  const EditContext context{cloud};
+  Document document;
+  set_labels(&document, &add_object(&document), Labels{1, 1, 1, 0, 0, 0});
+  ObjectItem& two = add_object(&document);
+  two.cut = make_flags({1, 0, 1, 1, 0, 0});
+  set_labels(&document, &two, Labels{1, 1, 1, 1, 1, 0});
+  edit(&document, LeaveToOthers{2, true}, context);
+  REQUIRE(labels_of(document, two, kCount) == Labels{0, 0, 0, 1, 1, 0});
+  const auto given_back = [&](Document then) {
+    edit(&then, LeaveToOthers{2, false}, context);
+    return labels_of(then, *then.find(2), kCount);
+  };
+  CHECK(given_back(document) == Labels{1, 1, 1, 1, 1, 0});
+  Document none = document, removed = document, kept = document, separate = document;
+  edit(&none, EditSelection{SelectionEdit::kNone}, context);
+  CHECK(given_back(none) == Labels(kCount, 0));
+  edit_selection(&removed, Labels{1, 1, 0, 1, 0, 0}, SetOperation::kRemove, context);
+  CHECK(given_back(removed) == Labels{0, 0, 1, 0, 1, 0});
+  edit_selection(&kept, Labels{0, 1, 1, 1, 0, 0}, SetOperation::kIntersect, context);
+  CHECK(given_back(kept) == Labels{0, 1, 1, 1, 0, 0});
+  edit(&separate, SeparateObject{1}, context);
+  CHECK(given_back(separate) == Labels{0, 0, 0, 1, 1, 0});
+}
+
 TEST_CASE("others: work says by its version that it holds what is left to others, and older work opens") {
   const ScratchFolder folder("work_version");
   const auto file = folder / "two.splatcut.json";
@@ -285,8 +313,9 @@ TEST_CASE("others: work says by its version that it holds what is left to others
   const RestoredWork read = restored(read_work_file(file), *scene);
   REQUIRE(read.document.find(2)->of_others);
   CHECK(*read.document.find(2)->of_others == some);
-  work["splatcut_work"] = 7;
-  work["objects"][1].erase("of_others");
+  work["splatcut_work"] = 7;  // as it was written by the program before that number
   std::ofstream(file) << work;
-  CHECK_FALSE(restored(read_work_file(file), *scene).document.find(2)->of_others);
+  const RestoredWork older = restored(read_work_file(file), *scene);
+  REQUIRE(older.document.find(2)->of_others);
+  CHECK(*older.document.find(2)->of_others == some);
 }
