@@ -396,6 +396,24 @@ TEST_CASE(
   CHECK(hands.said().find("gone.ply") != std::string::npos);
 }
 
+TEST_CASE(
+    "several scenes: saved work among those opened together is refused in words, also where none opens") {
+  const ScratchFolder folder("several_work");
+  const auto work = folder / "my.splatcut.json";
+  const auto scene = open_scene(kSmallSample);
+  write_work_file(work, *scene, Document{});
+  Hands hands(false);
+  hands.studio().apply(OpenScene{folder / "gone.ply", {}, {work}});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.said().find("my.splatcut.json: is saved work, not a scene") != std::string::npos);
+  CHECK(hands.said().find("gone.ply") != std::string::npos);
+  const auto a = small_scene(folder, "a.ply");
+  hands.studio().apply(OpenScene{folder / "gone.ply", {}, {work, a}});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().scene()->files.front().path == a);
+  CHECK(hands.said().find("my.splatcut.json: is saved work, not a scene") != std::string::npos);
+}
+
 TEST_CASE("several scenes: beside a thing that stands alone others stand on its ground, and all are seen") {
   const ScratchFolder folder("several_alone");
   const auto thing = [&](const char* name, const glm::vec3& size) {
