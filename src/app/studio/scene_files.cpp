@@ -185,7 +185,7 @@ void SceneFiles::change_files(std::vector<SceneSource> files, const std::string&
         return std::ranges::count(files, file.id, &SceneSource::id) > 0 && !scene->file(file.id);
       });
       if (!none_came) return carry_document(scene, said);
-      changing_to_.clear();
+      if (same_files(changing_to_, scene->files)) changing_to_.clear();  // else another change is under way
       say_refused(said.refused);
     });
   });
