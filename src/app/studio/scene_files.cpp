@@ -101,7 +101,9 @@ void SceneFiles::add_all(const std::vector<std::filesystem::path>& added, std::v
     put_before_view_ = files.back().id;
     names += (names.empty() ? "" : ", ") + scene_name(path);
   }
-  change_files(std::move(files), "Adding " + names, {{}, std::move(refused), row.begins_there});
+  const std::optional<CameraPose> seen_from =
+      row.begins_there ? std::optional(viewport_.camera().goal()) : std::nullopt;
+  change_files(std::move(files), "Adding " + names, {{}, std::move(refused), seen_from});
 }
 
 void SceneFiles::say_refused(const std::vector<std::string>& refused) {
@@ -227,7 +229,7 @@ void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Histor
   ws_.history = std::move(history);
   ws_.history.push_other_files(said.done.substr(0, said.done.find(';')), next_step_++);
   calls_.opened(true);
-  if (said.frames) viewport_.camera().frame_scene();
+  if (said.seen_from == viewport_.camera().goal()) viewport_.show_all_of_scene();
   ws_.say(Message::Kind::kDone, said.done);
   for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
   if (const SceneSource* put = scene->file(std::exchange(put_before_view_, 0)))

@@ -28,7 +28,8 @@ class Viewport {
   // Says whether a GPU draws the splats. If so, pictures are made for picking only, and only when nothing
   // moves.
   void set_gpu_view(bool gpu) { gpu_view_ = gpu; }
-  void reset();         // starts with the workspace's new scene
+  void reset();              // starts with the workspace's new scene
+  void show_all_of_scene();  // from the present direction, with room for the thumbnails
   void change_scene();  // goes on with the workspace's scene, which has other files now; the camera stays
   // Moves the camera, and requests and takes styles and pictures; called once a frame. Returns true while the
   // camera moves by itself.
@@ -115,6 +116,7 @@ class Viewport {
   ToolContext tool_context(const glm::vec2& pixel);
 
  private:
+  void keep_room_for_thumbnails();
   void request_styles();
   void request_picture();
   void take_picture();

@@ -445,7 +445,24 @@ TEST_CASE("several scenes: beside a thing that stands alone others stand on its 
     const glm::vec2 at = camera.pixel_from_camera(camera.camera_from_world(foot_world(file, up)));
     CHECK(at.x > 0);
     CHECK(at.x < static_cast<float>(camera.width_px));
+    const float free_px = static_cast<float>(camera.height_px) - studio.viewport().kept_bottom_px();
+    CHECK(at.y < free_px);  // above the room of the thumbnails
   }
+
+  // A view that was moved while the others were read stays.
+  Hands moved_hands(false);
+  Studio& moved_studio = moved_hands.studio();
+  const std::size_t before = moved_studio.scene()->files.size();
+  REQUIRE(before == 1);
+  moved_studio.apply(OpenScene{files[0].path, {}, {files[1].path, files[2].path}});
+  for (int frame = 0; frame < 10000 && moved_studio.scene()->files[0].path != files[0].path; ++frame)
+    moved_hands.app.frames(1);
+  REQUIRE(moved_studio.scene()->files.size() == 1);
+  moved_studio.camera().orbit({80, 10});
+  const CameraPose pose = moved_studio.camera().goal();
+  REQUIRE(moved_hands.app.settle());
+  CHECK(moved_studio.scene()->files.size() == 3);
+  CHECK(moved_studio.camera().goal() == pose);
 }
 
 TEST_CASE("several scenes: F frames what is placed, and the object that was clicked since") {
