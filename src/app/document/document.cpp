@@ -172,6 +172,7 @@ void leave_to_others(const Document& document, ObjectItem* object, std::size_t g
 bool means_what_is_left(const Document& document, const ObjectItem& object,
                         std::span<const std::int32_t> hits, std::size_t gaussians) {
   if (!is_made_on(object.of_others, hits)) return false;
+  if (hits.size() == 1) return true;                      // whoever has it
   std::vector<std::uint8_t> nobodys = *object.of_others;  // what no other has any more
   for (const ObjectItem& other : document.objects) {
     const Flags had = other.id == object.id ? nullptr : had_by_others(document, object, gaussians, other.id);

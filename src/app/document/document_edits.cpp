@@ -142,8 +142,14 @@ std::string edit(Document* document, const AddStroke& command, const EditContext
   return fmt::format("{} {} {}", dot ? "Click:" : "Scribble:", rest ? "not part of" : "part of", object.name);
 }
 
+Flags left_by_stroke(const Document& document, const EditContext& context) {
+  const ObjectItem* object = document.active_object();
+  if (object && !begins(document, *object, context)) return object->of_others;
+  return had_by_others(document, object ? *object : ObjectItem{}, context.cloud.size());
+}
+
 Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<std::uint8_t> before,
-                 std::vector<std::uint8_t> after, const EditContext& context) {
+                 std::vector<std::uint8_t> after, const Flags& left, const EditContext& context) {
   const auto with_cut = [&](Document now, std::vector<std::uint8_t> cut) {
     ObjectItem* object = now.find(now.active);
     if (!object) return cut;  // nothing is begun yet
@@ -151,7 +157,12 @@ Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<
     return labels(now, *object, context);
   };
   Document stroked_document = document;
-  edit(&stroked_document, stroke, context);
+  ObjectItem& object = target(&stroked_document);
+  if (stroke.stroke.label == SeedLabel::kObject) {
+    if (object.of_others != left) set_of_others(&object, left);
+    if (means_what_is_left(document, object, stroke.hits, context.cloud.size()))
+      set_of_others(&object, nullptr);
+  }
   std::vector<std::uint8_t> change = with_cut(document, std::move(before));
   const std::vector<std::uint8_t> then = with_cut(std::move(stroked_document), std::move(after));
   for (std::size_t g = 0; g < change.size(); ++g) change[g] = change[g] != then[g];

@@ -205,16 +205,20 @@ void Clicks::refresh_hover() {
   ws_.tasks.submit(
       TaskKind::kHover,
       [this, ask = *ask, stroke, session = ws_.session, scene = ws_.scene, document = ws_.document(),
+       left = hover_left_.document == ask->document ? std::optional(hover_left_.left) : std::nullopt,
        request = cut_request(ws_.document(), object ? *object : none),
-       settings = cut_settings(ws_.document(), object ? *object : none)](const Job& job) {
+       settings = cut_settings(ws_.document(), object ? *object : none)](const Job& job) mutable {
         const Session::Preview preview = session->preview(request, stroke, settings, job);
-        if (preview.after.empty()) return;
+        if (preview.after.empty() || job.cancelled()) return;
         const AddStroke click{stroke.camera, stroke.stroke, stroke.seen, {ask.on}};
         const EditContext context{*scene->cloud};
-        ws_.tasks.post(
-            [this, ask, scene, change = changed_by(document, click, preview.before, preview.after, context)] {
-              if (scene == ws_.scene && hover_ && hover_->same_but_pixel(ask)) show_hover(change, ask.rest);
-            });
+        if (!left) left = left_by_stroke(document, context);
+        if (job.cancelled()) return;
+        const Flags change = changed_by(document, click, preview.before, preview.after, *left, context);
+        ws_.tasks.post([this, ask, scene, change, left = *left] {
+          hover_left_ = {ask.document, left};
+          if (scene == ws_.scene && hover_ && hover_->same_but_pixel(ask)) show_hover(change, ask.rest);
+        });
       });
 }
 
