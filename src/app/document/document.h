@@ -26,7 +26,8 @@ Flags make_flags(std::vector<std::uint8_t> values);
 using ObjectId = std::uint32_t;  // id of an object, never used twice in a document; 0: no object
 
 // Mark that the user gave a Gaussian by hand; it overrides the cut. kHandLeft: kHandObject that was left to
-// other objects afterwards, see set_of_others(): it counts as kFollowCut until they give it back.
+// other objects afterwards, see set_of_others(): it counts as kFollowCut until `of_others` no longer holds
+// it.
 enum HandMark : std::uint8_t { kFollowCut = 0, kHandObject = 1, kHandRest = 2, kHandLeft = 3 };
 
 struct ObjectItem {
