@@ -8,6 +8,7 @@
 #include "app/console/console.h"
 #include "app/console/scene_options.h"
 #include "app/window/window.h"
+#include "app/work/work_file.h"
 #include "core/error.h"
 
 namespace splatcut {
@@ -30,8 +31,10 @@ void run_view(ViewArguments args) {
   if (const std::string reason = args.check ? why_no_window() : ""; !reason.empty())
     throw Error("window", "cannot be opened here: " + reason);
   if (args.check) return;
-  // Said here, not in a window that stays empty; one that opens some of the files says it of the others.
-  if (is_missing(args.window.open) && std::ranges::all_of(args.window.added, is_missing))
+  // Said here, not in a window that stays empty; one that opens some of the files says it of the others, but
+  // not where saved work is the first.
+  if (is_missing(args.window.open) &&
+      (is_work_file(args.window.open) || std::ranges::all_of(args.window.added, is_missing)))
     throw Error(args.window.open.string(), "there is no such file or folder");
   args.window.renderer = args.renderer == "gl"    ? RendererChoice::kGl
                          : args.renderer == "cpu" ? RendererChoice::kCpu

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/cli/cutout_files.h"
 #include "app/console/console.h"
 #include "app/console/kept_inputs.h"
 #include "app/console/output_folder.h"
 #include "app/document/export_plan.h"
+#include "app/document/stroke_hits.h"
 #include "app/work/work_file.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -47,18 +50,41 @@ nlohmann::json objects_json(const std::vector<WrittenObject>& objects) {
   return list;
 }
 
+RasterOutput drawn(const OpenedScene& scene, const Camera& camera, const PixelRect& part,
+                   const Flags& visible) {
+  RasterOptions options;
+  options.colour = false;
+  options.depth = true;
+  options.roi = part;
+  options.blocks = scene.blocks.get();
+  if (visible) options.shown = *visible;
+  return rasterize(*scene.cloud, camera, options);
+}
+
+// What the object has now is left to it by those that were begun while its cut was on its way.
+void leave_what_came(const OpenedScene& scene, Document* document, ObjectId came) {
+  const DrawnPart part = [&](const auto&... order) { return drawn(scene, order...); };
+  for (ObjectItem& object : document->objects)
+    if (std::ranges::find(object.leaves_also, came) != object.leaves_also.end())
+      object = left_what_came(
+          *document, object, std::span(&came, 1), [&] { return hits_of(object, part); }, scene.cloud->size());
+}
+
 }  // namespace
 
 Document computed_again(const OpenedScene& scene, Document document, const Job& job,
                         const PreparedCache& cache) {
   Session session = session_on(scene, cache);
   for (ObjectItem& object : document.objects) {
-    if (object.views.empty() || object.cut_kept || job.cancelled()) continue;
-    CutResult result = session.cut(cut_request(document, object), cut_settings(document, object), job);
-    if (result.outcome == Outcome::kNothingFound)
-      throw Error(object.name, "is not found again: " + result.reason);
-    object.cut = make_flags(std::move(result.labels));
-    object.cut_key = cut_key(document, object);
+    if (!object.views.empty() && !object.cut_kept) {
+      CutResult result = session.cut(cut_request(document, object), cut_settings(document, object), job);
+      if (job.cancelled()) break;
+      if (result.outcome == Outcome::kNothingFound)
+        throw Error(object.name, "is not found again: " + result.reason);
+      object.cut = make_flags(std::move(result.labels));
+      object.cut_key = cut_key(document, object);
+    }
+    leave_what_came(scene, &document, object.id);
   }
   return document;
 }

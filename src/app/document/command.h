@@ -71,7 +71,7 @@ struct AddStroke {
   Camera camera;
   Stroke stroke;                        // stroke in the camera's pixels
   Flags seen{};                         // Gaussians that the view shows; null: all
-  std::vector<std::int32_t> hits = {};  // see Viewport::hit_by(); Clicks finds them
+  std::vector<std::int32_t> hits = {};  // see hits_of(); Clicks finds them
   std::string title() const {
     return std::string(stroke.is_click() ? "Click" : "Scribble") +
            (stroke.label == SeedLabel::kRest ? ": rest" : ": object");
@@ -90,7 +90,7 @@ struct AddBox {
   // kAdd makes the box a stroke. The others remove from the object, or keep of it, what the box alone would
   // cut out.
   SetOperation operation = SetOperation::kAdd;
-  std::vector<std::int32_t> hits = {};  // see Viewport::hit_by(); Clicks finds them
+  std::vector<std::int32_t> hits = {};  // see hits_of(); Clicks finds them
   std::string title() const { return "Box"; }
   friend std::string edit(Document* document, const AddBox& command, const EditContext& context);
 };

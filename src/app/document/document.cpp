@@ -48,6 +48,14 @@ bool same_but_strokes(const ObjectItem& a, const ObjectItem& b) {
          same_flags(a.of_others, b.of_others);
 }
 
+// Whether more than half of what a stroke hits has the flags. Null: no flags.
+bool is_made_on(const Flags& flags, std::span<const std::int32_t> hits) {
+  if (!flags) return false;
+  const auto on =
+      std::ranges::count_if(hits, [&](std::int32_t g) { return (*flags)[static_cast<std::size_t>(g)] != 0; });
+  return 2 * on > std::ssize(hits);
+}
+
 }  // namespace
 
 Flags make_flags(std::vector<std::uint8_t> values) {
@@ -128,7 +136,7 @@ std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& 
 }
 
 Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
-                    std::span<const ObjectId> these) {
+                    ObjectId only) {
   const auto is_in = [&](const ObjectItem* part, ObjectId whole) {
     for (; part; part = document.find(part->within))
       if (part->within == whole) return true;
@@ -137,7 +145,7 @@ Flags had_by_others(const Document& document, const ObjectItem& object, std::siz
   std::vector<std::uint8_t> had(gaussians, 0);
   for (const ObjectItem& other : document.objects) {
     if (other.id == object.id || is_in(&object, other.id) || is_in(&other, object.id)) continue;
-    if (!these.empty() && std::ranges::find(these, other.id) == these.end()) continue;
+    if (only != 0 && other.id != only) continue;
     const std::vector<std::uint8_t> labels = labels_of(document, other, gaussians);
     for (std::size_t g = 0; g < gaussians; ++g) had[g] |= labels[g];
   }
@@ -161,35 +169,57 @@ void leave_to_others(const Document& document, ObjectItem* object, std::size_t g
     if (other.id != object->id && is_stale(document, other)) object->leaves_also.push_back(other.id);
 }
 
-bool is_made_on(const Flags& flags, std::span<const std::int32_t> hits) {
-  if (!flags) return false;
-  const auto on =
-      std::ranges::count_if(hits, [&](std::int32_t g) { return (*flags)[static_cast<std::size_t>(g)] != 0; });
-  return 2 * on > std::ssize(hits);
+bool means_what_is_left(const Document& document, const ObjectItem& object,
+                        std::span<const std::int32_t> hits, std::size_t gaussians) {
+  if (!is_made_on(object.of_others, hits)) return false;
+  if (hits.size() == 1) return true;                      // whoever has it
+  std::vector<std::uint8_t> nobodys = *object.of_others;  // what no other has any more
+  for (const ObjectItem& other : document.objects) {
+    const Flags had = other.id == object.id ? nullptr : had_by_others(document, object, gaussians, other.id);
+    if (!had) continue;
+    std::vector<std::uint8_t> left = *object.of_others;
+    for (std::size_t g = 0; g < gaussians; ++g) {
+      left[g] = left[g] && (*had)[g];
+      nobodys[g] = nobodys[g] && !(*had)[g];
+    }
+    if (is_made_on(make_flags(std::move(left)), hits)) return true;
+  }
+  return is_made_on(make_flags(std::move(nobodys)), hits);
 }
 
 ObjectItem left_what_came(const Document& document, const ObjectItem& object, std::span<const ObjectId> came,
-                          std::span<const std::vector<std::int32_t>> hits, std::size_t gaussians) {
+                          const HitsOfStrokes& hits, std::size_t gaussians) {
   ObjectItem out = object;
   std::erase_if(out.leaves_also, [&](ObjectId id) { return std::ranges::find(came, id) != came.end(); });
-  const Flags had = had_by_others(document, object, gaussians, came);
-  if (!had) return out;
-  if (std::ranges::any_of(hits, [&](const auto& of_stroke) { return is_made_on(had, of_stroke); })) {
-    set_of_others(&out, nullptr);
-    return out;
-  }
-  std::vector<std::uint8_t> all = *had;  // hand marks are younger than that, and count
-  for (std::size_t g = 0; out.of_others && g < all.size(); ++g) all[g] |= (*out.of_others)[g];
+  std::vector<Flags> had;
+  for (const ObjectId id : came)
+    if (Flags of_one = had_by_others(document, object, gaussians, id)) had.push_back(std::move(of_one));
+  if (had.empty()) return out;
+  for (const std::vector<std::int32_t>& of_stroke : hits())
+    if (std::ranges::any_of(had, [&](const Flags& of_one) { return is_made_on(of_one, of_stroke); })) {
+      set_of_others(&out, nullptr);
+      return out;
+    }
+  std::vector<std::uint8_t> all(gaussians, 0);  // hand marks are younger than that, and count
+  if (out.of_others) all = *out.of_others;
+  for (const Flags& of_one : had)
+    for (std::size_t g = 0; g < gaussians; ++g) all[g] |= (*of_one)[g];
   out.of_others = make_flags(std::move(all));
   return out;
 }
 
-void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels) {
+void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels,
+                std::span<const std::uint8_t> taken_out) {
   const std::vector<std::uint8_t> before = labels_of(*document, *object, labels.size());
   std::vector<std::uint8_t> hand(labels.size(), kFollowCut);
   if (object->hand) hand = *object->hand;
   for (std::size_t g = 0; g < labels.size(); ++g)
     if ((labels[g] != 0) != (before[g] != 0)) hand[g] = labels[g] ? kHandObject : kHandRest;
+  for (std::size_t g = 0; object->of_others && g < taken_out.size(); ++g) {
+    const bool comes_back =
+        hand[g] == kHandLeft || (hand[g] == kFollowCut && object->cut && (*object->cut)[g]);
+    if (taken_out[g] && !labels[g] && (*object->of_others)[g] && comes_back) hand[g] = kHandRest;
+  }
   object->hand = make_flags(std::move(hand));
 }
 

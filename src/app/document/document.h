@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
@@ -25,7 +26,8 @@ Flags make_flags(std::vector<std::uint8_t> values);
 using ObjectId = std::uint32_t;  // id of an object, never used twice in a document; 0: no object
 
 // Mark that the user gave a Gaussian by hand; it overrides the cut. kHandLeft: kHandObject that was left to
-// other objects afterwards, see set_of_others(): it counts as kFollowCut until they give it back.
+// other objects afterwards, see set_of_others(): it counts as kFollowCut until `of_others` no longer holds
+// it.
 enum HandMark : std::uint8_t { kFollowCut = 0, kHandObject = 1, kHandRest = 2, kHandLeft = 3 };
 
 struct ObjectItem {
@@ -91,26 +93,30 @@ std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& 
                                     std::size_t gaussians);
 
 // All that other objects have, but for parts of this one and wholes that it is a part of; null: nothing.
-// these: the others that count, empty: all.
+// only: the one that counts, 0: all.
 Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
-                    std::span<const ObjectId> these = {});
+                    ObjectId only = 0);
 
 // Sets ObjectItem::of_others, with nothing on its way. What hands took of that is left to the others, too;
 // what hands had taken of what was left before is the object's again.
 void set_of_others(ObjectItem* object, Flags of_others);
 // Sets it to all that other objects have, and have on their way.
 void leave_to_others(const Document& document, ObjectItem* object, std::size_t gaussians);
-// The object with what the objects `came`, of its `leaves_also`, have now. hits: for each of its strokes, see
-// is_made_on(): a stroke that is made on that takes it.
+// The object with what the objects `came`, of its `leaves_also`, have now. hits: asked for the Gaussians that
+// each of its strokes hits where they have anything; a stroke that means one of these objects takes it.
+using HitsOfStrokes = std::function<std::vector<std::vector<std::int32_t>>()>;
 ObjectItem left_what_came(const Document& document, const ObjectItem& object, std::span<const ObjectId> came,
-                          std::span<const std::vector<std::int32_t>> hits, std::size_t gaussians);
+                          const HitsOfStrokes& hits, std::size_t gaussians);
 
-// Whether a stroke that hits these Gaussians means what has the flags: more than half of them do. Null: no
-// flags.
-bool is_made_on(const Flags& flags, std::span<const std::int32_t> hits);
+// Whether a stroke that hits these Gaussians means what the object leaves to one of the others: that has more
+// than half of them.
+bool means_what_is_left(const Document& document, const ObjectItem& object,
+                        std::span<const std::int32_t> hits, std::size_t gaussians);
 
-// Sets hand marks so that the final labels become `labels`.
-void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels);
+// Sets hand marks so that the final labels become `labels`. taken_out: Gaussians that hands took out, which
+// the object does not get back from others either; empty: none.
+void set_labels(Document* document, ObjectItem* object, std::span<const std::uint8_t> labels,
+                std::span<const std::uint8_t> taken_out = {});
 
 // Adds an object with a name and a colour of its own, and makes it active. Throws Error if there are
 // kMostObjects already.

@@ -72,7 +72,7 @@ void settle_with_others(Document* document, ObjectItem* object, std::span<const 
                 base_colour(context.cloud, static_cast<std::size_t>(hits[hits.size() / 2])));
     leave_to_others(*document, object, context.cloud.size());
   }
-  if (is_made_on(object->of_others, hits)) set_of_others(object, nullptr);
+  if (means_what_is_left(*document, *object, hits, context.cloud.size())) set_of_others(object, nullptr);
 }
 
 // Where the next stroke goes: strokes stay in order, so another view in between starts a new entry.
@@ -91,6 +91,12 @@ std::string free_name(const Document& document, const std::string& base) {
   std::string name = base;
   for (int i = 2; taken(name); ++i) name = fmt::format("{} {}", base, i);
   return name;
+}
+
+Selection inverted(const Selection& selection) {
+  Selection out(selection.size());
+  std::ranges::transform(selection, out.begin(), [](std::uint8_t s) { return s ? 0 : 1; });
+  return out;
 }
 
 // Adds an object that holds exactly `labels`, by manual marks and without strokes.
@@ -121,6 +127,11 @@ bool shows(const Backdrop& backdrop, const Document& document, const ViewState& 
   return std::max({d.r, d.g, d.b}) < kSame;
 }
 
+bool asks_what_is_hit(const Document& document, const EditContext& context) {
+  const ObjectItem* object = document.active_object();
+  return !object || object->of_others || begins(document, *object, context);
+}
+
 std::string edit(Document* document, const AddStroke& command, const EditContext& context) {
   if (command.stroke.points_px.empty()) throw Error("stroke", "it has no points");
   ObjectItem& object = stroked(document);
@@ -131,8 +142,14 @@ std::string edit(Document* document, const AddStroke& command, const EditContext
   return fmt::format("{} {} {}", dot ? "Click:" : "Scribble:", rest ? "not part of" : "part of", object.name);
 }
 
+Flags left_by_stroke(const Document& document, const EditContext& context) {
+  const ObjectItem* object = document.active_object();
+  if (object && !begins(document, *object, context)) return object->of_others;
+  return had_by_others(document, object ? *object : ObjectItem{}, context.cloud.size());
+}
+
 Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<std::uint8_t> before,
-                 std::vector<std::uint8_t> after, const EditContext& context) {
+                 std::vector<std::uint8_t> after, const Flags& left, const EditContext& context) {
   const auto with_cut = [&](Document now, std::vector<std::uint8_t> cut) {
     ObjectItem* object = now.find(now.active);
     if (!object) return cut;  // nothing is begun yet
@@ -140,7 +157,12 @@ Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<
     return labels(now, *object, context);
   };
   Document stroked_document = document;
-  edit(&stroked_document, stroke, context);
+  ObjectItem& object = target(&stroked_document);
+  if (stroke.stroke.label == SeedLabel::kObject) {
+    if (object.of_others != left) set_of_others(&object, left);
+    if (means_what_is_left(document, object, stroke.hits, context.cloud.size()))
+      set_of_others(&object, nullptr);
+  }
   std::vector<std::uint8_t> change = with_cut(document, std::move(before));
   const std::vector<std::uint8_t> then = with_cut(std::move(stroked_document), std::move(after));
   for (std::size_t g = 0; g < change.size(); ++g) change[g] = change[g] != then[g];
@@ -181,7 +203,10 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
   const Selection after = combined(before, region, operation);
   std::size_t changed = 0;
   for (std::size_t g = 0; g < after.size(); ++g) changed += (before[g] != 0) != (after[g] != 0);
-  set_labels(document, &object, after);
+  Selection taken_out = region;
+  if (operation == SetOperation::kAdd) taken_out.clear();
+  if (operation == SetOperation::kIntersect) taken_out = inverted(region);
+  set_labels(document, &object, after, taken_out);
   const char* what = operation == SetOperation::kAdd      ? "added"
                      : operation == SetOperation::kRemove ? "removed"
                                                           : "changed";
@@ -220,7 +245,7 @@ std::string edit(Document* document, const EditSelection& command, const EditCon
     case SelectionEdit::kNone:
       break;
     case SelectionEdit::kInvert:
-      std::ranges::transform(before, after.begin(), [](std::uint8_t l) { return l ? 0 : 1; });
+      after = inverted(before);
       break;
     case SelectionEdit::kGrow:
       after = grown(required_graph(context), before);
@@ -236,7 +261,8 @@ std::string edit(Document* document, const EditSelection& command, const EditCon
           combined(before, floaters(context.cloud, required_graph(context), before), SetOperation::kRemove);
       break;
   }
-  set_labels(document, &object, after);
+  const bool none = command.edit == SelectionEdit::kNone;
+  set_labels(document, &object, after, none ? Selection(n, 1) : Selection());
   if (command.edit == SelectionEdit::kAll)
     return fmt::format("All {} are selected. Ctrl+Z takes it back",
                        gaussians_text(count_flags(labels(*document, object, context))));
@@ -353,7 +379,7 @@ std::string edit(Document* document, const SeparateObject& command, const EditCo
     const Selection before = labels(*document, other, context);
     const Selection after = combined(before, own, SetOperation::kRemove);
     taken += count_flags(before) - count_flags(after);
-    set_labels(document, &other, after);
+    set_labels(document, &other, after, own);
   }
   return fmt::format("{} Gaussians now belong to {} alone", grouped(taken), name);
 }

@@ -23,10 +23,17 @@ bool shows(const Backdrop& backdrop, const Document& document, const ViewState& 
 std::string edit_selection(Document* document, const Selection& region, SetOperation operation,
                            const EditContext& context);
 
+// Whether it matters what a stroke that marks the active object is made on: it begins the object, or the
+// object leaves something to others.
+bool asks_what_is_hit(const Document& document, const EditContext& context);
+
+// What a stroke that marks the active object, or begins one, leaves to others unless it means that.
+Flags left_by_stroke(const Document& document, const EditContext& context);
+
 // Gaussians whose labels a stroke changes, where the cut alone gives the active object `before` without it
-// and `after` it with it.
+// and `after` it with it. left: left_by_stroke().
 Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<std::uint8_t> before,
-                 std::vector<std::uint8_t> after, const EditContext& context);
+                 std::vector<std::uint8_t> after, const Flags& left, const EditContext& context);
 
 // The stroke that a box stands for. Throws Error if the box is too small.
 Stroke stroke_of(const AddBox& command, SeedLabel label);

@@ -69,7 +69,8 @@ void Clicks::perform(const AddStroke& c) {
     throw Error("click", "there is nothing in that place", "Click on something that can be seen");
   const std::string held = already_so(c);
   AddStroke made = c;
-  made.hits = viewport_.hit_by({c.camera, c.stroke, c.seen});
+  if (c.stroke.label == SeedLabel::kObject && asks_what_is_hit(ws_.document(), ws_.context()))
+    made.hits = viewport_.hit_by({c.camera, c.stroke, c.seen});
   Document after = ws_.document();
   const std::string message = edit(&after, made, ws_.context());
   const bool adds = c.stroke.label == SeedLabel::kObject && same_camera(c.camera, viewport_.pane_camera());
@@ -204,16 +205,20 @@ void Clicks::refresh_hover() {
   ws_.tasks.submit(
       TaskKind::kHover,
       [this, ask = *ask, stroke, session = ws_.session, scene = ws_.scene, document = ws_.document(),
+       left = hover_left_.document == ask->document ? std::optional(hover_left_.left) : std::nullopt,
        request = cut_request(ws_.document(), object ? *object : none),
-       settings = cut_settings(ws_.document(), object ? *object : none)](const Job& job) {
+       settings = cut_settings(ws_.document(), object ? *object : none)](const Job& job) mutable {
         const Session::Preview preview = session->preview(request, stroke, settings, job);
-        if (preview.after.empty()) return;
+        if (preview.after.empty() || job.cancelled()) return;
         const AddStroke click{stroke.camera, stroke.stroke, stroke.seen, {ask.on}};
         const EditContext context{*scene->cloud};
-        ws_.tasks.post(
-            [this, ask, scene, change = changed_by(document, click, preview.before, preview.after, context)] {
-              if (scene == ws_.scene && hover_ && hover_->same_but_pixel(ask)) show_hover(change, ask.rest);
-            });
+        if (!left) left = left_by_stroke(document, context);
+        if (job.cancelled()) return;
+        const Flags change = changed_by(document, click, preview.before, preview.after, *left, context);
+        ws_.tasks.post([this, ask, scene, change, left = *left] {
+          hover_left_ = {ask.document, left};
+          if (scene == ws_.scene && hover_ && hover_->same_but_pixel(ask)) show_hover(change, ask.rest);
+        });
       });
 }
 
@@ -245,29 +250,44 @@ void Clicks::show_hover(const Flags& change, bool rest) {
   viewport_.highlight(change, rest ? kRemoves : kAdds);
 }
 
-// What objects get whose cut was on its way when another was begun is left to them, too, in every state of
-// the history in which the other waits for it.
+// What objects get whose cut was on its way when another was begun is left to them, too. One that is gone
+// now, or whose cut was given up, may still come.
 void Clicks::leave_what_came() {
   const Document& document = ws_.document();
   for (const ObjectItem& object : document.objects) {
     std::vector<ObjectId> came;
     for (const ObjectId id : object.leaves_also)
-      if (const ObjectItem* other = document.find(id); !other || !cuts_.comes(*other)) came.push_back(id);
+      if (const ObjectItem* other = document.find(id);
+          other && !is_stale(*other, ws_.history.keys(*other).cut))
+        came.push_back(id);
     if (came.empty()) continue;
-    std::vector<std::vector<std::int32_t>> hits;
-    for (const StrokedView& view : object.views)
-      for (const Stroke& stroke : view.strokes)
-        if (stroke.label == SeedLabel::kObject)
-          hits.push_back(viewport_.hit_by({view.camera, stroke, view.seen}));
-    const ObjectItem before = object, after = left_what_came(document, object, came, hits, ws_.gaussians());
-    return ws_.history.change_all([&](Document* state) {
-      ObjectItem* same = state->find(before.id);
-      if (!same || same->leaves_also != before.leaves_also || same->of_others != before.of_others) return;
-      same->leaves_also = after.leaves_also;
-      same->of_others = after.of_others;
-      if (same->hand == before.hand) same->hand = after.hand;
-    });
+    const auto hits = [&] { return hits_of(object, viewport_.drawn_part()); };
+    return leave_in_history(object, left_what_came(document, object, came, hits, ws_.gaussians()), came);
   }
+}
+
+// In every state in which the object waits for the same others, and these have what they have now. In others
+// it is done when they become the present one.
+void Clicks::leave_in_history(const ObjectItem before, const ObjectItem& after,
+                              std::span<const ObjectId> came) {
+  const Document now = ws_.document();
+  const auto has_the_same = [&](const Document& state, ObjectId id) {
+    const ObjectItem *here = now.find(id), *there = state.find(id);
+    return here && there && there->cut == here->cut && there->hand == here->hand &&
+           there->of_others == here->of_others && there->within == here->within;
+  };
+  ws_.history.change_all([&](Document* state) {
+    ObjectItem* same = state->find(before.id);
+    if (!same || same->leaves_also != before.leaves_also || same->of_others != before.of_others ||
+        !std::ranges::all_of(came, [&](ObjectId id) { return has_the_same(*state, id); }))
+      return;
+    if (same->hand == before.hand)
+      same->hand = after.hand;
+    else if (!after.of_others)
+      set_of_others(same, nullptr);
+    same->leaves_also = after.leaves_also;
+    same->of_others = after.of_others;
+  });
 }
 
 void Clicks::update() {

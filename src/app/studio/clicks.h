@@ -76,6 +76,7 @@ class Clicks {
   void refresh_hover();
   void make_ready();
   void leave_what_came();
+  void leave_in_history(ObjectItem before, const ObjectItem& after, std::span<const ObjectId> came);
   void show_hover(const Flags& change, bool rest);
   void combine_with(const CameraStroke& stroke, SetOperation operation, const std::string& title);
   void note_sizes();
@@ -85,6 +86,12 @@ class Clicks {
   Viewport& viewport_;
   CutJobs& cuts_;
   Edits& edits_;
+  // What a click would leave to others, the same for every place of the picture.
+  struct HoverLeft {
+    std::uint64_t document = 0;  // serial of the document
+    Flags left;
+  };
+  HoverLeft hover_left_;
   std::optional<HoverAsk> hover_;  // question that was asked last; its answer may be shown already
   Ready ready_;
   std::string declined_offer_;   // ClickMeanings::key of the offer that was declined last

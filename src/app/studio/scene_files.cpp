@@ -21,6 +21,16 @@ bool same_files(const std::vector<SceneSource>& a, const std::vector<SceneSource
   });
 }
 
+// Takes saved work out of files that are opened with a scene. Returns a sentence for each.
+std::vector<std::string> refused_work(std::vector<std::filesystem::path>* added) {
+  std::vector<std::string> refused;
+  for (const std::filesystem::path& path : *added)
+    if (is_work_file(path))
+      refused.push_back(path.filename().string() + ": is saved work, not a scene. Open it alone");
+  std::erase_if(*added, is_work_file);
+  return refused;
+}
+
 }  // namespace
 
 SceneFiles::SceneFiles(Workspace& workspace, Viewport& viewport, CutJobs& cuts, SavedWork& work, Calls calls)
@@ -51,7 +61,7 @@ void SceneFiles::perform(const OpenScene& c) {
                   "Open it, then add them");
     if (file) files = file->files;
     for (SceneSource& source : files) source.id = id++;
-    std::vector<std::string> refused;
+    std::vector<std::string> refused = refused_work(&added);
     const std::shared_ptr<OpenedScene> scene = open_first(files, &added, &refused, job);
     if (job.cancelled()) return;
     scene->serial = serial;
@@ -87,16 +97,13 @@ void SceneFiles::add_all(const std::vector<std::filesystem::path>& added, std::v
   const StandsOn row = row_of_added();
   std::string names;
   for (const std::filesystem::path& path : added) {
-    if (is_work_file(path)) {
-      refused.push_back(path.filename().string() + ": is saved work, not a scene. Open it alone");
-      continue;
-    }
     files.push_back({.id = next_file_id_++, .path = path, .onto = row});
     put_before_view_ = files.back().id;
     names += (names.empty() ? "" : ", ") + scene_name(path);
   }
-  if (names.empty()) return say_refused(refused);
-  change_files(std::move(files), "Adding " + names, {{}, std::move(refused), row.begins_there});
+  const std::optional<CameraPose> seen_from =
+      row.begins_there ? std::optional(viewport_.camera().goal()) : std::nullopt;
+  change_files(std::move(files), "Adding " + names, {{}, std::move(refused), seen_from});
 }
 
 void SceneFiles::say_refused(const std::vector<std::string>& refused) {
@@ -180,7 +187,7 @@ void SceneFiles::change_files(std::vector<SceneSource> files, const std::string&
         return std::ranges::count(files, file.id, &SceneSource::id) > 0 && !scene->file(file.id);
       });
       if (!none_came) return carry_document(scene, said);
-      changing_to_.clear();
+      if (same_files(changing_to_, scene->files)) changing_to_.clear();  // else another change is under way
       say_refused(said.refused);
     });
   });
@@ -222,7 +229,7 @@ void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Histor
   ws_.history = std::move(history);
   ws_.history.push_other_files(said.done.substr(0, said.done.find(';')), next_step_++);
   calls_.opened(true);
-  if (said.frames) viewport_.camera().frame_scene();
+  if (said.seen_from == viewport_.camera().goal()) viewport_.show_all_of_scene();
   ws_.say(Message::Kind::kDone, said.done);
   for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
   if (const SceneSource* put = scene->file(std::exchange(put_before_view_, 0)))

@@ -58,7 +58,8 @@ class SceneFiles {
   struct Said {
     std::string done;                  // title of the step up to a semicolon; empty: which files were added
     std::vector<std::string> refused;  // a sentence for each file that could not be opened
-    bool frames = false;               // the view is then to show the whole scene
+    // View that is then to show the whole scene, unless the user has left it; none: it stays.
+    std::optional<CameraPose> seen_from = {};
   };
   void change_files(std::vector<SceneSource> files, const std::string& doing, Said said);
   void say_refused(const std::vector<std::string>& refused);

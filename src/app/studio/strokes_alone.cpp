@@ -44,7 +44,8 @@ void Clicks::perform(const AddBox& c) {
                         removes ? "Remove (box)" : "Intersect (box)");
   }
   AddBox made = c;
-  made.hits = viewport_.hit_by({c.camera, stroke_of(c, SeedLabel::kObject), c.seen});
+  if (asks_what_is_hit(ws_.document(), ws_.context()))
+    made.hits = viewport_.hit_by({c.camera, stroke_of(c, SeedLabel::kObject), c.seen});
   Document after = ws_.document();
   const std::string message = edit(&after, made, ws_.context());
   edits_.push(c.title(), std::move(after), {}, message);

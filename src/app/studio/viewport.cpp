@@ -58,11 +58,21 @@ void Viewport::reset() {
   const FileViews& views = ws_.scene->views();
   if (!views.cameras.empty() || views.first_view) camera_.go_to(views.reference);
   camera_.finish_transition();
-  // A thing that is seen from outside leaves room for the thumbnails of its cuts. From within there is no
-  // going back, and a camera of the capture stands where it stood.
+  keep_room_for_thumbnails();
+}
+
+// A thing that is seen from outside leaves room for the thumbnails of its cuts. From within there is no going
+// back, and a camera of the capture stands where it stood.
+void Viewport::keep_room_for_thumbnails() {
   const glm::vec3& eye = camera_.pose().position_world;
-  if (views.cameras.empty() && !contains(ws_.scene->bounds, eye))
+  if (ws_.scene->views().cameras.empty() && !contains(ws_.scene->bounds, eye))
     camera_.keep_clear(pane_camera(), kept_bottom_px_);
+}
+
+void Viewport::show_all_of_scene() {
+  camera_.frame_scene();
+  camera_.finish_transition();
+  keep_room_for_thumbnails();
 }
 
 bool Viewport::moving() const {
@@ -301,25 +311,17 @@ std::optional<PickedPoint> Viewport::hit_in(const Camera& camera, const glm::vec
 }
 
 std::vector<std::int32_t> Viewport::hit_by(const CameraStroke& s) const {
-  const Stroke& stroke = s.stroke;
-  if (stroke.points_px.empty()) return {};
-  const glm::vec2& first = stroke.points_px.front();
-  if (!stroke.is_box()) {
-    const auto hit = same_camera(s.camera, pane_camera()) ? pick(first) : hit_in(s.camera, first, s.seen);
-    return hit ? std::vector{hit->gaussian} : std::vector<std::int32_t>();
-  }
-  constexpr int kWidthPx = 160;
-  const Camera small = limited_to_width(s.camera, kWidthPx);
-  const float scale = static_cast<float>(small.width_px) / static_cast<float>(s.camera.width_px);
-  const glm::ivec2 most(small.width_px, small.height_px),
-      low = glm::clamp(glm::ivec2(scale * first), glm::ivec2(0), most),
-      high = glm::clamp(glm::ivec2(scale * stroke.points_px[1]) + 1, glm::ivec2(0), most);
-  const PixelRect part{low.x, low.y, high.x, high.y};
-  if (part.empty()) return {};
-  const RasterOutput picture = drawn(small, part, s.seen);
-  std::vector<std::int32_t> hits;
-  std::ranges::copy_if(picture.first_hit.pixels(), std::back_inserter(hits), [](auto g) { return g >= 0; });
-  return hits;
+  const bool is_dot = !s.stroke.points_px.empty() && !s.stroke.is_box();
+  if (!is_dot || !same_camera(s.camera, pane_camera()) || !same_set(s.seen, seen(pressed_pane())))
+    return hits_of(s, drawn_part());
+  const auto hit = pick(s.stroke.points_px.front());
+  return hit ? std::vector{hit->gaussian} : std::vector<std::int32_t>();
+}
+
+DrawnPart Viewport::drawn_part() const {
+  return [this](const Camera& camera, const PixelRect& part, const Flags& visible) {
+    return drawn(camera, part, visible);
+  };
 }
 
 RasterOutput Viewport::drawn(const Camera& camera, const PixelRect& part, const Flags& visible_set) const {

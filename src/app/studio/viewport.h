@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/document/stroke_hits.h"
 #include "app/picture/camera_controller.h"
 #include "app/picture/frame_thread.h"
 #include "app/picture/styles.h"
@@ -27,7 +28,8 @@ class Viewport {
   // Says whether a GPU draws the splats. If so, pictures are made for picking only, and only when nothing
   // moves.
   void set_gpu_view(bool gpu) { gpu_view_ = gpu; }
-  void reset();         // starts with the workspace's new scene
+  void reset();              // starts with the workspace's new scene
+  void show_all_of_scene();  // from the present direction, with room for the thumbnails
   void change_scene();  // goes on with the workspace's scene, which has other files now; the camera stays
   // Moves the camera, and requests and takes styles and pictures; called once a frame. Returns true while the
   // camera moves by itself.
@@ -103,17 +105,18 @@ class Viewport {
   glm::vec3 looked_at_world() const;
   // Picks the surface under a pixel of any camera. visible: flags of the Gaussians that count; null: all.
   std::optional<PickedPoint> hit_in(const Camera& camera, const glm::vec2& pixel, const Flags& visible) const;
-  // Gaussians that a stroke is made on: the one under its first point; of a box those that show in it, one a
-  // pixel of a small picture.
+  // hits_of(), from the last picture where that shows this view and these Gaussians.
   std::vector<std::int32_t> hit_by(const CameraStroke& stroke) const;
   // Opacity and depth of a part of the picture that any camera shows of the visible Gaussians.
   RasterOutput drawn(const Camera& camera, const PixelRect& part, const Flags& visible) const;
+  DrawnPart drawn_part() const;  // the same, for hits_of()
   // Camera z of the surface under a pixel, scene units, from the last picture; none: unknown. While the view
   // moves, the picture lags behind, and so does the answer.
   std::optional<float> depth_on_screen(const glm::vec2& pixel) const;
   ToolContext tool_context(const glm::vec2& pixel);
 
  private:
+  void keep_room_for_thumbnails();
   void request_styles();
   void request_picture();
   void take_picture();

@@ -27,14 +27,19 @@ void set_view(UiContext& ui, const ViewState& view) {
   ui.ask(SetView{view});
 }
 
+// Of the next slider: less where the row is narrow.
+void set_option_width() {
+  constexpr float kUsual = 130, kNarrow = 100, kNarrowRow = 400;
+  ImGui::SetNextItemWidth(ImGui::GetWindowWidth() < kNarrowRow ? kNarrow : kUsual);
+}
+
 void brush_size(UiContext& ui) {
   ViewState view = ui.studio.view();
   const float share = tool_of(view.tool).brush;
   ImGui::AlignTextToFramePadding();
   muted_text(ui, "Size");
   ImGui::SameLine();
-  constexpr float kUsual = 130, kNarrow = 100, kNarrowRow = 400;
-  ImGui::SetNextItemWidth(ImGui::GetWindowWidth() < kNarrowRow ? kNarrow : kUsual);
+  set_option_width();
   float shown = share * view.brush_px;
   if (numbered_slider(ui, "##brush", &shown, share * kLeastBrushPx, share * kMostBrushPx, "%.0f pt",
                       ImGuiSliderFlags_Logarithmic, "120 pt")) {
@@ -99,8 +104,7 @@ void region_options(UiContext& ui) {
   if ((visible && view.see_through) || (through && !view.see_through)) ui.ask(Action::kSeeThrough);
   if (!view.see_through) return;
   ImGui::SameLine();
-  constexpr float kUsual = 130, kNarrow = 100, kNarrowRow = 400;
-  ImGui::SetNextItemWidth(ImGui::GetWindowWidth() < kNarrowRow ? kNarrow : kUsual);
+  set_option_width();
   const float size = ui.studio.camera().scene_size();
   float depth = view.depth_limit * size;
   const std::string text = depth > 0 ? length_format(depth) + " units deep" : "no depth limit";

@@ -461,6 +461,8 @@ TEST_CASE("a folder without a command is a scene to view, unless a command has i
     CHECK(place.run(words + " --check").err.find("subcommand") == std::string::npos);
   }
   CHECK(place.run("--width 800 nowhere").err.find("nowhere: there is no such file") != std::string::npos);
+  CHECK(place.run("--width 800 gone.splatcut.json cam.json")
+            .err.find("gone.splatcut.json: there is no such file") != std::string::npos);
   CHECK(place.run("--help").code == 0);
   CHECK(place.run("nowhere --check").err.find("subcommand") != std::string::npos);
   CHECK(place.run("info --check").code == 2);  // is no option of `info`

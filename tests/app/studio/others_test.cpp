@@ -6,7 +6,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/work_cut.h"
+#include "app/document/document_edits.h"
+#include "app/work/work_file.h"
 #include "hands.h"
+#include "synthetic_cloud.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -75,6 +79,40 @@ TEST_CASE("others: an object begun by a box leaves to the others what they have,
   CHECK(2 * shared(hands.labels(right), left) > count_flags(left));  // the box takes it without
 }
 
+TEST_CASE("others: a box that two others fill together, neither of them by more than half, leaves both out") {
+  constexpr std::size_t kCount = 10;
+  const GaussianCloud cloud = random_cloud(kCount, 1, 0);
+  const EditContext context{cloud};
+  Document document;
+  const auto has = [&](std::size_t from, std::size_t to) {
+    Labels labels(kCount, 0);
+    std::fill(labels.begin() + static_cast<std::ptrdiff_t>(from),
+              labels.begin() + static_cast<std::ptrdiff_t>(to), std::uint8_t{1});
+    set_labels(&document, &add_object(&document), labels);
+  };
+  has(0, 4);
+  has(4, 7);
+  add_object(&document);
+  AddBox box{look_at({0, 0, -5}, {0, 0, 0}, {0, -1, 0}, 1, 100, 100), {10, 10}, {90, 90}};
+  box.hits = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  Document boxed = document;
+  edit(&boxed, box, context);
+  REQUIRE(boxed.active_object()->of_others);
+  CHECK(count_flags(*boxed.active_object()->of_others) == 7);
+  box.hits = {0, 1, 2, 3, 4, 5, 9};  // the first alone has more than half
+  boxed = document;
+  edit(&boxed, box, context);
+  CHECK_FALSE(boxed.active_object()->of_others);
+  // A later one means what was left, also where nobody has it any more.
+  box.hits = {7, 8, 9};
+  boxed = document;
+  edit(&boxed, box, context);
+  edit(&boxed, RemoveObject{1}, context);
+  box.hits = {0, 1, 2, 7, 8};
+  edit(&boxed, box, context);
+  CHECK_FALSE(boxed.active_object()->of_others);
+}
+
 TEST_CASE("others: what another object gets while this one is begun is left to it, too") {
   const ScratchFolder folder("others_come");
   Others hands(false);
@@ -103,9 +141,50 @@ TEST_CASE("others: what another object gets while this one is begun is left to i
   again.settle();
   CHECK(again.labels(1) == left);
   CHECK(again.labels(2) == beside);
+  const Document computed =
+      computed_again(*scene, restored(read_work_file(folder / "begun.splatcut.json"), *scene).document);
+  CHECK(labels_of(computed, *computed.find(1), left.size()) == left);
+  CHECK(labels_of(computed, *computed.find(2), left.size()) == beside);
   studio.apply(LeaveToOthers{2, false});
   hands.settle();
   CHECK(shared(hands.labels(2), left) > 0);  // it takes that without
+}
+
+TEST_CASE(
+    "others: what an object gets that was removed or given up meanwhile is left to it when it comes after "
+    "all") {
+  Others hands(false);
+  Studio& studio = hands.studio();
+  hands.click(kLeft);
+  hands.click(kRight, SeedLabel::kRest);
+  studio.apply(NewObject{});
+  hands.click(kRight);
+  bool settled = true;  // before it comes
+  SUBCASE("removed, and undone") {
+    studio.apply(RemoveObject{1});
+    settled = hands.app.settle();
+    CHECK(count_flags(hands.labels(2)) > 0);
+    studio.apply(Undo{});
+  }
+  SUBCASE("given up, and computed after all") {
+    hands.app.frames(1);
+    REQUIRE(studio.cuts().cutting() == 1);
+    studio.apply(Cancel{});
+    settled = hands.app.settle();
+    CHECK(count_flags(hands.labels(1)) == 0);
+    studio.apply(ActivateObject{1});
+    studio.apply(Recompute{});
+  }
+  REQUIRE(settled);
+  hands.settle();
+  const Labels left = hands.labels(1), beside = hands.labels(2);
+  REQUIRE(count_flags(left) > 0);
+  CHECK(count_flags(beside) > 0);
+  CHECK(shared(beside, left) == 0);
+  CHECK(studio.document().find(2)->leaves_also.empty());
+  studio.apply(LeaveToOthers{2, false});
+  hands.settle();
+  CHECK(shared(hands.labels(2), left) > 0);
 }
 
 TEST_CASE("others: an object begun on what another one then gets shares it") {
@@ -114,10 +193,13 @@ TEST_CASE("others: an object begun on what another one then gets shares it") {
   hands.click(kOnApple);
   studio.apply(NewObject{});
   hands.click(kOnApple + glm::vec2(4, 0));
+  const Document begun = studio.document();
   hands.settle();
   const Labels apple = hands.labels(1);
   REQUIRE(count_flags(apple) > 0);
   CHECK(shared(hands.labels(2), apple) > count_flags(apple) / 2);
+  const Document computed = computed_again(*open_scene(kSmallSample), begun);
+  CHECK(labels_of(computed, *computed.find(2), apple.size()) == hands.labels(2));
 }
 
 TEST_CASE("others: of two objects begun while a third is cut the earlier one leaves nothing to the later") {
@@ -188,6 +270,33 @@ TEST_CASE("others: what hands took and left to the others is the object's again 
   CHECK(other.labels(by_hand) == before);
 }
 
+TEST_CASE("others: what hands took out does not come back where what was left to others is given back") {
+  constexpr std::size_t kCount = 6;
+  const GaussianCloud cloud = random_cloud(kCount, 1, 0);
+  const EditContext context{cloud};
+  Document document;
+  set_labels(&document, &add_object(&document), Labels{1, 1, 1, 0, 0, 0});
+  ObjectItem& two = add_object(&document);
+  two.cut = make_flags({1, 0, 1, 1, 0, 0});
+  set_labels(&document, &two, Labels{1, 1, 1, 1, 1, 0});
+  edit(&document, LeaveToOthers{2, true}, context);
+  REQUIRE(labels_of(document, two, kCount) == Labels{0, 0, 0, 1, 1, 0});
+  const auto given_back = [&](Document then) {
+    edit(&then, LeaveToOthers{2, false}, context);
+    return labels_of(then, *then.find(2), kCount);
+  };
+  CHECK(given_back(document) == Labels{1, 1, 1, 1, 1, 0});
+  Document none = document, removed = document, kept = document, separate = document;
+  edit(&none, EditSelection{SelectionEdit::kNone}, context);
+  CHECK(given_back(none) == Labels(kCount, 0));
+  edit_selection(&removed, Labels{1, 1, 0, 1, 0, 0}, SetOperation::kRemove, context);
+  CHECK(given_back(removed) == Labels{0, 0, 1, 0, 1, 0});
+  edit_selection(&kept, Labels{0, 1, 1, 1, 0, 0}, SetOperation::kIntersect, context);
+  CHECK(given_back(kept) == Labels{0, 1, 1, 1, 0, 0});
+  edit(&separate, SeparateObject{1}, context);
+  CHECK(given_back(separate) == Labels{0, 0, 0, 1, 1, 0});
+}
+
 TEST_CASE("others: work says by its version that it holds what is left to others, and older work opens") {
   const ScratchFolder folder("work_version");
   const auto file = folder / "two.splatcut.json";
@@ -204,8 +313,9 @@ TEST_CASE("others: work says by its version that it holds what is left to others
   const RestoredWork read = restored(read_work_file(file), *scene);
   REQUIRE(read.document.find(2)->of_others);
   CHECK(*read.document.find(2)->of_others == some);
-  work["splatcut_work"] = 7;
-  work["objects"][1].erase("of_others");
+  work["splatcut_work"] = 7;  // as it was written by the program before that number
   std::ofstream(file) << work;
-  CHECK_FALSE(restored(read_work_file(file), *scene).document.find(2)->of_others);
+  const RestoredWork older = restored(read_work_file(file), *scene);
+  REQUIRE(older.document.find(2)->of_others);
+  CHECK(*older.document.find(2)->of_others == some);
 }

@@ -396,6 +396,24 @@ TEST_CASE(
   CHECK(hands.said().find("gone.ply") != std::string::npos);
 }
 
+TEST_CASE(
+    "several scenes: saved work among those opened together is refused in words, also where none opens") {
+  const ScratchFolder folder("several_work");
+  const auto work = folder / "my.splatcut.json";
+  const auto scene = open_scene(kSmallSample);
+  write_work_file(work, *scene, Document{});
+  Hands hands(false);
+  hands.studio().apply(OpenScene{folder / "gone.ply", {}, {work}});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.said().find("my.splatcut.json: is saved work, not a scene") != std::string::npos);
+  CHECK(hands.said().find("gone.ply") != std::string::npos);
+  const auto a = small_scene(folder, "a.ply");
+  hands.studio().apply(OpenScene{folder / "gone.ply", {}, {work, a}});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().scene()->files.front().path == a);
+  CHECK(hands.said().find("my.splatcut.json: is saved work, not a scene") != std::string::npos);
+}
+
 TEST_CASE("several scenes: beside a thing that stands alone others stand on its ground, and all are seen") {
   const ScratchFolder folder("several_alone");
   const auto thing = [&](const char* name, const glm::vec3& size) {
@@ -427,7 +445,24 @@ TEST_CASE("several scenes: beside a thing that stands alone others stand on its 
     const glm::vec2 at = camera.pixel_from_camera(camera.camera_from_world(foot_world(file, up)));
     CHECK(at.x > 0);
     CHECK(at.x < static_cast<float>(camera.width_px));
+    const float free_px = static_cast<float>(camera.height_px) - studio.viewport().kept_bottom_px();
+    CHECK(at.y < free_px);  // above the room of the thumbnails
   }
+
+  // A view that was moved while the others were read stays.
+  Hands moved_hands(false);
+  Studio& moved_studio = moved_hands.studio();
+  const std::size_t before = moved_studio.scene()->files.size();
+  REQUIRE(before == 1);
+  moved_studio.apply(OpenScene{files[0].path, {}, {files[1].path, files[2].path}});
+  for (int frame = 0; frame < 10000 && moved_studio.scene()->files[0].path != files[0].path; ++frame)
+    moved_hands.app.frames(1);
+  REQUIRE(moved_studio.scene()->files.size() == 1);
+  moved_studio.camera().orbit({80, 10});
+  const CameraPose pose = moved_studio.camera().goal();
+  REQUIRE(moved_hands.app.settle());
+  CHECK(moved_studio.scene()->files.size() == 3);
+  CHECK(moved_studio.camera().goal() == pose);
 }
 
 TEST_CASE("several scenes: F frames what is placed, and the object that was clicked since") {
