@@ -183,4 +183,26 @@ void History::change_all(const std::function<void(Document*)>& change) {
   serial_ = next_serial();
 }
 
+void leave_in_history(History* history, const ObjectItem before, const ObjectItem& after,
+                      std::span<const ObjectId> came) {
+  const Document now = history->now();
+  const auto has_the_same = [&](const Document& state, ObjectId id) {
+    const ObjectItem *here = now.find(id), *there = state.find(id);
+    return here && there && there->cut == here->cut && there->hand == here->hand &&
+           there->of_others == here->of_others && there->within == here->within;
+  };
+  history->change_all([&](Document* state) {
+    ObjectItem* same = state->find(before.id);
+    if (!same || same->leaves_also != before.leaves_also || same->of_others != before.of_others ||
+        !std::ranges::all_of(came, [&](ObjectId id) { return has_the_same(*state, id); }))
+      return;
+    if (same->hand == before.hand)
+      same->hand = after.hand;
+    else if (!after.of_others)
+      set_of_others(same, nullptr);
+    same->leaves_also = after.leaves_also;
+    same->of_others = after.of_others;
+  });
+}
+
 }  // namespace splatcut

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -85,5 +86,10 @@ class History {
   std::uint64_t serial_ = 0;
   bool merging_ = false;
 };
+
+// Makes `before`, an object of now(), what left_what_came() made of it, in every state in which it waits for
+// the same others and these have what they have now. In others it is done when they become the present one.
+void leave_in_history(History* history, ObjectItem before, const ObjectItem& after,
+                      std::span<const ObjectId> came);
 
 }  // namespace splatcut

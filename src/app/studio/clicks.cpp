@@ -262,32 +262,9 @@ void Clicks::leave_what_came() {
         came.push_back(id);
     if (came.empty()) continue;
     const auto hits = [&] { return hits_of(object, viewport_.drawn_part()); };
-    return leave_in_history(object, left_what_came(document, object, came, hits, ws_.gaussians()), came);
+    return leave_in_history(&ws_.history, object,
+                            left_what_came(document, object, came, hits, ws_.gaussians()), came);
   }
-}
-
-// In every state in which the object waits for the same others, and these have what they have now. In others
-// it is done when they become the present one.
-void Clicks::leave_in_history(const ObjectItem before, const ObjectItem& after,
-                              std::span<const ObjectId> came) {
-  const Document now = ws_.document();
-  const auto has_the_same = [&](const Document& state, ObjectId id) {
-    const ObjectItem *here = now.find(id), *there = state.find(id);
-    return here && there && there->cut == here->cut && there->hand == here->hand &&
-           there->of_others == here->of_others && there->within == here->within;
-  };
-  ws_.history.change_all([&](Document* state) {
-    ObjectItem* same = state->find(before.id);
-    if (!same || same->leaves_also != before.leaves_also || same->of_others != before.of_others ||
-        !std::ranges::all_of(came, [&](ObjectId id) { return has_the_same(*state, id); }))
-      return;
-    if (same->hand == before.hand)
-      same->hand = after.hand;
-    else if (!after.of_others)
-      set_of_others(same, nullptr);
-    same->leaves_also = after.leaves_also;
-    same->of_others = after.of_others;
-  });
 }
 
 void Clicks::update() {

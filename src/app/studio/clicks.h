@@ -76,7 +76,6 @@ class Clicks {
   void refresh_hover();
   void make_ready();
   void leave_what_came();
-  void leave_in_history(ObjectItem before, const ObjectItem& after, std::span<const ObjectId> came);
   void show_hover(const Flags& change, bool rest);
   void combine_with(const CameraStroke& stroke, SetOperation operation, const std::string& title);
   void note_sizes();
