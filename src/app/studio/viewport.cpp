@@ -56,23 +56,15 @@ void Viewport::reset() {
   change_scene();
   camera_.reset(ws_.scene->bounds, ws_.document().up_world);
   const FileViews& views = ws_.scene->views();
-  if (!views.cameras.empty() || views.first_view) camera_.go_to(views.reference);
+  if (views.cameras.empty() && !views.first_view) return;
+  camera_.go_to(views.reference);
   camera_.finish_transition();
-  keep_room_for_thumbnails();
-}
-
-// A thing that is seen from outside leaves room for the thumbnails of its cuts. From within there is no going
-// back, and a camera of the capture stands where it stood.
-void Viewport::keep_room_for_thumbnails() {
-  const glm::vec3& eye = camera_.pose().position_world;
-  if (ws_.scene->views().cameras.empty() && !contains(ws_.scene->bounds, eye))
-    camera_.keep_clear(pane_camera(), kept_bottom_px_);
 }
 
 void Viewport::show_all_of_scene() {
   camera_.frame_scene();
   camera_.finish_transition();
-  keep_room_for_thumbnails();
+  camera_.keep_clear(pane_camera(), kept_bottom_px_);
 }
 
 bool Viewport::moving() const {

@@ -116,7 +116,6 @@ class Viewport {
   ToolContext tool_context(const glm::vec2& pixel);
 
  private:
-  void keep_room_for_thumbnails();
   void request_styles();
   void request_picture();
   void take_picture();

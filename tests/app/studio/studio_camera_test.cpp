@@ -350,36 +350,6 @@ UiRect seen_object(Hands& hands) {
 
 }  // namespace
 
-TEST_CASE("hands: a thing that stands alone is first seen above the room of the thumbnails") {
-  const ScratchFolder folder("first_room");
-  Scene scene;
-  scene.cloud = random_cloud(2000, 5, 0);
-  for (glm::vec3& p : scene.cloud.position) p = glm::vec3(1, 2, 1) * glm::normalize(p);
-  scene.file_rows = scene.cloud.size();
-  scene.up = glm::vec3(0, -1, 0);
-  save_scene(folder / "alone.ply", scene, {}, SceneFormat::kPly);
-  for (const glm::ivec2 size : {glm::ivec2(1040, 600), glm::ivec2(640, 480)}) {
-    CAPTURE(size.x);
-    HeadlessApp app(size.x, size.y);
-    app.open(folder / "alone.ply");
-    REQUIRE(app.settle());
-    const Viewport& viewport = app.studio().viewport();
-    REQUIRE(viewport.covered_bottom_px() == 0);  // nothing is cut yet
-    const float height = viewport.size_px().y, free = height - viewport.kept_bottom_px();
-    REQUIRE(free < height);
-    const Camera camera = viewport.pane_camera();
-    float low = height, high = 0;
-    for (const glm::vec3& p : app.studio().scene()->cloud->position) {
-      const float y = camera.pixel_from_camera(camera.camera_from_world(p)).y;
-      low = std::min(low, y);
-      high = std::max(high, y);
-    }
-    CHECK(low > 0);
-    CHECK(high < free);
-    CHECK(high - low > 0.4f * free);
-  }
-}
-
 TEST_CASE("hands: F lets the object fill four fifths of what is free of the picture") {
   Hands hands = hands_on_sample();
   hands.app.key('I');  // nothing stands before it
