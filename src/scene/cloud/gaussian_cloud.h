@@ -56,8 +56,8 @@ Box robust_bounds(std::span<const glm::vec3> positions, double inside = 0.98);
 Box framed_bounds(const GaussianCloud& cloud);
 
 // That share of the diagonal of robust_bounds(): about the 0.2 units that scenes are trained with where those
-// have the usual units, and the same picture where they have others. A scene without
-// extent has GaussianCloud's own.
+// have the usual units, and the same picture where they have others. A scene without extent has
+// GaussianCloud's own.
 constexpr float kNaturalNearShare = 0.01f;
 float natural_near_plane(std::span<const glm::vec3> positions);
 // The same, of framed_bounds() where all are one point, and never more than 7.5 times the size (largest axis)

@@ -81,8 +81,7 @@ void drop_gone(const std::vector<std::uint8_t>& kept, CleanObject* object) {
 
 CleanObject as_labelled(const CleanInput& input) {
   CleanObject object;
-  for (std::uint32_t g = 0; g < input.labels.size(); ++g)
-    if (input.labels[g]) object.gaussian.push_back(g);
+  object.gaussian = labelled_rows(input.labels);
   object.cloud = permuted(input.scene.cloud(), object.gaussian);
   return object;
 }

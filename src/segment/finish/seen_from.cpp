@@ -6,6 +6,7 @@
 
 #include "core/png_file.h"
 #include "scene/raster/rasterizer.h"
+#include "segment/finish/shown_part.h"
 #include "segment/masks/mask_tools.h"
 
 namespace splatcut {
@@ -14,13 +15,6 @@ namespace {
 
 constexpr int kWidthPx = 160;
 constexpr float kVisible = 0.4f;
-
-std::vector<std::uint32_t> labelled(std::span<const std::uint8_t> labels) {
-  std::vector<std::uint32_t> object;
-  for (std::uint32_t g = 0; g < labels.size(); ++g)
-    if (labels[g]) object.push_back(g);
-  return object;
-}
 
 // Level, of what one looks along; zero where that is straight up or down, or nowhere.
 glm::vec3 level_part(const glm::vec3& towards, const glm::vec3& up) {
@@ -86,14 +80,8 @@ std::vector<Camera> cameras_at(const glm::vec3& side, const ObjectExtent& object
 
 // What each Gaussian is worth in a rectangle of the view, px.
 PlaneSums worth(const Drawer& cloud, const Camera& camera, const PixelRect& rect, const Job& job) {
-  const std::vector<Image<float>> one(1, Image<float>(rect.width(), rect.height(), 1));
   PlaneSums sums(cloud.cloud().size(), 1);
-  RasterOptions raster;
-  raster.colour = false;
-  raster.roi = rect;
-  raster.sum_planes = one;
-  raster.plane_sums = &sums;
-  cloud.draw(camera, raster, job);
+  add_shown_px(cloud, camera, rect, {}, &sums, job);
   return sums;
 }
 
@@ -151,7 +139,7 @@ SeenSides::SeenSides(const Drawer& scene, std::span<const std::uint8_t> labels, 
       up_(glm::normalize(up_world)),
       front_(side_directions(up_world, towards)[0]),
       cameras_(cameras),
-      alone_(permuted(scene.cloud(), labelled(labels))),
+      alone_(permuted(scene.cloud(), labelled_rows(labels))),
       extent_(object_extent(scene.cloud(), labels)) {}
 
 Camera SeenSides::looking_from(const glm::vec3& direction) const {
@@ -179,7 +167,7 @@ float SeenSides::share(const glm::vec3& side, float enough, const Job& job) cons
 
 SeenFrom seen_by_views(const Drawer& scene, std::span<const std::uint8_t> labels, const glm::vec3& up_world,
                        std::span<const Camera> cameras, const Job& job) {
-  const std::vector<std::uint32_t> object = labelled(labels);
+  const std::vector<std::uint32_t> object = labelled_rows(labels);
   SeenFrom seen;
   add_views(scene, object, permuted(scene.cloud(), object), labels,
             own_cameras(scene.cloud(), labels, up_world, cameras, {}),
@@ -212,7 +200,7 @@ SeenFrom seen_from(const Drawer& scene, std::span<const std::uint8_t> labels, co
 
 Image<Rgb8> seen_picture(const SeenFrom& seen, const Drawer& scene, std::span<const std::uint8_t> labels,
                          const Job& job) {
-  const GaussianCloud alone = permuted(scene.cloud(), labelled(labels));
+  const GaussianCloud alone = permuted(scene.cloud(), labelled_rows(labels));
   Image<Rgb8> sheet(3 * kWidthPx, 2 * kWidthPx);
   for (int s = 0; s < static_cast<int>(kSideNames.size()) && !job.cancelled(); ++s) {
     const std::vector<glm::vec3> colours = colours_from(seen, seen.sides.at(static_cast<std::size_t>(s)));

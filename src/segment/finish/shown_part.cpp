@@ -10,13 +10,12 @@ namespace splatcut {
 
 namespace {
 
-// Per Gaussian, whether it lies in the box around the labelled ones.
-std::vector<std::uint8_t> in_box(const GaussianCloud& cloud, std::span<const std::uint8_t> labels) {
+// Per Gaussian of the cloud, whether it lies in the box around the object.
+std::vector<std::uint8_t> in_box(const GaussianCloud& cloud, const GaussianCloud& object) {
   glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
-  for (std::size_t g = 0; g < cloud.size(); ++g) {
-    if (!labels[g]) continue;
-    low = glm::min(low, cloud.position[g]);
-    high = glm::max(high, cloud.position[g]);
+  for (const glm::vec3& p : object.position) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
   }
   std::vector<std::uint8_t> in(cloud.size());
   for (std::size_t g = 0; g < cloud.size(); ++g) {
@@ -28,27 +27,40 @@ std::vector<std::uint8_t> in_box(const GaussianCloud& cloud, std::span<const std
 
 }  // namespace
 
+std::vector<std::uint32_t> labelled_rows(std::span<const std::uint8_t> labels) {
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t g = 0; g < labels.size(); ++g)
+    if (labels[g]) rows.push_back(g);
+  return rows;
+}
+
+void add_shown_px(const Drawer& scene, const Camera& camera, const PixelRect& rect,
+                  std::span<const std::uint8_t> shown, PlaneSums* sums, const Job& job) {
+  const std::vector<Image<float>> one(1, Image<float>(rect.width(), rect.height(), 1));
+  RasterOptions raster;
+  raster.colour = false;
+  raster.roi = rect;
+  raster.shown = shown;
+  raster.sum_planes = one;
+  raster.plane_sums = sums;
+  scene.draw(camera, raster, job);
+}
+
 ShownPart shown_part(const Drawer& scene, std::span<const std::uint8_t> labels,
                      std::span<const Camera> cameras, const Job& job) {
   const GaussianCloud& cloud = scene.cloud();
-  const std::vector<std::uint8_t> box = in_box(cloud, labels);
+  const GaussianCloud object = permuted(cloud, labelled_rows(labels));
+  const std::vector<std::uint8_t> all_of_it(object.size(), 1), box = in_box(cloud, object);
   std::vector<std::uint8_t> outside(box.size());
   std::ranges::transform(box, outside.begin(),
                          [](std::uint8_t in) { return static_cast<std::uint8_t>(in == 0); });
   PlaneSums sums(cloud.size(), 1);
   for (std::size_t v = 0; v < cameras.size() && !job.cancelled(); ++v) {
     job.progress("what the own views show", static_cast<double>(v) / static_cast<double>(cameras.size()));
-    const PixelRect object = labelled_rectangle(cloud, cameras[v], labels);
-    if (object.empty()) continue;
-    const PixelRect rect = grown(object, kSurroundingsPx, cameras[v].width_px, cameras[v].height_px);
-    const std::vector<Image<float>> one(1, Image<float>(rect.width(), rect.height(), 1));
-    RasterOptions raster;
-    raster.colour = false;
-    raster.roi = rect;
-    raster.shown = outside;
-    raster.sum_planes = one;
-    raster.plane_sums = &sums;
-    scene.draw(cameras[v], raster, job);
+    const PixelRect rect = labelled_rectangle(object, cameras[v], all_of_it);
+    if (rect.empty()) continue;
+    const int width = cameras[v].width_px, height = cameras[v].height_px;
+    add_shown_px(scene, cameras[v], grown(rect, kSurroundingsPx, width, height), outside, &sums, job);
   }
   ShownPart part;
   for (std::uint32_t g = 0; g < cloud.size(); ++g) {

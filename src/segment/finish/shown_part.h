@@ -27,6 +27,14 @@ struct ShownPart {
   std::vector<std::uint8_t> labels;
 };
 
+// Indices of the labelled Gaussians, ascending.
+std::vector<std::uint32_t> labelled_rows(std::span<const std::uint8_t> labels);
+
+// Adds what each Gaussian shows in a rectangle of the view, px, to sums of one plane. shown: flags per
+// Gaussian, 0 leaves it out; empty: all are drawn.
+void add_shown_px(const Drawer& scene, const Camera& camera, const PixelRect& rect,
+                  std::span<const std::uint8_t> shown, PlaneSums* sums, const Job& job);
+
 // Cancelled: unspecified.
 ShownPart shown_part(const Drawer& scene, std::span<const std::uint8_t> labels,
                      std::span<const Camera> cameras, const Job& job);

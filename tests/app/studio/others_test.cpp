@@ -26,6 +26,9 @@ std::size_t shared(const Labels& a, const Labels& b) {
 }
 
 // The small sample with its apple as object 1, and what else the cases below do in it.
+constexpr glm::vec2 kAppleFrom{605, 415}, kAppleTo{735, 560};  // around it
+constexpr glm::vec2 kLeft = kOnApple - glm::vec2(35, 0), kRight = kOnApple + glm::vec2(35, 0);
+
 struct Others : Hands {
   explicit Others(bool cut = true) : Hands(cut) {}
   Camera camera() { return studio().viewport().pane_camera(); }
@@ -33,6 +36,12 @@ struct Others : Hands {
   void settle() { REQUIRE(app.settle()); }
   void click(const glm::vec2& on_sample, SeedLabel label = SeedLabel::kObject) {
     studio().apply(AddStroke{camera(), {label, 4, {place(on_sample)}}});
+  }
+  void begin_second_while_first_comes() {
+    click(kLeft);
+    click(kRight, SeedLabel::kRest);
+    studio().apply(NewObject{});
+    click(kRight);
   }
   // A box between two places of the sample.
   void box(const glm::vec2& a, const glm::vec2& b) { studio().apply(AddBox{camera(), place(a), place(b)}); }
@@ -49,9 +58,6 @@ struct Others : Hands {
   }
   Labels labels(ObjectId object) { return studio().labels(object); }
 };
-
-constexpr glm::vec2 kAppleFrom{605, 415}, kAppleTo{735, 560};  // around it
-constexpr glm::vec2 kLeft = kOnApple - glm::vec2(35, 0), kRight = kOnApple + glm::vec2(35, 0);
 
 }  // namespace
 
@@ -117,10 +123,7 @@ TEST_CASE("others: what another object gets while this one is begun is left to i
   const ScratchFolder folder("others_come");
   Others hands(false);
   Studio& studio = hands.studio();
-  hands.click(kLeft);
-  hands.click(kRight, SeedLabel::kRest);
-  studio.apply(NewObject{});
-  hands.click(kRight);
+  hands.begin_second_while_first_comes();
   REQUIRE(hands.labels(1) == Labels(studio.scene()->cloud->size(), 0));  // on its way
   CHECK(studio.document().find(2)->leaves_also == std::vector<ObjectId>{1});
   const auto scene = open_scene(kSmallSample);
@@ -155,10 +158,7 @@ TEST_CASE(
     "all") {
   Others hands(false);
   Studio& studio = hands.studio();
-  hands.click(kLeft);
-  hands.click(kRight, SeedLabel::kRest);
-  studio.apply(NewObject{});
-  hands.click(kRight);
+  hands.begin_second_while_first_comes();
   bool settled = true;  // before it comes
   SUBCASE("removed, and undone") {
     studio.apply(RemoveObject{1});
@@ -207,10 +207,7 @@ TEST_CASE("others: of two objects begun while a third is cut the earlier one lea
   Studio& studio = hands.studio();
   hands.click(kOnMug);
   studio.apply(NewObject{});
-  hands.click(kLeft);
-  hands.click(kRight, SeedLabel::kRest);
-  studio.apply(NewObject{});
-  hands.click(kRight);
+  hands.begin_second_while_first_comes();
   hands.settle();
   const Labels second = hands.labels(2), third = hands.labels(3);
   CHECK(count_flags(second) > 0);

@@ -24,6 +24,13 @@ void wait_for_answer(HeadlessApp& app) {
   REQUIRE(app.settle());
 }
 
+void open_with_unsaved_work(HeadlessApp& app) {
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(app.settle());
+}
+
 }  // namespace
 
 TEST_CASE("dialogs: zenity's answer opens the scene, kdialog's too, and it is asked for the right thing") {
@@ -89,10 +96,7 @@ TEST_CASE(
   const auto there = folder / "beta.splatcut.json";
   std::ofstream(there) << "x";
   HeadlessApp app(760, 420);
-  app.open(kSmallSample);
-  REQUIRE(app.settle());
-  app.studio().apply(EditSelection{SelectionEdit::kAll});
-  REQUIRE(app.settle());
+  open_with_unsaved_work(app);
   FileBrowser& files = app.interface_state().files;
   const auto type = [&](std::string_view text) {
     for (const char c : text) {
@@ -143,10 +147,7 @@ TEST_CASE(
 TEST_CASE("dialogs: Save... where the program would be left saves the work, then leaves") {
   const ScratchFolder folder("save_and_leave");
   HeadlessApp app(760, 420);
-  app.open(kSmallSample);
-  REQUIRE(app.settle());
-  app.studio().apply(EditSelection{SelectionEdit::kAll});
-  REQUIRE(app.settle());
+  open_with_unsaved_work(app);
   FileBrowser& files = app.interface_state().files;
   const auto ask_to_save = [&] {
     files.folder = folder.path();
