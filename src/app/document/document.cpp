@@ -128,7 +128,7 @@ std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& 
         labels[g] = mark == kHandObject;
   if (document.deleted)
     for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && !(*document.deleted)[g];
-  if (const ObjectItem* whole = document.find(object.within); whole && whole->id != object.id) {
+  if (const ObjectItem* whole = document.find(object.within)) {
     const std::vector<std::uint8_t> limit = labels_of(document, *whole, gaussians);
     for (std::size_t g = 0; g < gaussians; ++g) labels[g] = labels[g] && limit[g];
   }

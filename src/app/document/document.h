@@ -36,7 +36,7 @@ struct ObjectItem {
   Rgb8 colour{255, 140, 30};
   bool visible = true;
   bool locked = false;
-  ObjectId within = 0;                // object that this one is a part of: labels outside of it do not count
+  ObjectId within = 0;                // earlier object that this is a part of: no labels outside of it count
   std::vector<StrokedView> views;     // views with their strokes, in the order of the strokes, see CutRequest
   int choice = 0;                     // meaning of the first click that is taken, 0 the likeliest
   int part_step = 0;                  // number of sizes above (+) or below (-) that meaning's own

@@ -270,8 +270,8 @@ std::string edit(Document* document, const EditSelection& command, const EditCon
 }
 
 std::string edit(Document* document, const NewObject& command, const EditContext&) {
-  const ObjectItem* whole = document->find(command.within);
-  const std::string name = whole ? free_name(*document, "Part of " + whole->name) : std::string();
+  std::string name;
+  if (command.within != 0) name = free_name(*document, "Part of " + required(document, command.within).name);
   ObjectItem& object = add_object(document, name);
   object.within = command.within;
   return object.name + " added. Click what belongs to it.";

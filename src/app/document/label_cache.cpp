@@ -8,7 +8,7 @@ const LabelCache::Kept& LabelCache::kept(const Document& document, const ObjectI
   if (kept_.size() > document.objects.size() + kMostGone)
     std::erase_if(kept_, [&](const auto& entry) { return !document.find(entry.first); });
   const ObjectItem* whole = document.find(object.within);
-  const Flags limit = whole && whole->id != object.id ? labels(document, *whole, gaussians) : nullptr;
+  const Flags limit = whole ? labels(document, *whole, gaussians) : nullptr;
   Kept& kept = kept_[object.id];
   const bool current = kept.labels && kept.labels->size() == gaussians && kept.cut == object.cut &&
                        kept.hand == object.hand && kept.of_others == object.of_others &&

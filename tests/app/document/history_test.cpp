@@ -74,6 +74,22 @@ TEST_CASE("history: steps with one key become one until something else is done")
   CHECK(history.entries().size() == 4);
 }
 
+TEST_CASE("objects: a part of an object that does not exist is refused") {
+  const ScratchFolder folder("no_whole");
+  write_random_scene(folder / "random.ply");
+  StudioOptions options;
+  options.inline_tasks = true;
+  Studio studio(options);
+  studio.apply(OpenScene{folder / "random.ply"});
+  REQUIRE(studio.scene());
+  studio.apply(NewObject{});
+  const ObjectId whole = studio.document().active;
+  studio.apply(NewObject{whole});
+  CHECK(studio.document().find(studio.document().active)->within == whole);
+  studio.apply(NewObject{studio.document().next_id});  // would be a part of itself
+  CHECK(studio.document().objects.size() == 2);
+}
+
 TEST_CASE("history: the background and the choice of an object are no steps, and undo leaves them") {
   const ScratchFolder folder("no_steps");
   write_random_scene(folder / "random.ply");
