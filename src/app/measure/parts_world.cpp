@@ -72,6 +72,14 @@ PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const P
     if (std::ranges::none_of(made.views, [&](const LeafView& v) { return same_camera(v.camera, camera); }))
       made.views.push_back(leaf_view(drawer, made.parts, camera, job));
   };
+  const auto draw_start = [&](const Camera& camera) {
+    draw(camera);
+    if (options.first.box_margin)
+      draw_colour(drawer,
+                  &*std::ranges::find_if(made.views,
+                                         [&](const LeafView& v) { return same_camera(v.camera, camera); }),
+                  job);
+  };
   const std::vector<TruthView> truths = evenly(truth_views(scene), options.most_views);
   for (const TruthView& full : truths) {
     const Camera camera = small(full.camera, &full.truth);
@@ -89,7 +97,7 @@ PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const P
       const Camera camera = small(from->camera, known == truths.end() || zoom != 1 ? nullptr : &known->truth);
       const float scale = static_cast<float>(camera.width_px) / static_cast<float>(start.camera.width_px);
       const Stroke first = scaled({from->stroke}, scale).front();
-      draw(camera);
+      draw_start(camera);
       made.starts.push_back(
           {zoom == 1 ? start.name : fmt::format("{} x{}", start.name, zoom), camera, first});
       made.zoom.push_back(zoom);

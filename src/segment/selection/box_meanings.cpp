@@ -176,4 +176,16 @@ std::vector<std::uint8_t> agreed_in_box(const PartHierarchy& parts, const LeafVi
   return agreed;
 }
 
+float cost_in_box(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
+                  std::span<const std::uint8_t> set, const TermValues& weights) {
+  const std::vector<InBox> leaves = of_leaves(parts, view, box);
+  InBox sum;
+  for (std::size_t l = 0; l < set.size(); ++l)
+    if (set[l]) sum += leaves[l];
+  const float inside = sum.inside();
+  TermValues terms{};
+  if (inside > 0) set_box_terms(sum, inside, all_inside(leaves), &terms);
+  return cost_of(terms, weights);
+}
+
 }  // namespace splatcut

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "segment/selection/box_by_colour.h"
 #include "segment/selection/box_meanings.h"
 #include "segment/selection/click_selection.h"
 
@@ -11,19 +12,35 @@ namespace {
 
 using Leaves = std::vector<std::uint8_t>;
 
-// What the trees agree on, then the likeliest single parts that look clearly different from all before.
-std::vector<Leaves> distinct_meanings(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
-                                      std::span<const PartMeaning> found, const TermValues& weights,
-                                      float offered) {
+bool any(const Leaves& leaves) {
+  return std::ranges::count(leaves, 1) > 0;
+}
+
+// What the trees agree on, else the likeliest single part.
+Leaves what_fills(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
+                  std::span<const PartMeaning> found, const TermValues& weights) {
+  Leaves agreed = agreed_in_box(parts, view, box, vote_shares(parts, found), weights);
+  return any(agreed) ? agreed : leaves_of(parts, found.front().tree, found.front().node);
+}
+
+// What fills the box, what colour says of it beside that, or before it where that stands out clearly more,
+// then the likeliest single parts: each looks clearly different from all before.
+std::vector<Leaves> distinct_meanings(const PartHierarchy& parts, const LeafView& view, const Stroke& stroke,
+                                      const Leaves& fills, std::span<const PartMeaning> found,
+                                      const SelectionModel& model) {
+  const BoxPx box = box_in_picture(stroke, view.camera.width_px, view.camera.height_px);
   std::vector<Leaves> meant;
-  const std::vector<float> shares = vote_shares(parts, found);
-  if (Leaves agreed = agreed_in_box(parts, view, box, shares, weights); std::ranges::count(agreed, 1) > 0)
-    meant.push_back(std::move(agreed));
-  for (const PartMeaning& meaning : found) {
-    if (std::ssize(meant) == kMostMeanings || meaning.cost > found.front().cost + offered) break;
-    Leaves leaves = leaves_of(parts, meaning.tree, meaning.node);
+  const auto add = [&](const Leaves& leaves) {
     const auto alike = [&](const Leaves& other) { return look_alike(view, other, leaves); };
-    if (std::ranges::none_of(meant, alike)) meant.push_back(std::move(leaves));
+    if (any(leaves) && std::ranges::none_of(meant, alike)) meant.push_back(leaves);
+  };
+  const Leaves by_colour = leaves_by_colour(parts, view, stroke);
+  const bool colour_first = stands_out_more(parts, view, box, by_colour, fills, model.box);
+  add(colour_first ? by_colour : fills);
+  add(colour_first ? fills : by_colour);
+  for (const PartMeaning& meaning : found) {
+    if (std::ssize(meant) == kMostMeanings || meaning.cost > found.front().cost + model.offered) break;
+    add(leaves_of(parts, meaning.tree, meaning.node));
   }
   return meant;
 }
@@ -35,10 +52,9 @@ bool ClickSelection::take_box(const LeafView& view, const Stroke& stroke) {
   const BoxPx box = box_in_picture(stroke, view.camera.width_px, view.camera.height_px);
   const std::vector<PartMeaning> found = box_meanings(parts_, view, box, model_.box);
   if (found.empty()) return false;
-  const std::vector<Leaves> meant =
-      distinct_meanings(parts_, view, box, found, model_.box, any_ ? 0 : model_.offered);
-  Leaves leaves = meant.front();
+  Leaves leaves = what_fills(parts_, view, box, found, model_.box);
   if (!any_) {
+    const std::vector<Leaves> meant = distinct_meanings(parts_, view, stroke, leaves, found, model_);
     Offers offers;
     for (const Leaves& some : meant) offers.masks.push_back(shown(view.leaves, view.camera, some));
     offers_ = std::make_shared<const Offers>(std::move(offers));

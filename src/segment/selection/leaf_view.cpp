@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/png_file.h"
 
 namespace splatcut {
 
@@ -91,6 +92,7 @@ LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera,
                 .gaussians = flat(gaussians),
                 .leaves = {},
                 .depth = std::move(depth),
+                .colour = {},
                 .leaf_px = {},
                 .leaf_frame_px = {}};
   sum_by_leaf(parts, &gaussians);
@@ -112,6 +114,12 @@ LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camer
   view.whole = seen == nullptr;
   view.alone_px = alone_px(drawer.cloud(), camera);
   return view;
+}
+
+void draw_colour(const Drawer& drawer, LeafView* view, const Job& job, const SeenGaussians& seen) {
+  RasterOptions raster;
+  if (seen) raster.shown = *seen;
+  view->colour = rgb8_from_linear(drawer.draw(view->camera, raster, job).colour);
 }
 
 LeafPicture picture_of(const LeafView& view) {

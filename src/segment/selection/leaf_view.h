@@ -31,6 +31,7 @@ struct LeafView {
   Camera camera;
   PixelWeights gaussians, leaves;
   Image<float> depth;                // expected depth as camera z, scene units; 0: nothing is there
+  Image<Rgb8> colour;                // its picture; empty: nobody needed it, see draw_colour()
   bool whole = true;                 // false: some Gaussians were left out
   std::vector<float> alone_px;       // pixels that each Gaussian has if nothing occludes it; empty: not known
   std::vector<float> leaf_px;        // sum of each leaf's weights, pixels
@@ -40,6 +41,9 @@ struct LeafView {
 // Draws a view. seen: flags of the Gaussians to draw; null: all. If cancelled, the result must not be used.
 LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera,
                    const Job& job = {}, const SeenGaussians& seen = {});
+
+// Draws the view's colour, with the Gaussians that it was drawn with.
+void draw_colour(const Drawer& drawer, LeafView* view, const Job& job = {}, const SeenGaussians& seen = {});
 
 // Makes a view from known lists. gaussians: per pixel the weights of its Gaussians.
 LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera,

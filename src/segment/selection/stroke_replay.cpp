@@ -35,13 +35,18 @@ const LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& sai
   });
   if (known != views_.end()) {
     views_.splice(views_.begin(), views_, known);
-    return &views_.front().view;
+  } else {
+    LeafView made = leaf_view(drawer, parts_, camera, job, said.seen);
+    if (job.cancelled()) return nullptr;  // it may be incomplete
+    views_.push_front({std::move(made), said.seen});
+    if (views_.size() > kMostViews) views_.pop_back();
   }
-  LeafView made = leaf_view(drawer, parts_, camera, job, said.seen);
-  if (job.cancelled()) return nullptr;  // it may be incomplete
-  views_.push_front({std::move(made), said.seen});
-  if (views_.size() > kMostViews) views_.pop_back();
-  return &views_.front().view;
+  LeafView& view = views_.front().view;
+  if (said.stroke.is_box() && view.colour.empty()) {
+    draw_colour(drawer, &view, job, said.seen);
+    if (job.cancelled()) view.colour = {};
+  }
+  return job.cancelled() ? nullptr : &view;
 }
 
 // What is small in the view is looked at with more pixels: by what is selected already, else by what the

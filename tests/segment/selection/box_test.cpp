@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "four_stripes.h"
@@ -156,6 +157,35 @@ TEST_CASE("box: what else it can mean looks clearly different, and is taken when
   CHECK(meant[1] != meant[0]);
   CHECK(meant[2] != meant[0]);
   CHECK(meant[2] != meant[1]);
+}
+
+TEST_CASE(
+    "box: what differs in colour from all around is meant though no part is it, and what shares it is not") {
+  const PartHierarchy parts = four_leaves();
+  const auto view_of = [&](const std::array<Rgb8, 4>& colours) {
+    LeafView view = stripes(parts);
+    view.colour = Image<Rgb8>(40, 10);
+    for (int y = 0; y < 10; ++y)
+      for (int x = 0; x < 40; ++x) {
+        view.colour.at(x, y) = colours[static_cast<std::size_t>(x / 10)];
+        view.colour.at(x, y)[1] += static_cast<std::uint8_t>((3 * x + 5 * y) % 7);
+      }
+    return view;
+  };
+  const auto meant = [&](const LeafView& view, const Stroke& box, int choice = 0) {
+    ClickSelection selection(parts, boxes_and_borders(), 0, choice);
+    REQUIRE(selection.apply(view, box));
+    return selection.labels();
+  };
+  constexpr Rgb8 kRed{200, 40, 40}, kBlue{40, 40, 200};
+  const Stroke middle = columns(10, 30);
+  const Labels by_parts = meant(stripes(parts), middle);
+  REQUIRE(by_parts != Labels{0, 1, 1, 0});  // the trees hold 0 with 1, and 2 with 3
+  const LeafView stands_out = view_of({kBlue, kRed, kRed, kBlue});
+  CHECK(meant(stands_out, middle) == Labels{0, 1, 1, 0});
+  CHECK(meant(stands_out, middle, 1) == by_parts);
+  CHECK(meant(view_of({kBlue, kBlue, kBlue, kBlue}), middle) == by_parts);
+  CHECK(meant(view_of({kRed, kRed, kRed, kBlue}), columns(0, 20)) == Labels{1, 1, 0, 0});
 }
 
 TEST_CASE("box: to pixels alone it says that what is outside is the rest, and its middle the object") {

@@ -1,0 +1,36 @@
+// What a box means by colour: its one answer that no part of any tree has to be.
+//
+// In: hierarchy, a view with its colour, a box around an object. Outside of the box is the rest, its middle
+// is the object, and GrabCut tells the two apart by colour between them; leaves follow by parts_of_mask().
+// That finds what differs in colour from all around it and falls apart into parts that nothing joins, and
+// loses much of what shares its colours with its surroundings. So it counts as the better answer than another
+// set of leaves only where it stands out clearly more:
+//
+//   0.5 (fit of the other - its own) + 4 (overlap of the other - its own) + 2 (its edges - the other's) >
+//   0.35
+//
+// fit: kShort, kSpill and kFills with their weights (box_meanings.h); overlap: sum over 8^3 bins of Lab of
+// the lesser share of the set's pixels and of the others in the box grown by a quarter, 0 to 1; edges: the
+// share of the set's border where the depth jumps or the colour does by more than 10 (Lab), 0 to 1. The three
+// weights and the bound were searched on the 26 objects of docs/clicks.md, with a plateau around them. Cost:
+// 100 to 200 ms at 400 px wide, the most of it GrabCut's five rounds.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "segment/selection/leaf_view.h"
+
+namespace splatcut {
+
+// Flags per leaf; none if the view has no colour.
+std::vector<std::uint8_t> leaves_by_colour(const PartHierarchy& parts, const LeafView& view,
+                                           const Stroke& box, const MaskToPartsOptions& options = {});
+
+// Whether the leaves found by colour are a better answer to the box than the others.
+bool stands_out_more(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
+                     std::span<const std::uint8_t> by_colour, std::span<const std::uint8_t> others,
+                     const TermValues& weights);
+
+}  // namespace splatcut
