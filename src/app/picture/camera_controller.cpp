@@ -120,13 +120,18 @@ void CameraController::pan(const glm::vec2& delta_px, float viewport_height_px, 
   pose_.position_world -= per_px * (delta_px.x * axes[0] + delta_px.y * axes[1]);
 }
 
+float CameraController::least_distance() const {
+  constexpr float kBeyondNearPlane = 1.5f;
+  return std::max(1e-4f * scene_size_, kBeyondNearPlane * near_plane_);
+}
+
 void CameraController::zoom(float steps, const std::optional<glm::vec3>& point_world) {
   finish_transition();
   const glm::vec3 forward = world_from_camera(pose_)[2];
   const glm::vec3 point = point_world.value_or(pivot_world());
   const float depth = std::max(1e-6f * scene_size_, glm::dot(point - pose_.position_world, forward));
-  const float wanted =
-      std::clamp(depth * std::pow(kZoomPerStep, steps), 1e-4f * scene_size_, 1e3f * scene_size_);
+  const float wanted = std::clamp(depth * std::pow(kZoomPerStep, steps), std::min(depth, least_distance()),
+                                  1e3f * scene_size_);
   pose_.position_world = point + (wanted / depth) * (pose_.position_world - point);
   pose_.distance = wanted;  // the pivot comes to the depth of what is looked at
 }
@@ -152,7 +157,7 @@ void CameraController::focus(const glm::vec3& point_world) {
 
 void CameraController::approach(const glm::vec3& point_world, float share) {
   CameraPose target = pose_;
-  target.distance = std::max(1e-4f * scene_size_, share * glm::length(point_world - pose_.position_world));
+  target.distance = std::max(least_distance(), share * glm::length(point_world - pose_.position_world));
   target.position_world = point_world - target.distance * world_from_camera(pose_)[2];
   start(target);
   orbit_centre_ = point_world;
@@ -193,7 +198,7 @@ Framing CameraController::framing(std::span<const glm::vec3> points_world, const
     }
     target.distance = std::max(least, target.distance * std::max(filled, 1e-3f));
   }
-  target.distance = std::max(target.distance, least_distance);
+  target.distance = std::max({target.distance, least_distance, near_plane_ + least});
   const glm::mat3 axes = world_from_camera(target);
   const float lower = 0.5f * (height - free) * target.distance / camera.fy_px;
   const glm::vec3 middle_world = axes * middle;

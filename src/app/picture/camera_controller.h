@@ -38,6 +38,8 @@ class CameraController {
   // Starts with another scene. scene: its robust bounds, which frame_scene() frames.
   void reset(const Box& scene, const glm::vec3& up_world);
   void change_scene(const Box& scene);  // sets new bounds and leaves the view as it is
+  // Pictures leave out what is nearer than that, scene units: nothing is framed or zoomed to out of sight.
+  void set_near_plane(float near_plane) { near_plane_ = near_plane; }
 
   void orbit(const glm::vec2& delta_px);
   // Pans so that what lies at `depth` follows the pointer. depth: camera z, scene units; none: the pivot's.
@@ -90,7 +92,9 @@ class CameraController {
   void start(const CameraPose& target);
 
   Box scene_;
-  float scene_size_ = 1;
+  float least_distance() const;  // of what is looked at
+
+  float scene_size_ = 1, near_plane_ = 0;
   glm::vec3 up_world_{0, -1, 0};
   CameraPose pose_, from_;
   std::optional<CameraPose> target_;

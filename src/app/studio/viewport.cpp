@@ -77,6 +77,7 @@ bool Viewport::idle() const {
 }
 
 bool Viewport::update(double seconds, const Flight& flight) {
+  camera_.set_near_plane(draw_limits().near_plane);
   const CameraPose before = camera_.pose();
   const bool flies = ws_.scene && flight.moving();
   constexpr double kLongestStep = 0.1;

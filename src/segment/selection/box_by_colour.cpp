@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <opencv2/core.hpp>
 
-#include "scene/raster/depth_jump.h"
 #include "segment/masks/cv_image.h"
 #include "segment/masks/refine_mask.h"
 #include "segment/selection/box_meanings.h"
@@ -62,21 +60,6 @@ float overlap_of_colours(const cv::Mat& lab, const Mask& mask, const BoxPx& box)
   return overlap;
 }
 
-// Share of the mask's border, by pairs of neighbouring pixels, at an edge of colour or depth.
-float share_at_edges(const cv::Mat& lab, const Image<float>& depth, const Mask& mask) {
-  constexpr float kEdge = 10;  // of Lab
-  int pairs = 0, at_edges = 0;
-  for (int y = 0; y + 1 < mask.height(); ++y)
-    for (int x = 0; x + 1 < mask.width(); ++x)
-      for (const auto& [dx, dy] : {std::array{1, 0}, std::array{0, 1}}) {
-        if ((mask.at(x, y) != 0) == (mask.at(x + dx, y + dy) != 0)) continue;
-        ++pairs;
-        at_edges += relative_depth_jump(depth.at(x, y), depth.at(x + dx, y + dy)) > kJumpUnderBrush ||
-                    cv::norm(lab.at<cv::Vec3f>(y, x) - lab.at<cv::Vec3f>(y + dy, x + dx)) > kEdge;
-      }
-  return pairs == 0 ? 0 : static_cast<float>(at_edges) / static_cast<float>(pairs);
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> leaves_by_colour(const PartHierarchy& parts, const LeafView& view,
@@ -95,15 +78,14 @@ std::vector<std::uint8_t> leaves_by_colour(const PartHierarchy& parts, const Lea
 bool stands_out_more(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
                      std::span<const std::uint8_t> by_colour, std::span<const std::uint8_t> others,
                      const TermValues& weights) {
-  constexpr float kFit = 0.5f, kOverlap = 4, kEdges = 2, kLeast = 0.35f;
+  constexpr float kOverlap = 2, kLeast = 0.4f;
   if (view.colour.empty() || std::ranges::count(by_colour, 1) == 0) return false;
   const cv::Mat lab = lab_of(as_const_mat(view.colour));
-  const auto score = [&](std::span<const std::uint8_t> leaves) {
-    const Mask mask = shown(view.leaves, view.camera, leaves);
-    return kEdges * share_at_edges(lab, view.depth, mask) - kOverlap * overlap_of_colours(lab, mask, box) -
-           kFit * cost_in_box(parts, view, box, leaves, weights);
+  const auto cost = [&](std::span<const std::uint8_t> leaves) {
+    return cost_in_box(parts, view, box, leaves, weights) +
+           kOverlap * overlap_of_colours(lab, shown(view.leaves, view.camera, leaves), box);
   };
-  return score(by_colour) > score(others) + kLeast;
+  return cost(others) - cost(by_colour) > kLeast;
 }
 
 }  // namespace splatcut

@@ -4,16 +4,11 @@
 // is the object, and GrabCut tells the two apart by colour between them; leaves follow by parts_of_mask().
 // That finds what differs in colour from all around it and falls apart into parts that nothing joins, and
 // loses much of what shares its colours with its surroundings. So it counts as the better answer than another
-// set of leaves only where it stands out clearly more:
-//
-//   0.5 (fit of the other - its own) + 4 (overlap of the other - its own) + 2 (its edges - the other's) >
-//   0.35
-//
-// fit: kShort, kSpill and kFills with their weights (box_meanings.h); overlap: sum over 8^3 bins of Lab of
-// the lesser share of the set's pixels and of the others in the box grown by a quarter, 0 to 1; edges: the
-// share of the set's border where the depth jumps or the colour does by more than 10 (Lab), 0 to 1. The three
-// weights and the bound were searched on the 26 objects of docs/clicks.md, with a plateau around them. Cost:
-// 100 to 200 ms at 400 px wide, the most of it GrabCut's five rounds.
+// set of leaves only where the sum of fit and 2 overlap is less by more than 0.4. fit: kShort, kSpill and
+// kFills with their weights (box_meanings.h). overlap: of the colours in the set's picture and of those
+// beside it in the box grown by a quarter; the sum over 8^3 bins of Lab of the lesser share, 0 apart, 1 the
+// same. Both numbers were searched on the boxes of docs/clicks.md, where it says what leaving out a capture
+// costs. Cost: 100 to 200 ms at 400 px wide, the most of it GrabCut's five rounds.
 #pragma once
 
 #include <cstdint>

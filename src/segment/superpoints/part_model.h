@@ -126,6 +126,8 @@ struct MaskToPartsOptions {
 
 struct PartModel {
   // Whoever changes a value raises the version and says here what was searched on what.
+  // Version 15: what colour says of a box comes before what the trees agree on where it stands out more
+  // (selection/box_by_colour.h).
   // Version 14: doubt costs as much where what would change is small (docs/clicks.md).
   // Version 13: what doubt costs where a rest click asks again is 16, 8 before (docs/clicks.md).
   // Version 12: a rest click asks again what the first click meant, however much that changes. Its two
@@ -135,7 +137,7 @@ struct PartModel {
   // Version 9: what a first click means is fitted by `splatcut-lab fit` on the scenes of docs/clicks.md,
   // which shows the fit without each of the captures; what corrections mean is set by hand on the same
   // scenes, last the cost of a click on the rest that takes nearly all of the object (Term::kTakes).
-  static constexpr int kVersion = 14;
+  static constexpr int kVersion = 15;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;
