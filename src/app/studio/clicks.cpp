@@ -129,7 +129,8 @@ std::string Clicks::why_not_step(int steps) const {
   if (!known) return {};
   const std::size_t size = size_wanted(), last = known->sizes - 1;
   if (last == 0) return "The click means one size alone";
-  if (steps > 0 && size >= last) return fmt::format("This is the largest of {} sizes", known->sizes);
+  if (steps > 0 && size >= last)
+    return fmt::format("This is the largest of {} sizes: a box (4) may find more", known->sizes);
   if (steps < 0 && size == 0) return fmt::format("This is the smallest of {} sizes", known->sizes);
   return {};
 }

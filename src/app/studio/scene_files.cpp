@@ -122,6 +122,12 @@ std::vector<SceneSource> SceneFiles::wanted_files() const {
   return changing_to_.empty() ? ws_.scene->files : changing_to_;
 }
 
+ScenePlace SceneFiles::place_to_be(std::uint32_t file) const {
+  const std::vector<SceneSource> files = wanted_files();
+  const auto found = std::ranges::find(files, file, &SceneSource::id);
+  return found != files.end() ? found->place : ScenePlace{};
+}
+
 SceneSource& SceneFiles::added_file(std::vector<SceneSource>* files, std::uint32_t id) const {
   const auto found = std::ranges::find(*files, id, &SceneSource::id);
   if (found == files->end()) throw Error("scene", "there is no such file in it");

@@ -36,6 +36,9 @@ class SceneFiles {
   bool redo_files();
   bool can_redo_files() const;
 
+  // Place of one of the scene's files once the changes under way are done.
+  ScenePlace place_to_be(std::uint32_t file) const;
+
   void perform(const OpenScene& c);
   void perform(const AddScene& c);
   void perform(const PlaceScene& c);

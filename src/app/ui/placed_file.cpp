@@ -23,10 +23,11 @@ void draw_box(const SceneSource& file, const Similarity& to, const Camera& camer
                                         1.5f);
 }
 
-// Not while a number of it is dragged or typed, and not before the scene has followed.
+// Not while a number of it is dragged or typed. Before the scene has followed it is the place to come, so
+// that what is typed meanwhile begins there.
 void take_place(UiContext& ui, const SceneSource& file) {
   PlacingChoice& choice = ui.state.placing;
-  if (!choice.grips.drag && !ImGui::IsAnyItemActive() && !ui.studio.loading()) choice.place = file.place;
+  if (!choice.grips.drag && !ImGui::IsAnyItemActive()) choice.place = ui.studio.files().place_to_be(file.id);
 }
 
 }  // namespace

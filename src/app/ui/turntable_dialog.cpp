@@ -130,7 +130,7 @@ void turntable_dialog(UiContext& ui) {
     if (!ui.studio.scene()) return;
     propose(ui);
   }
-  if (!begin_dialog(id, ui.state.turntable_open, {560, 298})) return;
+  if (!begin_dialog(id, ui.state.turntable_open, {560, 316})) return;
   const bool typing = typing_beside("##folder");
   as_row(ui, choice);
   frames_row(ui, choice);
@@ -141,7 +141,10 @@ void turntable_dialog(UiContext& ui) {
   ImGui::SameLine(0, 4);
   const bool browse = button(ui, icon::kFolder, "Choose a folder and name");
   clean_edges_choice(ui);
-  wrapped_muted(ui, what_is_written(choice));
+  const FileViews& views = ui.studio.scene()->views();
+  const bool guessed = views.up_is_guess && views.up_world == ui.studio.document().up_world;
+  wrapped_muted(ui,
+                what_is_written(choice) + (guessed ? " Does it lean? Set what is up under View first." : ""));
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
   const bool cancelled = plain_button(ui, "Cancel", 110) || (!typing && escape_pressed());
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);

@@ -299,6 +299,18 @@ TEST_CASE(
     CHECK(glm::distance(foot_world(last_file(hands), up), place) < 1e-3f * studio.camera().scene_size());
   }
   const ScenePlace stands = last_file(hands).place;
+  // What is typed before the scene has followed begins at the place to come.
+  studio.apply(PlaceScene{id, {}});
+  REQUIRE(hands.app.settle());
+  studio.apply(BringHere{id});
+  ScenePlace smaller = studio.files().place_to_be(id);
+  CHECK(glm::distance(smaller.move, stands.move) < 1e-3f * studio.camera().scene_size());
+  smaller.scale = 0.4f;
+  studio.apply(PlaceScene{id, smaller});
+  REQUIRE(hands.app.settle());
+  CHECK(last_file(hands).place == smaller);
+  studio.apply(PlaceScene{id, stands});
+  REQUIRE(hands.app.settle());
   const glm::vec3 outside = 100 * studio.camera().scene_size() * glm::vec3(1, 0, 0);
   studio.apply(GoToCamera{look_at(outside, 2.0f * outside, up, 0.9f, 640, 480)});  // into the sky
   REQUIRE(hands.app.settle());
