@@ -68,17 +68,11 @@ PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const P
                : limited_to_width(
                      full, static_cast<int>(std::ceil(camera.width_px * options.least_object_px / side)));
   };
-  const auto draw = [&](const Camera& camera) {
-    if (std::ranges::none_of(made.views, [&](const LeafView& v) { return same_camera(v.camera, camera); }))
-      made.views.push_back(leaf_view(drawer, made.parts, camera, job));
-  };
-  const auto draw_start = [&](const Camera& camera) {
-    draw(camera);
-    if (options.first.box_margin)
-      draw_colour(drawer,
-                  &*std::ranges::find_if(made.views,
-                                         [&](const LeafView& v) { return same_camera(v.camera, camera); }),
-                  job);
+  const auto drawn = [&](const Camera& camera) -> LeafView& {
+    const auto known =
+        std::ranges::find_if(made.views, [&](const LeafView& v) { return same_camera(v.camera, camera); });
+    return known != made.views.end() ? *known
+                                     : made.views.emplace_back(leaf_view(drawer, made.parts, camera, job));
   };
   const std::vector<TruthView> truths = evenly(truth_views(scene), options.most_views);
   for (const TruthView& full : truths) {
@@ -97,7 +91,7 @@ PartsScene parts_scene(const EvaluationCase& scene, PartHierarchy parts, const P
       const Camera camera = small(from->camera, known == truths.end() || zoom != 1 ? nullptr : &known->truth);
       const float scale = static_cast<float>(camera.width_px) / static_cast<float>(start.camera.width_px);
       const Stroke first = scaled({from->stroke}, scale).front();
-      draw_start(camera);
+      if (LeafView& view = drawn(camera); options.first.box_margin) draw_colour(drawer, &view, job);
       made.starts.push_back(
           {zoom == 1 ? start.name : fmt::format("{} x{}", start.name, zoom), camera, first});
       made.zoom.push_back(zoom);

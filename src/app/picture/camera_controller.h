@@ -90,10 +90,9 @@ class CameraController {
 
  private:
   void start(const CameraPose& target);
-
-  Box scene_;
   float least_distance() const;  // of what is looked at
 
+  Box scene_;
   float scene_size_ = 1, near_plane_ = 0;
   glm::vec3 up_world_{0, -1, 0};
   CameraPose pose_, from_;

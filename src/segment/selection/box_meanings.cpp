@@ -183,8 +183,9 @@ float cost_in_box(const PartHierarchy& parts, const LeafView& view, const BoxPx&
   for (std::size_t l = 0; l < set.size(); ++l)
     if (set[l]) sum += leaves[l];
   const float inside = sum.inside();
+  if (!(inside > 0)) return std::numeric_limits<float>::infinity();
   TermValues terms{};
-  if (inside > 0) set_box_terms(sum, inside, all_inside(leaves), &terms);
+  set_box_terms(sum, inside, all_inside(leaves), &terms);
   return cost_of(terms, weights);
 }
 

@@ -35,7 +35,7 @@ std::vector<PartMeaning> box_meanings(const PartHierarchy& parts, const LeafView
 std::vector<std::uint8_t> agreed_in_box(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
                                         std::span<const float> shares, const TermValues& weights);
 
-// Cost of a set of leaves by its kShort, kSpill and kFills; 0 if none of it shows in the box.
+// Cost of a set of leaves by its kShort, kSpill and kFills; infinite if none of it shows in the box.
 float cost_in_box(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
                   std::span<const std::uint8_t> set, const TermValues& weights);
 
