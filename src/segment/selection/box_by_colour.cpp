@@ -7,7 +7,6 @@
 #include "segment/masks/cv_image.h"
 #include "segment/masks/refine_mask.h"
 #include "segment/selection/box_meanings.h"
-#include "segment/selection/part_terms.h"
 #include "segment/superpoints/part_view.h"
 
 namespace splatcut {
@@ -20,15 +19,6 @@ Mask mask_of_box(const BoxPx& box, int width_px, int height_px) {
     for (int x = 0; x < width_px; ++x)
       if (box.contains(glm::vec2(x, y) + 0.5f)) mask.at(x, y) = kMaskObject;
   return mask;
-}
-
-PartView parts_shown(const PartHierarchy& parts, const LeafView& view) {
-  PartView shown{picture_of(view).leaf, {}};
-  std::vector<float> pixels(parts.leaves, 0);
-  for (const std::uint32_t leaf : shown.leaf.pixels())
-    if (leaf != kNoPart) pixels[leaf] += 1;
-  for (const PartTree& tree : parts.trees) shown.trees.push_back({summed(tree, pixels)});
-  return shown;
 }
 
 std::size_t colour_bin(const cv::Vec3f& lab) {
@@ -72,7 +62,7 @@ std::vector<std::uint8_t> leaves_by_colour(const PartHierarchy& parts, const Lea
   refine.band_px = static_cast<int>(std::max(inside.size_px().x, inside.size_px().y));  // all of the box
   const Mask mask = refine_mask(view.colour, view.depth, mask_of_box(inside, width_px, height_px), refine,
                                 draw_seeds({box}, width_px, height_px));
-  return parts_of_mask(parts, parts_shown(parts, view), mask, options);
+  return parts_of_mask(parts, view_parts(parts, picture_of(view).leaf), mask, options);
 }
 
 bool stands_out_more(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,

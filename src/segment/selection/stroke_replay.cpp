@@ -27,26 +27,20 @@ std::vector<CameraStroke> in_replay_order(std::span<const CameraStroke> strokes)
   return order;
 }
 
-const LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int width_px,
-                                   const Job& job) {
+LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int width_px, const Job& job) {
   const Camera camera = limited_to_width(said.camera, width_px);
   const auto known = std::ranges::find_if(views_, [&](const KnownView& v) {
     return same_camera(v.view.camera, camera) && same_set(v.seen, said.seen);
   });
   if (known != views_.end()) {
     views_.splice(views_.begin(), views_, known);
-  } else {
-    LeafView made = leaf_view(drawer, parts_, camera, job, said.seen);
-    if (job.cancelled()) return nullptr;  // it may be incomplete
-    views_.push_front({std::move(made), said.seen});
-    if (views_.size() > kMostViews) views_.pop_back();
+    return &views_.front().view;
   }
-  LeafView& view = views_.front().view;
-  if (said.stroke.is_box() && view.colour.empty()) {
-    draw_colour(drawer, &view, job, said.seen);
-    if (job.cancelled()) view.colour = {};
-  }
-  return job.cancelled() ? nullptr : &view;
+  LeafView made = leaf_view(drawer, parts_, camera, job, said.seen);
+  if (job.cancelled()) return nullptr;  // it may be incomplete
+  views_.push_front({std::move(made), said.seen});
+  if (views_.size() > kMostViews) views_.pop_back();
+  return &views_.front().view;
 }
 
 // What is small in the view is looked at with more pixels: by what is selected already, else by what the
@@ -63,8 +57,12 @@ std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, 
   int width_px = width_to_see_it(shown_before);
   const bool settled = count(shown_before) > 0;
   while (!job.cancelled()) {
-    const LeafView* seen = view(drawer, said, width_px, job);
+    LeafView* seen = view(drawer, said, width_px, job);
     if (!seen) return nullptr;
+    if (said.stroke.is_box() && !before.any() && seen->colour.empty()) {
+      draw_colour(drawer, seen, job, said.seen);
+      if (job.cancelled()) seen->colour = {};  // it may be incomplete
+    }
     auto next = std::make_shared<ClickSelection>(before);
     const float factor = static_cast<float>(width_px) / static_cast<float>(said.camera.width_px);
     next->apply(*seen, scaled({said.stroke}, factor).front());

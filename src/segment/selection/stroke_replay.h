@@ -51,7 +51,7 @@ class StrokeReplay {
     SeenGaussians seen;
   };
   // View of the Gaussians that the stroke affects; null if cancelled.
-  const LeafView* view(const Drawer& drawer, const CameraStroke& said, int width_px, const Job& job);
+  LeafView* view(const Drawer& drawer, const CameraStroke& said, int width_px, const Job& job);
   // Selection after one more stroke; null if cancelled.
   std::shared_ptr<const ClickSelection> after(const Drawer& drawer, const ClickSelection& before,
                                               const CameraStroke& said, const Job& job);

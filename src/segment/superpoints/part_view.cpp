@@ -1,17 +1,22 @@
 #include "segment/superpoints/part_view.h"
 
+#include <utility>
+
 namespace splatcut {
 
 PartView view_parts(const PartHierarchy& parts, const Image<std::int32_t>& first_hit) {
-  PartView view{Image<std::uint32_t>(first_hit.width(), first_hit.height(), kNoPart), {}};
+  Image<std::uint32_t> leaf(first_hit.width(), first_hit.height(), kNoPart);
+  for (std::size_t i = 0; i < leaf.size(); ++i)
+    if (const std::int32_t hit = first_hit.pixels()[i]; hit >= 0)
+      leaf.pixels()[i] = parts.leaf_of[static_cast<std::size_t>(hit)];
+  return view_parts(parts, std::move(leaf));
+}
+
+PartView view_parts(const PartHierarchy& parts, Image<std::uint32_t> leaf) {
+  PartView view{std::move(leaf), {}};
   PartView::Tree leaves{std::vector<float>(parts.leaves, 0)};
-  for (int y = 0; y < first_hit.height(); ++y)
-    for (int x = 0; x < first_hit.width(); ++x) {
-      if (first_hit.at(x, y) < 0) continue;
-      const std::uint32_t leaf = parts.leaf_of[static_cast<std::size_t>(first_hit.at(x, y))];
-      view.leaf.at(x, y) = leaf;
-      if (leaf != kNoPart) leaves.pixels[leaf] += 1;
-    }
+  for (const std::uint32_t shown : view.leaf.pixels())
+    if (shown != kNoPart) leaves.pixels[shown] += 1;
   for (const PartTree& tree : parts.trees) {
     PartView::Tree& of = view.trees.emplace_back(leaves);
     of.pixels.resize(tree.nodes(), 0);

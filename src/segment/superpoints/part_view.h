@@ -23,6 +23,9 @@ struct PartView {
 // first_hit: RasterOutput::first_hit of the view.
 PartView view_parts(const PartHierarchy& parts, const Image<std::int32_t>& first_hit);
 
+// The same from the leaf that each pixel shows; kNoPart: none.
+PartView view_parts(const PartHierarchy& parts, Image<std::uint32_t> leaf);
+
 // The leaves that a mask of the view means: per tree the nodes that agree best with it in pixels, whole nodes
 // rather than their children where that loses little, so that the side turned away belongs to it as well;
 // leaves that most trees choose. mask: same size as the view.

@@ -7,8 +7,10 @@
 
 #include "app/document/label_cache.h"
 #include "app/studio/studio.h"
+#include "core/error.h"
 #include "headless_app.h"
 #include "random_scene.h"
+#include "synthetic_cloud.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -75,19 +77,14 @@ TEST_CASE("history: steps with one key become one until something else is done")
 }
 
 TEST_CASE("objects: a part of an object that does not exist is refused") {
-  const ScratchFolder folder("no_whole");
-  write_random_scene(folder / "random.ply");
-  StudioOptions options;
-  options.inline_tasks = true;
-  Studio studio(options);
-  studio.apply(OpenScene{folder / "random.ply"});
-  REQUIRE(studio.scene());
-  studio.apply(NewObject{});
-  const ObjectId whole = studio.document().active;
-  studio.apply(NewObject{whole});
-  CHECK(studio.document().find(studio.document().active)->within == whole);
-  studio.apply(NewObject{studio.document().next_id});  // would be a part of itself
-  CHECK(studio.document().objects.size() == 2);
+  const GaussianCloud cloud = random_cloud(kFewGaussians, 1, 0);
+  const EditContext context{cloud};
+  Document document;
+  edit(&document, NewObject{}, context);
+  edit(&document, NewObject{1}, context);
+  CHECK(document.find(2)->within == 1);
+  CHECK_THROWS_AS(edit(&document, NewObject{document.next_id}, context), Error);  // would be a part of itself
+  CHECK(document.objects.size() == 2);
 }
 
 TEST_CASE("history: the background and the choice of an object are no steps, and undo leaves them") {
