@@ -8,7 +8,7 @@
 // kFills with their weights (box_meanings.h). overlap: of the colours in the set's picture and of those
 // beside it in the box grown by a quarter; the sum over 8^3 bins of Lab of the lesser share, 0 apart, 1 the
 // same. Both numbers were searched on the boxes of docs/clicks.md, where it says what leaving out a capture
-// costs. Cost: 100 to 200 ms at 400 px wide, the most of it GrabCut's five rounds.
+// costs. Cost: some 0.4 s at 320 px wide, the most of it GrabCut's five rounds.
 #pragma once
 
 #include <cstdint>
