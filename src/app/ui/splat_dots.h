@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/document/export_placement.h"
-#include "app/ui/panels.h"
+#include "app/ui/ui_context.h"
 
 namespace splatcut {
 

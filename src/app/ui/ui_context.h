@@ -93,6 +93,14 @@ struct AfterSave {
   std::size_t saves = 0, cursor = 0;  // number of saves before; step of the history that is to be saved
 };
 
+struct UiRect {
+  glm::vec2 min{0}, max{0};  // logical points
+  glm::vec2 size() const { return max - min; }
+  bool contains(const glm::vec2& p) const {
+    return p.x >= min.x && p.y >= min.y && p.x < max.x && p.y < max.y;
+  }
+};
+
 // What can be pressed, and the picture: where it lies in the last frame, in logical points.
 struct ShownItem {
   std::string name;  // what stands on it, without ImGui's ids; "picture"

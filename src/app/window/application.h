@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "app/studio/studio.h"
-#include "app/ui/interface.h"
 #include "app/window/focus_walk.h"
 #include "app/window/gpu_view.h"
+#include "app/window/interface.h"
 #include "app/window/ui_events.h"
 #include "render/context.h"
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <random>
@@ -13,6 +14,7 @@
 #include "core/error.h"
 #include "core/png_file.h"
 #include "scene/raster/rasterizer.h"
+#include "segment/masks/colour_overlap.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/masks/propagate.h"
 #include "segment/masks/refine_mask.h"
@@ -56,6 +58,27 @@ SeenView look(const MugScene& scene, const Camera& camera) {
 }
 
 }  // namespace
+
+TEST_CASE("overlap of colours: the lesser shares, by hand") {
+  const Rgb8 red{200, 30, 30}, blue{30, 30, 200}, grey{120, 120, 120};
+  // Two red columns and two of the mask's others, then grey ones beside it.
+  const auto overlap = [&](const Rgb8& third, const Rgb8& fifth, float right_px) {
+    const std::array<Rgb8, 8> columns{red, red, third, third, fifth, grey, grey, grey};
+    Image<Rgb8> picture(8, 4);
+    Mask mask(8, 4);
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 8; ++x) {
+        picture.at(x, y) = columns[static_cast<std::size_t>(x)];
+        mask.at(x, y) = x < 4 ? kMaskObject : 0;
+      }
+    return overlap_of_colours(picture, mask, {{0, 0}, {right_px, 4}});
+  };
+  CHECK(overlap(blue, grey, 8) == 0);
+  CHECK(overlap(grey, grey, 8) == doctest::Approx(0.5));  // half of the mask is grey, all beside it is
+  CHECK(overlap(blue, red, 8) == doctest::Approx(0.25));  // half of the mask is red, a quarter beside it is
+  CHECK(overlap(blue, red, 5) == doctest::Approx(0.5));   // all of what is looked at beside it is
+  CHECK(overlap(blue, grey, 4) == 1);                     // nothing stands beside it
+}
 
 TEST_CASE("orbit: from straight above or below, and from within, the ring looks at the object") {
   for (const glm::vec3& from : {glm::vec3(0, -3, 0), glm::vec3(0, 3, 0), glm::vec3(0)}) {

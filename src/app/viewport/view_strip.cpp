@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "app/studio/cut_sentences.h"
-#include "app/ui/panels.h"
 #include "app/ui/widgets.h"
+#include "app/viewport/viewport_pane.h"
 
 namespace splatcut {
 

@@ -1,7 +1,7 @@
 // From pixels of the picture to points on the screen.
 #pragma once
 
-#include "app/ui/panels.h"
+#include "app/ui/ui_context.h"
 
 namespace splatcut {
 

@@ -7,6 +7,7 @@
 
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
+#include "app/viewport/viewport_pane.h"
 
 namespace splatcut {
 

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "app/picture/badge_place.h"
-#include "app/ui/on_screen.h"
 #include "app/ui/widgets.h"
+#include "app/viewport/on_screen.h"
 
 namespace splatcut {
 

@@ -1,4 +1,4 @@
-#include "app/ui/interface.h"
+#include "app/window/interface.h"
 
 #include <imgui_internal.h>  // ClosePopupsExceptModals
 
@@ -6,7 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "app/ui/panels.h"
 #include "app/ui/widgets.h"
+#include "app/viewport/viewport_pane.h"
 
 namespace splatcut {
 

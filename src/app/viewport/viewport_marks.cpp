@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "app/ui/on_screen.h"
 #include "app/ui/widgets.h"
+#include "app/viewport/on_screen.h"
 
 namespace splatcut {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "app/ui/on_screen.h"
+#include "app/viewport/on_screen.h"
 #include "scene/raster/splat_math.h"
 
 namespace splatcut {

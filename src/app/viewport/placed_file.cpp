@@ -1,6 +1,6 @@
 // An added file while it is placed: its box, some of its Gaussians where they would stand, handles.
-#include "app/ui/on_screen.h"
 #include "app/ui/splat_dots.h"
+#include "app/viewport/on_screen.h"
 
 namespace splatcut {
 

@@ -4,7 +4,6 @@
 
 #include <glm/glm.hpp>
 
-#include "app/ui/panels.h"
 #include "app/ui/ui_context.h"
 
 struct ImGuiContext;

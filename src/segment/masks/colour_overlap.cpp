@@ -1,0 +1,41 @@
+#include "segment/masks/colour_overlap.h"
+
+#include <algorithm>
+#include <array>
+
+#include "segment/masks/cv_image.h"
+
+namespace splatcut {
+
+namespace {
+
+std::size_t colour_bin(const cv::Vec3f& lab) {
+  constexpr float kMostChroma = 40;
+  const auto eighth = [](float value, float low, float high) {
+    return static_cast<std::size_t>(std::clamp(8 * (value - low) / (high - low), 0.0f, 7.0f));
+  };
+  return (eighth(lab[0], 0, 100) * 8 + eighth(lab[1], -kMostChroma, kMostChroma)) * 8 +
+         eighth(lab[2], -kMostChroma, kMostChroma);
+}
+
+}  // namespace
+
+float overlap_of_colours(const Image<Rgb8>& picture, const Mask& mask, const BoxPx& around) {
+  const cv::Mat lab = lab_of(as_const_mat(picture));
+  std::array<std::array<float, 512>, 2> pixels{};
+  std::array<float, 2> all{};
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x) {
+      if (!around.contains(glm::vec2(x, y) + 0.5f)) continue;
+      const std::size_t side = mask.at(x, y) != 0;
+      pixels[side][colour_bin(lab.at<cv::Vec3f>(y, x))] += 1;
+      all[side] += 1;
+    }
+  if (all[0] == 0 || all[1] == 0) return 1;
+  float overlap = 0;
+  for (std::size_t bin = 0; bin < pixels[0].size(); ++bin)
+    overlap += std::min(pixels[0][bin] / all[0], pixels[1][bin] / all[1]);
+  return overlap;
+}
+
+}  // namespace splatcut
