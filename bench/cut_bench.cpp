@@ -8,23 +8,17 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <ctime>
 #include <functional>
 #include <random>
 #include <stdexcept>
 
+#include "cpu_clock.h"
 #include "cut_problems.h"
 #include "other_solvers.h"
 
 namespace splatcut::bench {
 
 namespace {
-
-double cpu_seconds() {
-  timespec now{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 template <class Work>
 void timed(benchmark::State& state, const Work& work) {

@@ -1,7 +1,9 @@
 // Times of the window without a window: pictures, longest frame during a cut, click to cutout.
-// Usage: splatcut_window_bench SCENE X Y [keys]   X, Y: the object in the view as opened, in shares of width
-// and height. keys: only the times from a key to its picture, once the object is cut out.
+// Usage: splatcut_window_bench SCENE X Y [keys|answers]   X, Y: the object in the first camera's view, else
+// in that opened, in shares of width and height. keys: only the times from a key to its picture, once the
+// object is cut out. answers: only from opening to the first answers, with their CPU time and memory.
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -10,6 +12,7 @@
 #include "../tests/headless_app.h"
 #include "core/ranks.h"
 #include "core/stage_clock.h"
+#include "cpu_clock.h"
 
 // Where the sample lies, as the tests' headers ask.
 std::string splatcut::testing::project_folder() {
@@ -77,6 +80,78 @@ void moving_pictures(HeadlessApp& app) {
   fmt::print("{:<44} {:8.1f} pictures/s at {:.0f} % size, {:.1f} frames/s of the interface\n", "moving",
              pictures / (kSeconds - 1.5), 100 * s.viewport().moving_scale(), frames / kSeconds);
   print("moving, one picture", s.viewport().moving_ms());
+}
+
+// Wall and CPU time from here on; the interface is not drawn meanwhile.
+class Stretch {
+ public:
+  void print(const char* what) const {
+    fmt::print("{:<44} {:8.2f} s, CPU {:.2f} s\n", what, ms_since(start_) / 1000,
+               bench::cpu_seconds() - cpu_start_s_);
+  }
+
+ private:
+  Clock::time_point start_ = Clock::now();
+  double cpu_start_s_ = bench::cpu_seconds();
+};
+
+template <class Reached>
+void update_until(Studio& s, const Reached& reached) {
+  for (const auto start = Clock::now(); !reached() && ms_since(start) < 300000;) {
+    s.update(1.0 / 60);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+std::size_t peak_mib() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) / 1024;
+}
+
+// From a file to what clicks give, each as soon as it can be asked for, so that nothing was computed before.
+void time_answers(HeadlessApp& app, const std::string& scene, const glm::vec2& share) {
+  Studio& s = app.studio();
+  const Stretch opening;
+  app.open(scene);
+  update_until(s, [&] { return s.viewport().picture() != nullptr; });
+  opening.print("open to first picture");
+  if (const auto& cameras = s.scene()->views().cameras; !cameras.empty()) s.camera().go_to(cameras.front());
+  s.camera().finish_transition();
+  const auto pictured = [&] { return s.viewport().full_picture_of(s.viewport().pane_camera()); };
+  update_until(s, pictured);
+  opening.print("open to still picture of the first view");
+  fmt::print("{} Gaussians, peak {} MiB\n", s.scene()->cloud->size(), peak_mib());
+  const Camera camera = s.viewport().pane_camera();
+  const glm::vec2 at = share * glm::vec2(camera.width_px, camera.height_px);
+  const auto run = [&]() -> const CutRun* { return s.cuts().run(s.document().active); };
+  const auto press = [&](const glm::vec2& pixel) {
+    s.pointer_pressed(pixel, PointerButton::kLeft, {});
+    s.pointer_released(pixel, PointerButton::kLeft, {});
+  };
+  const auto cut_out = [&] { return run() && !run()->running && run()->total_ms > 0; };
+  const Stretch click;
+  press(at);
+  update_until(s, [&] { return run() && run()->first_mask_ms > 0; });
+  click.print("click to first answer");
+  update_until(s, cut_out);
+  click.print("click to cutout");
+  fmt::print("  {} Gaussians, peak {} MiB\n", s.gaussians_of(s.document().active), peak_mib());
+  const auto rested = [&] { return s.idle(); };
+  update_until(s, rested);
+  click.print("click to rest");
+  for (const float away_px : {12.0f, 60.0f}) {
+    const Stretch hover;
+    s.pointer_moved(at + glm::vec2(away_px, 0.5f * away_px), {});
+    update_until(s, rested);
+    hover.print(fmt::format("hover {} px away", away_px).c_str());
+  }
+  const Stretch stroke;
+  press(at + glm::vec2(12, 6));
+  update_until(s, [&] { return run() && run()->running; });
+  update_until(s, cut_out);
+  stroke.print("next click, to cutout");
+  fmt::print("  {} Gaussians, peak {} MiB\n", s.gaussians_of(s.document().active), peak_mib());
 }
 
 // How long the window's thread stands still at the worst, from the command until everything is at rest.
@@ -264,8 +339,13 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "X and Y are shares of the picture between 0 and 1\n");
     return 2;
   }
-  const bool only_keys = argc > 4 && std::string_view(argv[4]) == "keys";
+  const std::string_view only = argc > 4 ? argv[4] : "";
+  const bool only_keys = only == "keys";
   HeadlessApp app(1280 + 370, 720 + 76);  // a picture of 1280x720
+  if (only == "answers") {
+    time_answers(app, argv[1], share);
+    return 0;
+  }
   Studio& s = app.studio();
   FrameTimes longest;
   const auto start = Clock::now();

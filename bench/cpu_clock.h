@@ -1,0 +1,14 @@
+// CPU time of the process, all its threads.
+#pragma once
+
+#include <ctime>
+
+namespace splatcut::bench {
+
+inline double cpu_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace splatcut::bench
