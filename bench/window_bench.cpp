@@ -114,6 +114,8 @@ void time_answers(HeadlessApp& app, const std::string& scene, const glm::vec2& s
   Studio& s = app.studio();
   const Stretch opening;
   app.open(scene);
+  update_until(s, [&] { return s.scene() != nullptr; });
+  app.frames(1);  // which lays out the panes
   update_until(s, [&] { return s.viewport().picture() != nullptr; });
   opening.print("open to first picture");
   if (const auto& cameras = s.scene()->views().cameras; !cameras.empty()) s.camera().go_to(cameras.front());
