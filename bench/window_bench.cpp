@@ -139,12 +139,14 @@ void time_answers(HeadlessApp& app, const std::string& scene, const glm::vec2& s
   update_until(s, cut_out);
   click.print("click to cutout");
   fmt::print("  {} Gaussians, peak {} MiB\n", s.gaussians_of(s.document().active), peak_mib());
+  for (const StageTime& stage : run()->stages) fmt::print("  {:<42} {:8.1f} ms\n", stage.name, stage.ms);
   const auto rested = [&] { return s.idle(); };
   update_until(s, rested);
   click.print("click to rest");
   for (const float away_px : {12.0f, 60.0f}) {
     const Stretch hover;
     s.pointer_moved(at + glm::vec2(away_px, 0.5f * away_px), {});
+    update_until(s, [&] { return !s.idle(); });
     update_until(s, rested);
     hover.print(fmt::format("hover {} px away", away_px).c_str());
   }

@@ -220,7 +220,7 @@ void CutJobs::cut_ahead(std::span<const int> steps) {
   ws_.tasks.submit(TaskKind::kAhead,
                    [this, keep_ahead, order = *next, run = nothing](const Job& job) mutable {
                      try {
-                       run = cut_of(order, job, {});
+                       run = cut_of(order, job, {}, CutReach::kSmall);
                      } catch (const std::exception&) {  // it is said where it is asked for
                      }
                      if (!job.cancelled()) ws_.tasks.post([keep_ahead, run] { keep_ahead(run); });
@@ -228,12 +228,12 @@ void CutJobs::cut_ahead(std::span<const int> steps) {
 }
 
 // A cut with what is said of it; without a result if cancelled.
-CutRun CutJobs::cut_of(const Order& order, const Job& job, const OnSnapshot& on_snapshot) {
+CutRun CutJobs::cut_of(const Order& order, const Job& job, const OnSnapshot& on_snapshot, CutReach reach) {
   const auto start = std::chrono::steady_clock::now();
   CutRun done;
   done.key = order.key;
-  const auto result =
-      std::make_shared<const CutResult>(order.session->cut(order.request, order.settings, job, on_snapshot));
+  const auto result = std::make_shared<const CutResult>(
+      order.session->cut(order.request, order.settings, job, on_snapshot, reach));
   if (result->outcome == Outcome::kCancelled || job.cancelled()) return done;
   done.result = result;
   done.total_ms = ms_since(start);
@@ -257,7 +257,7 @@ void CutJobs::work(const Order& order, const Job& job) {
     so_far.preview = make_flags(result.labels);
     ws_.tasks.post([this, order, so_far, first_mask_ms] { show_snapshot(order, so_far, first_mask_ms); });
   };
-  const CutRun done = cut_of(order, job, snapshot);
+  const CutRun done = cut_of(order, job, snapshot, CutReach::kAnywhere);
   if (!done.result) return;
   ws_.tasks.post([this, order, done, cut = make_flags(done.result->labels)] { finish(order, done, cut); });
   look_around(order, *done.result, job);

@@ -37,7 +37,8 @@ class CutJobs {
   bool cancel();
   bool cancel_likelihood();
   // Cuts the active object at other sizes of its first click, so many above its own (or below: negative),
-  // where they are not known yet: one at a time while the worker has nothing else to do. What was asked for
+  // where they are not known yet and no large part of the scene has to be prepared for them: one at a time
+  // while the worker has nothing else to do. What was asked for
   // last is kept until the document asks for it, which then waits for no cut. Called once a frame at most.
   void cut_ahead(std::span<const int> steps);
   void pause();  // stops the running cut; update() starts it again once no scene is being opened
@@ -58,7 +59,7 @@ class CutJobs {
   Order order_for(const ObjectItem& object) const;
   void start(const ObjectItem& object, bool anew = false);
   bool take_known(const Order& order);
-  static CutRun cut_of(const Order& order, const Job& job, const OnSnapshot& on_snapshot);
+  static CutRun cut_of(const Order& order, const Job& job, const OnSnapshot& on_snapshot, CutReach reach);
   void work(const Order& order, const Job& job);
   void look_around(const Order& order, const CutResult& result, const Job& job);
   void show_snapshot(const Order& order, CutRun so_far, double first_mask_ms);

@@ -107,6 +107,10 @@ bool Session::is_whole(const Cell& cell) const {
          kMostOfScene * static_cast<double>(scene_.cloud->size());
 }
 
+std::size_t Session::gaussians_in(const Place& place) const {
+  return place.whole ? scene_.cloud->size() : whole_.blocks->count_in(*scene_.cloud, place.cell.box_world());
+}
+
 Place Session::seen_from(const Camera& eye, const glm::vec3& point_world) {
   const float distance = glm::distance(eye.centre_world(), point_world);
   return {.cell = cell_around(point_world, level_above(distance)),
@@ -233,6 +237,10 @@ Session::Local* Session::local(const Place& place, const CutSettings& settings, 
     locals_.splice(locals_.begin(), locals_, known);
     return &locals_.front();
   }
+  if (ends_if_large_ && gaussians_in(place) > scene_.most_gaussians) {
+    ends_if_large_->request_stop();
+    return nullptr;
+  }
   Neighbourhood made = prepare_neighbourhood(whole_, place, with_parts ? &scene_.prepare : nullptr, job);
   if (job.cancelled()) return nullptr;
   locals_.emplace_front(std::move(made), scene_);
@@ -299,7 +307,20 @@ Session::Local* Session::settled(const CutRequest& request, const CutSettings& s
 }
 
 CutResult Session::cut(const CutRequest& request, const CutSettings& settings, const Job& job,
-                       const OnSnapshot& on_snapshot) {
+                       const OnSnapshot& on_snapshot, CutReach reach) {
+  if (reach == CutReach::kAnywhere) return cut_anywhere(request, settings, job, on_snapshot);
+  std::stop_source ends;
+  const std::stop_callback with_job(job.stop, [&ends] { ends.request_stop(); });
+  struct Forgotten {  // also where the cut throws
+    std::stop_source** pointer;
+    ~Forgotten() { *pointer = nullptr; }
+  } const afterwards{&ends_if_large_};
+  ends_if_large_ = &ends;
+  return cut_anywhere(request, settings, {ends.get_token(), job.on_progress}, on_snapshot);
+}
+
+CutResult Session::cut_anywhere(const CutRequest& request, const CutSettings& settings, const Job& job,
+                                const OnSnapshot& on_snapshot) {
   CutResult result;
   Local* there = settled(request, settings, job, on_snapshot, &result);
   if (job.cancelled()) {

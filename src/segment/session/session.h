@@ -18,6 +18,7 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,10 @@ struct SessionScene {
   std::size_t most_bytes = std::size_t{768} << 20;  // of neighbourhoods kept; the one in use may be larger
 };
 
+// Where a cut may go. kSmall: it prepares no neighbourhood of more than SessionScene::most_gaussians, and
+// ends as if cancelled where it would have to.
+enum class CutReach { kAnywhere, kSmall };
+
 class Session {
  public:
   explicit Session(SessionScene scene);
@@ -53,7 +58,7 @@ class Session {
   // Throws Error for settings that contradict each other, or parts that the scene is not prepared with.
   // Nothing marked, nothing found, cancelled: in `outcome`, with a reason.
   CutResult cut(const CutRequest& request, const CutSettings& settings, const Job& job = {},
-                const OnSnapshot& on_snapshot = {});
+                const OnSnapshot& on_snapshot = {}, CutReach reach = CutReach::kAnywhere);
 
   // The reference's mask alone, before any other view is looked at, in the size of
   // limited_to_width(reference, work_width_px) or larger; empty where nothing marks the object.
@@ -86,6 +91,7 @@ class Session {
 
   const StrokeHits& hits(const CameraStroke& stroke, const Job& job);
   bool is_whole(const Cell& cell) const;
+  std::size_t gaussians_in(const Place& place) const;
   static Place seen_from(const Camera& eye, const glm::vec3& point_world);
   Place first_place(const Camera& eye, const Box& must_hold) const;
   Place place_of_all(const Camera& eye) const;
@@ -99,14 +105,17 @@ class Session {
   Local* local(const Place& place, const CutSettings& settings, const Job& job);
   CutRequest in_place(const CutRequest& request, Local* there, const Job& job);
   CutResult in_scene(const Local& there, CutResult result) const;
+  CutResult cut_anywhere(const CutRequest& request, const CutSettings& settings, const Job& job,
+                         const OnSnapshot& on_snapshot);
   Local* settled(const CutRequest& request, const CutSettings& settings, const Job& job,
                  const OnSnapshot& on_snapshot, CutResult* result);
 
   SessionScene scene_;
   WholeScene whole_;
-  std::list<Local> locals_;                 // used last first
-  std::map<std::string, Place> places_;     // of strokes so far, by their bytes
-  std::map<std::string, StrokeHits> hits_;  // of single strokes
+  std::list<Local> locals_;                    // used last first
+  std::map<std::string, Place> places_;        // of strokes so far, by their bytes
+  std::map<std::string, StrokeHits> hits_;     // of single strokes
+  std::stop_source* ends_if_large_ = nullptr;  // ends a cut of CutReach::kSmall; null: none is under way
 };
 
 }  // namespace splatcut

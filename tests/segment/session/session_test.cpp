@@ -259,6 +259,28 @@ TEST_CASE("session: a box around each thing of the table means the thing, in a n
   }
 }
 
+TEST_CASE(
+    "session: a cut of small reach is the same, or ends where it would prepare more than a first cell") {
+  const LabelledScene& scene = small_table().scene;
+  const auto session_of = [&](std::size_t most_gaussians) {
+    return Session(
+        {.cloud = small_table().cloud, .photographs = scene.cameras, .most_gaussians = most_gaussians});
+  };
+  auto [request, settings] = click_on("mug");
+  Session session = session_of(scene.cloud.size() / 3), all = session_of(scene.cloud.size());
+  CHECK(session.cut(request, settings, {}, {}, CutReach::kSmall).labels ==
+        session_of(scene.cloud.size() / 3).cut(request, settings).labels);
+  request.part_step = 40;  // the table and all on it
+  CHECK(session.cut(request, settings, {}, {}, CutReach::kSmall).outcome == Outcome::kCancelled);
+  const CutResult far = session.cut(request, settings);
+  CHECK(far.outcome == Outcome::kDone);
+  CHECK(far.looked_at_gaussians > scene.cloud.size() / 3);
+  CHECK(far.labels == session_of(scene.cloud.size() / 3).cut(request, settings).labels);  // no trace is left
+  // What is prepared already costs nothing, however large.
+  CHECK(session.cut(request, settings, {}, {}, CutReach::kSmall).labels == far.labels);
+  CHECK(all.cut(request, settings, {}, {}, CutReach::kSmall).outcome == Outcome::kDone);
+}
+
 TEST_CASE("session: keys of two requests differ where anything that is said does") {
   const CutRequest base = click_on("mug").request;
   const Camera& camera = small_table().scene.cameras[2];
