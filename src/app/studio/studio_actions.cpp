@@ -220,6 +220,8 @@ void Studio::run(Action action) {
     return;
   }
   if (const Tool* tool = tool_of(action)) {
+    const std::string why = *tool == ws_.view.tool ? clicks_.why_no_meanings() : "";
+    if (!why.empty()) ws_.say(Message::Kind::kInfo, why);
     ViewState view = ws_.view;
     view.tool = *tool;
     return apply(SetView{view});
