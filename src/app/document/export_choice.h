@@ -16,6 +16,7 @@ struct ExportChoice {
   SceneFormat format = SceneFormat::kPly;
   std::string path;
   bool overwrite = false;
+  bool name_first = false;        // the dialog opens: what is typed first is the name
   bool fill_hole = false;         // of the rest
   ExportPlacement placement;      // kept for the next export of the scene
   std::uint32_t placed_file = 0;  // the scene's first, that it is for

@@ -211,6 +211,7 @@ void Interface::show(UiRequest request, const Studio& studio, UiRenderer* render
         if (std::exchange(state_.exporting.placed_file, scene->files.front().id) != scene->files.front().id)
           state_.exporting.placement = {};
       state_.export_open = true;
+      state_.exporting.name_first = true;
       return;
     case UiRequest::kExportFailed:
       state_.exporting.trouble = studio.messages().empty() ? "" : studio.messages().back().text;
