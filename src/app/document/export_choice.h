@@ -25,7 +25,11 @@ struct ExportChoice {
   std::string trouble;   // why the last try failed
 };
 
-// A free path for that, beside the scene or in the folder of the present path. object: null if there is none.
+// That folder, or where it cannot be written the user's Documents or home; that folder where neither can.
+std::filesystem::path folder_to_write(const std::filesystem::path& wanted);
+
+// A free path for that, beside the scene (see folder_to_write()) or in the folder of the present path.
+// object: null if there is none.
 std::string proposed_path(const ExportChoice& choice, const std::filesystem::path& scene,
                           const ObjectItem* object);
 
