@@ -227,6 +227,39 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
   return fmt::format("{} {}. {}", gaussians_text(changed), what, counted(*document, object, context));
 }
 
+std::string edit_by_shape(Document* document, const Selection& region, SetOperation operation,
+                          const EditContext& context) {
+  ObjectItem& object = target(document);
+  if (operation != SetOperation::kAdd) return edit_selection(document, region, operation, context);
+  const std::size_t n = region.size();
+  const bool first = is_begun_by_next(*document, object, context);
+  const std::vector<std::uint8_t> before = labels(*document, object, context);
+  std::vector<std::int32_t> added;
+  for (std::size_t g = 0; g < n; ++g)
+    if (region[g] && !before[g] && !(document->deleted && (*document->deleted)[g]))
+      added.push_back(static_cast<std::int32_t>(g));
+  if (first) leave_to_others(*document, &object, n);
+  if (means_what_is_left(*document, object, added, n)) {
+    if (first) set_of_others(&object, nullptr);
+    return edit_selection(document, region, operation, context);
+  }
+  Selection left(n, 0), taken = region;
+  for (const std::int32_t hit : added)
+    if (const auto g = static_cast<std::size_t>(hit); object.of_others && (*object.of_others)[g]) {
+      left[g] = 1;
+      taken[g] = 0;
+    }
+  const std::string said = edit_selection(document, taken, operation, context);
+  const std::size_t kept = count_flags(left);
+  if (kept == 0) return said;
+  std::vector<std::uint8_t> hand = *object.hand;
+  for (std::size_t g = 0; g < n; ++g)
+    if (left[g]) hand[g] = kHandLeft;
+  object.hand = make_flags(std::move(hand));
+  return fmt::format("{}. Others keep {} that they already had; the menu of {} has a way to take them, too",
+                     said, gaussians_text(kept), object.name);
+}
+
 std::string EditSelection::title() const {
   switch (edit) {
     case SelectionEdit::kAll:
