@@ -320,7 +320,8 @@ TEST_CASE("others: work says by its version that it holds what is left to others
 }
 
 TEST_CASE(
-    "others: an object begun by a lasso leaves to the others what they have, as by a box; so do later ones") {
+    "others: an object begun by a lasso leaves to the others what they have, as by a box, and so do later "
+    "ones") {
   Others hands;
   Studio& studio = hands.studio();
   const Labels apple = hands.labels(1);

@@ -297,7 +297,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "clicks: a box on an object that was begun before says that it added to it; one that begins says "
+    "clicks: a box on an object that was begun before says that it added to it, one that begins says "
     "nothing") {
   Artist artist(on_sample("mug", kOnMug));
   artist.click_on_it();

@@ -30,7 +30,8 @@ void type(Hands& hands, const std::string& text) {
 // HOME, and whose rights files are opened with: for root every folder can be written.
 class AsSomebody {
  public:
-  explicit AsSomebody(const std::filesystem::path& home) : home_(std::getenv("HOME") ? std::getenv("HOME") : "") {
+  explicit AsSomebody(const std::filesystem::path& home)
+      : home_(std::getenv("HOME") ? std::getenv("HOME") : "") {
     constexpr uid_t kNobody = 65534;
     ::setenv("HOME", home.c_str(), 1);
     if (user_ == 0) REQUIRE(::seteuid(kNobody) == 0);
@@ -67,8 +68,7 @@ TEST_CASE("export dialog: a scene in a folder that cannot be written is exported
   const ScratchFolder folder("read_only");
   namespace fs = std::filesystem;
   for (const char* name : {"scene", "home", "home/Documents"}) fs::create_directories(folder / name);
-  for (const char* name : {"home", "home/Documents"})
-    fs::permissions(folder / name, fs::perms::all);
+  for (const char* name : {"home", "home/Documents"}) fs::permissions(folder / name, fs::perms::all);
   fs::permissions(folder / "scene", fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read |
                                         fs::perms::others_exec);
   ExportChoice choice;

@@ -383,7 +383,7 @@ TEST_CASE("ui: no key of the F1 page runs into what it does, in any group") {
     CHECK_MESSAGE(ImGui::CalcTextSize(keys_of(b.action).c_str()).x + 8 <= keys_width(), b.what);
 }
 
-TEST_CASE("ui: a window of 640 by 480 shows every tool and every option of each; a smaller one scrolls") {
+TEST_CASE("ui: a window of 640 by 480 shows every tool and every option of each, a smaller one scrolls") {
   const auto window = [](const char* name) {
     const ImGuiWindow* found = ImGui::FindWindowByName(name);
     return found && found->WasActive ? found : nullptr;
