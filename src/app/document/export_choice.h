@@ -17,6 +17,7 @@ struct ExportChoice {
   std::string path;
   bool overwrite = false;
   bool name_first = false;        // the dialog opens: what is typed first is the name
+  int marked_from = 0;            // where the name begins that is marked; 0: none is, or it was typed over
   bool fill_hole = false;         // of the rest
   ExportPlacement placement;      // kept for the next export of the scene
   std::uint32_t placed_file = 0;  // the scene's first, that it is for

@@ -67,15 +67,23 @@ void line_across(const Palette& palette) {
   ImGui::Dummy({0, 2});
 }
 
-// The name without folder and extension is what is typed over.
+// The name without folder and extension is what is typed over; a whole path typed there replaces these, too.
 int mark_name(ImGuiInputTextCallbackData* data) {
   ExportChoice& choice = *static_cast<ExportChoice*>(data->UserData);
-  if (!std::exchange(choice.name_first, false)) return 0;
   const std::string_view path(data->Buf, static_cast<std::size_t>(data->BufTextLen));
   const std::string_view ending = choice.what == ExportWhat::kAllObjects ? "" : choice.format.extension;
+  if (choice.marked_from > 0 && !data->HasSelection()) {
+    const auto from = static_cast<std::size_t>(std::exchange(choice.marked_from, 0));
+    if (from >= path.size() || path[from] != '/') return 0;
+    if (path.substr(static_cast<std::size_t>(data->CursorPos)) == ending)
+      data->DeleteChars(data->CursorPos, static_cast<int>(ending.size()));
+    data->DeleteChars(0, static_cast<int>(from));
+  }
+  if (!std::exchange(choice.name_first, false)) return 0;
   data->SelectionStart = static_cast<int>(path.rfind('/') + 1);
   data->SelectionEnd = data->BufTextLen - static_cast<int>(path.ends_with(ending) ? ending.size() : 0);
   data->CursorPos = data->SelectionEnd;
+  choice.marked_from = data->SelectionStart;
   return 0;
 }
 

@@ -62,6 +62,11 @@ TEST_CASE("export dialog: what is typed when it opens replaces the name, not fol
   CHECK(proposed(hands) == before);  // a name of its own each time
   type(hands, "plum");
   CHECK(choice.path == before.parent_path() / "plum.ply");
+  hands.app.key(key::kEscape);
+  hands.app.frames(2);
+  REQUIRE(proposed(hands) == before);
+  type(hands, "/a/whole.ply");  // replaces folder and ending, too
+  CHECK(choice.path == "/a/whole.ply");
 }
 
 TEST_CASE("export dialog: a scene in a folder that cannot be written is exported to Documents, or home") {
