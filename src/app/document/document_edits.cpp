@@ -55,12 +55,6 @@ std::string counted(const Document& document, const ObjectItem& object, const Ed
                      grouped(count_flags(labels(document, object, context))), grouped(context.cloud.size()));
 }
 
-// Whether a stroke on the object begins it: nothing marks it yet, and it has no Gaussians.
-bool begins(const Document& document, const ObjectItem& object, const EditContext& context) {
-  if (std::ranges::any_of(object.views, marks_object)) return false;
-  return (!object.cut && !object.hand) || count_flags(labels(document, object, context)) == 0;
-}
-
 // A new object shows on what it was begun on, and takes nothing that others have, unless it is begun on that:
 // then it is a part of it, or they share. A later stroke there takes it after all. hits: what a stroke on the
 // object was made on.
@@ -111,6 +105,11 @@ ObjectItem& add_by_hand(Document* document, const std::string& name,
 
 }  // namespace
 
+bool is_begun_by_next(const Document& document, const ObjectItem& object, const EditContext& context) {
+  if (std::ranges::any_of(object.views, marks_object)) return false;
+  return (!object.cut && !object.hand) || count_flags(labels(document, object, context)) == 0;
+}
+
 std::span<const Backdrop> backdrops() {
   static constexpr Backdrop kBackdrops[] = {{"Dark", {0.11f, 0.115f, 0.125f}},
                                             {"Grey", {0.5f, 0.5f, 0.5f}},
@@ -129,7 +128,7 @@ bool shows(const Backdrop& backdrop, const Document& document, const ViewState& 
 
 bool asks_what_is_hit(const Document& document, const EditContext& context) {
   const ObjectItem* object = document.active_object();
-  return !object || object->of_others || begins(document, *object, context);
+  return !object || object->of_others || is_begun_by_next(document, *object, context);
 }
 
 std::string edit(Document* document, const AddStroke& command, const EditContext& context) {
@@ -137,14 +136,28 @@ std::string edit(Document* document, const AddStroke& command, const EditContext
   ObjectItem& object = stroked(document);
   const bool dot = command.stroke.is_click();
   const bool rest = command.stroke.label == SeedLabel::kRest;
-  if (!rest) settle_with_others(document, &object, command.hits, begins(*document, object, context), context);
+  if (!rest)
+    settle_with_others(document, &object, command.hits, is_begun_by_next(*document, object, context),
+                       context);
   view_for(&object, command.camera, command.seen).strokes.push_back(command.stroke);
   return fmt::format("{} {} {}", dot ? "Click:" : "Scribble:", rest ? "not part of" : "part of", object.name);
 }
 
+std::string added_by_box(const History& history, ObjectId id, const EditContext& context) {
+  if (history.entries()[history.cursor()].title != AddBox{}.title() || !history.can_undo()) return {};
+  const Document& before = history.entries()[history.cursor() - 1].document;
+  const ObjectItem* object = before.find(id);
+  if (!object || id != before.active || is_begun_by_next(before, *object, context)) return {};
+  return fmt::format(
+      ". The box added to {}, which was begun before. For an object of its own: New object (Ctrl+N), then "
+      "the "
+      "box",
+      object->name);
+}
+
 Flags left_by_stroke(const Document& document, const EditContext& context) {
   const ObjectItem* object = document.active_object();
-  if (object && !begins(document, *object, context)) return object->of_others;
+  if (object && !is_begun_by_next(document, *object, context)) return object->of_others;
   return had_by_others(document, object ? *object : ObjectItem{}, context.cloud.size());
 }
 
@@ -179,9 +192,10 @@ Stroke stroke_of(const AddBox& command, SeedLabel label) {
 std::string edit(Document* document, const AddBox& command, const EditContext& context) {
   const Stroke box = stroke_of(command, SeedLabel::kObject);
   ObjectItem& object = stroked(document);
-  settle_with_others(document, &object, command.hits, begins(*document, object, context), context);
+  const bool first = is_begun_by_next(*document, object, context);
+  settle_with_others(document, &object, command.hits, first, context);
   view_for(&object, command.camera, command.seen).strokes.push_back(box);
-  return "Box around " + object.name;
+  return (first ? "Box around " : "Box: adds to ") + object.name;
 }
 
 std::string edit(Document* document, const ClearStrokes&, const EditContext&) {
@@ -211,6 +225,39 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
                      : operation == SetOperation::kRemove ? "removed"
                                                           : "changed";
   return fmt::format("{} {}. {}", gaussians_text(changed), what, counted(*document, object, context));
+}
+
+std::string edit_by_shape(Document* document, const Selection& region, SetOperation operation,
+                          const EditContext& context) {
+  ObjectItem& object = target(document);
+  if (operation != SetOperation::kAdd) return edit_selection(document, region, operation, context);
+  const std::size_t n = region.size();
+  const bool first = is_begun_by_next(*document, object, context);
+  const std::vector<std::uint8_t> before = labels(*document, object, context);
+  std::vector<std::int32_t> added;
+  for (std::size_t g = 0; g < n; ++g)
+    if (region[g] && !before[g] && !(document->deleted && (*document->deleted)[g]))
+      added.push_back(static_cast<std::int32_t>(g));
+  if (first) leave_to_others(*document, &object, n);
+  if (means_what_is_left(*document, object, added, n)) {
+    if (first) set_of_others(&object, nullptr);
+    return edit_selection(document, region, operation, context);
+  }
+  Selection left(n, 0), taken = region;
+  for (const std::int32_t hit : added)
+    if (const auto g = static_cast<std::size_t>(hit); object.of_others && (*object.of_others)[g]) {
+      left[g] = 1;
+      taken[g] = 0;
+    }
+  const std::string said = edit_selection(document, taken, operation, context);
+  const std::size_t kept = count_flags(left);
+  if (kept == 0) return said;
+  std::vector<std::uint8_t> hand = *object.hand;
+  for (std::size_t g = 0; g < n; ++g)
+    if (left[g]) hand[g] = kHandLeft;
+  object.hand = make_flags(std::move(hand));
+  return fmt::format("{}. Others keep {} that they already had; the menu of {} has a way to take them, too",
+                     said, gaussians_text(kept), object.name);
 }
 
 std::string EditSelection::title() const {

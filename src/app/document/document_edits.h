@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/document/command.h"
+#include "app/document/history.h"
 
 namespace splatcut {
 
@@ -22,6 +23,19 @@ bool shows(const Backdrop& backdrop, const Document& document, const ViewState& 
 // active. Returns the text for the message strip. Throws Error if the object is locked.
 std::string edit_selection(Document* document, const Selection& region, SetOperation operation,
                            const EditContext& context);
+
+// The same with a shape drawn in the picture or in space. As with a box of strokes, what it adds leaves other
+// objects what they have: a new object's first shape what all have, a later one what the object leaves to
+// them already; unless more than half of it is another's. That is kept for when it is given back.
+std::string edit_by_shape(Document* document, const Selection& region, SetOperation operation,
+                          const EditContext& context);
+
+// Whether the next stroke that marks the object begins it: nothing marks it yet, and it has no Gaussians.
+bool is_begun_by_next(const Document& document, const ObjectItem& object, const EditContext& context);
+
+// Says of a box that it added to the object, and how a box begins one; empty: the last step is no box, or
+// began the object.
+std::string added_by_box(const History& history, ObjectId id, const EditContext& context);
 
 // Whether it matters what a stroke that marks the active object is made on: it begins the object, or the
 // object leaves something to others.

@@ -1,13 +1,38 @@
 #include "app/document/export_choice.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
 #include "app/document/words.h"
 
 namespace splatcut {
 
+namespace {
+
+bool can_be_written(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(folder, ignored) &&
+         ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0;
+}
+
+}  // namespace
+
+std::filesystem::path folder_to_write(const std::filesystem::path& wanted) {
+  const char* home = std::getenv("HOME");
+  if (can_be_written(wanted) || !home || !*home) return wanted;
+  for (const std::filesystem::path& folder :
+       {std::filesystem::path(home) / "Documents", std::filesystem::path(home)})
+    if (can_be_written(folder)) return folder;
+  return wanted;
+}
+
 std::string proposed_path(const ExportChoice& choice, const std::filesystem::path& scene,
                           const ObjectItem* object) {
-  const std::filesystem::path folder = choice.path.empty() ? std::filesystem::absolute(scene).parent_path()
-                                                           : std::filesystem::path(choice.path).parent_path();
+  const std::filesystem::path folder = choice.path.empty()
+                                           ? folder_to_write(std::filesystem::absolute(scene).parent_path())
+                                           : std::filesystem::path(choice.path).parent_path();
   std::string stem = scene_name(scene);
   stem = stem.substr(0, stem.find('.'));
   std::string name = choice.what == ExportWhat::kRest         ? "rest"

@@ -16,6 +16,8 @@ struct ExportChoice {
   SceneFormat format = SceneFormat::kPly;
   std::string path;
   bool overwrite = false;
+  bool name_first = false;        // the dialog opens: what is typed first is the name
+  int marked_from = 0;            // where the name begins that is marked; 0: none is, or it was typed over
   bool fill_hole = false;         // of the rest
   ExportPlacement placement;      // kept for the next export of the scene
   std::uint32_t placed_file = 0;  // the scene's first, that it is for
@@ -24,7 +26,11 @@ struct ExportChoice {
   std::string trouble;   // why the last try failed
 };
 
-// A free path for that, beside the scene or in the folder of the present path. object: null if there is none.
+// That folder, or where it cannot be written the user's Documents or home; that folder where neither can.
+std::filesystem::path folder_to_write(const std::filesystem::path& wanted);
+
+// A free path for that, beside the scene (see folder_to_write()) or in the folder of the present path.
+// object: null if there is none.
 std::string proposed_path(const ExportChoice& choice, const std::filesystem::path& scene,
                           const ObjectItem* object);
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 namespace splatcut {
 
@@ -44,6 +46,28 @@ std::string scene_name(const std::filesystem::path& scene) {
   const std::filesystem::path whole = std::filesystem::absolute(path, ignored);
   const std::string folder = whole.lexically_normal().parent_path().filename().string();
   return folder.empty() ? name : folder;
+}
+
+std::string telling_folder(const std::filesystem::path& scene) {
+  std::error_code ignored;
+  std::filesystem::path folder = std::filesystem::absolute(scene, ignored).lexically_normal().parent_path();
+  const auto is_alike = [](const std::string& name) {
+    return name == "point_cloud" || name.starts_with("iteration_");
+  };
+  while (is_alike(folder.filename().string())) folder = folder.parent_path();
+  return folder.filename().string();
+}
+
+std::string name_in_folder(const std::filesystem::path& scene) {
+  const std::string folder = telling_folder(scene), name = scene_name(scene);
+  return folder == name ? name : (std::filesystem::path(folder) / name).string();
+}
+
+bool has_common_name(const std::filesystem::path& scene) {
+  constexpr std::array<std::string_view, 7> kCommon = {"point_cloud", "scene", "splat", "splats",
+                                                       "gaussians",   "model", "output"};
+  const std::string name = scene_name(scene);
+  return std::ranges::find(kCommon, std::string_view(name).substr(0, name.find('.'))) != kCommon.end();
 }
 
 }  // namespace splatcut

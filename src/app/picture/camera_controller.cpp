@@ -261,6 +261,17 @@ void CameraController::go_to(const Camera& camera) {
   start(target);
 }
 
+void CameraController::keep_opening() {
+  opening_ = goal();
+  opening_up_world_ = up_world_;
+}
+
+void CameraController::go_to_opening() {
+  CameraPose target = opening_;
+  if (opening_up_world_ != up_world_) turn_upright(&target);
+  start(target);
+}
+
 glm::quat CameraController::rotation_along(const glm::vec3& direction_world) const {
   return looking(direction_world, up_world_, world_from_camera(pose_)[0]);
 }
@@ -274,13 +285,17 @@ void CameraController::look_along(const glm::vec3& direction_world) {
 }
 
 void CameraController::set_up(const glm::vec3& up_world) {
-  const glm::vec3 pivot = pivot_world();
   up_world_ = glm::normalize(up_world);
   CameraPose target = pose_;
-  const glm::mat3 axes = world_from_camera(pose_);
-  target.camera_from_world = looking(axes[2], up_world_, axes[0]);
-  target.position_world = pivot - target.distance * world_from_camera(target)[2];
+  turn_upright(&target);
   start(target);
+}
+
+void CameraController::turn_upright(CameraPose* pose) const {
+  const glm::mat3 axes = world_from_camera(*pose);
+  const glm::vec3 pivot = pose->position_world + pose->distance * axes[2];
+  pose->camera_from_world = looking(axes[2], up_world_, axes[0]);
+  pose->position_world = pivot - pose->distance * world_from_camera(*pose)[2];
 }
 
 void CameraController::set_fov_y(float fov_y_rad) {

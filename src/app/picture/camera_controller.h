@@ -68,7 +68,11 @@ class CameraController {
   // Directions up to 45 degrees from the present one, upright, the nearest first: rotations of the camera.
   std::vector<glm::quat> directions_around() const;
   void frame_scene() { frame(scene_); }
-  void go_to(const Camera& camera);                                  // takes its exact pose and field of view
+  void go_to(const Camera& camera);  // takes its exact pose and field of view
+  // Keeps where a transition ends as the view in which the scene opened, to which go_to_opening() goes back:
+  // upright where the up direction is another one since.
+  void keep_opening();
+  void go_to_opening();
   void look_along(const glm::vec3& direction_world);                 // looks at the pivot along the direction
   glm::quat rotation_along(const glm::vec3& direction_world) const;  // rotation of the camera that does
   void set_up(const glm::vec3& up_world);  // sets the up direction and turns the view upright
@@ -90,12 +94,14 @@ class CameraController {
 
  private:
   void start(const CameraPose& target);
-  float least_distance() const;  // of what is looked at
+  void turn_upright(CameraPose* pose) const;  // about its pivot
+  float least_distance() const;               // of what is looked at
 
   Box scene_;
   float scene_size_ = 1, near_plane_ = 0;
   glm::vec3 up_world_{0, -1, 0};
-  CameraPose pose_, from_;
+  CameraPose pose_, from_, opening_;
+  glm::vec3 opening_up_world_{0, -1, 0};
   std::optional<CameraPose> target_;
   std::optional<glm::vec3> orbit_centre_;  // centre in world coordinates; none: the pivot
   float progress_ = 0;

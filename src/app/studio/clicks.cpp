@@ -121,6 +121,19 @@ const ClickMeanings* Clicks::offer() const {
   return known && known->outlines.size() > 1 && known->key != declined_offer_ ? known : nullptr;
 }
 
+std::string Clicks::why_no_meanings() const {
+  const ObjectItem* object = ws_.document().active_object();
+  if (!object || object->locked || ws_.view.tool != Tool::kClick || stroke_count(*object) != 1 ||
+      !any_mark(*object))
+    return {};
+  const ClickMeanings* known = meanings(*object);
+  const bool comes = cuts_.comes(*object) || !cuts_.run(object->id);
+  if (!known && comes) return "What else the click can mean is shown once " + object->name + " is computed";
+  const bool hidden = known && known->outlines.size() > 1 && known->key != declined_offer_ &&
+                      ws_.view.display != DisplayMode::kWhole;
+  return hidden ? "What else the click can mean is shown in the whole scene (Shift+H)" : "";
+}
+
 // A refusal if the first click has no part that many sizes larger, as far as is known; else empty.
 std::string Clicks::why_not_step(int steps) const {
   const ObjectItem* object = ws_.document().active_object();

@@ -26,6 +26,9 @@ class Clicks {
   // Meanings of the active object's first click or box, offered until the object gets another stroke; null:
   // no offer.
   const ClickMeanings* offer() const;
+  // Why the key of the tool Click takes no other meaning although its tool is chosen: a sentence; empty: it
+  // is not expected to.
+  std::string why_no_meanings() const;
   bool chooses_by(int key) const;  // true: the key, without others, takes one of those meanings
   bool decline_offer();            // withdraws the offer; returns false if there is none
   // Sizes that the active object's first click can have; null: they are not known. size_wanted(): the one

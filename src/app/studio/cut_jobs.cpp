@@ -338,7 +338,8 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
         Message::Kind::kRefused,
         fmt::format("{}: {}. Click nearer to what is wrong, come nearer, or draw over it", name, changed));
   }
-  const std::string shared = shared_with(ws_, order.object);
+  const std::string shared =
+      added_by_box(ws_.history, order.object, ws_.context()) + shared_with(ws_, order.object);
   const bool offers_sizes = result->ambiguous && ws_.tools.scale_armed();
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
           fmt::format("{}: {}{}{}", name, changed, shared,
@@ -355,7 +356,8 @@ void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   if (!add_doubt_of_sides(run) || !object || object->cut_key != order.key || run->changed_nothing) return;
   const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
   if (*now == run->result->labels)  // else they are drawn again, see renew_views()
-    ws_.say(Message::Kind::kInfo, object->name + ": " + run->doubts.back());
+    ws_.say(Message::Kind::kInfo, object->name + ": " + run->doubts.back() +
+                                      added_by_box(ws_.history, order.object, ws_.context()));
 }
 
 }  // namespace splatcut

@@ -166,8 +166,7 @@ void Edits::perform(const SelectRegion& c) {
                 const Selection found =
                     through ? select_through(context.cloud, c.camera, region, all_of(visible), options)
                             : select_visible(context.cloud, c.camera, region, all_of(visible), by, job);
-                return job.cancelled() ? std::string()
-                                       : edit_selection(document, found, c.operation, context);
+                return job.cancelled() ? std::string() : edit_by_shape(document, found, c.operation, context);
               }});
 }
 
@@ -182,8 +181,8 @@ void Edits::perform(const SelectVolume& c) {
   push_later(
       {std::string(title_of(c.operation)) + (c.volume.round ? " (sphere)" : " (box)"), volume_key_,
        [c, seen = volume_seen_, by = taken_by()](Document* document, const EditContext& context, const Job&) {
-         return edit_selection(document, select_volume(context.cloud, c.volume, all_of(seen), by),
-                               c.operation, context);
+         return edit_by_shape(document, select_volume(context.cloud, c.volume, all_of(seen), by), c.operation,
+                              context);
        },
        again});
 }

@@ -19,6 +19,7 @@ class FreeSides {
   void frame_placed();
 
   struct Offer {
+    ObjectId object;
     CameraPose from;
     Framing side;
   };

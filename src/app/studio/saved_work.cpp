@@ -1,16 +1,11 @@
 #include "app/studio/saved_work.h"
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <thread>
 
 #include "app/console/kept_inputs.h"
-#include "app/document/words.h"
 #include "app/work/work_history.h"
 #include "app/work/work_picture.h"
 #include "core/error.h"
@@ -24,24 +19,6 @@ namespace {
 // later: the view changes all the time.
 constexpr double kAutosaveAfterSeconds = 0.3, kAutosaveAtLatestSeconds = 2, kAutosaveViewAfterSeconds = 10,
                  kAutosaveAgainSeconds = 30, kRestOverWriting = 3;
-
-LeftWork left_work(const std::filesystem::path& work) {
-  std::error_code ignored;  // it may go in this moment
-  const auto written = std::chrono::file_clock::to_sys(std::filesystem::last_write_time(work, ignored));
-  const std::time_t seconds = std::chrono::system_clock::to_time_t(
-      std::chrono::time_point_cast<std::chrono::system_clock::duration>(written));
-  const std::tm then = fmt::localtime(seconds), now = fmt::localtime(std::time(nullptr));
-  const bool today = then.tm_year == now.tm_year && then.tm_yday == now.tm_yday;
-  const std::string when = today ? fmt::format("{:%H:%M}", then) : fmt::format("{:%Y-%m-%d}", then);
-  try {
-    const std::filesystem::path scene = read_work_file(work).files.front().path;
-    return {work, scene,
-            fmt::format("{}  {}", when, (scene.parent_path().filename() / scene_name(scene)).string()),
-            read_work_picture(work)};
-  } catch (const Error&) {
-    return {work, {}, when};  // what is wrong with it is said when it is restored
-  }
-}
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code ignored;
@@ -93,12 +70,14 @@ void SavedWork::opened(const std::optional<RestoredWork>& work, const std::files
   find_offers();
 }
 
-// A program that was killed may hold its autosave for some seconds more.
+// A program that was killed may hold its autosave for some seconds more: until its memory is given back. In
+// the first of them it is likely, and looked for also where older work is offered.
 void SavedWork::look_for_more(double seconds) {
-  constexpr double kEverySeconds = 2, kForSeconds = 60;
-  if (!offers_.empty() || looked_for_s_ > kForSeconds) return;
-  const bool now =
-      std::floor(looked_for_s_ / kEverySeconds) < std::floor((looked_for_s_ + seconds) / kEverySeconds);
+  constexpr double kLikelySeconds = 10, kOftenSeconds = 0.25, kEverySeconds = 2, kForSeconds = 60;
+  const bool likely = looked_for_s_ < kLikelySeconds;
+  if ((!likely && !offers_.empty()) || looked_for_s_ > kForSeconds) return;
+  const double every_s = likely ? kOftenSeconds : kEverySeconds;
+  const bool now = std::floor(looked_for_s_ / every_s) < std::floor((looked_for_s_ + seconds) / every_s);
   looked_for_s_ += seconds;
   if (!now) return;
   autosaves_.look_again();

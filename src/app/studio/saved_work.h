@@ -12,18 +12,10 @@
 #include "app/studio/viewport.h"
 #include "app/studio/workspace.h"
 #include "app/work/autosaves.h"
+#include "app/work/left_work.h"
 #include "app/work/work_file.h"
 
 namespace splatcut {
-
-// Work that a crash left and that can be restored by opening its file.
-struct LeftWork {
-  std::filesystem::path file;
-  std::filesystem::path scene;  // empty where the file cannot be read
-  std::string says;  // time and scene: "18:40  garden/point_cloud.ply", "2026-03-01  garden/point_cloud.ply"
-  Image<Rgba8> picture{};    // what the view showed, small; empty: nobody knows
-  std::uint64_t serial = 0;  // number of the picture
-};
 
 class SavedWork {
  public:

@@ -169,6 +169,7 @@ class Studio {
   std::optional<glm::vec2> cursor_px_;        // see cursor_px()
   std::optional<glm::vec2> cursor_click_px_;  // place of the last Enter: one more there is a double-click
   std::optional<Modifiers> cursor_press_;     // keys held with the Enter that began a shape; none: no shape
+  ObjectId followed_object_ = 0;              // the active one that it saw last
   std::uint64_t followed_serial_ = 0;         // serial of the document that follow_document() saw last
 
   // Last members: the threads end before what they may call is destroyed.

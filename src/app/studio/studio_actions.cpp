@@ -160,6 +160,7 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kBackdrop, without_scene, [](S& s) { s.apply(NextBackdrop{}); }},
       {Action::kFrameObject, without_anything_to_frame, [](S& s) { s.free_sides_.frame(); }, kWaits},
       {Action::kFrameScene, without_scene, [](S& s) { s.camera().frame_scene(); }},
+      {Action::kOpeningView, without_scene, [](S& s) { s.camera().go_to_opening(); }},
       {Action::kNextCamera, without_cameras, [](S& s) { s.step_camera(1); }},
       {Action::kPreviousCamera, without_cameras, [](S& s) { s.step_camera(-1); }},
       {Action::kViewFront, without_scene,
@@ -219,6 +220,8 @@ void Studio::run(Action action) {
     return;
   }
   if (const Tool* tool = tool_of(action)) {
+    const std::string why = *tool == ws_.view.tool ? clicks_.why_no_meanings() : "";
+    if (!why.empty()) ws_.say(Message::Kind::kInfo, why);
     ViewState view = ws_.view;
     view.tool = *tool;
     return apply(SetView{view});

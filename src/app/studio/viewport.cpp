@@ -56,15 +56,16 @@ void Viewport::reset() {
   change_scene();
   camera_.reset(ws_.scene->bounds, ws_.document().up_world);
   const FileViews& views = ws_.scene->views();
-  if (views.cameras.empty() && !views.first_view) return;
-  camera_.go_to(views.reference);
+  if (!views.cameras.empty() || views.first_view) camera_.go_to(views.reference);
   camera_.finish_transition();
+  camera_.keep_opening();
 }
 
 void Viewport::show_all_of_scene() {
   camera_.frame_scene();
   camera_.finish_transition();
   camera_.keep_clear(pane_camera(), kept_bottom_px_);
+  camera_.keep_opening();
 }
 
 bool Viewport::moving() const {

@@ -28,8 +28,9 @@ class Viewport {
   // Says whether a GPU draws the splats. If so, pictures are made for picking only, and only when nothing
   // moves.
   void set_gpu_view(bool gpu) { gpu_view_ = gpu; }
-  void reset();              // starts with the workspace's new scene
-  void show_all_of_scene();  // from the present direction, with room for the thumbnails
+  void reset();  // starts with the workspace's new scene
+  // From the present direction, with room for the thumbnails; the opening view of scenes opened together.
+  void show_all_of_scene();
   void change_scene();  // goes on with the workspace's scene, which has other files now; the camera stays
   // Moves the camera, and requests and takes styles and pictures; called once a frame. Returns true while the
   // camera moves by itself.

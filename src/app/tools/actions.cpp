@@ -88,6 +88,7 @@ constexpr std::array kOwnBindings = {
     Binding{Action::kFrameObject, 'F', kPlain, "Camera", "Frame the object"},
     Binding{Action::kFrameScene, 'F', kShift, "Camera", "Frame the scene"},
     Binding{Action::kFrameScene, key::kHome, kPlain, "Camera", "Frame the scene"},
+    Binding{Action::kOpeningView, key::kHome, kShift, "Camera", "The view in which the scene opened"},
     Binding{Action::kNextCamera, 'N', kPlain, "Camera", "Next camera of the capture"},
     Binding{Action::kPreviousCamera, 'P', kPlain, "Camera", "Previous camera"},
     Binding{Action::kViewFront, key::kKeypad1, kPlain, "Camera", "Look from the front"},

@@ -78,6 +78,7 @@ enum class Action {
   kGrid,
   kFrameObject,
   kFrameScene,
+  kOpeningView,
   kNextCamera,
   kPreviousCamera,
   kViewFront,

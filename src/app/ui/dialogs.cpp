@@ -2,7 +2,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <imgui_stdlib.h>  // needs imgui.h first
+#include <imgui_internal.h>  // GetActiveID
+#include <imgui_stdlib.h>    // needs imgui.h first
 
 #include <cstring>
 #include <span>
@@ -66,6 +67,26 @@ void line_across(const Palette& palette) {
   ImGui::Dummy({0, 2});
 }
 
+// The name without folder and extension is what is typed over; a whole path typed there replaces these, too.
+int mark_name(ImGuiInputTextCallbackData* data) {
+  ExportChoice& choice = *static_cast<ExportChoice*>(data->UserData);
+  const std::string_view path(data->Buf, static_cast<std::size_t>(data->BufTextLen));
+  const std::string_view ending = choice.what == ExportWhat::kAllObjects ? "" : choice.format.extension;
+  if (choice.marked_from > 0 && !data->HasSelection()) {
+    const auto from = static_cast<std::size_t>(std::exchange(choice.marked_from, 0));
+    if (from >= path.size() || path[from] != '/') return 0;
+    if (path.substr(static_cast<std::size_t>(data->CursorPos)) == ending)
+      data->DeleteChars(data->CursorPos, static_cast<int>(ending.size()));
+    data->DeleteChars(0, static_cast<int>(from));
+  }
+  if (!std::exchange(choice.name_first, false)) return 0;
+  data->SelectionStart = static_cast<int>(path.rfind('/') + 1);
+  data->SelectionEnd = data->BufTextLen - static_cast<int>(path.ends_with(ending) ? ending.size() : 0);
+  data->CursorPos = data->SelectionEnd;
+  choice.marked_from = data->SelectionStart;
+  return 0;
+}
+
 void export_choices(UiContext& ui) {
   ExportChoice& choice = ui.state.exporting;
   ImGui::AlignTextToFramePadding();
@@ -95,7 +116,10 @@ void export_choices(UiContext& ui) {
   ImGui::TextUnformatted(choice.what == ExportWhat::kAllObjects ? "Folder" : "File");
   ImGui::SameLine(90);
   ImGui::SetNextItemWidth(-44);
-  if (ImGui::InputText("##path", &choice.path)) follow_typed_name(choice);
+  if (choice.name_first && !ImGui::IsWindowAppearing() && ImGui::GetActiveID() != ImGui::GetID("##path"))
+    ImGui::SetKeyboardFocusHere();
+  if (ImGui::InputText("##path", &choice.path, ImGuiInputTextFlags_CallbackAlways, mark_name, &choice))
+    follow_typed_name(choice);
   ImGui::SameLine(0, 4);
   if (button(ui, icon::kFolder, "Choose a folder and name")) {
     ui.state.export_open = false;

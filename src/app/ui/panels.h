@@ -6,7 +6,7 @@
 
 namespace splatcut {
 
-inline constexpr float kOptionsHeight = 44;  // of their row under the bar, where they have one
+inline constexpr float kOptionsHeight = 44;  // of the options' first row under the bar, where they have one
 
 void top_bar(UiContext& ui);
 void tool_options(UiContext& ui);

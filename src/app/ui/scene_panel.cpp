@@ -145,6 +145,7 @@ void scene_panel(UiContext& ui) {
   ButtonRow frame({"Frame scene", "Frame object"}), step({"Previous camera", "Next camera"});
   action_button(ui, Action::kFrameScene, "Frame scene", false, frame.next());
   action_button(ui, Action::kFrameObject, "Frame object", false, frame.next());
+  action_button(ui, Action::kOpeningView, "Opening view", false, -1);
   action_button(ui, Action::kPreviousCamera, "Previous camera", false, step.next());
   action_button(ui, Action::kNextCamera, "Next camera", false, step.next());
   turntable_button(ui, fmt::format("{} Turntable", icon::kFilm).c_str(), -1);

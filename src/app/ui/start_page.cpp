@@ -31,12 +31,16 @@ bool left_picture(UiContext& ui, const LeftWork& left) {
   return clicked;
 }
 
-// Time and scene in a line each; the scene without its folder where that leaves it too little room.
-std::string left_label(const LeftWork& left, float width) {
+// Time and scene in a line each. Where there is no room for folder and name: what tells it from the others.
+std::string left_label(const std::vector<LeftWork>& all, const LeftWork& left, float width) {
   const std::size_t gap = std::min(left.says.find("  "), left.says.size());
   const std::string when = left.says.substr(0, gap);
   const std::string label = when + "\n" + left.says.substr(std::min(gap + 2, left.says.size()));
-  return ImGui::CalcTextSize(label.c_str()).x <= width ? label : when + "\n" + scene_name(left.scene);
+  if (left.scene.empty() || ImGui::CalcTextSize(label.c_str()).x <= width) return label;
+  const bool shared = has_common_name(left.scene) || std::ranges::any_of(all, [&](const LeftWork& other) {
+                        return other.scene != left.scene && scene_name(other.scene) == scene_name(left.scene);
+                      });
+  return when + "\n" + (shared ? telling_folder(left.scene) : scene_name(left.scene));
 }
 
 }  // namespace
@@ -54,7 +58,7 @@ void left_work_list(UiContext& ui) {
     ImGui::SameLine(0, 4);
     const float width = ImGui::GetContentRegionAvail().x - kThrow - 4;
     const ImVec2 padding = ImGui::GetStyle().FramePadding;
-    const std::string label = left_label(left, width - 2 * padding.x);
+    const std::string label = left_label(offers, left, width - 2 * padding.x);
     ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0, 0.5f});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                         {padding.x, 0.5f * (kLeftPicture.y - 2 * ImGui::GetFontSize())});
@@ -76,8 +80,7 @@ void left_work_list(UiContext& ui) {
 
 void recent_list(UiContext& ui) {
   for (const auto& path : ui.state.recent) {
-    const std::string name = (path.parent_path().filename() / scene_name(path)).string();
-    if (ImGui::Selectable((name + "##" + path.string()).c_str())) ui.ask(OpenScene{path});
+    if (ImGui::Selectable((name_in_folder(path) + "##" + path.string()).c_str())) ui.ask(OpenScene{path});
     tooltip(path.string());
   }
 }

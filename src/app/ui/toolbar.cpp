@@ -23,6 +23,22 @@ void gap() {
   ImGui::SameLine(0, 16);
 }
 
+// Before the next of the tool's options. In a row of their own those that have no room begin another one.
+void next_option(const UiContext& ui, float width) {
+  constexpr float kGap = 16;
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (!ui.state.options_below || ImGui::GetItemRectMax().x + kGap + width <= end) ImGui::SameLine(0, kGap);
+}
+
+// Of buttons beside each other.
+float width_of(std::initializer_list<const char*> labels) {
+  constexpr float kBetween = 2;
+  float width = -kBetween;
+  for (const char* label : labels)
+    width += ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x + kBetween;
+  return width;
+}
+
 void set_view(UiContext& ui, const ViewState& view) {
   ui.ask(SetView{view});
 }
@@ -71,6 +87,21 @@ void tolerance(UiContext& ui) {
   tooltip("How far a colour may differ, in any of red, green and blue");
 }
 
+constexpr float kDepthWidth = 180;  // of the depth limit with its number
+
+void depth_limit(UiContext& ui) {
+  ViewState view = ui.studio.view();
+  const float size = ui.studio.camera().scene_size();
+  float depth = view.depth_limit * size;
+  const std::string text = depth > 0 ? length_format(depth) + " deep" : "no limit";
+  ImGui::SetNextItemWidth(kDepthWidth);
+  if (numbered_slider(ui, "##depth", &depth, 0, 0.5f * size, text.c_str(), kTypedLength, "0.00123 deep")) {
+    view.depth_limit = depth / size;
+    set_view(ui, view);
+  }
+  tooltip("How far behind the visible surface it reaches, in scene units; at the left end there is no limit");
+}
+
 void region_options(UiContext& ui) {
   ViewState view = ui.studio.view();
   struct Choice {
@@ -81,9 +112,10 @@ void region_options(UiContext& ui) {
       {SetOperation::kAdd, "Add", "+", "Add to the selection  (Shift)"},
       {SetOperation::kRemove, "Remove", "-", "Take out of the selection  (Ctrl)"},
       {SetOperation::kIntersect, "Intersect", "&", "Keep only what is in both  (Alt)"}};
-  constexpr float kWordsWidth = 480, kDepthWidth = 150;  // of the choices in words; of the depth limit
+  constexpr float kWordsWidth = 480;  // of the choices in words
+  if (tool_of(view.tool).brush > 0) next_option(ui, width_of({"+", "-", "&"}));
   const float room = options_end(ui) - ImGui::GetCursorPosX();
-  const bool narrow = room < kWordsWidth + (view.see_through ? kDepthWidth : 0);
+  const bool narrow = room < kWordsWidth + (view.see_through ? kDepthWidth + 16 : 0);
   for (const Choice& c : kChoices) {
     if (c.operation != SetOperation::kAdd) ImGui::SameLine(0, 2);
     if (button(ui, narrow ? c.sign : c.label, c.tip, {}, view.operation == c.operation)) {
@@ -91,33 +123,31 @@ void region_options(UiContext& ui) {
       set_view(ui, view);
     }
   }
-  gap();
-  if (tool_of(view.tool).selects == Tool::Selects::kColours) return tolerance(ui);
+  if (tool_of(view.tool).selects == Tool::Selects::kColours) {
+    gap();
+    return tolerance(ui);
+  }
+  next_option(ui, width_of({"Centres"}));
   action_button(ui, Action::kByCentre, "Centres", view.by_centre);
-  gap();
-  if (tool_of(view.tool).selects == Tool::Selects::kSpace) return tool_hint(ui);
-  const bool visible = button(ui, narrow ? "Visible" : "Visible only", "Takes the surface that you see  (V)",
-                              {}, !view.see_through);
+  if (tool_of(view.tool).selects == Tool::Selects::kSpace) {
+    gap();
+    return tool_hint(ui);
+  }
+  const char *of_surface = narrow ? "Visible" : "Visible only", *of_all = narrow ? "Through" : "See-through";
+  next_option(ui, width_of({of_surface, of_all}));
+  const bool visible = button(ui, of_surface, "Takes the surface that you see  (V)", {}, !view.see_through);
   ImGui::SameLine(0, 2);
-  const bool through = button(ui, narrow ? "Through" : "See-through",
-                              "Takes what is hidden behind the surface, too  (V)", {}, view.see_through);
+  const bool through =
+      button(ui, of_all, "Takes what is hidden behind the surface, too  (V)", {}, view.see_through);
   if ((visible && view.see_through) || (through && !view.see_through)) ui.ask(Action::kSeeThrough);
   if (!view.see_through) return;
-  ImGui::SameLine();
-  set_option_width();
-  const float size = ui.studio.camera().scene_size();
-  float depth = view.depth_limit * size;
-  const std::string text = depth > 0 ? length_format(depth) + " units deep" : "no depth limit";
-  if (ImGui::SliderFloat("##depth", &depth, 0, 0.5f * size, text.c_str(), kTypedLength)) {
-    view.depth_limit = depth / size;
-    set_view(ui, view);
-  }
-  tooltip("How far behind the visible surface it reaches, in scene units; at the left end there is no limit");
+  next_option(ui, kDepthWidth);
+  depth_limit(ui);
 }
 
 // With signs in place of words; hints go where there is no room for them.
 float options_width(const UiContext& ui) {
-  constexpr float kBrush = 205, kRegion = 310, kDepth = 135, kColour = 245, kSpace = 170;
+  constexpr float kBrush = 205, kRegion = 310, kDepth = kDepthWidth + 16, kColour = 245, kSpace = 170;
   if (!ui.studio.scene()) return 0;
   const ViewState& view = ui.studio.view();
   const float brush = tool_of(view.tool).brush > 0 ? kBrush : 0;
@@ -137,11 +167,9 @@ float options_width(const UiContext& ui) {
 
 void tool_options(UiContext& ui) {
   const Tool& tool = tool_of(ui.studio.view().tool);
-  if (tool.brush > 0) {
-    brush_size(ui);
-    gap();
-  }
+  if (tool.brush > 0) brush_size(ui);
   if (tool.selects != Tool::Selects::kNothing) return region_options(ui);
+  if (tool.brush > 0) gap();
   if (*tool.hint) tool_hint(ui);
 }
 
@@ -248,18 +276,23 @@ void top_bar(UiContext& ui) {
 }
 
 void tool_column(UiContext& ui) {
-  // Small windows have small buttons, but every tool.
+  // Small windows have small buttons without gaps between groups, but every tool.
   constexpr float kLargest = 38, kSmallest = 22, kGap = 3;
   const auto groups = static_cast<float>(std::ranges::count_if(tools(), &Tool::first_of_group));
-  const float separators = groups * (3 + 3 * ImGui::GetStyle().ItemSpacing.y);
-  const float room =
-      (ImGui::GetContentRegionAvail().y - separators) / static_cast<float>(tools().size()) - kGap;
-  const float side = std::floor(std::clamp(room, kSmallest, kLargest));
+  const float all = ImGui::GetContentRegionAvail().y;
+  const auto room = [&](float separator) {
+    return (all - groups * separator) / static_cast<float>(tools().size()) - kGap;
+  };
+  const float wide = 3 + 3 * ImGui::GetStyle().ItemSpacing.y, tight = 1 + kGap;
+  const bool gaps = room(wide) >= kSmallest;
+  const float side = std::floor(std::clamp(room(gaps ? wide : tight), kSmallest, kLargest));
   for (const Tool* tool : tools()) {
     if (tool->first_of_group) {
-      ImGui::Dummy({0, 1});
+      if (!gaps) ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, kGap});
+      if (gaps) ImGui::Dummy({0, 1});
       ImGui::Separator();
-      ImGui::Dummy({0, 1});
+      if (gaps) ImGui::Dummy({0, 1});
+      if (!gaps) ImGui::PopStyleVar();
     }
     const Action action = action_of(*tool);
     const bool on = ui.studio.view().tool == *tool;

@@ -27,9 +27,10 @@ void propose(UiContext& ui) {
   const std::filesystem::path scene = std::filesystem::absolute(ui.studio.scene()->scene->path);
   const std::string name = scene.filename().string();
   const std::string ending = kEndings[static_cast<std::size_t>(choice.as)];
-  choice.path =
-      free_path(scene.parent_path() / (name.substr(0, name.find('.')) + "_turntable" + ending), ending)
-          .string();
+  choice.path = free_path(folder_to_write(scene.parent_path()) /
+                              (name.substr(0, name.find('.')) + "_turntable" + ending),
+                          ending)
+                    .string();
 }
 
 void label(const char* text) {

@@ -119,6 +119,7 @@ struct UiState {
   std::optional<bool> history_wanted;             // opens or closes the history section
   bool hint_wanted = true;                        // the first-run hint, until the first click
   bool options_below = false;                     // those of the tool have no room in the bar
+  float options_height = 44;                      // of their rows under it, as they were last
   bool double_clicked = false;  // the last press was the second of two, by the events' own times
   bool steady = false;          // for pictures that must repeat: no times, no version, no blinking
   std::vector<std::filesystem::path> recent;

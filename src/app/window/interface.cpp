@@ -135,12 +135,16 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   if (state_.options_below) {  // over the picture, under the bar
     constexpr float kMostWidth = 600;
     const UiRect row = {view.min,
-                        {std::min(view.max.x, view.min.x + kMostWidth), view.min.y + kOptionsHeight}};
+                        {std::min(view.max.x, view.min.x + kMostWidth), view.min.y + state_.options_height}};
     covered_.push_back(row);
-    fixed_panel("options", row, p, kOverPicture, {9, 8}, [&] { tool_options(ui); });
+    fixed_panel("options", row, p, kOverPicture, {9, 8}, [&] {
+      tool_options(ui);
+      state_.options_height =
+          std::max(kOptionsHeight, ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + 8);
+    });
   }
-  fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatus}}, p,
-              kFixed | ImGuiWindowFlags_NoScrollWithMouse, {8, 8}, [&] { tool_column(ui); });
+  fixed_panel("tools", {{0, kTopHeight}, {kToolsWidth, size.y - kStatus}}, p, kFixed, {8, 8},
+              [&] { tool_column(ui); });
   fixed_panel("side", {{size.x - side_width(size), kTopHeight}, {size.x, size.y - kStatus}}, p, kFixed,
               {12, 8}, [&] {
                 ImGui::BeginChild("scroll", {0, 0});
@@ -207,6 +211,7 @@ void Interface::show(UiRequest request, const Studio& studio, UiRenderer* render
       state_.exporting.path.clear();
       state_.exporting.trouble.clear();
       state_.exporting.overwrite = false;
+      state_.exporting.name_first = true;
       if (const OpenedScene* scene = studio.scene())
         if (std::exchange(state_.exporting.placed_file, scene->files.front().id) != scene->files.front().id)
           state_.exporting.placement = {};

@@ -25,6 +25,19 @@ SceneFormat format_of(const MappedFile& file) {
   return input_format_from_name(file.path());
 }
 
+// What is said of a folder that is no scene: files in it that may be one, the first few by their names.
+[[noreturn]] void refuse_folder(const std::filesystem::path& folder, std::vector<std::string> scenes) {
+  constexpr std::size_t kMostNamed = 3;
+  std::ranges::sort(scenes);
+  const std::size_t named = std::min(scenes.size(), kMostNamed);
+  std::string names;
+  for (std::size_t i = 0; i < named; ++i) names += (i > 0 ? ", " : "") + scenes[i];
+  if (scenes.size() > named) names += fmt::format(" and {} more", scenes.size() - named);
+  throw Error(folder.string(),
+              "is a folder, and none with a scene of several files (meta.json, lod-meta.json, .lcc or .lcc2)",
+              scenes.empty() ? "Give a scene file" : "Give a file. It holds " + names);
+}
+
 // A folder stands for the scene of several files in it. Where there are both, meta.json needs no other
 // folders.
 std::filesystem::path in_folder(const std::filesystem::path& path) {
@@ -33,11 +46,16 @@ std::filesystem::path in_folder(const std::filesystem::path& path) {
   for (const char* name : {"meta.json", "lod-meta.json", "meta.lcc", "meta.lcc2"})
     if (std::filesystem::exists(path / name, ignored)) return path / name;
   std::filesystem::path first;  // by name: the order in a folder is the system's
-  for (std::filesystem::directory_iterator at(path, ignored), end; !ignored && at != end;
-       at.increment(ignored))
+  std::vector<std::string> scenes;
+  std::error_code trouble;
+  for (std::filesystem::directory_iterator at(path, trouble), end; !trouble && at != end;
+       at.increment(trouble)) {
     if (lower_case(at->path().extension().string()).starts_with(".lcc") &&
         (first.empty() || at->path() < first))
       first = at->path();
+    if (has_scene_extension(at->path())) scenes.push_back(at->path().filename().string());
+  }
+  if (first.empty() && !trouble) refuse_folder(path, std::move(scenes));
   return first.empty() ? path : first;
 }
 

@@ -290,6 +290,8 @@ TEST_CASE("placing: the export dialog's picture has handles that change its numb
   app.key('E', {.ctrl = true});
   app.frames(3);
   UiState& state = app.interface_state();
+  app->interface().make_current();
+  ImGui::ClearActiveID();  // the name is being typed
   state.exporting.path = (folder / "object.ply").string();
   state.exporting.placement.origin = ExportOrigin::kFoot;
   state.exporting.placement.up = ExportUp::kPlusZ;

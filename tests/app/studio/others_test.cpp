@@ -247,6 +247,8 @@ TEST_CASE("others: what hands took and left to the others is the object's again 
   studio.apply(NewObject{});
   hands.take_left_of(kOnApple, SetOperation::kAdd);
   const ObjectId by_hand = studio.document().active;
+  studio.apply(LeaveToOthers{by_hand, false});
+  hands.settle();
   const Labels before = hands.labels(by_hand);
   REQUIRE(shared(before, apple) > 0);
   studio.apply(LeaveToOthers{by_hand, true});
@@ -315,4 +317,49 @@ TEST_CASE("others: work says by its version that it holds what is left to others
   const RestoredWork older = restored(read_work_file(file), *scene);
   REQUIRE(older.document.find(2)->of_others);
   CHECK(*older.document.find(2)->of_others == some);
+}
+
+TEST_CASE(
+    "others: an object begun by a lasso leaves to the others what they have, as by a box, and so do later "
+    "ones") {
+  Others hands;
+  Studio& studio = hands.studio();
+  const Labels apple = hands.labels(1);
+  studio.apply(NewObject{});
+  hands.take_left_of(kOnApple, SetOperation::kAdd);  // half of the apple, and all that is left of it
+  CHECK(hands.said().find("Others keep ") != std::string::npos);
+  const Labels first = hands.labels(2);
+  CHECK(count_flags(first) > 0);
+  CHECK(shared(first, apple) == 0);
+  hands.take_left_of(kOnApple + glm::vec2(400, 0), SetOperation::kAdd);  // all of the apple, and more
+  const Labels more = hands.labels(2);
+  CHECK(count_flags(more) > count_flags(first));
+  CHECK(shared(more, apple) == 0);
+  studio.apply(Undo{});
+  hands.settle();
+  CHECK(hands.labels(2) == first);
+  studio.apply(Redo{});
+  studio.apply(LeaveToOthers{2, false});
+  hands.settle();
+  CHECK(shared(hands.labels(2), apple) == count_flags(apple));  // given by hand
+}
+
+TEST_CASE("others: a shape that is mostly another's takes what it holds, and nothing else of that") {
+  constexpr std::size_t kCount = 8;
+  const GaussianCloud cloud = random_cloud(kCount, 1, 0);
+  const EditContext context{cloud};
+  Document document;
+  set_labels(&document, &add_object(&document), Labels{1, 1, 1, 1, 0, 0, 0, 0});
+  ObjectItem& two = add_object(&document);
+  edit_by_shape(&document, Labels{0, 0, 0, 1, 1, 1, 0, 0}, SetOperation::kAdd, context);
+  CHECK(labels_of(document, two, kCount) == Labels{0, 0, 0, 0, 1, 1, 0, 0});
+  edit_by_shape(&document, Labels{0, 0, 1, 0, 1, 1, 0, 0}, SetOperation::kAdd, context);  // new is one alone
+  CHECK(labels_of(document, two, kCount) == Labels{0, 0, 1, 0, 1, 1, 0, 0});
+  edit_by_shape(&document, Labels{0, 1, 0, 1, 0, 0, 1, 1}, SetOperation::kAdd, context);
+  CHECK(labels_of(document, two, kCount) == Labels{0, 0, 1, 0, 1, 1, 1, 1});
+  edit_by_shape(&document, Labels{0, 0, 1, 0, 1, 0, 0, 0}, SetOperation::kRemove, context);
+  CHECK(labels_of(document, two, kCount) == Labels{0, 0, 0, 0, 0, 1, 1, 1});
+  ObjectItem& three = add_object(&document);  // begun on the first
+  edit_by_shape(&document, Labels{1, 1, 1, 0, 0, 0, 0, 1}, SetOperation::kAdd, context);
+  CHECK(labels_of(document, three, kCount) == Labels{1, 1, 1, 0, 0, 0, 0, 1});
 }

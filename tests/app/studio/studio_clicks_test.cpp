@@ -295,3 +295,20 @@ TEST_CASE(
   for (const Message& m : artist.studio().messages())
     CHECK(m.text.find("changed nothing") == std::string::npos);
 }
+
+TEST_CASE(
+    "clicks: a box on an object that was begun before says that it added to it, one that begins says "
+    "nothing") {
+  Artist artist(on_sample("mug", kOnMug));
+  artist.click_on_it();
+  artist.app.key('4');
+  const auto box = [&](const glm::vec2& from, const glm::vec2& to) {
+    artist.app.drag({artist.app.screen_of(from), artist.app.screen_of(to)});
+    REQUIRE(artist.app.settle());
+    return artist.said();
+  };
+  CHECK(box({605, 415}, {735, 560}).find("added to Object 1, which was begun before") != std::string::npos);
+  artist.app.key('N', {.ctrl = true});
+  CHECK(box({720, 400}, {850, 530}).find("begun before") == std::string::npos);
+  CHECK(artist.studio().document().active == 2);
+}

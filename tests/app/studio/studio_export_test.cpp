@@ -22,6 +22,8 @@ TEST_CASE("hands: an export that fails leaves its dialog open and says why") {
   Hands hands;
   hands.app.key('E', {.ctrl = true});
   hands.app.frames(2);
+  hands.app->interface().make_current();
+  ImGui::ClearActiveID();  // the name is being typed
   std::ofstream(folder / "file") << "x";
   hands.app.interface_state().exporting.path = (folder / "file" / "object.ply").string();
   hands.app.frames(1);

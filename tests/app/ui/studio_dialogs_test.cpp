@@ -234,6 +234,8 @@ TEST_CASE("dialogs: Enter and Esc in a number end the number, not the dialog") {
   UiState& state = app.interface_state();
   app.key('E', {.ctrl = true});
   app.frames(3);
+  app->interface().make_current();
+  ImGui::ClearActiveID();  // the name is being typed
   state.exporting.path = (folder / "object.ply").string();
   app.type_into("###export", {"##turn"}, "30");
   app.key(key::kEnter);

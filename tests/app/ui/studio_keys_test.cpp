@@ -167,6 +167,7 @@ const std::map<Action, Check> kChecks = {
     {Action::kViewTop, camera_moved},
     {Action::kFrameObject, camera_moved},
     {Action::kFrameScene, camera_moved},
+    {Action::kOpeningView, camera_moved},
     {Action::kNextCamera, camera_moved},
     {Action::kPreviousCamera, camera_moved},
     {Action::kFlyForward, flies(2, 1)},
@@ -185,6 +186,7 @@ void arrange(HeadlessApp& app, Action action) {
     s.apply(JumpHistory{1});
     app.click(app.screen_of(kOnApple));
   }
+  if (action == Action::kOpeningView) s.camera().zoom(-4);
   if (action == Action::kShowAll) s.run(Action::kIsolate);
   if (action == Action::kConfirm) {
     s.run(Action::kToolPolygon);

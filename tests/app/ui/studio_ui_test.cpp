@@ -382,3 +382,42 @@ TEST_CASE("ui: no key of the F1 page runs into what it does, in any group") {
   for (const Binding& b : key_bindings())
     CHECK_MESSAGE(ImGui::CalcTextSize(keys_of(b.action).c_str()).x + 8 <= keys_width(), b.what);
 }
+
+TEST_CASE("ui: a window of 640 by 480 shows every tool and every option of each, a smaller one scrolls") {
+  const auto window = [](const char* name) {
+    const ImGuiWindow* found = ImGui::FindWindowByName(name);
+    return found && found->WasActive ? found : nullptr;
+  };
+  HeadlessApp app(640, 480);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app->interface().make_current();
+  REQUIRE(window("tools"));
+  CHECK(window("tools")->ScrollMax.y == 0);
+  std::size_t rows = 0;
+  for (const Tool* tool : tools())
+    for (const bool through : {false, true}) {
+      ViewState view = app.studio().view();
+      view.tool = *tool;
+      view.see_through = through;
+      app.studio().apply(SetView{view});
+      app.frames(4);
+      app->interface().make_current();
+      CAPTURE(tool->name);
+      if (!window("options")) continue;
+      ++rows;
+      CHECK(window("options")->ScrollMax.x == 0);
+      CHECK(window("options")->ScrollMax.y == 0);
+    }
+  CHECK(rows > 10);
+  HeadlessApp small(640, 480, 1.5f);
+  small.open(kSmallSample);
+  REQUIRE(small.settle());
+  small->interface().make_current();
+  REQUIRE(window("tools")->ScrollMax.y > 0);
+  small.move({20, 200});
+  small.frames(1);
+  small->handle(WheelTurned{-5, {}});
+  small.frames(2);
+  CHECK(window("tools")->Scroll.y > 0);
+}

@@ -1,0 +1,68 @@
+// The list of work that crashes left: what tells one from another, and when it comes.
+#include <doctest/doctest.h>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "app/document/words.h"
+#include "app/work/work_file.h"
+#include "headless_app.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+// Of a scene that trainers name as they name all.
+void leave_work(const ScratchFolder& folder, const std::string& capture, const std::string& file) {
+  const std::filesystem::path scene =
+      folder / (capture + "/point_cloud/iteration_30000/point_cloud.compressed.ply");
+  std::filesystem::create_directories(scene.parent_path());
+  std::filesystem::copy_file(kSmallSample, scene, std::filesystem::copy_options::skip_existing);
+  Document document;
+  add_object(&document, "mug");
+  write_work_file(folder / file, *open_scene(scene), document);
+}
+
+ApplicationOptions with_state(const ScratchFolder& folder) {
+  ApplicationOptions options = with_kept_scenes();
+  options.studio.state_folder = folder.path();
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("left work: scenes whose files trainers name alike are told apart by their folders") {
+  CHECK(name_in_folder("/a/garden/point_cloud/iteration_7000/point_cloud.ply") == "garden/point_cloud.ply");
+  CHECK(name_in_folder("/a/garden/meta.json") == "garden");
+  CHECK(name_in_folder("/a/garden/room.ply") == "garden/room.ply");
+  const ScratchFolder folder("left_alike");
+  leave_work(folder, "a_garden_with_a_long_name", "autosave.splatcut.json");
+  leave_work(folder, "fox", "autosave.2.splatcut.json");
+  HeadlessApp app(640, 480, 1, with_state(folder));
+  app.frames(3);
+  CHECK(app.button("\na_garden_with_a_long_name").size().x > 0);
+  CHECK(app.button("\nfox").size().x > 0);
+}
+
+TEST_CASE("left work: that of a program which takes long to end comes at once, also beside older work") {
+  const ScratchFolder folder("left_late");
+  leave_work(folder, "fox", "autosave.splatcut.json");
+  const auto offered_after_end = [&] {
+    const int lock = ::open((folder / "autosave.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    REQUIRE(lock >= 0);
+    REQUIRE(::flock(lock, LOCK_EX | LOCK_NB) == 0);  // as the other program holds it
+    HeadlessApp app(640, 480, 1, with_state(folder));
+    app.frames(60 * 3);
+    const std::size_t before = app.studio().work().offers().size();
+    ::close(lock);
+    app.frames(30);
+    return app.studio().work().offers().size() - before;
+  };
+  CHECK(offered_after_end() == 1);
+  leave_work(folder, "cup", "autosave.3.splatcut.json");
+  CHECK(offered_after_end() == 1);
+}
