@@ -176,6 +176,11 @@ void SceneFiles::perform(const RemoveScene& c) {
   change_files(std::move(files), "Taking out " + name, {name + " taken out; the file stays as it is"});
 }
 
+// No other was asked for since: that one holds the changes of this one, or is another scene.
+bool SceneFiles::is_last(const OpenedScene& scene) const {
+  return scene.serial + 1 == next_scene_serial_;
+}
+
 void SceneFiles::change_files(std::vector<SceneSource> files, const std::string& doing, Said said) {
   ws_.say(Message::Kind::kInfo, doing);
   stop_for_loading();
@@ -192,8 +197,8 @@ void SceneFiles::change_files(std::vector<SceneSource> files, const std::string&
       std::erase_if(changing_to_, [&](const SceneSource& file) {
         return std::ranges::count(files, file.id, &SceneSource::id) > 0 && !scene->file(file.id);
       });
-      if (!none_came) return carry_document(scene, said);
-      if (same_files(changing_to_, scene->files)) changing_to_.clear();  // else another change is under way
+      if (!none_came && is_last(*scene)) return carry_document(scene, said);
+      if (same_files(changing_to_, scene->files)) changing_to_.clear();
       say_refused(said.refused);
     });
   });
@@ -215,7 +220,7 @@ void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const
           calls_.in_turn([this, scene, said, before, history, serial, decided, anyway] {
             if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
             if (before != ws_.scene || serial != ws_.history.serial() || decided != ws_.clean->decisions())
-              return carry_document(scene, said);
+              return is_last(*scene) ? carry_document(scene, said) : say_refused(said.refused);
             files_changed(scene, history, said);
             ws_.clean = std::make_shared<CleanObjects>(scene, anyway);
           });

@@ -66,6 +66,7 @@ class SceneFiles {
   };
   void change_files(std::vector<SceneSource> files, const std::string& doing, Said said);
   void say_refused(const std::vector<std::string>& refused);
+  bool is_last(const OpenedScene& scene) const;
   void carry_document(const std::shared_ptr<OpenedScene>& scene, const Said& said);
   void files_changed(const std::shared_ptr<OpenedScene>& scene, History history, const Said& said);
 

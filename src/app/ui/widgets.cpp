@@ -131,7 +131,8 @@ std::optional<std::string> why_edges_stay(const UiContext& ui) {
 }
 
 void clean_anyway_button(UiContext& ui) {
-  if (button(ui, "Clean anyway", kCleanAnywayCosts)) ui.ask(CleanAnyway{});
+  if (button(ui, "Clean anyway", kCleanAnywayCosts + std::string(". B shows before and after")))
+    ui.ask(CleanAnyway{});
 }
 
 void muted_text(UiContext& ui, const std::string& text) {

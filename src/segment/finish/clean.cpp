@@ -55,7 +55,8 @@ std::string why_not(const CleanReport& report) {
   return report.short_reason() +
          (report.views < kLeastViews
               ? fmt::format("; it takes {}", kLeastViews)
-              : ": something is missing, or too much is selected; they are cleaned once that is mended");
+              : ": what is hidden there is selected, too, or a piece before it is missing; they are cleaned "
+                "once that is mended");
 }
 
 // Steps 1 to 3, or the last two alone; `kept` says what left. Returns what was cut off.
@@ -120,7 +121,7 @@ CleanObject cleaned(const CleanInput& input, std::span<const Camera> cameras, co
 
 std::string CleanReport::short_reason() const {
   if (views >= kLeastViews || agreed < views)
-    return fmt::format("alone, it looks as in the scene from {} of {} side{} only", agreed, views,
+    return fmt::format("from {} of {} side{} it shows more alone than in the scene", views - agreed, views,
                        views == 1 ? "" : "s");
   return fmt::format("it is seen from {} side{} only", views, views == 1 ? "" : "s");
 }

@@ -1,6 +1,9 @@
 // The window and the table of formats: axes of a .spz, exports in every format.
 #include <doctest/doctest.h>
 
+#include <chrono>
+#include <thread>
+
 #include <set>
 
 #include "hands.h"
@@ -246,4 +249,32 @@ TEST_CASE("formats: objects whose names become the same file are exported beside
   CHECK(report.files == 3);
   for (const auto& [file, gaussians] : {std::pair{"mug.ply", 10u}, {"mug_2.ply", 20u}, {"mug_3.ply", 30u}})
     CHECK(load_scene(folder / "all" / file).cloud.size() == gaussians);
+}
+
+TEST_CASE(
+    "formats: a file that is added while another is being taken out comes, and what is opened then, too") {
+  const Folder folder;
+  Scene small;
+  small.cloud = random_cloud(300, 3, 1);
+  for (const char* name : {"a.ply", "b.ply"}) save_scene(folder / name, small, {}, SceneFormat::kPly);
+  HeadlessApp app(1100, 760);
+  Studio& studio = app.studio();
+  app.open(folder / "a.ply");
+  REQUIRE(app.settle());
+  studio.apply(AddScene{folder / "b.ply"});
+  REQUIRE(app.settle());
+  const auto taken_out = [&] {  // what it comes to waits for update() when the next is asked for
+    studio.apply(RemoveScene{studio.scene()->files.back().id});
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  };
+  taken_out();
+  studio.apply(AddScene{kSample});
+  REQUIRE(app.settle());
+  REQUIRE(studio.scene()->files.size() == 2);
+  CHECK(studio.scene()->files.back().path == kSample);
+  taken_out();
+  app.open(kSample);
+  REQUIRE(app.settle());
+  REQUIRE(studio.scene()->files.size() == 1);
+  CHECK(studio.scene()->files.front().path == kSample);
 }
