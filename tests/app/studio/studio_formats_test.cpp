@@ -2,9 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
-#include <thread>
-
 #include <set>
+#include <thread>
 
 #include "hands.h"
 #include "scene/cloud/scene_memory.h"
@@ -273,7 +272,7 @@ TEST_CASE(
   REQUIRE(studio.scene()->files.size() == 2);
   CHECK(studio.scene()->files.back().path == kSample);
   taken_out();
-  app.open(kSample);
+  studio.apply(OpenScene{kSample});
   REQUIRE(app.settle());
   REQUIRE(studio.scene()->files.size() == 1);
   CHECK(studio.scene()->files.front().path == kSample);
