@@ -1,6 +1,7 @@
 // An added file while it is placed: its box, some of its Gaussians where they would stand, handles.
 #include "app/ui/splat_dots.h"
 #include "app/viewport/on_screen.h"
+#include "app/viewport/viewport_pane.h"
 
 namespace splatcut {
 

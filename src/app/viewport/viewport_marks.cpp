@@ -6,6 +6,7 @@
 
 #include "app/ui/widgets.h"
 #include "app/viewport/on_screen.h"
+#include "app/viewport/viewport_pane.h"
 
 namespace splatcut {
 

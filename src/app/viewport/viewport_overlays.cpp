@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/viewport/on_screen.h"
+#include "app/viewport/viewport_pane.h"
 #include "scene/raster/splat_math.h"
 
 namespace splatcut {

@@ -8,6 +8,7 @@
 #include "app/picture/badge_place.h"
 #include "app/ui/widgets.h"
 #include "app/viewport/on_screen.h"
+#include "app/viewport/viewport_pane.h"
 
 namespace splatcut {
 
