@@ -244,8 +244,10 @@ std::string edit_by_shape(Document* document, const Selection& region, SetOperat
     return edit_selection(document, region, operation, context);
   }
   Selection left(n, 0), taken = region;
+  const Flags had = had_by_others(*document, object, n);  // now, not when the object was begun
   for (const std::int32_t hit : added)
-    if (const auto g = static_cast<std::size_t>(hit); object.of_others && (*object.of_others)[g]) {
+    if (const auto g = static_cast<std::size_t>(hit);
+        had && (*had)[g] && object.of_others && (*object.of_others)[g]) {
       left[g] = 1;
       taken[g] = 0;
     }

@@ -26,7 +26,8 @@ std::string edit_selection(Document* document, const Selection& region, SetOpera
 
 // The same with a shape drawn in the picture or in space. As with a box of strokes, what it adds leaves other
 // objects what they have: a new object's first shape what all have, a later one what the object leaves to
-// them already; unless more than half of it is another's. That is kept for when it is given back.
+// them already; unless more than half of it is another's. What it leaves becomes the object's once
+// it no longer leaves it.
 std::string edit_by_shape(Document* document, const Selection& region, SetOperation operation,
                           const EditContext& context);
 

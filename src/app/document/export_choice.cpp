@@ -52,6 +52,11 @@ std::filesystem::path target_of(const ExportChoice& choice) {
   return choice.path + choice.format.extension;
 }
 
+bool names_written_format(std::string_view path) {
+  const SceneFormat* named = find_format(std::filesystem::path(path));
+  return named && named->write && path.ends_with(named->extension);
+}
+
 void follow_typed_name(ExportChoice& choice) {
   const SceneFormat* named = choice.what == ExportWhat::kAllObjects ? nullptr : find_format(choice.path);
   if (named && named->write && choice.path.ends_with(named->extension)) choice.format = *named;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "app/document/export_plan.h"
 #include "scene/formats/scene_formats.h"
@@ -16,10 +17,10 @@ struct ExportChoice {
   SceneFormat format = SceneFormat::kPly;
   std::string path;
   bool overwrite = false;
-  bool name_first = false;        // the dialog opens: what is typed first is the name
-  int marked_from = 0;            // where the name begins that is marked; 0: none is, or it was typed over
-  bool fill_hole = false;         // of the rest
-  ExportPlacement placement;      // kept for the next export of the scene
+  bool name_first = false;    // the dialog opens: what is typed first is the name
+  std::string marked_folder;  // "…/", before the name that is marked; empty: none is, or it was typed over
+  bool fill_hole = false;     // of the rest
+  ExportPlacement placement;  // kept for the next export of the scene
   std::uint32_t placed_file = 0;  // the scene's first, that it is for
   FormatPlan plan;
   std::string plan_key;  // what it was made for
@@ -37,6 +38,9 @@ std::string proposed_path(const ExportChoice& choice, const std::filesystem::pat
 // Where it goes: the path with the format's extension, as under another one the file could not be opened
 // again.
 std::filesystem::path target_of(const ExportChoice& choice);
+
+// Whether the path ends like a format that is written.
+bool names_written_format(std::string_view path);
 
 // A typed path that ends like another format means that format.
 void follow_typed_name(ExportChoice& choice);

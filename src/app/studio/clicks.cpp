@@ -127,7 +127,7 @@ std::string Clicks::why_no_meanings() const {
       !any_mark(*object))
     return {};
   const ClickMeanings* known = meanings(*object);
-  const bool comes = cuts_.comes(*object) || !cuts_.run(object->id);
+  const bool comes = cuts_.comes(*object) || (!object->cut_kept && !cuts_.run(object->id));
   if (!known && comes) return "What else the click can mean is shown once " + object->name + " is computed";
   const bool hidden = known && known->outlines.size() > 1 && known->key != declined_offer_ &&
                       ws_.view.display != DisplayMode::kWhole;

@@ -338,8 +338,9 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
         Message::Kind::kRefused,
         fmt::format("{}: {}. Click nearer to what is wrong, come nearer, or draw over it", name, changed));
   }
-  const std::string shared =
-      added_by_box(ws_.history, order.object, ws_.context()) + shared_with(ws_, order.object);
+  const std::string box =
+      *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
+  const std::string shared = box + shared_with(ws_, order.object);
   const bool offers_sizes = result->ambiguous && ws_.tools.scale_armed();
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
           fmt::format("{}: {}{}{}", name, changed, shared,

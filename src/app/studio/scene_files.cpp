@@ -113,6 +113,7 @@ void SceneFiles::say_refused(const std::vector<std::string>& refused) {
 }
 
 void SceneFiles::cancel_loading() {
+  ++next_scene_serial_;  // what is on its way is not the last
   ws_.tasks.cancel(TaskKind::kLoad);
   changing_to_.clear();
 }
@@ -176,7 +177,8 @@ void SceneFiles::perform(const RemoveScene& c) {
   change_files(std::move(files), "Taking out " + name, {name + " taken out; the file stays as it is"});
 }
 
-// No other was asked for since: that one holds the changes of this one, or is another scene.
+// True if no other change or scene was asked for since, and it was not cancelled. A later change holds this
+// one.
 bool SceneFiles::is_last(const OpenedScene& scene) const {
   return scene.serial + 1 == next_scene_serial_;
 }
@@ -219,8 +221,9 @@ void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const
         ws_.tasks.post([this, scene, said, before, history = std::move(history), serial, decided, anyway] {
           calls_.in_turn([this, scene, said, before, history, serial, decided, anyway] {
             if (scene->files.front().id != ws_.scene->files.front().id) return;  // another one was opened
+            if (!is_last(*scene)) return say_refused(said.refused);
             if (before != ws_.scene || serial != ws_.history.serial() || decided != ws_.clean->decisions())
-              return is_last(*scene) ? carry_document(scene, said) : say_refused(said.refused);
+              return carry_document(scene, said);
             files_changed(scene, history, said);
             ws_.clean = std::make_shared<CleanObjects>(scene, anyway);
           });

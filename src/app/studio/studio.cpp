@@ -109,9 +109,11 @@ void Studio::follow_document() {
   constexpr float kSameDirection = 0.99999f;  // the controller keeps it normalised
   if (glm::dot(glm::normalize(document().up_world), camera().up_world()) < kSameDirection)
     camera().set_up(document().up_world);
-  if (std::exchange(followed_object_, document().active) != document().active &&
-      ws_.view.display == DisplayMode::kIsolate)
-    viewport_.turn_about_object();
+  const bool alone = ws_.view.display == DisplayMode::kIsolate;
+  if (followed_object_ != document().active && (!alone || gaussians_of(document().active) > 0)) {
+    followed_object_ = document().active;
+    if (alone) viewport_.turn_about_object();
+  }
   // Alone, an empty object would be a black picture.
   if (ws_.scene && ws_.view.display != DisplayMode::kWhole && gaussians_of(document().active) == 0 &&
       cuts_.cutting() == 0) {

@@ -67,23 +67,26 @@ void line_across(const Palette& palette) {
   ImGui::Dummy({0, 2});
 }
 
-// The name without folder and extension is what is typed over; a whole path typed there replaces these, too.
+// The name without folder and extension is what is typed over; a whole path typed there replaces these, too,
+// and an extension the old one.
 int mark_name(ImGuiInputTextCallbackData* data) {
   ExportChoice& choice = *static_cast<ExportChoice*>(data->UserData);
   const std::string_view path(data->Buf, static_cast<std::size_t>(data->BufTextLen));
   const std::string_view ending = choice.what == ExportWhat::kAllObjects ? "" : choice.format.extension;
-  if (choice.marked_from > 0 && !data->HasSelection()) {
-    const auto from = static_cast<std::size_t>(std::exchange(choice.marked_from, 0));
-    if (from >= path.size() || path[from] != '/') return 0;
-    if (path.substr(static_cast<std::size_t>(data->CursorPos)) == ending)
+  const auto cursor = static_cast<std::size_t>(data->CursorPos);
+  if (!data->HasSelection()) {
+    const std::string folder = std::exchange(choice.marked_folder, {});
+    const bool whole = !folder.empty() && path.starts_with(folder + "/");
+    const bool before_ending = !ending.empty() && path.substr(cursor) == ending;
+    if (before_ending && (whole || names_written_format(path.substr(0, cursor))))
       data->DeleteChars(data->CursorPos, static_cast<int>(ending.size()));
-    data->DeleteChars(0, static_cast<int>(from));
+    if (whole) data->DeleteChars(0, static_cast<int>(folder.size()));
   }
   if (!std::exchange(choice.name_first, false)) return 0;
   data->SelectionStart = static_cast<int>(path.rfind('/') + 1);
   data->SelectionEnd = data->BufTextLen - static_cast<int>(path.ends_with(ending) ? ending.size() : 0);
   data->CursorPos = data->SelectionEnd;
-  choice.marked_from = data->SelectionStart;
+  choice.marked_folder = path.substr(0, path.rfind('/') + 1);
   return 0;
 }
 

@@ -194,10 +194,11 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
     files.name = saved.filename().string();
     start = saved.parent_path();
   }
-  if (start.empty())
+  if (start.empty()) {
     start = ui.studio.scene() ? std::filesystem::absolute(ui.studio.scene()->scene->path).parent_path()
                               : std::filesystem::current_path();
-  if (files.saving) start = folder_to_write(start);
+    if (files.saving) start = folder_to_write(start);
+  }
   files.enter(start);
   files.open = !ui.state.native_wanted ||
                !ui.state.native_files.ask(

@@ -131,7 +131,7 @@ std::optional<std::string> why_edges_stay(const UiContext& ui) {
 }
 
 void clean_anyway_button(UiContext& ui) {
-  if (button(ui, "Clean anyway", kCleanAnywayCosts + std::string(". B shows before and after")))
+  if (button(ui, "Clean anyway", kCleanAnywayCosts + std::string(". Alone (I), B shows before and after")))
     ui.ask(CleanAnyway{});
 }
 

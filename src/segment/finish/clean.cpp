@@ -54,7 +54,7 @@ void keep_best(std::vector<OwnView>* views) {
 std::string why_not(const CleanReport& report) {
   return report.short_reason() +
          (report.views < kLeastViews
-              ? fmt::format("; it takes {}", kLeastViews)
+              ? fmt::format("; it takes {} from which it shows as much", kLeastViews)
               : ": what is hidden there is selected, too, or a piece before it is missing; they are cleaned "
                 "once that is mended");
 }

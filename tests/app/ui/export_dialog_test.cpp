@@ -67,6 +67,20 @@ TEST_CASE("export dialog: what is typed when it opens replaces the name, not fol
   REQUIRE(proposed(hands) == before);
   type(hands, "/a/whole.ply");  // replaces folder and ending, too
   CHECK(choice.path == "/a/whole.ply");
+  hands.app.key(key::kEscape);
+  hands.app.frames(2);
+  REQUIRE(proposed(hands) == before);
+  type(hands, "pear.spz");  // an ending takes the place of that which is there
+  CHECK(choice.path == before.parent_path() / "pear.spz");
+  CHECK(choice.format == SceneFormat::kSpz);
+  // Another path with a slash where the name began is left as it is.
+  hands.app.key(key::kEscape);
+  hands.app.frames(2);
+  REQUIRE(proposed(hands) == before);
+  hands.app.key('A', {.ctrl = true});
+  const std::string other = "/" + std::string(before.parent_path().string().size() - 1, 'x') + "/out.ply";
+  type(hands, other);
+  CHECK(choice.path == other);
 }
 
 TEST_CASE("export dialog: a scene in a folder that cannot be written is exported to Documents, or home") {
