@@ -646,8 +646,9 @@ TEST_CASE("hands: Esc stops looking who saw the object, and the key asked again 
   hands.studio().apply(EditSelection{SelectionEdit::kGrow});
   for (int i = 0; i < 2000 && !hands.studio().seen_views().looking(); ++i) hands.app.frames(1);
   hands.app.key('H');
-  hands.app.frames(2);
+  REQUIRE(hands.app.settle());
   CHECK_FALSE(hands.studio().seen_views().looking());
+  CHECK(hands.studio().seen_views().ground() == nullptr);  // it was not seen to its end
 }
 
 TEST_CASE(
