@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include <imgui_internal.h>  // items by their names
 
@@ -74,11 +76,22 @@ class HeadlessApp {
   // Nothing moves or runs afterwards.
   bool settle(double most_seconds = 300) { return app_.settle(most_seconds); }
   void frames(int count) {
-    for (int i = 0; i < count; ++i) app_.frame(1.0 / 60);
+    for (int i = 0; i < count; ++i) app_.advance(1.0 / 60);
+  }
+  // Until a thing holds that the worker or time brings about. False after a minute.
+  template <typename Condition>
+  bool frames_until(const Condition& holds) {
+    const auto start = std::chrono::steady_clock::now();
+    while (!holds()) {
+      if (std::chrono::steady_clock::now() - start > std::chrono::minutes(1)) return false;
+      frames(1);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
   }
   // The message on the screen goes; what is made while nothing is done (clean edges) is made.
   void wait_for_message_to_go() {
-    app_.frame(10);
+    app_.advance(10);
     settle();
     frames(2);
   }
@@ -97,26 +110,26 @@ class HeadlessApp {
     move(point, modifiers);
     press(button, modifiers);
     release(button, modifiers);
-    app_.frame(0.5);  // no double-click with the next
+    app_.advance(0.5);  // no double-click with the next
   }
   void drag(std::initializer_list<glm::vec2> path, PointerButton button = PointerButton::kLeft) {
     move(*path.begin());
     press(button);
     for (const glm::vec2& p : path) {
       move(p);
-      app_.frame(1.0 / 60);
+      app_.advance(1.0 / 60);
     }
     release(button);
-    app_.frame(0.5);
+    app_.advance(0.5);
   }
   void key(int code, const Modifiers& modifiers = {}) {
     app_.handle(KeyChanged{code, true, false, modifiers});
-    app_.frame(1.0 / 60);
+    app_.advance(1.0 / 60);
     app_.handle(KeyChanged{code, false, false, modifiers});
     if (modifiers.shift) app_.handle(KeyChanged{key::kLeftShift, false, false, modifiers});
     if (modifiers.ctrl) app_.handle(KeyChanged{key::kLeftControl, false, false, modifiers});
     if (modifiers.alt) app_.handle(KeyChanged{key::kLeftAlt, false, false, modifiers});
-    app_.frame(1.0 / 60);
+    app_.advance(1.0 / 60);
   }
 
   // A button, checkbox or section by what is written on it, or by its id behind ##; outer ids first. window:
@@ -165,8 +178,10 @@ class HeadlessApp {
     return app_.interface().viewport().min + at;
   }
 
+  // What the last frame shows: only what is looked at is drawn.
   Image<Rgb8> picture() {
     target_.bind();
+    app_.draw();
     return read_back_rgb8(target_.width(), target_.height(), true);
   }
 

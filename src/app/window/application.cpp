@@ -237,7 +237,7 @@ void Application::remember_recent() {
   if (recent.size() > kRecentKept) recent.resize(kRecentKept);
 }
 
-bool Application::frame(double seconds) {
+bool Application::advance(double seconds, bool draws) {
   FrameTimes times;
   auto before = std::chrono::steady_clock::now();
   const auto lap = [&before] {
@@ -258,7 +258,7 @@ bool Application::frame(double seconds) {
   Requests ask;
   build_interface(seconds, &ask);
   times.interface = lap();
-  draw_interface();
+  if (draws) draw();
   times.draw = lap();
   for (const Action action : ask.actions) studio_.run(action);
   for (const Command& command : ask.commands) {
@@ -299,7 +299,7 @@ void Application::build_interface(double seconds, Requests* ask) {
   type_held_back();
 }
 
-void Application::draw_interface() {
+void Application::draw() {
   glDisable(GL_SCISSOR_TEST);
   const ImVec4& back = interface_.theme().colour.panel_low;
   glClearColor(back.x, back.y, back.z, 1);
@@ -312,8 +312,7 @@ bool Application::settle(double most_seconds) {
   const auto start = std::chrono::steady_clock::now();
   int quiet = 0;
   while (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < most_seconds) {
-    frame(1.0 / 60);
-    glFinish();  // software OpenGL would queue frames faster than it draws them
+    advance(1.0 / 60);
     quiet = studio_.idle() ? quiet + 1 : 0;
     if (quiet >= 3) return true;
     if (quiet == 0) std::this_thread::sleep_for(std::chrono::milliseconds(25));  // the work needs the cores

@@ -38,10 +38,14 @@ class Application {
   void resize(const glm::vec2& size_points, float pixels_per_point);
   void handle(const UiEvent& event);
   // Advances by `seconds` and draws into the bound framebuffer. True while something moves or is awaited.
-  bool frame(double seconds);
+  bool frame(double seconds) { return advance(seconds, true); }
+  // The same without drawing, and what it would have drawn: for who looks at the last of many frames alone.
+  bool advance(double seconds) { return advance(seconds, false); }
+  void draw();
   bool wants_to_close() { return interface_.state().quit_wanted; }
 
-  // Frames of 1/60 s until nothing moves and nothing runs. False after `most_seconds` of real time.
+  // Advances by 1/60 s until nothing moves and nothing runs; draws nothing. False after `most_seconds` of
+  // real time.
   bool settle(double most_seconds);
 
   Studio& studio() { return studio_; }
@@ -72,7 +76,7 @@ class Application {
   void open(const OpenScene& command);  // asks first where work would be lost
   void remember_recent();
   void build_interface(double seconds, Requests* ask);
-  void draw_interface();
+  bool advance(double seconds, bool draws);
 
   Studio studio_;
   Interface interface_;

@@ -500,7 +500,7 @@ TEST_CASE("hands: to clean anyway is decided while the worker finds out that edg
   Hands hands = hands_on_sample();
   leave_the_small_ones(hands.app);
   hands.app.key('I');
-  for (int i = 0; i < 2000 && hands.studio().progress().kind != TaskKind::kClean; ++i) hands.app.frames(1);
+  REQUIRE(hands.app.frames_until([&] { return hands.studio().progress().kind == TaskKind::kClean; }));
   hands.studio().apply(CleanAnyway{});
   REQUIRE(hands.app.settle());
   hands.app.frames(2);
@@ -621,12 +621,12 @@ TEST_CASE("hands: the object alone is red where no view saw it and blue where ma
 
 TEST_CASE("hands: Esc stops looking who saw the object, and the key asked again looks again") {
   Hands hands = hands_on_sample();
+  const auto looking = [&] { return hands.studio().seen_views().looking(); };
   const auto stop = [&] {
-    for (int i = 0; i < 2000 && !hands.studio().seen_views().looking(); ++i) hands.app.frames(1);
-    REQUIRE(hands.studio().seen_views().looking());
+    REQUIRE(hands.app.frames_until(looking));
     hands.app.key(key::kEscape);
     REQUIRE(hands.app.settle());
-    CHECK_FALSE(hands.studio().seen_views().looking());
+    CHECK_FALSE(looking());
   };
   hands.app.key('M', {.shift = true});
   stop();
@@ -644,10 +644,10 @@ TEST_CASE("hands: Esc stops looking who saw the object, and the key asked again 
   CHECK(hands.studio().seen_views().ground() != nullptr);
   // Nobody waits for it any more.
   hands.studio().apply(EditSelection{SelectionEdit::kGrow});
-  for (int i = 0; i < 2000 && !hands.studio().seen_views().looking(); ++i) hands.app.frames(1);
+  REQUIRE(hands.app.frames_until(looking));
   hands.app.key('H');
   REQUIRE(hands.app.settle());
-  CHECK_FALSE(hands.studio().seen_views().looking());
+  CHECK_FALSE(looking());
   CHECK(hands.studio().seen_views().ground() == nullptr);  // it was not seen to its end
 }
 
