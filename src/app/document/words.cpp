@@ -51,11 +51,13 @@ std::string scene_name(const std::filesystem::path& scene) {
 std::string telling_folder(const std::filesystem::path& scene) {
   std::error_code ignored;
   std::filesystem::path folder = std::filesystem::absolute(scene, ignored).lexically_normal().parent_path();
-  const auto is_alike = [](const std::string& name) {
-    return name == "point_cloud" || name.starts_with("iteration_");
-  };
-  while (is_alike(folder.filename().string())) folder = folder.parent_path();
-  return folder.filename().string();
+  std::filesystem::path iteration;
+  for (std::string name = folder.filename().string(); name == "point_cloud" || name.starts_with("iteration_");
+       name = folder.filename().string()) {
+    if (name != "point_cloud") iteration = name;
+    folder = folder.parent_path();
+  }
+  return (iteration.empty() ? folder.filename() : folder.filename() / iteration).string();
 }
 
 std::string name_in_folder(const std::filesystem::path& scene) {

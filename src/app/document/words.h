@@ -14,8 +14,9 @@ std::string gaussians_text(std::size_t n);  // "92,440 Gaussians", "1 Gaussian"
 // the same names (meta.json, lod-meta.json). A folder's own name where a folder is given.
 std::string scene_name(const std::filesystem::path& scene);
 
-// The folder that tells a scene from others: above those that trainers name alike (point_cloud,
-// iteration_30000). And the same before the scene's name: "garden/point_cloud.ply", "garden".
+// The folder that tells a scene from others, above those that trainers name alike, and the iteration:
+// "garden", "garden/iteration_7000". And the same before the scene's name: "garden/point_cloud.ply",
+// "garden".
 std::string telling_folder(const std::filesystem::path& scene);
 std::string name_in_folder(const std::filesystem::path& scene);
 // True for file names that many scenes have: "point_cloud.ply".

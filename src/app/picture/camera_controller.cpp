@@ -261,14 +261,15 @@ void CameraController::go_to(const Camera& camera) {
   start(target);
 }
 
-void CameraController::keep_opening() {
+void CameraController::keep_opening(const glm::vec3& scenes_up_world) {
   opening_ = goal();
-  opening_up_world_ = up_world_;
+  opening_up_world_ = glm::normalize(scenes_up_world);
 }
 
 void CameraController::go_to_opening() {
   CameraPose target = opening_;
-  if (opening_up_world_ != up_world_) turn_upright(&target);
+  constexpr float kSameDirection = 0.99999f;  // cosine
+  if (glm::dot(opening_up_world_, up_world_) < kSameDirection) turn_upright(&target);
   start(target);
 }
 

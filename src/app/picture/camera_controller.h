@@ -70,8 +70,8 @@ class CameraController {
   void frame_scene() { frame(scene_); }
   void go_to(const Camera& camera);  // takes its exact pose and field of view
   // Keeps where a transition ends as the view in which the scene opened, to which go_to_opening() goes back:
-  // upright where the up direction is another one since.
-  void keep_opening();
+  // upright where the up direction is another one than the scene's then.
+  void keep_opening(const glm::vec3& scenes_up_world);
   void go_to_opening();
   void look_along(const glm::vec3& direction_world);                 // looks at the pivot along the direction
   glm::quat rotation_along(const glm::vec3& direction_world) const;  // rotation of the camera that does

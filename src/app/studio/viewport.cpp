@@ -58,14 +58,14 @@ void Viewport::reset() {
   const FileViews& views = ws_.scene->views();
   if (!views.cameras.empty() || views.first_view) camera_.go_to(views.reference);
   camera_.finish_transition();
-  camera_.keep_opening();
+  camera_.keep_opening(ws_.scene->views().up_world);
 }
 
 void Viewport::show_all_of_scene() {
   camera_.frame_scene();
   camera_.finish_transition();
   camera_.keep_clear(pane_camera(), kept_bottom_px_);
-  camera_.keep_opening();
+  camera_.keep_opening(ws_.scene->views().up_world);
 }
 
 bool Viewport::moving() const {

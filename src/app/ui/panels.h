@@ -6,8 +6,6 @@
 
 namespace splatcut {
 
-inline constexpr float kOptionsHeight = 44;  // of the options' first row under the bar, where they have one
-
 void top_bar(UiContext& ui);
 void tool_options(UiContext& ui);
 void turntable_button(UiContext& ui, const char* label, float width);

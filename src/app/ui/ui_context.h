@@ -93,6 +93,8 @@ struct AfterSave {
   std::size_t saves = 0, cursor = 0;  // number of saves before; step of the history that is to be saved
 };
 
+inline constexpr float kOptionsHeight = 44;  // of the options' first row under the bar, where they have one
+
 struct UiRect {
   glm::vec2 min{0}, max{0};  // logical points
   glm::vec2 size() const { return max - min; }
@@ -119,7 +121,7 @@ struct UiState {
   std::optional<bool> history_wanted;             // opens or closes the history section
   bool hint_wanted = true;                        // the first-run hint, until the first click
   bool options_below = false;                     // those of the tool have no room in the bar
-  float options_height = 44;                      // of their rows under it, as they were last
+  float options_height = kOptionsHeight;          // of their rows under it, as they were last
   bool double_clicked = false;  // the last press was the second of two, by the events' own times
   bool steady = false;          // for pictures that must repeat: no times, no version, no blinking
   std::vector<std::filesystem::path> recent;

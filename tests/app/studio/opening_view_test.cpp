@@ -69,6 +69,20 @@ TEST_CASE("opening view: once another way is up it stands upright to that") {
   CHECK(std::abs(glm::dot(right, hands.studio().document().up_world)) < 1e-3f);
 }
 
+TEST_CASE("opening view: work restored with another way up than the scene's goes back to it upright") {
+  const ScratchFolder folder("opening_up");
+  Hands hands(false);
+  hands.studio().apply(SetUp{{0, 0.3f, 1}});
+  hands.studio().apply(SaveWork{folder / "up.splatcut.json"});
+  REQUIRE(hands.app.settle());
+  hands.studio().apply(OpenScene{folder / "up.splatcut.json"});
+  REQUIRE(hands.app.settle());
+  leave(hands);
+  go_back(hands);
+  const glm::vec3 right = glm::row(glm::mat3_cast(hands.studio().camera().pose().camera_from_world), 0);
+  CHECK(std::abs(glm::dot(right, hands.studio().document().up_world)) < 1e-3f);
+}
+
 TEST_CASE("opening view: of scenes opened together it shows all of them") {
   const ScratchFolder folder("opened_together");
   std::filesystem::copy_file(kSmallSample, folder / "one.compressed.ply");

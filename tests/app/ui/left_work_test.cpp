@@ -36,7 +36,9 @@ ApplicationOptions with_state(const ScratchFolder& folder) {
 }  // namespace
 
 TEST_CASE("left work: scenes whose files trainers name alike are told apart by their folders") {
-  CHECK(name_in_folder("/a/garden/point_cloud/iteration_7000/point_cloud.ply") == "garden/point_cloud.ply");
+  CHECK(name_in_folder("/a/garden/point_cloud/iteration_7000/point_cloud.ply") ==
+        "garden/iteration_7000/point_cloud.ply");
+  CHECK(name_in_folder("/a/garden/point_cloud/point_cloud.ply") == "garden/point_cloud.ply");
   CHECK(name_in_folder("/a/garden/meta.json") == "garden");
   CHECK(name_in_folder("/a/garden/room.ply") == "garden/room.ply");
   const ScratchFolder folder("left_alike");
