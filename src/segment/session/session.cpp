@@ -237,7 +237,7 @@ Session::Local* Session::local(const Place& place, const CutSettings& settings, 
     locals_.splice(locals_.begin(), locals_, known);
     return &locals_.front();
   }
-  if (ends_if_large_ && gaussians_in(place) > scene_.most_gaussians) {
+  if (ends_if_large_ && gaussians_in(place) > scene_.most_ahead) {
     ends_if_large_->request_stop();
     return nullptr;
   }

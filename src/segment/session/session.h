@@ -38,11 +38,12 @@ struct SessionScene {
   glm::vec3 up_world{0, -1, 0};                 // for orbits; a request may know better
   std::vector<Camera> photographs{};            // cameras of the capture, where known
   PrepareOptions prepare{};
-  std::size_t most_gaussians = 250'000;             // in the first cell
+  std::size_t most_gaussians = 150'000;             // in the first cell
+  std::size_t most_ahead = 250'000;                 // prepared for a cut of CutReach::kSmall
   std::size_t most_bytes = std::size_t{768} << 20;  // of neighbourhoods kept; the one in use may be larger
 };
 
-// Where a cut may go. kSmall: it prepares no neighbourhood of more than SessionScene::most_gaussians, and
+// Where a cut may go. kSmall: it prepares no neighbourhood of more than SessionScene::most_ahead, and
 // ends as if cancelled where it would have to.
 enum class CutReach { kAnywhere, kSmall };
 

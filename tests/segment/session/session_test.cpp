@@ -260,11 +260,13 @@ TEST_CASE("session: a box around each thing of the table means the thing, in a n
 }
 
 TEST_CASE(
-    "session: a cut of small reach is the same, or ends where it would prepare more than a first cell") {
+    "session: a cut of small reach is the same, or ends where it would prepare more than that") {
   const LabelledScene& scene = small_table().scene;
   const auto session_of = [&](std::size_t most_gaussians) {
-    return Session(
-        {.cloud = small_table().cloud, .photographs = scene.cameras, .most_gaussians = most_gaussians});
+    return Session({.cloud = small_table().cloud,
+                    .photographs = scene.cameras,
+                    .most_gaussians = most_gaussians,
+                    .most_ahead = most_gaussians});
   };
   auto [request, settings] = click_on("mug");
   Session session = session_of(scene.cloud.size() / 3), all = session_of(scene.cloud.size());
