@@ -112,6 +112,11 @@ void CameraController::orbit(const glm::vec2& delta_px) {
   pose_.position_world = centre + turn * (pose_.position_world - centre);
 }
 
+void CameraController::keep_pivot_within(float depth) {
+  finish_transition();
+  pose_.distance = std::clamp(depth, std::min(least_distance(), pose_.distance), pose_.distance);
+}
+
 void CameraController::pan(const glm::vec2& delta_px, float viewport_height_px, std::optional<float> depth) {
   finish_transition();
   const float per_px =

@@ -42,6 +42,9 @@ class CameraController {
   void set_near_plane(float near_plane) { near_plane_ = near_plane; }
 
   void orbit(const glm::vec2& delta_px);
+  // orbit() turns around a pivot no farther away than that, where there is no orbit centre: a room's middle
+  // may lie behind the wall that is looked at. depth: camera z, scene units.
+  void keep_pivot_within(float depth);
   // Pans so that what lies at `depth` follows the pointer. depth: camera z, scene units; none: the pivot's.
   // viewport_height_px: height in the pixels of delta_px.
   void pan(const glm::vec2& delta_px, float viewport_height_px, std::optional<float> depth = {});

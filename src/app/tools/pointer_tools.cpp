@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "core/ranks.h"
 
 namespace splatcut {
 
@@ -10,6 +13,19 @@ namespace {
 constexpr float kDragPoints = 4;      // less is a click
 constexpr float kPathStepPoints = 2;  // points of a path are no closer
 constexpr float kScaleLeavePoints = 12;
+
+// Nothing that the middle of the picture shows lies before the pivot: in a room the scene's middle may be
+// behind the wall that one looks at.
+void keep_pivot_in_sight(const ToolContext& context) {
+  const Camera& pane = context.pane_camera;
+  std::vector<float> depths;
+  for (const float x : {-0.1f, 0.0f, 0.1f})
+    for (const float y : {-0.1f, 0.0f, 0.1f})
+      if (const auto depth = context.depth({pane.cx_px + x * static_cast<float>(pane.width_px),
+                                            pane.cy_px + y * static_cast<float>(pane.height_px)}))
+        depths.push_back(*depth);
+  if (!depths.empty()) context.camera.keep_pivot_within(median(std::move(depths)));
+}
 
 }  // namespace
 
@@ -30,6 +46,7 @@ std::vector<Command> PointerTools::press(const glm::vec2& pixel, PointerButton b
   const Tool& tool = tool_of(context.view.tool);
   if (button == PointerButton::kMiddle) {
     drag_ = modifiers.shift ? Drag::kPan : Drag::kOrbit;
+    if (drag_ == Drag::kOrbit) keep_pivot_in_sight(context);
   } else if (tool.drag != Tool::Drag::kNavigates && (button == PointerButton::kLeft || tool.right_drags)) {
     drag_ = Drag::kShape;
     state_.path_px.assign(1, pixel);
@@ -48,8 +65,10 @@ std::vector<Command> PointerTools::move(const glm::vec2& pixel, const Modifiers&
   if (glm::length(pixel - state_.scale_at_px) > kScaleLeavePoints * per_point) state_.scale_armed = false;
   if (!state_.button) return {};
   state_.modifiers = modifiers;
-  if (drag_ == Drag::kMaybeClick && glm::length(pixel - state_.pressed_px) > kDragPoints * per_point)
+  if (drag_ == Drag::kMaybeClick && glm::length(pixel - state_.pressed_px) > kDragPoints * per_point) {
     drag_ = state_.right() ? Drag::kPan : Drag::kOrbit;
+    if (drag_ == Drag::kOrbit) keep_pivot_in_sight(context);
+  }
   if (drag_ == Drag::kOrbit) context.camera.orbit(delta / per_point);
   if (drag_ == Drag::kPan)
     context.camera.pan(delta,

@@ -96,7 +96,7 @@ void Application::set_modifiers(const Modifiers& modifiers) {
 void Application::handle_one(const PointerMoved& event) {
   pointer_ = event.position_points;
   ImGui::GetIO().MousePos = {pointer_.x, pointer_.y};
-  set_modifiers(event.modifiers);
+  if (held_back_.empty()) set_modifiers(event.modifiers);  // else they are of keys that come later
   if (dragging_picture_ || interface_.picture_at(pointer_, studio_))
     studio_.pointer_moved(in_viewport_px(pointer_), event.modifiers);
   else
@@ -104,6 +104,10 @@ void Application::handle_one(const PointerMoved& event) {
 }
 
 void Application::handle_one(const PointerButtonChanged& event) {
+  take(event);
+}
+
+void Application::take_now(const PointerButtonChanged& event) {
   const auto index = static_cast<std::size_t>(event.button);
   set_modifiers(event.modifiers);
   button_down_[index] = event.down;
@@ -165,7 +169,7 @@ bool Application::walks(const KeyChanged& event) {
 
 void Application::handle_one(const KeyChanged& event) {
   if (walks(event)) return;
-  type(event);
+  take(event);
   if (!event.down) return studio_.key_released(event.key);
   if (ImGui::GetIO().WantTextInput || interface_.dialog_open()) return;
   if (event.key == key::kEscape && interface_.dragging_handle()) return;
@@ -174,28 +178,36 @@ void Application::handle_one(const KeyChanged& event) {
 }
 
 void Application::handle_one(const TextTyped& event) {
-  type(event);
+  take(event);
 }
 
-void Application::type(const TypedEvent& event) {
+// A field takes letters as text: their keys need no frame each, in which it would see them held.
+bool Application::is_only_text(const KeyChanged& event) const {
+  const ImGuiIO& io = ImGui::GetIO();
+  return event.key >= 0 && event.key < key::kEscape && !event.modifiers.ctrl && !event.modifiers.alt &&
+         (event.down ? io.WantTextInput : !io.KeysDown[event.key]);
+}
+
+void Application::take(const HeldEvent& event) {
   const auto* key = std::get_if<KeyChanged>(&event);
+  if (held_back_.empty() && key && is_only_text(*key)) return set_modifiers(key->modifiers);
   const bool waits = !held_back_.empty() || (key && !key->down && key_pressed_since_frame_);
   if (waits)
     held_back_.push_back(event);
   else
-    std::visit([this](const auto& e) { type_now(e); }, event);
+    std::visit([this](const auto& e) { take_now(e); }, event);
 }
 
-void Application::type_held_back() {
+void Application::take_held_back() {
   key_pressed_since_frame_ = false;
-  for (const TypedEvent& event : std::exchange(held_back_, {})) type(event);
+  for (const HeldEvent& event : std::exchange(held_back_, {})) take(event);
 }
 
-void Application::type_now(const TextTyped& event) {
+void Application::take_now(const TextTyped& event) {
   ImGui::GetIO().AddInputCharacter(event.code_point);
 }
 
-void Application::type_now(const KeyChanged& event) {
+void Application::take_now(const KeyChanged& event) {
   // X11 says what was held before the event: a field would take letters typed after Ctrl for shortcuts.
   Modifiers now = event.modifiers;
   if (event.key == key::kLeftShift || event.key == key::kRightShift) now.shift = event.down;
@@ -296,7 +308,7 @@ void Application::build_interface(double seconds, Requests* ask) {
   walk_.before_frame();
   interface_.build(studio_, seconds, &renderer_, gpu_pictures, ask);
   walk_.after_frame();
-  type_held_back();
+  take_held_back();
 }
 
 void Application::draw() {

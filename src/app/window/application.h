@@ -65,13 +65,15 @@ class Application {
   bool is_second_click(const PointerButtonChanged& press);
   void set_modifiers(const Modifiers& modifiers);
   // Keys and text for the interface, which looks at what is held once a frame: what follows a key that was
-  // pressed and released between two frames waits for the next.
-  using TypedEvent = std::variant<KeyChanged, TextTyped>;
-  void type(const TypedEvent& event);
+  // pressed and released between two frames waits for the next, and so does a button of the pointer.
+  using HeldEvent = std::variant<KeyChanged, TextTyped, PointerButtonChanged>;
+  void take(const HeldEvent& event);
+  void take_held_back();
   bool walks(const KeyChanged& event);  // true: the key was for the walk of Tab alone
-  void type_now(const KeyChanged& event);
-  void type_now(const TextTyped& event);
-  void type_held_back();
+  bool is_only_text(const KeyChanged& event) const;
+  void take_now(const KeyChanged& event);
+  void take_now(const TextTyped& event);
+  void take_now(const PointerButtonChanged& event);
   void choose_renderer(RendererChoice choice);
   void open(const OpenScene& command);  // asks first where work would be lost
   void remember_recent();
@@ -89,7 +91,7 @@ class Application {
   bool dragging_picture_ = false;
   bool pressed_since_frame_[3] = {};
   bool key_pressed_since_frame_ = false;
-  std::deque<TypedEvent> held_back_;
+  std::deque<HeldEvent> held_back_;
   bool button_down_[3] = {};
   double clock_s_ = 0;
   std::optional<double> last_click_s_;

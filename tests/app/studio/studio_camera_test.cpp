@@ -459,3 +459,21 @@ TEST_CASE("hands: looked at from the front, right or above, the object stays abo
     CHECK(static_cast<double>(inside) > 0.97 * static_cast<double>(all));
   }
 }
+
+TEST_CASE(
+    "hands: a drag turns the view about nothing that lies behind what the middle of the picture shows") {
+  Hands hands(false);
+  CameraController& camera = hands.studio().camera();
+  CameraPose pose = camera.pose();
+  const auto middle =
+      hands.under(hands.app->interface().viewport().min + 0.5f * hands.app->interface().viewport().size());
+  const float away = glm::distance(middle, pose.position_world);
+  pose.distance = 40 * away;
+  camera.set_pose(pose);
+  REQUIRE(hands.app.settle());
+  const glm::vec2 from = hands.app->interface().viewport().min + glm::vec2(60, 200);
+  hands.app.drag({from, from + glm::vec2(90, 0), from + glm::vec2(120, 0)});
+  CHECK(camera.pose().distance < 1.5f * away);
+  CHECK(glm::distance(camera.pose().position_world, pose.position_world) < 1.5f * away);
+  CHECK(glm::distance(camera.pose().position_world, pose.position_world) > 0.1f * away);
+}

@@ -284,15 +284,41 @@ TEST_CASE("dialogs: keys that are pressed and released between two frames count,
   app->handle(KeyChanged{key::kLeftControl, true, false, {}});
   tap('A', {.ctrl = true});
   app->handle(KeyChanged{key::kLeftControl, false, false, {.ctrl = true}});
-  for (const char c : (folder / "right.ply").string()) {
-    tap(c);
-    app->handle(TextTyped{static_cast<unsigned>(c)});
-  }
+  const auto type = [&](const std::string& text) {
+    for (const char c : text) {
+      app->handle(KeyChanged{c, true, false, {}});
+      app->handle(TextTyped{static_cast<unsigned>(c)});
+      app->handle(KeyChanged{c, false, false, {}});
+    }
+  };
+  type((folder / "right.ply").string());
   tap(key::kEnter);
-  app.frames(120);
+  app.frames(5);
+  CHECK(app.interface_state().exporting.path == (folder / "right.ply").string());
   tap(key::kEnter);
   REQUIRE(app.settle());
   CHECK(std::filesystem::exists(folder / "right.ply"));
+  // A button that is pressed after the name comes after it.
+  app.key('E', {.ctrl = true});
+  app.frames(3);
+  const UiRect dialog = app.window("###export");
+  const auto& items = app.interface_state().items;
+  const auto button = std::ranges::find_if(
+      items, [&](const ShownItem& i) { return i.name == "Export" && dialog.contains(i.min); });
+  REQUIRE(button != items.end());
+  const glm::vec2 on_button = 0.5f * (button->min + button->max);
+  app.type_into("###export", {"##path"}, "/wrong");
+  app->handle(KeyChanged{key::kLeftControl, true, false, {}});
+  tap('A', {.ctrl = true});
+  app->handle(KeyChanged{key::kLeftControl, false, false, {.ctrl = true}});
+  type((folder / "pressed.ply").string());
+  app.move(on_button);
+  app.press(PointerButton::kLeft);
+  app.release(PointerButton::kLeft);
+  REQUIRE(app.settle());
+  app.frames(4);
+  REQUIRE(app.settle());
+  CHECK(std::filesystem::exists(folder / "pressed.ply"));
 }
 
 TEST_CASE("dialogs: a second scene, and all of both is exported without an object") {
