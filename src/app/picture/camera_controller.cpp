@@ -172,8 +172,9 @@ Framing CameraController::framing(std::span<const glm::vec3> points_world, const
                                   float covered_bottom_px, const glm::quat& camera_from_world_rotation,
                                   float least_distance) const {
   constexpr float kFilled = 0.8f;
-  constexpr std::size_t kMostPoints = 20000;
-  constexpr int kRounds = 6;  // perspective moves and scales the silhouette a little less in each
+  constexpr std::size_t kMostPoints = 60000;
+  constexpr double kOutermost = 0.002;  // of the points, on each side
+  constexpr int kRounds = 6;            // perspective moves and scales the silhouette a little less in each
   const auto width = static_cast<float>(camera.width_px), height = static_cast<float>(camera.height_px);
   const float free = free_height_px(camera, covered_bottom_px);
   const glm::vec2 wanted = kFilled * glm::vec2(width / camera.fx_px, free / camera.fy_px);
@@ -197,7 +198,7 @@ Framing CameraController::framing(std::span<const glm::vec3> points_world, const
     }
     float filled = 0;
     for (int axis = 0; axis < 2; ++axis) {
-      const float low = quantile(&slopes[axis], 0.01), high = quantile(&slopes[axis], 0.99);
+      const float low = quantile(&slopes[axis], kOutermost), high = quantile(&slopes[axis], 1 - kOutermost);
       middle[axis] += 0.5f * (low + high) * target.distance;
       filled = std::max(filled, (high - low) / wanted[axis]);
     }

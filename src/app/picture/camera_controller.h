@@ -63,8 +63,8 @@ class CameraController {
   // covered_bottom_px pixels, in camera's pixels, with the pivot in the middle of that part.
   void keep_clear(const Camera& camera, float covered_bottom_px);
   // The pose in which the points, one or more, fill four fifths of the part of the picture above its lowest
-  // covered_bottom_px pixels, in camera's pixels, with their silhouette in the middle of that part. The
-  // outermost hundredth of the points on each side does not count. least_distance: distance of the pose from
+  // covered_bottom_px pixels, in camera's pixels, with their silhouette in the middle of that part. Of
+  // the points two in a thousand on each side do not count. least_distance: distance of the pose from
   // their middle, scene units, at least.
   Framing framing(std::span<const glm::vec3> points_world, const Camera& camera, float covered_bottom_px,
                   const glm::quat& camera_from_world, float least_distance = 0) const;

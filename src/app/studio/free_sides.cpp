@@ -18,12 +18,9 @@ constexpr int kWidthPx = 160;  // of the pictures that are compared
 void FreeSides::frame_placed() {
   CameraController& camera = viewport_.camera();
   const std::vector<std::uint8_t> own = gaussians_of(*ws_.scene, viewport_.placed_file());
-  std::vector<glm::vec3> positions;
-  for (std::size_t g = 0; g < own.size(); ++g)
-    if (own[g]) positions.push_back(ws_.scene->cloud->position[g]);
-  positions = without_strays(positions);
-  if (positions.empty()) return;
-  camera.frame(camera.framing(positions, viewport_.pane_camera(), viewport_.kept_bottom_px(),
+  const std::vector<glm::vec3> points = shown_points(*ws_.scene->cloud, own);
+  if (points.empty()) return;
+  camera.frame(camera.framing(points, viewport_.pane_camera(), viewport_.kept_bottom_px(),
                               camera.pose().camera_from_world));
 }
 
@@ -36,18 +33,18 @@ void FreeSides::frame() {
   if (offer && in_scene && offer->object == ws_.document().active && offer->from == camera.pose())
     return camera.frame(offer->side);
   const ObjectItem* object = ws_.document().active_object();
-  const std::vector<glm::vec3> positions = without_strays(viewport_.object_positions());
-  if (!object || positions.empty()) return;
+  const std::vector<glm::vec3> points = viewport_.object_points();
+  if (!object || points.empty()) return;
   const Camera pane = viewport_.pane_camera();
   const auto framed = [&](const glm::quat& rotation) {
-    return camera.framing(positions, pane, viewport_.kept_bottom_px(), rotation);
+    return camera.framing(points, pane, viewport_.kept_bottom_px(), rotation);
   };
   std::vector<Framing> sides = {framed(camera.pose().camera_from_world)};
   for (const glm::quat& rotation : camera.directions_around()) sides.push_back(framed(rotation));
   camera.frame(sides.front());
   if (!in_scene) return;
   constexpr float kApart = 0.25f;  // of the object's size
-  const float apart = kApart * glm::length(robust_bounds(positions).extent());
+  const float apart = kApart * glm::length(robust_bounds(points).extent());
   const int height_px = std::max(1, kWidthPx * pane.height_px / std::max(1, pane.width_px));
   ws_.tasks.submit(TaskKind::kSides, [this, sides, height_px, apart, id = object->id, name = object->name,
                                       scene = ws_.scene,

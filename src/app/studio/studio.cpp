@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "core/error.h"
-#include "scene/cloud/strays.h"
 
 namespace splatcut {
 
@@ -263,7 +262,7 @@ void Studio::perform(const LookAlong& c) {
   ws_.require_scene();
   if (!(glm::length(c.direction_world) > 0)) throw Error("view", "that is no direction");
   camera().finish_transition();
-  const std::vector<glm::vec3> points = without_strays(viewport_.object_positions());
+  const std::vector<glm::vec3> points = viewport_.object_points();
   const Box box = robust_bounds(points);
   const glm::vec3 aside = glm::abs(camera().turned_around() - box.centre()) - 0.5f * box.extent();
   const float covered_px = viewport_.covered_bottom_px();

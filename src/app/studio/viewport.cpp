@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/document/words.h"
+#include "scene/cloud/strays.h"
 
 namespace splatcut {
 
@@ -117,19 +118,15 @@ glm::vec2 Viewport::in_pane(const glm::vec2& pixel) const {
   return pixel - glm::vec2(0.5f * static_cast<float>(width_px_ * pane_at(pixel)), 0);
 }
 
-std::vector<glm::vec3> Viewport::object_positions() const {
-  std::vector<glm::vec3> positions;
+std::vector<glm::vec3> Viewport::object_points() const {
   const ObjectItem* object = ws_.document().active_object();
-  if (!object) return positions;
-  const Flags own = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
-  for (std::size_t g = 0; g < own->size(); ++g)
-    if ((*own)[g]) positions.push_back(ws_.scene->cloud->position[g]);
-  return positions;
+  if (!object) return {};
+  return shown_points(*ws_.scene->cloud, *ws_.labels.labels(ws_.document(), *object, ws_.gaussians()));
 }
 
 void Viewport::turn_about_object() {
-  if (const std::vector<glm::vec3> positions = object_positions(); !positions.empty())
-    camera_.set_orbit_centre(robust_bounds(positions).centre());
+  if (const std::vector<glm::vec3> points = object_points(); !points.empty())
+    camera_.set_orbit_centre(robust_bounds(points).centre());
 }
 
 DrawLimits Viewport::draw_limits() const {

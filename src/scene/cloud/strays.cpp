@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <numeric>
 #include <unordered_map>
 
@@ -116,6 +117,29 @@ std::vector<glm::vec3> without_strays(std::span<const glm::vec3> positions, std:
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!strays[i]) left.push_back(points[i]);
   return left;
+}
+
+std::vector<glm::vec3> shown_points(const GaussianCloud& cloud, std::span<const std::uint8_t> labels,
+                                    std::size_t most) {
+  constexpr float kHalfDense = 1.1774f;  // standard deviations
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t g = 0; g < labels.size(); ++g)
+    if (labels[g]) rows.push_back(g);
+  std::vector<glm::vec3> centres;
+  const std::size_t step = 1 + rows.size() / (most + 1);
+  for (std::size_t i = 0; i < rows.size(); i += step) centres.push_back(cloud.position[rows[i]]);
+  const std::vector<std::uint8_t> strays = strays_of(centres);
+  std::vector<glm::vec3> points;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    if (strays[i]) continue;
+    const std::uint32_t g = rows[i * step];
+    const glm::mat3 axes = glm::mat3_cast(cloud.rotation[g]);
+    points.push_back(centres[i]);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const float side : {-kHalfDense, kHalfDense})
+        points.push_back(centres[i] + side * cloud.scale[g][axis] * axes[axis]);
+  }
+  return points;
 }
 
 Box solid_bounds(const GaussianCloud& cloud) {

@@ -21,6 +21,11 @@ std::vector<std::uint8_t> strays_of(std::span<const glm::vec3> positions);
 // The points that are no strays, of every n-th where there are more than `most`.
 std::vector<glm::vec3> without_strays(std::span<const glm::vec3> positions, std::size_t most = 50000);
 
+// Where labelled Gaussians show, strays left out: their centres, and the points of their axes at which an
+// opaque one is half as dense as in its middle. Of every n-th where there are more than `most`.
+std::vector<glm::vec3> shown_points(const GaussianCloud& cloud, std::span<const std::uint8_t> labels,
+                                    std::size_t most = 8000);
+
 // The box of all that shows of a cloud but strays: Gaussians of an opacity below a tenth do not count.
 Box solid_bounds(const GaussianCloud& cloud);
 

@@ -24,7 +24,7 @@ struct TwoObjects : Hands {
   }
   glm::vec3 middle() {
     glm::vec3 sum(0);
-    const std::vector<glm::vec3> points = studio().viewport().object_positions();
+    const std::vector<glm::vec3> points = studio().viewport().object_points();
     for (const glm::vec3& p : points) sum += p;
     return sum / static_cast<float>(points.size());
   }
