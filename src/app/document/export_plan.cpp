@@ -195,11 +195,11 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
                         const ExportRequest& request, CleanObjects* clean, const Job& job) {
   const std::size_t n = scene.cloud.size();
   if (!(request.placement.scale > 0) || !std::isfinite(request.placement.scale))
-    throw Error("export", "the scale must be larger than 0");
+    throw Error("", "The scale must be larger than 0");
   const glm::vec3& move = request.placement.move;
   if (!std::isfinite(request.placement.turn_deg) || !std::isfinite(move.x) || !std::isfinite(move.y) ||
       !std::isfinite(move.z))
-    throw Error("export", "the turn and the move must be ordinary numbers");
+    throw Error("", "The turn and the move must be ordinary numbers");
   const auto place = [&](const std::vector<std::uint8_t>& kept) -> std::optional<Similarity> {
     if (request.placement == ExportPlacement{}) return {};
     return similarity_of(request.placement, scene.cloud, kept, document.up_world, request.format.axes);
@@ -215,14 +215,14 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
              &report);
     });
     if (report.files == 0 && !job.cancelled())
-      throw Error("export", "no object holds any Gaussians", "Select something first");
+      throw Error("", "No object holds any Gaussians", "Select something first");
     return report;
   }
   if (!request.path.string().ends_with(request.format.extension))
     throw Error(request.path.string(), fmt::format("does not end with {}", request.format.extension),
                 "It could not be opened again");
   if (request.what != ExportWhat::kScene && !document.find(object))
-    throw Error("export", "no object is chosen", "Click an object first");
+    throw Error("", "No object is chosen", "Click an object first");
   const std::vector<std::uint8_t> keep = exported(document, object, request.what, n);
   const ObjectItem* item = request.what == ExportWhat::kScene ? nullptr : document.find(object);
   save(request.path, keep, item ? make_flags(labels_of(document, *item, n)) : nullptr, place(keep), what,

@@ -57,7 +57,7 @@ void Exports::perform(const SaveTurntable& c) {
   refuse_written_inputs(c.path, ws_.scene->scene->files);
   const ObjectItem* object = ws_.document().active_object();
   if (!object || ws_.gaussians_of(object->id) == 0)
-    throw Error("turntable", "there is no object to turn", "Click an object first");
+    throw Error("", "There is no object to turn", "Click an object first");
   const Flags own = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
   DrawLimits limits = viewport_.draw_limits();
   limits.far_plane = DrawLimits{}.far_plane;  // that of another view

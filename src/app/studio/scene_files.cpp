@@ -131,7 +131,7 @@ ScenePlace SceneFiles::place_to_be(std::uint32_t file) const {
 
 SceneSource& SceneFiles::added_file(std::vector<SceneSource>* files, std::uint32_t id) const {
   const auto found = std::ranges::find(*files, id, &SceneSource::id);
-  if (found == files->end()) throw Error("scene", "there is no such file in it");
+  if (found == files->end()) throw Error("", "The scene has no such file");
   if (found == files->begin())
     throw Error(found->path.filename().string(), "was opened first: the others stand in its scene");
   return *found;
@@ -165,7 +165,7 @@ void SceneFiles::perform(const BringHere& c) {
   const SceneSource& file = added_file(&files, c.file);
   const auto at = viewport_.surface_in_middle(c.file);
   if (!at)
-    throw Error("bring here", "nothing to stand on is in the middle of the picture",
+    throw Error("", "Nothing to stand on is in the middle of the picture",
                 "Turn the view so that the place is in its middle");
   perform(PlaceScene{c.file, stood_on(file, file.place, *at, ws_.document().up_world)});
 }

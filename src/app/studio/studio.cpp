@@ -261,7 +261,7 @@ void Studio::perform(const GoToCamera& c) {
 
 void Studio::perform(const LookAlong& c) {
   ws_.require_scene();
-  if (!(glm::length(c.direction_world) > 0)) throw Error("view", "that is no direction");
+  if (!(glm::length(c.direction_world) > 0)) throw Error("", "That is no direction");
   camera().finish_transition();
   const std::vector<glm::vec3> points = without_strays(viewport_.object_positions());
   const Box box = robust_bounds(points);
@@ -288,7 +288,7 @@ void Studio::perform(const NextBackdrop&) {
 
 void Studio::perform(const SetBackdrop& c) {
   ws_.require_scene();
-  if (c.number >= backdrops().size()) throw Error("background", "there is no such one");
+  if (c.number >= backdrops().size()) throw Error("", "There is no such background");
   const Backdrop& backdrop = backdrops()[c.number];
   ViewState view = ws_.view;
   view.checker = backdrop.checker;

@@ -590,7 +590,7 @@ TEST_CASE("objects: one byte per Gaussian names 255 of them, the 256th is refuse
   Document document;
   for (std::size_t i = 0; i < kMostObjects; ++i) add_object(&document);
   CHECK_THROWS_WITH_AS(add_object(&document),
-                       "objects: there are 255 already, more cannot be shown. Merge or remove some.", Error);
+                       "There are 255 objects already, more cannot be shown. Merge or remove some.", Error);
   CHECK(document.objects.size() == kMostObjects);
   CHECK(document.next_id == kMostObjects + 1);
 

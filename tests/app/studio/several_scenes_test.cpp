@@ -304,7 +304,7 @@ TEST_CASE(
   REQUIRE(hands.app.settle());
   studio.apply(BringHere{id});
   REQUIRE(hands.app.settle());
-  CHECK(hands.said().find("nothing to stand on") != std::string::npos);
+  CHECK(hands.said().find("Nothing to stand on") != std::string::npos);
   CHECK(last_file(hands).place == stands);
 }
 
