@@ -60,6 +60,13 @@ TEST_CASE("hands: where a click was from too far away, one comes nearer to what 
   CHECK(glm::distance(hands.seen_at(apple), hands.app->interface().viewport().min +
                                                 0.5f * hands.app->interface().viewport().size()) < 30);
 }
+  hands.app.press_item("side/scroll", {"Come nearer"});  // still there: nothing was clicked from here
+  REQUIRE(hands.app.settle());
+  hands.app.click(hands.seen_at(apple));
+  REQUIRE(hands.app.settle());
+  const CutRun* run = hands.studio().cuts().run(hands.studio().document().active);
+  CHECK(std::ranges::none_of(run->doubts, [](const auto& d) { return d.ends_with("come nearer"); }));
+  CHECK(hands.said().find("first view") == std::string::npos);
 
 TEST_CASE("hands: one comes nearer to a stroke that begins outside of the picture, or is told why not") {
   Hands hands(false);

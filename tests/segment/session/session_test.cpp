@@ -259,8 +259,7 @@ TEST_CASE("session: a box around each thing of the table means the thing, in a n
   }
 }
 
-TEST_CASE(
-    "session: a cut of small reach is the same, or ends where it would prepare more than that") {
+TEST_CASE("session: a cut of small reach is the same, or ends where it would prepare more than that") {
   const LabelledScene& scene = small_table().scene;
   const auto session_of = [&](std::size_t most_gaussians) {
     return Session({.cloud = small_table().cloud,
