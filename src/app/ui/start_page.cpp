@@ -75,7 +75,8 @@ void left_work_list(UiContext& ui) {
     ImGui::PopID();
   }
   if (offers.size() > kMostShown)
-    muted_text(ui, fmt::format("and {} older, offered once these are done with", offers.size() - kMostShown));
+    wrapped_muted(ui,
+                  fmt::format("and {} older, offered once these are done with", offers.size() - kMostShown));
 }
 
 void recent_list(UiContext& ui) {
