@@ -326,7 +326,7 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
   calls_.opened(false);
   if (work && work->view) viewport_.camera().set_pose(*work->view);
   work_.opened(work, work_path);
-  ws_.say(Message::Kind::kDone, described(*scene));
+  ws_.say(Message::Kind::kDone, described(*scene) + (work ? ". Its work is restored" : ""));
   start_preparing();
 }
 

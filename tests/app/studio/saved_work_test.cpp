@@ -204,6 +204,9 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   CHECK(app.studio().camera().pose() == pose);
   CHECK(std::ranges::any_of(app.studio().messages(),
                             [&](const Message& m) { return m.text == "Restoring unsaved work: " + says; }));
+  CHECK(std::ranges::any_of(app.studio().messages(), [](const Message& m) {
+    return m.kind == Message::Kind::kDone && m.text.find("restored") != m.text.npos;
+  }));
   CHECK(app.studio().work().offers().empty());
   CHECK(app.studio().unsaved());  // it is nowhere else yet
   app.frames(60 * 3);
