@@ -47,8 +47,8 @@ void SceneFiles::perform(const OpenScene& c) {
   const std::uint64_t serial = next_scene_serial_++;
   const auto& offers = work_.offers();
   const auto left = std::ranges::find(offers, c.path, &LeftWork::file);
-  ws_.say(Message::Kind::kInfo,
-          left == offers.end() ? "Opening " + scene_name(c.path) : "Restoring unsaved work: " + left->says);
+  opening_ = left == offers.end() ? "Opening " + scene_name(c.path) : "Restoring unsaved work: " + left->says;
+  ws_.say(Message::Kind::kInfo, opening_);
   stop_for_loading();
   changing_to_.clear();
   std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes, .lod = c.lod}};

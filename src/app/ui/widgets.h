@@ -65,6 +65,8 @@ class ButtonRow {
 };
 void same_line_if_fits(const char* label, float spacing);  // for a button with the label
 
+void progress_bar(UiContext& ui, double fraction, float width);  // thin, in the middle of a line
+
 void tooltip(const std::string& text);  // of the last item
 void muted_text(UiContext& ui, const std::string& text);
 void wrapped_muted(UiContext& ui, const std::string& text);
