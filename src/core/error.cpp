@@ -10,8 +10,9 @@ namespace splatcut {
 
 namespace {
 std::string sentence(std::string_view where, std::string_view what, std::string_view remedy) {
-  if (remedy.empty()) return fmt::format("{}: {}.", where, what);
-  return fmt::format("{}: {}. {}.", where, what, remedy);
+  const std::string fact = where.empty() ? std::string(what) : fmt::format("{}: {}", where, what);
+  if (remedy.empty()) return fact + ".";
+  return fmt::format("{}. {}.", fact, remedy);
 }
 }  // namespace
 

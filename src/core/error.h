@@ -12,8 +12,9 @@ namespace splatcut {
 
 class Error : public std::runtime_error {
  public:
-  // where: the file, option or stage. what: the fact, with property, row or byte. remedy: what the
-  // user can do about it (may be empty). Message: "where: what. remedy."
+  // where: the file, option or stage; empty for what a user did in the window, where `what` begins with a
+  // capital letter. what: the fact, with property, row or byte. remedy: what the user can do about it (may be
+  // empty). Message: "where: what. remedy."
   Error(std::string_view where, std::string_view what, std::string_view remedy = {});
 
   // The message without its full stop: as the `what` of an error that says where more fully.

@@ -124,10 +124,12 @@ class Understood {
           fmt::format("scaled by {:.3g}", static_cast<double>(camera.width_px) / mask.mask.width()));
   }
   std::string sentence(const Matches& matches) const {
-    std::string text = fmt::format("{} of {} masks have a camera: {}", matches.mask_of.size(),
-                                   matches.mask_of.size() + matches.others.size(), fmt::join(how_, " or "));
-    for (const std::string& scale : scales_) text += ", " + scale;
-    if (black_ > 0) text += fmt::format(", {} black: there all is rest", black_);
+    const std::size_t with = matches.mask_of.size(), all = with + matches.others.size();
+    std::string text = fmt::format("{} of {} mask{} {} a camera", with, all, all == 1 ? "" : "s",
+                                   with == 1 ? "has" : "have");
+    if (!how_.empty()) text += fmt::format("; taken for the object: {}", fmt::join(how_, " or "));
+    for (const std::string& scale : scales_) text += "; " + scale;
+    if (black_ > 0) text += fmt::format("; {} black: there all is rest", black_);
     return text;
   }
 
@@ -139,13 +141,16 @@ class Understood {
 // Sentences on what was left out.
 std::vector<std::string> left_out(const Matches& matches) {
   std::vector<std::string> sentences;
-  const auto add = [&](const std::vector<fs::path>& files, const char* what) {
-    if (!files.empty())
-      sentences.push_back(fmt::format("{} of the {} left out, \"{}\" among them", files.size(), what,
-                                      files.front().string()));
+  const auto add = [&](const std::vector<fs::path>& files, const char* one, const char* several) {
+    const std::size_t count = files.size();
+    if (count == 1) sentences.push_back(fmt::format("1 {} left out: \"{}\"", one, files.front().string()));
+    if (count > 1)
+      sentences.push_back(
+          fmt::format("{} {} left out, \"{}\" among them", count, several, files.front().string()));
   };
-  add(matches.others, "masks have no camera and are");
-  add(matches.photographs, "pictures lie beside the mask of their camera and are");
+  add(matches.others, "mask has no camera and is", "masks have no camera and are");
+  add(matches.photographs, "picture lies beside the mask of its camera and is",
+      "pictures lie beside the mask of their camera and are");
   return sentences;
 }
 

@@ -225,7 +225,7 @@ void set_labels(Document* document, ObjectItem* object, std::span<const std::uin
 
 ObjectItem& add_object(Document* document, std::string name) {
   if (document->objects.size() >= kMostObjects)
-    throw Error("objects", fmt::format("there are {} already, more cannot be shown", kMostObjects),
+    throw Error("", fmt::format("There are {} objects already, more cannot be shown", kMostObjects),
                 "Merge or remove some");
   ObjectItem object;
   object.id = document->next_id++;

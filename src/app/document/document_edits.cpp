@@ -17,7 +17,7 @@ namespace {
 
 ObjectItem& required(Document* document, ObjectId id) {
   ObjectItem* object = document->find(id);
-  if (!object) throw Error("objects", "that object is gone");
+  if (!object) throw Error("", "That object is gone");
   return *object;
 }
 
@@ -132,7 +132,7 @@ bool asks_what_is_hit(const Document& document, const EditContext& context) {
 }
 
 std::string edit(Document* document, const AddStroke& command, const EditContext& context) {
-  if (command.stroke.points_px.empty()) throw Error("stroke", "it has no points");
+  if (command.stroke.points_px.empty()) throw Error("", "The stroke has no points");
   ObjectItem& object = stroked(document);
   const bool dot = command.stroke.is_click();
   const bool rest = command.stroke.label == SeedLabel::kRest;
@@ -185,7 +185,7 @@ Flags changed_by(const Document& document, const AddStroke& stroke, std::vector<
 Stroke stroke_of(const AddBox& command, SeedLabel label) {
   Stroke box = box_around(command.a_px, command.b_px, label);
   if (box_is_too_small(box, command.camera.width_px, command.camera.height_px))
-    throw Error("box", "it is too small", "Drag from one corner to the other");
+    throw Error("", "The box is too small", "Drag from one corner to the other");
   return box;
 }
 
@@ -199,7 +199,7 @@ std::string edit(Document* document, const AddBox& command, const EditContext& c
 }
 
 std::string edit(Document* document, const ClearStrokes&, const EditContext&) {
-  if (!document->active_object()) throw Error("strokes", "no object is chosen");
+  if (!document->active_object()) throw Error("", "No object is chosen");
   ObjectItem& object = unlocked(document, document->active);
   if (object.views.empty()) throw Error(object.name, "has no strokes");
   object.views.clear();
@@ -337,7 +337,7 @@ std::string edit(Document* document, const RemoveObject& command, const EditCont
 }
 
 std::string edit(Document* document, const RenameObject& command, const EditContext&) {
-  if (command.name.empty()) throw Error("name", "it is empty");
+  if (command.name.empty()) throw Error("", "The name is empty");
   required(document, command.object).name = command.name;
   return "Renamed to " + command.name;
 }
@@ -366,7 +366,7 @@ std::string edit(Document* document, const ActivateObject& command, const EditCo
 }
 
 std::string edit(Document* document, const MergeObjects& command, const EditContext& context) {
-  if (command.into == command.from) throw Error("merge", "an object cannot be merged with itself");
+  if (command.into == command.from) throw Error("", "An object cannot be merged with itself");
   const std::vector<std::uint8_t> from = labels(*document, unlocked(document, command.from), context);
   ObjectItem& into = unlocked(document, command.into);
   const Selection both = combined(labels(*document, into, context), from, SetOperation::kAdd);
@@ -440,7 +440,7 @@ std::string edit(Document* document, const LeaveToOthers& command, const EditCon
 }
 
 std::string edit(Document* document, const DeleteSelected&, const EditContext& context) {
-  if (!document->active_object()) throw Error("delete", "no object is chosen");
+  if (!document->active_object()) throw Error("", "No object is chosen");
   const ObjectItem& object = unlocked(document, document->active);
   const Selection selected = labels(*document, object, context);
   const std::size_t count = count_flags(selected);
@@ -453,22 +453,22 @@ std::string edit(Document* document, const DeleteSelected&, const EditContext& c
 }
 
 std::string edit(Document* document, const RestoreDeleted&, const EditContext&) {
-  if (!document->deleted) throw Error("restore", "nothing is deleted");
+  if (!document->deleted) throw Error("", "Nothing is deleted");
   document->deleted = nullptr;
   return "Deleted Gaussians restored";
 }
 
 std::string edit(Document* document, const StepScale& command, const EditContext&) {
-  if (!document->active_object()) throw Error("parts", "no object is chosen", "Click an object first");
+  if (!document->active_object()) throw Error("", "No object is chosen", "Click an object first");
   ObjectItem& object = unlocked(document, document->active);
-  if (object.views.empty()) throw Error("parts", object.name + " has no clicks", "Click on it first");
+  if (object.views.empty()) throw Error("", object.name + " has no clicks", "Click on it first");
   constexpr int kMostSteps = 40;
   object.part_step = std::clamp(object.part_step + command.steps, -kMostSteps, kMostSteps);
   return fmt::format("A {} part", command.steps > 0 ? "larger" : "smaller");
 }
 
 std::string edit(Document* document, const ChooseMeaning& command, const EditContext&) {
-  if (!document->active_object()) throw Error("click", "no object is chosen", "Click an object first");
+  if (!document->active_object()) throw Error("", "No object is chosen", "Click an object first");
   ObjectItem& object = unlocked(document, document->active);
   if (object.views.empty()) throw Error(object.name, "has no clicks", "Click on it first");
   object.choice = std::clamp(command.choice, 0, kMostMeanings - 1);
@@ -503,7 +503,7 @@ std::string edit(Document* document, const SetBackground& command, const EditCon
 
 std::string edit(Document* document, const SetUp& command, const EditContext&) {
   if (!(glm::length(command.up_world) > 1e-6f))
-    throw Error("up", "the three points lie on one line", "Pick three corners of the ground");
+    throw Error("", "The three points lie on one line", "Pick three corners of the ground");
   document->up_world = glm::normalize(command.up_world);
   return "Up direction set";
 }

@@ -1,6 +1,7 @@
 #include "app/document/export_choice.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -15,6 +16,10 @@ bool can_be_written(const std::filesystem::path& folder) {
   std::error_code ignored;
   return std::filesystem::is_directory(folder, ignored) &&
          ::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0;
+}
+
+bool fills_hole(const ExportChoice& choice) {
+  return choice.fill_hole && choice.what == ExportWhat::kRest;
 }
 
 }  // namespace
@@ -50,6 +55,16 @@ std::filesystem::path target_of(const ExportChoice& choice) {
   const bool folder = choice.what == ExportWhat::kAllObjects;
   if (folder || choice.path.empty() || choice.path.ends_with(choice.format.extension)) return choice.path;
   return choice.path + choice.format.extension;
+}
+
+std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const FormatPlan& plan) {
+  return fmt::format("{} Gaussians, {}{}{}", grouped(gaussians), plan.about ? "about " : "",
+                     human_bytes(plan.bytes), fills_hole(choice) ? ", and those that fill the hole" : "");
+}
+
+std::string loss_text(const ExportChoice& choice, const FormatPlan& plan) {
+  if (!plan.lost.empty()) return "Lost: " + plan.lost;
+  return fills_hole(choice) ? "Nothing is lost; what fills the hole is invented." : "Nothing is lost.";
 }
 
 bool names_written_format(std::string_view path) {

@@ -39,6 +39,11 @@ std::string proposed_path(const ExportChoice& choice, const std::filesystem::pat
 // again.
 std::filesystem::path target_of(const ExportChoice& choice);
 
+// What the dialog says: how much is written of so many Gaussians, and what is lost. What fills a hole is not
+// known before.
+std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const FormatPlan& plan);
+std::string loss_text(const ExportChoice& choice, const FormatPlan& plan);
+
 // Whether the path ends like a format that is written.
 bool names_written_format(std::string_view path);
 

@@ -24,18 +24,20 @@ struct Exporting {
 };
 
 // Null where the object's rows are written as they are, or where it was cancelled.
-std::shared_ptr<const CleanObject> clean_edges_of(const Flags& labels, const Exporting& what,
-                                                  ExportReport* report) {
+std::shared_ptr<const CleanObject> clean_edges_of(const Flags& labels, const std::string& name,
+                                                  const Exporting& what, ExportReport* report) {
   if (!what.request.clean_edges) return nullptr;
   auto object = what.clean->made(labels, what.up_world, what.job);
   if (!object) return nullptr;
-  count_edges(object->report, report);
+  count_edges(object->report, report, name);
   return object->report.cleaned ? object : nullptr;
 }
 
-// object: the labels of the one that `keep` holds, or that it is the rest of; null: of none.
+// object: the labels of the one that `keep` holds, or that it is the rest of; null: of none. name: where
+// there are several.
 void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& keep, const Flags& object,
-          const std::optional<Similarity>& to, const Exporting& what, ExportReport* report) {
+          const std::string& name, const std::optional<Similarity>& to, const Exporting& what,
+          ExportReport* report) {
   const ExportRequest& request = what.request;
   if (count_flags(keep) == 0)
     throw Error(path.filename().string(), "would hold no Gaussians", "Select something first");
@@ -43,7 +45,7 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   check_output_file(path, request.overwrite);
   const bool is_rest = request.what == ExportWhat::kRest;
   const std::shared_ptr<const CleanObject> clean =
-      object && !is_rest ? clean_edges_of(object, what, report) : nullptr;
+      object && !is_rest ? clean_edges_of(object, name, what, report) : nullptr;
   RestChanges changes;
   if (object && is_rest && request.clean_edges) {
     CleanObject without = what.clean->with_rest(object, what.up_world, what.job);
@@ -54,6 +56,7 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   if (object && is_rest && request.fill_hole) {
     SurfacePatch patch = what.clean->hole_of(object, changes, what.up_world, what.job);
     report->hole_kept = patch.why_not;
+    report->invented += patch.changes.given_back.size();
     filled = std::move(patch.changes);
   }
   report->not_given_back += spare_copy(what.scene, request.format, to.has_value(), filled, &changes);
@@ -166,8 +169,11 @@ SaveReport save_rest(const std::filesystem::path& path, const Scene& scene, std:
   return save_gaussians(path, scene, keep, nullptr, format, to, options);
 }
 
-void count_edges(const CleanReport& clean, ExportReport* report) {
-  if (!clean.cleaned) report->edges_kept = clean.reason;
+void count_edges(const CleanReport& clean, ExportReport* report, const std::string& name) {
+  if (!clean.cleaned && report->kept++ == 0) {
+    report->edges_kept = clean.reason;
+    report->edges_kept_of = name;
+  }
   report->clean += clean.cleaned;
   report->forced += clean.forced;
 }
@@ -176,12 +182,20 @@ std::string edges_text(const ExportReport& report) {
   std::string text;
   if (report.clean > 0) text += report.edges_kept.empty() ? ", edges clean" : ", edges of some clean";
   if (report.forced > 0) text += report.forced == report.clean ? " anyway" : ", some of them anyway";
-  if (!report.edges_kept.empty()) text += ". Edges stay as they are: " + report.edges_kept;
-  return text;
+  if (report.edges_kept.empty()) return text;
+  const std::string& name = report.edges_kept_of;
+  const std::string whose = report.kept > 1 ? fmt::format(" of {} objects", report.kept)
+                            : !name.empty() ? " of " + name
+                                            : "";
+  return text + fmt::format(". Edges{} stay as they are{}: {}", whose,
+                            report.kept > 1 ? ", " + name + " the first" : "", report.edges_kept);
 }
 
 std::string text_of(const ExportReport& report, const std::filesystem::path& path) {
-  std::string text = fmt::format("{} Gaussians, {} saved to {}{}", grouped(report.gaussians),
+  const std::string invented =
+      report.invented == 0 ? ""
+                           : fmt::format(", {} of them invented to fill the hole", grouped(report.invented));
+  std::string text = fmt::format("{} Gaussians{}, {} saved to {}{}", grouped(report.gaussians), invented,
                                  human_bytes(report.bytes), path.string(), edges_text(report));
   if (report.not_given_back > 0)
     text += fmt::format(". {} pieces cut off the object are not in the rest, which is too large to copy",
@@ -195,11 +209,11 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
                         const ExportRequest& request, CleanObjects* clean, const Job& job) {
   const std::size_t n = scene.cloud.size();
   if (!(request.placement.scale > 0) || !std::isfinite(request.placement.scale))
-    throw Error("export", "the scale must be larger than 0");
+    throw Error("", "The scale must be larger than 0");
   const glm::vec3& move = request.placement.move;
   if (!std::isfinite(request.placement.turn_deg) || !std::isfinite(move.x) || !std::isfinite(move.y) ||
       !std::isfinite(move.z))
-    throw Error("export", "the turn and the move must be ordinary numbers");
+    throw Error("", "The turn and the move must be ordinary numbers");
   const auto place = [&](const std::vector<std::uint8_t>& kept) -> std::optional<Similarity> {
     if (request.placement == ExportPlacement{}) return {};
     return similarity_of(request.placement, scene.cloud, kept, document.up_world, request.format.axes);
@@ -211,21 +225,21 @@ ExportReport run_export(const Scene& scene, const Document& document, ObjectId o
     const auto to = place(exported(document, object, request.what, n));  // objects stay beside each other
     visit_objects(document, n, [&](const ObjectToSave& o) {
       if (!job.cancelled())
-        save(request.path / (o.file + request.format.extension), o.labels, make_flags(o.labels), to, what,
-             &report);
+        save(request.path / (o.file + request.format.extension), o.labels, make_flags(o.labels), o.name, to,
+             what, &report);
     });
     if (report.files == 0 && !job.cancelled())
-      throw Error("export", "no object holds any Gaussians", "Select something first");
+      throw Error("", "No object holds any Gaussians", "Select something first");
     return report;
   }
   if (!request.path.string().ends_with(request.format.extension))
     throw Error(request.path.string(), fmt::format("does not end with {}", request.format.extension),
                 "It could not be opened again");
   if (request.what != ExportWhat::kScene && !document.find(object))
-    throw Error("export", "no object is chosen", "Click an object first");
+    throw Error("", "No object is chosen", "Click an object first");
   const std::vector<std::uint8_t> keep = exported(document, object, request.what, n);
   const ObjectItem* item = request.what == ExportWhat::kScene ? nullptr : document.find(object);
-  save(request.path, keep, item ? make_flags(labels_of(document, *item, n)) : nullptr, place(keep), what,
+  save(request.path, keep, item ? make_flags(labels_of(document, *item, n)) : nullptr, {}, place(keep), what,
        &report);
   return report;
 }

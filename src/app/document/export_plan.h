@@ -37,15 +37,19 @@ struct ExportRequest {
 struct ExportReport {
   std::size_t gaussians = 0, files = 0;
   std::uint64_t bytes = 0;
-  std::string loss;                // sentence about what the format lost; empty: nothing
-  std::size_t clean = 0;           // number of files whose object has clean edges, or that are its rest
-  std::size_t forced = 0;          // of these, files whose object was cleaned anyway
-  std::string edges_kept;          // reason why an object has none, if they were asked for
-  std::string hole_kept;           // reason why a hole is not filled, if that was asked for
+  std::string loss;           // sentence about what the format lost; empty: nothing
+  std::size_t clean = 0;      // number of files whose object has clean edges, or that are its rest
+  std::size_t forced = 0;     // of these, files whose object was cleaned anyway
+  std::string edges_kept;     // reason why the first object without them has none, if they were asked for
+  std::string edges_kept_of;  // its name; empty: there is one object
+  std::size_t kept = 0;       // number of objects without
+  std::string hole_kept;      // reason why a hole is not filled, if that was asked for
+  std::size_t invented = 0;   // Gaussians that fill a hole; `gaussians` counts them, too
   std::size_t not_given_back = 0;  // Gaussians, see spare_copy()
 };
 
-void count_edges(const CleanReport& clean, ExportReport* report);  // of one more file
+// Of one more file. name: the object's, where there are several.
+void count_edges(const CleanReport& clean, ExportReport* report, const std::string& name = {});
 // What the user reads: of the edges alone, to stand behind a sentence without a full stop, and of all.
 std::string edges_text(const ExportReport& report);
 std::string text_of(const ExportReport& report, const std::filesystem::path& path);

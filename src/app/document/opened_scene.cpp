@@ -208,7 +208,7 @@ std::shared_ptr<OpenedScene> open_first(std::vector<SceneSource> files,
       refused->push_back(error.what());
       if (added->empty()) {
         const std::string all = fmt::format("{}", fmt::join(*refused, "\n"));
-        throw Error("open", "none of the files is a scene", all.substr(0, all.find_last_not_of('.') + 1));
+        throw Error("", "None of the files is a scene", all.substr(0, all.find_last_not_of('.') + 1));
       }
       files.front().path = added->front();
       added->erase(added->begin());

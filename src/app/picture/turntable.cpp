@@ -14,12 +14,11 @@ void check_turntable(const SaveTurntable& c) {
   constexpr int kMostFrames = 10000, kMostPixels = 8192;
   constexpr float kShortest = 0.1f, kLongest = 600;
   if (c.frames < 2 || c.frames > kMostFrames)
-    throw Error("turntable", fmt::format("{} frames are too {}", c.frames, c.frames < 2 ? "few" : "many"));
+    throw Error("", fmt::format("{} pictures are too {}", c.frames, c.frames < 2 ? "few" : "many"));
   if (c.width_px < 0 || c.height_px < 0 || c.width_px > kMostPixels || c.height_px > kMostPixels)
-    throw Error("turntable",
-                fmt::format("a picture of {} x {} pixels is impossible", c.width_px, c.height_px));
+    throw Error("", fmt::format("A picture of {} x {} pixels is impossible", c.width_px, c.height_px));
   if (!(c.turn_s >= kShortest && c.turn_s <= kLongest))
-    throw Error("turntable", fmt::format("a turn takes {} to {} seconds", kShortest, kLongest));
+    throw Error("", fmt::format("A turn takes {} to {} seconds", kShortest, kLongest));
 }
 
 std::vector<Camera> cameras_of_turn(const ObjectExtent& extent, const Camera& front,

@@ -23,7 +23,7 @@ CleanEdges::Asked CleanEdges::now() const {
 void CleanEdges::perform(const CleanAnyway&) {
   const ObjectItem* object = ws_.document().active_object();
   if (!ws_.scene || !object || ws_.gaussians_of(object->id) == 0)
-    throw Error("clean edges", "there is no object to clean", "Click an object first");
+    throw Error("", "There is no object to clean", "Click an object first");
   ws_.clean->clean_anyway(ws_.labels.labels(ws_.document(), *object, ws_.gaussians()));
   ws_.tasks.cancel(TaskKind::kClean);  // what it computes is not wanted any more
   settled_ = {};

@@ -66,7 +66,7 @@ std::string Clicks::already_so(const AddStroke& c) const {
 void Clicks::perform(const AddStroke& c) {
   ws_.require_scene();
   if (!c.stroke.points_px.empty() && !hits_anything(c))
-    throw Error("click", "there is nothing in that place", "Click on something that can be seen");
+    throw Error("", "There is nothing in that place", "Click on something that can be seen");
   const std::string held = already_so(c);
   AddStroke made = c;
   if (c.stroke.label == SeedLabel::kObject && asks_what_is_hit(ws_.document(), ws_.context()))
@@ -91,8 +91,7 @@ void Clicks::perform(const ComeNearer&) {
   ws_.require_scene();
   constexpr float kDistanceLeft = 1.0f / 3;
   const ObjectItem* object = ws_.document().active_object();
-  if (!object || !any_mark(*object))
-    throw Error("come nearer", "nothing is clicked yet", "Click an object first");
+  if (!object || !any_mark(*object)) throw Error("", "Nothing is clicked yet", "Click an object first");
   const auto clicked = std::ranges::find_if(object->views, marks_object);
   const Stroke& stroke = *std::ranges::find(clicked->strokes, SeedLabel::kObject, &Stroke::label);
   std::vector<glm::vec2> points = stroke.points_px;
@@ -100,7 +99,7 @@ void Clicks::perform(const ComeNearer&) {
   std::optional<PickedPoint> hit;
   for (const glm::vec2& p : points)
     if ((hit = viewport_.hit_in(clicked->camera, p, nullptr))) break;
-  if (!hit) throw Error("come nearer", "there is nothing in that place");
+  if (!hit) throw Error("", "There is nothing in that place");
   viewport_.camera().approach(hit->position_world, kDistanceLeft);
 }
 

@@ -25,12 +25,13 @@ std::string what_changed(const std::vector<std::uint8_t>& before, const std::vec
 }
 
 bool add_doubt_of_sides(CutRun* run) {
-  const auto doubtful = static_cast<std::size_t>(std::ranges::count_if(
-      run->views, [](const ViewCard& card) { return card.only_to_look && !card.doubt.empty(); }));
+  const auto doubtful = static_cast<std::size_t>(
+      std::ranges::count_if(run->views, [](const ViewCard& card) { return !card.doubt.empty(); }));
   if (doubtful == 0) return false;
   constexpr const char* kSides[] = {"one side is",    "two sides are",  "three sides are",
                                     "four sides are", "five sides are", "six sides are"};
-  const char* sides = kSides[std::min(doubtful, std::size(kSides)) - 1];
+  const std::string sides =
+      doubtful <= std::size(kSides) ? kSides[doubtful - 1] : fmt::format("{} sides are", doubtful);
   run->doubts.push_back(fmt::format("{} in doubt, marked in the pictures below", sides));
   return true;
 }

@@ -15,7 +15,8 @@ namespace splatcut {
 std::string what_changed(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& after,
                          double seconds);
 
-// Adds to the doubts how many sides are in doubt by their pictures; returns false if none is.
+// Adds to the doubts how many sides, the user's own among them, are in doubt by their pictures, each of which
+// has a mark; returns false if none is.
 bool add_doubt_of_sides(CutRun* run);
 
 // Names another object most of which the object holds, too; empty: there is none. Objects may overlap, but a

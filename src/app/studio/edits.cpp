@@ -144,7 +144,7 @@ TakenBy Edits::taken_by() const {
 void Edits::perform(const SelectRegion& c) {
   ws_.require_scene();
   if (std::ranges::none_of(c.region.pixels(), [](std::uint8_t p) { return p != 0; }))
-    throw Error("selection", "the shape holds no pixel");
+    throw Error("", "The shape holds no pixel");
   const DrawLimits limits = viewport_.draw_limits();
   const bool through = ws_.view.see_through, on_surface = !through && !c.path_px.empty();
   const bool limited = through && ws_.view.depth_limit > 0;
@@ -200,7 +200,7 @@ void Edits::perform(const SelectColour& c) {
 void Edits::require_gaussian(std::int32_t gaussian) const {
   ws_.require_scene();
   if (gaussian < 0 || static_cast<std::size_t>(gaussian) >= ws_.gaussians())
-    throw Error("selection", "there is no such Gaussian");
+    throw Error("", "There is no such Gaussian");
 }
 
 void Edits::perform(const PickColour& c) {
@@ -226,7 +226,7 @@ void Edits::perform(const SelectFlood& c) {
 void Edits::perform(const SelectScene& c) {
   ws_.require_scene();
   const SceneSource* file = ws_.scene->file(c.file);
-  if (!file) throw Error("selection", "there is no such file");
+  if (!file) throw Error("", "There is no such file");
   push_later({fmt::format("{} ({})", title_of(c.operation), scene_name(file->path)),
               {},
               [c, scene = ws_.scene](Document* document, const EditContext& context, const Job&) {
@@ -248,7 +248,7 @@ void Edits::perform(const SelectRange& c) {
 
 void Edits::undo() {
   History& history = ws_.history;
-  if (!history.can_undo()) throw Error("undo", "there is nothing to undo");
+  if (!history.can_undo()) throw Error("", "There is nothing to undo");
   const std::string title = history.entries()[history.cursor()].title;
   history.undo();
   ws_.say(Message::Kind::kInfo, "Undone: " + title);
@@ -256,13 +256,13 @@ void Edits::undo() {
 
 void Edits::redo() {
   History& history = ws_.history;
-  if (!history.can_redo()) throw Error("redo", "there is nothing to redo");
+  if (!history.can_redo()) throw Error("", "There is nothing to redo");
   history.redo();
   ws_.say(Message::Kind::kInfo, "Redone: " + history.entries()[history.cursor()].title);
 }
 
 void Edits::perform(const JumpHistory& c) {
-  if (c.entry >= ws_.history.entries().size()) throw Error("history", "there is no such step");
+  if (c.entry >= ws_.history.entries().size()) throw Error("", "There is no such step");
   ws_.history.jump(c.entry);
   ws_.say(Message::Kind::kInfo, "Back at: " + ws_.history.entries()[c.entry].title);
 }

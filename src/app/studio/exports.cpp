@@ -57,28 +57,29 @@ void Exports::perform(const SaveTurntable& c) {
   refuse_written_inputs(c.path, ws_.scene->scene->files);
   const ObjectItem* object = ws_.document().active_object();
   if (!object || ws_.gaussians_of(object->id) == 0)
-    throw Error("turntable", "there is no object to turn", "Click an object first");
+    throw Error("", "There is no object to turn", "Click an object first");
   const Flags own = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
   DrawLimits limits = viewport_.draw_limits();
   limits.far_plane = DrawLimits{}.far_plane;  // that of another view
-  ws_.tasks.submit(TaskKind::kExport, [this, c, own, limits, front = viewport_.pane_camera(),
-                                       up_world = ws_.document().up_world,
-                                       background = ws_.document().background, scene = ws_.scene,
-                                       made = ws_.clean](const Job& job) {
-    const std::vector<Camera> cameras =
-        cameras_of_turn(object_extent(*scene->cloud, *own), front, up_world, c);
-    const TurntableOptions options{c.as, c.path, c.turn_s, background};
-    auto clean = c.clean_edges ? made->made(own, up_world, job) : nullptr;
-    ExportReport report;
-    if (clean) count_edges(clean->report, &report);
-    if (clean && !clean->report.cleaned) clean = nullptr;
-    if (!save_turntable(clean ? clean->cloud : *scene->cloud, cameras, clean ? nullptr : own, limits, options,
-                        job))
-      return;
-    ws_.tasks.post([this, c, edges = edges_text(report)] {
-      ws_.say(Message::Kind::kDone, fmt::format("{} frames saved to {}{}", c.frames, c.path.string(), edges));
-    });
-  });
+  ws_.tasks.submit(
+      TaskKind::kExport,
+      [this, c, own, limits, front = viewport_.pane_camera(), up_world = ws_.document().up_world,
+       background = ws_.document().background, scene = ws_.scene, made = ws_.clean](const Job& job) {
+        const std::vector<Camera> cameras =
+            cameras_of_turn(object_extent(*scene->cloud, *own), front, up_world, c);
+        const TurntableOptions options{c.as, c.path, c.turn_s, background};
+        auto clean = c.clean_edges ? made->made(own, up_world, job) : nullptr;
+        ExportReport report;
+        if (clean) count_edges(clean->report, &report);
+        if (clean && !clean->report.cleaned) clean = nullptr;
+        if (!save_turntable(clean ? clean->cloud : *scene->cloud, cameras, clean ? nullptr : own, limits,
+                            options, job))
+          return;
+        ws_.tasks.post([this, c, edges = edges_text(report)] {
+          ws_.say(Message::Kind::kDone,
+                  fmt::format("{} pictures saved to {}{}", c.frames, c.path.string(), edges));
+        });
+      });
 }
 
 }  // namespace splatcut

@@ -181,7 +181,7 @@ void SavedWork::perform(const SaveWork& c) {
 
 void SavedWork::perform(const DropAutosave& c) {
   if (std::ranges::find(offers_, c.file, &LeftWork::file) == offers_.end())
-    throw Error("restore", "there is no such work");
+    throw Error("", "There is no such work");
   autosaves_.remove(c.file);
   ws_.say(Message::Kind::kInfo, "The work of last time is gone");
   find_offers();

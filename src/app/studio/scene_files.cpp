@@ -47,8 +47,8 @@ void SceneFiles::perform(const OpenScene& c) {
   const std::uint64_t serial = next_scene_serial_++;
   const auto& offers = work_.offers();
   const auto left = std::ranges::find(offers, c.path, &LeftWork::file);
-  ws_.say(Message::Kind::kInfo,
-          left == offers.end() ? "Opening " + scene_name(c.path) : "Restoring unsaved work: " + left->says);
+  opening_ = left == offers.end() ? "Opening " + scene_name(c.path) : "Restoring unsaved work: " + left->says;
+  ws_.say(Message::Kind::kInfo, opening_);
   stop_for_loading();
   changing_to_.clear();
   std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes, .lod = c.lod}};
@@ -131,7 +131,7 @@ ScenePlace SceneFiles::place_to_be(std::uint32_t file) const {
 
 SceneSource& SceneFiles::added_file(std::vector<SceneSource>* files, std::uint32_t id) const {
   const auto found = std::ranges::find(*files, id, &SceneSource::id);
-  if (found == files->end()) throw Error("scene", "there is no such file in it");
+  if (found == files->end()) throw Error("", "The scene has no such file");
   if (found == files->begin())
     throw Error(found->path.filename().string(), "was opened first: the others stand in its scene");
   return *found;
@@ -165,7 +165,7 @@ void SceneFiles::perform(const BringHere& c) {
   const SceneSource& file = added_file(&files, c.file);
   const auto at = viewport_.surface_in_middle(c.file);
   if (!at)
-    throw Error("bring here", "nothing to stand on is in the middle of the picture",
+    throw Error("", "Nothing to stand on is in the middle of the picture",
                 "Turn the view so that the place is in its middle");
   perform(PlaceScene{c.file, stood_on(file, file.place, *at, ws_.document().up_world)});
 }
@@ -326,7 +326,7 @@ void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::op
   calls_.opened(false);
   if (work && work->view) viewport_.camera().set_pose(*work->view);
   work_.opened(work, work_path);
-  ws_.say(Message::Kind::kDone, described(*scene));
+  ws_.say(Message::Kind::kDone, described(*scene) + (work ? ". Its work is restored" : ""));
   start_preparing();
 }
 

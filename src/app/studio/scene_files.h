@@ -36,6 +36,8 @@ class SceneFiles {
   bool redo_files();
   bool can_redo_files() const;
 
+  const std::string& opening() const { return opening_; }  // what is done while another scene is opened
+
   // Place of one of the scene's files once the changes under way are done.
   ScenePlace place_to_be(std::uint32_t file) const;
 
@@ -75,6 +77,7 @@ class SceneFiles {
   CutJobs& cuts_;
   SavedWork& work_;
   Calls calls_;
+  std::string opening_;
   std::uint32_t put_before_view_ = 0;  // file that was added to what one looks at, until it is there; 0: none
   bool preparing_stopped_ = false;     // true: preparing was stopped for a scene that was to be opened
   std::uint64_t next_scene_serial_ = 1;

@@ -6,22 +6,20 @@
 namespace splatcut {
 
 void Clicks::combine_with(const CameraStroke& stroke, SetOperation operation, const std::string& title) {
-  const std::string doing = operation == SetOperation::kRemove ? "remove" : "intersect";
   const ObjectItem* object = ws_.document().active_object();
   if (!object || ws_.gaussians_of(object->id) == 0)
-    throw Error(doing, "there is no object yet", "Click one first");
-  ws_.tasks.submit(TaskKind::kSelect, [this, stroke, operation, title, doing, id = object->id,
-                                       session = ws_.session, scene = ws_.scene,
+    throw Error("", "There is no object yet", "Click one first");
+  ws_.tasks.submit(TaskKind::kSelect, [this, stroke, operation, title, id = object->id, session = ws_.session,
+                                       scene = ws_.scene,
                                        settings = cut_settings(ws_.document(), *object)](const Job& job) {
     const Session::Preview preview = session->preview({}, stroke, settings, {job.stop, {}});
     if (job.cancelled()) return;
-    ws_.tasks.post([this, id, scene, operation, title, doing, meant = preview.after] {
+    ws_.tasks.post([this, id, scene, operation, title, meant = preview.after] {
       if (scene != ws_.scene || ws_.document().active != id) return;
       if (meant.empty())
         ws_.say(Message::Kind::kRefused,
-                doing +
-                    ": with this quality there are no parts that a click could take. Use a region, or "
-                    "choose another quality.");
+                "With this quality there are no parts that a click could take. Use a region, or "
+                "choose another quality.");
       else
         edits_.in_turn([this, meant, operation, title] { edits_.select_later(meant, operation, title); });
     });
@@ -30,9 +28,9 @@ void Clicks::combine_with(const CameraStroke& stroke, SetOperation operation, co
 
 void Clicks::perform(const IntersectStroke& c) {
   ws_.require_scene();
-  if (c.stroke.points_px.empty()) throw Error("stroke", "it has no points");
+  if (c.stroke.points_px.empty()) throw Error("", "The stroke has no points");
   if (!hits_anything({c.camera, c.stroke, c.seen}))
-    throw Error("click", "there is nothing in that place", "Click on something that can be seen");
+    throw Error("", "There is nothing in that place", "Click on something that can be seen");
   combine_with({c.camera, c.stroke, c.seen}, SetOperation::kIntersect, "Intersect (click)");
 }
 

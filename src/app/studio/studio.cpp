@@ -141,7 +141,7 @@ bool Studio::update(double seconds) {
 }
 
 std::string Studio::coming() const {
-  if (!ws_.scene) return loading() ? "Opening..." : "";
+  if (!ws_.scene) return loading() ? files_.opening() : "";
   return viewport_.picture() ? "" : "Drawing the first picture...";
 }
 
@@ -260,7 +260,7 @@ void Studio::perform(const GoToCamera& c) {
 
 void Studio::perform(const LookAlong& c) {
   ws_.require_scene();
-  if (!(glm::length(c.direction_world) > 0)) throw Error("view", "that is no direction");
+  if (!(glm::length(c.direction_world) > 0)) throw Error("", "That is no direction");
   camera().finish_transition();
   const std::vector<glm::vec3> points = viewport_.object_points();
   const Box box = robust_bounds(points);
@@ -287,7 +287,7 @@ void Studio::perform(const NextBackdrop&) {
 
 void Studio::perform(const SetBackdrop& c) {
   ws_.require_scene();
-  if (c.number >= backdrops().size()) throw Error("background", "there is no such one");
+  if (c.number >= backdrops().size()) throw Error("", "There is no such background");
   const Backdrop& backdrop = backdrops()[c.number];
   ViewState view = ws_.view;
   view.checker = backdrop.checker;

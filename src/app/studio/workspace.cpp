@@ -10,8 +10,7 @@ std::size_t Workspace::gaussians_of(ObjectId object) const {
 }
 
 void Workspace::require_scene() const {
-  if (!scene)
-    throw Error("splatcut", "no scene is open", "Open one with Ctrl+O, or drop a file on the window");
+  if (!scene) throw Error("", "No scene is open", "Open one with Ctrl+O, or drop a file on the window");
 }
 
 void Workspace::say(Message::Kind kind, std::string text) {

@@ -76,7 +76,7 @@ constinit const Tool Tool::kBox = {
     .sentence =
         "Drag a box around the object. Shift adds what is in the box, Ctrl removes it, Alt keeps of "
         "the object what is in it.",
-    .hint = "drag around the object   Ctrl: remove   Alt: intersect",
+    .hint = "drag around the object   Shift: add   Ctrl: remove   Alt: intersect",
     .icon =
         [] {
           return Icon{icon_loop({{-0.9f, -0.75f}, {0.9f, -0.75f}, {0.9f, 0.75f}, {-0.9f, 0.75f}}),

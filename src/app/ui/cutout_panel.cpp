@@ -116,8 +116,7 @@ void warnings(UiContext& ui, const CutRun& run) {
     wrapped_warning(ui, doubt);
     too_far |= doubt.ends_with("come nearer");
   }
-  if (too_far && button(ui, "Come nearer", "Goes to where you clicked: click again from there", {}, true, -1))
-    ui.ask(ComeNearer{});
+  if (too_far) come_nearer_button(ui, -1);
 }
 
 // The text for an object that was not cut yet.

@@ -308,9 +308,7 @@ void export_dialog(UiContext& ui) {
   const FormatPlan& plan = export_plan(ui, gaussians);
   const Palette& p = ui.theme.colour;
   line_across(p);
-  fact(icon::kInfo, p.accent,
-       fmt::format("{} Gaussians, {}{}", grouped(gaussians), plan.about ? "about " : "",
-                   human_bytes(plan.bytes)));
+  fact(icon::kInfo, p.accent, amount_text(choice, gaussians, plan));
   fact(icon::kCheck, p.good, "Kept: " + plan.kept);
   if (choice.placement != ExportPlacement{})
     fact(icon::kInfo, p.accent, "Moved: positions, sizes, rotations and spherical harmonics follow.");
@@ -318,7 +316,7 @@ void export_dialog(UiContext& ui) {
   if (!left_out.empty()) fact(icon::kInfo, p.accent, left_out);
   if (!plan.lost.empty() || left_out.empty())
     fact(plan.lost.empty() ? icon::kCheck : icon::kWarning, plan.lost.empty() ? p.good : p.warn,
-         plan.lost.empty() ? "Nothing is lost." : "Lost: " + plan.lost);
+         loss_text(choice, plan));
   if (!choice.trouble.empty()) fact(icon::kWarning, p.bad, choice.trouble);
   const std::filesystem::path target = target_of(choice);
   if (target != choice.path) fact(icon::kInfo, p.accent, "The file will be " + target.filename().string());

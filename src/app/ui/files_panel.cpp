@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "app/document/words.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
@@ -36,7 +38,9 @@ bool scale_number(ScenePlace* place, const SceneSource& file, const glm::vec3& u
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Scale");
   ImGui::SameLine(64);
-  ImGui::SetNextItemWidth((ImGui::GetContentRegionAvail().x - 8) / 3);
+  // As wide as a number above, or as the longest scale.
+  const float longest = ImGui::CalcTextSize("0.001234 times").x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(std::max((ImGui::GetContentRegionAvail().x - 8) / 3, longest));
   float scale = place->scale;
   if (ImGui::DragFloat("##scale", &scale, 0.01f, 1e-3f, 1e3f, "%.4g times",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat))
@@ -51,14 +55,13 @@ void placing(UiContext& ui, const SceneSource& file) {
   const Camera camera = ui.studio.viewport().pane_camera();
   const glm::vec3& up_world = ui.studio.document().up_world;
   const std::string trouble = misfit(file, camera, up_world);
-  if (!trouble.empty()) wrapped_warning(ui, trouble);
   // A thousandth of the scene's size a step.
   bool done = three_numbers("Move", "By how much it stands elsewhere, in scene units", &place.move,
                             0.001f * ui.studio.camera().scene_size(), "%.4g");
   done |= three_numbers("Turn", "About this axis of the scene, around the middle of the file, in degrees",
                         &place.turn_deg, 0.5f, "%.1f");
   done |= scale_number(&place, file, up_world);
-  ImGui::SameLine(0, 4);
+  same_line_if_fits("Stand it upright", 4);
   if (button(ui, "Stand it upright",
              "Its own way up, as its file says, of its cameras or guessed, becomes the scene's",
              why_upright(file, place, up_world), false, -1))
@@ -76,6 +79,8 @@ void placing(UiContext& ui, const SceneSource& file) {
   if (button(ui, "Take out", "The window's scene goes on without it; the file stays as it is", {}, false,
              row.next()))
     ui.ask(RemoveScene{file.id});
+  // Last: it comes and goes while numbers are typed, which shall stay where they are.
+  if (!trouble.empty()) wrapped_warning(ui, trouble);
 }
 
 void file_row(UiContext& ui, const SceneSource& file, bool first) {

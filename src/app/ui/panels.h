@@ -17,6 +17,7 @@ void scene_panel(UiContext& ui);
 void files_panel(UiContext& ui);  // what the scene is made of
 void history_panel(UiContext& ui);
 void status_bar(UiContext& ui);
+std::string status_text(const Studio& studio);  // what runs, at its left end
 
 void start_page(UiContext& ui, const UiRect& area);
 

@@ -43,6 +43,16 @@ std::string left_label(const std::vector<LeftWork>& all, const LeftWork& left, f
   return when + "\n" + (shared ? telling_folder(left.scene) : scene_name(left.scene));
 }
 
+// In place of what can be opened.
+void opening(UiContext& ui, float width) {
+  ImGui::PushFont(ui.theme.title);
+  ImGui::TextWrapped("%s", ui.studio.coming().c_str());
+  ImGui::PopFont();
+  const TaskThread::Progress progress = ui.studio.progress();
+  muted_text(ui, progress.stage);
+  progress_bar(ui, progress.fraction, width);
+}
+
 }  // namespace
 
 // A row for each: the whole row restores it, the button at its end throws it away.
@@ -75,7 +85,8 @@ void left_work_list(UiContext& ui) {
     ImGui::PopID();
   }
   if (offers.size() > kMostShown)
-    muted_text(ui, fmt::format("and {} older, offered once these are done with", offers.size() - kMostShown));
+    wrapped_muted(ui,
+                  fmt::format("and {} older, offered once these are done with", offers.size() - kMostShown));
 }
 
 void recent_list(UiContext& ui) {
@@ -92,8 +103,12 @@ void start_page(UiContext& ui, const UiRect& area) {
   const float top = std::min(std::max(area.min.y + kMargin, middle.y - 150), area.max.y - kMargin - size.y);
   ImGui::SetCursorScreenPos({middle.x - size.x / 2, top});
   ImGui::BeginChild("start", vec(size));
+  if (ui.studio.loading()) {
+    opening(ui, size.x);
+    return ImGui::EndChild();
+  }
   ImGui::PushFont(ui.theme.title);
-  ImGui::TextUnformatted(ui.studio.loading() ? ui.studio.coming().c_str() : "Open a scene");
+  ImGui::TextUnformatted("Open a scene");
   ImGui::PopFont();
   wrapped_muted(ui, "A 3D Gaussian Splatting scene: " + spoken_extensions(read_formats(), "or") +
                         ". Or a .splatcut.json with saved work. Drop it on this window, or:");

@@ -8,19 +8,6 @@ namespace splatcut {
 
 namespace {
 
-std::string left_text(const Studio& studio) {
-  if (studio.loading()) return fmt::format("Loading: {}", studio.progress().stage);
-  if (!studio.scene()) return "No scene";
-  const auto progress = studio.progress();
-  if (progress.busy && progress.kind == TaskKind::kPrepare) return "Making a lighter copy to move by";
-  if (!progress.stage.empty() && progress.kind == TaskKind::kHover)
-    return "Looking at what is under the pointer";
-  if (progress.kind == TaskKind::kAhead && !progress.stage.empty()) return "Getting other sizes ready";
-  if (progress.kind == TaskKind::kReady && !progress.stage.empty()) return "Getting ready for a click";
-  if (progress.busy) return progress.stage.empty() ? "Working" : "Working: " + progress.stage;
-  return "Ready";
-}
-
 std::string right_text(const UiContext& ui) {
   const Studio& studio = ui.studio;
   std::string text = ui.state.renderer_line;
@@ -41,19 +28,26 @@ std::string picture_times(const Studio& studio) {
 
 }  // namespace
 
+std::string status_text(const Studio& studio) {
+  if (studio.loading()) return fmt::format("Loading: {}", studio.progress().stage);
+  if (!studio.scene()) return "No scene";
+  const auto progress = studio.progress();
+  if (progress.busy && progress.kind == TaskKind::kPrepare) return "Making a lighter copy to move by";
+  if (!progress.stage.empty() && progress.kind == TaskKind::kHover)
+    return "Looking at what is under the pointer";
+  if (progress.kind == TaskKind::kAhead && !progress.stage.empty()) return "Getting other sizes ready";
+  if (progress.kind == TaskKind::kReady && !progress.stage.empty()) return "Getting ready for a click";
+  if (progress.busy) return progress.stage.empty() ? "Working" : "Working: " + progress.stage;
+  return studio.viewport().picture() ? "Ready" : "Drawing the first picture";
+}
+
 void status_bar(UiContext& ui) {
   const auto progress = ui.studio.progress();
   ImGui::AlignTextToFramePadding();
-  muted_text(ui, left_text(ui.studio));
+  muted_text(ui, status_text(ui.studio));
   if (progress.fraction > 0) {
     ImGui::SameLine();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    constexpr float kWidth = 120;
-    list.AddRectFilled({at.x, at.y + 9}, {at.x + kWidth, at.y + 15}, packed(ui.theme.colour.line), 3);
-    list.AddRectFilled({at.x, at.y + 9}, {at.x + kWidth * static_cast<float>(progress.fraction), at.y + 15},
-                       packed(ui.theme.colour.accent), 3);
-    ImGui::Dummy({kWidth, 1});
+    progress_bar(ui, progress.fraction, 120);
   }
   const ObjectItem* active = ui.studio.document().active_object();
   if (active) {

@@ -83,6 +83,21 @@ void tooltip(const std::string& text) {
   ImGui::EndTooltip();
 }
 
+void progress_bar(UiContext& ui, double fraction, float width) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({at.x, at.y + 9}, {at.x + width, at.y + 15}, packed(ui.theme.colour.line), 3);
+  list.AddRectFilled({at.x, at.y + 9}, {at.x + width * static_cast<float>(fraction), at.y + 15},
+                     packed(ui.theme.colour.accent), 3);
+  ImGui::Dummy({width, 1});
+}
+
+void come_nearer_button(UiContext& ui, float width) {
+  if (button(ui, "Come nearer", "Goes to where you clicked: a click there adds to this object", {}, true,
+             width))
+    ui.ask(ComeNearer{});
+}
+
 bool plain_button(UiContext& ui, const char* label, float width) {
   const bool pressed = ImGui::Button(label, {width, 0});
   const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();

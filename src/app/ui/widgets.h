@@ -27,6 +27,8 @@ bool button(UiContext& ui, const char* label, const std::string& tip, const std:
 // A button without a tooltip. width -1: as wide as there is room.
 bool plain_button(UiContext& ui, const char* label, float width = 0);
 
+void come_nearer_button(UiContext& ui, float width = 0);
+
 // A dialog in the middle of the window, which opens when it is wanted. True while it is shown; EndPopup()
 // ends it then.
 bool begin_dialog(const char* id, bool wanted, const ImVec2& size);
@@ -62,6 +64,8 @@ class ButtonRow {
   bool beside_ = true, begun_ = false;
 };
 void same_line_if_fits(const char* label, float spacing);  // for a button with the label
+
+void progress_bar(UiContext& ui, double fraction, float width);  // thin, in the middle of a line
 
 void tooltip(const std::string& text);  // of the last item
 void muted_text(UiContext& ui, const std::string& text);

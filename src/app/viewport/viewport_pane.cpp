@@ -154,8 +154,7 @@ std::optional<UiRect> advice_line(UiContext& ui, const ImVec2& at, float right) 
   if (ui.studio.clicks().found_nothing()) {
     const UiRect line =
         line_before_button(ui, at, right, "Nothing stands out where you clicked.", "Come nearer");
-    if (button(ui, "Come nearer", "Goes to where you clicked: click again from there", {}, true))
-      ui.ask(ComeNearer{});
+    come_nearer_button(ui);
     return line;
   }
   if (ui.studio.clicks().offer() || !shows_clean_edges(ui.studio.view())) return {};

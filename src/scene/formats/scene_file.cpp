@@ -33,9 +33,10 @@ SceneFormat format_of(const MappedFile& file) {
   std::string names;
   for (std::size_t i = 0; i < named; ++i) names += (i > 0 ? ", " : "") + scenes[i];
   if (scenes.size() > named) names += fmt::format(" and {} more", scenes.size() - named);
-  throw Error(folder.string(),
-              "is a folder, and none with a scene of several files (meta.json, lod-meta.json, .lcc or .lcc2)",
-              scenes.empty() ? "Give a scene file" : "Give a file. It holds " + names);
+  if (!scenes.empty())
+    throw Error(folder.string(), "this folder is no scene by itself", "Give a file. It holds " + names);
+  throw Error(folder.string(), "this folder holds no scene",
+              "Give a scene file, or a folder with meta.json, lod-meta.json, .lcc or .lcc2");
 }
 
 // A folder stands for the scene of several files in it. Where there are both, meta.json needs no other

@@ -20,6 +20,7 @@ struct ViewReport {
   double confidence = 0;   // IoU of the mask and the final labels seen in this view
   std::string reason;      // why it was left out
   bool disagreed = false;  // left out because its mask disagrees with the others
+  bool clicked = false;    // strokes stand in it, and it is not the reference
 };
 
 enum class Outcome { kDone, kNothingFound, kCancelled };

@@ -22,15 +22,24 @@ double share_of_frame(const Mask& mask) {
   return frame ? static_cast<double>(object) / static_cast<double>(frame) : 0;
 }
 
-// Whether the view that was clicked in shows the object large enough, and whole.
-void add_doubts_of_first(const ViewReport& view, std::vector<std::string>* sentences) {
+// The side of a square as large as the object, in the view's width.
+double width_of_object(const ViewReport& view) {
+  return std::sqrt(static_cast<double>(count(view.mask))) / std::max(1, view.mask.width());
+}
+
+// Whether the view that was clicked in first shows the object large enough, and whole. A click from nearer
+// makes up for one from afar.
+void add_doubts_of_first(std::span<const ViewReport> views, std::vector<std::string>* sentences) {
   // Set where cuts of an earlier program failed; how many do today: docs/study.md.
   constexpr double kSmall = 0.08, kMuchOfFrame = 0.15;
-  const double across = std::sqrt(static_cast<double>(count(view.mask))) / std::max(1, view.mask.width());
-  if (across > 0 && across < kSmall)
+  const double across = width_of_object(views.front());
+  const bool from_nearer = std::ranges::any_of(views.subspan(1), [](const ViewReport& v) {
+    return v.clicked && v.used && width_of_object(v) >= kSmall;
+  });
+  if (across > 0 && across < kSmall && !from_nearer)
     sentences->push_back(fmt::format(
         "the object is small in the first view, {:.0f} % of its width: come nearer", 100 * across));
-  if (share_of_frame(view.mask) > kMuchOfFrame)
+  if (share_of_frame(views.front().mask) > kMuchOfFrame)
     sentences->push_back("the object runs out of the first view: step back");
 }
 
@@ -61,7 +70,7 @@ std::vector<std::string> doubts_of(const CutResult& result, double view_agreemen
 
 std::vector<std::string> doubts_of_views(std::span<const ViewReport> views, double view_agreement) {
   std::vector<std::string> sentences;
-  if (!views.empty()) add_doubts_of_first(views.front(), &sentences);
+  if (!views.empty()) add_doubts_of_first(views, &sentences);
   const auto left_out = std::ranges::count_if(views, &ViewReport::disagreed);
   if (left_out)
     sentences.push_back(

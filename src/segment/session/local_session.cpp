@@ -205,7 +205,7 @@ Likelihood LocalSession::evidence(const Asked& asked, const Job& job, Kept* firs
       add_weighted(drawer, c, kCorrectionWeight * first_used, settings.hard_counts, job, &sums);
     });
     result->views.push_back(
-        {.camera = c.camera, .mask = c.mask, .used = true, .confidence = 1, .reason = {}});
+        {.camera = c.camera, .mask = c.mask, .used = true, .confidence = 1, .reason = {}, .clicked = true});
   }
   return with_prior(likelihood(sums), first->result.prior,
                     settings.prior_px_per_view * static_cast<float>(views_used(*result)));

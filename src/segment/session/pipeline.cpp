@@ -164,9 +164,12 @@ void Run::add_view(const Camera& camera, const glm::vec3& object_centre_world) {
 // Views that the user clicked in come before all others.
 void Run::add_stroked_views(const glm::vec3& object_centre_world) {
   if (settings_.first_mask_from != FirstMaskFrom::kParts || request_.mask_source) return;
-  for (const StrokedView& view : strokes_by_view(request_.strokes))
-    if (!view.strokes.empty() && !same_view(view.camera, task_.reference.camera) && !job_.cancelled())
-      add_view(limited_to_width(view.camera, settings_.work_width_px), object_centre_world);
+  for (const StrokedView& view : strokes_by_view(request_.strokes)) {
+    if (view.strokes.empty() || same_view(view.camera, task_.reference.camera) || job_.cancelled()) continue;
+    const std::size_t before = result_.views.size();
+    add_view(limited_to_width(view.camera, settings_.work_width_px), object_centre_world);
+    if (result_.views.size() > before) result_.views.back().clicked = true;
+  }
 }
 
 std::vector<Camera> Run::cameras_to_look_from(const ObjectExtent& extent) const {

@@ -71,7 +71,7 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
     for (const char* part : parts) CHECK(result.err.find(part) != std::string::npos);
   };
   refused("info none.ply", {"none.ply", "No such file"});
-  refused("info made", {"made", "is a folder", "small.ply"});
+  refused("info made", {"made", "this folder is no scene by itself", "small.ply"});
   refused("info empty.ply", {"empty.ply", "empty"});
   refused("info points.ply", {"points.ply", "ordinary point cloud"});
   refused("info short.ply", {"short.ply", "truncated", "row", "byte"});

@@ -57,9 +57,9 @@ TEST_CASE(
   black_mask("mixed/view_05.png");
   const Result result = place.run(cut_with(" --masks mixed -o by_mixed"));
   REQUIRE_MESSAGE(result.code == 0, result.err);
-  CHECK(result.err.find("3 of 4 masks have a camera: white, scaled by 2, 1 black: there all is rest") !=
-        std::string::npos);
-  CHECK(result.err.find("1 of the masks have no camera") != std::string::npos);
+  CHECK(result.err.find("3 of 4 masks have a camera; taken for the object: white; scaled by 2; 1 black: "
+                        "there all is rest") != std::string::npos);
+  CHECK(result.err.find("1 mask has no camera and is left out") != std::string::npos);
   CHECK(iou(place.text("by_mixed/labels.u8"), still_life().truth_of("apple")) > 0.8);
 }
 

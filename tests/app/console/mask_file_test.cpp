@@ -238,7 +238,8 @@ TEST_CASE(
   REQUIRE(found.others.size() == 2);
   CHECK(found.others[0].camera.name == "0000");
   CHECK(drawn(found.others[0].mask) == std::string(48, '.'));
-  CHECK(found.how == "3 of 4 masks have a camera: white, scaled by 2, 1 black: there all is rest");
+  CHECK(found.how ==
+        "3 of 4 masks have a camera; taken for the object: white; scaled by 2; 1 black: there all is rest");
   REQUIRE(found.warnings.size() == 1);
   CHECK(found.warnings[0].find("0009.png") != std::string::npos);
   const MaskFolder wanted = load_mask_folder(cameras, {place / "masks", "0002", {}});
@@ -248,7 +249,9 @@ TEST_CASE(
   const MaskFolder beside = load_mask_folder(cameras, {place / "masks", {}, {}});
   CHECK(drawn(beside.reference.mask).substr(0, 8) == "....####");
   REQUIRE(beside.warnings.size() == 2);
-  CHECK(beside.warnings[1].find("0001.jpg\" among them") != std::string::npos);
+  CHECK(
+      beside.warnings[1].find("1 picture lies beside the mask of its camera and is left out: \"0001.jpg\"") !=
+      std::string::npos);
   write_png(place / "masks/0001-mask.png", half(4, 3));
   CHECK_THROWS_WITH_AS(load_mask_folder(cameras, {place / "masks", {}, {}}),
                        doctest::Contains("another mask"), Error);

@@ -88,8 +88,7 @@ TEST_CASE("thumbnails: sides in doubt are marked, and the message says how many"
   Hands hands = hands_on_sample();
   const auto doubtful = [&] {
     const CutRun* run = hands.studio().cuts().run(hands.studio().document().active);
-    return std::ranges::count_if(run->views,
-                                 [](const ViewCard& c) { return c.only_to_look && !c.doubt.empty(); });
+    return std::ranges::count_if(run->views, [](const ViewCard& c) { return !c.doubt.empty(); });
   };
   CHECK(doubtful() == 0);
   CHECK(hands.said().find("in doubt") == std::string::npos);
@@ -110,8 +109,7 @@ TEST_CASE("thumbnails: sides in doubt are marked, and the message says how many"
   CHECK(std::ranges::count_if(run->doubts, [](const std::string& d) {
           return d.find("in doubt, marked in the pictures below") != d.npos;
         }) == 1);
-  const auto marked =
-      std::ranges::find_if(run->views, [](const ViewCard& c) { return c.only_to_look && !c.doubt.empty(); });
+  const auto marked = std::ranges::find_if(run->views, [](const ViewCard& c) { return !c.doubt.empty(); });
   REQUIRE(marked != run->views.end());
   const Camera there = marked->camera;
   const UiRect strip = hands.app.window("strip");
@@ -150,8 +148,7 @@ TEST_CASE("thumbnails: after an edit by hand they show what there is now, and do
                                [](const std::string& d) { return d.find("in doubt") != d.npos; });
   };
   const auto marks = [&] {
-    return std::ranges::count_if(run()->views,
-                                 [](const ViewCard& c) { return c.only_to_look && !c.doubt.empty(); });
+    return std::ranges::count_if(run()->views, [](const ViewCard& c) { return !c.doubt.empty(); });
   };
   const auto before = pixels();
   REQUIRE(told());

@@ -204,6 +204,9 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   CHECK(app.studio().camera().pose() == pose);
   CHECK(std::ranges::any_of(app.studio().messages(),
                             [&](const Message& m) { return m.text == "Restoring unsaved work: " + says; }));
+  CHECK(std::ranges::any_of(app.studio().messages(), [](const Message& m) {
+    return m.kind == Message::Kind::kDone && m.text.find("restored") != m.text.npos;
+  }));
   CHECK(app.studio().work().offers().empty());
   CHECK(app.studio().unsaved());  // it is nowhere else yet
   app.frames(60 * 3);
@@ -590,7 +593,7 @@ TEST_CASE("objects: one byte per Gaussian names 255 of them, the 256th is refuse
   Document document;
   for (std::size_t i = 0; i < kMostObjects; ++i) add_object(&document);
   CHECK_THROWS_WITH_AS(add_object(&document),
-                       "objects: there are 255 already, more cannot be shown. Merge or remove some.", Error);
+                       "There are 255 objects already, more cannot be shown. Merge or remove some.", Error);
   CHECK(document.objects.size() == kMostObjects);
   CHECK(document.next_id == kMostObjects + 1);
 

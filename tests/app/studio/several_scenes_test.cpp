@@ -304,7 +304,7 @@ TEST_CASE(
   REQUIRE(hands.app.settle());
   studio.apply(BringHere{id});
   REQUIRE(hands.app.settle());
-  CHECK(hands.said().find("nothing to stand on") != std::string::npos);
+  CHECK(hands.said().find("Nothing to stand on") != std::string::npos);
   CHECK(last_file(hands).place == stands);
 }
 
@@ -680,6 +680,20 @@ TEST_CASE("several scenes: the button that stands a file upright is greyed where
   CHECK(studio.history().entries().size() == steps + 1);
   press();
   CHECK(studio.history().entries().size() == steps + 1);
+  // A scale is not cut off, and no number moves where the file becomes far too large.
+  app->interface().make_current();
+  const float begin = app.window("side/scroll").min.x + 64, end = app.button("Stand it upright").min.x - 4;
+  if (end > begin)  // else the button has a row of its own
+    CHECK(end - begin >= ImGui::CalcTextSize("0.2759 times").x + 2 * ImGui::GetStyle().FramePadding.x);
+  const glm::vec2 before = app.button("Fit").min;
+  REQUIRE(before.x > 0);
+  studio.apply(PlaceScene{id, {{}, {}, 300}});
+  REQUIRE(app.settle());
+  app.frames(3);
+  REQUIRE_FALSE(
+      misfit(studio.scene()->files.back(), studio.viewport().pane_camera(), studio.document().up_world)
+          .empty());
+  CHECK(app.button("Fit").min == before);
 }
 
 TEST_CASE("several scenes: the numbers of a file say where it goes before it is there") {

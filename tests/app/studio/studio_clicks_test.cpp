@@ -152,7 +152,7 @@ TEST_CASE("clicks: where nothing is, a click is refused with a word and is no st
   const std::size_t steps = artist.studio().history().entries().size();
   for (const PointerButton button : {PointerButton::kLeft, PointerButton::kRight}) {
     artist.click(artist.screen_of(kOnApple), button);
-    CHECK(artist.said() == "click: there is nothing in that place. Click on something that can be seen.");
+    CHECK(artist.said() == "There is nothing in that place. Click on something that can be seen.");
     CHECK(artist.studio().messages().back().kind == Message::Kind::kRefused);
   }
   CHECK(artist.studio().document().objects.empty());

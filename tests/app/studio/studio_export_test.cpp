@@ -8,6 +8,8 @@
 #include <limits>
 #include <string>
 
+#include "app/document/export_choice.h"
+#include "app/document/words.h"
 #include "core/png_file.h"
 #include "hands.h"
 #include "scene/raster/rasterizer.h"
@@ -255,6 +257,34 @@ TEST_CASE("hands: the rest is exported without ghosts, or with all its rows") {
         all - patch.changes.ghosts.size() + patch.changes.given_back.size());
   CHECK((hands.said().find("The hole stays: " + patch.why_not) != std::string::npos) ==
         !patch.why_not.empty());
+  REQUIRE(patch.why_not.empty());
+  CHECK(hands.said().find(grouped(patch.changes.given_back.size()) + " of them invented to fill the hole") !=
+        std::string::npos);
+}
+
+TEST_CASE("exports: what is said of them names objects whose edges stay, and promises no number of a hole") {
+  CleanReport good, bad, other;
+  good.cleaned = true;
+  bad.reason = "from 2 of 7 sides it shows more alone than in the scene";
+  other.reason = "3 Gaussians have no edges";
+  ExportReport one;
+  count_edges(bad, &one);
+  CHECK(edges_text(one) == ". Edges stay as they are: " + bad.reason);
+  ExportReport several;
+  count_edges(good, &several, "Apple");
+  count_edges(bad, &several, "Mug");
+  CHECK(edges_text(several) == ", edges of some clean. Edges of Mug stay as they are: " + bad.reason);
+  count_edges(other, &several, "Cup");
+  CHECK(edges_text(several) ==
+        ", edges of some clean. Edges of 2 objects stay as they are, Mug the first: " + bad.reason);
+  ExportChoice choice;
+  choice.fill_hole = true;
+  const FormatPlan plan{.bytes = 4'300'000, .kept = "all", .lost = {}};
+  CHECK(amount_text(choice, 17466, plan) == "17,466 Gaussians, 4.3 MB");  // of the object
+  CHECK(loss_text(choice, plan) == "Nothing is lost.");
+  choice.what = ExportWhat::kRest;
+  CHECK(amount_text(choice, 17466, plan) == "17,466 Gaussians, 4.3 MB, and those that fill the hole");
+  CHECK(loss_text(choice, plan) == "Nothing is lost; what fills the hole is invented.");
 }
 
 TEST_CASE("hands: alone, the object is drawn with clean edges, beside itself as it is, or as it is") {

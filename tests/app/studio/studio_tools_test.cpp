@@ -354,7 +354,8 @@ TEST_CASE("hands: keys held with a box add what it would cut out, remove it, or 
   const std::size_t entries = hands.studio().history().entries().size();
   hands.studio().apply(
       AddBox{hands.studio().viewport().pane_camera(), {5, 5}, {7, 7}, {}, SetOperation::kRemove});
-  CHECK(hands.said().starts_with("box: it is too small"));
+  CHECK(hands.said().starts_with("The box is too small"));
+  CHECK(std::string_view(Tool::kBox.hint).find("Shift: add") != std::string_view::npos);
   CHECK(hands.studio().history().entries().size() == entries);
 }
 
@@ -363,7 +364,7 @@ TEST_CASE("hands: a box with Ctrl or Alt wants an object to work on") {
   const Camera camera = hands.studio().viewport().pane_camera();
   for (const SetOperation operation : {SetOperation::kRemove, SetOperation::kIntersect}) {
     hands.studio().apply(AddBox{camera, {100, 100}, {300, 300}, {}, operation});
-    CHECK(hands.said().find("there is no object yet") != std::string::npos);
+    CHECK(hands.said().find("There is no object yet") != std::string::npos);
   }
   CHECK(hands.studio().document().objects.empty());
 }
@@ -373,7 +374,7 @@ TEST_CASE("hands: a box that reaches out of the picture is around what of it is 
   const Camera camera = hands.studio().viewport().pane_camera();
   const auto width = static_cast<float>(camera.width_px);
   hands.studio().apply(AddBox{camera, {width - 3, 60}, {width + 300, 200}});
-  CHECK(hands.said().starts_with("box: "));
+  CHECK(hands.said().starts_with("The box is too small"));
   CHECK(hands.studio().document().objects.empty());
   hands.studio().apply(AddBox{camera, {width - 40, 60}, {width + 300, 200}});
   const ObjectItem* object = hands.studio().document().active_object();

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -48,6 +49,22 @@ TEST_CASE("left work: scenes whose files trainers name alike are told apart by t
   app.frames(3);
   CHECK(app.button("\na_garden_with_a_long_name").size().x > 0);
   CHECK(app.button("\nfox").size().x > 0);
+}
+
+TEST_CASE("left work: in a small window the line on older work ends within the start page") {
+  const ScratchFolder folder("left_many");
+  for (int i = 2; i < 9; ++i) leave_work(folder, "fox", fmt::format("autosave.{}.splatcut.json", i));
+  HeadlessApp app(480, 480, 1, with_state(folder));
+  app.frames(3);
+  REQUIRE(app.studio().work().offers().size() > 5);
+  app->interface().make_current();
+  std::size_t found = 0;
+  for (const ImGuiWindow* w : GImGui->Windows) {
+    if (!w->WasActive || std::string_view(w->Name).find("/start") == std::string_view::npos) continue;
+    ++found;
+    CHECK(w->ContentSize.x <= w->InnerRect.GetWidth());
+  }
+  CHECK(found == 1);
 }
 
 TEST_CASE("left work: that of a program which takes long to end comes at once, also beside older work") {

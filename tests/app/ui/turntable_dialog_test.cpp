@@ -105,7 +105,7 @@ TEST_CASE("dialogs: the turntable as a video is made by ffmpeg, and its failure 
     CHECK_FALSE(std::filesystem::exists(file));
     // The last argument is the file to make.
     path.put("ffmpeg", "for last; do :; done; echo made >\"$last\"");
-    CHECK(save().find("4 frames saved") != std::string::npos);
+    CHECK(save().find("4 pictures saved") != std::string::npos);
     CHECK(path.asked().find("-framerate\n2.0000\n") != std::string::npos);
     CHECK(path.asked().find("frame_%04d.png") != std::string::npos);
   }

@@ -143,7 +143,7 @@ QUICK_CASE("ply", "bad files are refused with a clear sentence") {
     return text.replace(text.find("vertex 10"), 9, "vertex " + count);
   };
   CHECK(mentions(refusal(folder / "none.ply"), {"none.ply", "No such file"}));
-  CHECK(mentions(refusal(folder.path), {"is a folder", "meta.json", "Give a scene file"}));
+  CHECK(mentions(refusal(folder.path), {"this folder holds no scene", "meta.json", "Give a scene file"}));
   check("empty.ply", "", {"empty"});
   check("text.ply", "hello", {"not a .ply"});
   check("cut.ply", good.substr(0, good.size() - 70), {"truncated", "row 8", "byte"});
@@ -299,7 +299,7 @@ TEST_CASE("scene file: a folder that is none says which of its files may be one"
   const Folder folder;
   for (const char* name : {"b.ply", "a.spz", "notes.txt"}) write(folder / name, "x");
   const std::string two = refusal(folder.path);
-  CHECK(mentions(two, {"Give a file. It holds a.spz, b.ply."}));
+  CHECK(mentions(two, {"this folder is no scene by itself. Give a file. It holds a.spz, b.ply."}));
   CHECK_FALSE(mentions(two, {"notes.txt"}));
   for (const char* name : {"c.ply", "d.ply", "e.ply"}) write(folder / name, "x");
   CHECK(mentions(refusal(folder.path), {"a.spz, b.ply, c.ply and 2 more"}));

@@ -288,6 +288,22 @@ TEST_CASE("doubts: another size, masks left out, and a cutout that most masks sp
   CHECK(of_first(80, 40, 97, 57).empty());
   CHECK(of_first(80, 40, 92, 52) ==
         std::vector<std::string>{"the object is small in the first view, 6 % of its width: come nearer"});
+  // Said until a click was made from near enough, in a view that counts.
+  std::vector<ViewReport> views(2, report.views.front());
+  Mask near(200, 100);
+  const auto said = [&] { return doubts_of_views(views).size(); };
+  CHECK(said() == 1);
+  for (int y = 40; y < 60; ++y)
+    for (int x = 80; x < 100; ++x) near.at(x, y) = kMaskObject;
+  views[1].mask = near;
+  CHECK(said() == 1);  // nobody clicked there
+  views[1].clicked = true;
+  CHECK(said() == 0);
+  views[1].used = false;
+  CHECK(said() == 1);
+  views[1] = views[0];
+  views[1].clicked = true;  // as far
+  CHECK(said() == 1);
   CHECK(of_first(0, 0, 40, 20).empty());  // a corner: 60 of 596 pixels of the frame
   CHECK(of_first(0, 0, 200, 20) ==
         std::vector<std::string>{"the object runs out of the first view: step back"});
