@@ -114,6 +114,7 @@ void CameraController::orbit(const glm::vec2& delta_px) {
 
 void CameraController::keep_pivot_within(float depth) {
   finish_transition();
+  if (turned_around() != pivot_world()) return;
   pose_.distance = std::clamp(depth, std::min(least_distance(), pose_.distance), pose_.distance);
 }
 

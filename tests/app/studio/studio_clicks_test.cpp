@@ -216,17 +216,18 @@ TEST_CASE("clicks: what the middle of a still picture shows is prepared before t
   CHECK(studio.neighbourhoods() == 1);  // nobody is about to click
   take(Tool::kClick);
   REQUIRE(app.settle());
-  CHECK(studio.neighbourhoods() == 2);
+  const std::size_t ready = studio.neighbourhoods();
+  CHECK(ready > 1);
   const UiRect view = app->interface().viewport();
   app.click(view.min + 0.5f * view.size());
   REQUIRE(app.settle());
   REQUIRE(studio.document().objects.size() == 1);
-  CHECK(studio.neighbourhoods() == 2);
+  CHECK(studio.neighbourhoods() == ready);
   turn();  // corrections come next
-  CHECK(studio.neighbourhoods() == 2);
+  CHECK(studio.neighbourhoods() == ready);
   studio.apply(NewObject{});
   REQUIRE(app.settle());
-  CHECK(studio.neighbourhoods() == 3);
+  CHECK(studio.neighbourhoods() > ready);
 }
 
 TEST_CASE("clicks: hovering is red while Ctrl is held, and no longer") {
