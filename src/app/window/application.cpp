@@ -94,9 +94,13 @@ void Application::set_modifiers(const Modifiers& modifiers) {
 }
 
 void Application::handle_one(const PointerMoved& event) {
+  take(event);
+}
+
+void Application::take_now(const PointerMoved& event) {
   pointer_ = event.position_points;
   ImGui::GetIO().MousePos = {pointer_.x, pointer_.y};
-  if (held_back_.empty()) set_modifiers(event.modifiers);  // else they are of keys that come later
+  set_modifiers(event.modifiers);
   if (dragging_picture_ || interface_.picture_at(pointer_, studio_))
     studio_.pointer_moved(in_viewport_px(pointer_), event.modifiers);
   else

@@ -65,14 +65,15 @@ class Application {
   bool is_second_click(const PointerButtonChanged& press);
   void set_modifiers(const Modifiers& modifiers);
   // Keys and text for the interface, which looks at what is held once a frame: what follows a key that was
-  // pressed and released between two frames waits for the next, and so does a button of the pointer.
-  using HeldEvent = std::variant<KeyChanged, TextTyped, PointerButtonChanged>;
+  // pressed and released between two frames waits for the next, and so does the pointer.
+  using HeldEvent = std::variant<KeyChanged, TextTyped, PointerMoved, PointerButtonChanged>;
   void take(const HeldEvent& event);
   void take_held_back();
   bool walks(const KeyChanged& event);  // true: the key was for the walk of Tab alone
   bool is_only_text(const KeyChanged& event) const;
   void take_now(const KeyChanged& event);
   void take_now(const TextTyped& event);
+  void take_now(const PointerMoved& event);
   void take_now(const PointerButtonChanged& event);
   void choose_renderer(RendererChoice choice);
   void open(const OpenScene& command);  // asks first where work would be lost
