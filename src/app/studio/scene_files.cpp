@@ -52,8 +52,9 @@ void SceneFiles::perform(const OpenScene& c) {
   stop_for_loading();
   changing_to_.clear();
   std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes, .lod = c.lod}};
-  ws_.tasks.submit(TaskKind::kLoad, [this, path = c.path, files, added = c.added, serial,
-                                     id = next_file_id_](const Job& job) mutable {
+  const TaskThread::Order order(TaskKind::kLoad, [this] { opening_.clear(); });
+  ws_.tasks.submit(order, [this, path = c.path, files, added = c.added, serial,
+                           id = next_file_id_](const Job& job) mutable {
     std::optional<WorkFile> file;
     if (is_work_file(path)) file = read_work_file(path);
     if (file && !added.empty())
@@ -70,6 +71,7 @@ void SceneFiles::perform(const OpenScene& c) {
     ws_.tasks.post(
         [this, scene, work, id, added, refused, work_path = file ? path : std::filesystem::path()] {
           next_file_id_ = std::max(next_file_id_, id);
+          if (!is_last(*scene)) return;
           opened(scene, work, work_path);
           for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
           if (work && !work->warning.empty()) ws_.say(Message::Kind::kInfo, work->warning);
@@ -116,6 +118,7 @@ void SceneFiles::cancel_loading() {
   ++next_scene_serial_;  // what is on its way is not the last
   ws_.tasks.cancel(TaskKind::kLoad);
   changing_to_.clear();
+  opening_.clear();
 }
 
 std::vector<SceneSource> SceneFiles::wanted_files() const {
@@ -314,6 +317,7 @@ void SceneFiles::take(const std::shared_ptr<const OpenedScene>& scene) {
 void SceneFiles::opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
                         const std::filesystem::path& work_path) {
   preparing_stopped_ = false;
+  opening_.clear();
   before_files_.clear();
   undone_files_.clear();
   take(scene);

@@ -36,7 +36,8 @@ class SceneFiles {
   bool redo_files();
   bool can_redo_files() const;
 
-  const std::string& opening() const { return opening_; }  // what is done while another scene is opened
+  // What is said while another scene is opened, until it is there; empty: none is.
+  const std::string& opening() const { return opening_; }
 
   // Place of one of the scene's files once the changes under way are done.
   ScenePlace place_to_be(std::uint32_t file) const;

@@ -141,7 +141,7 @@ bool Studio::update(double seconds) {
 }
 
 std::string Studio::coming() const {
-  if (!ws_.scene) return loading() ? files_.opening() : "";
+  if (!ws_.scene) return files_.opening();
   return viewport_.picture() ? "" : "Drawing the first picture...";
 }
 

@@ -94,8 +94,8 @@ bool Viewport::update(double seconds, const Flight& flight) {
                        !same_camera(resized(*requested_camera_, camera.width_px, camera.height_px), camera);
   if (flies || travels || moved || (differs && ws_.tools.moves_camera())) last_move_s_ = ws_.clock_s;
   request_styles();
-  request_picture();
   take_picture();
+  request_picture();
   return flies || travels;
 }
 

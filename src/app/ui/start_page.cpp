@@ -103,7 +103,7 @@ void start_page(UiContext& ui, const UiRect& area) {
   const float top = std::min(std::max(area.min.y + kMargin, middle.y - 150), area.max.y - kMargin - size.y);
   ImGui::SetCursorScreenPos({middle.x - size.x / 2, top});
   ImGui::BeginChild("start", vec(size));
-  if (ui.studio.loading()) {
+  if (!ui.studio.coming().empty()) {
     opening(ui, size.x);
     return ImGui::EndChild();
   }
