@@ -100,11 +100,14 @@ CleanObject cleaned(const CleanInput& input, std::span<const Camera> cameras, co
   keep_best(&views);
   report.used = static_cast<int>(views.size());
   std::vector<std::uint8_t> kept(object.cloud.size(), 1);
-  job.progress("clean edges", 0);
-  const double as_it_is = own_picture_error(views, object.cloud, kept, job);
+  PictureError as_it_is;
+  for (const OwnView& view : views) {
+    as_it_is.squares += view.error.squares;
+    as_it_is.inside_px += view.error.inside_px;
+  }
   std::vector<CutOff> cut_off = finish(views, true, &kept, &object, job);
   report.uncut = std::ranges::count(kept, 1) == 0 ||
-                 own_picture_error(views, object.cloud, kept, job) > kMostLost * as_it_is;
+                 own_picture_error(views, object.cloud, kept, job).mean() > kMostLost * as_it_is.mean();
   if (report.uncut) {
     object.cloud = permuted(input.scene.cloud(), object.gaussian);
     std::ranges::fill(kept, 1);

@@ -20,7 +20,7 @@
 //
 // Constants were chosen on six captures with masks of photographs and held on others: docs/edges.md.
 // Same input, same bits, on any number of threads. Cost: one drawing of the scene a view, two of the part of
-// it that the views show (shown_part.h), nine of that with the rest, and eleven of the object. Cancelled: the
+// it that the views show (shown_part.h), seven of that with the rest, and ten of the object. Cancelled: the
 // result is unspecified.
 #pragma once
 

@@ -169,18 +169,18 @@ class Ring {
 
 void keep_what_surrounds(std::span<const Ring> rings, const std::vector<std::uint8_t>& rest,
                          std::vector<std::uint32_t>* ghosts, const Job& job) {
-  constexpr int kRounds = 2;
   constexpr double kMostGrowth = 2e-6;
-  for (int round = 0; round < kRounds && !ghosts->empty() && !job.cancelled(); ++round) {
-    job.progress("ghosts", static_cast<double>(round) / kRounds);
-    std::vector<std::uint8_t> without = rest;
-    for (const std::uint32_t g : *ghosts) without[g] = 0;
-    PlaneSums sums(rest.size(), kRingPlanes);
-    for (const Ring& ring : rings) ring.add_growth(without, &sums, job);
-    std::erase_if(*ghosts, [&](std::uint32_t g) {
-      return sums.at(g, kRingGrowth) > kMostGrowth * sums.at(g, kRingShown);
-    });
+  if (ghosts->empty()) return;
+  std::vector<std::uint8_t> without = rest;
+  for (const std::uint32_t g : *ghosts) without[g] = 0;
+  PlaneSums sums(rest.size(), kRingPlanes);
+  for (std::size_t v = 0; v < rings.size() && !job.cancelled(); ++v) {
+    job.progress("ghosts", static_cast<double>(v) / static_cast<double>(rings.size()));
+    rings[v].add_growth(without, &sums, job);
   }
+  std::erase_if(*ghosts, [&](std::uint32_t g) {
+    return sums.at(g, kRingGrowth) > kMostGrowth * sums.at(g, kRingShown);
+  });
 }
 
 GaussianCloud given_back(const GaussianCloud& cloud, std::span<const std::uint32_t> object,

@@ -10,10 +10,9 @@
 //               ones are the object's; but for those that what surrounds the object needs: the rest is drawn
 //               with and without the ghosts, e = by how much its squared error against the scene grows by
 //               their leaving, per pixel up to 8 px outside of the mask. Where the mean of e over all that a
-//               ghost shows is above 2e-6, it stays. Two rounds, as fewer then leave beside the others.
+//               ghost shows is above 2e-6, it stays.
 // In a large scene the cloud is the part of it that the views show (shown_part.h): nothing else matters.
-// Cost: three drawings of the cloud a view and two a round, a k-d tree over the sure ones, and some 60 bytes
-// a Gaussian.
+// Cost: five drawings of the cloud a view, a k-d tree over the sure ones, and some 60 bytes a Gaussian.
 #pragma once
 
 #include <cstdint>

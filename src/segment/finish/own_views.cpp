@@ -75,6 +75,16 @@ Camera fine_enough(const Camera& camera, const ObjectExtent& object, const OwnVi
                        static_cast<int>(std::min(wanted_px, static_cast<float>(camera.width_px)))));
 }
 
+void add_error(const OwnView& view, const Image<glm::vec3>& alone, PictureError* error) {
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    if (!view.valid.pixels()[i]) continue;
+    const bool inside = view.inside.pixels()[i] != 0;
+    const glm::vec3 d = alone.pixels()[i] - (inside ? view.colour.pixels()[i] : glm::vec3(0));
+    error->squares += static_cast<double>(glm::dot(d, d)) / 3;
+    error->inside_px += inside;
+  }
+}
+
 }  // namespace
 
 OwnView own_view(const Drawer& scene, const GaussianCloud& object, std::span<const std::uint8_t> labels,
@@ -86,9 +96,9 @@ OwnView own_view(const Drawer& scene, const GaussianCloud& object, std::span<con
   RasterOptions raster;
   raster.roi = view.rect;
   view.colour = scene.draw(camera, raster, job).colour;
-  raster.colour = false;
   raster.depth = true;
   const RasterOutput alone = rasterize(object, camera, raster, job);
+  raster.colour = false;
   raster.labels = labels;
   RasterOutput within = scene.draw(camera, raster, job);
   view.inside = view.valid = Mask(view.rect.width(), view.rect.height());
@@ -107,27 +117,21 @@ OwnView own_view(const Drawer& scene, const GaussianCloud& object, std::span<con
     either += alpha > kSolid || seen > kLabelled;
   }
   view.depth = std::move(within.expected_depth);
+  add_error(view, alone.colour, &view.error);
   view.agreement = either ? static_cast<double>(both) / static_cast<double>(either) : 0;
   return view;
 }
 
-double own_picture_error(std::span<const OwnView> views, const GaussianCloud& object,
-                         std::span<const std::uint8_t> kept, const Job& job) {
-  double squares = 0, inside_px = 0;
+PictureError own_picture_error(std::span<const OwnView> views, const GaussianCloud& object,
+                               std::span<const std::uint8_t> kept, const Job& job) {
+  PictureError error;
   for (const OwnView& view : views) {
     RasterOptions raster;
     raster.roi = view.rect;
     raster.shown = kept;
-    const Image<glm::vec3> alone = rasterize(object, view.camera, raster, job).colour;
-    for (std::size_t i = 0; i < alone.size(); ++i) {
-      if (!view.valid.pixels()[i]) continue;
-      const bool inside = view.inside.pixels()[i] != 0;
-      const glm::vec3 d = alone.pixels()[i] - (inside ? view.colour.pixels()[i] : glm::vec3(0));
-      squares += static_cast<double>(glm::dot(d, d)) / 3;
-      inside_px += inside;
-    }
+    add_error(view, rasterize(object, view.camera, raster, job).colour, &error);
   }
-  return inside_px > 0 ? squares / inside_px : 0;
+  return error;
 }
 
 std::vector<Camera> own_cameras(const GaussianCloud& cloud, std::span<const std::uint8_t> labels,

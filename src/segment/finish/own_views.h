@@ -24,6 +24,13 @@
 
 namespace splatcut {
 
+// Of the object drawn alone on black, per channel: against the scene's picture inside, against black outside.
+struct PictureError {
+  double squares = 0, inside_px = 0;
+
+  double mean() const { return inside_px > 0 ? squares / inside_px : 0; }  // per channel and pixel inside
+};
+
 struct OwnView {
   Camera camera;
   PixelRect rect;            // of the camera's picture; images below have its size
@@ -32,16 +39,16 @@ struct OwnView {
   Image<float> depth;        // of the scene
   double agreement = 0;      // IoU of the object alone and of the labels within the scene, at valid pixels
   std::size_t shown_px = 0;  // that show the object within the scene
+  PictureError error;        // of the object as it is
 };
 
 // The rectangle is empty where no labelled Gaussian is in view. object: the labelled Gaussians alone.
 OwnView own_view(const Drawer& scene, const GaussianCloud& object, std::span<const std::uint8_t> labels,
                  const Camera& camera, const Job& job);
 
-// Mean squared error of the object drawn alone on black, per channel and pixel inside: against the scene's
-// picture inside, against black outside. kept: per Gaussian of the object, 0 = not drawn.
-double own_picture_error(std::span<const OwnView> views, const GaussianCloud& object,
-                         std::span<const std::uint8_t> kept, const Job& job);
+// Of all views. kept: per Gaussian of the object, 0 = not drawn.
+PictureError own_picture_error(std::span<const OwnView> views, const GaussianCloud& object,
+                               std::span<const std::uint8_t> kept, const Job& job);
 
 struct OwnViewOptions {
   int views = 12;
