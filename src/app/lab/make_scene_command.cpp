@@ -24,7 +24,7 @@ struct MakeSceneArguments {
 void run_make_scene(const MakeSceneArguments& args, const CommonOptions& common) {
   refuse_existing(args.output, args.overwrite);
   const Job job = console_job(common.quiet);
-  const LabelledScene made = make_still_life(args.options);
+  const LabelledScene made = make_still_life(args.options, job);
   if (job.cancelled()) throw Error("splatcut-lab make-scene", "cancelled, nothing was written");
   OutputFolder folder(args.output, args.overwrite);
   write_still_life(folder, made, args.name, args.format);

@@ -65,10 +65,12 @@ void put_highlight(GaussianCloud& cloud, std::size_t g, const glm::vec3& mirror,
   }
 }
 
-void put_patch(Writer& out, const Model& model, std::size_t index, std::size_t n, std::uint64_t seed) {
+void put_patch(Writer& out, const Model& model, std::size_t index, std::size_t n, std::uint64_t seed,
+               const Job& job) {
   const Patch& patch = model.patches[index];
   CounterRng rng(seed, kAppearanceStream + index);
-  for (const SurfaceSample& s : sample_patch(patch.shape, n, seed, index)) {
+  for (const SurfaceSample& s : sample_patch(patch.shape, n, seed, index, job)) {
+    if (job.cancelled()) return;
     const Material m = patch.material(s);
     const Lit light = lit(model, s, m, patch.label);
     const glm::quat rotation = glm::quat_cast(glm::mat3(s.tangent_u, s.tangent_v, s.normal));
@@ -196,7 +198,7 @@ void keep_rows(LabelledScene& scene, const std::vector<std::uint8_t>& keep) {
 }
 
 // 1 for what is worth half a pixel in all cameras together, half as wide.
-std::vector<std::uint8_t> seen(const LabelledScene& scene) {
+std::vector<std::uint8_t> seen(const LabelledScene& scene, const Job& job) {
   constexpr double kLeastPx = 0.5;
   PlaneSums sums(scene.cloud.size(), 1);
   for (const Camera& camera : scene.cameras) {
@@ -206,7 +208,7 @@ std::vector<std::uint8_t> seen(const LabelledScene& scene) {
     raster.colour = false;
     raster.sum_planes = one;
     raster.plane_sums = &sums;
-    rasterize(scene.cloud, small, raster);
+    rasterize(scene.cloud, small, raster, job);
   }
   std::vector<std::uint8_t> seen(scene.cloud.size());
   for (std::size_t g = 0; g < seen.size(); ++g) seen[g] = sums.at(g, 0) >= kLeastPx;
@@ -260,7 +262,7 @@ void check(const StillLifeOptions& options) {
 
 }  // namespace
 
-LabelledScene make_still_life(const StillLifeOptions& options) {
+LabelledScene make_still_life(const StillLifeOptions& options, const Job& job) {
   check(options);
   Model model = still_life_model(options);
   const std::uint8_t absent = options.without.empty() ? 0 : label_of(model.label_name, options.without);
@@ -276,7 +278,11 @@ LabelledScene make_still_life(const StillLifeOptions& options) {
   const std::vector<std::size_t> counts =
       patch_counts(model, options.gaussians - floaters - straddling - interior - skirts);
   Writer out{scene};
-  for (std::size_t i = 0; i < counts.size(); ++i) put_patch(out, model, i, counts[i], options.seed);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    job.progress("making surfaces", static_cast<double>(i) / static_cast<double>(counts.size()));
+    put_patch(out, model, i, counts[i], options.seed, job);
+    if (job.cancelled()) return scene;
+  }
   scene.own.assign(options.gaussians, 0);
   std::fill_n(scene.own.begin(), out.next, 1);
   put_floaters(out, floaters, options.seed);
@@ -284,13 +290,14 @@ LabelledScene make_still_life(const StillLifeOptions& options) {
   put_interior(out, model, interior, options.seed);
   put_skirts(out, model, skirts, options.seed);
   shuffle_rows(scene, options.seed);
+  if (job.cancelled()) return scene;
   scene.cameras = circle_of_cameras();
   if (absent != 0) {
     std::vector<std::uint8_t> keep;
     for (const std::uint8_t label : scene.label) keep.push_back(label != absent);
     keep_rows(scene, keep);
   }
-  if (options.hidden_missing) keep_rows(scene, seen(scene));
+  if (options.hidden_missing) keep_rows(scene, seen(scene, job));
   scene.seeds = seed_clicks(scene);
   return scene;
 }

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "core/job.h"
 #include "scene/camera/camera.h"
 #include "scene/cloud/gaussian_cloud.h"
 
@@ -53,6 +54,7 @@ struct LabelledScene {
   std::vector<SeedClick> seeds;  // one per object that some camera sees; none for the background
 };
 
-LabelledScene make_still_life(const StillLifeOptions& options);
+// Cancelled: unspecified.
+LabelledScene make_still_life(const StillLifeOptions& options, const Job& job = {});
 
 }  // namespace splatcut

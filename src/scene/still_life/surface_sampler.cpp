@@ -112,7 +112,7 @@ float patch_area(const PatchShape& shape) {
 }
 
 std::vector<SurfaceSample> sample_patch(const PatchShape& shape, std::size_t n, std::uint64_t seed,
-                                        std::uint64_t stream) {
+                                        std::uint64_t stream, const Job& job) {
   std::vector<SurfaceSample> samples(n);
   if (n == 0) return samples;
   const AreaTable table = area_table(shape);
@@ -120,7 +120,7 @@ std::vector<SurfaceSample> sample_patch(const PatchShape& shape, std::size_t n, 
   const float root = std::sqrt(shape.stretch), cell = 1.0f / std::sqrt(static_cast<float>(n));
   CounterRng rng(seed, stream);
   const double shift = rng.unit();
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < n && !job.cancelled(); ++k) {
     SurfaceSample& s = samples[k];
     // k/n along v, k phi along u; the jitter is the same length in both.
     const double along = (static_cast<double>(k) + 0.5) / static_cast<double>(n);

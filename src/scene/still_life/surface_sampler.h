@@ -18,6 +18,8 @@
 #include <span>
 #include <vector>
 
+#include "core/job.h"
+
 namespace splatcut {
 
 inline constexpr float kTau = 6.28318531f;  // a whole turn
@@ -43,9 +45,9 @@ struct PatchShape {
 // Surface area in square scene units, by the grid.
 float patch_area(const PatchShape& shape);
 
-// n samples; `stream` names the patch's own random numbers.
+// n samples; `stream` names the patch's own random numbers. Cancelled: unspecified.
 std::vector<SurfaceSample> sample_patch(const PatchShape& shape, std::size_t n, std::uint64_t seed,
-                                        std::uint64_t stream);
+                                        std::uint64_t stream, const Job& job = {});
 
 // Splits `total` in proportion to the weights (>= 0, at least one > 0 where total > 0), largest
 // remainder first: the parts add up to total exactly.
