@@ -8,7 +8,8 @@
 //      that was hit, and a Gaussian. With masks, the box of what they show, twice as large.
 //   2. After each stroke, and again after the cut: while what is labelled touches the cell's side, or a
 //      stroke on the object hits what lies outside, the next cell is twice as large, about both. A cell
-//      that holds most of the scene is the scene. A first answer is shown while it grows.
+//      that holds most of the scene is the scene. A first answer is shown while it grows. Other meanings of
+//      the first click, mostly one of which is the floor or a wall, make it grow when they are taken.
 // Strokes on the rest that hit nothing of the cell change nothing: there is no object there. Cuts from pixels
 // alone (the baselines) look at the whole scene.
 // The result is a function of scene, request and settings alone, kept steps or not, whatever was cut before,
