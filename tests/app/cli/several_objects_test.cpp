@@ -111,7 +111,7 @@ TEST_CASE("a choice in the seeds takes another meaning of the first click") {
   const auto labels = [&](const json& seeds, const std::string& file) {
     place.write("choice.json", seeds.dump());
     const Result result =
-        place.run(still_life().cut("--seeds choice.json --parts-only --overwrite -o chosen"));
+        place.run(still_life().cut("--seeds choice.json --parts-only --write labels --overwrite -o chosen"));
     REQUIRE_MESSAGE(result.code == 0, result.err);
     return place.text("chosen/" + file);
   };
@@ -136,10 +136,10 @@ TEST_CASE("seeds come through a pipe, too, of one object or several") {
   for (const json& seeds : {one, several}) {
     place.write("seeds.json", seeds.dump());
     place.write("piped.sh", "cat seeds.json | " + splatcut_program() + " " +
-                                still_life().cut("--seeds /dev/stdin --parts-only --overwrite -o piped"));
+                                still_life().cut("--seeds /dev/stdin --parts-only --write labels --overwrite -o piped"));
     const Result piped = place.run_program("/bin/sh", "piped.sh");
     REQUIRE_MESSAGE(piped.code == 0, piped.err);
-    REQUIRE(place.run(still_life().cut("--seeds seeds.json --parts-only --overwrite -o from_file")).code ==
+    REQUIRE(place.run(still_life().cut("--seeds seeds.json --parts-only --write labels --overwrite -o from_file")).code ==
             0);
     CHECK(place.text("piped/labels.u8") == place.text("from_file/labels.u8"));
   }
