@@ -135,12 +135,14 @@ TEST_CASE("seeds come through a pipe, too, of one object or several") {
   several["objects"][0]["name"] = "apple";
   for (const json& seeds : {one, several}) {
     place.write("seeds.json", seeds.dump());
-    place.write("piped.sh", "cat seeds.json | " + splatcut_program() + " " +
-                                still_life().cut("--seeds /dev/stdin --parts-only --write labels --overwrite -o piped"));
+    place.write("piped.sh",
+                "cat seeds.json | " + splatcut_program() + " " +
+                    still_life().cut("--seeds /dev/stdin --parts-only --write labels --overwrite -o piped"));
     const Result piped = place.run_program("/bin/sh", "piped.sh");
     REQUIRE_MESSAGE(piped.code == 0, piped.err);
-    REQUIRE(place.run(still_life().cut("--seeds seeds.json --parts-only --write labels --overwrite -o from_file")).code ==
-            0);
+    REQUIRE(
+        place.run(still_life().cut("--seeds seeds.json --parts-only --write labels --overwrite -o from_file"))
+            .code == 0);
     CHECK(place.text("piped/labels.u8") == place.text("from_file/labels.u8"));
   }
 }
