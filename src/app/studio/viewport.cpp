@@ -94,7 +94,7 @@ bool Viewport::update(double seconds, const Flight& flight) {
                        !same_camera(resized(*requested_camera_, camera.width_px, camera.height_px), camera);
   if (flies || travels || moved || (differs && ws_.tools.moves_camera())) last_move_s_ = ws_.clock_s;
   request_styles();
-  take_picture();
+  take_picture();  // first: no picture is shown in the frame that asked for it
   request_picture();
   return flies || travels;
 }

@@ -24,7 +24,7 @@
 
 namespace splatcut {
 
-// Of the object drawn alone on black, per channel: against the scene's picture inside, against black outside.
+// Squared error of the object drawn alone on black, to the scene's picture inside and to black outside.
 struct PictureError {
   double squares = 0, inside_px = 0;
 
@@ -46,7 +46,7 @@ struct OwnView {
 OwnView own_view(const Drawer& scene, const GaussianCloud& object, std::span<const std::uint8_t> labels,
                  const Camera& camera, const Job& job);
 
-// Of all views. kept: per Gaussian of the object, 0 = not drawn.
+// The error summed over all views. kept: per Gaussian of the object, 0 = not drawn.
 PictureError own_picture_error(std::span<const OwnView> views, const GaussianCloud& object,
                                std::span<const std::uint8_t> kept, const Job& job);
 
