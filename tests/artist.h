@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/cli/work_cut.h"
@@ -65,7 +66,8 @@ inline std::vector<ClickedPlace> with_captures(std::vector<ClickedPlace> places,
 // The program, standing where the place is clicked.
 class Artist {
  public:
-  explicit Artist(const ClickedPlace& place) : app(kArtistWidth, kArtistHeight), place_(place) {
+  explicit Artist(const ClickedPlace& place, ApplicationOptions options = with_kept_scenes())
+      : app(kArtistWidth, kArtistHeight, 1, std::move(options)), place_(place) {
     app.interface_state().hint_wanted = false;
     app.open(place.scene);
     REQUIRE(app.settle());

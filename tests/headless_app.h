@@ -33,9 +33,17 @@ inline const std::filesystem::path kSmallSample =
     project_folder() + "/tests/data/small_sample/small_sample.compressed.ply";
 
 // Scenes are prepared once for all tests and kept where ctest says; run by hand, and with other options,
-// anew.
+// anew. Nothing is made before it is asked for: most tests would only wait for it.
 inline ApplicationOptions with_kept_scenes(ApplicationOptions options = {}) {
+  options.studio.works_ahead = false;
   if (const char* folder = std::getenv("SPLATCUT_TEST_CACHE")) options.studio.cache.folder = folder;
+  return options;
+}
+
+// As the program works when it is shipped.
+inline ApplicationOptions working_ahead() {
+  ApplicationOptions options = with_kept_scenes();
+  options.studio.works_ahead = true;
   return options;
 }
 

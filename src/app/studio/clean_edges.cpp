@@ -10,7 +10,7 @@ void CleanEdges::update() {
   const Flags& labels = viewport_.active_labels();
   if (std::exchange(seen_, labels) != labels || !ws_.tasks.idle()) seen_since_s_ = ws_.clock_s;
   const bool alone = shows_clean_edges(ws_.view), calm = ws_.clock_s - seen_since_s_ > kCalmSeconds;
-  const bool wanted = alone || (calm && ws_.view.clean_edges);
+  const bool wanted = alone || (calm && ws_.view.clean_edges && ws_.options.works_ahead);
   if (!wanted || !labels || !ws_.tasks.idle() || settled_ == now()) return;
   settled_ = now();
   if (count_flags(*labels) > 0 && !ws_.clean->known(labels, ws_.document().up_world)) start();

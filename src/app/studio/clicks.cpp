@@ -284,6 +284,7 @@ void Clicks::update() {
   leave_what_came();
   if (std::exchange(cuts_done_, cuts_.done()) != cuts_.done()) note_sizes();
   refresh_hover();
+  if (!ws_.options.works_ahead) return;
   make_ready();
   cut_sizes_ahead();
 }

@@ -27,6 +27,7 @@ struct StudioOptions {
   bool inline_tasks = false;           // true: tasks run inside apply(), for tests
   std::filesystem::path state_folder;  // folder for autosaves; empty: none are written
   PreparedCache cache;                 // cache of what was prepared for clicks
+  bool works_ahead = true;             // false: nothing is made before it is asked for, for tests
 };
 
 struct Workspace {

@@ -216,16 +216,17 @@ TEST_CASE("batch: shards, workers and kills at any moment change nothing of what
   const Workplace& place = still_life().place;
   if (!place.exists("made2")) REQUIRE(place.run("make-scene other -o made2 --gaussians 8000").code == 0);
   std::vector<json> jobs;
-  for (const char* thing : {"apple", "mug", "plant", "books"}) {
-    jobs.push_back(job_on(thing, {{"write", {"object", "labels"}}}));
-    jobs.push_back(job_on(thing, {{"name", std::string("other ") + thing},
-                                  {"scene", (place / "made2/other.ply").string()},
-                                  {"write", "labels"}}));
+  for (const std::string thing : {"apple", "mug", "plant", "books"}) {
+    const bool first = thing == "apple";
+    jobs.push_back(job_on(thing, {{"write", first ? json{"object", "labels"} : json{"labels"}}}));
+    jobs.push_back(job_on(
+        thing,
+        {{"name", "other " + thing}, {"scene", (place / "made2/other.ply").string()}, {"write", "labels"}}));
   }
   place.write("list.jsonl", lines_of(jobs));
   REQUIRE(place.run("batch list.jsonl -o whole").code == 0);
   const auto whole = bytes_below("whole");
-  CHECK(whole.size() == 4 * 4 + 4 * 3 + 2);
+  CHECK(whole.size() == 8 * 3 + 1 + 2);
 
   REQUIRE(place.run("batch list.jsonl -o workers --jobs 3").code == 0);
   CHECK(bytes_below("workers") == whole);

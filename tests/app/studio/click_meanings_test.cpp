@@ -221,17 +221,16 @@ TEST_CASE("clicks: a step of the size shows its outline at once and is computed 
 
 TEST_CASE(
     "clicks: the sizes next to the one taken are cut while nothing is done, and are there when asked for") {
-  Artist artist(on_sample("mug", kOnMug));
+  Artist artist(on_sample("mug", kOnMug), working_ahead());
   artist.click_on_it();
   const CutJobs& cuts = artist.studio().cuts();
   REQUIRE(artist.studio().clicks().known_sizes()->size >= 3);
-  for (const int step :
-       {key::kPageDown, key::kPageUp, key::kPageUp, key::kPageDown, key::kPageDown, key::kPageDown}) {
+  for (const int step : {key::kPageDown, key::kPageUp, key::kPageUp, key::kPageDown}) {
     CAPTURE(step);
     const std::uint64_t done = cuts.done();
     const Flags before = artist.object().cut;
     artist.app.key(step);
-    CHECK(cuts.done() == done + 1);  // before anything else is done
+    REQUIRE(cuts.done() == done + 1);  // before anything else is done
     CHECK(cuts.cutting() == 0);
     CHECK(*artist.object().cut != *before);
     CHECK(artist.studio().clicks().known_sizes()->size == artist.studio().clicks().size_wanted());
@@ -250,7 +249,7 @@ TEST_CASE(
 }
 
 TEST_CASE("clicks: what is cut ahead makes way for a click, which comes out as if it had been alone") {
-  Artist artist(on_sample("mug", kOnMug));
+  Artist artist(on_sample("mug", kOnMug), working_ahead());
   const auto cuts_ahead = [&] {
     const TaskThread::Progress progress = artist.studio().progress();
     return progress.kind == TaskKind::kAhead && !progress.stage.empty();

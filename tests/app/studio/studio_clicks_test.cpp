@@ -197,7 +197,7 @@ TEST_CASE("clicks: hovering outlines what the click then changes, corrections in
 }
 
 TEST_CASE("clicks: what the middle of a still picture shows is prepared before the first click") {
-  HeadlessApp app(kArtistWidth, kArtistHeight);
+  HeadlessApp app(kArtistWidth, kArtistHeight, 1, working_ahead());
   Studio& studio = app.studio();
   const auto take = [&](Tool tool) {
     ViewState with = studio.view();

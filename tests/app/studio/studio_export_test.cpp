@@ -331,15 +331,17 @@ TEST_CASE("hands: alone, the object is drawn with clean edges, beside itself as 
 }
 
 TEST_CASE("hands: edges are made clean beforehand while nothing else is to do, and again for other labels") {
-  Hands hands = hands_on_sample();
+  Hands hands(true, working_ahead(), kSample);
   const auto wait = [&] { hands.app.frames(120); };  // two seconds
   const auto isolated = [&] {
     hands.studio().run(Action::kIsolate);
     REQUIRE(hands.app.settle());
     return hands.studio().viewport().clean(0);
   };
+  REQUIRE_FALSE(hands.studio().clean_edges());
   wait();
   REQUIRE(hands.app.settle());
+  CHECK(hands.studio().clean_edges());  // before anybody asks
   const auto first = isolated();
   REQUIRE(first);
   CHECK(first->gaussian == cleaned_without_window(hands).gaussian);
