@@ -1,12 +1,10 @@
 // Several scenes in one window: the same as their merge, with labels that go where their Gaussians go.
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <fstream>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <limits>
 
 #include "app/cli/work_cut.h"
 #include "app/document/carried_document.h"
@@ -14,23 +12,12 @@
 #include "hands.h"
 #include "opened_sample.h"
 #include "scene/formats/merged_scene.h"
-#include "synthetic_cloud.h"
+#include "several_scenes.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
 
 namespace {
-
-constexpr std::size_t kAdded = 300;
-
-std::filesystem::path small_scene(const ScratchFolder& folder, const std::string& name = "small.ply",
-                                  unsigned seed = 1) {
-  Scene scene;
-  scene.cloud = random_cloud(kAdded, seed, 1);
-  scene.file_rows = scene.cloud.size();
-  save_scene(folder / name, scene, {}, SceneFormat::kPly);
-  return folder / name;
-}
 
 std::vector<std::uint8_t> by_row(const Studio& studio, std::span<const std::uint8_t> flags) {
   const Scene& scene = *studio.scene()->scene;
@@ -52,26 +39,6 @@ bool same_cloud(const GaussianCloud& a, const GaussianCloud& b) {
   return a.position == b.position && a.scale == b.scale && a.rotation == b.rotation &&
          a.opacity == b.opacity && a.f_dc == b.f_dc && a.sh_rest == b.sh_rest && a.file_row == b.file_row &&
          a.near_plane == b.near_plane;
-}
-
-void add(Hands& hands, const std::filesystem::path& path) {
-  hands.studio().apply(AddScene{path});
-  REQUIRE(hands.app.settle());
-}
-
-const SceneSource& last_file(Hands& hands) {
-  return hands.studio().scene()->files.back();
-}
-
-// Height of the box's lowest corner along up, once it is moved.
-float lowest_corner(const Box& box, const Similarity& to, const glm::vec3& up) {
-  float lowest = std::numeric_limits<float>::max();
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 at((corner & 1) ? box.min.x : box.max.x, (corner & 2) ? box.min.y : box.max.y,
-                       (corner & 4) ? box.min.z : box.max.z);
-    lowest = std::min(lowest, glm::dot(moved(at, to), glm::normalize(up)));
-  }
-  return lowest;
 }
 
 }  // namespace
@@ -236,78 +203,6 @@ TEST_CASE("several scenes: a placed file stands where the numbers say, what was 
   CHECK(differ <= count_flags(apple) / 100);
 }
 
-TEST_CASE("several scenes: an added file comes to stand upright on what one looks at") {
-  const ScratchFolder folder("several_onto");
-  Hands hands;
-  Studio& studio = hands.studio();
-  const auto a = small_scene(folder, "a.ply", 1), b = small_scene(folder, "b.ply", 2);
-  const glm::vec3 seen = studio.viewport().looked_at_world(), beside = seen + glm::vec3(1, 0, 0.5f);
-  const Camera camera = studio.viewport().pane_camera();
-  const float free_px = static_cast<float>(camera.height_px) - studio.viewport().covered_bottom_px();
-  const glm::vec2 middle(0.5f * static_cast<float>(camera.width_px), 0.5f * free_px);
-  CHECK(glm::distance(camera.pixel_from_camera(camera.camera_from_world(seen)), middle) < 0.5f);
-  const auto stands_on = [&](const SceneSource& file, const glm::vec3& point) {
-    const glm::vec3 up = studio.document().up_world;
-    return file.place == stood_on(file, stood_upright(file, {}, up), point, up);
-  };
-  studio.apply(AddScene{a, {}, seen});
-  studio.apply(AddScene{b, {}, beside});  // while the first is read
-  REQUIRE(hands.app.settle());
-  REQUIRE(studio.scene()->files.size() == 3);
-  const SceneSource first = studio.scene()->files[1], second = studio.scene()->files[2];
-  CHECK(stands_on(first, seen));
-  CHECK(stands_on(second, beside));
-  studio.apply(PlaceScene{first.id, {}});
-  REQUIRE(hands.app.settle());
-  CHECK(studio.scene()->files[1].place == ScenePlace{});
-  CHECK(studio.scene()->files[2].place == second.place);
-  studio.apply(Undo{});
-  REQUIRE(hands.app.settle());
-  CHECK(studio.scene()->files[1].place == first.place);
-}
-
-TEST_CASE(
-    "several scenes: a file is brought onto the surface in the middle of the free picture, or not at all") {
-  const ScratchFolder folder("several_here");
-  Hands hands(false);
-  Studio& studio = hands.studio();
-  add(hands, small_scene(folder));
-  hands.app.click(hands.app.screen_of(kOnApple));  // for its thumbnails
-  REQUIRE(hands.app.settle());
-  const std::uint32_t id = last_file(hands).id;
-  REQUIRE(studio.viewport().covered_bottom_px() > 0);
-  // The view turns and is shifted: its pivot hangs in the air or lies under the table.
-  hands.app.drag({{300, 200}, {300, 260}});
-  hands.app.drag({{300, 260}, {300, 190}}, PointerButton::kRight);
-  REQUIRE(hands.app.settle());
-  const auto below = [&] {  // what is under the middle of the free part, but for the file itself
-    const Camera camera = studio.viewport().pane_camera();
-    std::vector<std::uint8_t> others = gaussians_of(*studio.scene(), id);
-    for (std::uint8_t& g : others) g = !g;
-    const glm::vec2 free(camera.width_px,
-                         static_cast<float>(camera.height_px) - studio.viewport().covered_bottom_px());
-    const auto hit = studio.viewport().hit_in(camera, 0.5f * free, make_flags(others));
-    REQUIRE(hit);
-    return hit->position_world;
-  };
-  REQUIRE(glm::distance(below(), studio.camera().pivot_world()) > 0.01f * studio.camera().scene_size());
-  const glm::vec3 up = studio.document().up_world;
-  for (int again = 0; again < 2; ++again) {  // it does not climb upon itself
-    const glm::vec3 place = below();         // without thumbnails the second time
-    studio.apply(BringHere{id});
-    REQUIRE(hands.app.settle());
-    CHECK(glm::distance(foot_world(last_file(hands), up), place) < 1e-3f * studio.camera().scene_size());
-  }
-  const ScenePlace stands = last_file(hands).place;
-  const glm::vec3 outside = 100 * studio.camera().scene_size() * glm::vec3(1, 0, 0);
-  studio.apply(GoToCamera{look_at(outside, 2.0f * outside, up, 0.9f, 640, 480)});  // into the sky
-  REQUIRE(hands.app.settle());
-  studio.apply(BringHere{id});
-  REQUIRE(hands.app.settle());
-  CHECK(hands.said().find("Nothing to stand on") != std::string::npos);
-  CHECK(last_file(hands).place == stands);
-}
-
 TEST_CASE(
     "several scenes: those opened together stand upright on what the first view shows, as one added later") {
   const ScratchFolder folder("several_at_once");
@@ -412,89 +307,6 @@ TEST_CASE(
   REQUIRE(hands.app.settle());
   CHECK(hands.studio().scene()->files.front().path == a);
   CHECK(hands.said().find("my.splatcut.json: is saved work, not a scene") != std::string::npos);
-}
-
-TEST_CASE("several scenes: beside a thing that stands alone others stand on its ground, and all are seen") {
-  const ScratchFolder folder("several_alone");
-  const auto thing = [&](const char* name, const glm::vec3& size) {
-    Scene scene;
-    scene.cloud = random_cloud(kAdded, 7, 1);
-    for (glm::vec3& p : scene.cloud.position) p = size * glm::normalize(p);
-    scene.file_rows = scene.cloud.size();
-    scene.up = glm::vec3(0, -1, 0);
-    save_scene(folder / name, scene, {}, SceneFormat::kPly);
-    return folder / name;
-  };
-  Hands hands(false);
-  Studio& studio = hands.studio();
-  studio.apply(
-      OpenScene{thing("a.ply", {1, 2, 1}), {}, {thing("b.ply", {2, 1, 1}), thing("c.ply", {1, 1, 3})}});
-  REQUIRE(hands.app.settle());
-  const std::vector<SceneSource> files = studio.scene()->files;
-  REQUIRE(files.size() == 3);
-  const glm::vec3 up = studio.document().up_world;
-  const Camera camera = studio.viewport().pane_camera();
-  const glm::vec3 row = glm::row(camera.camera_from_world_rotation, 0);
-  float last = glm::dot(foot_world(files[0], up), row) + half_extent(files[0], row);
-  for (std::size_t i = 1; i < files.size(); ++i) {
-    CHECK(std::abs(glm::dot(foot_world(files[i], up) - foot_world(files[0], up), up)) < 0.02f);
-    CHECK(glm::dot(foot_world(files[i], up), row) - half_extent(files[i], row) > last);
-    last = glm::dot(foot_world(files[i], up), row) + half_extent(files[i], row);
-  }
-  for (const SceneSource& file : files) {
-    const glm::vec2 at = camera.pixel_from_camera(camera.camera_from_world(foot_world(file, up)));
-    CHECK(at.x > 0);
-    CHECK(at.x < static_cast<float>(camera.width_px));
-    const float free_px = static_cast<float>(camera.height_px) - studio.viewport().kept_bottom_px();
-    CHECK(at.y < free_px);  // above the room of the thumbnails
-  }
-
-  // A view that was moved while the others were read stays.
-  Hands moved_hands(false);
-  Studio& moved_studio = moved_hands.studio();
-  const std::size_t before = moved_studio.scene()->files.size();
-  REQUIRE(before == 1);
-  moved_studio.apply(OpenScene{files[0].path, {}, {files[1].path, files[2].path}});
-  for (int frame = 0; frame < 10000 && moved_studio.scene()->files[0].path != files[0].path; ++frame)
-    moved_hands.app.frames(1);
-  REQUIRE(moved_studio.scene()->files.size() == 1);
-  moved_studio.camera().orbit({80, 10});
-  const CameraPose pose = moved_studio.camera().goal();
-  REQUIRE(moved_hands.app.settle());
-  CHECK(moved_studio.scene()->files.size() == 3);
-  CHECK(moved_studio.camera().goal() == pose);
-}
-
-TEST_CASE("several scenes: F frames what is placed, and the object that was clicked since") {
-  const ScratchFolder folder("several_framed");
-  Hands hands(false);
-  Studio& studio = hands.studio();
-  add(hands, small_scene(folder));
-  hands.app.frames(3);  // its handles show
-  const float size = studio.camera().scene_size();
-  studio.apply(PlaceScene{last_file(hands).id, {{0.4f * size, 0, 0}, {}, 0.1f}});
-  REQUIRE(hands.app.settle());
-  const auto in_middle = [&](const glm::vec3& world) {
-    const Camera camera = studio.viewport().pane_camera();
-    const glm::vec2 middle(0.5f * static_cast<float>(camera.width_px),
-                           0.5f * static_cast<float>(camera.height_px));
-    return glm::distance(camera.pixel_from_camera(camera.camera_from_world(world)), middle) <
-           0.2f * static_cast<float>(camera.height_px);
-  };
-  const SceneSource& file = last_file(hands);
-  const auto middle_of_file = [&] { return moved(file.solid.centre(), similarity_of(file)); };
-  REQUIRE_FALSE(in_middle(middle_of_file()));
-  hands.app.key('F');
-  REQUIRE(hands.app.settle());
-  CHECK(in_middle(middle_of_file()));
-
-  studio.apply(GoToCamera{studio.scene()->views().reference});
-  REQUIRE(hands.app.settle());
-  hands.app.click(hands.app.screen_of(kOnApple));
-  REQUIRE(hands.app.settle());
-  hands.app.key('F');
-  REQUIRE(hands.app.settle());
-  CHECK_FALSE(in_middle(middle_of_file()));
 }
 
 TEST_CASE("several scenes: asked for in haste, cancelled, refused") {
@@ -610,190 +422,6 @@ TEST_CASE("several scenes: what was saved is known apart from what was done afte
     CHECK(studio.unsaved());
     studio.apply(NewObject{});
   }
-}
-
-TEST_CASE("several scenes: a file stood upright stands on its point, whichever way up it was") {
-  SceneSource file;
-  file.bounds = {{-1, -2, -3}, {2, 1, 4}};
-  const ScenePlace placed{{5, 6, 7}, {10, 20, 30}, 1.5f};
-  for (const glm::vec3& own :
-       {glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(1, 0, 0), glm::vec3(0.3f, -0.5f, 0.8f)})
-    for (const glm::vec3& up : {glm::vec3(0, -1, 0), glm::vec3(0, 0, 2), glm::vec3(0.6f, 0.1f, -0.2f)}) {
-      auto views = std::make_shared<FileViews>();
-      views->up_world = own;
-      file.views = views;
-      const glm::vec3 point(0.5f, -4, 9);
-      file.place = stood_on(file, stood_upright(file, placed, up), point, up);
-      const Similarity to = similarity_of(file);
-      CHECK(glm::dot(glm::normalize(to.rotation * own), glm::normalize(up)) > 0.9999f);
-      CHECK(file.place.scale == placed.scale);
-      const float lowest = lowest_corner(file.bounds, to, up) - glm::dot(point, glm::normalize(up));
-      CHECK(std::abs(lowest) < 1e-4f);
-    }
-}
-
-TEST_CASE("several scenes: where a file stands upright already, that is said, and why none is sure of it") {
-  const glm::vec3 up(0, -2, 0);
-  SceneSource file;
-  file.bounds = {{-1, -2, -3}, {2, 1, 4}};
-  const auto with_up = [&](const glm::vec3& own, bool guess) {
-    FileViews views;
-    views.up_world = own;
-    views.up_is_guess = guess;
-    file.views = std::make_shared<FileViews>(views);
-  };
-  with_up({0, 0, 3}, false);
-  CHECK(why_upright(file, {}, up).empty());
-  const ScenePlace upright = stood_upright(file, {}, up);
-  CHECK(why_upright(file, upright, up) == "It stands upright already");
-  with_up({0, -1, 0}, false);
-  CHECK(why_upright(file, {}, up) == "It stands upright already");
-  CHECK(why_upright(file, {{1, 2, 3}, {0, 40, 0}, 2}, up) == "It stands upright already");  // turned about up
-  CHECK(why_upright(file, {{}, {1, 0, 0}}, up).empty());
-  with_up({0, -1, 0}, true);
-  CHECK(why_upright(file, {}, up).starts_with("It stands upright already, as far as can be guessed"));
-}
-
-TEST_CASE("several scenes: the button that stands a file upright is greyed where it does") {
-  const ScratchFolder folder("several_upright");
-  HeadlessApp app(kSmallWidth, 1000);
-  opened(app);
-  Studio& studio = app.studio();
-  const auto file = small_scene(folder);
-  studio.apply(AddScene{file});
-  REQUIRE(app.settle());
-  const std::uint32_t id = studio.scene()->files.back().id;
-  studio.apply(PlaceScene{id, {{}, {30, 0, 10}}});
-  REQUIRE(app.settle());
-  app.interface_state().placing.file = id;
-  app.frames(3);
-  const auto press = [&] {
-    const UiRect at = app.button("Stand it upright");
-    REQUIRE(at.size().x > 0);
-    app.click(0.5f * (at.min + at.max));
-    REQUIRE(app.settle());
-  };
-  const std::size_t steps = studio.history().entries().size();
-  press();
-  const SceneSource placed = studio.scene()->files.back();
-  CHECK_FALSE(why_upright(placed, placed.place, studio.document().up_world).empty());
-  CHECK(studio.history().entries().size() == steps + 1);
-  press();
-  CHECK(studio.history().entries().size() == steps + 1);
-  // A scale is not cut off, and no number moves where the file becomes far too large.
-  app->interface().make_current();
-  const float begin = app.window("side/scroll").min.x + 64, end = app.button("Stand it upright").min.x - 4;
-  if (end > begin)  // else the button has a row of its own
-    CHECK(end - begin >= ImGui::CalcTextSize("0.2759 times").x + 2 * ImGui::GetStyle().FramePadding.x);
-  const glm::vec2 before = app.button("Fit").min;
-  REQUIRE(before.x > 0);
-  studio.apply(PlaceScene{id, {{}, {}, 300}});
-  REQUIRE(app.settle());
-  app.frames(3);
-  REQUIRE_FALSE(
-      misfit(studio.scene()->files.back(), studio.viewport().pane_camera(), studio.document().up_world)
-          .empty());
-  CHECK(app.button("Fit").min == before);
-}
-
-TEST_CASE("several scenes: the numbers of a file say where it goes before it is there") {
-  const ScratchFolder folder("several_going");
-  HeadlessApp app(kSmallWidth, 1000);
-  opened(app);
-  Studio& studio = app.studio();
-  studio.apply(AddScene{small_scene(folder)});
-  REQUIRE(app.settle());
-  const std::uint32_t id = studio.scene()->files.back().id;
-  app.interface_state().placing.file = id;
-  app.frames(3);
-  const ScenePlace there{{1, 2, 3}, {}, 0.5f};
-  studio.apply(PlaceScene{id, there});
-  app.frames(1);
-  REQUIRE(studio.loading());
-  CHECK(studio.scene()->files.back().place != there);
-  CHECK(app.interface_state().placing.place == there);  // what is typed now begins there
-  REQUIRE(app.settle());
-  CHECK(studio.scene()->files.back().place == there);
-}
-
-TEST_CASE("several scenes: scaled, a file stays on its foot") {
-  SceneSource file;
-  file.bounds = {{-1, -1, -1}, {1, 1, 1}};
-  file.solid = {{-1, -2, -3}, {2, 1, 4}};
-  const ScenePlace placed{{5, 6, 7}, {10, 20, 30}, 1.5f};
-  for (const glm::vec3& up : {glm::vec3(0, -1, 0), glm::vec3(0, 0, 2), glm::vec3(0.6f, 0.1f, -0.2f)})
-    for (const float scale : {0.1f, 1.5f, 20.0f}) {
-      file.place = placed;
-      const glm::vec3 foot = foot_world(file, up);
-      file.place = scaled_on_foot(file, placed, scale, up);
-      CHECK(file.place.scale == scale);
-      CHECK(file.place.turn_deg == placed.turn_deg);
-      CHECK(glm::distance(foot_world(file, up), foot) < 1e-4f);
-      const Similarity to = similarity_of(file);
-      const float lowest = lowest_corner(file.solid, to, up) - glm::dot(foot, glm::normalize(up));
-      CHECK(std::abs(lowest) < 1e-3f);
-    }
-}
-
-TEST_CASE("several scenes: a file far larger or smaller than what is looked at is told, and Fit mends it") {
-  const ScratchFolder folder("several_fit");
-  Hands hands(false);
-  Studio& studio = hands.studio();
-  Scene scene = load_scene(kSmallSample);
-  const GaussianCloud own = scene.cloud;
-  const auto scaled = [&](float scale, const std::string& name) {
-    for (std::size_t g = 0; g < own.size(); ++g) {
-      scene.cloud.position[g] = scale * own.position[g];
-      scene.cloud.scale[g] = scale * own.scale[g];
-    }
-    scene.rows_can_be_copied = false;
-    save_scene(folder / name, scene, {}, SceneFormat::kPly);
-    return folder / name;
-  };
-  const auto added = [&](const std::filesystem::path& path) {
-    studio.apply(AddScene{path, {}, studio.viewport().looked_at_world()});
-    REQUIRE(hands.app.settle());
-    return hands.said();
-  };
-  for (const auto& [scale, says] : {std::pair(30.0f, "smaller"), {0.01f, "larger"}, {200.0f, "inside"}}) {
-    CAPTURE(scale);
-    const std::string said = added(scaled(scale, fmt::format("a{}.ply", scale)));
-    CAPTURE(said);
-    const bool told = said.find(says) != std::string::npos || said.find("inside") != std::string::npos;
-    CHECK(told);
-    CHECK(said.find("Fit") != std::string::npos);
-    const Camera camera = studio.viewport().pane_camera();
-    const glm::vec3 up = studio.document().up_world, foot = foot_world(last_file(hands), up);
-    studio.apply(PlaceScene{last_file(hands).id, fitted(last_file(hands), camera, up)});
-    REQUIRE(hands.app.settle());
-    CHECK(share_of_picture(last_file(hands), camera, up) == doctest::Approx(0.5).epsilon(0.01));
-    CHECK(glm::distance(foot_world(last_file(hands), up), foot) < 1e-2f * studio.camera().scene_size());
-    CHECK(misfit(last_file(hands), camera, up).empty());
-    studio.apply(RemoveScene{last_file(hands).id});
-    REQUIRE(hands.app.settle());
-  }
-  CHECK(added(scaled(1, "a1.ply")).find("Fit") == std::string::npos);
-}
-
-TEST_CASE("several scenes: the box of an added file holds all of it but strays") {
-  const ScratchFolder folder("several_solid");
-  Hands hands(false);
-  Scene scene;
-  scene.cloud = random_cloud(4000, 3, 0);
-  scene.file_rows = scene.cloud.size();
-  std::ranges::fill(scene.cloud.opacity, 0.9f);
-  Box all{scene.cloud.position[0], scene.cloud.position[0]};
-  for (const glm::vec3& p : scene.cloud.position) {
-    all.min = glm::min(all.min, p);
-    all.max = glm::max(all.max, p);
-  }
-  for (std::size_t g = 0; g < 12; ++g)  // strays
-    scene.cloud.position[331 * g] = all.centre() + (3.0f + 0.7f * static_cast<float>(g)) * all.extent();
-  save_scene(folder / "strays.ply", scene, {}, SceneFormat::kPly);
-  add(hands, folder / "strays.ply");
-  const Box solid = last_file(hands).solid;
-  CHECK(glm::length(solid.extent() - all.extent()) < 0.05f * glm::length(all.extent()));
-  CHECK(glm::length(last_file(hands).bounds.extent()) < 0.95f * glm::length(solid.extent()));
 }
 
 TEST_CASE("several scenes: carried arrays against brute force") {
