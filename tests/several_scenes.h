@@ -13,7 +13,7 @@ namespace splatcut::testing {
 inline constexpr std::size_t kAdded = 300;
 
 inline std::filesystem::path small_scene(const ScratchFolder& folder, const std::string& name = "small.ply",
-                                  unsigned seed = 1) {
+                                         unsigned seed = 1) {
   Scene scene;
   scene.cloud = random_cloud(kAdded, seed, 1);
   scene.file_rows = scene.cloud.size();

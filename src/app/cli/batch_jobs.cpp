@@ -18,6 +18,7 @@ namespace {
 
 // "0,-1,-4" of a list of numbers.
 std::string word_of(const nlohmann::json& value, const std::string& where) {
+  if (value.is_string() && value.get_ref<const std::string&>().empty()) throw Error(where, "is empty");
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number() || value.is_object()) return json_text(value);
   const bool numbers = value.is_array() && !value.empty() &&

@@ -31,9 +31,9 @@ std::optional<std::string> camera_of(const json& entry, const std::string& where
   throw Error(where, "\"camera\" is neither a name nor a number");
 }
 
-// Names that become the same file, or that of the rest.
+// Names that become the same file, or that of the rest or of all objects together.
 void check_names(const std::vector<NamedSeeds>& objects, const std::string& where) {
-  std::vector<std::string> taken = {"rest"};
+  std::vector<std::string> taken = {"rest", "objects"};
   for (const NamedSeeds& object : objects) {
     const std::string file = file_name_of(object.name) + ".ply";
     if (std::ranges::find(taken, file_name_of(object.name)) != taken.end())

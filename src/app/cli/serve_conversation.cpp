@@ -336,7 +336,7 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
   refuse_cancelled(job);
   std::optional<MovedTo> to;
   if (placement != ExportPlacement{})
-    to = {similarity_of(placement, scene.cloud, keep, open.chosen.up_world, format.axes),
+    to = {similarity_of(placement, scene.cloud, labels, open.chosen.up_world, format.axes),
           placement.origin == ExportOrigin::kScene};
   const RestChanges filled = patch ? patch->changes : RestChanges();
   const std::size_t not_given_back = spare_copy(scene, format, to.has_value(), filled, &changes);

@@ -48,6 +48,7 @@ void watch_signals() {
       g_stop.request_stop();
     }).detach();
     std::signal(SIGBUS, on_bus_error);
+    std::signal(SIGXFSZ, SIG_IGN);  // what is written past a limit fails, and is told
     for (const int signal : kEndingSignals) {
       const auto before = std::signal(signal, on_ending_signal);
       if (signal == SIGHUP && before == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup

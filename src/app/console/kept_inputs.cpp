@@ -36,6 +36,11 @@ bool holds(const fs::path& folder, const fs::path& input) {
 }  // namespace
 
 void refuse_written_inputs(const fs::path& output, const std::vector<fs::path>& inputs) {
+  const fs::path part = fs::path(output) += ".splatcut.part";  // what AtomicFile writes first
+  for (const fs::path& input : inputs)
+    if (!input.empty() && same_file(part, input))
+      throw Error(input.string(), fmt::format("is read here, and {} is written through it", output.string()),
+                  "It would be lost: give it another name first");
   std::error_code failure;
   const fs::file_type there = fs::status(output, failure).type();
   if (there != fs::file_type::regular && there != fs::file_type::directory) return;

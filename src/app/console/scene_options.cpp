@@ -42,6 +42,11 @@ Scene SceneOptions::load(const std::filesystem::path& scene, const std::filesyst
     say(called, loaded.axes_note + ". --spz-axes takes others", quiet);
   }
   say(called, loaded.left_out, quiet);
+  if (loaded.dropped > 0)
+    say(called,
+        fmt::format("{} of its {} Gaussians are left out: not a number, without a rotation, or beyond 1e15",
+                    loaded.dropped, loaded.file_rows),
+        quiet);
   say(called, loaded.oddity, quiet);
   return loaded;
 }

@@ -256,7 +256,7 @@ struct LeaveOutView {
 // Commands on settings that change the result.
 struct SetSmoothness {
   ObjectId object;
-  float smoothness;
+  std::optional<float> smoothness;  // none: the method's own
   std::string title() const { return "Smoothness"; }
   std::string merge_key() const { return "smoothness " + std::to_string(object); }
   friend std::string edit(Document* document, const SetSmoothness& command, const EditContext& context);

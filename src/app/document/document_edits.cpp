@@ -326,11 +326,16 @@ std::string edit(Document* document, const NewObject& command, const EditContext
   return object.name + " added. Click what belongs to it.";
 }
 
-std::string edit(Document* document, const RemoveObject& command, const EditContext&) {
+std::string edit(Document* document, const RemoveObject& command, const EditContext& context) {
   const std::string name = unlocked(document, command.object).name;
+  for (ObjectItem& part : document->objects) {
+    if (part.within != command.object) continue;
+    const std::vector<std::uint8_t> shown =
+        labels(*document, part, context);  // within the whole, as long as it is there
+    part.within = 0;
+    set_labels(document, &part, shown);
+  }
   std::erase_if(document->objects, [&](const ObjectItem& o) { return o.id == command.object; });
-  for (ObjectItem& o : document->objects)
-    if (o.within == command.object) o.within = 0;
   if (document->active == command.object)
     document->active = document->objects.empty() ? 0 : document->objects.back().id;
   return name + " removed from the list; its Gaussians stay in the scene";
@@ -486,7 +491,9 @@ std::string edit(Document* document, const LeaveOutView& command, const EditCont
 std::string edit(Document* document, const SetSmoothness& command, const EditContext&) {
   ObjectItem& object = unlocked(document, command.object);
   constexpr float kMost = 500;
-  object.smoothness = std::clamp(command.smoothness, 0.0f, kMost);
+  object.smoothness = command.smoothness;
+  if (!object.smoothness) return "Smoothness: the method's own";
+  object.smoothness = std::clamp(*object.smoothness, 0.0f, kMost);
   return fmt::format("Smoothness {:.2f}", *object.smoothness);
 }
 

@@ -47,6 +47,7 @@ const CutRun* CutJobs::run(ObjectId object) const {
 }
 
 bool CutJobs::comes(const ObjectItem& object) const {
+  if (object.locked && object.cut) return false;  // another method changes it no more than a click does
   const std::string& key = ws_.history.keys(object).cut;
   return is_stale(object, key) && !given_up_.contains(key);
 }

@@ -86,7 +86,7 @@ void SavedWork::look_for_more(double seconds) {
 
 void SavedWork::update(double seconds) {
   look_for_more(seconds);
-  if (!ws_.scene || ws_.tasks.busy(TaskKind::kLoad) || autosaves_.own().empty()) return;
+  if (!ws_.scene || autosaves_.own().empty()) return;
   const std::uint64_t serial = ws_.history.serial();
   rested_s_ += seconds;
   if (std::exchange(waiting_serial_, serial) != serial) quiet_s_ = 0;
@@ -150,7 +150,8 @@ void SavedWork::keep_unsaved() {
 }
 
 void SavedWork::leave() {
-  if (autosaves_.own().empty() || unsaved()) return;
+  if (unsaved()) return keep_unsaved();
+  if (autosaves_.own().empty()) return;
   ws_.writes.cancel(TaskKind::kAutosave);
   while (ws_.writes.busy(TaskKind::kAutosave)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   forget_restored(restored_);

@@ -104,6 +104,13 @@ void Studio::scene_opened(bool same) {
 
 // The view keeps to the document, however that changed.
 void Studio::follow_document() {
+  // Alone, an empty object would be a black picture.
+  const ObjectItem* active = document().active_object();
+  if (ws_.scene && ws_.view.display != DisplayMode::kWhole && gaussians_of(document().active) == 0 &&
+      !(active && cuts_.comes(*active))) {
+    show(DisplayMode::kWhole, &ws_.view);
+    ++ws_.view_serial;
+  }
   if (std::exchange(followed_serial_, ws_.history.serial()) == ws_.history.serial()) return;
   constexpr float kSameDirection = 0.99999f;  // the controller keeps it normalised
   if (glm::dot(glm::normalize(document().up_world), camera().up_world()) < kSameDirection)
@@ -112,12 +119,6 @@ void Studio::follow_document() {
   if (followed_object_ != document().active && (!alone || gaussians_of(document().active) > 0)) {
     followed_object_ = document().active;
     if (alone) viewport_.turn_about_object();
-  }
-  // Alone, an empty object would be a black picture.
-  if (ws_.scene && ws_.view.display != DisplayMode::kWhole && gaussians_of(document().active) == 0 &&
-      cuts_.cutting() == 0) {
-    show(DisplayMode::kWhole, &ws_.view);
-    ++ws_.view_serial;
   }
 }
 

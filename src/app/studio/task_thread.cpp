@@ -79,7 +79,7 @@ void TaskThread::submit(Order order, Work work) {
   }
   {
     const std::lock_guard lock(mutex_);
-    if (kind != TaskKind::kExport && kind != TaskKind::kSave) stop(kind);
+    if (kind != TaskKind::kExport && kind != TaskKind::kSave && kind != TaskKind::kSelect) stop(kind);
     if (asked_for(kind))
       for (const TaskKind by_itself : {TaskKind::kReady, TaskKind::kAhead}) stop(by_itself);
     waiting_.push_back(std::move(task));

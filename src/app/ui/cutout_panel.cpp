@@ -75,7 +75,7 @@ void smoothness_slider(UiContext& ui, const ObjectItem& object) {
   if (button(ui, icon::kRefresh, fmt::format("Back to the preset's own, {:.2f}", usual),
              object.smoothness ? "" : "It is the preset's own") &&
       object.smoothness)
-    ui.ask(SetSmoothness{object.id, usual});
+    ui.ask(SetSmoothness{object.id, {}});
   ImGui::EndDisabled();
 }
 

@@ -68,8 +68,13 @@ using Tables = SogRows::Tables;
 
 Tables tables_of_codebook(const json& codebook) {
   Tables tables{};
-  for (std::size_t i = 0; i < std::min<std::size_t>(256, codebook.size()); ++i)
-    for (auto& table : tables) table[i] = codebook.at(i).is_null() ? 0 : codebook.at(i).get<float>();
+  const std::size_t count = std::min<std::size_t>(256, codebook.size());
+  // Older writers left the least value out; PlayCanvas' engine continues the others by their mean step.
+  const bool lacks_least = count > 2 && codebook.at(0).is_null();
+  for (auto& table : tables) {
+    for (std::size_t i = lacks_least; i < count; ++i) table[i] = codebook.at(i).get<float>();
+    if (lacks_least) table[0] = table[1] - (table[count - 1] - table[1]) / static_cast<float>(count - 1);
+  }
   return tables;
 }
 Tables tables_of_ranges(const json& mins, const json& maxs) {
@@ -182,7 +187,7 @@ SogRows rows_of(const MappedFile& file, const Job& job) {
   rows.count = count_of(file, meta);
   rows.antialiased = meta.value("antialias", false) || meta.value("model", "") == "antialiased";
   rows.up = up_from_json(meta);
-  rows.logits = !meta.contains("version");
+  rows.logits = meta.value("version", 1) == 1;
   rows.least = vec3_of(meta.at("means").at("mins"));
   rows.most = vec3_of(meta.at("means").at("maxs"));
   rows.scale_tables = tables_of(meta.at("scales"));

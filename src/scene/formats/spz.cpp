@@ -225,6 +225,7 @@ SpzRows rows_of_gzip(const MappedFile& file, const Job& job) {
   if (job.cancelled()) return rows;
   set_attributes(rows.unpacked[0], &rows);
   if (header.flags & spz::kFlagExtensions) rows.extensions = reader.read_rest(kMostExtensionBytes);
+  reader.check_end();
   const std::string comment = reader.comment();
   std::string_view rest = comment;
   rows.ours = comment.starts_with(spz::kOurComment);

@@ -122,6 +122,9 @@ void read_streamed_sog(const MappedFile& file, const LoadOptions& options, Scene
                     "Of each part of the scene the level of detail {} is read, or the coarsest that it has",
                     options.lod);
     read_pieces(index.taken, PieceAxes::kPly, scene, job);
+    // Pieces of other levels are the scene's, too: nothing is written over them.
+    for (const json& name : text.at("filenames"))
+      if (name.is_string()) scene.files.push_back(file.path().parent_path() / name.get<std::string>());
   });
 }
 

@@ -71,6 +71,17 @@ Bytes GzipReader::read_rest(std::size_t most) {
   return out;
 }
 
+void GzipReader::check_end() {
+  constexpr std::size_t kMost = 1 << 20;
+  Bytes ignored(kMost);
+  for (std::size_t done = 0; !ended_ && done < kMost;) {
+    const bool starved = in_.empty();
+    const std::size_t more = read_some(std::span(ignored).subspan(done));
+    if (more == 0 && starved && !ended_) throw_truncated(done);
+    done += more;
+  }
+}
+
 void GzipReader::throw_truncated(std::size_t done) const {
   throw Error(path_.string(), incomplete(fmt::format("the gzip data ends at byte {} after {} unpacked bytes",
                                                      size_ - in_.size(), done)));
@@ -86,6 +97,7 @@ std::size_t GzipReader::read_some(std::span<std::byte> out) {
   const int result = inflate(&stream_, Z_NO_FLUSH);
   in_ = in_.subspan(in.size() - stream_.avail_in);
   const std::size_t written = room - stream_.avail_out;
+  ended_ |= result == Z_STREAM_END;
   if (written > 0) return written;
   if (result == Z_OK || result == Z_STREAM_END || result == Z_BUF_ERROR) return 0;
   if (result == Z_MEM_ERROR) throw std::bad_alloc();

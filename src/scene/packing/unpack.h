@@ -41,6 +41,9 @@ class GzipReader {
   std::string comment() const { return comment_.data(); }
   // What is left, but no more than the bytes given.
   Bytes read_rest(std::size_t most);
+  // Unpacks what is left, up to 1 MiB. Throws Error where the data end before they are whole, or do not fit
+  // their checksum.
+  void check_end();
 
  private:
   [[noreturn]] void throw_truncated(std::size_t done) const;
@@ -49,6 +52,7 @@ class GzipReader {
   std::filesystem::path path_;
   std::span<const std::byte> in_;
   std::size_t size_ = in_.size();
+  bool ended_ = false;  // true: the stream was whole, and fitted its checksum
   static constexpr std::size_t kMostComment = 127;
   std::array<char, kMostComment + 1> comment_{};
   gz_header header_{};

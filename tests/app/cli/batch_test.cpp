@@ -161,6 +161,7 @@ TEST_CASE("batch: what is no job fails with a sentence, and the others are done"
       {job_on("apple", {{"views", 900}}).dump(), "900"},
       {job_on("apple", {{"coarse", "yes"}}).dump(), "neither true nor false"},
       {job_on("apple", {{"click", "5"}}).dump(), "is not a pixel"},
+      {job_on("apple", {{"preset", ""}}).dump(), "is empty"},
       {job_on("apple", {{"name", "no scene"}, {"scene", "missing.ply"}}).dump(), "missing.ply"},
       {job_on("apple", {{"name", "taken"}}).dump(), "no result of a batch"},
       {job_on("mug").dump(), nullptr},

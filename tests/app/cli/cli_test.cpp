@@ -327,6 +327,33 @@ TEST_CASE("existing output is refused without --overwrite, and nothing in it cha
   CHECK(place.text("there/notes.txt") == "mine");
 }
 
+TEST_CASE("an input that has the name of what is written first is kept") {
+  const Workplace& place = still_life().place;
+  const std::string scene = place.text("made/small.ply");
+  place.write("new.ply.splatcut.part", scene);
+  const Result result = place.run("convert new.ply.splatcut.part -o new.ply");
+  CHECK(result.code == 1);
+  CHECK_MESSAGE(result.err.find("is read here") != std::string::npos, result.err);
+  CHECK(place.text("new.ply.splatcut.part") == scene);
+  std::filesystem::remove(place / "new.ply.splatcut.part");
+}
+
+TEST_CASE("Gaussians that cannot be used are left out with a sentence") {
+  const Workplace place;
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 3\n";
+  for (const char* property : {"x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1",
+                               "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"})
+    text += std::string("property float ") + property + "\n";
+  text += "end_header\n";
+  for (const char* x : {"0", "nan", "1"}) text += std::string(x) + " 0 0 1 1 1 3 -3 -3 -3 1 0 0 0\n";
+  place.write("three.ply", text);
+  for (const char* command : {"convert three.ply -o two.splat", "render three.ply -o two.png --size 32x24"}) {
+    const Result result = place.run(command);
+    CHECK(result.code == 0);
+    CHECK_MESSAGE(result.err.find("1 of its 3 Gaussians are left out") != std::string::npos, result.err);
+  }
+}
+
 TEST_CASE("the bytes of a cutout do not depend on --threads") {
   StillLife& life = still_life();
   Workplace& place = life.place;

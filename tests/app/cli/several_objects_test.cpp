@@ -162,6 +162,7 @@ TEST_CASE("files of objects that cannot be used are refused") {
   with({apple, apple}, {"apple.ply", "taken"});
   with({{{"name", "a b"}, {"clicks", clicks}}, {{"name", "a/b"}, {"clicks", clicks}}}, {"a_b.ply", "taken"});
   with(json::array({json{{"name", "rest"}, {"clicks", clicks}}}), {"rest.ply", "taken"});
+  with(json::array({json{{"name", "objects"}, {"clicks", clicks}}}), {"objects.ply", "taken"});
   with(json::array({json{{"name", "apple"}, {"camera", "none"}, {"clicks", clicks}}}), {"camera \"none\""});
   with(json::array({json{{"name", "apple"}, {"camera", 1.5}, {"clicks", clicks}}}), {"\"camera\""});
   with(json::array({json{{"name", "apple"}, {"clicks", json::array({json{{"x", 5000}, {"y", 3}}})}}}),

@@ -87,6 +87,39 @@ TEST_CASE("objects: a part of an object that does not exist is refused") {
   CHECK(document.objects.size() == 2);
 }
 
+TEST_CASE("objects: a part stays what it is when its whole is removed or merged, locked or not") {
+  const GaussianCloud cloud = random_cloud(kFewGaussians, 1, 0);
+  const EditContext context{cloud};
+  std::mt19937 random(3);
+  for (const bool merged : {false, true})
+    for (const bool locked : {false, true}) {
+      Document document;
+      edit(&document, NewObject{}, context);
+      edit(&document, NewObject{1}, context);
+      for (ObjectItem& object : document.objects) object.cut = random_flags(random, 2);
+      edit(&document, LockObject{2, locked}, context);
+      edit(&document, NewObject{}, context);
+      const std::vector<std::uint8_t> before = labels_of(document, *document.find(2), kFewGaussians);
+      REQUIRE(before != *document.find(2)->cut);
+      if (merged)
+        edit(&document, MergeObjects{3, 1}, context);
+      else
+        edit(&document, RemoveObject{1}, context);
+      CHECK_FALSE(document.find(1));
+      CHECK(labels_of(document, *document.find(2), kFewGaussians) == before);
+    }
+}
+
+TEST_CASE("objects: smoothness goes back to the method's own") {
+  const GaussianCloud cloud = random_cloud(kFewGaussians, 1, 0);
+  Document document;
+  edit(&document, NewObject{}, EditContext{cloud});
+  edit(&document, SetSmoothness{1, 900.0f}, EditContext{cloud});
+  CHECK(document.objects[0].smoothness == 500.0f);
+  edit(&document, SetSmoothness{1, {}}, EditContext{cloud});
+  CHECK_FALSE(document.objects[0].smoothness);
+}
+
 TEST_CASE("history: the background and the choice of an object are no steps, and undo leaves them") {
   const ScratchFolder folder("no_steps");
   write_random_scene(folder / "random.ply");

@@ -319,3 +319,11 @@ TEST_CASE("clicks: a smaller part is one of the sizes that the click had, howeve
     CHECK(clicks.known_sizes()->size_outlines.size() == first.sizes);
   }
 }
+
+TEST_CASE("clicks: the step that the slider was pointed at is none of an object with fewer") {
+  Artist artist(on_sample("apple", kOnApple));
+  artist.click_on_it();
+  artist.app.interface_state().size_pointed = artist.studio().clicks().known_sizes()->sizes + 4;
+  artist.app.frames(1);  // an undo while the pointer rests on the slider
+  CHECK_FALSE(artist.app.interface_state().size_pointed);
+}

@@ -260,6 +260,34 @@ TEST_CASE("steady work is saved by itself, though it never rests") {
   REQUIRE(app.settle());
 }
 
+TEST_CASE("work is saved by itself while a file is read, and where the program is left before it was") {
+  const ScratchFolder folder("reading");
+  ApplicationOptions options = with_kept_scenes();
+  options.studio.state_folder = folder.path();
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  opened(app);
+  Studio& studio = app.studio();
+  const std::filesystem::path own = studio.work().own_autosave();
+  const auto steps_kept = [&] {
+    for (int i = 0; i < 200 && !std::filesystem::exists(own); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    REQUIRE(std::filesystem::exists(own));
+    return (*read_work_file(own).content)["objects"].size();
+  };
+  studio.apply(NewObject{});
+  studio.apply(AddScene{kSmallSample});
+  REQUIRE(studio.loading());
+  app->frame(0.5);
+  CHECK(steps_kept() == 1);
+  REQUIRE(app.settle());
+  app.frames(60);
+  REQUIRE(app.settle());
+  std::filesystem::remove(own);
+  studio.apply(NewObject{});
+  studio.leave();
+  CHECK(steps_kept() == 2);
+}
+
 TEST_CASE("work of a program that a signal ends is offered as it was, without a moment for saving it") {
   const ScratchFolder folder("state_signal");
   ApplicationOptions options = with_kept_scenes();

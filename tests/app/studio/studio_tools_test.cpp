@@ -598,3 +598,46 @@ TEST_CASE(
   CHECK(studio.document().active_object()->choice == 1);
   CHECK_FALSE(studio.clicks().offer());
 }
+
+TEST_CASE("hands: boxes that remove, one right after the other, all remove") {
+  Hands hands = hands_on_sample(false);
+  Studio& studio = hands.studio();
+  studio.apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(hands.app.settle());
+  const std::size_t steps = studio.history().entries().size();
+  const Camera camera = studio.viewport().pane_camera();
+  for (const glm::vec2& thing : {kOnApple, kOnOrange, kOnMug}) {
+    const glm::vec2 at = hands.in_viewport(hands.app.screen_of(thing));
+    studio.apply(AddBox{camera, at - 34.0f, at + 34.0f, {}, SetOperation::kRemove});
+  }
+  REQUIRE(hands.app.settle());
+  CHECK(studio.history().entries().size() == steps + 3);
+}
+
+TEST_CASE("hands: alone, an object that stays empty is no black picture") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  studio.run(Action::kIsolate);
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.view().display == DisplayMode::kIsolate);
+  studio.apply(Recompute{});
+  hands.app.frames(1);
+  studio.apply(NewObject{});
+  studio.apply(Cancel{});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.view().display == DisplayMode::kWhole);
+}
+
+TEST_CASE("hands: another method does not change what is locked") {
+  Hands hands = hands_on_sample();
+  Studio& studio = hands.studio();
+  const ObjectId object = studio.document().active;
+  const auto before = studio.labels(object);
+  studio.apply(LockObject{object, true});
+  studio.apply(SetPreset{"paper-code"});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.labels(object) == before);
+  studio.apply(LockObject{object, false});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.labels(object) != before);
+}

@@ -1,6 +1,7 @@
 // What is damaged, packed too well or of another kind is refused with a sentence, or gives a bounded scene.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -89,12 +90,45 @@ QUICK_CASE("sog", "sog: as a folder, inside another folder of the archive, and w
   // 16 million pixels in a few dozen bytes
   CHECK(mentions(with("scales.webp", text_of_bytes(write_webp(Image<Rgba8>(4096, 4096)))),
                  {"damaged", "no scene packs so well"}));
+  // Some writers leave out the least value of a codebook: the others go on by their mean step.
+  auto scales = meta["scales"];
+  const double second = scales["codebook"][1], last = scales["codebook"][255];
+  scales["codebook"][0] = nullptr;
+  CHECK(with_meta("scales", scales) == "no error");
+  float least = 1;
+  for (const glm::vec3& scale : load_scene(folder / "bad.sog").cloud.scale)
+    least = std::min({least, scale.x, scale.y, scale.z});
+  CHECK(std::log(least) == doctest::Approx(second - (last - second) / 255).epsilon(1e-4));
+  scales["codebook"][7] = nullptr;
+  CHECK(mentions(with_meta("scales", scales), {"meta.json"}));
   write(folder / "bad.sog", text_of_bytes(zip_of(std::vector<ZipEntry>{entry("scene.ply", "ply")})));
   CHECK(mentions(refusal(folder / "bad.sog"), {"ZIP without meta.json", "Unpack"}));
   auto outside = meta;
   outside["quats"]["files"] = {"../open/quats.webp"};
   write(folder / "open/meta.json", outside.dump());
   CHECK(mentions(refusal(folder / "open/meta.json"), {"another folder"}));
+}
+
+TEST_CASE("spz: data that end before their checksum, or do not fit it, are refused") {
+  const Folder folder;
+  Scene scene;
+  scene.cloud = varied_cloud(300, 1);
+  save_scene(folder / "good.spz", scene, {}, SceneFormat::kSpz);
+  const MappedFile file(folder / "good.spz");
+  const std::string good = text_of_bytes({file.bytes().begin(), file.bytes().end()});
+  const auto read_as = [&](const std::string& text) {
+    write(folder / "a.spz", text);
+    return refusal(folder / "a.spz");
+  };
+  CHECK(read_as(good + "a tail") == "no error");
+  for (const std::size_t cut : {1, 4, 8, 20})
+    CHECK(mentions(read_as(good.substr(0, good.size() - cut)), {"ends at byte"}));
+  for (std::size_t at = 100; at < good.size(); at += good.size() / 23) {
+    std::string wrong = good;
+    wrong[at] = static_cast<char>(wrong[at] ^ 0x10);
+    CAPTURE(at);
+    CHECK(read_as(wrong) != "no error");
+  }
 }
 
 QUICK_CASE("spz",
