@@ -107,7 +107,7 @@ void Studio::follow_document() {
   // Alone, an empty object would be a black picture.
   const ObjectItem* active = document().active_object();
   if (ws_.scene && ws_.view.display != DisplayMode::kWhole && gaussians_of(document().active) == 0 &&
-      !(active && cuts_.comes(*active))) {
+      !edits_.waiting() && !(active && cuts_.comes(*active))) {
     show(DisplayMode::kWhole, &ws_.view);
     ++ws_.view_serial;
   }

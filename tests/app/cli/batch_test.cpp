@@ -165,7 +165,7 @@ TEST_CASE("batch: what is no job fails with a sentence, and the others are done"
       {job_on("apple", {{"name", "no scene"}, {"scene", "missing.ply"}}).dump(), "missing.ply"},
       {job_on("apple", {{"name", "taken"}}).dump(), "no result of a batch"},
       {job_on("mug").dump(), nullptr},
-      {job_on("mug").dump(), "the folder mug is that of line 11"},
+      {job_on("mug").dump(), "the folder mug is that of line 12"},
       {ends.dump(), "its process was killed"},
       {job_on("books", {{"write", "labels"}}).dump(), nullptr},
   };
@@ -174,7 +174,7 @@ TEST_CASE("batch: what is no job fails with a sentence, and the others are done"
   place.write("mixed.jsonl", text);
   const Result result = place.run("batch mixed.jsonl -o mixed --jobs 2");
   CHECK(result.code == 1);
-  CHECK(result.err.find("12 of 14 jobs failed") != std::string::npos);
+  CHECK(result.err.find("13 of 15 jobs failed") != std::string::npos);
   const std::vector<json> results = results_in("mixed/results.jsonl");
   REQUIRE(results.size() == lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
