@@ -8,7 +8,8 @@
 namespace splatcut {
 
 // Throws Error where `output`, a file or a folder, is one of the inputs, a folder that holds one, or a file
-// in an input that is a folder. Files are told apart by device and inode, so that links do not hide them.
+// in an input that is a folder, and where an input has the name under which AtomicFile writes the output
+// first. Files are told apart by device and inode, so that links do not hide them.
 // Inputs that are empty or not there, and outputs that are not there, pipes or devices, are nothing to lose.
 void refuse_written_inputs(const std::filesystem::path& output,
                            const std::vector<std::filesystem::path>& inputs);

@@ -76,8 +76,7 @@ Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where)
                                 label_from(c.value("label", "object"), where)));
     if (seeds.contains("scribbles"))
       for (const auto& s : seeds.at("scribbles")) {
-        Stroke stroke{
-            label_from(s.value("label", nlohmann::json("object")), where), s.value("radius_px", 3.0f), {}};
+        Stroke stroke{label_from(s.value("label", "object"), where), s.value("radius_px", 3.0f), {}};
         for (const auto& p : s.at("points"))
           stroke.points_px.emplace_back(p.at(0).get<float>(), p.at(1).get<float>());
         strokes.push_back(std::move(stroke));

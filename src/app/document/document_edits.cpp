@@ -330,8 +330,8 @@ std::string edit(Document* document, const RemoveObject& command, const EditCont
   const std::string name = unlocked(document, command.object).name;
   for (ObjectItem& part : document->objects) {
     if (part.within != command.object) continue;
-    const std::vector<std::uint8_t> shown =
-        labels(*document, part, context);  // within the whole, as long as it is there
+    // Its labels are limited to the whole only as long as that is there.
+    const std::vector<std::uint8_t> shown = labels(*document, part, context);
     part.within = 0;
     set_labels(document, &part, shown);
   }

@@ -25,7 +25,8 @@ class CutJobs {
   ObjectId cutting() const { return running_ ? running_->object : 0; }  // object whose cut runs; 0: none
   std::uint64_t done() const { return done_; }                          // number of cuts finished so far
 
-  // True if the object's labels are on their way: its cut runs, or will.
+  // True if the object's labels are on their way: its cut runs, or will. A locked object keeps the cut it
+  // has.
   bool comes(const ObjectItem& object) const;
 
   void reset();   // stops and forgets everything of the last scene

@@ -22,7 +22,8 @@ class SavedWork {
   SavedWork(Workspace& workspace, Viewport& viewport);
 
   void update(double seconds);  // writes the autosave when it is due; called once a frame
-  void leave();                 // removes the autosave if nothing is unsaved; called when the program ends
+  // Removes the autosave, or writes it if work is unsaved; called when the program ends.
+  void leave();
   void keep_unsaved();  // writes the autosave if work is unsaved; called when a signal ends the program
 
   const std::filesystem::path& work_path() const { return work_path_; }  // the user's file; empty: none yet

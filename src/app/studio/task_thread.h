@@ -1,12 +1,12 @@
 // Worker thread for tasks that take long: load, prepare, cut, select, export. A task works on snapshots and
 // returns its results as closures, which the main thread runs in deliver().
 //
-// The latest request wins: a new task drops the waiting task of its kind and stops the running one. Exports
-// and saves are the exception: they all run, one after the other, because each is a file that the user asked
-// for. Any task that was asked for stops what only prepares a click or cuts ahead. Tasks run at a lower
-// priority than what draws the window, and preparing runs at a lower one still, so that pictures come first
-// even if there are few cores. Cancelling is a normal end. Shutdown: saves that wait are done, other tasks
-// are stopped or dropped, and the thread is joined.
+// The latest request wins: a new task drops the waiting task of its kind and stops the running one. Exports,
+// saves and selections are the exception: they all run, one after the other, because each is a file or a step
+// of the history that the user asked for. Any task that was asked for stops what only prepares a click or
+// cuts ahead. Tasks run at a lower priority than what draws the window, and preparing runs at a lower one
+// still, so that pictures come first even if there are few cores. Cancelling is a normal end. Shutdown: saves
+// that wait are done, other tasks are stopped or dropped, and the thread is joined.
 #pragma once
 
 #include <condition_variable>

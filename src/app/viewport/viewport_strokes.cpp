@@ -193,7 +193,7 @@ void draw_sizes(const UiContext& ui, const UiRect& area, float bottom, const UiR
   const ClickMeanings* sizes = pointed ? clicks.known_sizes() : clicks.sizes();
   const Camera now = ui.studio.viewport().pane_camera();
   if (!sizes || !same_pose(sizes->camera, now)) return;
-  if (pointed && *pointed >= sizes->sizes) return;  // of the object that was chosen when the panel was drawn
+  if (pointed && *pointed >= sizes->sizes) return;  // the panel was drawn for another object
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const OnScreen there = placement_of(sizes->camera, now, on_screen(ui, area));
   const UiRect free_area{area.min, {area.max.x, area.max.y - bottom}};

@@ -69,7 +69,8 @@ using Tables = SogRows::Tables;
 Tables tables_of_codebook(const json& codebook) {
   Tables tables{};
   const std::size_t count = std::min<std::size_t>(256, codebook.size());
-  // Older writers left the least value out; PlayCanvas' engine continues the others by their mean step.
+  // Older writers put null for the least value; as PlayCanvas' engine does, it is taken to lie one mean step
+  // below the next.
   const bool lacks_least = count > 2 && codebook.at(0).is_null();
   for (auto& table : tables) {
     for (std::size_t i = lacks_least; i < count; ++i) table[i] = codebook.at(i).get<float>();

@@ -19,6 +19,24 @@
 using namespace splatcut;
 using namespace splatcut::testing;
 
+namespace {
+
+// What a worker writes, waited for without a frame of the program.
+bool is_written(const std::filesystem::path& file) {
+  for (int i = 0; i < 200 && !std::filesystem::exists(file); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  return std::filesystem::exists(file);
+}
+
+// Options of a program that keeps its work in the folder by itself.
+ApplicationOptions kept_in(const ScratchFolder& folder) {
+  ApplicationOptions options = with_kept_scenes();
+  options.studio.state_folder = folder.path();
+  return options;
+}
+
+}  // namespace
+
 TEST_CASE("saved work: read back the same, and computed again bit for bit") {
   const ScratchFolder folder("work");
   HeadlessApp app(kSmallWidth, kSmallHeight, 1, {});  // prepared anew
@@ -182,9 +200,7 @@ TEST_CASE("work is saved by itself and offered after a crash") {
     REQUIRE(app.settle());
   }  // no leave(): as if it had crashed
   REQUIRE(std::filesystem::exists(folder / "autosave.splatcut.json"));
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
   CHECK(!app.studio().work().offers().empty());
   CHECK(app.studio().work().offers().front().says.ends_with("  sample/sample.compressed.ply"));
   // Started with a scene and worked on: what is offered is still there.
@@ -221,9 +237,7 @@ TEST_CASE("work is saved by itself and offered after a crash") {
 
 TEST_CASE("a cut is saved by itself within a second of its answer, while pictures of it are made") {
   const ScratchFolder folder("soon");
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
   opened(app);
   app.click(app.screen_of(kOnApple));
   Studio& studio = app.studio();
@@ -245,47 +259,39 @@ TEST_CASE("a cut is saved by itself within a second of its answer, while picture
 
 TEST_CASE("steady work is saved by itself, though it never rests") {
   const ScratchFolder folder("steady");
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
   opened(app);
   const std::filesystem::path own = app.studio().work().own_autosave();
   for (int fifth = 0; fifth < 15; ++fifth) {  // of a second; a step in each
     app.studio().apply(EditSelection{fifth == 0 ? SelectionEdit::kAll : SelectionEdit::kInvert});
     app->frame(0.2);
   }
-  for (int i = 0; i < 200 && !std::filesystem::exists(own); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  CHECK(std::filesystem::exists(own));
+  CHECK(is_written(own));
   REQUIRE(app.settle());
 }
 
 TEST_CASE("work is saved by itself while a file is read, and where the program is left before it was") {
   const ScratchFolder folder("reading");
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
   opened(app);
   Studio& studio = app.studio();
   const std::filesystem::path own = studio.work().own_autosave();
-  const auto steps_kept = [&] {
-    for (int i = 0; i < 200 && !std::filesystem::exists(own); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    REQUIRE(std::filesystem::exists(own));
+  const auto objects_kept = [&] {
+    REQUIRE(is_written(own));
     return (*read_work_file(own).content)["objects"].size();
   };
   studio.apply(NewObject{});
   studio.apply(AddScene{kSmallSample});
   REQUIRE(studio.loading());
   app->frame(0.5);
-  CHECK(steps_kept() == 1);
+  CHECK(objects_kept() == 1);
   REQUIRE(app.settle());
   app.frames(60);
   REQUIRE(app.settle());
   std::filesystem::remove(own);
   studio.apply(NewObject{});
   studio.leave();
-  CHECK(steps_kept() == 2);
+  CHECK(objects_kept() == 2);
 }
 
 TEST_CASE("work of a program that a signal ends is offered as it was, without a moment for saving it") {
@@ -341,9 +347,7 @@ TEST_CASE("work of a program that ends a little later is offered, too") {
   const int lock = ::open((folder / "autosave.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   REQUIRE(lock >= 0);
   REQUIRE(::flock(lock, LOCK_EX | LOCK_NB) == 0);  // as the other program holds it
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
   app.frames(60 * 3);
   CHECK(app.studio().work().offers().empty());
   ::close(lock);
@@ -364,9 +368,7 @@ TEST_CASE("of several works left by crashes, that of the open scene is offered f
   left("autosave.splatcut.json", kSmallSample, 5);
   left("autosave.2.splatcut.json", kSample, 3);
   left("autosave.3.splatcut.json", kSample, 4);
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
   const auto order = [&] {
     std::string numbers;
     for (const LeftWork& work : app.studio().work().offers())
@@ -498,9 +500,7 @@ TEST_CASE("work that was saved by itself stays offered where its scene cannot be
   add_object(&document, "mug");
   write_work_file(folder / "autosave.splatcut.json", *scene, document);
   std::filesystem::rename(moved, folder / "elsewhere");
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
   app.studio().apply(OpenScene{app.studio().work().offers().front().file});
   REQUIRE(app.settle());
   CHECK(app.studio().messages().back().text.find("moved.compressed.ply") != std::string::npos);
@@ -514,9 +514,7 @@ TEST_CASE("work that was saved by itself stays offered where its scene cannot be
 
 TEST_CASE("work that could not be saved by itself is saved once it can be, without another change") {
   const ScratchFolder folder("full");
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
   opened(app);
   const std::filesystem::path own = app.studio().work().own_autosave();
   std::filesystem::create_directory(own);  // where the file should go

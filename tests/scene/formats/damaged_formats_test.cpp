@@ -101,6 +101,16 @@ QUICK_CASE("sog", "sog: as a folder, inside another folder of the archive, and w
   CHECK(std::log(least) == doctest::Approx(second - (last - second) / 255).epsilon(1e-4));
   scales["codebook"][7] = nullptr;
   CHECK(mentions(with_meta("scales", scales), {"meta.json"}));
+  // Version 1 has logits, whether it says its number or not.
+  auto first = meta;
+  first["means"]["shape"] = {500, 3};
+  first.erase("version");
+  with("meta.json", first.dump());
+  const std::vector<float> opacity = load_scene(folder / "bad.sog").cloud.opacity;
+  CHECK(opacity != expected.cloud.opacity);
+  first["version"] = 1;
+  with("meta.json", first.dump());
+  CHECK(load_scene(folder / "bad.sog").cloud.opacity == opacity);
   write(folder / "bad.sog", text_of_bytes(zip_of(std::vector<ZipEntry>{entry("scene.ply", "ply")})));
   CHECK(mentions(refusal(folder / "bad.sog"), {"ZIP without meta.json", "Unpack"}));
   auto outside = meta;

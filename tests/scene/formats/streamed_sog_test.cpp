@@ -158,6 +158,9 @@ TEST_CASE("streamed sog: a coarser level where a leaf has one, else the coarsest
                {"1_0/meta.json", 40, 60},
                {"env/meta.json", 0, 50}});
   CHECK(mentions(scene.left_out, {"level of detail 2"}));
+  for (const std::string name :
+       made.index["filenames"])  // also of other levels: nothing is written over them
+    CHECK(std::ranges::count(scene.files, made.path / name) > 0);
   options.lod = 1;
   CHECK(load_scene(made.path, options).cloud.size() == 40 + 300 + 100 + 100 + 50);
   options.lod = 100;
