@@ -7,9 +7,12 @@
 // document_edits.cpp defines it. Expected refusals (a locked object, nothing selected) throw an Error worded
 // for the user; the document stays as it was, because the caller drops its copy. Traits that a command may
 // have:
-//   passes       edit() passes over all Gaussians, so it runs on a worker
+//   passes       edit() passes over all Gaussians, so it runs on a worker, once no cut is on its way
+//   after_cuts   the command, too, waits for the cuts that are on their way
 //   at_once      the command does not wait for the edits that were asked for before it
 //   writes_file  the command stays in the queue even if the edits before it are cancelled
+//   no_loss      the command makes nothing that is lost if another scene is opened; others are refused while
+//                one is on its way
 //   no_work      the command is not a step of the history: every state of the history takes its change,
 //                unless edit() refuses there. edit() refuses before it changes anything, and changes nothing
 //                that labels depend on
@@ -42,6 +45,10 @@ constexpr bool kPasses = requires {
   requires C::passes;
 };
 template <class C>
+constexpr bool kAfterCuts = kPasses<C> || requires {
+  requires C::after_cuts;
+};
+template <class C>
 constexpr bool kAtOnce = requires {
   requires C::at_once;
 };
@@ -53,6 +60,11 @@ constexpr bool kWritesFile = requires {
 template <class C>
 constexpr bool kNoWork = requires {
   requires C::no_work;
+};
+// True if the command makes work, which another scene would replace.
+template <class C>
+constexpr bool kMakesWork = !kAtOnce<C> && !kWritesFile<C> && !kNoWork<C> && !requires {
+  requires C::no_loss;
 };
 
 template <class C>
@@ -161,7 +173,9 @@ struct ClearStrokes {
   std::string title() const { return "Clear strokes"; }
   friend std::string edit(Document* document, const ClearStrokes& command, const EditContext& context);
 };
-struct ComeNearer {};  // moves the camera towards the place where the active object was clicked
+struct ComeNearer {
+  static constexpr bool no_loss = true;
+};  // moves the camera towards the place where the active object was clicked
 
 // Commands on objects.
 struct NewObject {
@@ -278,18 +292,27 @@ struct SetUp {
 };
 
 // Cleans the edges of the active object also where too few of its views agree, until its labels change.
-struct CleanAnyway {};
+struct CleanAnyway {
+  static constexpr bool no_loss = true;
+};
 
 // Commands on the history and on running work.
-struct Undo {};
-struct Redo {};
+struct Undo {
+  static constexpr bool no_loss = true;
+};
+struct Redo {
+  static constexpr bool no_loss = true;
+};
 struct JumpHistory {
   std::size_t entry;
+  static constexpr bool no_loss = true;
 };
 struct Cancel {
   static constexpr bool at_once = true;
 };
-struct Recompute {};
+struct Recompute {
+  static constexpr bool no_loss = true;
+};
 
 // Commands on the view: the history does not hold them.
 struct SetView {
@@ -350,12 +373,14 @@ struct DropAutosave {
 };
 struct Export {
   ExportRequest request;
-  static constexpr bool writes_file = true;
+  std::string title() const { return "Export"; }
+  static constexpr bool writes_file = true, after_cuts = true;
 };
 struct SaveSnapshot {
   std::filesystem::path path;
   bool transparent = true;
-  static constexpr bool writes_file = true;
+  std::string title() const { return "Picture"; }
+  static constexpr bool writes_file = true, after_cuts = true;
 };
 struct SaveTurntable {
   std::filesystem::path path;  // a folder for pictures; a file for an animation or a video
@@ -364,7 +389,8 @@ struct SaveTurntable {
   TurntableAs as = TurntableAs::kPictures;
   float turn_s = 3;  // duration of one turn in an animation or a video, seconds
   bool clean_edges = false;
-  static constexpr bool writes_file = true;
+  std::string title() const { return "Turntable"; }
+  static constexpr bool writes_file = true, after_cuts = true;
 };
 
 using Command =

@@ -57,7 +57,7 @@ void History::reset(Document document, std::string title) {
   auto keys = keys_of(document, {});
   entries_.push_back({std::move(title), {}, std::move(document), std::move(keys), 0});
   cursor_ = 0;
-  serial_ = next_serial();
+  serial_ = steps_serial_ = next_serial();
   merging_ = false;
 }
 
@@ -71,7 +71,7 @@ void History::reset(const SavedSteps& saved) {
   }
   cursor_ = saved.cursor;
   merging_ = false;
-  serial_ = next_serial();
+  serial_ = steps_serial_ = next_serial();
   const std::vector<ObjectItem> known = now().objects;
   for (const ObjectItem& object : known)
     if (object.cut && !object.cut_kept && !object.cut_key.empty())
@@ -103,8 +103,8 @@ bool History::push(std::string title, Document after, std::string merge_key) {
     ++cursor_;
   }
   merging_ = true;
-  serial_ = next_serial();
-  constexpr std::size_t kCheckEvery = 64;  // counting walks the whole history
+  serial_ = steps_serial_ = next_serial();
+  constexpr std::size_t kCheckEvery = 8;  // counting walks the whole history
   if (entries_.size() % kCheckEvery == 0) forget_oldest();
   return true;
 }
@@ -118,10 +118,11 @@ void History::push_other_files(std::string title, std::uint64_t number) {
   entries_.push_back(std::move(entry));
   ++cursor_;
   merging_ = false;
-  serial_ = next_serial();
+  serial_ = steps_serial_ = next_serial();
 }
 
 void History::forget_redo() {
+  if (can_redo()) steps_serial_ = next_serial();
   entries_.resize(cursor_ + 1);
 }
 

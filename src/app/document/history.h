@@ -52,6 +52,9 @@ class History {
   const Document& now() const { return entries_[cursor_].document; }
   // Number that changes whenever now() does. It is never 0, and no other state in the program has it.
   std::uint64_t serial() const { return serial_; }
+  // Number that changes whenever steps are added or forgotten at the end of the list, and that no other list
+  // in the program has.
+  std::uint64_t steps_serial() const { return steps_serial_; }
   const ObjectKeys& keys(const ObjectItem& object) const;  // keys of an object of now()
   const std::vector<Entry>& entries() const { return entries_; }
   std::size_t cursor() const { return cursor_; }
@@ -83,7 +86,7 @@ class History {
 
   std::vector<Entry> entries_;
   std::size_t cursor_ = 0;
-  std::uint64_t serial_ = 0;
+  std::uint64_t serial_ = 0, steps_serial_ = 0;
   bool merging_ = false;
 };
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "app/studio/cut_pictures.h"
+#include "app/picture/cut_pictures.h"
 #include "app/studio/cut_sentences.h"
 #include "core/error.h"
 #include "core/stage_clock.h"
@@ -52,6 +52,12 @@ bool CutJobs::comes(const ObjectItem& object) const {
   return is_stale(object, key) && !given_up_.contains(key);
 }
 
+ObjectId CutJobs::next() const {
+  for (const ObjectItem& object : ws_.document().objects)
+    if (comes(object)) return object.id;
+  return 0;
+}
+
 // Cuts that no object shows now are kept for undo and redo, the last few: one that is forgotten has no
 // pictures of its views then, as in opened work.
 void CutJobs::keep(Known fresh) {
@@ -85,9 +91,7 @@ void CutJobs::update() {
     ws_.tasks.cancel(TaskKind::kCut);
     end({});
   }
-  for (const ObjectItem& object : document.objects) {
-    if (comes(object)) return start(object);
-  }
+  if (const ObjectId object = next()) return start(*document.find(object));
   recall();
   renew_views();
   request_likelihood();

@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-#include "app/studio/cut_run.h"
+#include "app/picture/cut_run.h"
 #include "app/studio/workspace.h"
 
 namespace splatcut {
@@ -28,6 +28,7 @@ class CutJobs {
   // True if the object's labels are on their way: its cut runs, or will. A locked object keeps the cut it
   // has.
   bool comes(const ObjectItem& object) const;
+  ObjectId next() const;  // first object of the document whose labels are on their way; 0: none
 
   void reset();   // stops and forgets everything of the last scene
   void update();  // starts and stops cuts as the document asks; called once a frame

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/studio/cut_run.h"
+#include "app/picture/cut_run.h"
 #include "app/studio/workspace.h"
 
 namespace splatcut {

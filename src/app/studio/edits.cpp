@@ -24,8 +24,24 @@ void Edits::in_turn(std::function<void()> command, OnCancel on_cancel) {
     command();
 }
 
+void Edits::after_cuts(const std::string& title, std::function<void()> command) {
+  const ObjectId object = cuts_.next();
+  under_way_ = true;
+  for_cuts_ = std::move(command);
+  ws_.say(Message::Kind::kInfo,
+          fmt::format("{}: as soon as {} is computed", title, ws_.document().find(object)->name));
+}
+
+void Edits::update() {
+  if (!for_cuts_ || cuts_.next() != 0) return;
+  const std::function<void()> command = std::exchange(for_cuts_, nullptr);
+  waiting_.push_front({command, OnCancel::kDropped});
+  finish();
+}
+
 bool Edits::cancel() {
   if (!under_way_) return false;
+  for_cuts_ = nullptr;
   ws_.quick.cancel(TaskKind::kSelect);
   ++number_;
   std::erase_if(waiting_, [](const Waiting& w) { return w.on_cancel == OnCancel::kDropped; });
@@ -259,12 +275,6 @@ void Edits::redo() {
   if (!history.can_redo()) throw Error("", "There is nothing to redo");
   history.redo();
   ws_.say(Message::Kind::kInfo, "Redone: " + history.entries()[history.cursor()].title);
-}
-
-void Edits::perform(const JumpHistory& c) {
-  if (c.entry >= ws_.history.entries().size()) throw Error("", "There is no such step");
-  ws_.history.jump(c.entry);
-  ws_.say(Message::Kind::kInfo, "Back at: " + ws_.history.entries()[c.entry].title);
 }
 
 }  // namespace splatcut

@@ -2,7 +2,8 @@
 //
 // Edits that pass over the scene's Gaussians (selections, growing, merging) run on the worker from a snapshot
 // of the document; commands that come meanwhile wait their turn. If the document changes all the same,
-// because a cut ends, the edit runs again on the new document.
+// because a cut ends, the edit runs again on the new document. What is done to an object's Gaussians waits
+// for the cut that is to find them.
 #pragma once
 
 #include <deque>
@@ -24,7 +25,12 @@ class Edits {
   enum class OnCancel { kDropped, kStays };
   // Runs the command now, or after the edits that were asked for before it.
   void in_turn(std::function<void()> command, OnCancel on_cancel = OnCancel::kDropped);
-  bool waiting() const { return under_way_; }  // true: an edit is under way
+  // Runs the command once no cut is on its way; commands that come meanwhile wait their turn. No edit may be
+  // under way. title: name of the command, for the message.
+  void after_cuts(const std::string& title, std::function<void()> command);
+  void update();                               // runs what waits for cuts; called once a frame
+  bool waiting() const { return under_way_; }  // true: an edit is under way, or waits for cuts
+  bool waits_for_cuts() const { return for_cuts_ != nullptr; }
   // Cancels that edit and the waiting commands that do not stay. Returns false if no edit is under way.
   bool cancel();
   void reset();  // cancels and forgets everything of the last scene
@@ -53,7 +59,6 @@ class Edits {
   void perform(const SelectScene& c);
   void undo();
   void redo();
-  void perform(const JumpHistory& c);
   // True for commands that have an edit(), see command.h. perform_plain() performs these and ignores others.
   template <class C>
   static constexpr bool kKnows = requires(Document* document, const C& c, const EditContext& context) {
@@ -73,7 +78,8 @@ class Edits {
   const Viewport& viewport_;
   CutJobs& cuts_;
   bool under_way_ = false;
-  std::uint64_t number_ = 0;  // number of the edit that is under way
+  std::uint64_t number_ = 0;        // number of the edit that is under way
+  std::function<void()> for_cuts_;  // command that waits for cuts; null: none does
   struct Waiting {
     std::function<void()> command;
     OnCancel on_cancel;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <ranges>
 
 #include "app/document/carried_document.h"
 #include "app/document/words.h"
@@ -237,10 +238,8 @@ void SceneFiles::carry_document(const std::shared_ptr<OpenedScene>& scene, const
 void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, History history, const Said& said) {
   preparing_stopped_ = false;
   if (same_files(changing_to_, scene->files)) changing_to_.clear();
-  constexpr std::size_t kMostKept = 3;  // each holds a scene
   ws_.history.forget_redo();
-  before_files_.push_back(kept_now(next_step_));
-  if (before_files_.size() > kMostKept) before_files_.erase(before_files_.begin());
+  keep_before(kept_now(next_step_));
   undone_files_.clear();
   take(scene);
   ws_.history = std::move(history);
@@ -261,6 +260,19 @@ SceneFiles::Kept SceneFiles::kept_now(std::uint64_t step) const {
   return {step, ws_.scene, ws_.graph, ws_.session, ws_.clean, ws_.coarse, ws_.history};
 }
 
+// Each holds a scene.
+void SceneFiles::keep_before(Kept kept) {
+  constexpr std::size_t kAlwaysKept = 3;
+  before_files_.push_back(std::move(kept));
+  std::size_t gaussians = 0, fit = 0;
+  for (const Kept& k : std::views::reverse(before_files_)) {
+    gaussians += k.scene->cloud->size();
+    if (fit >= kAlwaysKept && gaussians > ws_.options.most_kept_gaussians) break;
+    ++fit;
+  }
+  before_files_.erase(before_files_.begin(), before_files_.end() - static_cast<std::ptrdiff_t>(fit));
+}
+
 void SceneFiles::go_back_to(Kept kept) {
   stop_for_loading();
   cancel_loading();
@@ -275,33 +287,66 @@ void SceneFiles::go_back_to(Kept kept) {
   start_preparing();
 }
 
+bool SceneFiles::stop_changing() {
+  if (!changing()) return false;
+  cancel_loading();
+  ws_.say(Message::Kind::kInfo, "The files stay as they are");
+  return true;
+}
+
 bool SceneFiles::undo_files() {
   const History::Entry& entry = ws_.history.entries()[ws_.history.cursor()];
+  if (entry.other_files == 0) return false;
   const auto before = std::ranges::find(before_files_, entry.other_files, &Kept::step);
-  if (entry.other_files == 0 || before == before_files_.end()) return false;
   const std::string title = entry.title;
+  if (before == before_files_.end()) {
+    ws_.history.undo();
+    ws_.say(Message::Kind::kInfo, "Not undone: " + title + ". The scene before it is no longer kept");
+    return true;
+  }
   undone_files_.push_back(kept_now(entry.other_files));
   Kept to = std::move(*before);
   before_files_.erase(before, before_files_.end());
   go_back_to(std::move(to));
-  redo_serial_ = ws_.history.serial();
+  redo_steps_ = ws_.history.steps_serial();
   ws_.say(Message::Kind::kInfo, "Undone: " + title);
   return true;
 }
 
-bool SceneFiles::can_redo_files() const {
-  return !undone_files_.empty() && redo_serial_ == ws_.history.serial();
+std::string SceneFiles::redo_title() const {
+  if (undone_files_.empty() || redo_steps_ != ws_.history.steps_serial() || ws_.history.can_redo()) return {};
+  const History& then = undone_files_.back().history;
+  return then.entries()[then.cursor()].title;
 }
 
 bool SceneFiles::redo_files() {
   if (!can_redo_files()) return false;
   Kept to = std::move(undone_files_.back());
   undone_files_.pop_back();
-  before_files_.push_back(kept_now(to.step));
+  keep_before(kept_now(to.step));
   go_back_to(std::move(to));
-  redo_serial_ = ws_.history.serial();
+  redo_steps_ = ws_.history.steps_serial();
   ws_.say(Message::Kind::kInfo, "Redone: " + ws_.history.entries()[ws_.history.cursor()].title);
   return true;
+}
+
+// A kept scene's history ends at the step before its change of files.
+void SceneFiles::perform(const JumpHistory& c) {
+  if (c.entry >= ws_.history.entries().size()) throw Error("", "There is no such step");
+  std::size_t entry = c.entry;
+  const auto changed_between = [&] {
+    std::size_t at = ws_.history.cursor();
+    while (at > entry && ws_.history.entries()[at].other_files == 0) --at;
+    return at;
+  };
+  for (std::size_t change = changed_between(); change > entry; change = changed_between()) {
+    const std::size_t steps = change - entry;
+    ws_.history.jump(change);
+    undo_files();
+    entry = ws_.history.cursor() - std::min(steps - 1, ws_.history.cursor());
+  }
+  ws_.history.jump(entry);
+  ws_.say(Message::Kind::kInfo, "Back at: " + ws_.history.entries()[entry].title);
 }
 
 void SceneFiles::take(const std::shared_ptr<const OpenedScene>& scene) {

@@ -30,11 +30,16 @@ class SceneFiles {
 
   void update();          // resumes preparing if a scene could not be opened; called once a frame
   void cancel_loading();  // stops opening and changing files; the scene stays as it is
+  bool changing() const { return !changing_to_.empty(); }  // true: a change of files is under way
+  bool stop_changing();                                    // cancels it; returns false if there is none
   // undo_files() and redo_files() undo or redo a change of files, if that is the next step to undo or redo.
-  // They return false if it is not, or if the scene before the change is no longer kept.
+  // They return false if it is not. Only the last changes can be undone: the files stay as they are now where
+  // the scene before the change is no longer kept, which is said.
   bool undo_files();
   bool redo_files();
-  bool can_redo_files() const;
+  bool can_redo_files() const { return !redo_title().empty(); }
+  std::string redo_title()
+      const;  // title of the change of files that redo_files() makes; empty: there is none
 
   // What is said while another scene is opened, until it is there; empty: none is.
   const std::string& opening() const { return opening_; }
@@ -47,6 +52,7 @@ class SceneFiles {
   void perform(const PlaceScene& c);
   void perform(const BringHere& c);
   void perform(const RemoveScene& c);
+  void perform(const JumpHistory& c);  // takes the changes of files back that lie between
 
  private:
   void opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,
@@ -96,10 +102,11 @@ class SceneFiles {
     History history;
   };
   Kept kept_now(std::uint64_t step) const;
+  void keep_before(Kept kept);
   void go_back_to(Kept kept);
   std::vector<Kept> before_files_;  // scenes before changes of files, the newest last
   std::vector<Kept> undone_files_;  // scenes after changes that were undone, the next to redo last
-  std::uint64_t redo_serial_ = 0;   // serial of the document for which the last of these may be redone
+  std::uint64_t redo_steps_ = 0;    // History::steps_serial() for which the last of these may be redone
   std::uint64_t next_step_ = 1;
 };
 

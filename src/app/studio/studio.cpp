@@ -33,20 +33,25 @@ Studio::Studio(const StudioOptions& options)
 Studio::~Studio() = default;
 
 void Studio::apply(const Command& command) {
-  const bool at_once = std::visit([](const auto& c) { return kAtOnce<std::decay_t<decltype(c)>>; }, command);
-  const bool stays =
-      std::visit([](const auto& c) { return kWritesFile<std::decay_t<decltype(c)>>; }, command);
-  if (at_once || !edits_.waiting())
-    dispatch(command);
-  else
-    edits_.in_turn([this, command] { dispatch(command); },
-                   stays ? Edits::OnCancel::kStays : Edits::OnCancel::kDropped);
+  std::visit(
+      [&](const auto& c) {
+        using C = std::decay_t<decltype(c)>;
+        if (!kAtOnce<C> && edits_.waiting())
+          return edits_.in_turn([this, command] { apply(command); },
+                                kWritesFile<C> ? Edits::OnCancel::kStays : Edits::OnCancel::kDropped);
+        if constexpr (kAfterCuts<C>)
+          if (cuts_.next() != 0) return edits_.after_cuts(c.title(), [this, command] { dispatch(command); });
+        dispatch(command);
+      },
+      command);
 }
 
 void Studio::dispatch(const Command& command) {
   try {
     std::visit(
         [&](const auto& c) {
+          if (kMakesWork<std::decay_t<decltype(c)>> && ws_.scene && !files_.opening().empty())
+            throw Error("", files_.opening(), "Esc keeps this scene, to work on in it");
           if constexpr (requires { clicks_.perform(c); })
             clicks_.perform(c);
           else if constexpr (requires { files_.perform(c); })
@@ -131,6 +136,7 @@ bool Studio::update(double seconds) {
     for (const auto& event : std::exchange(held_pointer_, {})) event();
   follow_document();
   cuts_.update();
+  edits_.update();
   run_held();
   const bool moves = viewport_.update(seconds, flight());
   clean_edges_.update();
@@ -196,6 +202,7 @@ void Studio::perform(const ShowRange& c) {
 // What runs for the person, the nearest to its end first.
 bool Studio::cancel_task() {
   if (cuts_.cancel()) {
+    if (edits_.waits_for_cuts()) edits_.cancel();
     ws_.say(Message::Kind::kInfo, "Cancelled. The strokes stay; R computes the cutout again.");
     return true;
   }
@@ -223,7 +230,7 @@ void Studio::perform(const Cancel&) {
 }
 
 void Studio::perform(const Undo&) {
-  if (!files_.undo_files()) edits_.undo();
+  if (!files_.stop_changing() && !files_.undo_files()) edits_.undo();
 }
 
 void Studio::perform(const Redo&) {

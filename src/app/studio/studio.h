@@ -88,6 +88,7 @@ class Studio {
 
   // True if work is unsaved, also while it is being written.
   bool unsaved() const { return edits_.waiting() || work_.unsaved(); }
+  bool waiting() const { return edits_.waiting(); }  // true: commands wait for an edit, or for cuts
   bool loading() const { return tasks_.busy(TaskKind::kLoad); }
   std::string coming() const;  // what the empty view is going to show; empty: it shows its picture
   bool cutting() const { return tasks_.busy(TaskKind::kCut); }

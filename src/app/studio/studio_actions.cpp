@@ -27,7 +27,7 @@ std::string without_scene(const Studio& s) {
 
 std::string without_undo(const Studio& s) {
   if (!s.scene()) return without_scene(s);
-  return s.history().can_undo() ? "" : "There is nothing to undo";
+  return s.history().can_undo() || s.files().changing() ? "" : "There is nothing to undo";
 }
 
 std::string without_redo(const Studio& s) {
@@ -88,19 +88,22 @@ std::string without_size(const Studio& s) {
 }
 
 constexpr float kBrushStep = 1.12f;
-constexpr bool kWaits = true;
 
 }  // namespace
 
 struct Studio::ActionRow {
+  // kForEdits: the action is an edit, or the edits before it decide whether it is allowed. kForCuts: it is
+  // also about what the cuts on their way are to find.
+  enum Waits { kForNothing, kForEdits, kForCuts };
   Action action;
   Refusal why_not;  // null: it is always allowed
   void (*does)(Studio& studio);
-  bool waits = false;  // for the edits before it: it is one, or they decide whether it is allowed
+  Waits waits = kForNothing;
 };
 
 const Studio::ActionRow* Studio::row_of(Action action) {
   using S = Studio;
+  constexpr auto kWaits = ActionRow::kForEdits, kForCuts = ActionRow::kForCuts;
   static const std::vector<ActionRow> rows = {
       {Action::kOpen, nullptr, [](S& s) { s.ask(UiRequest::kOpenDialog); }},
       {Action::kAddScene, without_scene, [](S& s) { s.ask(UiRequest::kAddDialog); }},
@@ -123,18 +126,20 @@ const Studio::ActionRow* Studio::row_of(Action action) {
       {Action::kRecompute, without_strokes, [](S& s) { s.apply(Recompute{}); }},
       {Action::kSelectAll, without_scene, [](S& s) { s.apply(EditSelection{SelectionEdit::kAll}); }},
       {Action::kSelectNone, without_selection, [](S& s) { s.apply(EditSelection{SelectionEdit::kNone}); },
-       kWaits},
-      {Action::kInvert, without_object, [](S& s) { s.apply(EditSelection{SelectionEdit::kInvert}); }, kWaits},
-      {Action::kGrow, without_selection, [](S& s) { s.apply(EditSelection{SelectionEdit::kGrow}); }, kWaits},
+       kForCuts},
+      {Action::kInvert, without_object, [](S& s) { s.apply(EditSelection{SelectionEdit::kInvert}); },
+       kForCuts},
+      {Action::kGrow, without_selection, [](S& s) { s.apply(EditSelection{SelectionEdit::kGrow}); },
+       kForCuts},
       {Action::kShrink, without_selection, [](S& s) { s.apply(EditSelection{SelectionEdit::kShrink}); },
-       kWaits},
+       kForCuts},
       {Action::kLargestPart, without_selection,
-       [](S& s) { s.apply(EditSelection{SelectionEdit::kLargestPart}); }, kWaits},
+       [](S& s) { s.apply(EditSelection{SelectionEdit::kLargestPart}); }, kForCuts},
       {Action::kFloaters, without_selection,
        [](S& s) { s.apply(ShowFloaters{!s.viewport_.floaters_shown()}); }, kWaits},
       {Action::kSeeThrough, without_scene, [](S& s) { s.turn_over(&ViewState::see_through); }},
       {Action::kByCentre, without_scene, [](S& s) { s.turn_over(&ViewState::by_centre); }},
-      {Action::kDelete, without_selection, [](S& s) { s.apply(DeleteSelected{}); }, kWaits},
+      {Action::kDelete, without_selection, [](S& s) { s.apply(DeleteSelected{}); }, kForCuts},
       {Action::kNewObject, without_scene, [](S& s) { s.apply(NewObject{}); }},
       {Action::kBrushSmaller, without_scene, [](S& s) { s.scale_brush(1 / kBrushStep); }},
       {Action::kBrushLarger, without_scene, [](S& s) { s.scale_brush(kBrushStep); }},
@@ -211,7 +216,10 @@ void Studio::run_held() {
 void Studio::run(Action action) {
   if (action == Action::kNone) return;
   const ActionRow* row = row_of(action);
-  if (row && row->waits && edits_.waiting()) return edits_.in_turn([this, action] { run(action); });
+  if (row && row->waits != ActionRow::kForNothing && edits_.waiting())
+    return edits_.in_turn([this, action] { run(action); });
+  if (row && row->waits == ActionRow::kForCuts && cuts_.next() != 0)
+    return edits_.after_cuts(name_of(action), [this, action] { run(action); });
   if (const std::string reason = why_not(action); !reason.empty()) {
     if (hold_for_cut(action)) return;
     const bool hint = action == Action::kConfirm;  // pressed by the way; nothing is wrong

@@ -28,6 +28,8 @@ struct StudioOptions {
   std::filesystem::path state_folder;  // folder for autosaves; empty: none are written
   PreparedCache cache;                 // cache of what was prepared for clicks
   bool works_ahead = true;             // false: nothing is made before it is asked for, for tests
+  // Gaussians of scenes kept to undo changes of files; the last three scenes are kept however large they are.
+  std::size_t most_kept_gaussians = 6'000'000;
 };
 
 struct Workspace {

@@ -46,17 +46,19 @@ void floater_buttons(UiContext& ui) {
 
 void refresh_histogram(UiContext& ui) {
   PropertyChoice& choice = ui.state.property;
-  const Camera camera = ui.studio.viewport().pane_camera();
-  const auto eye = camera.centre_world();
-  std::string key = fmt::format("{} {}", ui.studio.scene()->serial, choice.property);
-  if (choice.property == 2) key += fmt::format(" {:.3g} {:.3g} {:.3g}", eye.x, eye.y, eye.z);
-  if (key == choice.histogram_key) return;
-  const bool other =
-      !choice.histogram_key.starts_with(fmt::format("{} {}", ui.studio.scene()->serial, choice.property));
+  const Viewport& view = ui.studio.viewport();
+  const Camera camera = view.pane_camera();
+  const bool of_view = choice.property == static_cast<int>(Property::kDepth);
+  const std::string key = fmt::format("{} {}", ui.studio.scene()->serial, choice.property);
+  const bool other = key != choice.histogram_key;
+  const bool of_last_view =
+      choice.histogram_of && (view.moving() || same_camera(*choice.histogram_of, camera));
+  if (!other && (!of_view || of_last_view)) return;
   const auto values =
       property_values(*ui.studio.scene()->cloud, static_cast<Property>(choice.property), &camera);
   choice.histogram = histogram(values, kBins);
   choice.histogram_key = key;
+  choice.histogram_of = camera;
   if (!other) return;
   choice.low = choice.histogram.low;
   choice.high = choice.histogram.high;

@@ -166,6 +166,11 @@ void history_panel(UiContext& ui) {
     if (i == history.cursor() && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
     ImGui::PopID();
   }
+  const std::string files = ui.studio.files().redo_title();  // the list behind it comes back with it
+  if (files.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.colour.muted);
+  if (ImGui::Selectable((files + "##files").c_str())) ui.ask(Redo{});
+  ImGui::PopStyleColor();
 }
 
 }  // namespace splatcut

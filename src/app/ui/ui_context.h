@@ -55,7 +55,8 @@ struct PropertyChoice {
   glm::vec3 colour{0.5f};
   float tolerance = 0.1f;
   Histogram histogram;
-  std::string histogram_key;  // what it was made of
+  std::string histogram_key;           // what it was made of
+  std::optional<Camera> histogram_of;  // view that it was made in; depths follow the view once it rests
 };
 
 // Rings of one pane, kept while nothing changes.
@@ -66,6 +67,13 @@ struct RingsShown {
   Flags shown, of_object;
   bool moving = false;
   std::optional<Camera> camera;
+};
+
+// Gaussians of one pane whose centres are drawn.
+struct CentresShown {
+  std::vector<std::uint32_t> gaussians;
+  std::uint64_t scene = 0;  // serial
+  Flags shown, of_object;
 };
 
 struct GridShown {
@@ -137,8 +145,9 @@ struct UiState {
   TurntableChoice turntable;
   PropertyChoice property;
   std::optional<std::size_t>
-      size_pointed;     // size of the first click whose step the pointer is at in the panel
-  RingsShown rings[2];  // of each pane
+      size_pointed;         // size of the first click whose step the pointer is at in the panel
+  RingsShown rings[2];      // of each pane
+  CentresShown centres[2];  // of each pane
   GridShown grid;
   PlacingChoice placing;
   std::optional<std::filesystem::path> dragged_out;  // by the pointer, into another program

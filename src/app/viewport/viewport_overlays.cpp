@@ -83,20 +83,34 @@ void draw_rings(const UiContext& ui, const UiRect& area, int pane) {
   }
 }
 
-// Every n-th alone, so that a frame stays fast; those of the object in white.
+namespace {
+
+// Every n-th alone, so that a frame stays fast.
+void refresh_centres(CentresShown* centres, const Studio& studio, int pane) {
+  constexpr std::size_t kMost = 12000;
+  const Flags shown = studio.viewport().shown(pane), mine = of_object(studio);
+  const std::uint64_t scene = studio.scene()->serial;
+  if (centres->scene == scene && centres->shown == shown && centres->of_object == mine) return;
+  const std::size_t all = studio.scene()->cloud->size();
+  const std::size_t step = 1 + (mine ? studio.gaussians_of(studio.document().active) : all) / kMost;
+  *centres = {{}, scene, shown, mine};
+  for (std::size_t g = 0, counted = 0; g < all; ++g)
+    if ((!shown || (*shown)[g]) && (!mine || (*mine)[g]) && counted++ % step == 0)
+      centres->gaussians.push_back(static_cast<std::uint32_t>(g));
+}
+
+}  // namespace
+
 void draw_centres(const UiContext& ui, const UiRect& area, int pane) {
   const Studio& studio = ui.studio;
   if (!studio.view().centres) return;
-  constexpr std::size_t kMost = 12000;
+  CentresShown& centres = ui.state.centres[pane];
+  refresh_centres(&centres, studio, pane);
   const GaussianCloud& cloud = *studio.scene()->cloud;
   const Camera camera = studio.viewport().pane_camera();
-  const Flags shown = studio.viewport().shown(pane), mine = of_object(studio);
-  const std::size_t all = mine ? studio.gaussians_of(studio.document().active) : cloud.size();
-  const std::size_t step = 1 + all / kMost;
   const OnScreen place = on_screen(ui, area);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (std::size_t g = 0, counted = 0; g < cloud.size(); ++g) {
-    if ((shown && !(*shown)[g]) || (mine && !(*mine)[g]) || counted++ % step != 0) continue;
+  for (const std::uint32_t g : centres.gaussians) {
     const glm::vec3 seen = camera.camera_from_world(cloud.position[g]);
     if (!(seen.z > studio.viewport().draw_limits().near_plane)) continue;
     const ImVec2 at = place(camera.pixel_from_camera(seen));

@@ -180,6 +180,7 @@ TEST_CASE("10,000 random commands, undone to the start and redone to the end") {
   for (int i = 0; i < kSteps; ++i) {
     fuzz.step();
     if (i % (kSteps / kCuts) == 0) studio.update(1.0 / 60);  // cuts what is stale
+    while (studio.waiting()) studio.update(1.0 / 60);
     while (studio.document().objects.size() > 12) {
       studio.apply(LockObject{studio.document().objects.front().id, false});
       studio.apply(RemoveObject{studio.document().objects.front().id});

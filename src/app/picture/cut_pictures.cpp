@@ -1,4 +1,4 @@
-#include "app/studio/cut_pictures.h"
+#include "app/picture/cut_pictures.h"
 
 #include <algorithm>
 

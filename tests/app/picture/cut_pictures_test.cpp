@@ -1,5 +1,5 @@
 // The strip of thumbnails: views keep their places from one cut to the next.
-#include "app/studio/cut_pictures.h"
+#include "app/picture/cut_pictures.h"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // Pictures of a cut for the window: a card per view, and outlines of the first click's meanings.
 #pragma once
 
-#include "app/studio/cut_run.h"
+#include "app/picture/cut_run.h"
 #include "core/job.h"
 #include "scene/cloud/gaussian_cloud.h"
 #include "scene/raster/rasterizer.h"

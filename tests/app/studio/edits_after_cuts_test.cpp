@@ -1,0 +1,79 @@
+// What is done to an object right after a click waits for the cut of that click.
+#include <doctest/doctest.h>
+
+#include "hands.h"
+#include "scene/formats/scene_file.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+// No time for the cut to end.
+void click_apple(Hands& hands) {
+  hands.app->advance(0.5);  // no double-click with the last
+  hands.app.move(hands.app.screen_of(kOnApple));
+  hands.app.press(PointerButton::kLeft);
+  hands.app.release(PointerButton::kLeft);
+  REQUIRE(hands.studio().cuts().next() != 0);
+}
+
+}  // namespace
+
+TEST_CASE("edits after cuts: the same comes out in haste as after the cut") {
+  Hands patient, hasty(false);
+  const auto same_after = [&](const auto& does) {
+    does(patient.studio());
+    REQUIRE(patient.app.settle());
+    does(hasty.studio());
+    REQUIRE(hasty.app.settle());
+    const Studio &a = patient.studio(), &b = hasty.studio();
+    REQUIRE(a.document().objects.size() == b.document().objects.size());
+    for (std::size_t i = 0; i < a.document().objects.size(); ++i)
+      CHECK(a.labels(a.document().objects[i].id) == b.labels(b.document().objects[i].id));
+    CHECK(a.history().entries().size() == b.history().entries().size());
+  };
+  const std::size_t all = patient.studio().scene()->cloud->size(), apple = patient.selected();
+  click_apple(hasty);
+  same_after([](Studio& s) { s.run(Action::kInvert); });
+  CHECK(hasty.selected() == all - apple);
+  same_after([](Studio& s) { s.run(Action::kUndo); });
+  same_after([](Studio& s) { s.run(Action::kUndo); });  // the click
+  CHECK(hasty.selected() == 0);
+  patient.app.click(patient.app.screen_of(kOnApple));
+  REQUIRE(patient.app.settle());
+  click_apple(hasty);
+  same_after([](Studio& s) { s.apply(DuplicateObject{s.document().active}); });
+  CHECK(hasty.selected() == apple);
+}
+
+TEST_CASE("edits after cuts: an object is deleted, its export holds it, and Esc drops what waits") {
+  const ScratchFolder folder("edits_after_cuts");
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  click_apple(hands);
+  studio.run(Action::kDelete);
+  CHECK(hands.said().find("as soon as") != std::string::npos);
+  studio.apply(Cancel{});
+  REQUIRE(hands.app.settle());
+  CHECK_FALSE(studio.document().deleted);
+  CHECK(studio.document().objects.size() == 1);  // the stroke stays
+
+  studio.run(Action::kUndo);
+  REQUIRE(hands.app.settle());
+  click_apple(hands);
+  Export wanted;
+  wanted.request.path = folder / "apple.ply";
+  studio.apply(wanted);
+  const std::size_t apple = hands.selected();
+  REQUIRE(apple > 0);
+  CHECK(load_scene(folder / "apple.ply").cloud.size() == apple);
+
+  studio.run(Action::kUndo);
+  REQUIRE(hands.app.settle());
+  click_apple(hands);
+  studio.run(Action::kDelete);
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.document().deleted);
+  CHECK(count_flags(*studio.document().deleted) == apple);
+}
