@@ -17,4 +17,11 @@ inline std::string spoken_list(std::span<const std::string> words, std::string_v
   return text;
 }
 
+// Adds a sentence, or none, to a text that ends without a full stop.
+inline void add_sentence(std::string_view sentence, std::string* text) {
+  if (sentence.empty()) return;
+  if (!text->empty()) *text += ". ";
+  *text += sentence;
+}
+
 }  // namespace splatcut

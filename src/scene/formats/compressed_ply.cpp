@@ -9,6 +9,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "scene/cloud/chunk_order.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/losses.h"
@@ -94,7 +95,7 @@ struct PackedRows {
         {from_steps(v >> 24, 8), from_steps(v >> 16, 8), from_steps(v >> 8, 8)});
   }
   glm::vec3 position(std::size_t row) const {
-    if (!is_finite(glm::exp(log_scale(row))) || !is_finite(colour(row))) return kDroppedRow;
+    if (!is_within_reach(glm::exp(log_scale(row))) || !is_finite(colour(row))) return kDroppedRow;
     return chunks[row / kChunkRows].position.at(unpack_11_10_11(word(row, 0)));
   }
   void decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const {
@@ -224,6 +225,26 @@ void read_compressed_ply(const MappedFile& file, const LoadOptions&, Scene& scen
   take_up(up_from_header(header), {}, &scene);
 }
 
+// As those do that share a chunk with a stray. Empty where none moves by many times its size.
+std::string moved_far(const GaussianCloud& cloud, std::span<const std::uint32_t> order,
+                      std::span<const Chunk> chunks) {
+  constexpr glm::vec3 kHalfStep(0.5f / 2047, 0.5f / 1023, 0.5f / 2047);
+  constexpr float kMany = 10;
+  std::size_t count = 0;
+  float farthest = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Bounds& bounds = chunks[i / kChunkRows].position;
+    const glm::vec3 half = kHalfStep * (bounds.max - bounds.min), size = cloud.scale[order[i]];
+    const float moves = std::max({half.x, half.y, half.z});
+    if (moves <= kMany * std::max({size.x, size.y, size.z})) continue;
+    ++count;
+    farthest = std::max(farthest, moves);
+  }
+  if (count == 0) return {};
+  return fmt::format("{} Gaussians move by more than {:g} times their size, up to {:.2g} units", count, kMany,
+                     farthest);
+}
+
 Losses compressed_ply_losses(const Scene& scene, std::span<const std::uint32_t> gaussians) {
   constexpr float kHalfStep = 0.5f / 256;
   constexpr Reach kShBytes{(-0.5f - kHalfStep) * kShRange, (0.5f + kHalfStep) * kShRange};
@@ -237,12 +258,10 @@ Losses compressed_ply_losses(const Scene& scene, std::span<const std::uint32_t> 
   return losses;
 }
 
-// In Morton order instead of file order: neighbours must share a chunk, or its bounds mean nothing.
 std::string write_compressed_ply(AtomicFile& out, const Scene& scene,
                                  std::span<const std::uint32_t> gaussians, const SaveOptions& options) {
   const GaussianCloud& cloud = scene.cloud;
-  std::vector<std::uint32_t> order(gaussians.begin(), gaussians.end());
-  std::ranges::sort(order);
+  const std::vector<std::uint32_t> order = in_order_of_chunks(cloud, gaussians, kChunkRows);
   std::vector<Chunk> chunks;
   for (std::size_t begin = 0; begin < order.size(); begin += kChunkRows)
     chunks.push_back(
@@ -261,7 +280,9 @@ std::string write_compressed_ply(AtomicFile& out, const Scene& scene,
       sh.push_back(to_byte(std::floor((v / kShRange + 0.5f) * 256.0f)));
   }
   out.write(std::as_bytes(std::span(sh)));
-  return compressed_ply_losses(scene, gaussians).sentence();
+  Losses losses = compressed_ply_losses(scene, gaussians);
+  losses.add(moved_far(cloud, order, chunks));
+  return losses.sentence();
 }
 
 FormatPlan plan_compressed_ply(const Scene& scene, std::size_t gaussians, bool) {

@@ -31,6 +31,12 @@ inline bool is_within_reach(const glm::vec3& position) {
   return glm::all(glm::lessThan(glm::abs(position), glm::vec3(kFarthest)));
 }
 
+// Nor is a size beyond that one of a scene: moved or scaled, it would be no number.
+inline constexpr float kLargestLogSize = 34.5f;  // of 9.6e14
+inline bool is_size(const glm::vec3& scale) {
+  return is_within_reach(scale) && glm::all(glm::greaterThanEqual(scale, glm::vec3(0)));
+}
+
 // Takes the memory of the cloud in large pages where the system has them: the first touch of 4 kB pages
 // costs more than decoding into them.
 void resize_for_decode(GaussianCloud& cloud, std::size_t n, int degree);

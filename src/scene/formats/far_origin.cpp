@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/ranks.h"
+#include "core/spoken_list.h"
 
 namespace splatcut {
 
@@ -44,7 +45,7 @@ glm::dvec3 far_origin(const GaussianCloud& cloud) {
 void take_off(const glm::dvec3& origin, Scene* scene) {
   scene->origin = origin;
   for (glm::vec3& position : scene->cloud.position) position = glm::vec3(glm::dvec3(position) - origin);
-  scene->oddity = rounded_positions(scene->cloud);
+  add_sentence(rounded_positions(scene->cloud), &scene->oddity);
 }
 
 std::string spoken(const glm::dvec3& origin) {

@@ -209,7 +209,7 @@ struct GltfRows {
     const glm::vec3 s = scale(p, index);
     const glm::quat q = rotation(p, index);
     const float norm_squared = glm::dot(q, q);
-    const bool good = norm_squared > 0 && std::isfinite(norm_squared) && is_finite(s) &&
+    const bool good = norm_squared > 0 && std::isfinite(norm_squared) && is_within_reach(s) &&
                       is_finite(p.f_dc.vec3(index)) && !std::isnan(p.opacity.value(index, 0)) &&
                       std::ranges::all_of(p.sh, [&](const Accessor& a) { return is_finite(a.vec3(index)); });
     if (!good) return kDroppedRow;

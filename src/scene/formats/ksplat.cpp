@@ -96,8 +96,8 @@ struct KRows {
     const glm::vec3 s = scale(row);
     const glm::quat q = rotation(row);
     const float norm_squared = glm::dot(q, q);
-    const bool good = is_finite(s) && s.x >= 0 && s.y >= 0 && s.z >= 0 && norm_squared > 0 &&
-                      std::isfinite(norm_squared) && sh_is_finite(section, row);
+    const bool good =
+        is_size(s) && norm_squared > 0 && std::isfinite(norm_squared) && sh_is_finite(section, row);
     return good ? centre(section, index, row) : kDroppedRow;
   }
   bool sh_is_finite(const KSection& section, const std::byte* row) const {

@@ -24,6 +24,7 @@
 
 #include "core/error.h"
 #include "core/json_file.h"
+#include "core/spoken_list.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/lcc_axes.h"
@@ -142,8 +143,7 @@ struct LccRows {
   glm::vec3 position(std::size_t row) const {
     const LccPart& part = part_of(&row);
     const std::byte* at = part.rows + row * part.row_bytes;
-    const glm::vec3 s = scale(part, at);
-    if (s.x < 0 || s.y < 0 || s.z < 0) return kDroppedRow;
+    if (!is_size(scale(part, at))) return kDroppedRow;
     return lcc_turned({load<float>(at), load<float>(at + 4), load<float>(at + 8)});
   }
   void decode(std::size_t row, GaussianCloud& cloud, std::size_t g) const {
@@ -171,6 +171,7 @@ struct LccFiles {
   std::unique_ptr<MappedFile> index, data, sh, environment;  // the last two: null for none
 };
 
+// One that may be missing may be empty, too.
 std::unique_ptr<MappedFile> beside(const MappedFile& file, const char* name, bool may_be_missing,
                                    Scene* scene) {
   const fs::path path = file.path().parent_path() / name;
@@ -180,6 +181,10 @@ std::unique_ptr<MappedFile> beside(const MappedFile& file, const char* name, boo
     throw Error(file.path().string(), fmt::format("{} is missing beside it", name), "Copy the whole folder");
   }
   scene->files.push_back(path);
+  if (may_be_missing && fs::file_size(path, ignored) == 0) {
+    add_sentence(fmt::format("{} beside it is empty", name), &scene->oddity);
+    return nullptr;
+  }
   return std::make_unique<MappedFile>(path);
 }
 

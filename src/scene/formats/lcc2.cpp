@@ -149,6 +149,8 @@ void read_lcc2(const MappedFile& file, const LoadOptions& options, Scene& scene,
     add_surroundings(said, &index);
     if (said.levels > 1) scene.left_out = level_read(said.levels, level);
     read_pieces(index, PieceAxes::kLcc, scene, job);
+    // Pieces of other levels are the scene's, too: nothing is written over them.
+    for (const std::string& name : said.names) scene.files.push_back(file.path().parent_path() / name);
   });
 }
 

@@ -97,13 +97,13 @@ struct PlyRows {
 
   glm::vec3 position(std::size_t index) const {
     const std::byte* row = data + index * row_bytes;
-    constexpr float kMaxLogScale = 80.0f;  // exp() beyond it overflows a variance
     const glm::quat q = rotation(row);
     const float norm_squared = glm::dot(q, q);
     const glm::vec3 logs = log_scale(row);
     const bool good = norm_squared > 0 && std::isfinite(norm_squared) && !std::isnan(value(row, kOpacity)) &&
-                      logs.x < kMaxLogScale && logs.y < kMaxLogScale && logs.z < kMaxLogScale &&
-                      is_finite(vec3(row, kDc)) && std::isfinite(filter_size(row)) && rest_is_finite(row);
+                      logs.x < kLargestLogSize && logs.y < kLargestLogSize && logs.z < kLargestLogSize &&
+                      is_finite(vec3(row, kDc)) && is_within_reach(glm::vec3(filter_size(row))) &&
+                      rest_is_finite(row);
     return good ? place(row) : kDroppedRow;
   }
   void decode(std::size_t index, GaussianCloud& cloud, std::size_t g) const {

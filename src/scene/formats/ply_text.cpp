@@ -14,13 +14,12 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
-// What stands behind so many lines.
-std::string_view after_lines(std::string_view text, std::size_t lines) {
-  for (; lines > 0 && !text.empty(); --lines) {
-    const std::size_t end = text.find('\n');
-    text.remove_prefix(end == text.npos ? text.size() : end + 1);
-  }
-  return text;
+// Takes the next line that is not blank off the text; empty at its end.
+std::string_view next_line(std::string_view* text) {
+  text->remove_prefix(std::min(text->find_first_not_of(kBlanks), text->size()));
+  const std::string_view line = text->substr(0, text->find('\n'));
+  text->remove_prefix(line.size());
+  return line;
 }
 
 // Takes the next word off the text; empty at its end.
@@ -73,7 +72,7 @@ PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, cons
   text.remove_prefix(header.bytes);
   for (const PlyElement& before : header.elements) {
     if (before.name == element.name) break;
-    text = after_lines(text, before.count);
+    for (std::size_t row = 0; row < before.count && !text.empty(); ++row) next_line(&text);
   }
   const std::size_t columns = element.properties.size();
   if (element.count == 0) refuse(fmt::format("the element \"{}\" is empty", element.name));
@@ -83,14 +82,20 @@ PlyTextRows read_text_rows(const MappedFile& file, const PlyHeader& header, cons
   const std::vector<double> off = taken_off(element, origin);
   PlyTextRows rows{with_floats(element), std::vector<float>(element.count * columns)};
   constexpr std::size_t kBetweenLooks = 1 << 16;
-  for (std::size_t i = 0; i < rows.values.size(); ++i) {
-    if (i % kBetweenLooks == 0 && job.cancelled()) break;
-    const std::string_view word = next_word(&text);
-    const std::string& property = element.properties[i % columns].name;
-    if (word.empty()) refuse(incomplete(fmt::format("row {} ends before \"{}\"", i / columns, property)));
-    if (!parse_number(word, off[i % columns], &rows.values[i]))
-      refuse(fmt::format("row {}: \"{}\" is no number, for the property \"{}\"", i / columns,
-                         word.substr(0, 40), property));
+  for (std::size_t row = 0; row < element.count; ++row) {
+    if (row % kBetweenLooks == 0 && job.cancelled()) break;
+    std::string_view line = next_line(&text);
+    for (std::size_t column = 0; column < columns; ++column) {
+      const std::string_view word = next_word(&line);
+      const std::string& property = element.properties[column].name;
+      if (word.empty() && text.empty())
+        refuse(incomplete(fmt::format("row {} ends before \"{}\"", row, property)));
+      if (word.empty()) refuse(fmt::format("row {} ends before \"{}\"", row, property));
+      if (!parse_number(word, off[column], &rows.values[row * columns + column]))
+        refuse(fmt::format("row {}: \"{}\" is no number, for the property \"{}\"", row, word.substr(0, 40),
+                           property));
+    }
+    if (!next_word(&line).empty()) refuse(fmt::format("row {} has more than {} numbers", row, columns));
   }
   return rows;
 }

@@ -202,9 +202,7 @@ struct RadRows {
   glm::vec3 position(std::size_t row) const {
     const RadChunk& chunk = chunk_of(&row);
     const std::array<float, 4> q = rad_rotation(chunk.fields[kOrientation], row);
-    const glm::vec3 scale = vec3(chunk.fields[kScales], row);
-    constexpr float kLargest = 5e34f;  // a variance beyond overflows
-    bool good = is_finite(vec3(chunk.fields[kRgb], row)) && glm::clamp(scale, 0.0f, kLargest) == scale &&
+    bool good = is_finite(vec3(chunk.fields[kRgb], row)) && is_size(vec3(chunk.fields[kScales], row)) &&
                 std::isfinite(q[0] + q[1] + q[2] + q[3]) && !std::isnan(chunk.fields[kAlpha].at(row, 0));
     for (int band = 1; band <= degree; ++band) {
       const RadValues& sh = chunk.fields[kSh1 + static_cast<std::size_t>(band) - 1];
@@ -494,6 +492,8 @@ void read_rad(const MappedFile& file, const LoadOptions& options, Scene& scene, 
       rows.taken = rad_level(rows.chunks, depths, deepest, level);
       rows.count = rows.taken.size();
       scene.left_out = level_read(deepest + 1, level);
+      if (const auto lost = std::ranges::count(depths, kUnreached); lost > 0)
+        scene.left_out += fmt::format("; {} Gaussians that its tree does not reach are left out", lost);
       if (level > 0) scene.left_out += "; opacities of merged Gaussians above 1 are read as 1";
     }
     check_cloud_size(file.path(), rad.packed(), rows.count, rows.degree);

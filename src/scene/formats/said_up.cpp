@@ -9,6 +9,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/spoken_list.h"
+
 namespace splatcut {
 
 namespace {
@@ -53,8 +55,7 @@ void take_up(const SaidUp& said, const AxisSigns& axes, Scene* scene) {
     scene->up = axes.position(glm::normalize(*said / most));
     return;
   }
-  scene->oddity += scene->oddity.empty() ? "" : ". ";
-  scene->oddity += "what the file says of up is no direction and is passed over";
+  add_sentence("what the file says of up is no direction and is passed over", &scene->oddity);
 }
 
 glm::dvec3 up_to_say(const glm::vec3& up, const AxisSigns& axes) {

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/lower_case.h"
 #include "core/mapped_file.h"
+#include "core/spoken_list.h"
 #include "scene/cloud/scene_memory.h"
 #include "scene/formats/far_origin.h"
 #include "scene/formats/foreign_files.h"
@@ -19,6 +20,7 @@ namespace {
 
 // The content decides among files that carry a mark; the name is needed for those without.
 SceneFormat format_of(const MappedFile& file) {
+  if (begins_with(file, "PK\x03\x04")) refuse_foreign(file);  // packages of others, by their names
   for (const SceneFormat& format : scene_formats())
     if (format.recognises && format.recognises(file)) return format;
   refuse_foreign(file);
@@ -147,16 +149,14 @@ Scene load_scene(const std::filesystem::path& path, const LoadOptions& options, 
   scene.format.read(file, options, scene, job);
   if (!job.cancelled() && scene.file_rows == 0) throw Error(path.string(), "holds no Gaussians");
   if (!job.cancelled() && scene.cloud.empty())
-    throw Error(
-        path.string(),
-        fmt::format("none of the {} Gaussians is usable: each has NaN, a zero rotation, or lies beyond 1e15",
-                    scene.file_rows));
+    throw Error(path.string(), fmt::format("none of the {} Gaussians is usable: each has NaN, a zero "
+                                           "rotation, or a place or size beyond 1e15",
+                                           scene.file_rows));
   if (job.cancelled()) return scene;
   if (options.origin && scene.origin != *options.origin) take_off(*options.origin, &scene);
   scene.cloud.near_plane = near_plane_of(scene.cloud);
   check_size(scene);
-  if (const std::string odd = oddity_of(scene.cloud); !odd.empty())
-    scene.oddity += (scene.oddity.empty() ? "" : ". ") + odd;
+  add_sentence(oddity_of(scene.cloud), &scene.oddity);
   return scene;
 }
 

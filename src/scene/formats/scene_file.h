@@ -31,7 +31,7 @@ struct Scene {
   std::vector<std::filesystem::path> files;  // all that were read: path, then buffers, pictures, pieces
   SceneFormat format = SceneFormat::kPly;
   std::size_t file_rows = 0;  // Gaussians in the file, dropped ones included
-  std::size_t dropped = 0;    // rows left out: NaN, zero quaternion, beyond 1e15 units
+  std::size_t dropped = 0;    // rows left out: NaN, zero quaternion, place or size beyond 1e15 units
   glm::dvec3 origin{
       0};  // taken off positions that 32 bits do not hold: the file's are those of the cloud + it
   // Which way is up, unit length, in the axes of the cloud; none where nothing says it.

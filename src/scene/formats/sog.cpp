@@ -239,7 +239,7 @@ bool is_sog(const MappedFile& file) {
 }  // namespace
 
 glm::vec3 SogRows::position(std::size_t row) const {
-  const bool good = quats.pixels()[row][3] >= sog::kLargestAt && is_finite(scale_of(*this, row)) &&
+  const bool good = quats.pixels()[row][3] >= sog::kLargestAt && is_within_reach(scale_of(*this, row)) &&
                     is_finite(f_dc_of(*this, row)) && (degree == 0 || label_of(*this, row) < palette);
   if (!good) return kDroppedRow;
   glm::vec3 p;

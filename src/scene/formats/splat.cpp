@@ -32,7 +32,7 @@ struct SplatRows {
     const std::byte* row = data + index * kRowBytes;
     const glm::vec3 scale = vec3(row + kScaleAt);
     const glm::quat q = rotation(row);
-    const bool good = is_finite(scale) && scale.x >= 0 && scale.y >= 0 && scale.z >= 0 && glm::dot(q, q) > 0;
+    const bool good = is_size(scale) && glm::dot(q, q) > 0;
     return good ? vec3(row) : kDroppedRow;
   }
   void decode(std::size_t index, GaussianCloud& cloud, std::size_t g) const {

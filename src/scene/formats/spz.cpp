@@ -313,7 +313,7 @@ void read_spz(const MappedFile& file, const LoadOptions& options, Scene& scene, 
 }
 
 bool is_spz(const MappedFile& file) {
-  return begins_with(file, "NGSP") || begins_with(file, "\x1f\x8b");
+  return begins_with(file, "NGSP") || begins_with(file, "\x1f\x8b\x08");
 }
 
 FormatPlan plan_spz(const Scene& scene, std::size_t gaussians, bool) {

@@ -58,6 +58,9 @@ void parse_property(const std::filesystem::path& path, std::span<const std::stri
   }
   if (words.size() != 3) throw Error(path.string(), fmt::format("bad header line \"{}\"", line));
   const PlyType type = type_from_name(path, words[1], line);
+  constexpr std::size_t kMost = 4096;  // each is compared with all before it
+  if (element.properties.size() == kMost)
+    throw Error(path.string(), fmt::format("an element has more than {} properties", kMost));
   if (element.find(words[2]))
     throw Error(path.string(), fmt::format("property \"{}\" appears twice", words[2]));
   element.properties.push_back({std::string(words[2]), type, element.row_bytes});
@@ -159,7 +162,10 @@ PlyHeader parse_ply_header(const std::filesystem::path& path, std::span<const st
                     "Convert the file to binary_little_endian");
       has_format = true;
     } else if (words[0] == "element") {
-      header.elements.push_back(parse_element(path, words, line));
+      PlyElement element = parse_element(path, words, line);
+      if (header.find(element.name))
+        throw Error(path.string(), fmt::format("the element \"{}\" appears twice", element.name));
+      header.elements.push_back(std::move(element));
     } else if (words[0] == "property" && !header.elements.empty()) {
       parse_property(path, words, line, header.elements.back());
     } else {

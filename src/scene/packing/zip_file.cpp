@@ -39,8 +39,14 @@ ZipReader::ZipReader(const MappedFile& file) : file_(file), archive_(nullptr, zi
 }
 
 std::string ZipReader::find(const std::string& name) const {
-  const zip_int64_t index = zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_NODIR);
-  return index < 0 ? "" : zip_get_name(archive_.get(), static_cast<zip_uint64_t>(index), 0);
+  const zip_int64_t count = zip_get_num_entries(archive_.get(), 0);
+  for (zip_int64_t i = 0; i < count; ++i) {
+    const char* entry = zip_get_name(archive_.get(), static_cast<zip_uint64_t>(i), 0);
+    const std::string_view path = entry ? entry : "";
+    const bool of_macos = path.starts_with("__MACOSX/");  // what the Finder adds
+    if (!of_macos && path.substr(path.rfind('/') + 1) == name) return std::string(path);
+  }
+  return {};
 }
 
 std::vector<std::byte> ZipReader::read(const std::string& path) const {

@@ -1,4 +1,6 @@
 // .spz and compressed .ply, written by hand and by our own writers.
+#include <fmt/format.h>
+
 #include "quick.h"
 #include "scene_file_helpers.h"
 #include "synthetic_cloud.h"
@@ -184,4 +186,27 @@ TEST_CASE(
     CHECK(colour(high).r == doctest::Approx(with_colour ? 1.5 : 1));
     CHECK(colour(high).b == doctest::Approx(with_colour ? 2 : 1));
   }
+}
+
+TEST_CASE("compressed ply: strays are kept apart, and what they move is said") {
+  const Folder folder;
+  Scene scene;
+  scene.cloud = varied_cloud(3000, 0);
+  const auto written = [&] {
+    const SaveReport report = save_scene(folder / "a.compressed.ply", scene, {}, SceneFormat::kCompressedPly);
+    const Scene got = load_scene(folder / "a.compressed.ply");
+    const auto lost = [&](const glm::vec3& p) {
+      return std::ranges::none_of(got.cloud.position,
+                                  [&](const glm::vec3& q) { return glm::distance(p, q) < 0.01f; });
+    };
+    return std::pair(std::ranges::count_if(scene.cloud.position, lost), report.loss);
+  };
+  const auto [none, nothing_said] = written();
+  CHECK(none == 0);
+  CHECK(nothing_said.find("times their size") == std::string::npos);
+  constexpr std::size_t kStrays = 40;
+  for (std::size_t i = 0; i < kStrays; ++i) scene.cloud.position[70 * i] *= 1e5f;
+  const auto [moved, said] = written();
+  CHECK(moved < 256);  // one chunk, where each stray has made its own coarse
+  CHECK(mentions(said, {fmt::format("{} Gaussians move by more than 10 times their size", moved).c_str()}));
 }

@@ -54,7 +54,9 @@ QUICK_CASE("sog", "sog: as a folder, inside another folder of the archive, and w
     fs::create_directories(folder / "open");
     write(folder / "open" / name, text);
   }
-  write(folder / "inner.sog", text_of_bytes(zip_of(entries)));
+  std::vector<ZipEntry> packed = entries;  // by the Finder, which adds files of the same names
+  packed.insert(packed.begin(), entry("__MACOSX/inner/meta.json", "of the Finder"));
+  write(folder / "inner.sog", text_of_bytes(zip_of(packed)));
   const Scene expected = load_scene(folder / "a.sog");
   for (const fs::path& path : {folder / "inner.sog", folder / "open/meta.json", folder / "open"}) {
     CAPTURE(path.string());
@@ -195,6 +197,13 @@ TEST_CASE("damage: every format, cut anywhere or with bytes changed, gives an Er
   }
 }
 
+QUICK_CASE("splat", "splat: a first number that begins as a packed .spz does is one") {
+  const Folder folder;
+  write(folder / "a.splat", "\x1f\x8b\x20\x3f" + bytes_of(glm::vec2(0)) + bytes_of(glm::vec3(1)) +
+                                "\x80\x80\x80\xff\xff\x80\x80\x80");
+  CHECK(load_scene(folder / "a.splat").cloud.position[0].x == doctest::Approx(0.6271).epsilon(1e-3));
+}
+
 QUICK_CASE("splat", "files of other kinds are refused with what to do") {
   const Folder folder;
   const auto check = [&](const char* name, const std::string& bytes,
@@ -208,7 +217,13 @@ QUICK_CASE("splat", "files of other kinds are refused with what to do") {
   check("scene.obj", "v 0 0 0", {"mesh", "Train"});
   check("a.splatv", std::string("\x4b\x67\x00\x00", 4), {"moving scene", ".ply"});
   check("moving.splat", std::string("\x4b\x67\x00\x00", 4) + std::string(60, 'a'), {"moving scene", ".ply"});
-  check("step-30000.ckpt", "PK", {"checkpoint", "ns-export"});
+  for (const std::string zip :
+       {std::string("PK"), text_of_bytes(zip_of(std::vector<ZipEntry>{entry("a", "b")}))}) {
+    check("step-30000.ckpt", zip, {"checkpoint", "ns-export"});
+    check("model.pt", zip, {"checkpoint", "save_ply"});
+    check("chair.usdz", zip, {"USD package"});
+    check("chair.ssproj", zip, {"SuperSplat", "Export"});
+  }
   check("lod-meta.json", "{}", {"lod-meta.json", "not the index of a streamed scene", "'filenames'"});
   check("scene.xyzzy", "what", {"extension", ".splat", ".sog"});
 }

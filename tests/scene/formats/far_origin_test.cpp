@@ -146,7 +146,10 @@ TEST_CASE("far: a scene of 32 bits that stands beside one on a map comes near 0,
   scene.file_rows = scene.cloud.size();
   for (glm::vec3& p : scene.cloud.position) p += glm::vec3(kMap);
   save_scene(folder / "a.ply", scene, {}, SceneFormat::kPly);
+  std::string text = text_of(folder / "a.ply");
+  write(folder / "a.ply", text.insert(text.find("element"), "comment up 0 0 0\n"));
   const Scene beside = load_scene(folder / "a.ply", {.origin = kMap});
+  CHECK(mentions(beside.oddity, {"what the file says of up is no direction"}));
   for (std::size_t g = 0; g < beside.cloud.size(); ++g)
     CHECK(beside.cloud.position[g] == scene.cloud.position[beside.cloud.file_row[g]] - glm::vec3(kMap));
   save_scene(folder / "b.ply", with_cloud(beside, beside.cloud), {}, SceneFormat::kPly);

@@ -85,6 +85,19 @@ QUICK_CASE("ply", "ply: text has the values of its binary twin, and colours stan
   bad += " 1e60\n";  // infinite: the row is dropped
   write(folder / "bad.ply", bad);
   CHECK(load_scene(folder / "bad.ply").dropped == 1);
+  bad = text;  // each row is a line of its own: what one lacks is not taken from the next
+  bad.erase(bad.find(' ', bad.find("\n3 ") + 3),
+            bad.find('\n', bad.find("\n3 ") + 3) - bad.find(' ', bad.find("\n3 ") + 3));
+  write(folder / "bad.ply", bad);
+  CHECK(mentions(refusal(folder / "bad.ply"), {"row 0 ends before \"y\""}));
+  bad = text;
+  bad.insert(bad.find('\n', bad.find("\n3 ") + 1), " 7");
+  write(folder / "bad.ply", bad);
+  CHECK(mentions(refusal(folder / "bad.ply"), {"row 0 has more than 27 numbers"}));
+  bad = text;
+  bad.insert(bad.find("\n3 "), "\n \r\n");
+  write(folder / "blank.ply", bad);
+  check_equal(load_scene(folder / "blank.ply").cloud, b.cloud);
   bad = text;
   bad.replace(bad.find("vertex 50"), 9, "vertex 4000000000");
   write(folder / "huge.ply", bad);

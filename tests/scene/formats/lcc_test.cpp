@@ -118,6 +118,9 @@ TEST_CASE("lcc: a level by its number, the coarsest beyond the last, the folder 
   fs::remove(folder / "shcoef.bin");
   CHECK(load_scene(folder / "a.lcc").cloud.sh_degree == 0);
   CHECK(load_scene(folder / "a.lcc").file_rows == 4);
+  write(folder / "environment.bin", "");
+  CHECK(load_scene(folder / "a.lcc").file_rows == 3);
+  CHECK(load_scene(folder / "a.lcc").oddity == "environment.bin beside it is empty");
   fs::remove(folder / "environment.bin");
   CHECK(load_scene(folder / "a.lcc").file_rows == 3);
 }

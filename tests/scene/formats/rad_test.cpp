@@ -215,6 +215,9 @@ TEST_CASE(
   const Scene coarse = load_scene(folder / "a.rad", {.lod = 2});
   CHECK(coarse.cloud.opacity[0] == 1);
   CHECK(mentions(coarse.left_out, {"above 1"}));
+  write(folder / "b.rad", tree({2, 0, 0, 0, 0}, {1, 0, 0, 0, 0}));
+  CHECK(mentions(load_scene(folder / "b.rad").left_out,
+                 {"2 Gaussians that its tree does not reach are left out"}));
   CHECK(mentions(refused(folder, tree({2, 2, 0, 0, 0}, {1, 2, 0, 0, 0})), {"reached twice"}));
   CHECK(mentions(refused(folder, tree({2, 1, 0, 0, 0}, {1, 0, 0, 0, 0})), {"reached twice"}));
   CHECK(mentions(refused(folder, tree({2, 9, 0, 0, 0}, {1, 3, 0, 0, 0})), {"9 children from 3"}));

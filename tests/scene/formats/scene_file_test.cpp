@@ -156,10 +156,16 @@ QUICK_CASE("ply", "bad files are refused with a clear sentence") {
   check("overflow.ply", with_count("18446744073709551615"), {"truncated"});
   check("too_long.ply", with_count("99999999999999999999999"), {"bad count"});
   check("minus.ply", with_count("-5"), {"bad count"});
+  std::string twice = good;
+  check("twice.ply", twice.insert(twice.find("end_header"), "element vertex 3\nproperty float x\n"),
+        {"the element \"vertex\" appears twice"});
   check("zero.ply", with_count("0"), {"vertex", "empty"});
   check("no_opacity.ply", without("opacity"), {"opacity", "missing", "f_dc_0"});
   check("1dgs.ply", without("scale_1"), {"scale_1", "missing"});
   check("odd_rest.ply", numbered_ply(splat_names(12), 10), {"12 f_rest", "45"});
+  std::vector<std::string> many = names;
+  for (int i = 0; i < 4096; ++i) many.push_back("more_" + std::to_string(i));
+  check("many.ply", header(many, 1), {"an element has more than 4096 properties"});
   check("points.ply", numbered_ply({"x", "y", "z", "red", "green", "blue"}, 10), {"ordinary point cloud"});
   check("cut.splat", std::string(70, 'a'), {"truncated", "row 2", "byte 70"});
   check("zero.splat", std::string(64, '\x80'), {"none of the 2"});
@@ -206,6 +212,8 @@ QUICK_CASE("ply", "bad files: scenes beyond all lengths are refused, single Gaus
   const Scene scene = loaded(many + row(1e20f, 1) + row(-3e38f, 1));
   CHECK(scene.dropped == 2);
   CHECK(scene.cloud.size() == 300);
+  CHECK(loaded(many + row(1, 1e38f)).dropped == 1);  // a size, too: scaled, it would be no number
+  CHECK(loaded(many + row(1, 1e14f)).dropped == 0);
 }
 
 TEST_CASE("loading stops at every stage when asked to, without an error and without a scene") {

@@ -77,6 +77,13 @@ TEST_CASE(
   CHECK(scene.other_properties.empty());
   save_scene(folder / "b.ply", scene, {}, SceneFormat::kPly);  // the rows as they are: fused again when read
   check_equal(load_scene(folder / "b.ply").cloud, scene.cloud);
+  const std::string good = small_ply({"filter_3D"});
+  const std::size_t filter = good.size() - 4, log_size = filter - 5 * 4;  // of the last row
+  for (const auto& [at, value] : {std::pair(filter, 1e30f), {log_size, 79.9f}}) {
+    std::string bad = good;
+    write(folder / "bad.ply", bad.replace(at, 4, bytes_of(value)));
+    CHECK(load_scene(folder / "bad.ply").dropped == 1);
+  }
 }
 
 TEST_CASE("ply: 2D Gaussians have a third axis of no size") {
