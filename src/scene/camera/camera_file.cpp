@@ -179,7 +179,8 @@ std::vector<Camera> load_any_cameras(const fs::path& path, const glm::dvec3& ori
   if (!fs::exists(path, ignored)) throw Error(path.string(), "there is no such file or folder");
   if (fs::is_directory(path, ignored)) {
     for (const char* folder : kColmapFolders)
-      if (has_colmap_cameras(path / folder)) return load_colmap_cameras(path / folder, origin, remarks);
+      if (const std::string ending = colmap_ending(path / folder); !ending.empty())
+        return load_colmap_cameras(path / folder, ending, origin, remarks);
     for (const char* name : {"cameras.json", "transforms.json"})
       if (fs::exists(path / name, ignored)) return load_json_cameras(path / name, origin, remarks);
     throw Error(
@@ -192,10 +193,11 @@ std::vector<Camera> load_any_cameras(const fs::path& path, const glm::dvec3& ori
   const bool colmap = path.extension() == ".bin" || path.extension() == ".txt";
   if (!colmap) return load_json_cameras(path, origin, remarks);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!has_colmap_cameras(folder))
+  const std::string ending = path.extension().string();
+  if (!has_colmap_pair(folder, ending))
     throw Error(path.string(),
                 "cameras and images of COLMAP are wanted beside each other, both .bin or both .txt");
-  return load_colmap_cameras(folder, origin, remarks);
+  return load_colmap_cameras(folder, ending, origin, remarks);
 }
 
 }  // namespace

@@ -296,21 +296,23 @@ std::vector<Camera> read_images_txt(const fs::path& path, Lenses lenses, const g
   return cameras.take();
 }
 
-bool has_pair(const fs::path& folder, const char* extension) {
-  std::error_code ignored;
-  return fs::is_regular_file(folder / (std::string("cameras") + extension), ignored) &&
-         fs::is_regular_file(folder / (std::string("images") + extension), ignored);
-}
-
 }  // namespace
 
-bool has_colmap_cameras(const fs::path& folder) {
-  return has_pair(folder, ".bin") || has_pair(folder, ".txt");
+bool has_colmap_pair(const fs::path& folder, const std::string& ending) {
+  std::error_code ignored;
+  return fs::is_regular_file(folder / ("cameras" + ending), ignored) &&
+         fs::is_regular_file(folder / ("images" + ending), ignored);
 }
 
-std::vector<Camera> load_colmap_cameras(const fs::path& folder, const glm::dvec3& origin,
-                                        CameraRemarks* remarks) {
-  if (has_pair(folder, ".bin"))
+const char* colmap_ending(const fs::path& folder) {
+  for (const char* ending : {".bin", ".txt"})
+    if (has_colmap_pair(folder, ending)) return ending;
+  return "";
+}
+
+std::vector<Camera> load_colmap_cameras(const fs::path& folder, const std::string& ending,
+                                        const glm::dvec3& origin, CameraRemarks* remarks) {
+  if (ending == ".bin")
     return read_images_bin(folder / "images.bin", read_lenses_bin(folder / "cameras.bin", remarks), origin,
                            remarks);
   return read_images_txt(folder / "images.txt", read_lenses_txt(folder / "cameras.txt", remarks), origin,

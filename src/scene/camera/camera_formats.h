@@ -35,10 +35,13 @@ class CameraRemarks {
   std::string first_;
 };
 
-// folder holds cameras and images, both .bin or both .txt (.bin is preferred). origin: as in load_cameras().
-std::vector<Camera> load_colmap_cameras(const std::filesystem::path& folder, const glm::dvec3& origin,
-                                        CameraRemarks* remarks);
-bool has_colmap_cameras(const std::filesystem::path& folder);
+// What cameras and images of COLMAP, which lie beside each other, end with: ".bin", else ".txt"; empty where
+// the folder has no such pair.
+const char* colmap_ending(const std::filesystem::path& folder);
+bool has_colmap_pair(const std::filesystem::path& folder, const std::string& ending);
+// origin: as in load_cameras().
+std::vector<Camera> load_colmap_cameras(const std::filesystem::path& folder, const std::string& ending,
+                                        const glm::dvec3& origin, CameraRemarks* remarks);
 
 // The frame of a transforms.json. path: of the file, beside which its pictures are. Throws json::exception or
 // domain_error, whose words are about the frame.

@@ -103,6 +103,15 @@ TEST_CASE("COLMAP text without lines of points: no image is taken for points") {
   CHECK(names_of(one + "0001\n" + two + "0002\n") == "0001 0002 ");  // all of them numbers
 }
 
+TEST_CASE("COLMAP: the files that are named are read, not those of the other kind beside them") {
+  const Folder both;  // what is named is read, not what lies beside it
+  for (const char* ending : {".bin", ".txt"}) {
+    write(both / (std::string("cameras") + ending), "1 PINHOLE 640 480 500 510 320 240\n");
+    write(both / (std::string("images") + ending), std::string("1 ") + kColmapPose + " 1 a.jpg\n");
+  }
+  CHECK(load_cameras(both / "images.txt").size() == 1);
+}
+
 TEST_CASE("folders of captures: COLMAP where nerfstudio and Inria's scripts put it") {
   for (const char* below : {"colmap/sparse/0", "distorted/sparse/0", "dense/sparse", "sparse"}) {
     CAPTURE(below);
