@@ -28,12 +28,32 @@ Mask where(const Image<Pixel>& image, const Test& is_object) {
   return mask;
 }
 
-// half: of what white would be.
+// Whether most of what is darker than `half` and not black lies in the midst of areas of one level: numbers
+// of objects do, smoothed borders of white do not.
+template <class Pixel>
+bool has_dark_areas(const Image<Pixel>& grey, int half) {
+  std::size_t dark = 0, within = 0;
+  for (int y = 0; y < grey.height(); ++y)
+    for (int x = 0; x < grey.width(); ++x) {
+      const Pixel level = grey.at(x, y);
+      if (level == 0 || level >= half) continue;
+      ++dark;
+      bool same = true;
+      for (int v = std::max(0, y - 1); v <= std::min(y + 1, grey.height() - 1); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(x + 1, grey.width() - 1); ++u)
+          same = same && grey.at(u, v) == level;
+      within += same;
+    }
+  return 2 * within > dark;
+}
+
+// half: of what white would be. Numbers of objects, which reach it where there are many, never reach white.
 template <class Pixel>
 ReadMask mask_of_grey(const Image<Pixel>& grey, int half, int least) {
   const int brightest = *std::ranges::max_element(grey.pixels());
   if (brightest < least) return {Mask(grey.width(), grey.height()), ""};
-  if (brightest >= half) return {where(grey, [&](Pixel p) { return p >= half; }), "white"};
+  const bool numbers = least == 1 && brightest < 2 * half - 1 && has_dark_areas(grey, half);
+  if (brightest >= half && !numbers) return {where(grey, [&](Pixel p) { return p >= half; }), "white"};
   return {where(grey, [&](Pixel p) { return p >= least; }), "numbers, 0 is the rest"};
 }
 

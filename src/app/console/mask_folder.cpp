@@ -97,8 +97,11 @@ Mask reduced(Mask mask) {
 bool same_aspect(const Mask& mask, const Camera& camera) {
   const std::int64_t across = std::int64_t{mask.width()} * camera.height_px,
                      down = std::int64_t{mask.height()} * camera.width_px;
+  constexpr std::int64_t kMostShare = 20;  // a twentieth: of a few pixels, one of rounding is any shape
   return std::abs(across - down) <=
-         std::max({mask.width(), mask.height(), camera.width_px, camera.height_px});  // a pixel of rounding
+         std::min<std::int64_t>(std::max({mask.width(), mask.height(), camera.width_px,
+                                          camera.height_px}),  // a pixel of rounding
+                                std::max(across, down) / kMostShare);
 }
 
 Mask in_size_of(Mask mask, const Camera& camera, const std::string& where) {

@@ -111,6 +111,40 @@ TEST_CASE("mask file: grey, 0 and 1, ids, colours on black, alpha, each understo
                        Error);
 }
 
+TEST_CASE("mask file: of a few pixels must have the camera's shape, too") {
+  const auto said = [](int width, int height) {
+    Mask mask(width, height);
+    mask.at(0, 0) = kMaskObject;
+    Camera camera = camera_called("a");
+    camera.width_px = 504;
+    camera.height_px = 378;
+    try {
+      checked_mask({mask, "white"}, camera, "a.png");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(said(4, 3).empty());
+  CHECK(said(125, 94).empty());
+  CHECK(said(2, 1).find("the mask is 2x1 pixels") != std::string::npos);
+}
+
+TEST_CASE("mask file: numbers of many objects, some above half of white, are no smoothed white") {
+  const auto understood = [](const std::vector<int>& levels) {  // three rows of each
+    Picture picture;
+    picture.pixels = Image<Rgba8>(static_cast<int>(levels.size()), 3);
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < picture.pixels.width(); ++x)
+        picture.pixels.at(x, y) = grey(levels[static_cast<std::size_t>(x)]);
+    const ReadMask read = mask_of(picture, "here");
+    return drawn(read.mask).substr(0, levels.size()) + " " + read.how;
+  };
+  CHECK(understood({0, 7, 7, 7, 7, 7, 7, 0, 200, 200}) == ".######.## numbers, 0 is the rest");
+  CHECK(understood({0, 60, 140, 200, 200, 180, 90, 30}) == "..####.. white");  // dim, with wide borders
+  CHECK(understood({0, 7, 7, 7, 7, 7, 7, 0, 255, 255}) == "........## white");
+}
+
 TEST_CASE("mask file: PNG of a palette by its indices, of 16 bits by its numbers, JPEG by what is bright") {
   const Workplace place;
   place.write("palette.png", from_hex(kPalettePng));
