@@ -27,7 +27,7 @@ struct CutCommand {
 };
 
 // The work file gives scene, strokes and settings.
-void refuse_beside_work(const CLI::App& command) {
+void refuse_beside_work(const CLI::App& command, const std::vector<std::string>& written) {
   for (const CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->count() > 0; })) {
     const std::string name = option->get_name();
     constexpr std::array kMayStand = {"--work", "--output", "--edges", "--write", "--json", "--overwrite"};
@@ -39,6 +39,7 @@ void refuse_beside_work(const CLI::App& command) {
       throw Error("--work", fmt::format("cannot go with {}: the work file says that", name),
                   "Change the work in the window, or leave the option out");
   }
+  if (command.get_option("--write")->count() > 0) refuse_unwritten(written);
 }
 
 void warn_of_doubts(const std::vector<CutObject>& objects, bool quiet) {
@@ -101,7 +102,7 @@ void add_cut_command(CLI::App& program, const CommonOptions& common) {
   command.add_flag("--json", args->json, "Print the report as JSON");
   command.add_flag("--overwrite", args->overwrite, "Replace existing output");
   command.callback([args, &common, &command] {
-    if (!args->work.empty()) refuse_beside_work(command);
+    if (!args->work.empty()) refuse_beside_work(command, args->cut.cutout.write);
     run_cut(*args, common);
   });
 }

@@ -51,12 +51,20 @@ float factor_of(const KnownLength& known, const Drawer& scene, const Camera& cam
   const glm::vec3 to = place_at(known.to_px, scene, camera, job);
   const float factor = known.metres / glm::distance(from, to);
   if (job.cancelled()) return 1;
-  if (from == to || !(factor > 0) || !std::isfinite(factor))
+  if (from == to)
     throw Error(kOption, "both pixels show the same place", "Take two ends of what was measured");
+  check_factor(factor, kOption);
   return factor;
 }
 
 }  // namespace
+
+void check_factor(float factor, const std::string& where) {
+  constexpr float kLeast = 1e-6f, kMost = 1e6f;
+  if (!(factor >= kLeast && factor <= kMost))
+    throw Error(
+        where, fmt::format("makes all {:g} times as large: {:g} to {:g} is possible", factor, kLeast, kMost));
+}
 
 ExportPlacement placement_of(const CutoutOptions& options, const Drawer& scene, const Camera& camera,
                              const Job& job) {

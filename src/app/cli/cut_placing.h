@@ -15,6 +15,9 @@ namespace splatcut {
 ExportPlacement placement_of(const CutoutOptions& options, const Drawer& scene, const Camera& camera,
                              const Job& job);
 
+// Throws Error, naming where it was given, for a factor that makes lengths no numbers.
+void check_factor(float factor, const std::string& where);
+
 // What the files say of up: it is known, or the placement says where it points. None where it is a guess.
 std::optional<glm::vec3> up_to_write(const ChosenCamera& chosen, const ExportPlacement& placement);
 

@@ -91,12 +91,17 @@ void CutArguments::add_to(CLI::App& command) {
   cutout.add_to(command);
   masks.add_to(command, false);
   command.get_option("--parts-only")->excludes("--masks");
+  for (const char* given : {"--mask", "--masks", "--text"})
+    command.get_option("--first-mask")->excludes(given);
   command.add_option("--smoothness", smoothness,
                      "Weight of the neighbour term in the last cut, 0 to 500: as the window's slider");
   command
       .add_option("--scale", scale,
                   "Next larger (+1, +2, ...) or smaller (-1, ...) part for the first click or box")
-      ->check(CLI::Range(-100, 100));
+      ->check(CLI::Range(-100, 100))
+      ->excludes("--mask")
+      ->excludes("--masks")
+      ->excludes("--text");
   add_setting_options(command, &preset, &set);
   command.add_flag("--coarse", coarse, "Threshold the likelihood instead of the cut");
 }
@@ -141,6 +146,7 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   ChosenCamera chosen = choose_camera(args.camera, scene);
   if (!chosen.warning.empty()) options.warn(chosen.warning);
   const CutSettings settings = args.settings();
+  args.cutout.check();
   if (input.segmenter) end_progress();  // the program prints to the same place
   std::vector<CutObject> objects = objects_of(args, input, scene, options, job, &chosen);
   const nlohmann::json said = settings_json(args, input, chosen, settings);

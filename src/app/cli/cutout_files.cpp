@@ -10,6 +10,7 @@
 
 #include "app/document/export_plan.h"
 #include "core/atomic_file.h"
+#include "core/error.h"
 #include "core/png_file.h"
 #include "core/stage_clock.h"
 #include "scene/cloud/convex_hull.h"
@@ -191,6 +192,12 @@ void CutoutOptions::add_to(CLI::App& command) {
 
 bool CutoutOptions::writes(std::string_view what) const {
   return std::ranges::find(write, what) != write.end();
+}
+
+void CutoutOptions::check() const {
+  if (fill == "surface" && !writes("rest"))
+    throw Error("--fill surface", "fills the hole in rest.ply, which is not written",
+                "Add rest to --write, or leave --fill out");
 }
 
 std::string EdgesReport::sentence() const {

@@ -37,6 +37,7 @@ struct CutoutOptions {
   bool clean() const { return edges != "keep"; }
   bool clean_anyway() const { return edges == "clean-anyway"; }
   bool writes(std::string_view what) const;
+  void check() const;  // throws Error where a hole is to be filled in a rest that is not written
 };
 
 // What was done to the edges of an object.

@@ -19,7 +19,7 @@ struct MergeArguments {
   std::vector<std::filesystem::path> scenes;
   std::filesystem::path output;
   SceneOptions how;
-  int spz_version = SaveOptions{}.spz_version;
+  std::optional<int> spz_version;
   bool overwrite = false;
 };
 
@@ -43,6 +43,7 @@ std::vector<Scene> load_all(const MergeArguments& args, bool quiet, const Job& j
         args.how.load(path, {}, quiet, part_of(job, i, args.scenes.size()), path.string(), origin));
     stop_if_cancelled(job, "splatcut merge");
   }
+  args.how.check_axes(scenes);
   return scenes;
 }
 
@@ -57,6 +58,7 @@ void run_merge(const MergeArguments& args, const CommonOptions& common) {
   refuse_written_inputs(args.output, args.scenes);
   check_output_file(args.output, args.overwrite);
   const SceneFormat format = output_format_from_name(args.output);
+  const int spz_version = spz_version_for(args.output, args.spz_version);
   const Job job = console_job(common.quiet);
   std::vector<Scene> scenes = load_all(args, common.quiet, job);
   const std::vector<std::string> counts = counts_of(scenes);
@@ -64,7 +66,7 @@ void run_merge(const MergeArguments& args, const CommonOptions& common) {
   end_progress();
   stop_if_cancelled(job, "splatcut merge");
   refuse_written_inputs(args.output, whole.scene.files);
-  const SaveReport report = save_scene(args.output, whole.scene, {}, format, {args.spz_version});
+  const SaveReport report = save_scene(args.output, whole.scene, {}, format, {spz_version});
   if (common.quiet) return;
   for (const std::string& count : counts) fmt::print("{}\n", count);
   fmt::print("{}: {} Gaussians, {} bytes\n", args.output.string(), report.gaussians, report.bytes);

@@ -20,8 +20,11 @@ void read_seeds(const std::filesystem::path& file, ObjectInput* input) {
   const std::string where = is_text ? "seeds" : file.string();
   const nlohmann::json seeds = is_text ? parse_json(where, file.native()) : json_of_file(file);
   input->objects = named_seeds_from_json(seeds, where);
-  if (!input->objects.empty()) return;
   input->strokes = strokes_from_json(seeds, where);
+  if (!input->objects.empty() && !input->strokes.empty())
+    throw Error(where, "holds clicks, boxes or scribbles beside \"objects\"",
+                "Put them into one of the objects");
+  if (!input->objects.empty()) return;
   if (input->strokes.empty()) throw Error(where, "holds neither clicks nor boxes nor scribbles");
   input->choice = choice_from_json(seeds, where);
 }

@@ -28,7 +28,7 @@ struct SceneArguments {
   std::filesystem::path scene, output, labels;
   SceneOptions how;
   CameraOptions camera;
-  int spz_version = SaveOptions{}.spz_version;
+  std::optional<int> spz_version;
   std::string what = "colour", background = "0,0,0";
   float low_pass_px2 = kLowPassPx2;
   bool all_cameras = false, json = false, overwrite = false;
@@ -216,12 +216,13 @@ void run_convert(const SceneArguments& args, const CommonOptions& common) {
   refuse_written_inputs(args.output, {args.scene});
   check_output_file(args.output, args.overwrite);
   const SceneFormat format = output_format_from_name(args.output);
+  const int spz_version = spz_version_for(args.output, args.spz_version);
   const Job job = console_job(common.quiet);
   const Scene scene = args.how.load(args.scene, {}, common.quiet, job);
   end_progress();
   stop_if_cancelled(job, "splatcut convert");
   refuse_written_inputs(args.output, scene.files);
-  const SaveReport report = save_scene(args.output, scene, {}, format, {args.spz_version});
+  const SaveReport report = save_scene(args.output, scene, {}, format, {spz_version});
   if (common.quiet) return;
   fmt::print("{}: {} Gaussians, {} bytes\n", args.output.string(), report.gaussians, report.bytes);
   if (!report.loss.empty()) fmt::print("Lost: {}\n", report.loss);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "app/cli/cutout_files.h"
 #include "app/console/console.h"
@@ -39,14 +40,14 @@ std::vector<WrittenObject> write_objects(const Document& document, const CutoutF
   return written;
 }
 
-nlohmann::json objects_json(const std::vector<WrittenObject>& objects) {
+nlohmann::json objects_json(const std::vector<WrittenObject>& objects, const CutoutOptions& options) {
   nlohmann::json list = nlohmann::json::array();
-  for (const WrittenObject& o : objects)
-    list.push_back({{"name", o.name},
-                    {"file", o.files.scene},
-                    {"labels", o.files.labels},
-                    {"gaussians", o.gaussians},
-                    {"edges", o.edges.json()}});
+  for (const WrittenObject& o : objects) {
+    list.push_back({{"name", o.name}, {"gaussians", o.gaussians}, {"edges", o.edges.json()}});
+    if (options.writes("object")) list.back()["file"] = o.files.scene;
+    if (options.writes("labels")) list.back()["labels"] = o.files.labels;
+    if (options.writes("hull")) list.back()["hull"] = o.files.hull;
+  }
   return list;
 }
 
@@ -89,6 +90,14 @@ Document computed_again(const OpenedScene& scene, Document document, const Job& 
   return document;
 }
 
+void refuse_unwritten(std::span<const std::string> written) {
+  constexpr std::array kWritten = {"object", "labels", "hull"};
+  for (const std::string& what : written)
+    if (std::ranges::find(kWritten, what) == kWritten.end())
+      throw Error("--write " + what, "is not written of saved work",
+                  "It takes object, labels and hull; the window exports the rest and pictures");
+}
+
 void run_work_cut(const WorkCutOptions& options) {
   const Job job = console_job(options.quiet);  // first: a signal must find its handler once there is a folder
   const WorkFile file = read_work_file(options.work);
@@ -111,7 +120,7 @@ void run_work_cut(const WorkCutOptions& options) {
   const nlohmann::json report = {{"work", options.work.string()},
                                  {"scene", scene->scene->path.string()},
                                  {"preset", document.preset},
-                                 {"objects", objects_json(objects)}};
+                                 {"objects", objects_json(objects, options.cutout)}};
   write_text_file(folder.file("report.json"), json_text(report, 2) + "\n");
   stop_if_cancelled(job, "splatcut cut");
   folder.commit();

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "app/cli/cutout_files.h"
 #include "app/document/document.h"
@@ -21,7 +23,11 @@ struct WorkCutOptions {
   bool overwrite = false, json = false, quiet = false;
   PreparedCache cache;
 };
-// A folder with NAME.ply and NAME.labels.u8 (file order, 1 = object) for each object, and report.json.
+// A folder with NAME.ply, NAME.labels.u8 (file order, 1 = object) and NAME.hull.obj for each object, as far
+// as the options want them, and report.json.
 void run_work_cut(const WorkCutOptions& options);
+
+// Throws Error for what --write may name and saved work is not written as.
+void refuse_unwritten(std::span<const std::string> written);
 
 }  // namespace splatcut

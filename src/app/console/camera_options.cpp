@@ -4,11 +4,13 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 
 #include "app/console/command_line.h"
 #include "core/error.h"
+#include "core/spoken_list.h"
 #include "scene/camera/camera_file.h"
 #include "scene/camera/camera_names.h"
 #include "scene/raster/first_view.h"
@@ -22,9 +24,11 @@ constexpr int kDefaultWidth = 1008, kDefaultHeight = 756, kMaxSide = 16384;
 
 std::pair<int, int> parse_size(const std::string& text) {
   int width = 0, height = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 || height < 1 ||
-      width > kMaxSide || height > kMaxSide)
+  const char* end = text.data() + text.size();
+  const auto [x, bad_width] = std::from_chars(text.data(), end, width);
+  const auto [last, bad_height] = std::from_chars(std::min(x + 1, end), end, height);
+  const bool two = bad_width == std::errc() && bad_height == std::errc() && *x == 'x' && last == end;
+  if (!two || width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
     throw Error("--size " + text, "is not a picture size",
                 fmt::format("Write it as WxH, each from 1 to {}", kMaxSide));
   return {width, height};
@@ -53,10 +57,6 @@ bool any_sees(const std::vector<Camera>& cameras, const GaussianCloud& cloud) {
         return true;
     }
   return false;
-}
-
-void add_sentence(const std::string& sentence, std::string* text) {
-  if (!sentence.empty()) *text += (text->empty() ? "" : ". ") + sentence;
 }
 
 // A guess is no reason to refuse a view straight down.
@@ -124,9 +124,12 @@ ChosenCamera choose_camera(const CameraOptions& options, const Scene& scene) {
     chosen.up_is_guess = !scene.up;
     chosen.up_world = scene.up ? *scene.up : guessed_up(cloud);
   }
-  const float fov_y_rad = glm::radians(options.fov_y_deg);
+  constexpr float kDefaultFovDeg = 50;
+  const float fov_y_rad = glm::radians(options.fov_y_deg.value_or(kDefaultFovDeg));
   const auto [width, height] =
       options.size.empty() ? std::pair(kDefaultWidth, kDefaultHeight) : parse_size(options.size);
+  if (!options.camera.empty() && !options.position.empty())
+    throw Error("camera", "--camera and --camera-pos name two views", "Give one of them");
   if (!options.position.empty() || !options.target.empty()) {
     if (options.position.empty() || options.target.empty())
       throw Error("camera", "--camera-pos and --camera-target belong together", "Give both");
@@ -135,6 +138,9 @@ ChosenCamera choose_camera(const CameraOptions& options, const Scene& scene) {
     chosen.camera = look_at(position, target, up_for(options, target - position, chosen.up_world), fov_y_rad,
                             width, height);
   } else if (!chosen.given.empty()) {
+    if (options.fov_y_deg)
+      throw Error("--camera-fov", "cannot go with a camera of --cameras, which has its own",
+                  "Leave it out, or give --camera-pos and --camera-target");
     chosen.camera = asked_camera(options, chosen);
     if (!options.size.empty()) chosen.camera = resized(chosen.camera, width, height);
   } else {

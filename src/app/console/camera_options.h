@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace splatcut {
 
 struct CameraOptions {
   std::string position, target, up;  // "x,y,z"
-  float fov_y_deg = 50;
+  std::optional<float> fov_y_deg;
   std::string size;               // "WxH"
   std::filesystem::path cameras;  // file or COLMAP folder
   std::string camera;             // name, or index

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+
 #include "app/console/console.h"
+#include "core/error.h"
 #include "scene/camera/camera_file.h"
 
 namespace splatcut {
@@ -37,6 +40,7 @@ Scene SceneOptions::load(const std::filesystem::path& scene, const std::filesyst
   LoadOptions options{axes(), {}, lod.value_or(0), origin};
   if (!cameras.empty()) options.cameras = load_cameras(cameras);
   Scene loaded = load_scene(scene, options, job);
+  if (called.empty()) check_axes({&loaded, 1});
   if (!options.spz_axes && !loaded.axes_note.empty()) {
     end_progress();
     say(called, loaded.axes_note + ". --spz-axes takes others", quiet);
@@ -44,14 +48,28 @@ Scene SceneOptions::load(const std::filesystem::path& scene, const std::filesyst
   say(called, loaded.left_out, quiet);
   if (loaded.dropped > 0)
     say(called,
-        fmt::format("{} of its {} Gaussians are left out: not a number, without a rotation, or beyond 1e15",
+        fmt::format("{} of its {} Gaussians are left out: not a number, without a rotation, or of a place or "
+                    "size beyond 1e15",
                     loaded.dropped, loaded.file_rows),
         quiet);
   say(called, loaded.oddity, quiet);
   return loaded;
 }
 
-void add_spz_version(CLI::App& command, int* version) {
+void SceneOptions::check_axes(std::span<const Scene> scenes) const {
+  const auto is_spz = [](const Scene& scene) { return scene.format == SceneFormat::kSpz; };
+  if (axes() && std::ranges::none_of(scenes, is_spz))
+    throw Error(scenes.front().path.string(), "is no .spz, whose axes alone can be chosen",
+                "Leave --spz-axes out");
+}
+
+int spz_version_for(const std::filesystem::path& output, const std::optional<int>& asked) {
+  if (asked && output_format_from_name(output) != SceneFormat::kSpz)
+    throw Error(output.string(), "is no .spz, whose version alone can be chosen", "Leave --spz-version out");
+  return asked.value_or(SaveOptions{}.spz_version);
+}
+
+void add_spz_version(CLI::App& command, std::optional<int>* version) {
   command
       .add_option("--spz-version", *version,
                   "Version of a .spz to write: 3, which all programs read, or 4, which is smaller")

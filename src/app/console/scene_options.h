@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -27,9 +28,14 @@ struct SceneOptions {
   Scene load(const std::filesystem::path& scene, const std::filesystem::path& cameras, bool quiet,
              const Job& job, std::string_view called = {},
              const std::optional<glm::dvec3>& origin = {}) const;
+
+  // Throws Error where axes of a .spz are given and none of the scenes is one. load() does it of one scene.
+  void check_axes(std::span<const Scene> scenes) const;
 };
 
 // Of SaveOptions, for commands that write a scene.
-void add_spz_version(CLI::App& command, int* version);
+void add_spz_version(CLI::App& command, std::optional<int>* version);
+// Throws Error where it was asked for and the output is no .spz.
+int spz_version_for(const std::filesystem::path& output, const std::optional<int>& asked);
 
 }  // namespace splatcut

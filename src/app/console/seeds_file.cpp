@@ -70,7 +70,7 @@ Strokes strokes_from_json(const nlohmann::json& seeds, const std::string& where)
         };
         strokes.push_back(box_around(corner(0), corner(1), label_from(b.value("label", "object"), where)));
       }
-    if (seeds.contains("clicks") && seeds.at("clicks").is_array())
+    if (seeds.contains("clicks"))
       for (const auto& c : seeds.at("clicks"))
         strokes.push_back(click({c.at("x").get<float>(), c.at("y").get<float>()},
                                 label_from(c.value("label", "object"), where)));

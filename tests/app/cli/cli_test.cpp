@@ -38,10 +38,12 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   Workplace& place = life.place;
   CHECK(place.run("--version").code == 0);
   CHECK(place.run("cut --help").code == 0);
-  for (const char* usage : {"fly", "cut", "info", "render a.ply", "cut a.ply -o b --no-such-option",
-                            "info a.ply --threads -1", "render a.ply -o a.png --lowpass -1",
-                            "cut a.ply -o b --click 1,1 --views -1", "cut a.ply -o b --click 1,1 --views 401",
-                            "info a.ply --lod -1", "cut a.ply -o b --click 1,1 --scale -101"})
+  for (const char* usage :
+       {"fly", "cut", "info", "render a.ply", "cut a.ply -o b --no-such-option", "info a.ply --threads -1",
+        "render a.ply -o a.png --lowpass -1", "cut a.ply -o b --click 1,1 --views -1",
+        "cut a.ply -o b --click 1,1 --views 401", "info a.ply --lod -1",
+        "cut a.ply -o b --click 1,1 --scale -101", "cut a.ply -o b --mask a.png --scale 1",
+        "cut a.ply -o b --mask a.png --first-mask parts"})
     CHECK_MESSAGE(place.run(usage).code == 2, usage);
   // NaN is no number, 255 no share of 1; what is out of range is said as it was given.
   const std::string view = "render " + life.scene + " --size 8x8 -o a.png ";
@@ -77,7 +79,14 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused("info short.ply", {"short.ply", "truncated", "row", "byte"});
   refused("convert " + life.scene + " -o a.obj", {"a.obj", "extension"});
   refused("render " + life.scene + " -o a.png --size 0x7", {"--size 0x7"});
+  refused("render " + life.scene + " -o a.png --size 4294967297x1",
+          {"--size 4294967297x1", "from 1 to 16384"});
+  refused("render " + life.scene + " -o a.png --size 5", {"--size 5"});
   refused("render " + life.scene + " -o a.png --camera-pos 1,2", {"--camera-pos"});
+  refused(view + "--cameras made/cameras.json --camera-fov 40", {"--camera-fov", "has its own"});
+  refused(life.cut("--click 1,1 --fill surface --write object -o cut"), {"--fill surface", "rest.ply"});
+  refused(view + "--cameras made/cameras.json --camera 0 --camera-pos 1,2,3 --camera-target 0,0,0",
+          {"--camera and --camera-pos name two views"});
   refused("render " + life.scene + " -o a.png --cameras none.json", {"none.json"});
   refused("render " + life.scene + " -o a.png --cameras bad.json", {"bad.json", "JSON"});
   refused("render " + life.scene + " -o a.png --cameras made/cameras.json --camera 99", {"camera \"99\""});
@@ -103,6 +112,8 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
              std::string_view(beside).starts_with("--")
                  ? std::string(beside).substr(0, std::string(beside).find(' ')).c_str()
                  : "scene"});
+  refused("cut --work w.splatcut.json -o cut --write labels,rest",
+          {"--write rest", "object, labels and hull"});
   refused("eval bad.json -o cut", {"bad.json", "JSON"});
   place.write("no_truth.json", R"({"scenes": [{"name": "a", "scene": "made/small.ply"}]})");
   refused("eval no_truth.json -o cut", {"entry a", "reference"});
@@ -475,6 +486,14 @@ TEST_CASE("convert goes through every format and back, and says what is lost") {
   CHECK(highest("--spz-axes ply") == doctest::Approx(-lowest).epsilon(1e-3));
   CHECK(place.run("info four.spz --spz-axes up").code == 2);
   CHECK(place.run("convert a.ply -o five.spz --spz-version 5").code == 2);
+  for (const char* other :
+       {"convert a.ply -o b.splat --spz-version 4", "merge a.ply a.spz -o b.ply --spz-version 3",
+        "info a.ply --spz-axes rub", "merge a.ply a.splat -o b.ply --spz-axes ply"}) {
+    const Result refused = place.run(other);
+    CHECK_MESSAGE(refused.code == 1, other);
+    CHECK_MESSAGE(refused.err.find("is no .spz") != std::string::npos, refused.err);
+  }
+  CHECK(place.run("merge a.ply a.spz -o b.ply --spz-axes ply").code == 0);
   CHECK(place.leftovers().empty());
 }
 

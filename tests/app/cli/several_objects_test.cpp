@@ -172,6 +172,9 @@ TEST_CASE("files of objects that cannot be used are refused") {
   with(json::array({json{{"name", "apple"}, {"choice", 4}, {"clicks", clicks}}}), {"object 0", "\"choice\""});
   with(json::array({json{{"name", "apple"}, {"choice", "second"}, {"clicks", clicks}}}), {"from 1 to 3"});
   with(json::array({apple}), {"--click", "in the file"}, " --click 5,5");
+  with(json::array({json{{"name", "apple"}, {"clicks", clicks[0]}}}), {"object 0", "form"});
+  place.write("objects.json", json{{"objects", {apple}}, {"clicks", clicks}}.dump());
+  refused(still_life().cut("--seeds objects.json"), {}, {"objects.json", "beside \"objects\""});
   place.write(
       "objects.json",
       json{{"objects", json::array({json{{"name", "apple"}, {"camera", "view_00"}, {"clicks", clicks}}})}}
