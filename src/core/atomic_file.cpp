@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
 #include <cstring>
 #include <utility>
 
@@ -18,8 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kPart = ".splatcut.part";
+
 Error cannot_be_written(const fs::path& path, int error) {
   const bool full = error == ENOSPC || error == EDQUOT;
+  if (error == ENAMETOOLONG)
+    return {path.string(), "cannot be written: its name is too long",
+            fmt::format("Choose one of at most {} letters", NAME_MAX - std::strlen(kPart))};
   return {path.string(), fmt::format("cannot be written ({})", std::strerror(error)),
           full ? "Make room there, or choose another place" : "Choose another place"};
 }
@@ -95,6 +101,14 @@ fs::path behind_links(fs::path path) {
   return path;
 }
 
+void make_like(const fs::path& model, const fs::path& path) {
+  struct stat status {};
+  constexpr mode_t kPermissions = 07777;
+  if (::stat(model.c_str(), &status) != 0) return;
+  [[maybe_unused]] const int owner = ::chown(path.c_str(), status.st_uid, status.st_gid);  // root alone may
+  ::chmod(path.c_str(), status.st_mode & kPermissions);
+}
+
 void wait_for_disk(const fs::path& path, const fs::path& meant) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor < 0) throw cannot_be_written(meant, errno);
@@ -109,9 +123,12 @@ AtomicFile::AtomicFile(fs::path path, PowerCut power_cut) : path_(std::move(path
     descriptor = open_stream(path_);
   } else {
     target_ = behind_links(path_);
-    part_.emplace(fs::path(target_) += ".splatcut.part", path_);
+    part_.emplace(fs::path(target_) += kPart, path_);
     descriptor = ::fcntl(part_->descriptor(), F_DUPFD_CLOEXEC, 0);  // the lock outlives the stream
     if (descriptor >= 0 && ::ftruncate(descriptor, 0) != 0) throw cannot_be_written(path_, errno);
+    // Until it is like what it takes the place of, which may be nobody else's.
+    constexpr mode_t kOwner = 0600;
+    if (std::error_code failure; fs::exists(target_, failure)) ::fchmod(descriptor, kOwner);
   }
   stream_ = ::fdopen(descriptor, "wb");
   if (!stream_) throw cannot_be_written(path_, errno);
@@ -135,6 +152,7 @@ void AtomicFile::commit() {
   std::error_code failure;
   if (part_ && power_cut_ == PowerCut::kLeavesOldOrNew && fs::exists(target_, failure))
     wait_for_disk(part_->path(), path_);
+  if (part_) make_like(target_, part_->path());
   if (part_) fs::rename(part_->path(), target_, failure);
   if (failure) throw cannot_be_written(path_, failure.value());
 }

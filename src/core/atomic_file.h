@@ -34,7 +34,8 @@ class HeldFile {
 enum class PowerCut { kLeavesOldOrNew, kMayLeaveNone };
 
 // Written beside its place as NAME.splatcut.part, renamed by commit(), removed where commit() is never
-// reached; what a killed process left is written over. A symbolic link stays, what it points to is replaced.
+// reached; what a killed process left is written over. A symbolic link stays, what it points to is replaced
+// and its permissions are kept.
 // What takes bytes but is no file (a pipe, /dev/null) is written to as it is.
 class AtomicFile {
  public:
@@ -63,6 +64,10 @@ bool is_stream(const std::filesystem::path& path);
 
 // Where the symbolic links lead that the path ends in; the last may point to nothing.
 std::filesystem::path behind_links(std::filesystem::path path);
+
+// Gives what is at `path` the permissions of the model, and its owner where one may; where there is none,
+// nothing.
+void make_like(const std::filesystem::path& model, const std::filesystem::path& path);
 
 // Waits until all that was written to a file, or the names in a folder, are on the disk. Throws Error, naming
 // `meant`, where they cannot be; file systems that know no such wait go on.

@@ -39,6 +39,16 @@ void move(const fs::path& from, const fs::path& to) {
                                          from.parent_path().string()));
 }
 
+// No link to one.
+bool is_folder(const fs::path& path) {
+  std::error_code failure;
+  return fs::is_directory(fs::symlink_status(path, failure));
+}
+
+bool are_folders(const fs::path& a, const fs::path& b) {
+  return is_folder(a) && is_folder(b);
+}
+
 void make_folder(const fs::path& folder, const fs::path& meant) {
   std::error_code failure;
   fs::create_directories(folder, failure);
@@ -55,19 +65,66 @@ bool can_be_exchanged(const fs::path& folder) {
          folder != fs::current_path(failure);
 }
 
-void make_like(const fs::path& model, const fs::path& folder) {
-  struct stat status {};
-  constexpr mode_t kPermissions = 07777;
-  if (::stat(model.c_str(), &status) != 0) return;
-  [[maybe_unused]] const int owner = ::chown(folder.c_str(), status.st_uid, status.st_gid);  // root alone may
-  ::chmod(folder.c_str(), status.st_mode & kPermissions);
-}
-
 bool exchanged(const fs::path& a, const fs::path& b) {
   return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
 }
 
+// Throws Error where a file would take the place of a folder, or the other way round.
+void refuse_other_kinds(const fs::path& from, const fs::path& to, const fs::path& meant) {
+  for (const fs::path& name : names_in(from)) {
+    if (is_folder(to / name) && !is_folder(from / name))
+      throw Error((meant / name).string(), "is a folder, where a file is to be written");
+    if (inode_of(to / name) != 0 && is_folder(from / name) && !is_folder(to / name))
+      throw Error((meant / name).string(), "is no folder, where a folder is to be written");
+    if (are_folders(from / name, to / name)) refuse_other_kinds(from / name, to / name, meant / name);
+  }
+}
+
+// So that they are there at the moment of the exchange; folders cannot be linked and come after it.
+void link_other_files(const fs::path& from, const fs::path& to) {
+  for (const fs::path& name : names_in(from))
+    if (are_folders(from / name, to / name))
+      link_other_files(from / name, to / name);
+    else if (inode_of(to / name) == 0)
+      ::link((from / name).c_str(), (to / name).c_str());
+}
+
+// From the folder that was replaced. Files whose place is taken are older ones of ours.
+void bring_back(const fs::path& from, const fs::path& to) {
+  for (const fs::path& name : names_in(from))
+    if (inode_of(to / name) == 0) move(from / name, to / name);
+  std::error_code failure;
+  for (const fs::path& name : names_in(from))
+    if (are_folders(from / name, to / name))
+      bring_back(from / name, to / name);
+    else if (!fs::remove(from / name, failure))
+      throw Error((from / name).string(), "cannot be removed (" + failure.message() + ")",
+                  "It is left of an earlier run; move what is yours to another place");
+  fs::remove(from, failure);
+}
+
+// What replaces something is on the disk before it does.
+void wait_for_files(const fs::path& folder, const fs::path& meant) {
+  for (const fs::path& name : names_in(folder))
+    if (is_folder(folder / name))
+      wait_for_files(folder / name, meant);
+    else
+      wait_for_disk(folder / name, meant);
+  wait_for_disk(folder, meant);
+}
+
+void move_each(const fs::path& from, const fs::path& to) {
+  for (const fs::path& name : names_in(from))
+    if (are_folders(from / name, to / name))
+      move_each(from / name, to / name);
+    else
+      move(from / name, to / name);
+  std::error_code ignored;
+  fs::remove(from, ignored);
+}
+
 fs::path resolved(fs::path path) {
+  if (path.empty()) throw Error("--output", "its name is empty", "Name the folder to write");
   if (path.filename().empty()) path = path.parent_path();
   std::error_code failure;
   const fs::path target = fs::weakly_canonical(fs::absolute(behind_links(path)), failure);
@@ -77,14 +134,13 @@ fs::path resolved(fs::path path) {
 
 }  // namespace
 
-void refuse_existing(const fs::path& path, bool overwrite) {
+void refuse_existing(const fs::path& path, bool overwrite, const char* remedy) {
   std::error_code failure;
-  if (!overwrite && fs::exists(path, failure))
-    throw Error(path.string(), "exists already", "Give --overwrite to replace it, or another -o");
+  if (!overwrite && fs::exists(path, failure)) throw Error(path.string(), "exists already", remedy);
 }
 
-void check_output_file(const fs::path& path, bool overwrite) {
-  if (!is_stream(path)) refuse_existing(path, overwrite);
+void check_output_file(const fs::path& path, bool overwrite, const char* remedy) {
+  if (!is_stream(path)) refuse_existing(path, overwrite, remedy);
 }
 
 OutputFolder::OutputFolder(const fs::path& path, bool overwrite)
@@ -96,6 +152,8 @@ OutputFolder::OutputFolder(const fs::path& path, bool overwrite)
     throw Error(path_.string(), "is a file, where a folder is to be written");
   exchangeable_ = there != fs::file_type::directory || can_be_exchanged(target_);
   const fs::path ours = exchangeable_ ? target_ : target_ / "";
+  for (fs::path above = ours.parent_path(); inode_of(above) == 0; above = above.parent_path())
+    made_.push_back(above);
   make_folder(ours.parent_path(), path_);
   lock_.emplace(fs::path(ours) += ".splatcut.part", path_);
   fresh_ = fs::path(ours) += ".splatcut.new";
@@ -114,6 +172,8 @@ OutputFolder::OutputFolder(const fs::path& path, bool overwrite)
 
 OutputFolder::~OutputFolder() {
   remove_unfinished();
+  lock_.reset();
+  for (const fs::path& folder : made_) ::rmdir(folder.c_str());  // those alone that are empty
 }
 
 std::vector<std::string> OutputFolder::names() const {
@@ -139,52 +199,19 @@ void OutputFolder::set_right() {
   ::rmdir(fresh_.c_str());  // an empty one: its maker was killed before its number was noted
   if (inode_of(fresh_) == 0) return;
   make_folder(target_, path_);
-  bring_back();
-}
-
-// From the folder that was replaced. Files whose place is taken are older ones of ours.
-void OutputFolder::bring_back() {
-  for (const fs::path& name : names_in(fresh_))
-    if (inode_of(target_ / name) == 0) move(fresh_ / name, target_ / name);
-  std::error_code failure;
-  for (const fs::path& name : names_in(fresh_))
-    if (!fs::remove(fresh_ / name, failure))
-      throw Error((fresh_ / name).string(), "cannot be removed (" + failure.message() + ")",
-                  "It is left of an earlier run; move what is yours to another place");
-  fs::remove(fresh_, failure);
-}
-
-// So that they are there at the moment of the exchange; folders cannot be linked and come after it.
-void OutputFolder::link_other_files() {
-  for (const fs::path& name : names_in(target_))
-    if (inode_of(fresh_ / name) == 0) ::link((target_ / name).c_str(), (fresh_ / name).c_str());
-}
-
-// What replaces something is on the disk before it does.
-void OutputFolder::wait_for_files() const {
-  for (const fs::path& name : names_in(fresh_)) wait_for_disk(fresh_ / name, path_);
-  wait_for_disk(fresh_, path_);
-}
-
-void OutputFolder::move_each() {
-  for (const fs::path& name : names_in(fresh_)) move(fresh_ / name, target_ / name);
-  std::error_code ignored;
-  fs::remove(fresh_, ignored);
+  bring_back(fresh_, target_);
 }
 
 void OutputFolder::commit() {
   refuse_existing(target_, overwrite_);
   if (inode_of(target_) == 0) return move(fresh_, target_);
-  std::error_code failure;
-  for (const fs::path& name : names_in(fresh_))
-    if (fs::is_directory(fs::symlink_status(target_ / name, failure)))
-      throw Error((path_ / name).string(), "is a folder, where a file is to be written");
-  wait_for_files();
-  if (!exchangeable_) return move_each();
+  refuse_other_kinds(fresh_, target_, path_);
+  wait_for_files(fresh_, path_);
+  if (!exchangeable_) return move_each(fresh_, target_);
   make_like(target_, fresh_);
-  link_other_files();
-  if (!exchanged(fresh_, target_)) return move_each();
-  bring_back();
+  link_other_files(target_, fresh_);
+  if (!exchanged(fresh_, target_)) return move_each(fresh_, target_);
+  bring_back(fresh_, target_);
 }
 
 }  // namespace splatcut

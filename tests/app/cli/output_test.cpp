@@ -137,6 +137,30 @@ TEST_CASE("output: links are followed and stay links, also one that leads nowher
   CHECK(place.leftovers().empty());
 }
 
+TEST_CASE("output: a file that is replaced keeps its permissions, and no one else reads it before") {
+  const Workplace place;
+  const auto mode = [&](const char* name) {
+    return static_cast<unsigned>(fs::status(place / name).permissions());
+  };
+  constexpr unsigned kPrivate = 0600, kShared = 0664;
+  for (const unsigned kept : {kPrivate, kShared}) {
+    place.write("a.txt", "old");
+    fs::permissions(place / "a.txt", fs::perms{kept});
+    AtomicFile file(place / "a.txt");
+    CHECK(mode("a.txt.splatcut.part") == kPrivate);
+    file.commit();
+    CHECK(mode("a.txt") == kept);
+  }
+}
+
+TEST_CASE("output: a name that is too long for what is written first is refused with how long it may be") {
+  const Workplace place;
+  const std::string longest(241, 'a');
+  write_text_file(place / longest, "text");
+  CHECK(says([&] { write_text_file(place / (longest + "a"), "text"); },
+             "name is too long. Choose one of at most 241 letters"));
+}
+
 TEST_CASE("output: a file is held by one process, and what a killed one left is written over") {
   const Workplace place;
   {
@@ -201,6 +225,45 @@ TEST_CASE("output: a folder is replaced as a whole, what is not the program's st
   REQUIRE(::stat((place / "out/photos").c_str(), &after) == 0);
   CHECK(before.st_ino == after.st_ino);
   CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: a subfolder is filled in its place, what is not the program's stays in it") {
+  const Workplace place;
+  const auto write_sub = [&] {
+    OutputFolder folder(place / "out", true);
+    fs::create_directories(folder.file("sub/deep"));
+    write_text_file(folder.file("sub/a.txt"), "new");
+    write_text_file(folder.file("sub/deep/b.txt"), "new");
+    folder.commit();
+  };
+  place.make_folder("out/sub/mine");
+  for (const char* old : {"sub/a.txt", "sub/c.txt", "sub/mine/d.txt", "e.txt"})
+    place.write(std::string("out/") + old, "old");
+  write_sub();
+  for (const char* ours : {"sub/a.txt", "sub/deep/b.txt"})
+    CHECK(place.text(std::string("out/") + ours) == "new");
+  for (const char* theirs : {"sub/c.txt", "sub/mine/d.txt", "e.txt"})
+    CHECK(place.text(std::string("out/") + theirs) == "old");
+  CHECK(place.leftovers().empty());
+  fs::remove_all(place / "out/sub/deep");
+  place.write("out/sub/deep", "a file");
+  CHECK(says(write_sub, "sub/deep: is no folder"));
+  fs::remove(place / "out/sub/a.txt");
+  fs::remove(place / "out/sub/deep");
+  place.make_folder("out/sub/a.txt");
+  CHECK(says(write_sub, "sub/a.txt: is a folder"));
+  CHECK(place.files_in("out/sub") == std::set<std::string>{"a.txt", "c.txt", "mine"});
+  CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: a run that fails leaves no folders above its own, and an empty name is none") {
+  const Workplace place;
+  place.make_folder("mine");
+  { const OutputFolder folder(place / "mine/a/b/out", false); }
+  CHECK(place.files_in("mine").empty());
+  write_folder(place / "mine/a/b/out", {{"a.txt", "text"}});
+  CHECK(place.exists("mine/a/b/out/a.txt"));
+  CHECK(says([] { const OutputFolder folder("", true); }, "Name the folder to write"));
 }
 
 TEST_CASE("output: a name that is a folder there is refused, and both stay as they were") {
@@ -304,9 +367,10 @@ TEST_CASE("output: an empty folder that a killed process left is no replaced one
 namespace {
 
 // Work of as many objects as there can be, each the whole scene by hand: little to compute, much to write.
-void write_large_work(const Workplace& place, const std::string& file, const std::string& scene) {
+void write_large_work(const Workplace& place, const std::string& file, const std::string& scene,
+                      int count = 255) {
   nlohmann::json objects = nlohmann::json::array();
-  for (int id = 1; id <= 255; ++id)
+  for (int id = 1; id <= count; ++id)
     objects.push_back({{"id", id},
                        {"name", "all"},
                        {"colour", {1, 2, 3}},
@@ -344,6 +408,16 @@ TEST_CASE("output: saved work computed again and stopped while it is written lea
     CHECK(place.text("out/all.ply") == "old");
     CHECK(place.leftovers().empty());
   }
+}
+
+TEST_CASE("output: of saved work what --write names is written, and the report names no more") {
+  const Workplace place;
+  write_large_work(place, "one.splatcut.json", still_life().scene, 1);
+  REQUIRE(place.run("cut --work one.splatcut.json --edges keep --write labels -o out").code == 0);
+  CHECK(place.files_in("out") == std::set<std::string>{"all.labels.u8", "report.json"});
+  const nlohmann::json object = nlohmann::json::parse(place.text("out/report.json"))["objects"][0];
+  CHECK(object["labels"] == "all.labels.u8");
+  CHECK_FALSE(object.contains("file"));
 }
 
 TEST_CASE("output: signals that end the program leave the old cutout as it was") {
