@@ -43,7 +43,7 @@ void answer(const WaitingRequest& waiting, Conversation* conversation, ReplyWrit
 void run_serve(const CommonOptions& common) {
   std::signal(SIGPIPE, SIG_IGN);  // a client that is gone ends the conversation
   const Job console = console_job(true);
-  ReplyWriter replies(STDOUT_FILENO);
+  ReplyWriter replies(STDOUT_FILENO, console.stop);
   Mailbox mailbox(STDIN_FILENO, &replies, console.stop);
   Conversation conversation(prepared_cache(common));
   while (!conversation.ended() && !replies.broken()) {

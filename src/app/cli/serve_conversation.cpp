@@ -53,8 +53,7 @@ ExportPlacement placement_of(const nlohmann::json& request) {
   ExportPlacement placement =
       placement_by_name(request.value("origin", "scene"), request.value("up", "scene"));
   placement.scale = request.value("scale", 1.0f);
-  if (!(placement.scale > 0) || !std::isfinite(placement.scale))
-    throw Error("export", "\"scale\" is not larger than 0");
+  check_factor(placement.scale, "\"scale\"");
   return placement;
 }
 
@@ -249,7 +248,8 @@ nlohmann::json Conversation::object_json() const {
 }
 
 void Conversation::check_output(const std::filesystem::path& path, const nlohmann::json& request) {
-  check_output_file(path, request.value("overwrite", false));
+  check_output_file(path, request.value("overwrite", false),
+                    "Send \"overwrite\": true to replace it, or another \"path\"");
   std::vector<std::filesystem::path> inputs = opened().scene.scene().files;
   inputs.push_back(opened().args.camera.cameras);
   refuse_written_inputs(path, inputs);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <climits>
 #include <utility>
 
 #include "app/cli/serve_requests.h"
@@ -16,6 +17,8 @@
 namespace splatcut {
 
 namespace {
+
+constexpr int kLookMs = 100;  // between looks whether to stop
 
 // What a reply is told apart by: text or a whole number, else nothing.
 nlohmann::json id_of(const nlohmann::json& request) {
@@ -50,11 +53,18 @@ WaitingRequest request_of_line(std::string_view line) {
 
 }  // namespace
 
+// A pipe that has room has it for so much: nobody who does not read keeps us from seeing a stop.
 void ReplyWriter::line(const nlohmann::json& line) {
+  constexpr std::size_t kMostAtOnce = PIPE_BUF;
   const std::string text = json_text(line) + "\n";
   const std::lock_guard lock(mutex_);
   for (std::size_t sent = 0; sent < text.size() && !broken_;) {
-    const ssize_t n = ::write(output_, text.data() + sent, text.size() - sent);
+    pollfd there{output_, POLLOUT, 0};
+    if (::poll(&there, 1, kLookMs) <= 0) {
+      broken_ = stop_.stop_requested();
+      continue;
+    }
+    const ssize_t n = ::write(output_, text.data() + sent, std::min(kMostAtOnce, text.size() - sent));
     if (n >= 0)
       sent += static_cast<std::size_t>(n);
     else if (errno != EINTR)
@@ -101,7 +111,6 @@ std::optional<WaitingRequest> Mailbox::next() {
 }
 
 void Mailbox::read(int input) {
-  constexpr int kLookMs = 100;
   std::array<char, 1 << 16> bytes{};
   const auto closed = [&] {
     const std::lock_guard lock(mutex_);

@@ -16,13 +16,14 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 namespace splatcut {
 
-// Lines to a client, whole, from any thread.
+// Lines to a client, whole, from any thread. A stop ends the wait for one who does not read.
 class ReplyWriter {
  public:
-  explicit ReplyWriter(int output) : output_(output) {}
+  explicit ReplyWriter(int output, std::stop_token stop = {}) : output_(output), stop_(std::move(stop)) {}
 
   void reply(const nlohmann::json& id, nlohmann::json fields);         // {"id", "ok": true, ...}
   void refuse(const nlohmann::json& id, const std::string& sentence);  // {"id", "ok": false, "error"}
@@ -33,6 +34,7 @@ class ReplyWriter {
   void line(const nlohmann::json& line);
 
   int output_;
+  std::stop_token stop_;
   std::mutex mutex_;
   std::atomic<bool> broken_ = false;
 };

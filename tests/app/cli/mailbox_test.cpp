@@ -134,7 +134,19 @@ QUICK_CASE("mailbox", "replies: lines of several threads are whole, and a client
   for (std::thread& thread : threads) thread.join();
   for (int i = 0; i < 200; ++i) CHECK(client.hear()["fraction"] == 0.5);
   CHECK_FALSE(replies.broken());
-  ReplyWriter gone(-1);
+  constexpr int kNone = 1 << 20;
+  ReplyWriter gone(kNone);
   gone.reply(1, {});
   CHECK(gone.broken());
+}
+
+QUICK_CASE("mailbox", "replies: a stop ends the wait for a client that does not read") {
+  const Client client;
+  std::stop_source stop;
+  ReplyWriter replies(client.output(), stop.get_token());
+  constexpr std::size_t kMoreThanAPipeHolds = 1 << 20;
+  std::thread writer([&] { replies.reply(1, {{"text", std::string(kMoreThanAPipeHolds, 'a')}}); });
+  stop.request_stop();
+  writer.join();
+  CHECK(replies.broken());
 }

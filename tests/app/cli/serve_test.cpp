@@ -136,6 +136,8 @@ TEST_CASE("serve: a conversation cuts what `cut` cuts, and takes it back") {
     CHECK_MESSAGE(reply["ok"] == !fails, reply.dump());
     if (fails) CHECK(reply["error"].get<std::string>().ends_with("."));
   }
+  CHECK(said.replies.at(10)["error"].get<std::string>().find("Send \"overwrite\": true") !=
+        std::string::npos);
   CHECK(said.replies.at(1)["cameras"].size() == 24);
   CHECK(said.replies.at(1)["camera"]["name"] == "view_00");
   CHECK(said.replies.at(21)["camera"]["size"] == json{504, 378});
