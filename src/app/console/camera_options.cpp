@@ -13,6 +13,7 @@
 #include "core/spoken_list.h"
 #include "scene/camera/camera_file.h"
 #include "scene/camera/camera_names.h"
+#include "scene/camera/common_up.h"
 #include "scene/raster/first_view.h"
 #include "scene/raster/guessed_up.h"
 

@@ -173,9 +173,9 @@ struct ClearStrokes {
   std::string title() const { return "Clear strokes"; }
   friend std::string edit(Document* document, const ClearStrokes& command, const EditContext& context);
 };
-struct ComeNearer {
+struct ComeNearer {  // moves the camera towards the place where the active object was clicked
   static constexpr bool no_loss = true;
-};  // moves the camera towards the place where the active object was clicked
+};
 
 // Commands on objects.
 struct NewObject {

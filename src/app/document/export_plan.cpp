@@ -42,7 +42,7 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& ke
   if (count_flags(keep) == 0)
     throw Error(path.filename().string(), "would hold no Gaussians", "Select something first");
   refuse_written_inputs(path, what.scene.files);
-  check_output_file(path, request.overwrite);
+  check_output_file(path, request.overwrite, "Choose another name, or to write over it");
   const bool is_rest = request.what == ExportWhat::kRest;
   const std::shared_ptr<const CleanObject> clean =
       object && !is_rest ? clean_edges_of(object, name, what, report) : nullptr;

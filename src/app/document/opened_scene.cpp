@@ -11,6 +11,7 @@
 #include "core/byte_hash.h"
 #include "core/error.h"
 #include "scene/camera/camera_file.h"
+#include "scene/camera/common_up.h"
 #include "scene/cloud/scene_memory.h"
 #include "scene/cloud/strays.h"
 #include "scene/formats/merged_scene.h"

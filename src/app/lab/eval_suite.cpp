@@ -12,6 +12,7 @@
 #include "core/png_file.h"
 #include "scene/camera/camera_file.h"
 #include "scene/camera/camera_names.h"
+#include "scene/camera/common_up.h"
 #include "scene/raster/guessed_up.h"
 
 namespace splatcut {

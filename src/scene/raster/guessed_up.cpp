@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/cloud/ground_plane.h"
+
 namespace splatcut {
 
 namespace {
@@ -166,20 +168,10 @@ glm::vec3 guessed_up(const GaussianCloud& cloud) {
       if (score > best_score) best_score = score, best = up;
     }
   }
-  return best;
-}
-
-glm::vec3 common_up(std::span<const Camera> cameras) {
-  // Photographs may all lie on their side: the direction their horizontal axes and view axes avoid is up.
-  // A circle of level cameras has all right vectors in the ground plane; so has a rolled one its down
-  // vectors.
-  glm::vec3 down(0), right(0);
-  for (const Camera& c : cameras) {
-    down += c.down_world();
-    right += glm::transpose(c.camera_from_world_rotation)[0];
-  }
-  const glm::vec3 up = glm::length(down) >= glm::length(right) ? -down : right;
-  return glm::length(up) > 1e-6f ? glm::normalize(up) : glm::vec3(0, -1, 0);
+  // Aligned by a program, a scene is exactly level, which the plane is not.
+  constexpr float kLevel = 0.9986f;  // cosine of 3 degrees
+  const std::optional<glm::vec3> ground = ground_normal(cloud, best);
+  return ground && glm::dot(*ground, best) < kLevel ? *ground : best;
 }
 
 }  // namespace splatcut

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/symmetric_eigen.h"
 #include "scene/raster/splat_math.h"
 
 namespace splatcut {
@@ -38,26 +39,10 @@ double probit(double p) {
 }
 
 void scale_and_rotation(const glm::dmat3& covariance, glm::vec3* scale, glm::quat* rotation) {
-  glm::dmat3 s = covariance, axes(1);
-  constexpr int kSweeps = 12;  // converges quadratically: four or five do
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (int p = 0; p < 2; ++p)
-      for (int q = p + 1; q < 3; ++q) {
-        if (std::abs(s[p][q]) <= 1e-18 * std::sqrt(std::abs(s[p][p] * s[q][q]))) continue;
-        const double theta = 0.5 * (s[q][q] - s[p][p]) / s[p][q];
-        const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-        const double c = 1 / std::sqrt(t * t + 1);
-        glm::dmat3 turn(1);
-        turn[p][p] = turn[q][q] = c;
-        turn[q][p] = t * c;
-        turn[p][q] = -t * c;
-        s = glm::transpose(turn) * s * turn;
-        axes = axes * turn;
-      }
-  if (glm::determinant(axes) < 0) axes[0] = -axes[0];
+  const auto [values, axes] = symmetric_eigen(covariance);
   *rotation = glm::normalize(glm::quat(glm::normalize(glm::quat_cast(axes))));
   for (int axis = 0; axis < 3; ++axis)
-    (*scale)[axis] = static_cast<float>(std::sqrt(std::max(0.0, s[axis][axis])));
+    (*scale)[axis] = static_cast<float>(std::sqrt(std::max(0.0, values[axis])));
 }
 
 SolidGaussian half_gaussian(const SolidGaussian& whole, const glm::vec3& normal, double share) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "quick.h"
+#include "scene/cloud/quantise.h"
 #include "scene_file_helpers.h"
 
 using namespace splatcut;

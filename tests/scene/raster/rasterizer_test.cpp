@@ -400,7 +400,8 @@ TEST_CASE("rasterizer: what a pixel gets from each group and each Gaussian is wh
   const GaussianCloud cloud = random_cloud(120, 5, 1, 0.2f);
   const Camera camera = front_camera();
   std::vector<std::uint32_t> group_of(cloud.size());
-  for (std::size_t g = 0; g < group_of.size(); ++g) group_of[g] = g % 10 == 0 ? kNoGroup : g % kGroups;
+  for (std::size_t g = 0; g < group_of.size(); ++g)
+    group_of[g] = g % 10 == 0 ? kNoGroup : static_cast<std::uint32_t>(g % kGroups);
   RasterOptions options;
   options.colour = false;
   options.least_listed_weight = kListed;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kSmall = 20000;
 
-StillLifeOptions small_scene() {
+StillLifeOptions small_table() {
   return {.gaussians = kSmall};
 }
 
@@ -70,16 +70,16 @@ float gap(const LabelledScene& scene, std::uint8_t a, std::uint8_t b) {
 }  // namespace
 
 TEST_CASE("still life: the same options give the same bytes, another seed gives others") {
-  const LabelledScene a = make_still_life(small_scene()), b = make_still_life(small_scene());
+  const LabelledScene a = make_still_life(small_table()), b = make_still_life(small_table());
   CHECK(same_scene(a, b));
-  StillLifeOptions other = small_scene();
+  StillLifeOptions other = small_table();
   other.seed = 2;
   CHECK_FALSE(same_scene(a, make_still_life(other)));
 }
 
 TEST_CASE("still life: the count is exact and every label occurs") {
   for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{300}, std::size_t{20011}}) {
-    StillLifeOptions options = small_scene();
+    StillLifeOptions options = small_table();
     options.gaussians = n;
     options.floaters = options.straddling = options.unseen_interior = options.twins = options.occluder = true;
     const LabelledScene scene = make_still_life(options);
@@ -95,7 +95,7 @@ TEST_CASE("still life: the count is exact and every label occurs") {
 
 TEST_CASE("still life: values are finite, quaternions unit, rows in order") {
   for (const int degree : {0, 1, 2, 3}) {
-    StillLifeOptions options = small_scene();
+    StillLifeOptions options = small_table();
     options.sh_degree = degree;
     options.floaters = options.straddling = options.unseen_interior = true;
     const GaussianCloud cloud = make_still_life(options).cloud;
@@ -115,7 +115,7 @@ TEST_CASE("still life: values are finite, quaternions unit, rows in order") {
 }
 
 TEST_CASE("still life: cameras and seeds point at the objects") {
-  const LabelledScene scene = make_still_life(small_scene());
+  const LabelledScene scene = make_still_life(small_table());
   REQUIRE(scene.cameras.size() == 24);
   for (const Camera& camera : scene.cameras) {
     CHECK(camera.width_px == 1008);
@@ -138,8 +138,8 @@ TEST_CASE("still life: cameras and seeds point at the objects") {
 }
 
 TEST_CASE("still life: options change what they say") {
-  const LabelledScene plain = make_still_life(small_scene());
-  StillLifeOptions options = small_scene();
+  const LabelledScene plain = make_still_life(small_table());
+  StillLifeOptions options = small_table();
 
   SUBCASE("twins and occluder add their labels") {
     CHECK_FALSE(has(plain, "apple twin"));
@@ -239,7 +239,7 @@ TEST_CASE("surface sampler: parts add up, samples are even on a sphere") {
 }
 
 TEST_CASE("still life: without an object all else stands where it stood, only its shade is gone") {
-  StillLifeOptions options = small_scene();
+  StillLifeOptions options = small_table();
   const LabelledScene whole = make_still_life(options);
   options.without = "apple";
   const LabelledScene without = make_still_life(options);
@@ -259,10 +259,10 @@ TEST_CASE("still life: without an object all else stands where it stood, only it
 }
 
 TEST_CASE("still life: what no camera sees is missing on demand, such as the table under books") {
-  StillLifeOptions options = small_scene();
+  StillLifeOptions options = small_table();
   options.hidden_missing = true;
   const LabelledScene seen = make_still_life(options);
-  const LabelledScene whole = make_still_life(small_scene());
+  const LabelledScene whole = make_still_life(small_table());
   CHECK(seen.label.size() < whole.label.size());
   CHECK(seen.label.size() > whole.label.size() / 2);
   CHECK(seen.own.size() == seen.label.size());
