@@ -29,7 +29,7 @@ AxisPlane plane_of(std::span<const Camera> cameras, int axis) {
   constexpr double kFlat = 3;          // e2 / e1 of a plane, not a cone
   constexpr double kFan = 0.06;        // e2 / e3: less is how hands look up and down
   // Cameras side by side that look down: their down axes avoid the view axis, too.
-  constexpr double kArc = 0.3;          // e2 / e3 of less than that
+  constexpr double kArc = 0.3;         // e2 / e3 of less than that
   constexpr float kAlongView = 0.75f;  // of the mean view axis along the normal
   glm::dmat3 sum(0);
   for (const Camera& c : cameras) {
@@ -45,7 +45,8 @@ AxisPlane plane_of(std::span<const Camera> cameras, int axis) {
   }
   const double e1 = eigen.values[least], e2 = eigen.values[3 - least - most], e3 = eigen.values[most];
   const glm::vec3 normal(eigen.axes[least]);
-  const bool along_view = e2 < kArc * e3 && std::abs(glm::dot(mean_axis(cameras, kForward), normal)) > kAlongView;
+  const bool along_view =
+      e2 < kArc * e3 && std::abs(glm::dot(mean_axis(cameras, kForward), normal)) > kAlongView;
   const double error_rad = std::sqrt(std::max(e1, kLeastOut) / (n * e2));
   return {normal, error_rad, error_rad < kMostError && e2 > kFlat * e1 && e2 > kFan * e3 && !along_view};
 }
@@ -58,8 +59,8 @@ glm::vec3 common_up(std::span<const Camera> cameras) {
   if (cameras.empty()) return {0, -1, 0};
   const glm::vec3 right = mean_axis(cameras, kRight), down = mean_axis(cameras, kDown);
   const AxisPlane upright = plane_of(cameras, kRight), on_side = plane_of(cameras, kDown);
-  const bool lies =
-      on_side.known && (!upright.known || on_side.error_rad < static_cast<double>(kClearly) * upright.error_rad);
+  const bool lies = on_side.known &&
+                    (!upright.known || on_side.error_rad < static_cast<double>(kClearly) * upright.error_rad);
   if (lies || upright.known) {
     const glm::vec3 normal = lies ? on_side.normal_world : upright.normal_world;
     // Upright pictures say which side is up; those on their side, and straight down, are taken from above.

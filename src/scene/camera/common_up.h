@@ -2,8 +2,8 @@
 //
 // People hold cameras level or on their side, and turn and tilt them. So one of the two axes of the pictures
 // stays in the ground plane, in all views: up is the direction that it avoids,
-//   up = eigenvector of sum_i a_i a_i^T / n to the least eigenvalue e1, a_i the right axis of camera i, or its
-//   down axis if pictures lie on their side. e1 = mean sin^2 of the angles out of the plane.
+//   up = eigenvector of sum_i a_i a_i^T / n to the least eigenvalue e1, a_i the right axis of camera i, or
+//   its down axis if pictures lie on their side. e1 = mean sin^2 of the angles out of the plane.
 // That holds however far the cameras look down, where the mean of their up axes leans away from the side on
 // which they stand. The plane is known if sqrt(e1 / (n e2)), the error of its tilt in radians, is small; e2
 // is the middle eigenvalue. Else up is the mean of the up axes, or of the right axes if these agree more.

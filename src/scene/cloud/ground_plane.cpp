@@ -12,8 +12,10 @@ namespace splatcut {
 
 namespace {
 
-constexpr float kMostTilt = 0.7071f;  // cosine of 45 degrees
-constexpr double kLeastOnPlane = 0.15, kMostBelow = 0.12;
+constexpr float kMostTilt = 0.7071f;                       // cosine of 45 degrees
+constexpr double kLeastOnPlane = 0.15, kMostBelow = 0.12;  // shares
+constexpr double kLeastOfTwo = 0.1;                        // where two planes are alike
+constexpr float kAlike = 0.9962f;                          // cosine of 5 degrees
 
 struct Plane {
   glm::vec3 normal{0};
@@ -118,17 +120,25 @@ std::vector<glm::vec3> within(std::span<const glm::vec3> centres, const Box& box
 std::optional<glm::vec3> ground_normal(const GaussianCloud& cloud, const glm::vec3& up_world) {
   constexpr float kTolerance = 0.005f;  // of the largest extent
   const std::vector<glm::vec3> centres = sampled_centres(cloud);
-  Plane best;
+  std::vector<Plane> planes;
   for (const double inside : {0.96, 0.8, 0.6}) {
     const Box box = robust_bounds(centres, inside);
     const glm::vec3 extent = box.extent();
     const float size = std::max({extent.x, extent.y, extent.z});
     const Plane plane = Search(within(centres, box), kTolerance * size, up_world).best();
-    if (plane.share > best.share && plane.below < kMostBelow && glm::dot(plane.normal, up_world) > kMostTilt)
-      best = plane;
+    if (plane.below < kMostBelow && glm::dot(plane.normal, up_world) > kMostTilt) planes.push_back(plane);
   }
-  if (best.share < kLeastOnPlane) return {};
-  return best.normal;
+  const auto confirmed = [&](const Plane& plane) {
+    return std::ranges::count_if(planes, [&](const Plane& other) {
+             return other.share >= kLeastOfTwo && glm::dot(other.normal, plane.normal) > kAlike;
+           }) > 1;
+  };
+  std::erase_if(planes, [&](const Plane& p) {
+    return p.share < kLeastOnPlane && (p.share < kLeastOfTwo || !confirmed(p));
+  });
+  const auto best = std::ranges::max_element(planes, {}, &Plane::share);
+  if (best == planes.end()) return {};
+  return best->normal;
 }
 
 }  // namespace splatcut

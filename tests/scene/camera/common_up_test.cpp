@@ -16,9 +16,9 @@ namespace {
 struct Capture {
   int views = 40;
   float arc_deg = 360;
-  float pitch_deg = 30;        // how far the cameras look down
-  float turn_deg = 0;          // of the pictures about the view axis: 90, 270 for those on their side
-  float roll_noise_deg = 3;    // of the hand
+  float pitch_deg = 30;      // how far the cameras look down
+  float turn_deg = 0;        // of the pictures about the view axis: 90, 270 for those on their side
+  float roll_noise_deg = 3;  // of the hand
   float pitch_noise_deg = 10;
 };
 
@@ -30,7 +30,8 @@ std::vector<Camera> cameras_of(const Capture& capture, unsigned seed) {
   const glm::vec3 east = glm::normalize(glm::cross(kUp, glm::vec3(1, 0, 0))), north = glm::cross(kUp, east);
   std::vector<Camera> cameras;
   for (int i = 0; i < capture.views; ++i) {
-    const float azimuth = glm::radians(capture.arc_deg) * static_cast<float>(i) / static_cast<float>(capture.views);
+    const float azimuth =
+        glm::radians(capture.arc_deg) * static_cast<float>(i) / static_cast<float>(capture.views);
     const float pitch = glm::radians(capture.pitch_deg + capture.pitch_noise_deg * noise(random));
     const float roll = glm::radians(capture.turn_deg + capture.roll_noise_deg * noise(random));
     const glm::vec3 level = std::cos(azimuth) * east + std::sin(azimuth) * north;
@@ -45,7 +46,8 @@ std::vector<Camera> cameras_of(const Capture& capture, unsigned seed) {
 }
 
 float error_deg(const Capture& capture, unsigned seed) {
-  return glm::degrees(std::acos(std::clamp(glm::dot(common_up(cameras_of(capture, seed)), kUp), -1.0f, 1.0f)));
+  return glm::degrees(
+      std::acos(std::clamp(glm::dot(common_up(cameras_of(capture, seed)), kUp), -1.0f, 1.0f)));
 }
 
 }  // namespace
