@@ -44,7 +44,8 @@ LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int
 }
 
 // What is small in the view is looked at with more pixels: by what is selected already, else by what the
-// stroke selects. By its own size, also where another one is taken: other pixels offer other sizes.
+// stroke selects. By its likeliest meaning in its own size, also where others are taken: other pixels would
+// offer other meanings and sizes.
 std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, const ClickSelection& before,
                                                           const CameraStroke& said, const Job& job) {
   const auto width_to_see_it = [&](const Mask& mask) {
@@ -67,7 +68,8 @@ std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, 
     const float factor = static_cast<float>(width_px) / static_cast<float>(said.camera.width_px);
     next->apply(*seen, scaled({said.stroke}, factor).front());
     if (settled || width_px > camera.width_px) return next;
-    width_px = width_to_see_it(options_.part_step != 0 && !next->size_masks().empty()
+    width_px = width_to_see_it(options_.choice != 0 && !next->meanings().empty() ? next->meanings().front()
+                               : options_.part_step != 0 && !next->size_masks().empty()
                                    ? next->size_masks()[next->likeliest_size()]
                                    : shown(seen->gaussians, seen->camera, next->labels()));
     if (width_px == camera.width_px) return next;

@@ -176,55 +176,151 @@ Place Session::place_of_masks(const CutRequest& request, const CutSettings& sett
   return place;
 }
 
-// Places are found stroke by stroke, so that one more stroke asks for no more than what it adds.
-std::optional<Place> Session::place_of_strokes(const CutRequest& request, const CutSettings& settings,
-                                               const Job& job) {
+// Places are found stroke by stroke, so that one more stroke asks for no more than what it adds. That of the
+// first is the likeliest meaning's, whichever is taken: the others are offered there.
+std::optional<Session::Answered> Session::place_of_strokes(const CutRequest& request,
+                                                           const CutSettings& settings, const Job& job) {
   const std::vector<CameraStroke> strokes = in_replay_order(strokes_in_order(request));
   if (strokes.empty() || strokes.front().stroke.label != SeedLabel::kObject) return {};
   const std::string how = fmt::format("{} {}", settings.work_width_px, settings.least_object_px);
   const auto first = [&](std::size_t count) { return std::span(strokes).first(count); };
-  const auto key = [&](std::size_t count) { return key_of(request_of(first(count), request)) + how; };
+  CutRequest likeliest = request;
+  likeliest.choice = likeliest.part_step = 0;
+  const auto like = [&](std::size_t count) -> const CutRequest& { return count > 1 ? request : likeliest; };
+  const auto key = [&](std::size_t count) { return key_of(request_of(first(count), like(count))) + how; };
   std::size_t known = strokes.size();
   while (known > 0 && !places_.contains(key(known))) --known;
-  std::optional<Place> place;
-  if (known > 0) place = places_.at(key(known));
+  std::optional<Answered> there;
+  if (known > 0) there = places_.at(key(known));
   std::optional<Box> must_hold;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     if (strokes[i].stroke.label == SeedLabel::kObject)
       for (const auto& hit : hits(strokes[i], job))
         if (hit) must_hold = must_hold ? joined(*must_hold, {*hit, *hit}) : Box{*hit, *hit};
     if (job.cancelled() || !must_hold) return {};
-    if (!place) place = first_place(strokes[0].camera, *must_hold);
-    if (i + 1 <= known) continue;
-    place = place_after(first(i + 1), request, settings, *place, *must_hold, job);
-    if (job.cancelled()) return {};
-    if (places_.size() >= kMostPlaces) places_.clear();
-    places_[key(i + 1)] = *place;
+    if (!there) there = Answered{first_place(strokes[0].camera, *must_hold)};
+    if (i + 1 > known) {
+      there = place_after(first(i + 1), like(i + 1), settings, *there, *must_hold, job);
+      if (job.cancelled()) return {};
+      if (places_.size() >= kMostPlaces) places_.clear();
+      places_[key(i + 1)] = *there;
+    }
+    if (i == 0 && known <= 1) there = Answered{there->place, request.choice, request.part_step};
   }
-  return place;
+  return there;
 }
 
-Place Session::place_after(std::span<const CameraStroke> strokes, const CutRequest& like,
-                           const CutSettings& settings, Place place, const Box& must_hold, const Job& job) {
-  if (!place.whole && !holds(place.cell, must_hold)) place = grown(place, must_hold);
+Session::Answered Session::place_after(std::span<const CameraStroke> strokes, const CutRequest& like,
+                                       const CutSettings& settings, Answered answered, const Box& must_hold,
+                                       const Job& job) {
   const CutRequest request = request_of(strokes, like);
+  const auto grow = [&](const Box& to_hold) {
+    const std::optional<Answered> larger =
+        answered_in(grown(answered.place, to_hold), answered, request, settings, job);
+    if (larger) answered = *larger;
+    return larger.has_value();
+  };
+  if (!answered.place.whole && !holds(answered.place.cell, must_hold)) grow(must_hold);
   while (!job.cancelled()) {
-    Local* there = local(place, settings, job);
+    Local* there = local(answered.place, settings, job);
     if (!there) break;
     const std::vector<std::uint8_t> meant =
-        there->session.meant(in_place(request, there, job), settings, job);
-    if (job.cancelled() || !touches_side(whole_, there->near, meant)) break;
-    place = grown(place, joined(must_hold, bounds_of(*there->near.cloud, meant)));
+        there->session.meant(in_place(request, answered, there, job), settings, job);
+    if (job.cancelled() || !touches_side(whole_, there->near, meant) ||
+        !grow(joined(must_hold, bounds_of(*there->near.cloud, meant))))
+      break;
   }
-  return place;
+  return answered;
 }
 
-std::optional<Place> Session::place_of(const CutRequest& request, const CutSettings& settings,
-                                       const Job& job) {
-  if (request.first_mask) return place_of_masks(request, settings, job);
+std::optional<Session::Answered> Session::place_of(const CutRequest& request, const CutSettings& settings,
+                                                   const Job& job) {
+  if (request.first_mask) return Answered{place_of_masks(request, settings, job)};
   const auto reference = std::ranges::find_if(request.strokes, marks_object);
   if (reference == request.strokes.end()) return {};
-  return by_parts(settings) ? place_of_strokes(request, settings, job) : place_of_all(reference->camera);
+  if (by_parts(settings)) return place_of_strokes(request, settings, job);
+  return Answered{place_of_all(reference->camera), request.choice, request.part_step};
+}
+
+// The meaning and size of the first stroke in a larger place that are most like those taken here: a place has
+// its own meanings and sizes, in its own order. None: it has nothing alike, or cancelled.
+std::optional<Session::Answered> Session::answered_in(const Place& larger, const Answered& here,
+                                                      const CutRequest& request, const CutSettings& settings,
+                                                      const Job& job) {
+  if ((here.choice == 0 && here.part_step == 0) || request.first_mask || !by_parts(settings))
+    return Answered{larger, here.choice, here.part_step};
+  constexpr double kAlike = 0.7, kEnough = 0.9;  // IoU of labels within the smaller place
+  constexpr double kCovers = 0.6;                // share of what was outlined that a size must show
+  const std::vector<CameraStroke> strokes = in_replay_order(strokes_in_order(request));
+  const CutRequest first = request_of(std::span(strokes).first(1), request);
+  const Box box = here.place.cell.box_world();
+  const std::size_t n = scene_.cloud->size();
+  CutSettings alone = settings;
+  alone.parts_only = true;
+  const auto answer = [&](const Answered& answered) {
+    CutResult result;
+    if (Local* there = local(answered.place, settings, job))
+      result = in_scene(*there, there->session.cut(in_place(first, answered, there, job), alone, job));
+    result.labels.resize(n);
+    return result;
+  };
+  const CutResult taken = answer(here);
+  const std::vector<std::uint8_t>& wanted = taken.labels;
+  const Mask outlined = taken.size_masks.empty() ? Mask() : taken.size_masks[taken.size];
+  const auto covers = [&](const Mask& mask) {
+    if (mask.width() != outlined.width() || mask.height() != outlined.height()) return true;
+    std::size_t both = 0;
+    for (std::size_t i = 0; i < mask.pixels().size(); ++i) both += mask.pixels()[i] && outlined.pixels()[i];
+    return static_cast<double>(both) >= kCovers * static_cast<double>(count(outlined));
+  };
+  const auto likeness = [&](const std::vector<std::uint8_t>& labels) {
+    std::size_t both = 0, any = 0;
+    for (std::size_t g = 0; g < n; ++g) {
+      if (!(wanted[g] || labels[g]) || !contains(box, scene_.cloud->position[g])) continue;
+      both += wanted[g] && labels[g];
+      ++any;
+    }
+    return static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(any, 1));
+  };
+  std::optional<Answered> best;
+  double most = kAlike;
+  std::size_t meanings = 1;
+  const auto look_at = [&](const Answered& answered, const std::vector<std::uint8_t>& labels) {
+    const double alike = likeness(labels);
+    if (alike <= most) return;
+    most = alike;
+    best = answered;
+  };
+  for (int choice = 0; choice < static_cast<int>(meanings) && most < kEnough; ++choice) {
+    const CutResult own = answer({larger, choice, 0});
+    meanings = own.meanings.size();
+    look_at({larger, choice, 0}, own.labels);
+    for (std::size_t size = 0; size < own.size_masks.size() && most < kEnough && !job.cancelled(); ++size) {
+      const int step = static_cast<int>(size) - static_cast<int>(own.likeliest_size);
+      if (step != 0 && covers(own.size_masks[size]))
+        look_at({larger, choice, step}, answer({larger, choice, step}).labels);
+    }
+  }
+  return job.cancelled() ? std::nullopt : best;
+}
+
+// What a first stroke can mean, and the steps of its size, are shown as they were offered, also where what is
+// taken needed a larger place.
+void Session::keep_offer(const CutRequest& request, const Answered& answered, const CutSettings& settings,
+                         const Job& job, CutResult* result) {
+  if (result->meanings.empty() || request.choice == 0) return;
+  const std::vector<CameraStroke> strokes = in_replay_order(strokes_in_order(request));
+  CutRequest first = request_of(std::span(strokes).first(1), request);
+  first.choice = first.part_step = 0;
+  const std::optional<Answered> offered = place_of(first, settings, job);
+  if (!offered || offered->place == answered.place) return;
+  CutSettings alone = settings;
+  alone.parts_only = true;
+  if (Local* there = local(offered->place, settings, job))
+    result->meanings = there->session.cut(in_place(first, *offered, there, job), alone, job).meanings;
+  result->choice = std::min(static_cast<std::size_t>(request.choice), result->meanings.size() - 1);
+  result->likeliest_size = static_cast<std::size_t>(  // as the wheel counts from there
+      std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(result->size) - request.part_step));
 }
 
 // Null if cancelled.
@@ -253,10 +349,13 @@ Session::Local* Session::local(const Place& place, const CutSettings& settings, 
 }
 
 // The request as the neighbourhood sees it.
-CutRequest Session::in_place(const CutRequest& request, Local* there, const Job& job) {
-  if (there->near.row.empty()) return request;
-  const Box box = there->near.place.cell.box_world();
+CutRequest Session::in_place(const CutRequest& request, const Answered& answered, Local* there,
+                             const Job& job) {
   CutRequest local = request;
+  local.choice = answered.choice;
+  local.part_step = answered.part_step;
+  if (there->near.row.empty()) return local;
+  const Box box = there->near.place.cell.box_world();
   local.strokes.clear();
   for (const StrokedView& view : request.strokes) {
     StrokedView here{view.camera, {}, there->seen_here(view.seen)};
@@ -288,20 +387,30 @@ CutResult Session::in_scene(const Local& there, CutResult result) const {
 
 // The neighbourhood of the cut and its result there; null: nothing is marked or hit, or cancelled.
 Session::Local* Session::settled(const CutRequest& request, const CutSettings& settings, const Job& job,
-                                 const OnSnapshot& on_snapshot, CutResult* result) {
+                                 const OnSnapshot& on_snapshot, CutResult* result, Answered* in) {
   check(settings);
-  std::optional<Place> place = place_of(request, settings, job);
-  while (place && !job.cancelled()) {
-    Local* there = local(*place, settings, job);
+  std::optional<Answered> answered = place_of(request, settings, job);
+  while (answered && !job.cancelled()) {
+    Local* there = local(answered->place, settings, job);
     if (!there) return nullptr;
     OnSnapshot in_whole;
     if (on_snapshot)
       in_whole = [&](CutPhase phase, const CutResult& so_far) {
         on_snapshot(phase, in_scene(*there, so_far));
       };
-    *result = there->session.cut(in_place(request, there, job), settings, job, in_whole);
-    if (result->outcome != Outcome::kDone || !touches_side(whole_, there->near, result->labels)) return there;
-    place = grown(*place, joined(place->cell.box_world(), bounds_of(*there->near.cloud, result->labels)));
+    *result = there->session.cut(in_place(request, *answered, there, job), settings, job, in_whole);
+    std::optional<Answered> larger;
+    if (result->outcome == Outcome::kDone && touches_side(whole_, there->near, result->labels))
+      larger = answered_in(grown(answered->place, joined(answered->place.cell.box_world(),
+                                                         bounds_of(*there->near.cloud, result->labels))),
+                           *answered, request, settings, job);
+    if (job.cancelled()) return nullptr;
+    if (!larger) {
+      keep_offer(request, *answered, settings, job, result);
+      if (in) *in = *answered;
+      return local(answered->place, settings, job);  // what was looked at may have pushed it out
+    }
+    answered = larger;
   }
   return nullptr;
 }
@@ -342,10 +451,10 @@ CutResult Session::cut_anywhere(const CutRequest& request, const CutSettings& se
 
 Mask Session::first_mask(const CutRequest& request, const CutSettings& settings, const Job& job) {
   check(settings);
-  const std::optional<Place> place = place_of(request, settings, job);
-  if (!place) return {};
-  Local* there = local(*place, settings, job);
-  return there ? there->session.first_mask(in_place(request, there, job), settings, job) : Mask();
+  const std::optional<Answered> answered = place_of(request, settings, job);
+  if (!answered) return {};
+  Local* there = local(answered->place, settings, job);
+  return there ? there->session.first_mask(in_place(request, *answered, there, job), settings, job) : Mask();
 }
 
 Session::Preview Session::preview(const CutRequest& request, const CameraStroke& stroke,
@@ -353,13 +462,13 @@ Session::Preview Session::preview(const CutRequest& request, const CameraStroke&
   if (!by_parts(settings)) return {};
   CutRequest after = request;
   after.strokes.push_back({stroke.camera, {stroke.stroke}, stroke.seen});
-  const std::optional<Place> place = place_of_strokes(after, settings, job);
-  if (!place) return {};
-  Local* there = local(*place, settings, job);
+  const std::optional<Answered> answered = place_of_strokes(after, settings, job);
+  if (!answered) return {};
+  Local* there = local(answered->place, settings, job);
   if (!there) return {};
   const std::size_t n = scene_.cloud->size();
-  Preview labels{there->session.meant(in_place(request, there, job), settings, job), {}};
-  labels.after = there->session.meant(in_place(after, there, job), settings, job);
+  Preview labels{there->session.meant(in_place(request, *answered, there, job), settings, job), {}};
+  labels.after = there->session.meant(in_place(after, *answered, there, job), settings, job);
   if (job.cancelled()) return {};
   return {splatcut::in_scene(there->near, n, std::move(labels.before)),
           splatcut::in_scene(there->near, n, std::move(labels.after))};
@@ -368,17 +477,18 @@ Session::Preview Session::preview(const CutRequest& request, const CameraStroke&
 std::vector<float> Session::likelihood_of(const CutRequest& request, const CutSettings& settings,
                                           const Job& job) {
   CutResult result;
-  Local* there = settled(request, settings, job, {}, &result);
+  Answered in;
+  Local* there = settled(request, settings, job, {}, &result, &in);
   if (!there || job.cancelled()) return std::vector<float>(scene_.cloud->size(), 0);
   return splatcut::in_scene(there->near, scene_.cloud->size(),
-                            there->session.likelihood_of(in_place(request, there, job), settings, job));
+                            there->session.likelihood_of(in_place(request, in, there, job), settings, job));
 }
 
 void Session::make_ready(const CameraStroke& click, const CutSettings& settings, const Job& job) {
   make_lab_ready();
   if (!by_parts(settings)) return;
-  const std::optional<Place> place = place_of_strokes(request_of({&click, 1}, {}), settings, job);
-  Local* there = place ? local(*place, settings, job) : nullptr;
+  const std::optional<Answered> answered = place_of_strokes(request_of({&click, 1}, {}), settings, job);
+  Local* there = answered ? local(answered->place, settings, job) : nullptr;
   if (there) there->session.make_ready(settings, job);
 }
 

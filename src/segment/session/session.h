@@ -90,6 +90,12 @@ class Session {
 
  private:
   struct Local;  // a neighbourhood and the session on it
+  // Where a request is answered, and which of the meanings and sizes that its first stroke has there it
+  // takes.
+  struct Answered {
+    Place place;
+    int choice = 0, part_step = 0;  // as in CutRequest
+  };
 
   const StrokeHits& hits(const CameraStroke& stroke, const Job& job);
   bool is_whole(const Cell& cell) const;
@@ -99,23 +105,27 @@ class Session {
   Place place_of_all(const Camera& eye) const;
   Place place_of_masks(const CutRequest& request, const CutSettings& settings, const Job& job) const;
   Place grown(const Place& place, const Box& must_hold) const;
-  std::optional<Place> place_of_strokes(const CutRequest& request, const CutSettings& settings,
-                                        const Job& job);
-  Place place_after(std::span<const CameraStroke> strokes, const CutRequest& like,
-                    const CutSettings& settings, Place place, const Box& must_hold, const Job& job);
-  std::optional<Place> place_of(const CutRequest& request, const CutSettings& settings, const Job& job);
+  std::optional<Answered> place_of_strokes(const CutRequest& request, const CutSettings& settings,
+                                           const Job& job);
+  Answered place_after(std::span<const CameraStroke> strokes, const CutRequest& like,
+                       const CutSettings& settings, Answered there, const Box& must_hold, const Job& job);
+  std::optional<Answered> place_of(const CutRequest& request, const CutSettings& settings, const Job& job);
+  std::optional<Answered> answered_in(const Place& larger, const Answered& here, const CutRequest& request,
+                                      const CutSettings& settings, const Job& job);
+  void keep_offer(const CutRequest& request, const Answered& answered, const CutSettings& settings,
+                  const Job& job, CutResult* result);
   Local* local(const Place& place, const CutSettings& settings, const Job& job);
-  CutRequest in_place(const CutRequest& request, Local* there, const Job& job);
+  CutRequest in_place(const CutRequest& request, const Answered& answered, Local* there, const Job& job);
   CutResult in_scene(const Local& there, CutResult result) const;
   CutResult cut_anywhere(const CutRequest& request, const CutSettings& settings, const Job& job,
                          const OnSnapshot& on_snapshot);
   Local* settled(const CutRequest& request, const CutSettings& settings, const Job& job,
-                 const OnSnapshot& on_snapshot, CutResult* result);
+                 const OnSnapshot& on_snapshot, CutResult* result, Answered* in = nullptr);
 
   SessionScene scene_;
   WholeScene whole_;
   std::list<Local> locals_;                    // used last first
-  std::map<std::string, Place> places_;        // of strokes so far, by their bytes
+  std::map<std::string, Answered> places_;     // of strokes so far, by their bytes
   std::map<std::string, StrokeHits> hits_;     // of single strokes
   std::stop_source* ends_if_large_ = nullptr;  // ends a cut of CutReach::kSmall; null: none is under way
 };

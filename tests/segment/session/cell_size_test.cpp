@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/counter_rng.h"
 #include "scene/cloud/joined_clouds.h"
 #include "scene/cloud/morton.h"
 #include "scene/still_life/still_life.h"
+#include "segment/masks/mask_tools.h"
 #include "segment/session/session.h"
 #include "segment/session/stroke_hits.h"
 #include "segment/superpoints/orbit.h"
@@ -111,6 +113,46 @@ TEST_CASE("cells: a click labels in a third of the Gaussians what it labels in a
   CHECK(clicks >= 12);
   CHECK(same >= 0.6 * clicks);
   CHECK(right_small / clicks >= right_large / clicks - 0.02);
+}
+
+// A meaning that needs more Gaussians than the likeliest is looked up where these are prepared, where a place
+// has other meanings in another order.
+TEST_CASE("cells: a meaning that is chosen is the one that was offered, and the others stay offered") {
+  int offered = 0, other = 0, grown = 0;
+  const RandomRooms rooms(1);
+  Session session({.cloud = rooms.cloud, .most_gaussians = rooms.cloud->size() / 12});
+  CutSettings settings;
+  settings.parts_only = true;
+  constexpr std::size_t kClicks = 8;
+  for (const CameraStroke& click : std::span(rooms.clicks).first(kClicks)) {
+    CutRequest request;
+    request.strokes = {{click.camera, {click.stroke}}};
+    const CutResult first = session.cut(request, settings);
+    for (int choice = 1; choice < std::ssize(first.meanings); ++choice) {
+      request.choice = choice;
+      const CutResult chosen = session.cut(request, settings);
+      REQUIRE(chosen.meanings.size() == first.meanings.size());
+      CHECK(chosen.choice == static_cast<std::size_t>(choice));
+      for (std::size_t m = 0; m < first.meanings.size(); ++m)
+        CHECK(std::ranges::equal(chosen.meanings[m].pixels(), first.meanings[m].pixels()));
+      const Mask& outlined = first.meanings[static_cast<std::size_t>(choice)];
+      const Camera view = limited_to_width(click.camera, outlined.width());
+      const Mask shown =
+          thresholded(render_labels({*rooms.cloud, nullptr, &session.blocks()}, view, chosen.labels), 0.5f);
+      const bool more = chosen.looked_at_gaussians > first.looked_at_gaussians;
+      std::size_t both = 0;
+      for (std::size_t i = 0; i < shown.pixels().size(); ++i)
+        both += shown.pixels()[i] != 0 && outlined.pixels()[i] != 0;
+      // Of a meaning that its cell cuts off, the outline is a part.
+      const double covered = static_cast<double>(both) / static_cast<double>(count(outlined));
+      ++offered;
+      other += (more ? covered : iou(shown, outlined)) < 0.8;
+      grown += more;
+    }
+  }
+  CHECK(offered >= 8);
+  CHECK(grown >= 3);
+  CHECK(other == 0);  // half of them before
 }
 
 // Only from nearer than it was photographed, and only by three cameras, does a click look at more.
