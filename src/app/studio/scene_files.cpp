@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <ranges>
 
 #include "app/document/carried_document.h"
 #include "app/document/words.h"
@@ -265,8 +264,8 @@ void SceneFiles::keep_before(Kept kept) {
   constexpr std::size_t kAlwaysKept = 3;
   before_files_.push_back(std::move(kept));
   std::size_t gaussians = 0, fit = 0;
-  for (const Kept& k : std::views::reverse(before_files_)) {
-    gaussians += k.scene->cloud->size();
+  for (auto k = before_files_.rbegin(); k != before_files_.rend(); ++k) {
+    gaussians += k->scene->cloud->size();
     if (fit >= kAlwaysKept && gaussians > ws_.options.most_kept_gaussians) break;
     ++fit;
   }
