@@ -152,7 +152,7 @@ TEST_CASE("cells: a meaning that is chosen is the one that was offered, and the 
   }
   CHECK(offered >= 8);
   CHECK(grown >= 3);
-  CHECK(other == 0);  // half of them before
+  CHECK(other == 0);
 }
 
 // Only from nearer than it was photographed, and only by three cameras, does a click look at more.
