@@ -51,7 +51,7 @@ void Studio::dispatch(const Command& command) {
     std::visit(
         [&](const auto& c) {
           if (kMakesWork<std::decay_t<decltype(c)>> && ws_.scene && !files_.opening().empty())
-            throw Error("", files_.opening(), "Esc keeps this scene, to work on in it");
+            throw Error("", files_.opening(), "Wait for it, or press Esc: that keeps this scene");
           if constexpr (requires { clicks_.perform(c); })
             clicks_.perform(c);
           else if constexpr (requires { files_.perform(c); })

@@ -6,8 +6,8 @@
 // share: of the centres within .005 of the scene's size of the plane; above, below: of the others. Once with
 // the outer 4 % left out, once with the outer 20 %, once with 40 %: a table fills more of the inner ones, a
 // floor of the outer. It must have a share of .15, or of .1 if another of the three is alike; the one of the
-// largest share is taken, fitted to its centres by least squares. Of 26 scenes 14 show one (share .14 to .71,
-// the ground in all of them); the others have shares up to .13, in directions that differ.
+// largest share is taken, fitted to its centres by least squares. Of 25 captures 14 show one (share .15 to
+// .71, the ground in all of them); the others have shares up to .13, in directions that differ.
 //
 // Same cloud, same plane; 3 to 50 ms. It knows nothing of slopes: what stands on one leans.
 #pragma once

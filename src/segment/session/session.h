@@ -9,7 +9,8 @@
 //   2. After each stroke, and again after the cut: while what is labelled touches the cell's side, or a
 //      stroke on the object hits what lies outside, the next cell is twice as large, about both. A cell
 //      that holds most of the scene is the scene. A first answer is shown while it grows. Other meanings of
-//      the first click, mostly one of which is the floor or a wall, make it grow when they are taken.
+//      the first click, mostly one of which is the floor or a wall, make it grow when they are taken: they
+//      are offered where the likeliest is answered, and found again in the larger cell by their labels.
 // Strokes on the rest that hit nothing of the cell change nothing: there is no object there. Cuts from pixels
 // alone (the baselines) look at the whole scene.
 // The result is a function of scene, request and settings alone, kept steps or not, whatever was cut before,
@@ -19,6 +20,7 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -32,6 +34,8 @@
 #include "segment/superpoints/neighbourhood.h"
 
 namespace splatcut {
+
+struct KeptNeighbourhood;  // a neighbourhood and the session on it
 
 struct SessionScene {
   std::shared_ptr<const GaussianCloud> cloud;
@@ -89,7 +93,7 @@ class Session {
   std::size_t neighbourhoods() const { return locals_.size(); }  // that are kept
 
  private:
-  struct Local;  // a neighbourhood and the session on it
+  using Local = KeptNeighbourhood;
   // Where a request is answered, and which of the meanings and sizes that its first stroke has there it
   // takes.
   struct Answered {
@@ -105,6 +109,7 @@ class Session {
   Place place_of_all(const Camera& eye) const;
   Place place_of_masks(const CutRequest& request, const CutSettings& settings, const Job& job) const;
   Place grown(const Place& place, const Box& must_hold) const;
+  Place grown_about(const Neighbourhood& near, std::span<const std::uint8_t> labels) const;
   std::optional<Answered> place_of_strokes(const CutRequest& request, const CutSettings& settings,
                                            const Job& job);
   Answered place_after(std::span<const CameraStroke> strokes, const CutRequest& like,

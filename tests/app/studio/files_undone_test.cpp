@@ -197,9 +197,9 @@ TEST_CASE("files undone: nothing is made that another scene on its way would rep
   studio.apply(OpenScene{kSmallSample});
   hands.app.click(hands.app.screen_of(kOnApple));
   CHECK(studio.document().objects.empty());
-  CHECK(hands.said().find("Esc keeps this scene") != std::string::npos);
+  CHECK(hands.said().find("that keeps this scene") != std::string::npos);
   studio.apply(AddScene{kSmallSample});
-  CHECK(hands.said().find("Esc keeps this scene") != std::string::npos);
+  CHECK(hands.said().find("that keeps this scene") != std::string::npos);
   studio.apply(Cancel{});
   REQUIRE(hands.app.settle());
   hands.app.click(hands.app.screen_of(kOnApple));

@@ -1,0 +1,282 @@
+// Where a session answers a request: the cells that it prepares, and what a first stroke means in each.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "segment/masks/mask_tools.h"
+#include "segment/session/reference_mask.h"
+#include "segment/session/kept_neighbourhood.h"
+
+namespace splatcut {
+
+namespace {
+
+constexpr double kMostOfScene = 0.7;  // a cell that holds this share of the Gaussians is the scene
+constexpr int kMostHalvings = 5;      // of the first cell
+constexpr std::size_t kMostPlaces = 4096;
+
+Box joined(const Box& a, const Box& b) {
+  return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
+}
+
+bool holds(const Cell& cell, const Box& box) {
+  return contains(cell.box_world(), box.min) && contains(cell.box_world(), box.max);
+}
+
+// Where nearly all of what is labelled lies.
+Box bounds_of(const GaussianCloud& cloud, std::span<const std::uint8_t> labels) {
+  constexpr double kInside = 0.96;
+  std::vector<glm::vec3> positions;
+  for (std::size_t g = 0; g < labels.size(); ++g)
+    if (labels[g]) positions.push_back(cloud.position[g]);
+  return robust_bounds(positions, kInside);
+}
+
+constexpr std::uint32_t kNotThere = std::numeric_limits<std::uint32_t>::max();
+
+// Where each of the rows stands among others; both ascending, empty: all of the scene.
+std::vector<std::uint32_t> rows_among(const std::vector<std::uint32_t>& rows,
+                                      const std::vector<std::uint32_t>& others) {
+  if (others.empty()) return rows;
+  std::vector<std::uint32_t> among;
+  for (const std::uint32_t row : rows) {
+    const auto at = std::ranges::lower_bound(others, row);
+    among.push_back(at != others.end() && *at == row ? static_cast<std::uint32_t>(at - others.begin())
+                                                     : kNotThere);
+  }
+  return among;
+}
+
+// IoU of labels of a small place and of a large one; among: where the rows of the small stand in the large.
+double likeness(std::span<const std::uint8_t> small, std::span<const std::uint8_t> large,
+                std::span<const std::uint32_t> among) {
+  if (small.empty() || large.empty()) return 0;
+  std::size_t both = 0, either = 0;
+  for (std::size_t g = 0; g < among.size(); ++g) {
+    const bool in_large = among[g] != kNotThere && large[among[g]] != 0;
+    both += small[g] != 0 && in_large;
+    either += small[g] != 0 || in_large;
+  }
+  return static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(either, 1));
+}
+
+// Whether a size shows most of what was taken, so that it may be the same: looked at before its labels are.
+bool covers(const Mask& mask, const CutResult& taken) {
+  constexpr double kMost = 0.6;
+  if (taken.size >= taken.size_masks.size()) return true;
+  const Mask& wanted = taken.size_masks[taken.size];
+  if (mask.width() != wanted.width() || mask.height() != wanted.height()) return true;
+  std::size_t both = 0;
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i)
+    both += mask.pixels()[i] != 0 && wanted.pixels()[i] != 0;
+  return static_cast<double>(both) >= kMost * static_cast<double>(count(wanted));
+}
+
+}  // namespace
+
+CutRequest request_of(std::span<const CameraStroke> strokes, const CutRequest& like) {
+  CutRequest request;
+  for (const CameraStroke& s : strokes) request.strokes.push_back({s.camera, {s.stroke}, s.seen});
+  request.choice = like.choice;
+  request.part_step = like.part_step;
+  request.up_world = like.up_world;
+  return request;
+}
+
+CutRequest first_of(const CutRequest& request) {
+  const std::vector<CameraStroke> strokes = in_replay_order(strokes_in_order(request));
+  CutRequest first = request_of(std::span(strokes).first(1), request);
+  first.choice = first.part_step = 0;
+  return first;
+}
+
+bool Session::is_whole(const Cell& cell) const {
+  return static_cast<double>(whole_.blocks->count_in(*scene_.cloud, cell.box_world())) >=
+         kMostOfScene * static_cast<double>(scene_.cloud->size());
+}
+
+std::size_t Session::gaussians_in(const Place& place) const {
+  return place.whole ? scene_.cloud->size() : whole_.blocks->count_in(*scene_.cloud, place.cell.box_world());
+}
+
+Place Session::seen_from(const Camera& eye, const glm::vec3& point_world) {
+  const float distance = glm::distance(eye.centre_world(), point_world);
+  return {.cell = cell_around(point_world, level_above(distance)),
+          .looked_at = cell_around(point_world, nearest_level(distance)),
+          .eye = eye};
+}
+
+// A splat may show far from its centre: what is hit is no sign that a Gaussian lies near.
+Place Session::first_place(const Camera& eye, const Box& must_hold) const {
+  Place place = seen_from(eye, must_hold.centre());
+  // What is clicked from nearer than it was photographed does not fit into a cell of that distance.
+  if (const auto usual = photographed_from(whole_, must_hold.centre()))
+    place.cell = cell_around(must_hold.centre(), std::max(place.cell.level, level_above(*usual)));
+  const auto gaussians = [&](const Cell& cell) {
+    return whole_.blocks->count_in(*scene_.cloud, cell.box_world());
+  };
+  while (gaussians(place.cell) == 0) place.cell = cell_around(must_hold.centre(), place.cell.level + 1);
+  for (int i = 0; i < kMostHalvings && gaussians(place.cell) > scene_.most_gaussians; ++i) {
+    const Cell half = cell_around(must_hold.centre(), place.cell.level - 1);
+    if (!holds(half, must_hold) || gaussians(half) == 0) break;
+    place.cell = half;
+  }
+  place.whole = is_whole(place.cell);
+  return place;
+}
+
+// The next larger cell that holds the box.
+Place Session::grown(const Place& place, const Box& must_hold) const {
+  Place next = place;
+  do {
+    next.cell = cell_around(must_hold.centre(), next.cell.level + 1);
+  } while (!holds(next.cell, must_hold));
+  next.whole = is_whole(next.cell);
+  return next;
+}
+
+// The next larger cell that holds the neighbourhood's, and what is labelled.
+Place Session::grown_about(const Neighbourhood& near, std::span<const std::uint8_t> labels) const {
+  return grown(near.place, joined(near.place.cell.box_world(), bounds_of(*near.cloud, labels)));
+}
+
+Place Session::place_of_all(const Camera& eye) const {
+  Place place = seen_from(eye, robust_bounds(scene_.cloud->position).centre());
+  place.whole = true;
+  return place;
+}
+
+// Of what the masks show mostly; the whole scene if that is nothing.
+Place Session::place_of_masks(const CutRequest& request, const CutSettings& settings, const Job& job) const {
+  constexpr float kSides = 2;  // of what is shown
+  MaskedSums sums(scene_.cloud->size());
+  const Drawer drawer(*scene_.cloud, nullptr, whole_.blocks.get());
+  const auto add = [&](const GivenView& given) {
+    const Camera camera = limited_to_width(given.camera, settings.work_width_px);
+    add_masked_sums(drawer, camera, resized_mask(given.mask, camera.width_px, camera.height_px), false, job,
+                    &sums);
+  };
+  add(*request.first_mask);
+  std::ranges::for_each(request.masks, add);
+  std::vector<std::uint8_t> shown(scene_.cloud->size());
+  for (std::size_t g = 0; g < shown.size(); ++g) shown[g] = 2 * sums.inside[g] > sums.total[g];
+  const Box box = bounds_of(*scene_.cloud, shown);
+  const float extent = std::max({box.extent().x, box.extent().y, box.extent().z});
+  if (!(extent > 0)) return place_of_all(request.first_mask->camera);
+  Place place = seen_from(request.first_mask->camera, box.centre());
+  place.cell = cell_around(box.centre(), level_above(kSides * extent));
+  place.whole = is_whole(place.cell);
+  return place;
+}
+
+// Places are found stroke by stroke, so that one more stroke asks for no more than what it adds. That of the
+// first is the likeliest meaning's, whichever is taken: the others are offered there.
+std::optional<Session::Answered> Session::place_of_strokes(const CutRequest& request,
+                                                           const CutSettings& settings, const Job& job) {
+  const std::vector<CameraStroke> strokes = in_replay_order(strokes_in_order(request));
+  if (strokes.empty() || strokes.front().stroke.label != SeedLabel::kObject) return {};
+  const std::string how = fmt::format("{} {}", settings.work_width_px, settings.least_object_px);
+  const auto first = [&](std::size_t count) { return std::span(strokes).first(count); };
+  CutRequest likeliest = request;
+  likeliest.choice = likeliest.part_step = 0;
+  const auto like = [&](std::size_t count) -> const CutRequest& { return count > 1 ? request : likeliest; };
+  const auto key = [&](std::size_t count) { return key_of(request_of(first(count), like(count))) + how; };
+  std::size_t known = strokes.size();
+  while (known > 0 && !places_.contains(key(known))) --known;
+  std::optional<Answered> there;
+  if (known > 0) there = places_.at(key(known));
+  std::optional<Box> must_hold;
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    if (strokes[i].stroke.label == SeedLabel::kObject)
+      for (const auto& hit : hits(strokes[i], job))
+        if (hit) must_hold = must_hold ? joined(*must_hold, {*hit, *hit}) : Box{*hit, *hit};
+    if (job.cancelled() || !must_hold) return {};
+    if (!there) there = Answered{first_place(strokes[0].camera, *must_hold)};
+    if (i + 1 > known) {
+      there = place_after(first(i + 1), like(i + 1), settings, *there, *must_hold, job);
+      if (job.cancelled()) return {};
+      if (places_.size() >= kMostPlaces) places_.clear();
+      places_[key(i + 1)] = *there;
+    }
+    if (i == 0 && known <= 1) there = Answered{there->place, request.choice, request.part_step};
+  }
+  return there;
+}
+
+Session::Answered Session::place_after(std::span<const CameraStroke> strokes, const CutRequest& like,
+                                       const CutSettings& settings, Answered answered, const Box& must_hold,
+                                       const Job& job) {
+  const CutRequest request = request_of(strokes, like);
+  if (!answered.place.whole && !holds(answered.place.cell, must_hold)) {
+    const Place larger = grown(answered.place, must_hold);
+    // What is clicked must be there, whatever the first stroke means then.
+    answered = answered_in(larger, answered, request, settings, job)
+                   .value_or(Answered{larger, answered.choice, answered.part_step});
+  }
+  while (!job.cancelled()) {
+    Local* there = local(answered.place, settings, job);
+    if (!there) break;
+    const std::vector<std::uint8_t> meant =
+        there->session.meant(in_place(request, answered, there, job), settings, job);
+    if (job.cancelled() || !touches_side(whole_, there->near, meant)) break;
+    const std::optional<Answered> larger =
+        answered_in(grown(answered.place, joined(must_hold, bounds_of(*there->near.cloud, meant))), answered,
+                    request, settings, job);
+    if (!larger) break;
+    answered = *larger;
+  }
+  return answered;
+}
+
+std::optional<Session::Answered> Session::place_of(const CutRequest& request, const CutSettings& settings,
+                                                   const Job& job) {
+  if (request.first_mask) return Answered{place_of_masks(request, settings, job)};
+  const auto reference = std::ranges::find_if(request.strokes, marks_object);
+  if (reference == request.strokes.end()) return {};
+  if (by_parts(settings)) return place_of_strokes(request, settings, job);
+  return Answered{place_of_all(reference->camera), request.choice, request.part_step};
+}
+
+// The meaning and size of the first stroke in a larger place that are most like those taken here: a place has
+// its own meanings and sizes, in its own order. None: it has nothing alike, or cancelled.
+std::optional<Session::Answered> Session::answered_in(const Place& larger, const Answered& here,
+                                                      const CutRequest& request, const CutSettings& settings,
+                                                      const Job& job) {
+  if ((here.choice == 0 && here.part_step == 0) || request.first_mask || !by_parts(settings))
+    return Answered{larger, here.choice, here.part_step};
+  constexpr double kAlike = 0.7, kEnough = 0.9;  // IoU of labels within the smaller place
+  const CutRequest first = first_of(request);
+  CutSettings alone = settings;
+  alone.parts_only = true;
+  Local* there = local(here.place, settings, job);
+  if (!there) return {};
+  const CutResult taken = there->session.cut(in_place(first, here, there, job), alone, job);
+  const std::vector<std::uint32_t> rows = there->near.row;  // the place may be pushed out
+  there = local(larger, settings, job);
+  if (!there || job.cancelled()) return {};
+  const std::vector<std::uint32_t> among = rows_among(rows, there->near.row);
+  std::optional<Answered> best;
+  double most = kAlike;
+  const auto look_at = [&](const Answered& answered, const std::vector<std::uint8_t>& labels) {
+    const double alike = likeness(taken.labels, labels, among);
+    if (alike <= most) return;
+    most = alike;
+    best = answered;
+  };
+  std::size_t meanings = 1;
+  for (int choice = 0; choice < static_cast<int>(meanings) && most < kEnough; ++choice) {
+    const auto request_for = [&](int step) { return in_place(first, {larger, choice, step}, there, job); };
+    const CutResult own = there->session.cut(request_for(0), alone, job);
+    meanings = own.meanings.size();
+    look_at({larger, choice, 0}, own.labels);
+    for (std::size_t size = 0; size < own.size_masks.size() && most < kEnough && !job.cancelled(); ++size) {
+      const int step = static_cast<int>(size) - static_cast<int>(own.likeliest_size);
+      if (step != 0 && covers(own.size_masks[size], taken))
+        look_at({larger, choice, step}, there->session.meant(request_for(step), settings, job));
+    }
+  }
+  return job.cancelled() ? std::nullopt : best;
+}
+
+}  // namespace splatcut
