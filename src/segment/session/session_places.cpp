@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "segment/masks/mask_tools.h"
-#include "segment/session/reference_mask.h"
 #include "segment/session/kept_neighbourhood.h"
+#include "segment/session/reference_mask.h"
 
 namespace splatcut {
 
