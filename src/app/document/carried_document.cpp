@@ -101,6 +101,7 @@ std::int32_t CarriedDocument::followed_file(const ObjectItem& object) const {
 void CarriedDocument::carry_views(ObjectItem* object) {
   const std::int32_t followed = followed_file(*object);
   for (StrokedView& view : object->views) view.seen = seen(view.seen, followed);
+  if (!object->views.empty()) object->among = seen(object->among, followed);
   if (followed == kAnyFile) return;
   const Similarity& to = files_[static_cast<std::size_t>(followed)].to;
   for (StrokedView& view : object->views) view.camera = moved(view.camera, to);

@@ -2,8 +2,9 @@
 //
 // Labels, hand marks and deletions follow their Gaussians; Gaussians of added files have none. Labels that
 // are current stay current, see ObjectItem::cut_kept. Strokes do not see Gaussians of files that were added
-// or moved, so that they mean what they meant. If more than half of an object lies in one file that has
-// moved, the object's views move with that file and see that file alone.
+// or moved, and the next cut knows none of these either, so that they mean what they meant. If more than half
+// of an object lies in one file that has moved, the object's views move with that file and see that file
+// alone.
 #pragma once
 
 #include <cstdint>

@@ -78,6 +78,7 @@ CutRequest cut_request(const Document& document, const ObjectItem& object) {
   request.choice = object.choice;
   request.part_step = object.part_step;
   request.up_world = object.up_world.value_or(document.up_world);
+  request.among = object.among;
   return request;
 }
 
@@ -167,6 +168,10 @@ void leave_to_others(const Document& document, ObjectItem* object, std::size_t g
   set_of_others(object, had_by_others(document, *object, gaussians));
   for (const ObjectItem& other : document.objects)
     if (other.id != object->id && is_stale(document, other)) object->leaves_also.push_back(other.id);
+}
+
+bool reaches_beyond(const ObjectItem& object, std::span<const std::int32_t> hits) {
+  return object.among && !hits.empty() && !is_made_on(object.among, hits);
 }
 
 bool means_what_is_left(const Document& document, const ObjectItem& object,

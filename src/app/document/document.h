@@ -45,6 +45,9 @@ struct ObjectItem {
   std::optional<float> smoothness;    // weight of the neighbour term; none: the preset's own
   Flags cut;                          // labels that the cut gave, 1 = object
   std::string cut_key;                // cut_key() of the inputs of `cut`; empty: there is no cut yet
+  // What the scene had at the first stroke, without what was added or moved since: the object is cut among
+  // these alone until a stroke marks something else; null: all.
+  Flags among;
   // True if `cut` is older than the scene's present files: it stays as it is until the next stroke.
   bool cut_kept = false;
   Flags hand;       // HandMark of each Gaussian
@@ -112,6 +115,9 @@ ObjectItem left_what_came(const Document& document, const ObjectItem& object, st
 // than half of them.
 bool means_what_is_left(const Document& document, const ObjectItem& object,
                         std::span<const std::int32_t> hits, std::size_t gaussians);
+
+// Whether a stroke is made on what the object is not cut among: more than half of what it hits is not.
+bool reaches_beyond(const ObjectItem& object, std::span<const std::int32_t> hits);
 
 // Sets hand marks so that the final labels become `labels`. taken_out: Gaussians that hands took out, which
 // the object does not get back from others either; empty: none.

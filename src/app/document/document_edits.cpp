@@ -36,7 +36,10 @@ ObjectItem& target(Document* document) {
 // turning the scene later is no reason to compute it again.
 ObjectItem& stroked(Document* document) {
   ObjectItem& object = target(document);
-  if (object.views.empty()) object.up_world = document->up_world;
+  if (object.views.empty()) {
+    object.up_world = document->up_world;
+    object.among = nullptr;
+  }
   return object;
 }
 
@@ -67,6 +70,14 @@ void settle_with_others(Document* document, ObjectItem* object, std::span<const 
     leave_to_others(*document, object, context.cloud.size());
   }
   if (means_what_is_left(*document, *object, hits, context.cloud.size())) set_of_others(object, nullptr);
+  if (reaches_beyond(*object, hits)) object->among = nullptr;
+}
+
+// Of what a view shows, that which the object is not cut among.
+Flags beyond(const ObjectItem& object, const Flags& seen) {
+  std::vector<std::uint8_t> out(object.among->size());
+  for (std::size_t g = 0; g < out.size(); ++g) out[g] = !(*object.among)[g] && (!seen || (*seen)[g]);
+  return make_flags(std::move(out));
 }
 
 // Where the next stroke goes: strokes stay in order, so another view in between starts a new entry.
@@ -126,9 +137,10 @@ bool shows(const Backdrop& backdrop, const Document& document, const ViewState& 
   return std::max({d.r, d.g, d.b}) < kSame;
 }
 
-bool asks_what_is_hit(const Document& document, const EditContext& context) {
+bool asks_what_is_hit(const Document& document, SeedLabel label, const EditContext& context) {
   const ObjectItem* object = document.active_object();
-  return !object || object->of_others || is_begun_by_next(document, *object, context);
+  if (label == SeedLabel::kRest) return object && object->among;
+  return !object || object->among || object->of_others || is_begun_by_next(document, *object, context);
 }
 
 std::string edit(Document* document, const AddStroke& command, const EditContext& context) {
@@ -139,7 +151,9 @@ std::string edit(Document* document, const AddStroke& command, const EditContext
   if (!rest)
     settle_with_others(document, &object, command.hits, is_begun_by_next(*document, object, context),
                        context);
-  view_for(&object, command.camera, command.seen).strokes.push_back(command.stroke);
+  const bool elsewhere = rest && reaches_beyond(object, command.hits);
+  view_for(&object, command.camera, elsewhere ? beyond(object, command.seen) : command.seen)
+      .strokes.push_back(command.stroke);
   return fmt::format("{} {} {}", dot ? "Click:" : "Scribble:", rest ? "not part of" : "part of", object.name);
 }
 

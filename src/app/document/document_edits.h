@@ -38,9 +38,9 @@ bool is_begun_by_next(const Document& document, const ObjectItem& object, const 
 // began the object.
 std::string added_by_box(const History& history, ObjectId id, const EditContext& context);
 
-// Whether it matters what a stroke that marks the active object is made on: it begins the object, or the
-// object leaves something to others.
-bool asks_what_is_hit(const Document& document, const EditContext& context);
+// Whether it matters what a stroke of that label is made on: it begins the active object, or that leaves
+// something to others, or is not cut among all there is.
+bool asks_what_is_hit(const Document& document, SeedLabel label, const EditContext& context);
 
 // What a stroke that marks the active object, or begins one, leaves to others unless it means that.
 Flags left_by_stroke(const Document& document, const EditContext& context);

@@ -31,6 +31,7 @@ std::size_t distinct_bytes(const std::vector<History::Entry>& entries) {
       add(object.cut);
       add(object.hand);
       add(object.of_others);
+      add(object.among);
       for (const StrokedView& view : object.views) add(view.seen);
     }
   }

@@ -69,7 +69,7 @@ void Clicks::perform(const AddStroke& c) {
     throw Error("", "There is nothing in that place", "Click on something that can be seen");
   const std::string held = already_so(c);
   AddStroke made = c;
-  if (c.stroke.label == SeedLabel::kObject && asks_what_is_hit(ws_.document(), ws_.context()))
+  if (asks_what_is_hit(ws_.document(), c.stroke.label, ws_.context()))
     made.hits = viewport_.hit_by({c.camera, c.stroke, c.seen});
   Document after = ws_.document();
   const std::string message = edit(&after, made, ws_.context());
@@ -212,14 +212,17 @@ void Clicks::refresh_hover() {
                       click(ws_.tools.pointer_px(), ask->rest ? SeedLabel::kRest : SeedLabel::kObject),
                       viewport_.seen(0)};
   stroke.stroke.radius_px *= viewport_.pixels_per_point();
-  if (object) stroke.camera = known_camera(*object, stroke.camera);
+  CutRequest request = cut_request(ws_.document(), object ? *object : none);
+  if (object) {
+    stroke.camera = known_camera(*object, stroke.camera);
+    if (!ask->rest && reaches_beyond(*object, {&ask->on, 1})) request.among = nullptr;
+  }
   if (!shows_clean_edges(ws_.view)) ws_.tasks.cancel(TaskKind::kClean);  // nobody waits for it
   ws_.tasks.cancel(TaskKind::kAhead);
   ws_.tasks.submit(
       TaskKind::kHover,
       [this, ask = *ask, stroke, session = ws_.session, scene = ws_.scene, document = ws_.document(),
-       left = hover_left_.document == ask->document ? std::optional(hover_left_.left) : std::nullopt,
-       request = cut_request(ws_.document(), object ? *object : none),
+       left = hover_left_.document == ask->document ? std::optional(hover_left_.left) : std::nullopt, request,
        settings = cut_settings(ws_.document(), object ? *object : none)](const Job& job) mutable {
         const Session::Preview preview = session->preview(request, stroke, settings, job);
         if (preview.after.empty() || job.cancelled()) return;

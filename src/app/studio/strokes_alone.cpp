@@ -42,7 +42,7 @@ void Clicks::perform(const AddBox& c) {
                         removes ? "Remove (box)" : "Intersect (box)");
   }
   AddBox made = c;
-  if (asks_what_is_hit(ws_.document(), ws_.context()))
+  if (asks_what_is_hit(ws_.document(), SeedLabel::kObject, ws_.context()))
     made.hits = viewport_.hit_by({c.camera, stroke_of(c, SeedLabel::kObject), c.seen});
   Document after = ws_.document();
   const std::string message = edit(&after, made, ws_.context());

@@ -40,6 +40,7 @@ json object_json(const Document& document, const ObjectItem& o, const WriteFlags
   if (o.up_world) out["up"] = list(*o.up_world);
   if (o.cut_kept) out["cut_is_kept"] = true;
   if (o.of_others) out["of_others"] = flags(o.of_others);
+  if (o.among) out["among"] = flags(o.among);
   if (!o.leaves_also.empty()) out["leaves_also"] = o.leaves_also;
   return out;
 }
@@ -65,6 +66,7 @@ ObjectItem object_from(const json& j, const ReadFlags& flags) {
   o.cut_kept = o.cut && j.value("cut_is_kept", false);
   o.hand = flags(j.value("hand", json()), kHandLeft);
   o.of_others = flags(j.value("of_others", json()), 1);
+  o.among = flags(j.value("among", json()), 1);
   o.leaves_also = j.value("leaves_also", o.leaves_also);
   return o;
 }

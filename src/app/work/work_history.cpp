@@ -43,6 +43,7 @@ class ArrayTable {
       count(o.cut);
       count(o.hand);
       count(o.of_others);
+      count(o.among);
       for (const StrokedView& view : o.views) count(view.seen);
     }
     return length_ < kMostNumbers &&

@@ -76,6 +76,7 @@ void add_given(const CutRequest& request, Key* key) {
   key->number(request.part_step);
   key->number(request.up_world.has_value());
   if (request.up_world) key->numbers({&request.up_world->x, 3});
+  key->seen(request.among);
 }
 
 }  // namespace
@@ -125,6 +126,7 @@ std::string key_of_first_stroke(const CutRequest& request) {
       if (stroke.label != SeedLabel::kObject) continue;
       Key key;
       key.stroked({view.camera, {stroke}, view.seen});
+      key.seen(request.among);
       return key.take();
     }
   return {};

@@ -43,6 +43,7 @@ struct CutRequest {
   int choice = 0;                       // of what the first click can mean, 0 the likeliest
   int part_step = 0;                    // sizes above or below that meaning's own
   std::optional<glm::vec3> up_world;    // where the user says which way is up; the session's otherwise
+  SeenGaussians among{};                // the scene is cut as if it had these alone; null: all
 };
 
 // The strokes by view, as they are told apart by same_view(): each view once, in order of its first stroke.

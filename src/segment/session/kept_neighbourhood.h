@@ -11,24 +11,31 @@
 
 namespace splatcut {
 
+// Sets of Gaussians that strokes may affect, as a neighbourhood numbers them.
+class SeenSets {
+ public:
+  SeenGaussians in(const Neighbourhood& near, const SeenGaussians& seen) {
+    if (!seen || near.row.empty()) return seen;
+    constexpr std::size_t kMostSets = 8;
+    const auto known = std::ranges::find(sets_, seen, &std::pair<SeenGaussians, SeenGaussians>::first);
+    if (known != sets_.end()) return known->second;
+    if (sets_.size() == kMostSets) sets_.erase(sets_.begin());
+    sets_.emplace_back(seen,
+                       std::make_shared<const std::vector<std::uint8_t>>(in_neighbourhood(near, *seen)));
+    return sets_.back().second;
+  }
+
+ private:
+  std::vector<std::pair<SeenGaussians, SeenGaussians>> sets_;
+};
+
 struct KeptNeighbourhood {
   KeptNeighbourhood(Neighbourhood made, const SessionScene& scene)
       : near(std::move(made)), session({near.cloud, near.prepared, scene.up_world, scene.photographs}) {}
 
-  // Sets of Gaussians that strokes may affect, as the neighbourhood numbers them.
-  SeenGaussians seen_here(const SeenGaussians& seen) {
-    if (!seen || near.row.empty()) return seen;
-    constexpr std::size_t kMostSets = 8;
-    const auto known = std::ranges::find(sets, seen, &std::pair<SeenGaussians, SeenGaussians>::first);
-    if (known != sets.end()) return known->second;
-    if (sets.size() == kMostSets) sets.erase(sets.begin());
-    sets.emplace_back(seen, std::make_shared<const std::vector<std::uint8_t>>(in_neighbourhood(near, *seen)));
-    return sets.back().second;
-  }
-
   Neighbourhood near;
   LocalSession session;
-  std::vector<std::pair<SeenGaussians, SeenGaussians>> sets;
+  SeenSets seen;
   bool told = false;  // its stages stand in a result
 };
 

@@ -8,6 +8,7 @@
 #include "segment/masks/mask_tools.h"
 #include "segment/session/kept_neighbourhood.h"
 #include "segment/session/reference_mask.h"
+#include "segment/session/session_among.h"
 #include "segment/superpoints/orbit.h"
 
 namespace splatcut {
@@ -82,7 +83,7 @@ CutRequest Session::in_place(const CutRequest& request, const Answered& answered
   const Box box = there->near.place.cell.box_world();
   local.strokes.clear();
   for (const StrokedView& view : request.strokes) {
-    StrokedView here{view.camera, {}, there->seen_here(view.seen)};
+    StrokedView here{view.camera, {}, there->seen.in(there->near, view.seen)};
     for (Stroke stroke : view.strokes) {
       if (stroke.label == SeedLabel::kRest) {
         const StrokeHits& at = hits({view.camera, stroke, view.seen}, job);
@@ -159,6 +160,9 @@ Session::Local* Session::settled(const CutRequest& request, const CutSettings& s
 
 CutResult Session::cut(const CutRequest& request, const CutSettings& settings, const Job& job,
                        const OnSnapshot& on_snapshot, CutReach reach) {
+  if (SessionAmong* these = among(request))
+    return these->in_scene(
+        these->session.cut(these->here(request), settings, job, these->in_scene(on_snapshot), reach));
   if (reach == CutReach::kAnywhere) return cut_anywhere(request, settings, job, on_snapshot);
   std::stop_source ends;
   const std::stop_callback with_job(job.stop, [&ends] { ends.request_stop(); });
@@ -193,6 +197,8 @@ CutResult Session::cut_anywhere(const CutRequest& request, const CutSettings& se
 
 Mask Session::first_mask(const CutRequest& request, const CutSettings& settings, const Job& job) {
   check(settings);
+  if (SessionAmong* these = among(request))
+    return these->session.first_mask(these->here(request), settings, job);
   const std::optional<Answered> answered = place_of(request, settings, job);
   if (!answered) return {};
   Local* there = local(answered->place, settings, job);
@@ -202,6 +208,10 @@ Mask Session::first_mask(const CutRequest& request, const CutSettings& settings,
 Session::Preview Session::preview(const CutRequest& request, const CameraStroke& stroke,
                                   const CutSettings& settings, const Job& job) {
   if (!by_parts(settings)) return {};
+  if (SessionAmong* these = among(request)) {
+    Preview there = these->session.preview(these->here(request), these->here(stroke), settings, job);
+    return {these->in_scene(std::move(there.before)), these->in_scene(std::move(there.after))};
+  }
   CutRequest after = request;
   after.strokes.push_back({stroke.camera, {stroke.stroke}, stroke.seen});
   const std::optional<Answered> answered = place_of_strokes(after, settings, job);
@@ -218,6 +228,8 @@ Session::Preview Session::preview(const CutRequest& request, const CameraStroke&
 
 std::vector<float> Session::likelihood_of(const CutRequest& request, const CutSettings& settings,
                                           const Job& job) {
+  if (SessionAmong* these = among(request))
+    return these->in_scene(these->session.likelihood_of(these->here(request), settings, job));
   CutResult result;
   Answered in;
   Local* there = settled(request, settings, job, {}, &result, &in);

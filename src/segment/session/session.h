@@ -12,7 +12,8 @@
 //      the first click, mostly one of which is the floor or a wall, make it grow when they are taken: they
 //      are offered where the likeliest is answered, and found again in the larger cell by their labels.
 // Strokes on the rest that hit nothing of the cell change nothing: there is no object there. Cuts from pixels
-// alone (the baselines) look at the whole scene.
+// alone (the baselines) look at the whole scene. What a request asks for among some of the Gaussians is asked
+// of a session on these (session_among.h), as other files of a scene change no answer of before.
 // The result is a function of scene, request and settings alone, kept steps or not, whatever was cut before,
 // on any number of threads. The neighbourhoods used last are kept within most_bytes. One call at a time.
 #pragma once
@@ -36,6 +37,7 @@
 namespace splatcut {
 
 struct KeptNeighbourhood;  // a neighbourhood and the session on it
+struct SessionAmong;       // a session on some of the Gaussians
 
 struct SessionScene {
   std::shared_ptr<const GaussianCloud> cloud;
@@ -101,6 +103,7 @@ class Session {
     int choice = 0, part_step = 0;  // as in CutRequest
   };
 
+  SessionAmong* among(const CutRequest& request);
   const StrokeHits& hits(const CameraStroke& stroke, const Job& job);
   bool is_whole(const Cell& cell) const;
   std::size_t gaussians_in(const Place& place) const;
@@ -129,6 +132,7 @@ class Session {
 
   SessionScene scene_;
   WholeScene whole_;
+  std::list<SessionAmong> among_;              // used last first
   std::list<Local> locals_;                    // used last first
   std::map<std::string, Answered> places_;     // of strokes so far, by their bytes
   std::map<std::string, StrokeHits> hits_;     // of single strokes

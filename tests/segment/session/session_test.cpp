@@ -285,7 +285,7 @@ TEST_CASE("session: a cut of small reach is the same, or ends where it would pre
 TEST_CASE("session: keys of two requests differ where anything that is said does") {
   const CutRequest base = click_on("mug").request;
   const Camera& camera = small_table().scene.cameras[2];
-  std::vector<CutRequest> requests(8, base);
+  std::vector<CutRequest> requests(9, base);
   requests[1].strokes.push_back(requests[1].strokes.front());
   requests[2].strokes.push_back({requests[2].strokes.front().camera, {}});
   requests[3].left_out = {camera};
@@ -293,6 +293,7 @@ TEST_CASE("session: keys of two requests differ where anything that is said does
   requests[5].masks = {{camera, Mask(4, 3)}};
   requests[6].first_mask = {camera, Mask(4, 3)};
   requests[7].up_world = glm::vec3(0, -1, 0);
+  requests[8].among = std::make_shared<const std::vector<std::uint8_t>>(small_table().cloud->size(), 1);
   requests.push_back(base);
   requests.back().part_step = 1;
   const StrokedView& clicked = base.strokes.front();
@@ -303,6 +304,59 @@ TEST_CASE("session: keys of two requests differ where anything that is said does
   std::set<std::string> keys;
   for (const CutRequest& request : requests) keys.insert(key_of(request));
   CHECK(keys.size() == requests.size());
+}
+
+TEST_CASE("session: among some of the Gaussians a request is answered as in a scene of these alone") {
+  const LabelledScene& scene = small_table().scene;
+  const auto apple = std::ranges::find(scene.label_name, "apple") - scene.label_name.begin();
+  std::vector<std::uint8_t> set(scene.label.size());
+  std::ranges::transform(scene.label, set.begin(), [&](auto label) { return label != apple; });
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t g = 0; g < set.size(); ++g)
+    if (set[g]) rows.push_back(g);
+  REQUIRE(rows.size() < set.size());
+  Session session = fresh_session(),
+          alone({.cloud = std::make_shared<const GaussianCloud>(permuted(*small_table().cloud, rows)),
+                 .photographs = scene.cameras});
+  const auto in_scene = [&](const auto& local) {
+    auto all = std::remove_cvref_t<decltype(local)>(set.size(), 0);
+    for (std::size_t i = 0; i < rows.size(); ++i) all[rows[i]] = local[i];
+    return all;
+  };
+  auto [request, settings] = click_on("mug");
+  CutRequest among = request;
+  among.among = std::make_shared<const std::vector<std::uint8_t>>(set);
+  const CutResult there = alone.cut(request, settings);
+  REQUIRE(std::ranges::count(there.labels, 1) > 0);
+  const CutResult here = session.cut(among, settings, {}, [&](CutPhase, const CutResult& so_far) {
+    REQUIRE(so_far.labels.size() == set.size());
+  });
+  CHECK(here.labels == in_scene(there.labels));
+  CHECK(here.prior == in_scene(there.prior));
+  CHECK(session.likelihood_of(among, settings) == in_scene(alone.likelihood_of(request, settings)));
+  CHECK(session.first_mask(among, settings) == alone.first_mask(request, settings));
+  const StrokedView behind = stroke_from_behind("apple", SeedLabel::kObject);  // what stands behind it
+  const CameraStroke next{behind.camera, behind.strokes.front()};
+  CHECK(session.preview(among, next, settings).after ==
+        in_scene(alone.preview(request, next, settings).after));
+
+  // Strokes that see some of these alone see the same of them; what sees none of them is nowhere.
+  std::vector<std::uint8_t> half(set.size()), half_there;
+  for (std::size_t g = 0; g < half.size(); ++g) half[g] = g % 2;
+  for (const std::uint32_t row : rows) half_there.push_back(half[row]);
+  CutRequest half_seen = request;
+  among.strokes.front().seen = std::make_shared<const std::vector<std::uint8_t>>(half);
+  half_seen.strokes.front().seen = std::make_shared<const std::vector<std::uint8_t>>(half_there);
+  CHECK(session.cut(among, settings).labels == in_scene(alone.cut(half_seen, settings).labels));
+  std::vector<std::uint8_t> others(set.size());
+  for (std::size_t g = 0; g < others.size(); ++g) others[g] = !set[g];
+  among.strokes.front().seen = std::make_shared<const std::vector<std::uint8_t>>(others);
+  CHECK(session.cut(among, settings).outcome == Outcome::kNothingFound);
+
+  // All of them, or none, are no scene of their own.
+  among = request;
+  among.among = std::make_shared<const std::vector<std::uint8_t>>(set.size(), 1);
+  CHECK(session.cut(among, settings).labels == fresh_session().cut(request, settings).labels);
 }
 
 TEST_CASE("session: a preview is what the next click makes of the parts, and leaves no trace") {
