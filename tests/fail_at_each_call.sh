@@ -6,4 +6,4 @@ set -euo pipefail
 build=$(cd "${BUILD:-$(dirname "$0")/../build/release}" && pwd)
 [ -z "${1:-}" ] || export SPLATCUT_FAULTS_OF=$1
 [ -z "${3:-}" ] || export SPLATCUT_FAULT_CALL=$3
-SPLATCUT_EVERY_FAULT=${2:-1} "$build/tests/fault_tests" --test-case='injected faults*'
+SPLATCUT_EVERY_FAULT=${2:-1} "$build/tests/slow_tests" --test-case='injected faults*'

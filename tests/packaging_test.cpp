@@ -1,4 +1,4 @@
-// What a desktop is told of our files follows from the table of formats.
+// What a desktop is told of our files follows from the table of formats; what scripts run is built.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -43,4 +43,18 @@ TEST_CASE("packaging: the desktop entry opens every file type, and no other") {
   CHECK(all_between(";" + list, ";", ";").size() == types.size() + 1);  // what follows the last ; is empty
   for (const std::string& type : types)
     CHECK_MESSAGE((";" + list).find(";" + type + ";") != std::string::npos, type);
+}
+
+TEST_CASE("scripts run programs of tests that are built") {
+  const std::filesystem::path tests = splatcut::testing::project_folder() + "/tests";
+  const std::string built = text_of_file(tests / "CMakeLists.txt");
+  std::size_t runs = 0;
+  for (const auto& file : std::filesystem::directory_iterator(tests)) {
+    if (file.path().extension() != ".sh") continue;
+    for (const std::string& name : all_between(text_of_file(file.path()), "\"$build/tests/", "\"")) {
+      ++runs;
+      CHECK_MESSAGE(built.find("_test(" + name + " ") != std::string::npos, file.path() << " runs " << name);
+    }
+  }
+  CHECK(runs > 0);
 }

@@ -45,9 +45,8 @@ CutResult SessionAmong::in_scene(CutResult result) const {
 
 OnSnapshot SessionAmong::in_scene(const OnSnapshot& on_snapshot) const {
   if (!on_snapshot) return {};
-  return [this, &on_snapshot](CutPhase phase, const CutResult& so_far) {
-    on_snapshot(phase, in_scene(so_far));
-  };
+  return
+      [this, &on_snapshot](CutPhase phase, const CutResult& so_far) { on_snapshot(phase, in_scene(so_far)); };
 }
 
 // Null: all of the scene, or nothing of it, where strokes hit nothing either.
@@ -56,7 +55,8 @@ SessionAmong* Session::among(const CutRequest& request) {
   const auto is_set = [](std::uint8_t byte) { return byte != 0; };
   const SeenGaussians& set = request.among;
   if (!set || std::ranges::all_of(*set, is_set) || std::ranges::none_of(*set, is_set)) return nullptr;
-  const auto known = std::ranges::find_if(among_, [&](const SessionAmong& a) { return same_set(a.set, set); });
+  const auto known =
+      std::ranges::find_if(among_, [&](const SessionAmong& a) { return same_set(a.set, set); });
   if (known != among_.end())
     among_.splice(among_.begin(), among_, known);
   else
