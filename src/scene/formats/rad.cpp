@@ -5,19 +5,8 @@
 // begins after the text, or the name of a file beside this one (.radc) that holds it. A chunk: the mark
 // "RADC", its own text in the same way, the length of its data (64 bits), and the data: properties, each
 // beginning at a multiple of 8 and packed by deflate. A property stores all values of its first component,
-// then all of the second, and so on. Properties:
-//   center       position x y z
-//   rgb, alpha   colour that f_dc shows; opacity
-//   scales       standard deviations
-//   orientation  x y z of a quaternion whose w is at least 0. Encoded as oct88r8, three bytes a Gaussian: its
-//                axis as a point u v of an octahedron, and its angle from 0 to pi
-//   sh1 to sh3   9, 15 and 21 components, coefficient by coefficient
-//   child_count, child_start
-//                a tree of levels of detail: a Gaussian stands for its children, which are merged in it
-// Encodings of numbers: f32 and f16; both with _lebytes: first all lowest bytes, last all highest; r8: from
-// `min` to `max` in 255 steps; s8: from -`max` to `max` in 127 steps each way; both with _delta: each byte is
-// the difference from the one before; ln_f16 and ln_0r8: logarithms, where 0 in ln_0r8 means size 0.
-// Positions have the axes of the scene that the file was made of; they are read as those of a .ply.
+// then all of the second, and so on; rad_values.h says which there are. Positions have the axes of the scene
+// that the file was made of; they are read as those of a .ply.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,154 +23,21 @@
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/pieces.h"
+#include "scene/formats/rad_values.h"
 #include "scene/packing/incomplete.h"
 
 namespace splatcut {
 
 namespace {
 
+using namespace rad;
 using nlohmann::json;
 namespace fs = std::filesystem;
-
-enum class RadEncoding {
-  kNone,
-  kF32,
-  kF16,
-  kF32Bytes,
-  kF16Bytes,
-  kR8,
-  kS8,
-  kLnF16,
-  kLn0R8,
-  kOct,
-  kU16,
-  kU32
-};
-
-struct RadEncodingName {
-  const char* name;
-  RadEncoding encoding;
-  std::size_t bytes;  // of a value
-  bool differences = false;
-};
-constexpr std::array<RadEncodingName, 13> kRadEncodings{{{"f32", RadEncoding::kF32, 4},
-                                                         {"f16", RadEncoding::kF16, 2},
-                                                         {"f32_lebytes", RadEncoding::kF32Bytes, 4},
-                                                         {"f16_lebytes", RadEncoding::kF16Bytes, 2},
-                                                         {"r8", RadEncoding::kR8, 1},
-                                                         {"r8_delta", RadEncoding::kR8, 1, true},
-                                                         {"s8", RadEncoding::kS8, 1},
-                                                         {"s8_delta", RadEncoding::kS8, 1, true},
-                                                         {"ln_f16", RadEncoding::kLnF16, 2},
-                                                         {"ln_0r8", RadEncoding::kLn0R8, 1},
-                                                         {"oct88r8", RadEncoding::kOct, 1},
-                                                         {"u16", RadEncoding::kU16, 2},
-                                                         {"u32", RadEncoding::kU32, 4}}};
-
-enum RadField : std::size_t {
-  kCentre,
-  kAlpha,
-  kRgb,
-  kScales,
-  kOrientation,
-  kSh1,
-  kSh2,
-  kSh3,
-  kChildren,
-  kFirstChild,
-  kRadFields
-};
-struct RadFieldName {
-  const char* name;
-  std::size_t components;
-  bool needed;
-  std::array<RadEncoding, 4> may;  // and kNone where there are fewer
-};
-using enum RadEncoding;
-constexpr std::array<RadFieldName, kRadFields> kRadNames{
-    {{"center", 3, true, {kF32, kF16, kF32Bytes, kF16Bytes}},
-     {"alpha", 1, true, {kF32, kF16, kR8}},
-     {"rgb", 3, true, {kF32, kF16, kR8}},
-     {"scales", 3, true, {kF32, kLnF16, kLn0R8}},
-     {"orientation", 3, true, {kF32, kF16, kOct}},
-     {"sh1", 9, false, {kF32, kF16, kR8, kS8}},
-     {"sh2", 15, false, {kF32, kF16, kR8, kS8}},
-     {"sh3", 21, false, {kF32, kF16, kR8, kS8}},
-     {"child_count", 1, false, {kU16}},
-     {"child_start", 1, false, {kU32}}}};
-
-// One property of a chunk, unpacked.
-struct RadValues {
-  RadEncoding encoding = RadEncoding::kNone;
-  float least = 0, most = 0;
-  std::size_t count = 0, components = 0;
-  Bytes bytes;  // empty: the chunk has no such property
-
-  float at(std::size_t i, std::size_t component) const;
-  std::uint32_t whole(std::size_t i) const {
-    return encoding == RadEncoding::kU16 ? load<std::uint16_t>(bytes.data() + 2 * i)
-                                         : load<std::uint32_t>(bytes.data() + 4 * i);
-  }
-  std::uint8_t byte(std::size_t plane, std::size_t i) const {
-    return std::to_integer<std::uint8_t>(bytes[plane * count + i]);
-  }
-};
-
-float RadValues::at(std::size_t i, std::size_t component) const {
-  const std::size_t place = component * count + i;
-  const auto joined = [&](std::uint32_t n) {
-    std::uint32_t bits = 0;
-    for (std::uint32_t b = 0; b < n; ++b)
-      bits |= static_cast<std::uint32_t>(byte(b * components + component, i)) << (8 * b);
-    return bits;
-  };
-  switch (encoding) {
-    case RadEncoding::kF32:
-      return load<float>(bytes.data() + 4 * place);
-    case RadEncoding::kF16:
-      return half_to_float(load<std::uint16_t>(bytes.data() + 2 * place));
-    case RadEncoding::kF32Bytes:
-      return std::bit_cast<float>(joined(4));
-    case RadEncoding::kF16Bytes:
-      return half_to_float(static_cast<std::uint16_t>(joined(2)));
-    case RadEncoding::kR8:
-      return static_cast<float>(byte(component, i)) / 255.0f * (most - least) + least;
-    case RadEncoding::kS8:
-      return static_cast<float>(static_cast<std::int8_t>(byte(component, i))) / 127.0f * most;
-    case RadEncoding::kLnF16:
-      return std::exp(half_to_float(load<std::uint16_t>(bytes.data() + 2 * place)));
-    case RadEncoding::kLn0R8: {
-      const std::uint8_t step = byte(component, i);
-      return step == 0 ? 0.0f : std::exp(least + static_cast<float>(step - 1) / 254.0f * (most - least));
-    }
-    default:
-      return 0;
-  }
-}
 
 struct RadChunk {
   std::size_t first = 0, count = 0;
   std::array<RadValues, kRadFields> fields;
 };
-
-// x y z w.
-std::array<float, 4> rad_rotation(const RadValues& values, std::size_t i) {
-  if (values.encoding != RadEncoding::kOct) {
-    const float x = values.at(i, 0), y = values.at(i, 1), z = values.at(i, 2);
-    return {x, y, z, std::sqrt(std::max(0.0f, 1 - x * x - y * y - z * z))};
-  }
-  const auto step = [&](std::size_t c) { return std::to_integer<int>(values.bytes[3 * i + c]); };
-  glm::vec3 axis(static_cast<float>(step(0)) / 255.0f * 2 - 1, static_cast<float>(step(1)) / 255.0f * 2 - 1,
-                 0);
-  axis.z = 1 - std::abs(axis.x) - std::abs(axis.y);
-  const float below = std::max(0.0f, -axis.z);
-  axis.x += axis.x >= 0 ? -below : below;
-  axis.y += axis.y >= 0 ? -below : below;
-  axis = glm::normalize(axis);
-  constexpr float kHalfPi = 1.57079633f;
-  const float half_angle = static_cast<float>(step(2)) / 255.0f * kHalfPi, s = std::sin(half_angle);
-  return {axis.x * s, axis.y * s, axis.z * s, std::cos(half_angle)};
-}
 
 // A source of decode_rows(): the Gaussians of one level of detail.
 struct RadRows {
@@ -228,10 +84,6 @@ struct RadRows {
   }
 };
 
-[[noreturn]] void refuse_rad(const fs::path& path, const std::string& what) {
-  throw Error(path.string(), what, "Write it again, or give the scene that it was made of");
-}
-
 // Reads bytes of a file from front to back.
 class RadBytes {
  public:
@@ -261,15 +113,6 @@ class RadBytes {
   std::span<const std::byte> left_;
 };
 
-const RadEncodingName& encoding_of(const fs::path& path, const json& said, const RadFieldName& name) {
-  const auto found = std::ranges::find(kRadEncodings, said.at("encoding").get<std::string>(),
-                                       [](const RadEncodingName& e) { return std::string(e.name); });
-  if (found == kRadEncodings.end() || std::ranges::find(name.may, found->encoding) == name.may.end())
-    refuse_rad(path, fmt::format("the encoding {} of \"{}\" is not read", json_text(said.at("encoding")),
-                                 name.name));
-  return *found;
-}
-
 Bytes unpacked_values(const fs::path& path, const json& said, std::span<const std::byte> packed,
                       std::size_t wanted, const Job& job) {
   const json packing = said.value("compression", json());
@@ -279,14 +122,6 @@ Bytes unpacked_values(const fs::path& path, const json& said, std::span<const st
     refuse_rad(path, incomplete(fmt::format("{} has {} of {} bytes", json_text(said.at("property")),
                                             packed.size(), wanted)));
   return {packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(wanted)};
-}
-
-// Turns differences into values. count: number of values of each component.
-void sum_differences(std::size_t count, Bytes* bytes) {
-  for (std::size_t i = 0; i < bytes->size(); ++i)
-    if (i % count != 0)
-      (*bytes)[i] =
-          static_cast<std::byte>(std::to_integer<int>((*bytes)[i]) + std::to_integer<int>((*bytes)[i - 1]));
 }
 
 // Opened file: its text, its chunks, and a limit on how much they may unpack to.
