@@ -68,7 +68,8 @@ void History::reset(const SavedSteps& saved) {
   const Entry none;
   for (const SavedSteps::Step& step : saved.steps) {
     auto keys = keys_of(step.document, entries_.empty() ? none : entries_.back());
-    entries_.push_back({step.title, {}, step.document, std::move(keys), 0});
+    const bool other_files = step.other_files && !entries_.empty();  // the first one leads back to nothing
+    entries_.push_back({step.title, {}, step.document, std::move(keys), other_files ? kNotKept : 0});
   }
   cursor_ = saved.cursor;
   merging_ = false;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -28,6 +29,7 @@ struct SavedSteps {
   struct Step {
     std::string title;
     Document document;
+    bool other_files = false;  // true: the step changed the files of the scene
   };
   std::vector<Step> steps;
   std::size_t cursor = 0;
@@ -40,9 +42,11 @@ class History {
     std::string merge_key;  // consecutive steps with the same non-empty key become one (a slider as it moves)
     Document document;      // state after the step
     std::vector<std::shared_ptr<const ObjectKeys>> keys;  // keys of the document's objects, made once
-    // Number of a step to other files of the scene, which SceneFiles takes back; 0: the step is no such step.
+    // Number of a step to other files of the scene, which SceneFiles takes back; 0: the step is no such step;
+    // kNotKept: nothing takes it back, as it comes from a work file.
     std::uint64_t other_files = 0;
   };
+  static constexpr std::uint64_t kNotKept = std::numeric_limits<std::uint64_t>::max();
 
   History() { reset({}, "Open"); }
   void reset(Document document, std::string title);

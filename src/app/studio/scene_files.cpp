@@ -294,16 +294,18 @@ bool SceneFiles::stop_changing() {
 }
 
 bool SceneFiles::undo_files() {
+  if (!ws_.history.can_undo()) return false;
   const History::Entry& entry = ws_.history.entries()[ws_.history.cursor()];
   if (entry.other_files == 0) return false;
-  const auto before = std::ranges::find(before_files_, entry.other_files, &Kept::step);
   const std::string title = entry.title;
-  if (before == before_files_.end()) {
+  if (stays(entry)) {
     ws_.history.undo();
     ws_.say(Message::Kind::kInfo, "Not undone: " + title + ". The scene before it is no longer kept");
     return true;
   }
+  if (redo_steps_ != ws_.history.steps_serial()) undone_files_.clear();  // another way was taken since
   undone_files_.push_back(kept_now(entry.other_files));
+  const auto before = std::ranges::find(before_files_, entry.other_files, &Kept::step);
   Kept to = std::move(*before);
   before_files_.erase(before, before_files_.end());
   go_back_to(std::move(to));
@@ -312,13 +314,27 @@ bool SceneFiles::undo_files() {
   return true;
 }
 
-std::string SceneFiles::redo_title() const {
-  if (undone_files_.empty() || redo_steps_ != ws_.history.steps_serial() || ws_.history.can_redo()) return {};
-  const History& then = undone_files_.back().history;
-  return then.entries()[then.cursor()].title;
+bool SceneFiles::stays(const History::Entry& step) const {
+  return step.other_files != 0 && std::ranges::count(before_files_, step.other_files, &Kept::step) == 0;
+}
+
+std::vector<std::string> SceneFiles::redo_titles() const {
+  std::vector<std::string> titles;
+  if (redo_steps_ != ws_.history.steps_serial()) return titles;
+  for (auto kept = undone_files_.rbegin(); kept != undone_files_.rend(); ++kept)
+    for (std::size_t i = kept->history.cursor(); i < kept->history.entries().size(); ++i)
+      titles.push_back(kept->history.entries()[i].title);
+  return titles;
 }
 
 bool SceneFiles::redo_files() {
+  if (ws_.history.can_redo()) {
+    const History::Entry& next = ws_.history.entries()[ws_.history.cursor() + 1];
+    if (next.other_files == 0) return false;
+    ws_.history.redo();
+    ws_.say(Message::Kind::kInfo, "Nothing to redo: " + next.title + ". It was not undone");
+    return true;
+  }
   if (!can_redo_files()) return false;
   Kept to = std::move(undone_files_.back());
   undone_files_.pop_back();
@@ -331,8 +347,14 @@ bool SceneFiles::redo_files() {
 
 // A kept scene's history ends at the step before its change of files.
 void SceneFiles::perform(const JumpHistory& c) {
-  if (c.entry >= ws_.history.entries().size()) throw Error("", "There is no such step");
   std::size_t entry = c.entry;
+  if (entry >= ws_.history.entries().size() + redo_titles().size()) throw Error("", "There is no such step");
+  while (entry >= ws_.history.entries().size()) {
+    const std::size_t behind = entry - ws_.history.entries().size();
+    ws_.history.jump(ws_.history.entries().size() - 1);
+    redo_files();
+    entry = ws_.history.cursor() + behind;
+  }
   const auto changed_between = [&] {
     std::size_t at = ws_.history.cursor();
     while (at > entry && ws_.history.entries()[at].other_files == 0) --at;
@@ -345,7 +367,7 @@ void SceneFiles::perform(const JumpHistory& c) {
     entry = ws_.history.cursor() - std::min(steps - 1, ws_.history.cursor());
   }
   ws_.history.jump(entry);
-  ws_.say(Message::Kind::kInfo, "Back at: " + ws_.history.entries()[entry].title);
+  ws_.say(Message::Kind::kInfo, "Now at: " + ws_.history.entries()[entry].title);
 }
 
 void SceneFiles::take(const std::shared_ptr<const OpenedScene>& scene) {

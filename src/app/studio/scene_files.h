@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/document/command.h"
 #include "app/studio/cut_jobs.h"
@@ -37,9 +38,11 @@ class SceneFiles {
   // the scene before the change is no longer kept, which is said.
   bool undo_files();
   bool redo_files();
-  bool can_redo_files() const { return !redo_title().empty(); }
-  std::string redo_title()
-      const;  // title of the change of files that redo_files() makes; empty: there is none
+  bool stays(const History::Entry& step) const;  // true: it changed files and cannot be undone any more
+  bool can_redo_files() const { return !ws_.history.can_redo() && !redo_titles().empty(); }
+  // Titles of the steps that lie behind the end of the history, the next to redo first: the changes of files
+  // that were undone, each with what was done after it.
+  std::vector<std::string> redo_titles() const;
 
   // What is said while another scene is opened, until it is there; empty: none is.
   const std::string& opening() const { return opening_; }
@@ -52,7 +55,8 @@ class SceneFiles {
   void perform(const PlaceScene& c);
   void perform(const BringHere& c);
   void perform(const RemoveScene& c);
-  void perform(const JumpHistory& c);  // takes the changes of files back that lie between
+  // Undoes or redoes the changes of files that lie between. Steps behind the end are those of redo_titles().
+  void perform(const JumpHistory& c);
 
  private:
   void opened(const std::shared_ptr<OpenedScene>& scene, const std::optional<RestoredWork>& work,

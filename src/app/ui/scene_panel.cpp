@@ -156,21 +156,24 @@ void history_panel(UiContext& ui) {
   ui.state.history_open = section(ui, "History", false);
   if (!ui.state.history_open) return;
   const History& history = ui.studio.history();
-  for (std::size_t i = 0; i < history.entries().size(); ++i) {
-    ImGui::PushID(static_cast<int>(i));
-    const bool undone = i > history.cursor();
+  const SceneFiles& files = ui.studio.files();
+  std::size_t row = 0;
+  const auto step = [&](const std::string& title) {
+    ImGui::PushID(static_cast<int>(row));
+    const bool undone = row > history.cursor(), now = row == history.cursor();
     if (undone) ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.colour.muted);
-    if (ImGui::Selectable(history.entries()[i].title.c_str(), i == history.cursor()) && i != history.cursor())
-      ui.ask(JumpHistory{i});
+    if (ImGui::Selectable(title.c_str(), now) && !now) ui.ask(JumpHistory{row});
     if (undone) ImGui::PopStyleColor();
-    if (i == history.cursor() && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
+    if (now && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
     ImGui::PopID();
+    ++row;
+  };
+  for (const History::Entry& entry : history.entries()) {
+    const bool stays = files.stays(entry);
+    step(stays ? entry.title + "  (stays)" : entry.title);
+    if (stays) tooltip("Undo leaves the files as they are: the scene before this step is no longer kept");
   }
-  const std::string files = ui.studio.files().redo_title();  // the list behind it comes back with it
-  if (files.empty()) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.colour.muted);
-  if (ImGui::Selectable((files + "##files").c_str())) ui.ask(Redo{});
-  ImGui::PopStyleColor();
+  for (const std::string& title : files.redo_titles()) step(title);
 }
 
 }  // namespace splatcut

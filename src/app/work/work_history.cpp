@@ -90,11 +90,12 @@ class ObjectTable {
 SavedSteps saved_steps(const History& history) {
   const std::vector<History::Entry>& entries = history.entries();
   std::size_t begin = history.cursor(), end = history.cursor() + 1;
-  while (begin > 0 && entries[begin].other_files == 0 && end - begin <= kMostSavedSteps / 2) --begin;
-  while (end < entries.size() && entries[end].other_files == 0 && end - begin < kMostSavedSteps) ++end;
+  while (begin > 0 && end - begin <= kMostSavedSteps / 2) --begin;
+  while (end < entries.size() && end - begin < kMostSavedSteps) ++end;
   SavedSteps out;
   out.cursor = history.cursor() - begin;
-  for (std::size_t i = begin; i < end; ++i) out.steps.push_back({entries[i].title, entries[i].document});
+  for (std::size_t i = begin; i < end; ++i)
+    out.steps.push_back({entries[i].title, entries[i].document, entries[i].other_files != 0});
   return out;
 }
 
@@ -106,6 +107,7 @@ json history_json(const SavedSteps& history, const Scene& scene) {
                              [&](const Flags& flags) { return arrays.number_of(flags); });
     for (json& object : out["objects"]) object = objects.number_of(std::move(object));
     out["title"] = step.title;
+    if (step.other_files) out["other_files"] = true;
     return out;
   };
   const auto fits = [&](std::size_t i) {
@@ -151,13 +153,14 @@ SavedSteps history_from(const json& j, const Scene& scene, const Document& docum
     return known.flags;
   };
   for (const json& step : steps) {
+    const bool other_files = step.value("other_files", false);  // older work holds no such step
     if (out.steps.size() == out.cursor) {
-      out.steps.push_back({step.at("title"), document});
+      out.steps.push_back({step.at("title"), document, other_files});
       continue;
     }
     std::vector<const json*> own;
     for (const json& number : step.at("objects")) own.push_back(&objects.at(whole_number(number)));
-    out.steps.push_back({step.at("title"), document_from(step, own, flags)});
+    out.steps.push_back({step.at("title"), document_from(step, own, flags), other_files});
   }
   return out;
 }

@@ -2,7 +2,7 @@
 //
 // {"cursor": n, "arrays": [runs, ...], "objects": [...], "steps": [document with its title, ...]}: arrays and
 // objects that several steps share stand in the file once, and steps name them by number. Labels that a cut
-// can compute again are left out.
+// can compute again are left out. A step that changed the files of the scene has "other_files": true.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,9 +14,9 @@ namespace splatcut {
 
 inline constexpr std::size_t kMostSavedSteps = 200;
 
-// The steps around the cursor that a work file can hold, at most kMostSavedSteps: back to the state after the
-// last change of the scene's files, and on to the next such change. Undoing a change of files would need the
-// files before it.
+// The steps around the cursor, at most kMostSavedSteps. All are of the Gaussians that the scene has now, also
+// those before a change of its files. The change itself cannot be undone any more: that would need the files
+// before it.
 SavedSteps saved_steps(const History& history);
 
 // The steps next to the cursor as JSON, as many as fit: their arrays may take 64 MiB when read, and four

@@ -127,6 +127,15 @@ TEST_CASE("files undone: a scene that is no longer kept is said, and the steps b
   CHECK(hands.selected() == apple);
   go(hands, Action::kUndo);  // the click
   CHECK(hands.selected() == 0);
+  go(hands, Action::kRedo);
+  CHECK(hands.said().starts_with("Redone: "));
+  CHECK(hands.selected() == apple);
+  go(hands, Action::kRedo);  // the file, which was there all the time
+  CHECK(hands.said().starts_with("Nothing to redo: "));
+  CHECK(hands.selected() == apple);
+  go(hands, Action::kRedo);
+  CHECK(hands.said().starts_with("Redone: "));
+  CHECK(placed_x(hands) == 1);
 }
 
 TEST_CASE("files undone: redo goes on behind a step that was undone further, and after what is no step") {
@@ -173,6 +182,68 @@ TEST_CASE("files undone: a step that is chosen in the list takes back the files 
   CHECK(active_by_row(studio) == apple);
   go(hands, Action::kRedo);
   CHECK(studio.scene()->files.size() == 2);
+}
+
+TEST_CASE("files undone: steps behind the changes that were undone are listed, and can be chosen") {
+  const ScratchFolder folder("files_ahead");
+  Hands hands;
+  Studio& studio = hands.studio();
+  const std::size_t clicked = studio.history().cursor();
+  add(hands, small_scene(folder, "a.ply", 1));
+  studio.apply(NewObject{});
+  place(hands, 3);
+  studio.apply(SelectScene{last_file(hands).id});
+  studio.apply(EditSelection{SelectionEdit::kNone});
+  REQUIRE(hands.app.settle());
+  std::vector<std::string> titles;
+  for (const History::Entry& step : studio.history().entries()) titles.push_back(step.title);
+  const auto jump = [&](std::size_t entry) {
+    studio.apply(JumpHistory{entry});
+    REQUIRE(hands.app.settle());
+  };
+  const auto listed = [&] {
+    std::vector<std::string> all;
+    for (const History::Entry& step : studio.history().entries()) all.push_back(step.title);
+    for (const std::string& title : studio.files().redo_titles()) all.push_back(title);
+    return all;
+  };
+  const std::size_t a_added = clicked + 1, object_made = clicked + 2, placed = clicked + 3,
+                    selected = clicked + 4, last = clicked + 5;
+  REQUIRE(titles.size() == last + 1);
+  CHECK(listed() == titles);
+  for (const std::size_t entry : {clicked, object_made, std::size_t{0}, selected, a_added, placed, clicked,
+                                  last, std::size_t{1}, std::size_t{0}, last}) {
+    CAPTURE(entry);
+    jump(entry);
+    CHECK(studio.history().cursor() == entry);
+    CHECK(hands.said() == "Now at: " + titles[entry]);
+    CHECK(listed() == titles);
+    CHECK(studio.scene()->files.size() == (entry >= a_added ? 2 : 1));
+    CHECK(studio.scene()->files.back().place.move.x == (entry >= placed ? 3 : 0));
+    CHECK(studio.document().objects.size() == (entry >= object_made ? 2 : entry >= clicked ? 1 : 0));
+    CHECK(hands.selected() == (entry == selected ? kAdded : hands.selected()));
+  }
+  const std::size_t beyond = titles.size();
+  jump(0);
+  jump(beyond);
+  CHECK(hands.said().find("There is no such step") != std::string::npos);
+}
+
+TEST_CASE("files undone: what was undone before another way was taken does not come back") {
+  const ScratchFolder folder("files_other_way");
+  Hands hands;
+  Studio& studio = hands.studio();
+  add(hands, small_scene(folder, "a.ply", 1));
+  add(hands, small_scene(folder, "b.ply", 2));
+  go(hands, Action::kUndo);  // b
+  studio.apply(NewObject{});
+  go(hands, Action::kUndo);  // the object
+  go(hands, Action::kUndo);  // a
+  go(hands, Action::kRedo);
+  go(hands, Action::kRedo);
+  CHECK(studio.scene()->files.size() == 2);
+  CHECK(studio.document().objects.size() == 2);
+  CHECK_FALSE(studio.why_not(Action::kRedo).empty());
 }
 
 TEST_CASE("files undone: undo stops a change of files that is under way, not the step before it") {

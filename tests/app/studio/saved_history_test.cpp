@@ -9,6 +9,7 @@
 #include "app/work/work_history.h"
 #include "core/error.h"
 #include "opened_sample.h"
+#include "several_scenes.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -94,23 +95,28 @@ TEST_CASE("saved work: what was done before a crash can be undone after it, and 
   }
 }
 
-TEST_CASE("saved work: steps back to the last one that changed the scene's files, two hundred at most") {
+TEST_CASE("saved work: steps before and after changes of the scene's files, two hundred at most") {
   History history = of_names({"a", "b", "c"});
   SavedSteps saved = saved_steps(history);
   CHECK(saved.steps.size() == 4);
   CHECK(saved.cursor == 3);
   history.push_other_files("Adding", 1);
-  CHECK(saved_steps(history).steps.size() == 1);
   Document more = history.now();
   add_object(&more, "d");
   history.push("New d", more);
+  history.jump(2);  // past the step to other files, which was not undone
   saved = saved_steps(history);
-  CHECK(saved.steps.size() == 2);
-  CHECK(saved.cursor == 1);
-  history.jump(2);  // past the step to other files, which ends what can be redone
-  saved = saved_steps(history);
-  CHECK(saved.steps.size() == 4);
+  REQUIRE(saved.steps.size() == 6);
   CHECK(saved.cursor == 2);
+  for (std::size_t i = 0; i < saved.steps.size(); ++i) CHECK(saved.steps[i].other_files == (i == 4));
+  History read;
+  read.reset(saved);
+  CHECK(read.entries()[4].other_files == History::kNotKept);
+  CHECK(read.entries()[5].other_files == 0);
+  saved.steps.erase(saved.steps.begin(), saved.steps.begin() + 4);  // as where older steps do not fit
+  saved.cursor = 0;
+  read.reset(saved);
+  CHECK(read.entries()[0].other_files == 0);
 
   History long_one;
   for (int i = 0; i < 500; ++i) {
@@ -123,6 +129,61 @@ TEST_CASE("saved work: steps back to the last one that changed the scene's files
   CHECK(saved_steps(long_one).steps.size() == kMostSavedSteps);
   CHECK(saved_steps(long_one).steps[saved_steps(long_one).cursor].document.background.r ==
         doctest::Approx(0.3f));
+}
+
+TEST_CASE("saved work: steps from before changes of the scene's files can be undone, the changes stay") {
+  const ScratchFolder folder("history_of_files");
+  const auto file = folder / "two.splatcut.json";
+  Hands hands;
+  Studio& studio = hands.studio();
+  const auto apple = active_by_row(studio);
+  studio.apply(RenameObject{studio.document().active, "apple"});
+  add(hands, small_scene(folder));
+  studio.apply(NewObject{});
+  studio.apply(SelectScene{last_file(hands).id});
+  REQUIRE(hands.selected() == kAdded);
+  studio.apply(PlaceScene{last_file(hands).id, {{1, 2, 3}}});
+  REQUIRE(hands.app.settle());
+  studio.apply(EditSelection{SelectionEdit::kNone});
+  studio.apply(SaveWork{file});
+  REQUIRE(hands.app.settle());
+  const std::vector<std::string> steps = titles(studio.history());
+  REQUIRE(steps.size() == 8);  // opened, click, name, added, object, selected, placed, none
+
+  Hands again(false, with_kept_scenes(), file);
+  Studio& restored = again.studio();
+  REQUIRE(titles(restored.history()) == steps);
+  CHECK(restored.history().cursor() == 7);
+  for (const History::Entry& step : restored.history().entries())
+    CHECK(restored.files().stays(step) == (step.title == steps[3] || step.title == steps[6]));
+  const auto undo = [&] {
+    restored.apply(Undo{});
+    REQUIRE(again.app.settle());
+    return again.said();
+  };
+  CHECK(undo().starts_with("Undone: "));
+  CHECK(again.selected() == kAdded);
+  CHECK(undo() == "Not undone: " + steps[6] + ". The scene before it is no longer kept");
+  CHECK(last_file(again).place.move.x == 1);
+  CHECK(again.selected() == kAdded);
+  undo();
+  CHECK(again.selected() == 0);
+  undo();
+  CHECK(undo().starts_with("Not undone: "));
+  CHECK(restored.scene()->files.size() == 2);
+  CHECK(active_by_row(restored) == longer(apple, kAdded));
+  CHECK(undo().starts_with("Undone: "));
+  CHECK(restored.document().objects.front().name != "apple");
+  CHECK(undo().starts_with("Undone: "));
+  CHECK(restored.document().objects.empty());
+  CHECK_FALSE(restored.why_not(Action::kUndo).empty());
+  while (restored.history().can_redo()) restored.apply(Redo{});
+  REQUIRE(again.app.settle());
+  CHECK(restored.document().objects.size() == 2);
+  add(again, small_scene(folder, "other.ply", 2));  // a change of files of now is undone as ever
+  CHECK(restored.scene()->files.size() == 3);
+  CHECK(undo().starts_with("Undone: "));
+  CHECK(restored.scene()->files.size() == 2);
 }
 
 TEST_CASE("saved work: what steps share stands in the file once") {
