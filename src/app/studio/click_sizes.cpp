@@ -57,7 +57,7 @@ void Clicks::cut_sizes_ahead() {
 const ClickMeanings* Clicks::sizes() const {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || object->locked || ws_.view.display != DisplayMode::kWhole || ws_.view.heat ||
-      sizes_opacity() <= 0)
+      ws_.gaussians_of(object->id) == 0 || sizes_opacity() <= 0)
     return nullptr;
   const ClickMeanings* known = known_sizes();
   if (!known || known->sizes < 2 || (object->part_step == 0 && offer())) return nullptr;

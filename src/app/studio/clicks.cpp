@@ -110,14 +110,18 @@ const ClickMeanings* Clicks::meanings(const ObjectItem& object) const {
   return same_click ? run->meanings.get() : nullptr;
 }
 
-const ClickMeanings* Clicks::offer() const {
+// Whether the screen shows them or not.
+const ClickMeanings* Clicks::offered() const {
   const ObjectItem* object = ws_.document().active_object();
-  const bool asks = ws_.view.tool == Tool::kClick || ws_.view.tool == Tool::kBox;
-  if (!object || object->locked || !asks || ws_.view.display != DisplayMode::kWhole || ws_.view.heat ||
-      stroke_count(*object) != 1)
+  if (!object || object->locked || stroke_count(*object) != 1 || ws_.gaussians_of(object->id) == 0)
     return nullptr;
   const ClickMeanings* known = meanings(*object);
   return known && known->outlines.size() > 1 && known->key != declined_offer_ ? known : nullptr;
+}
+
+const ClickMeanings* Clicks::offer() const {
+  const bool asks = ws_.view.tool == Tool::kClick || ws_.view.tool == Tool::kBox;
+  return asks && ws_.view.display == DisplayMode::kWhole && !ws_.view.heat ? offered() : nullptr;
 }
 
 std::string Clicks::why_no_meanings() const {
@@ -128,8 +132,7 @@ std::string Clicks::why_no_meanings() const {
   const ClickMeanings* known = meanings(*object);
   const bool comes = cuts_.comes(*object) || (!object->cut_kept && !cuts_.run(object->id));
   if (!known && comes) return "What else the click can mean is shown once " + object->name + " is computed";
-  const bool hidden = known && known->outlines.size() > 1 && known->key != declined_offer_ &&
-                      ws_.view.display != DisplayMode::kWhole;
+  const bool hidden = offered() && ws_.view.display != DisplayMode::kWhole;
   return hidden ? "What else the click can mean is shown in the whole scene (Shift+H)" : "";
 }
 
@@ -299,14 +302,19 @@ void Clicks::reset() {
 }
 
 bool Clicks::chooses_by(int key) const {
+  return offer() && key >= '1' && key < '1' + kMostMeanings;
+}
+
+std::string Clicks::why_not_choose(int key) const {
   const ClickMeanings* offered = offer();
-  return offered && key >= '1' && key - '1' < std::ssize(offered->outlines);
+  if (!offered || !chooses_by(key) || key - '1' < std::ssize(offered->outlines)) return {};
+  return "Two meanings are offered: keys 1 and 2. After Esc, 3 is a tool again";
 }
 
 bool Clicks::decline_offer() {
-  const ClickMeanings* offered = offer();
-  if (offered) declined_offer_ = offered->key;
-  return offered != nullptr;
+  const bool shown = offer() != nullptr;
+  if (const ClickMeanings* declined = offered()) declined_offer_ = declined->key;
+  return shown;
 }
 
 }  // namespace splatcut

@@ -23,14 +23,17 @@ class Clicks {
   void update();
   void pointer_inside(bool inside) { pointer_inside_ = inside; }  // says if the pointer is in the viewport
 
-  // Meanings of the active object's first click or box, offered until the object gets another stroke; null:
-  // no offer.
+  // Meanings of the active object's first click or box, offered until the object gets another stroke or is
+  // empty; null: no offer.
   const ClickMeanings* offer() const;
   // Why the key of the tool Click takes no other meaning although its tool is chosen: a sentence; empty: it
   // is not expected to.
   std::string why_no_meanings() const;
-  bool chooses_by(int key) const;  // true: the key, without others, takes one of those meanings
-  bool decline_offer();            // withdraws the offer; returns false if there is none
+  // True if the key, without others, is for those meanings, not for a tool. why_not_choose(): a refusal if it
+  // takes none, as fewer are offered; else empty.
+  bool chooses_by(int key) const;
+  std::string why_not_choose(int key) const;
+  bool decline_offer();  // withdraws the offer, also one that is hidden; returns false if none was shown
   // Sizes that the active object's first click can have; null: they are not known. size_wanted(): the one
   // that the document asks for, which ClickMeanings::size becomes once it is computed.
   const ClickMeanings* known_sizes() const;
@@ -74,6 +77,7 @@ class Clicks {
   bool hits_anything(const AddStroke& c) const;
   std::string already_so(const AddStroke& c) const;
   const ClickMeanings* meanings(const ObjectItem& object) const;
+  const ClickMeanings* offered() const;
   std::optional<HoverAsk> hover_wanted() const;
   bool asks_ahead() const;
   void refresh_hover();

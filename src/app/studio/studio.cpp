@@ -251,7 +251,7 @@ void Studio::perform(const SetUp& c) {
 void Studio::perform(const SetView& c) {
   if (c.view.tool != ws_.view.tool) {
     abandon_shape();
-    clicks_.decline_offer();  // its keys are those of tools
+    if (clicks_.offer()) clicks_.decline_offer();  // its keys are those of tools
   }
   if (c.view.display != ws_.view.display && c.view.display == DisplayMode::kIsolate)
     viewport_.turn_about_object();
@@ -291,6 +291,7 @@ void Studio::perform(const NextBackdrop&) {
       std::ranges::find_if(all, [&](const Backdrop& b) { return shows(b, document(), ws_.view); });
   const auto step = now == all.end() ? 0 : (now - all.begin() + 1) % std::ssize(all);
   perform(SetBackdrop{static_cast<std::size_t>(step)});
+  ws_.say(Message::Kind::kInfo, std::string("Background: ") + all[static_cast<std::size_t>(step)].name);
 }
 
 void Studio::perform(const SetBackdrop& c) {

@@ -26,7 +26,10 @@ void Studio::key_pressed(int code, const Modifiers& modifiers, bool repeated) {
   now.ctrl |= code == key::kLeftControl || code == key::kRightControl;
   now.alt |= code == key::kLeftAlt || code == key::kRightAlt;
   hold(now);
-  if (modifiers == Modifiers{} && clicks_.chooses_by(code)) return apply(ChooseMeaning{code - '1'});
+  if (modifiers == Modifiers{} && clicks_.chooses_by(code)) {
+    const std::string reason = clicks_.why_not_choose(code);
+    return reason.empty() ? apply(ChooseMeaning{code - '1'}) : ws_.say(Message::Kind::kInfo, reason);
+  }
   const Action action = action_for(code, modifiers);
   if (action == Action::kBrushSmaller || action == Action::kBrushLarger) {
     // A keyboard repeats 30 times a second: the size doubles in one all the same.

@@ -235,7 +235,8 @@ void pointer_help(UiContext& ui) {
       "(Navigate). The wheel zooms; right after a click, and with Shift at any time, it steps through larger "
       "and smaller parts of what was clicked first; while a flight key is held, it changes the speed. While "
       "other meanings of a click are shown, 1, 2 and 3 "
-      "choose one, and no tool, until Esc or a tool's button. Every tool: Shift adds, Ctrl removes, Alt "
+      "choose one, and no tool, until Esc, 4 (box) or a tool's button. Every tool: Shift adds, Ctrl removes, "
+      "Alt "
       "intersects. "
       "Alt+wheel changes the brush. Tab and Shift+Tab mark buttons and fields, Enter presses what is "
       "marked.");

@@ -304,7 +304,7 @@ void tool_column(UiContext& ui) {
     const std::string keys = keys_of(action);
     const bool lent = !keys.empty() && ui.studio.clicks().chooses_by(keys.front());
     const std::string tip = fmt::format("{}\n{}{}", tip_of(action), tool->sentence,
-                                        lent ? "\nIts key takes a meaning of the click now, until Esc" : "");
+                                        lent ? "\nIts key is for meanings of the click now, until Esc" : "");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 3});
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0);
     ImGui::BeginDisabled(!reason.empty());

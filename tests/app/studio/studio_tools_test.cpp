@@ -120,6 +120,7 @@ TEST_CASE("hands: backgrounds go round, and the checker is behind the object alo
   for (std::size_t i = 0; i < backdrops().size(); ++i) {
     hands.app.key('J');
     REQUIRE(hands.app.settle());
+    CHECK(hands.said() == std::string("Background: ") + backdrops()[(i + 1) % backdrops().size()].name);
     seen.push_back(corner(3, 3));
     if (hands.studio().view().checker)
       CHECK(corner(3, 3) != corner(3 + 12, 3));
