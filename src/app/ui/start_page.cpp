@@ -103,8 +103,14 @@ void start_page(UiContext& ui, const UiRect& area) {
   const float top = std::min(std::max(area.min.y + kMargin, middle.y - 150), area.max.y - kMargin - size.y);
   ImGui::SetCursorScreenPos({middle.x - size.x / 2, top});
   ImGui::BeginChild("start", vec(size));
+  const auto left_work = [&] {
+    if (ui.studio.work().offers().empty()) return;
+    ImGui::Dummy({0, 4});
+    left_work_list(ui);
+  };
   if (!ui.studio.coming().empty()) {
     opening(ui, size.x);
+    left_work();
     return ImGui::EndChild();
   }
   ImGui::PushFont(ui.theme.title);
@@ -119,10 +125,7 @@ void start_page(UiContext& ui, const UiRect& area) {
     if (button(ui, "Open the sample scene", "A still life on a table, to try things on"))
       ui.ask(OpenScene{ui.state.sample});
   }
-  if (!ui.studio.work().offers().empty()) {
-    ImGui::Dummy({0, 4});
-    left_work_list(ui);
-  }
+  left_work();
   if (!ui.state.recent.empty()) {
     ImGui::Dummy({0, 6});
     muted_text(ui, "Recent");

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 #include "app/work/work_picture.h"
 
@@ -15,15 +17,35 @@ namespace {
 
 constexpr const char *kFirst = "autosave", *kLast = ".splatcut.json";
 
+std::filesystem::path lock_beside(const std::filesystem::path& file) {
+  std::string path = file.string();
+  return path.replace(path.size() - std::string(kLast).size(), std::string::npos, ".lock");
+}
+
 // -1 where another program holds it. Children do not inherit it.
 int lock_of(const std::filesystem::path& file) {
-  std::string path = file.string();
-  path.replace(path.size() - std::string(kLast).size(), std::string::npos, ".lock");
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  const int descriptor = ::open(lock_beside(file).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (descriptor < 0) return -1;
   if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
   ::close(descriptor);
   return -1;
+}
+
+// True if the program whose number stands in the lock has been killed: it holds the lock until its memory is
+// given back, which can take seconds, and writes nothing any more.
+bool holder_ends(const std::filesystem::path& file) {
+  constexpr unsigned long kExiting = 4;  // PF_EXITING in the kernel's sched.h
+  int number = 0;
+  std::ifstream(lock_beside(file)) >> number;
+  std::string line;
+  if (number <= 0 || !std::getline(std::ifstream(fmt::format("/proc/{}/stat", number)), line)) return false;
+  std::istringstream fields(line.substr(std::min(line.rfind(')') + 2, line.size())));
+  std::string state, skipped;
+  fields >> state;
+  for (int i = 0; i < 5; ++i) fields >> skipped;
+  unsigned long flags = 0;
+  fields >> flags;
+  return state == "Z" || (flags & kExiting) != 0;
 }
 
 }  // namespace
@@ -50,8 +72,13 @@ void Autosaves::hold_left_behind(const std::filesystem::path& folder) {
     if (!name.starts_with(kFirst) || !name.ends_with(kLast)) continue;
     std::error_code unreadable;
     const auto written = entry->last_write_time(unreadable);
-    const int lock = unreadable ? -1 : lock_of(entry->path());
-    if (lock >= 0) left_.push_back({entry->path(), lock, written});
+    const auto known = std::ranges::find(left_, entry->path(), &Held::file);
+    if (unreadable || (known != left_.end() && known->lock >= 0)) continue;
+    const int lock = lock_of(entry->path());
+    if (known != left_.end())
+      known->lock = lock;
+    else if (lock >= 0 || holder_ends(entry->path()))
+      left_.push_back({entry->path(), lock, written});
   }
   std::ranges::sort(left_, {}, &Held::written);
 }
@@ -64,7 +91,9 @@ void Autosaves::hold_own(const std::filesystem::path& folder) {
     std::error_code unreadable;
     if (std::filesystem::exists(file, unreadable) || unreadable) continue;
     const int lock = lock_of(file);
-    if (lock >= 0) own_ = {file, lock, {}};
+    if (lock < 0) continue;
+    own_ = {file, lock, {}};
+    std::ofstream(lock_beside(file)) << ::getpid() << '\n';
   }
 }
 
@@ -80,7 +109,7 @@ void Autosaves::remove(const std::filesystem::path& file) {
   std::error_code ignored;
   std::filesystem::remove(file, ignored);
   std::filesystem::remove(picture_of_work(file), ignored);
-  ::close(held->lock);
+  if (held->lock >= 0) ::close(held->lock);
   left_.erase(held);
 }
 

@@ -1,7 +1,8 @@
 // Autosaves in the state folder: one file per running program, and the files that crashed programs left.
 //
 // A program holds the lock beside its file as long as it lives, so a file whose lock is free was left by a
-// crash. Errors: none are thrown; a file that cannot be read or locked is neither offered nor written.
+// crash. So was one whose program is about to end. Errors: none are thrown; a file that cannot be read or
+// locked is neither offered nor written.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +22,7 @@ class Autosaves {
   // File of this program; empty: this program must not write one.
   const std::filesystem::path& own() const { return own_.file; }
   // Files that crashed programs left, the newest first. This object holds their locks, so that no other
-  // program offers them.
+  // program offers them; of a program that is about to end it takes the lock when it looks again.
   std::vector<std::filesystem::path> left_behind() const;
   // Looks again for files that crashed programs left: one may have been about to end before.
   void look_again() {
@@ -33,7 +34,7 @@ class Autosaves {
  private:
   struct Held {
     std::filesystem::path file;
-    int lock = -1;  // descriptor of the locked file; -1: none
+    int lock = -1;  // descriptor of the locked file; -1: none, or its program is about to end
     std::filesystem::file_time_type written;
   };
   void hold_left_behind(const std::filesystem::path& folder);

@@ -3,10 +3,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/file.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "app/document/words.h"
 #include "app/work/work_file.h"
@@ -84,4 +87,45 @@ TEST_CASE("left work: that of a program which takes long to end comes at once, a
   CHECK(offered_after_end() == 1);
   leave_work(folder, "cup", "autosave.3.splatcut.json");
   CHECK(offered_after_end() == 1);
+}
+
+TEST_CASE("left work: that of a program which is killed and still gives its memory back comes at the start") {
+  const ScratchFolder folder("left_dying");
+  leave_work(folder, "fox", "autosave.splatcut.json");
+  const int lock = ::open((folder / "autosave.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  REQUIRE(lock >= 0);
+  REQUIRE(::flock(lock, LOCK_EX | LOCK_NB) == 0);
+  const auto offered_while_held_by = [&](pid_t program) {
+    std::ofstream(folder / "autosave.lock") << program << '\n';
+    return HeadlessApp(640, 480, 1, with_state(folder)).studio().work().offers().size();
+  };
+  CHECK(offered_while_held_by(::getpid()) == 0);
+  CHECK(offered_while_held_by(0) == 0);
+  const pid_t killed = ::fork();
+  if (killed == 0) ::pause();
+  ::kill(killed, SIGKILL);
+  siginfo_t ended{};
+  ::waitid(P_PID, static_cast<id_t>(killed), &ended,
+           WEXITED | WNOWAIT);  // as long as nobody asks for its end
+  CHECK(offered_while_held_by(killed) == 1);
+  HeadlessApp app(640, 480, 1, with_state(folder));
+  ::waitpid(killed, nullptr, 0);
+  ::close(lock);
+  app.frames(60);
+  REQUIRE(app.studio().work().offers().size() == 1);
+  const int again = ::open((folder / "autosave.lock").c_str(), O_RDWR | O_CLOEXEC);
+  CHECK(::flock(again, LOCK_EX | LOCK_NB) != 0);  // this program holds it now
+  ::close(again);
+  app.studio().apply(DropAutosave{app.studio().work().offers().front().file});
+  CHECK_FALSE(std::filesystem::exists(folder / "autosave.splatcut.json"));
+}
+
+TEST_CASE("left work: it is offered also while the scene that the program was started with is opened") {
+  const ScratchFolder folder("left_beside");
+  leave_work(folder, "fox", "autosave.splatcut.json");
+  HeadlessApp app(640, 480, 1, with_state(folder));
+  app.studio().apply(OpenScene{kSmallSample});
+  app.frames(1);
+  REQUIRE(!app.studio().coming().empty());
+  CHECK(app.button("\nfox").size().x > 0);
 }
