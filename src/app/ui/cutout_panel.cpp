@@ -38,10 +38,19 @@ void slider_label(const std::string& text) {
 }
 
 // A step for each size that the first click can have, the smallest at the left. The picture outlines the step
-// that the pointer is at; it is taken when the button is let go.
+// that the pointer is at; it is taken when the button is let go. While the sizes are not known its place is
+// kept, so that what is below does not move.
 void size_slider(UiContext& ui, const ObjectItem& object) {
+  if (object.views.empty()) return;
   const ClickMeanings* known = ui.studio.clicks().known_sizes();
-  if (!known || known->sizes < 2) return;
+  if (!known || known->sizes < 2) {
+    slider_label(known ? "Part  1 of 1" : "Part");
+    ImGui::BeginDisabled();
+    int none = 0;
+    ImGui::SliderInt("##size", &none, 0, 1, "", ImGuiSliderFlags_NoInput);
+    ImGui::EndDisabled();
+    return tooltip(known ? "The click means one size alone" : "Which sizes there are is not known yet");
+  }
   const auto sizes = static_cast<int>(known->sizes),
              taken = static_cast<int>(ui.studio.clicks().size_wanted());
   slider_label(fmt::format("Part  {} of {}", taken + 1, sizes));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "app/ui/panels.h"
@@ -44,6 +45,24 @@ void fixed_panel(const char* name, const UiRect& rect, const Palette& palette, I
   ImGui::PopStyleVar(3);
   content();
   ImGui::End();
+}
+
+// Rows of a panel that come and go by themselves. While the pointer is at what lies below them they keep
+// their height, so that no button moves as one aims at it; what has no room comes once the pointer has left.
+template <class Content>
+void steady_rows(float* height, const Content& content) {
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  constexpr ImGuiHoveredFlags kAlsoDragged =
+      ImGuiHoveredFlags_AllowWhenBlockedByActiveItem | ImGuiHoveredFlags_AllowWhenBlockedByPopup;
+  const bool keeps =
+      *height > 0 && ImGui::IsWindowHovered(kAlsoDragged) && ImGui::GetIO().MousePos.y >= from.y + *height;
+  const ImVec2 end = {from.x + ImGui::GetContentRegionAvail().x,
+                      keeps ? from.y + *height : std::numeric_limits<float>::max()};
+  ImGui::PushClipRect({ImGui::GetWindowPos().x, ImGui::GetWindowPos().y}, end, true);
+  content();
+  ImGui::PopClipRect();
+  if (!keeps) *height = ImGui::GetCursorScreenPos().y - from.y;
+  ImGui::SetCursorScreenPos({from.x, from.y + *height});
 }
 
 void line(const glm::vec2& a, const glm::vec2& b, const Palette& palette) {
@@ -148,8 +167,8 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   fixed_panel("side", {{size.x - side_width(size), kTopHeight}, {size.x, size.y - kStatus}}, p, kFixed,
               {12, 8}, [&] {
                 ImGui::BeginChild("scroll", {0, 0});
-                objects_panel(ui);
-                cutout_panel(ui);
+                steady_rows(&objects_height_, [&] { objects_panel(ui); });
+                steady_rows(&cutout_height_, [&] { cutout_panel(ui); });
                 repair_panel(ui);
                 scene_panel(ui);
                 files_panel(ui);

@@ -47,6 +47,7 @@ class Interface {
   Theme theme_;
   UiState state_;
   glm::vec2 size_points_{1280, 720};
+  float objects_height_ = 0, cutout_height_ = 0;  // of these sections in the side panel, points
   std::vector<UiRect> covered_;  // parts of the picture that take clicks themselves, as of the last frame
 };
 

@@ -309,6 +309,33 @@ TEST_CASE("ui: in a window of 640 by 480 the panel takes a third and cuts no but
   CHECK(page.max.y <= kHeight);
 }
 
+TEST_CASE("ui: buttons of the right panel stay in their places while the pointer is at them") {
+  HeadlessApp app(1000, 1200);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.press_item("side/scroll", {"Repair by hand"});
+  app.click(app.screen_of(kOnApple));
+  app.frames(1);
+  REQUIRE(app.studio().cutting());
+  REQUIRE(app.button("Cancel").size().x > 0);
+  const UiRect grow = app.button("Grow");
+  app.move(0.5f * (grow.min + grow.max));
+  std::size_t frames = 0;
+  for (; !app.studio().idle() && frames < 100'000; ++frames) {
+    app.frames(1);
+    REQUIRE(app.button("Grow").min == grow.min);
+  }
+  REQUIRE(app.settle());
+  CHECK(app.button("Cancel").size().x == 0);
+  CHECK(app.button("Grow").min == grow.min);
+  app.click(0.5f * (grow.min + grow.max));
+  REQUIRE(app.settle());
+  CHECK(app.studio().history().entries().back().title.find("row") != std::string::npos);
+  app.move(0.5f * (app->interface().viewport().min + app->interface().viewport().max));
+  app.frames(2);
+  CHECK(app.button("Grow").min.y != grow.min.y);  // the progress has gone
+}
+
 TEST_CASE("ui: in a small window the hint can be closed, and thumbnails cover little of the picture") {
   HeadlessApp app(640, 480);
   app.open(kSmallSample);
