@@ -124,8 +124,9 @@ TEST_CASE("left work: it is offered also while the scene that the program was st
   const ScratchFolder folder("left_beside");
   leave_work(folder, "fox", "autosave.splatcut.json");
   HeadlessApp app(640, 480, 1, with_state(folder));
-  app.studio().apply(OpenScene{kSmallSample});
+  app.studio().apply(OpenScene{kSample});  // larger than what is read before the first frame
   app.frames(1);
-  REQUIRE(!app.studio().coming().empty());
+  REQUIRE_FALSE(app.studio().scene());
+  REQUIRE(app.studio().files().opening() == app.studio().coming());
   CHECK(app.button("\nfox").size().x > 0);
 }
