@@ -239,6 +239,7 @@ TEST_CASE("saved work: steps that cannot be read are left out, and that is said"
   is_left_out("/steps/1/objects", {0, 0});
   is_left_out("/steps/1/up", {0, 0, 0});
   is_left_out("/steps/1/preset", "none of these");
+  is_left_out("/steps/1/other_files", "yes");
   is_left_out("/objects/0/name", 3);
   is_left_out("/steps", nlohmann::json(std::vector<int>(100'000, 0)));
   is_left_out("/arrays", std::vector<nlohmann::json>(10'000, {0, 1}));
