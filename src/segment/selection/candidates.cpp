@@ -115,6 +115,7 @@ class Asking {
   std::vector<float> compared_areas() const;
   void measure_stability();
   void add_candidates(std::size_t chain, const AnswerOptions& options);
+  bool holds_correction_before(const Chain& chain, std::size_t index) const;
   void add_size_terms(const Chain& chain, Candidate* candidate) const;
   float folds(float px) const {
     return std::log(std::max(px, 1.0f) / (kPi * click_.radius_px * click_.radius_px));
@@ -282,6 +283,12 @@ void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
   term(candidate, Term::kHidden) = at_least_0(std::log(std::max(area_px, 1.0f) / shown_px) - kHiddenFolds);
 }
 
+bool Asking::holds_correction_before(const Chain& chain, std::size_t index) const {
+  if (selected_.changes.empty()) return false;
+  const Change& before = selected_.changes.back();
+  return before.object == click_.object && before.clicked != kNoPart && chain.level[before.clicked] <= index;
+}
+
 void Asking::add_candidates(std::size_t c, const AnswerOptions& options) {
   const Chain& chain = out_.chains[c];
   const PartTree& tree = parts_.trees[c];
@@ -300,6 +307,7 @@ void Asking::add_candidates(std::size_t c, const AnswerOptions& options) {
     } else {
       term(&candidate, Term::kFrame) = chain.frame_px[i] / std::sqrt(std::max(chain.view_px[i], 1.0f));
       add_size_terms(chain, &candidate);
+      term(&candidate, Term::kAgain) = holds_correction_before(chain, i);
     }
     out_.candidates.push_back(candidate);
   }

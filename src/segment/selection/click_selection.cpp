@@ -234,7 +234,7 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool obj
 void ClickSelection::change_leaves(const std::vector<std::uint8_t>& meant,
                                    const std::vector<std::uint8_t>& certain, const Click& click) {
   const std::int8_t sign = click.object ? 1 : -1;
-  Change change{.leaves = {}, .object = click.object};
+  Change change{.leaves = {}, .clicked = click.leaf, .object = click.object};
   bool followed = false;
   for (std::uint32_t l = 0; l < parts_.leaves; ++l) {
     const bool follows = meant[l] && selected_.said[l] != -sign;

@@ -131,6 +131,29 @@ TEST_CASE("selection: a rest click takes back what the trees agree that the firs
   CHECK(after(1e6f, {object(5), object(25), rest(15)}) == Labels{1, 0, 1, 0});
 }
 
+// Single stripes are the likeliest by far, and all four are taken at first.
+TEST_CASE("selection: a correction after one of the same sign means what holds both") {
+  PartHierarchy parts = four_leaves();
+  parts.trees.front().cut = {0.001f, 0.001f, 0.001f, 0.001f, 1, 1, 4};
+  SelectionModel model = borders_alone();
+  const LeafView view = stripes(parts);
+  const auto after = [&](float again, const Strokes& strokes) {
+    weight(&model.later, Term::kAgain) = again;
+    ClickSelection selection(parts, model, 10);
+    for (const Stroke& stroke : strokes) selection.apply(view, stroke);
+    return selection.labels();
+  };
+  CHECK(after(-50, {object(5)}) == Labels{1, 1, 1, 1});
+  CHECK(after(-50, {object(5), rest(15)}) == Labels{1, 0, 1, 1});
+  CHECK(after(0, {object(5), rest(15), rest(25)}) == Labels{1, 0, 0, 1});
+  // The whole tree holds both: the click on the object holds back its pair alone.
+  CHECK(after(-50, {object(5), rest(15), rest(25)}) == Labels{1, 0, 0, 0});
+  // A click on the object in between has changed its mind.
+  CHECK(after(-50, {object(5), rest(15), object(15), rest(25)}) == Labels{1, 1, 0, 1});
+  // A click on what is so already, in between, changes nothing.
+  CHECK(after(-50, {object(5), rest(15), object(5), rest(25)}) == Labels{1, 0, 0, 0});
+}
+
 TEST_CASE("selection: a click is obeyed though no part is likely, by its disc alone") {
   SelectionModel nothing_likely = borders_alone();
   weight(&nothing_likely.later, Term::kDisc) = -100;
