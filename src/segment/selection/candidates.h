@@ -36,9 +36,9 @@
 // - kOpposed: number of clicks of the other sign in the node.
 // - kBack (later clicks): largest IoU with what a click of the other sign has changed. People undo in that
 //   case.
-// - kAgain (later clicks): 1 if the correction before was of the same sign and the node holds the leaf that
-// it
-//   clicked. A second click of one sign in a row mostly says that the first one took too little.
+// - kAgain (the second to the fifth correction): 1 if the one before was of the same sign and the node holds
+//   the leaf that it clicked. A second click of one sign in a row mostly says that the first one took too
+//   little. Later corrections mend details.
 // - kDisc: 1 if nothing but the disc would change.
 // - kRepick (clicks on the rest): 1 if the first click gets the likeliest other meaning that is left
 //   (first_meanings.h). This is a candidate if the first click is the only one on the object and f is at most

@@ -17,6 +17,7 @@ Neighbourhood part_of(const SessionScene& scene, const std::vector<std::uint8_t>
 SessionScene scene_of(SessionScene scene, const Neighbourhood& part) {
   scene.cloud = part.cloud;
   scene.blocks = nullptr;
+  scene.most_bytes /= 2;  // two such sessions keep as much as the scene's own
   return scene;
 }
 

@@ -150,6 +150,13 @@ TEST_CASE("selection: a correction after one of the same sign means what holds b
   CHECK(after(-50, {object(5), rest(15), rest(25)}) == Labels{1, 0, 0, 0});
   // A click on the object in between has changed its mind.
   CHECK(after(-50, {object(5), rest(15), object(15), rest(25)}) == Labels{1, 1, 0, 1});
+  // The sixth correction mends a detail, whatever came before.
+  Strokes many = {object(5)};
+  for (int i = 0; i < 4; ++i) many.push_back(i % 2 ? object(15) : rest(15));
+  many.insert(many.end(), {rest(15), rest(25)});
+  CHECK(after(-50, many) == Labels{1, 0, 0, 1});
+  many.erase(many.begin() + 1, many.begin() + 3);
+  CHECK(after(-50, many) == Labels{1, 0, 0, 0});
   // A click on what is so already, in between, changes nothing.
   CHECK(after(-50, {object(5), rest(15), object(5), rest(25)}) == Labels{1, 0, 0, 0});
 }
