@@ -285,7 +285,8 @@ void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
 
 bool Asking::holds_correction_before(const Chain& chain, std::size_t index) const {
   constexpr std::size_t kFirstCorrections = 5;  // those after them mend details
-  if (selected_.changes.empty() || selected_.changes.size() >= kFirstCorrections) return false;
+  if (!selected_.first || selected_.changes.empty() || selected_.changes.size() >= kFirstCorrections)
+    return false;
   const Change& before = selected_.changes.back();
   return before.object == click_.object && before.clicked != kNoPart && chain.level[before.clicked] <= index;
 }

@@ -150,6 +150,9 @@ TEST_CASE("selection: a correction after one of the same sign means what holds b
   CHECK(after(-50, {object(5), rest(15), rest(25)}) == Labels{1, 0, 0, 0});
   // A click on the object in between has changed its mind.
   CHECK(after(-50, {object(5), rest(15), object(15), rest(25)}) == Labels{1, 1, 0, 1});
+  // A box has said how far the thing reaches.
+  const Stroke all = box_around({0, 0}, {40, 40}, SeedLabel::kObject);
+  CHECK(after(-50, {all, rest(15), rest(25)}) == Labels{1, 0, 0, 1});
   // The sixth correction mends a detail, whatever came before.
   Strokes many = {object(5)};
   for (int i = 0; i < 4; ++i) many.push_back(i % 2 ? object(15) : rest(15));
