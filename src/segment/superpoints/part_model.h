@@ -127,13 +127,21 @@ struct MaskToPartsOptions {
 
 struct PartModel {
   // Whoever changes a value raises the version and says here what was searched on what.
-  // Version 16: a correction after one of the same sign mostly means what holds both (Term::kAgain); its
-  // weight is set by hand (docs/clicks.md, "Once more"). Version 15: what colour says of a box comes before
-  // what the trees agree on where it stands out more (selection/box_by_colour.h). Version 14: doubt costs as
-  // much where what would change is small (docs/clicks.md). Version 13: what doubt costs where a rest click
-  // asks again is 16, 8 before (docs/clicks.md). Version 12: a rest click asks again what the first click
-  // meant, however much that changes. Its two weights are set by hand on the scenes of docs/clicks.md
-  // ("Choose again"). Version 11: other meanings are offered down to a 55th of the likelihood, a half before.
+  // Version 16: a correction after one of the same sign mostly means what holds both; the weight of
+  // Term::kAgain is set by hand (docs/clicks.md, "Once more").
+  //
+  // Version 15: what colour says of a box comes before what the trees agree on where it stands out more
+  // (selection/box_by_colour.h).
+  //
+  // Version 14: doubt costs as much where what would change is small (docs/clicks.md).
+  //
+  // Version 13: what doubt costs where a rest click asks again is 16, 8 before (docs/clicks.md).
+  //
+  // Version 12: a rest click asks again what the first click meant, however much that changes. Its two
+  // weights are set by hand on the scenes of docs/clicks.md ("Choose again").
+  //
+  // Version 11: other meanings are offered down to a 55th of the likelihood, a half before.
+  //
   // Version 10: what boxes mean is set by hand, on the scenes of docs/clicks.md and eleven more.
   // Version 9: what a first click means is fitted by `splatcut-lab fit` on the scenes of docs/clicks.md,
   // which shows the fit without each of the captures; what corrections mean is set by hand on the same
