@@ -29,6 +29,10 @@ class StageClock {
     return work();
   }
 
+  void book(const std::vector<StageTime>& times) {
+    for (const StageTime& stage : times) book(stage.name, stage.ms);
+  }
+
  private:
   struct Booking {
     StageClock* clock;

@@ -36,7 +36,6 @@ struct KeptNeighbourhood {
   Neighbourhood near;
   LocalSession session;
   SeenSets seen;
-  bool told = false;  // its stages stand in a result
 };
 
 inline bool by_parts(const CutSettings& settings) {

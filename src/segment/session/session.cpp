@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/byte_hash.h"
+#include "core/stage_clock.h"
 #include "segment/masks/cv_image.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/session/kept_neighbourhood.h"
@@ -65,6 +66,7 @@ Session::Local* Session::local(const Place& place, const CutSettings& settings, 
   Neighbourhood made = prepare_neighbourhood(whole_, place, with_parts ? &scene_.prepare : nullptr, job);
   if (job.cancelled()) return nullptr;
   locals_.emplace_front(std::move(made), scene_);
+  StageClock(&prepared_).book(locals_.front().near.prepared->stages);
   std::size_t bytes = locals_.front().near.bytes();
   for (auto l = std::next(locals_.begin()); l != locals_.end();) {
     bytes += l->near.bytes();
@@ -135,6 +137,7 @@ Session::Local* Session::settled(const CutRequest& request, const CutSettings& s
                                  const OnSnapshot& on_snapshot, CutResult* result, Answered* in) {
   check(settings);
   std::optional<Answered> answered = place_of(request, settings, job);
+  std::vector<StageTime> stages;  // of the cuts in all places
   while (answered && !job.cancelled()) {
     Local* there = local(answered->place, settings, job);
     if (!there) return nullptr;
@@ -144,6 +147,8 @@ Session::Local* Session::settled(const CutRequest& request, const CutSettings& s
         on_snapshot(phase, in_scene(*there, so_far));
       };
     *result = there->session.cut(in_place(request, *answered, there, job), settings, job, in_whole);
+    StageClock(&stages).book(result->stages);
+    result->stages = stages;
     std::optional<Answered> larger;
     if (result->outcome == Outcome::kDone && touches_side(whole_, there->near, result->labels))
       larger = answered_in(grown_about(there->near, result->labels), *answered, request, settings, job);
@@ -177,6 +182,7 @@ CutResult Session::cut(const CutRequest& request, const CutSettings& settings, c
 CutResult Session::cut_anywhere(const CutRequest& request, const CutSettings& settings, const Job& job,
                                 const OnSnapshot& on_snapshot) {
   CutResult result;
+  prepared_.clear();
   Local* there = settled(request, settings, job, on_snapshot, &result);
   if (job.cancelled()) {
     result = nothing_found(scene_.cloud->size(), "");
@@ -189,9 +195,8 @@ CutResult Session::cut_anywhere(const CutRequest& request, const CutSettings& se
                                                      "click on the object itself, or scribble"
                                                    : "no stroke marks the object yet; click on it");
   result = in_scene(*there, std::move(result));
-  const std::vector<StageTime>& prepared = there->near.prepared->stages;
-  if (!std::exchange(there->told, true))
-    result.stages.insert(result.stages.begin(), prepared.begin(), prepared.end());
+  StageClock(&prepared_).book(result.stages);
+  result.stages = std::move(prepared_);
   return result;
 }
 

@@ -134,6 +134,7 @@ class Session {
   WholeScene whole_;
   std::list<SessionAmong> among_;              // used last first
   std::list<Local> locals_;                    // used last first
+  std::vector<StageTime> prepared_;            // stages of what the cut under way has prepared
   std::map<std::string, Answered> places_;     // of strokes so far, by their bytes
   std::map<std::string, StrokeHits> hits_;     // of single strokes
   std::stop_source* ends_if_large_ = nullptr;  // ends a cut of CutReach::kSmall; null: none is under way

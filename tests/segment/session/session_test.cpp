@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 
 #include "app/measure/robot_user.h"
@@ -397,6 +398,31 @@ TEST_CASE("session: what a click needs and is made ready is not made again") {
   CHECK(stages.contains("first mask"));
   CHECK_FALSE(stages.contains("parts"));
   CHECK_FALSE(stages.contains("graph"));
+}
+
+TEST_CASE("session: the stages of a cut hold what every place has cost that it prepared, once") {
+  auto [request, settings] = click_on("mug");
+  request.part_step = 40;  // more than the first place
+  const auto cloud = small_table().cloud;
+  Session session(
+      {.cloud = cloud, .photographs = small_table().scene.cameras, .most_gaussians = cloud->size() / 3});
+  double between_ms = 0, last_done = 0;  // between two callbacks of one place
+  auto last = std::chrono::steady_clock::now();
+  const Job watched{.stop = {}, .on_progress = [&](std::string_view stage, double done) {
+                      if (stage != "parts") return;
+                      if (done > last_done) between_ms += ms_since(last);
+                      last = std::chrono::steady_clock::now();
+                      last_done = done;
+                    }};
+  const auto parts_ms = [&](const Job& job) {
+    const CutResult result = session.cut(request, settings, job);
+    CHECK(result.looked_at_gaussians > cloud->size() / 3);
+    const auto found = std::ranges::find(result.stages, "parts", &StageTime::name);
+    return found == result.stages.end() ? 0 : found->ms;
+  };
+  CHECK(parts_ms(watched) >= between_ms);
+  CHECK(between_ms > 0);
+  CHECK(parts_ms({}) == 0);
 }
 
 TEST_CASE("session: things of one colour that touch are parted by three corrections") {
