@@ -1,15 +1,18 @@
 #include "segment/finish/unseen_ground.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "segment/finish/surface_map.h"
+#include "segment/masks/mask_tools.h"
 
 namespace splatcut {
 
 namespace {
 
-enum class Shown { kGround, kObject, kOther };  // kOther: beside the picture, or behind something else
+// kEmpty: nothing at all; kOther: beside the picture, or behind something else.
+enum class Shown { kGround, kEmpty, kObject, kOther };
 
 Shown shown_at(const SurfaceView& view, const SurfaceMap& map, const glm::vec3& world) {
   const glm::vec3 at = view.camera.camera_from_world(world);
@@ -20,21 +23,22 @@ Shown shown_at(const SurfaceView& view, const SurfaceMap& map, const glm::vec3& 
     return Shown::kOther;
   const int x = static_cast<int>(px.x), y = static_cast<int>(px.y);
   if (view.inside.at(x, y)) return Shown::kObject;
-  const bool empty = !(view.depth.at(x, y) > 0);
-  const bool on_plane = !empty && std::abs(map.height_radii(view.world(x, y))) <= SurfaceMap::kOnPlane;
-  return empty || on_plane ? Shown::kGround : Shown::kOther;
+  if (!(view.depth.at(x, y) > 0)) return Shown::kEmpty;
+  const bool on_plane = std::abs(map.height_radii(view.world(x, y))) <= SurfaceMap::kOnPlane;
+  return on_plane ? Shown::kGround : Shown::kOther;
 }
 
-bool never_seen(std::span<const SurfaceView> views, const SurfaceMap& map, const glm::vec3& world) {
-  bool behind_object = false;
-  for (const SurfaceView& view : views) {
-    if (map.height_radii(view.camera.centre_world()) <= 0) continue;  // it sees the other side
-    const Shown shown = shown_at(view, map, world);
-    if (shown == Shown::kGround) return false;
-    behind_object |= shown == Shown::kObject;
-  }
-  return behind_object;
+// What the views from above show of a place on the plane: of any of them ground, else nothing, else the
+// object.
+Shown shown_of(std::span<const SurfaceView> views, const SurfaceMap& map, const glm::vec3& world) {
+  Shown best = Shown::kOther;
+  for (const SurfaceView& view : views)
+    if (map.height_radii(view.camera.centre_world()) > 0)  // else it sees the other side
+      best = std::min(best, shown_at(view, map, world));
+  return best;
 }
+
+constexpr int kSpeckCells = 2;  // half the width of what counts as noise of depth
 
 }  // namespace
 
@@ -46,24 +50,36 @@ UnseenGround unseen_ground(const Drawer& scene, std::span<const std::uint8_t> la
       surface_below(scene, labels, up_world, cameras, &ground.why_not, job);
   if (!surface) return ground;
   const SurfaceMap& map = surface->map;
-  const Mask hidden = mask_of([&](const glm::ivec2& c) {
-    return never_seen(surface->views, map, map.on_plane(glm::vec2(c) + 0.5f));
-  });
+  Image<Shown> shown(SurfaceMap::kSidePx, SurfaceMap::kSidePx);
+  for (int y = 0; y < shown.height(); ++y)
+    for (int x = 0; x < shown.width(); ++x)
+      shown.at(x, y) = shown_of(surface->views, map, map.on_plane(glm::vec2(x, y) + 0.5f));
+  const auto shows = [&](const glm::ivec2& c, Shown what) {
+    return shown.contains(c.x, c.y) && shown.at(c.x, c.y) == what;
+  };
+  const Mask behind = mask_of([&](const glm::ivec2& c) { return shows(c, Shown::kObject); });
+  const Mask opened = dilated(eroded(behind, kSpeckCells), kSpeckCells);
+  const Mask hidden = eroded(dilated(opened, kSpeckCells), kSpeckCells);
   Mask below(SurfaceMap::kSidePx, SurfaceMap::kSidePx);
   for (std::size_t g = 0; g < labels.size(); ++g)
     if (labels[g])
       if (const auto c = map.cell(scene.cloud().position[g]); c && is_set(hidden, *c))
         below.at(c->x, c->y) = kMaskObject;
   const Mask unseen = flooded(below, hidden);
+  int sides = 0, at_ground = 0;
   for (const glm::ivec2& c : cells_of(unseen)) {
     ground.area += map.cell_area();
     const glm::ivec2 corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
                      beside[] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
-    for (int side = 0; side < 4; ++side)
-      if (!is_set(unseen, c + beside[side]))
-        ground.outline_world.emplace_back(map.on_plane(glm::vec2(c + corners[side])),
-                                          map.on_plane(glm::vec2(c + corners[(side + 1) % 4])));
+    for (int side = 0; side < 4; ++side) {
+      if (is_set(unseen, c + beside[side])) continue;
+      ++sides;
+      at_ground += shows(c + beside[side], Shown::kGround);
+      ground.outline_world.emplace_back(map.on_plane(glm::vec2(c + corners[side])),
+                                        map.on_plane(glm::vec2(c + corners[(side + 1) % 4])));
+    }
   }
+  if (2 * at_ground < sides) return {.why_not = "what it stands on is not flat around it"};
   return ground;
 }
 

@@ -104,6 +104,19 @@ TEST_CASE("ground that nobody saw: none where nothing flat touches the object") 
   CHECK(ground.outline_world.empty());
 }
 
+TEST_CASE("ground that nobody saw: none where rubble lies around the spot that the object stands on") {
+  Tin tin(45);
+  const float flat_to = 1.3f * kRadius;
+  for (std::size_t g = 0; g < tin.labels.size(); ++g) {
+    glm::vec3& at = tin.cloud.position[g];
+    if (!tin.labels[g] && std::hypot(at.x, at.z) > flat_to) at.y -= 0.1f + 0.1f * static_cast<float>(g % 3);
+  }
+  const UnseenGround ground = tin.ground();
+  CHECK(ground.why_not == "what it stands on is not flat around it");
+  CHECK(ground.area == 0);
+  CHECK(ground.outline_world.empty());
+}
+
 TEST_CASE("ground that nobody saw: the same on one thread and on four") {
   const Tin tin(45);
   UnseenGround one, four;
