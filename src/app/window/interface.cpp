@@ -47,15 +47,18 @@ void fixed_panel(const char* name, const UiRect& rect, const Palette& palette, I
   ImGui::End();
 }
 
-// Rows of a panel that come and go by themselves. While the pointer is at what lies below them they keep
-// their height, so that no button moves as one aims at it; what has no room comes once the pointer has left.
+// Rows of a panel that come and go by themselves. With `held`, and while the pointer is at the rows below
+// them, they keep their height, so that no button moves as one aims at it; what has no room comes once the
+// pointer has left. below_end: where those rows ended in the last frame; under them there is nothing to aim
+// at.
 template <class Content>
-void steady_rows(float* height, const Content& content) {
+void steady_rows(float* height, bool held, float below_end, const Content& content) {
   const ImVec2 from = ImGui::GetCursorScreenPos();
   constexpr ImGuiHoveredFlags kAlsoDragged =
       ImGuiHoveredFlags_AllowWhenBlockedByActiveItem | ImGuiHoveredFlags_AllowWhenBlockedByPopup;
-  const bool keeps =
-      *height > 0 && ImGui::IsWindowHovered(kAlsoDragged) && ImGui::GetIO().MousePos.y >= from.y + *height;
+  const float pointer = ImGui::GetIO().MousePos.y;
+  const bool keeps = held && *height > 0 && ImGui::IsWindowHovered(kAlsoDragged) &&
+                     pointer >= from.y + *height && pointer < below_end;
   const ImVec2 end = {from.x + ImGui::GetContentRegionAvail().x,
                       keeps ? from.y + *height : std::numeric_limits<float>::max()};
   ImGui::PushClipRect({ImGui::GetWindowPos().x, ImGui::GetWindowPos().y}, end, true);
@@ -63,6 +66,14 @@ void steady_rows(float* height, const Content& content) {
   ImGui::PopClipRect();
   if (!keeps) *height = ImGui::GetCursorScreenPos().y - from.y;
   ImGui::SetCursorScreenPos({from.x, from.y + *height});
+}
+
+// A pointer that merely lies somewhere while keys are pressed aims at nothing.
+bool pointer_aims(bool aimed) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) return true;
+  const float* const keys = io.KeysDownDuration;  // 0: pressed since the last frame; modifiers come last
+  return aimed && std::find(keys, keys + key::kLeftShift, 0.0f) == keys + key::kLeftShift;
 }
 
 void line(const glm::vec2& a, const glm::vec2& b, const Palette& palette) {
@@ -167,12 +178,14 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
   fixed_panel("side", {{size.x - side_width(size), kTopHeight}, {size.x, size.y - kStatus}}, p, kFixed,
               {12, 8}, [&] {
                 ImGui::BeginChild("scroll", {0, 0});
-                steady_rows(&objects_height_, [&] { objects_panel(ui); });
-                steady_rows(&cutout_height_, [&] { cutout_panel(ui); });
+                pointer_aims_ = pointer_aims(pointer_aims_);
+                steady_rows(&objects_height_, pointer_aims_, side_end_, [&] { objects_panel(ui); });
+                steady_rows(&cutout_height_, pointer_aims_, side_end_, [&] { cutout_panel(ui); });
                 repair_panel(ui);
                 scene_panel(ui);
                 files_panel(ui);
                 history_panel(ui);
+                side_end_ = ImGui::GetCursorScreenPos().y;
                 ImGui::EndChild();
               });
   if (cards > 0) {  // no wider than it must be: it lies on the picture

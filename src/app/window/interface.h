@@ -48,6 +48,8 @@ class Interface {
   UiState state_;
   glm::vec2 size_points_{1280, 720};
   float objects_height_ = 0, cutout_height_ = 0;  // of these sections in the side panel, points
+  float side_end_ = 0;                            // of the side panel's rows in the last frame
+  bool pointer_aims_ = false;                     // it was moved after the last key
   std::vector<UiRect> covered_;  // parts of the picture that take clicks themselves, as of the last frame
 };
 

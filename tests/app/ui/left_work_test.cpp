@@ -130,3 +130,17 @@ TEST_CASE("left work: it is offered also while the scene that the program was st
   REQUIRE(app.studio().files().opening() == app.studio().coming());
   CHECK(app.button("\nfox").size().x > 0);
 }
+
+TEST_CASE("left work: a pointer that lies in the panel, under its rows, hides none of what can be restored") {
+  const ScratchFolder folder("left_pointer");
+  leave_work(folder, "fox", "autosave.splatcut.json");
+  HeadlessApp app(800, 600, 1, with_state(folder));
+  app.frames(2);
+  app.move({690, 480});
+  app.move({690, 500});
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.frames(2);
+  REQUIRE(app.button("\nfox").size().x > 0);
+  CHECK(app.button("\nfox").max.y <= app.button("Default").min.y);
+}

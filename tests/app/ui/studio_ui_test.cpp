@@ -336,6 +336,24 @@ TEST_CASE("ui: buttons of the right panel stay in their places while the pointer
   CHECK(app.button("Grow").min.y != grow.min.y);  // the progress has gone
 }
 
+TEST_CASE("ui: the right panel makes room for what keys bring, wherever the pointer was left") {
+  HeadlessApp app(800, 600);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.press_item("side/scroll", {"Repair by hand"});
+  const UiRect grow = app.button("Grow");
+  for (const float right : {0.0f, 1.0f}) {  // it is moved there
+    app.move(0.5f * (grow.min + grow.max) + glm::vec2(right, 0));
+    app.frames(1);
+  }
+  app.key(key::kRight);
+  app.key(key::kEnter);
+  REQUIRE(app.settle());
+  app.frames(2);
+  REQUIRE(app.studio().document().active_object());
+  CHECK(app.button(icon::kRefresh).max.y <= app.button("Grow").min.y);
+}
+
 TEST_CASE("ui: in a small window the hint can be closed, and thumbnails cover little of the picture") {
   HeadlessApp app(640, 480);
   app.open(kSmallSample);
