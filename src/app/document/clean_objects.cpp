@@ -49,7 +49,7 @@ std::vector<Flags> CleanObjects::decisions() const {
 }
 
 Flags CleanObjects::first(const Flags& labels) const {
-  constexpr std::size_t kMostAsked = 4;
+  constexpr std::size_t kMostAsked = 16;
   for (const auto& [asked, own] : asked_)
     if (asked == labels) return own;
   Flags found = labels;

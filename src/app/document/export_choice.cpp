@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "app/document/words.h"
@@ -20,6 +21,19 @@ bool can_be_written(const std::filesystem::path& folder) {
 
 bool fills_hole(const ExportChoice& choice) {
   return choice.fill_hole && choice.what == ExportWhat::kRest;
+}
+
+bool changes_edges(const EdgesKnown& edges) {
+  return edges.clean && edges.unknown + edges.cleaned > 0;
+}
+
+std::string edges_change_text(const ExportChoice& choice, const EdgesKnown& edges) {
+  if (!changes_edges(edges)) return {};
+  if (choice.what == ExportWhat::kRest)
+    return "Clean edges leave out remains of the object, and give back pieces cut off it.";
+  if (edges.unknown > 0) return "Clean edges leave out what the scene hides.";
+  if (edges.left_out == 0) return "Clean edges change some Gaussians, and leave out none.";
+  return fmt::format("Clean edges leave out {} that the scene hides.", gaussians_text(edges.left_out));
 }
 
 }  // namespace
@@ -57,14 +71,52 @@ std::filesystem::path target_of(const ExportChoice& choice) {
   return choice.path + choice.format.extension;
 }
 
-std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const FormatPlan& plan) {
-  return fmt::format("{} Gaussians, {}{}{}", grouped(gaussians), plan.about ? "about " : "",
-                     human_bytes(plan.bytes), fills_hole(choice) ? ", and those that fill the hole" : "");
+void EdgesKnown::count(const std::optional<CleanReport>& report, const std::string& name) {
+  if (!report) {
+    ++unknown;
+  } else if (report->cleaned) {
+    ++cleaned;
+    left_out += report->left;
+  } else if (kept++ == 0) {
+    kept_of = name;
+    why_kept = report->views > 0 ? report->short_reason() : report->reason;
+  }
 }
 
-std::string loss_text(const ExportChoice& choice, const FormatPlan& plan) {
+std::size_t left_to_write(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges) {
+  return choice.what == ExportWhat::kRest ? gaussians : gaussians - std::min(edges.left_out, gaussians);
+}
+
+std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges,
+                        const FormatPlan& plan) {
+  const bool rest = choice.what == ExportWhat::kRest;
+  const bool about = fills_hole(choice) || (rest && changes_edges(edges)),
+             at_most = !rest && edges.clean && edges.unknown > 0;
+  return fmt::format("{}{} Gaussians, {}{}",
+                     about     ? "About "
+                     : at_most ? "At most "
+                               : "",
+                     grouped(left_to_write(choice, gaussians, edges)), about || plan.about ? "about " : "",
+                     human_bytes(plan.bytes));
+}
+
+std::string edges_stay_text(const EdgesKnown& edges) {
+  if (!edges.clean || edges.kept == 0) return {};
+  if (edges.kept == 1) return fmt::format("Edges of {} stay: {}.", edges.kept_of, edges.why_kept);
+  return fmt::format("Edges of {} objects stay, {} the first: {}.", edges.kept, edges.kept_of,
+                     edges.why_kept);
+}
+
+std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges) {
+  const std::string of_edges = edges_change_text(choice, edges);
+  if (!fills_hole(choice)) return of_edges;
+  return of_edges + (of_edges.empty() ? "" : " ") +
+         "What lies in the hole and at its rim is replaced; what fills it is invented.";
+}
+
+std::string loss_text(const ExportChoice& choice, const EdgesKnown& edges, const FormatPlan& plan) {
   if (!plan.lost.empty()) return "Lost: " + plan.lost;
-  return fills_hole(choice) ? "Nothing is lost; what fills the hole is invented." : "Nothing is lost.";
+  return changes_text(choice, edges).empty() ? "Nothing is lost." : "";
 }
 
 bool names_written_format(std::string_view path) {

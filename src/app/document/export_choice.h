@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -39,10 +40,31 @@ std::string proposed_path(const ExportChoice& choice, const std::filesystem::pat
 // again.
 std::filesystem::path target_of(const ExportChoice& choice);
 
-// What the dialog says: how much is written of so many Gaussians, and what is lost. What fills a hole is not
-// known before.
-std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const FormatPlan& plan);
-std::string loss_text(const ExportChoice& choice, const FormatPlan& plan);
+// What is known, before an export, of the edges of the objects that it is about.
+struct EdgesKnown {
+  bool clean = false;                     // they are to be clean
+  std::size_t unknown = 0;                // number of objects that were not cleaned yet
+  std::size_t cleaned = 0, left_out = 0;  // number of others; Gaussians that these leave out
+  std::size_t kept = 0;                   // number of objects whose edges stay as they are
+  std::string kept_of, why_kept;          // the first one's name and reason, without a full stop
+
+  // Of one more object; none: not known yet.
+  void count(const std::optional<CleanReport>& report, const std::string& name);
+};
+
+// Number of Gaussians of so many that edges leave to write: exact where all is known.
+std::size_t left_to_write(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges);
+
+// What the dialog says. How much is written of so many Gaussians: what clean edges change is not known before
+// they are made, nor what fills a hole.
+std::string amount_text(const ExportChoice& choice, std::size_t gaussians, const EdgesKnown& edges,
+                        const FormatPlan& plan);
+// Whose edges stay, though clean ones are asked for; empty: nobody's.
+std::string edges_stay_text(const EdgesKnown& edges);
+// What clean edges and the hole change in what is written; empty: nothing.
+std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges);
+// What is lost by the format, or that nothing is lost at all; empty where only changes_text() has to say.
+std::string loss_text(const ExportChoice& choice, const EdgesKnown& edges, const FormatPlan& plan);
 
 // Whether the path ends like a format that is written.
 bool names_written_format(std::string_view path);

@@ -176,7 +176,11 @@ std::vector<std::uint8_t> Studio::labels(ObjectId object) const {
 }
 
 std::optional<CleanReport> Studio::clean_edges() const {
-  const ObjectItem* object = document().active_object();
+  return clean_edges(document().active);
+}
+
+std::optional<CleanReport> Studio::clean_edges(ObjectId id) const {
+  const ObjectItem* object = document().find(id);
   if (!object || !ws_.scene) return {};
   const Flags own = ws_.labels.labels(document(), *object, ws_.gaussians());
   const auto clean = ws_.clean->known(own, document().up_world);

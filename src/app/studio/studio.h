@@ -84,7 +84,8 @@ class Studio {
   std::vector<std::uint8_t> labels(ObjectId object) const;  // final labels; empty: there is no such object
   std::size_t gaussians_of(ObjectId object) const { return ws_.gaussians_of(object); }
   const SeenViews& seen_views() const { return seen_views_; }
-  std::optional<CleanReport> clean_edges() const;  // of the active object; none: not known yet
+  std::optional<CleanReport> clean_edges(ObjectId object) const;  // none: not known yet
+  std::optional<CleanReport> clean_edges() const;                 // of the active object
 
   // True if work is unsaved, also while it is being written.
   bool unsaved() const { return edits_.waiting() || work_.unsaved(); }

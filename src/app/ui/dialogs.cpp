@@ -34,14 +34,15 @@ std::size_t gaussians_to_export(const Studio& studio, ExportWhat what) {
   return sum;
 }
 
-// Empty: clean edges leave nothing out.
-std::string left_out_text(const Studio& studio, ExportWhat what) {
-  if (!studio.view().clean_edges || (what != ExportWhat::kObject && what != ExportWhat::kAllObjects))
-    return {};
-  const std::optional<CleanReport> clean = studio.clean_edges();
-  if (what == ExportWhat::kAllObjects || !clean) return "Clean edges leave out what the scene hides.";
-  if (clean->left == 0) return {};
-  return fmt::format("Clean edges leave out {} that the scene hides.", gaussians_text(clean->left));
+EdgesKnown edges_known(const Studio& studio, ExportWhat what) {
+  EdgesKnown known;
+  known.clean = studio.view().clean_edges && what != ExportWhat::kScene;
+  if (!known.clean) return known;
+  const Document& document = studio.document();
+  for (const ObjectItem& item : document.objects)
+    if ((what == ExportWhat::kAllObjects || item.id == document.active) && studio.gaussians_of(item.id) > 0)
+      known.count(studio.clean_edges(item.id), item.name);
+  return known;
 }
 
 void propose_path(UiContext& ui) {
@@ -306,18 +307,18 @@ void export_dialog(UiContext& ui) {
     tooltip("Continues a flat surface where the object stood, by copies of it. What is copied is invented");
   }
   const std::size_t gaussians = gaussians_to_export(ui.studio, choice.what);
-  const FormatPlan& plan = export_plan(ui, gaussians);
+  const EdgesKnown edges = edges_known(ui.studio, choice.what);
+  const FormatPlan& plan = export_plan(ui, left_to_write(choice, gaussians, edges));
   const Palette& p = ui.theme.colour;
   line_across(p);
-  fact(icon::kInfo, p.accent, amount_text(choice, gaussians, plan));
+  fact(icon::kInfo, p.accent, amount_text(choice, gaussians, edges, plan));
   fact(icon::kCheck, p.good, "Kept: " + plan.kept);
   if (choice.placement != ExportPlacement{})
     fact(icon::kInfo, p.accent, "Moved: positions, sizes, rotations and spherical harmonics follow.");
-  const std::string left_out = left_out_text(ui.studio, choice.what);
-  if (!left_out.empty()) fact(icon::kInfo, p.accent, left_out);
-  if (!plan.lost.empty() || left_out.empty())
-    fact(plan.lost.empty() ? icon::kCheck : icon::kWarning, plan.lost.empty() ? p.good : p.warn,
-         loss_text(choice, plan));
+  for (const std::string& text : {edges_stay_text(edges), changes_text(choice, edges)})
+    if (!text.empty()) fact(icon::kInfo, p.accent, text);
+  if (const std::string lost = loss_text(choice, edges, plan); !lost.empty())
+    fact(plan.lost.empty() ? icon::kCheck : icon::kWarning, plan.lost.empty() ? p.good : p.warn, lost);
   if (!choice.trouble.empty()) fact(icon::kWarning, p.bad, choice.trouble);
   const std::filesystem::path target = target_of(choice);
   if (target != choice.path) fact(icon::kInfo, p.accent, "The file will be " + target.filename().string());

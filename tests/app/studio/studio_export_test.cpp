@@ -219,6 +219,9 @@ TEST_CASE("hands: an object is exported with clean edges, placed or not, or with
   const GaussianCloud written = exported_as("clean.ply", {}, true),
                       larger = exported_as("twice.ply", twice, true);
   REQUIRE(written.size() == clean.cloud.size());
+  EdgesKnown known{.clean = true};  // now
+  known.count(hands.studio().clean_edges(hands.studio().document().active), "Apple");
+  CHECK(left_to_write({}, labelled, known) == written.size());
   REQUIRE(larger.size() == clean.cloud.size());
   const GaussianCloud kept = exported_as("kept.ply", {}, false);
   REQUIRE(kept.size() == labelled);
@@ -277,14 +280,49 @@ TEST_CASE("exports: what is said of them names objects whose edges stay, and pro
   count_edges(other, &several, "Cup");
   CHECK(edges_text(several) ==
         ", edges of some clean. Edges of 2 objects stay as they are, Mug the first: " + bad.reason);
+}
+
+TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only where that holds") {
   ExportChoice choice;
-  choice.fill_hole = true;
   const FormatPlan plan{.bytes = 4'300'000, .kept = "all", .lost = {}};
-  CHECK(amount_text(choice, 17466, plan) == "17,466 Gaussians, 4.3 MB");  // of the object
-  CHECK(loss_text(choice, plan) == "Nothing is lost.");
+  EdgesKnown rows;
+  CHECK(amount_text(choice, 17466, rows, plan) == "17,466 Gaussians, 4.3 MB");
+  CHECK(loss_text(choice, rows, plan) == "Nothing is lost.");
+  EdgesKnown not_yet{.clean = true};
+  not_yet.count({}, "Apple");
+  CHECK(amount_text(choice, 17466, not_yet, plan) == "At most 17,466 Gaussians, 4.3 MB");
+  CHECK(changes_text(choice, not_yet) == "Clean edges leave out what the scene hides.");
+  CHECK(loss_text(choice, not_yet, plan).empty());
+  EdgesKnown cleaned{.clean = true}, stays{.clean = true};
+  cleaned.count(CleanReport{.cleaned = true, .left = 214}, "Apple");
+  stays.count(CleanReport{.reason = "3 Gaussians have no edges"}, "Mug");
+  CHECK(amount_text(choice, 46423, cleaned, plan) == "46,209 Gaussians, 4.3 MB");
+  CHECK(changes_text(choice, cleaned) == "Clean edges leave out 214 Gaussians that the scene hides.");
+  CHECK(edges_stay_text(cleaned).empty());
+  CHECK(amount_text(choice, 46423, stays, plan) == "46,423 Gaussians, 4.3 MB");
+  CHECK(edges_stay_text(stays) == "Edges of Mug stay: 3 Gaussians have no edges.");
+  CHECK(loss_text(choice, stays, plan) == "Nothing is lost.");
+  choice.what = ExportWhat::kAllObjects;
+  EdgesKnown all = cleaned;
+  all.count(CleanReport{.reason = "3 Gaussians have no edges"}, "Mug");
+  CHECK(edges_stay_text(all) == "Edges of Mug stay: 3 Gaussians have no edges.");
+  CHECK(changes_text(choice, all) == "Clean edges leave out 214 Gaussians that the scene hides.");
+  all.count(CleanReport{.reason = "it is not seen"}, "Cup");
+  CHECK(edges_stay_text(all) == "Edges of 2 objects stay, Mug the first: 3 Gaussians have no edges.");
   choice.what = ExportWhat::kRest;
-  CHECK(amount_text(choice, 17466, plan) == "17,466 Gaussians, 4.3 MB, and those that fill the hole");
-  CHECK(loss_text(choice, plan) == "Nothing is lost; what fills the hole is invented.");
+  for (const EdgesKnown& edges : {not_yet, cleaned}) {
+    CHECK(amount_text(choice, 139338, edges, plan) == "About 139,338 Gaussians, about 4.3 MB");
+    CHECK(changes_text(choice, edges) ==
+          "Clean edges leave out remains of the object, and give back pieces cut off it.");
+    CHECK(loss_text(choice, edges, plan).empty());
+  }
+  CHECK(amount_text(choice, 139338, stays, plan) == "139,338 Gaussians, 4.3 MB");
+  CHECK(loss_text(choice, stays, plan) == "Nothing is lost.");
+  choice.fill_hole = true;
+  CHECK(amount_text(choice, 139338, rows, plan) == "About 139,338 Gaussians, about 4.3 MB");
+  CHECK(changes_text(choice, rows) ==
+        "What lies in the hole and at its rim is replaced; what fills it is invented.");
+  CHECK(loss_text(choice, rows, plan).empty());
 }
 
 TEST_CASE("hands: alone, the object is drawn with clean edges, beside itself as it is, or as it is") {
