@@ -48,10 +48,10 @@ std::filesystem::path folder_to_write(const std::filesystem::path& wanted) {
 }
 
 std::string proposed_path(const ExportChoice& choice, const std::filesystem::path& scene,
-                          const ObjectItem* object) {
-  const std::filesystem::path folder = choice.path.empty()
-                                           ? folder_to_write(std::filesystem::absolute(scene).parent_path())
-                                           : std::filesystem::path(choice.path).parent_path();
+                          const ObjectItem* object, const std::filesystem::path& last) {
+  const std::filesystem::path beside = std::filesystem::absolute(last.empty() ? scene : last).parent_path(),
+                              folder = choice.path.empty() ? folder_to_write(beside)
+                                                           : std::filesystem::path(choice.path).parent_path();
   std::string stem = scene_name(scene);
   stem = stem.substr(0, stem.find('.'));
   std::string name = choice.what == ExportWhat::kRest         ? "rest"

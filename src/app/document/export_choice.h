@@ -31,10 +31,11 @@ struct ExportChoice {
 // That folder, or where it cannot be written the user's Documents or home; that folder where neither can.
 std::filesystem::path folder_to_write(const std::filesystem::path& wanted);
 
-// A free path for that, beside the scene (see folder_to_write()) or in the folder of the present path.
-// object: null if there is none.
+// A free path for that: in the folder of the present path, else in that of the last export, else beside the
+// scene (see folder_to_write()). object: null if there is none. last: what was exported last of this scene;
+// empty: nothing.
 std::string proposed_path(const ExportChoice& choice, const std::filesystem::path& scene,
-                          const ObjectItem* object);
+                          const ObjectItem* object, const std::filesystem::path& last = {});
 
 // Where it goes: the path with the format's extension, as under another one the file could not be opened
 // again.

@@ -47,7 +47,8 @@ EdgesKnown edges_known(const Studio& studio, ExportWhat what) {
 
 void propose_path(UiContext& ui) {
   ExportChoice& choice = ui.state.exporting;
-  choice.path = proposed_path(choice, ui.studio.scene()->scene->path, ui.studio.document().active_object());
+  choice.path = proposed_path(choice, ui.studio.scene()->scene->path, ui.studio.document().active_object(),
+                              ui.studio.exports().last());
 }
 
 void fact(const char* symbol, const ImVec4& colour, const std::string& text) {

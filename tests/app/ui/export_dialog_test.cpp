@@ -104,3 +104,16 @@ TEST_CASE("export dialog: a scene in a folder that cannot be written is exported
   CHECK(goes_to() == folder / "scene/room_object.ply");
   fs::permissions(folder / "home", fs::perms::all);
 }
+
+TEST_CASE("export dialog: the next export of a scene is proposed to go where the last one went") {
+  const ScratchFolder folder("next_export");
+  Hands hands;
+  hands.studio().apply(Export{{ExportWhat::kObject, SceneFormat::kPly, folder / "pear.ply"}});
+  REQUIRE(hands.app.settle());
+  CHECK(proposed(hands).parent_path() == folder.path());
+  hands.app.key(key::kEscape);
+  hands.app.frames(2);
+  hands.studio().apply(Export{{ExportWhat::kAllObjects, SceneFormat::kPly, folder / "both/all"}});
+  REQUIRE(hands.app.settle());
+  CHECK(proposed(hands).parent_path() == folder / "both");
+}
