@@ -18,7 +18,9 @@ class Exports {
   void perform(const SaveSnapshot& c);
   void perform(const SaveTurntable& c);
 
-  // Path of the scene, or folder of scenes, that was written last; empty: none was.
+  void reset() { last_.clear(); }  // another scene was opened
+
+  // Path of the scene, or folder of scenes, that was written last of the scene that is open; empty: none was.
   const std::filesystem::path& last() const { return last_; }
 
  private:

@@ -96,6 +96,7 @@ void Studio::scene_opened(bool same) {
     ++ws_.view_serial;
     return viewport_.change_scene();
   }
+  exports_.reset();
   ViewState& view = ws_.view;
   show(DisplayMode::kWhole, &view);
   view.heat = false;

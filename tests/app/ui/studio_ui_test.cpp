@@ -239,6 +239,21 @@ TEST_CASE("ui: what was exported last is dragged out of the window, or its path 
   CHECK(std::string(ImGui::GetClipboardText()) == folder / "all.splat");
 }
 
+TEST_CASE("ui: what was exported of a scene is not shown with another one") {
+  const ScratchFolder folder("exported_before");
+  Hands hands(false);
+  hands.studio().apply(Export{{ExportWhat::kScene, SceneFormat::kSplat, folder / "all.splat"}});
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  REQUIRE(hands.app.button("all.splat").size().x > 0);
+  hands.studio().apply(OpenScene{kSample});
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  REQUIRE(hands.studio().scene()->scene->path == kSample);
+  CHECK(hands.app.button("all.splat").size().x == 0);
+  CHECK(hands.studio().exports().last().empty());
+}
+
 TEST_CASE("ui: the address of a file that is dragged out is one that other programs read") {
   CHECK(file_uri("/a b/ä%.ply") == "file:///a%20b/%C3%A4%25.ply");
   CHECK(file_uri("/plain-1_2.~/x.ply") == "file:///plain-1_2.~/x.ply");
