@@ -228,7 +228,8 @@ bool Studio::cancel_task() {
 
 void Studio::perform(const Cancel&) {
   held_actions_ = {};
-  if (cancel_task() || abandon_shape() || clicks_.decline_offer() || hide_cursor()) return;
+  const bool stopped = cancel_task() || abandon_shape();
+  if (clicks_.decline_offer() || stopped || hide_cursor()) return;  // of every Esc: the manual says so
   if (viewport_.floaters_shown()) return viewport_.show_floaters(false);
   if (ws_.view.display != DisplayMode::kWhole) return run(Action::kShowAll);
   if (ws_.view.tool != Tool::kNavigate) run(Action::kToolNavigate);

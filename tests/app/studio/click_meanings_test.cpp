@@ -147,6 +147,23 @@ TEST_CASE("clicks: Esc that leaves the object alone keeps the meaning that it ha
   CHECK(artist.studio().view().tool == Tool::kScribble);
 }
 
+TEST_CASE("clicks: Esc that cancels the cut of a meaning ends the offer, too") {
+  Artist artist(on_sample("books", kOnBook));
+  artist.click_on_it();
+  const Clicks& clicks = artist.studio().clicks();
+  REQUIRE(clicks.offer());
+  artist.app.key('2');
+  REQUIRE(artist.studio().cutting());
+  artist.app.key(key::kEscape);
+  REQUIRE(artist.app.settle());
+  REQUIRE(artist.said().starts_with("Cancelled"));
+  CHECK_FALSE(clicks.offer());
+  artist.app.key('3');
+  CHECK(artist.studio().view().tool == Tool::kScribble);
+  artist.app.key('2');
+  CHECK(artist.studio().view().tool == Tool::kClick);
+}
+
 TEST_CASE("clicks: nothing is offered for an object of which all was deleted, until that is undone") {
   Artist artist(on_sample("books", kOnBook));
   artist.click_on_it();
