@@ -258,8 +258,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
       {area.min + glm::vec2(pane_width * static_cast<float>(studio.viewport().drag_pane()), 0), area.max});
   draw_points(ui, area);
   draw_brush_ring(ui, area);
-  draw_cursor_sign(ui, area);
-  draw_key_cursor(ui, area);
+  if (!studio.cursor_px()) draw_cursor_sign(ui, area);
   ImGui::PopClipRect();
   if (panes == 2) {
     list.AddLine({area.min.x + pane_width, area.min.y}, {area.min.x + pane_width, area.max.y},
@@ -284,6 +283,10 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
       bottom = area.max.y - rect->min.y;  // messages come above it
   }
   draw_message(ui, area, bottom);
+  if (studio.cursor_px()) {  // no message hides what keys move
+    draw_cursor_sign(ui, area);
+    draw_key_cursor(ui, area);
+  }
   return covered;
 }
 

@@ -1,6 +1,7 @@
 // The program by keys alone: the cursor in the picture that arrows move, Tab through all that can be pressed.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -75,6 +76,22 @@ void tab_to(Hands& hands, std::string_view name) {
 }
 
 }  // namespace
+
+TEST_CASE("keyboard: no message hides the cursor") {
+  Hands hands(false);
+  const UiRect area = hands.app->interface().viewport();
+  walk_to(hands, {area.min.x + 60, area.max.y - 34});
+  hands.app.key('I');  // there is no object: a message says so
+  REQUIRE(hands.said().find("Click an object first") != std::string::npos);
+  const Image<Rgb8> picture = hands.app.picture();
+  const glm::ivec2 at(cursor_on_screen(hands));
+  for (const glm::ivec2 arm : {glm::ivec2(12, 0), {-12, 0}, {0, 12}, {0, -12}}) {
+    CAPTURE(arm.x);
+    CAPTURE(arm.y);
+    const Rgb8 c = picture.at(at.x + arm.x, at.y + arm.y);
+    CHECK(std::min({c[0], c[1], c[2]}) > 200);
+  }
+}
 
 TEST_CASE(
     "keyboard: an arrow shows a cursor in the middle, or at the mouse; steps are as long as the keys say") {
