@@ -186,6 +186,20 @@ void History::change_all(const std::function<void(Document*)>& change) {
   serial_ = next_serial();
 }
 
+std::string row_title(const History& history, std::size_t entry) {
+  const Document& document = history.entries()[entry].document;
+  const ObjectItem* object = entry > 0 ? document.active_object() : nullptr;
+  if (!object) return history.entries()[entry].title;
+  const ObjectItem* before = history.entries()[entry - 1].document.find(object->id);
+  const std::size_t strokes = stroke_count(*object), strokes_before = before ? stroke_count(*before) : 0;
+  const std::string name = document.objects.size() > 1 ? object->name : "",
+                    stroke =
+                        strokes > 1 && strokes > strokes_before ? "stroke " + std::to_string(strokes) : "",
+                    between = name.empty() || stroke.empty() ? "" : ", ";
+  const std::string& title = history.entries()[entry].title;
+  return name.empty() && stroke.empty() ? title : title + "  (" + name + between + stroke + ")";
+}
+
 void leave_in_history(History* history, const ObjectItem before, const ObjectItem& after,
                       std::span<const ObjectId> came) {
   const Document now = history->now();

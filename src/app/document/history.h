@@ -94,6 +94,10 @@ class History {
   bool merging_ = false;
 };
 
+// A step's title for the list, where several are called alike: with its object, where there are several, and
+// the number of the stroke that it added to others. entry: index into entries().
+std::string row_title(const History& history, std::size_t entry);
+
 // Makes `before`, an object of now(), what left_what_came() made of it, in every state in which it waits for
 // the same others and these have what they have now. In others it is done when they become the present one.
 void leave_in_history(History* history, ObjectItem before, const ObjectItem& after,

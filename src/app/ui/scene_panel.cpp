@@ -88,6 +88,15 @@ void backdrop_buttons(UiContext& ui) {
   }
 }
 
+// The present step comes into sight where the list is opened, and where it moves on from a row in sight: who
+// has scrolled away, or points into the panel, stays there.
+void follow_row(UiContext& ui, std::size_t row, bool was_open) {
+  const bool moved = std::exchange(ui.state.history_row, row) != row;
+  const bool follows = moved && ui.state.history_row_seen && !ImGui::IsWindowHovered();
+  if (follows || !was_open) ImGui::SetScrollHereY();
+  ui.state.history_row_seen = follows || !was_open || ImGui::IsItemVisible();
+}
+
 }  // namespace
 
 void scene_panel(UiContext& ui) {
@@ -153,7 +162,7 @@ void scene_panel(UiContext& ui) {
 
 void history_panel(UiContext& ui) {
   if (ui.state.history_wanted) ImGui::SetNextItemOpen(*std::exchange(ui.state.history_wanted, std::nullopt));
-  ui.state.history_open = section(ui, "History", false);
+  const bool was_open = std::exchange(ui.state.history_open, section(ui, "History", false));
   if (!ui.state.history_open) return;
   const History& history = ui.studio.history();
   const SceneFiles& files = ui.studio.files();
@@ -164,13 +173,14 @@ void history_panel(UiContext& ui) {
     if (undone) ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.colour.muted);
     if (ImGui::Selectable(title.c_str(), now) && !now) ui.ask(JumpHistory{row});
     if (undone) ImGui::PopStyleColor();
-    if (now && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
+    if (now) follow_row(ui, row, was_open);
     ImGui::PopID();
     ++row;
   };
   for (const History::Entry& entry : history.entries()) {
     const bool stays = files.stays(entry);
-    step(stays ? entry.title + "  (stays)" : entry.title);
+    const std::string title = row_title(history, row);
+    step(stays ? title + "  (stays)" : title);
     if (stays) tooltip("Undo leaves the files as they are: the scene before this step is no longer kept");
   }
   for (const std::string& title : files.redo_titles()) step(title);

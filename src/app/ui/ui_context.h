@@ -127,6 +127,8 @@ struct UiState {
   std::optional<OpenScene> open_asked, open_now;  // open_asked: would discard unsaved work
   std::optional<AfterSave> after_save;            // waits for the file dialog and for the save
   std::optional<bool> history_wanted;             // opens or closes the history section
+  std::size_t history_row = 0;                    // present step in the last frame that showed the section
+  bool history_row_seen = false;                  // it was in sight
   bool hint_wanted = true;                        // the first-run hint, until the first click
   bool options_below = false;                     // those of the tool have no room in the bar
   float options_height = kOptionsHeight;          // of their rows under it, as they were last

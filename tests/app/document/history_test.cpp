@@ -38,6 +38,24 @@ Document with_click(Document document, const glm::vec2& pixel) {
 
 }  // namespace
 
+TEST_CASE("history: rows of the list that are called alike say which object and which stroke") {
+  History history;
+  Document document = with_click({}, {30, 20});
+  history.push("Click: object", document);
+  history.push("Click: object", document = with_click(document, {20, 20}));
+  add_object(&document, "Mug");
+  history.push("New object", document);
+  history.push("Click: object", document = with_click(document, {10, 20}));
+  history.push("Click: rest", document = with_click(document, {12, 20}));
+  document.find(document.active)->visible = false;
+  history.push("Hide", document);
+  std::vector<std::string> rows;
+  for (std::size_t i = 0; i < history.entries().size(); ++i) rows.push_back(row_title(history, i));
+  CHECK(rows == std::vector<std::string>{"Open", "Click: object", "Click: object  (stroke 2)",
+                                         "New object  (Mug)", "Click: object  (Mug)",
+                                         "Click: rest  (Mug, stroke 2)", "Hide  (Mug)"});
+}
+
 TEST_CASE("history: a step that changes nothing is none, every other counts once") {
   History history;
   const std::uint64_t start = history.serial();

@@ -369,6 +369,37 @@ TEST_CASE("ui: the right panel makes room for what keys bring, wherever the poin
   CHECK(app.button(icon::kRefresh).max.y <= app.button("Grow").min.y);
 }
 
+TEST_CASE("ui: the history follows the steps as they are added, while nobody looks elsewhere in it") {
+  HeadlessApp app(800, 600);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.move(0.5f * (app->interface().viewport().min + app->interface().viewport().max));
+  app.key('U', {.ctrl = true});
+  const auto panel = [&]() -> ImGuiWindow& {
+    app->interface().make_current();
+    const auto found = std::ranges::find_if(GImGui->Windows, [](const ImGuiWindow* w) {
+      return w->WasActive && std::string_view(w->Name).find("side/scroll") != std::string_view::npos;
+    });
+    REQUIRE(found != GImGui->Windows.end());
+    return **found;
+  };
+  const auto add_steps = [&] {
+    for (int i = 0; i < 30; ++i) {
+      app.studio().apply(SetUp{i % 2 == 0 ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0)});
+      app.frames(2);
+    }
+    REQUIRE(app.settle());
+    app.frames(2);
+  };
+  add_steps();
+  REQUIRE(panel().ScrollMax.y > 100);
+  CHECK(panel().Scroll.y == panel().ScrollMax.y);  // the newest is the last
+  ImGui::SetScrollY(&panel(), 0);
+  app.frames(2);
+  add_steps();
+  CHECK(panel().Scroll.y == 0);  // one looks at the objects
+}
+
 TEST_CASE("ui: in a small window the hint can be closed, and thumbnails cover little of the picture") {
   HeadlessApp app(640, 480);
   app.open(kSmallSample);
