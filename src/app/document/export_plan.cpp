@@ -180,7 +180,7 @@ void count_edges(const CleanReport& clean, ExportReport* report, const std::stri
 
 std::string edges_text(const ExportReport& report) {
   std::string text;
-  if (report.clean > 0) text += report.edges_kept.empty() ? ", edges clean" : ", edges of some clean";
+  if (report.clean > 0) text += report.edges_kept.empty() ? ", edges cleaned" : ", edges of some cleaned";
   if (report.forced > 0) text += report.forced == report.clean ? " anyway" : ", some of them anyway";
   if (report.edges_kept.empty()) return text;
   const std::string& name = report.edges_kept_of;

@@ -35,7 +35,7 @@ const char* label_of(const ViewState& view, const ShownObject& object) {
   if (view.display == DisplayMode::kIsolate)
     return !object.clean   ? "Only the object  (I: back)"
            : object.forced ? "Only the object, edges cleaned anyway  (I: back)"
-                           : "Only the object, edges clean  (I: back)";
+                           : "Only the object, edges cleaned  (I: back)";
   if (view.display == DisplayMode::kHide)
     return object.outlined ? "Without it; outlined: ground no view saw  (H: back)"
                            : "Without the object  (H: back)";

@@ -264,7 +264,7 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     list.AddLine({area.min.x + pane_width, area.min.y}, {area.min.x + pane_width, area.max.y},
                  packed(ui.theme.colour.line), 2);
     const bool compares = studio.view().display == DisplayMode::kBeforeAfter;
-    const char* clean = studio.viewport().clean(1) ? "Object, edges clean" : "Object";
+    const char* clean = studio.viewport().clean(1) ? "Object, edges cleaned" : "Object";
     pane_label(ui, {area.min.x + pane_width + 12, top}, clean);
     pane_label(ui, {area.min.x + 12, top}, compares ? "Object as it is  (B: back)" : "Scene");
   } else if (const char* label = mode_label(studio)) {

@@ -276,10 +276,10 @@ TEST_CASE("exports: what is said of them names objects whose edges stay, and pro
   ExportReport several;
   count_edges(good, &several, "Apple");
   count_edges(bad, &several, "Mug");
-  CHECK(edges_text(several) == ", edges of some clean. Edges of Mug stay as they are: " + bad.reason);
+  CHECK(edges_text(several) == ", edges of some cleaned. Edges of Mug stay as they are: " + bad.reason);
   count_edges(other, &several, "Cup");
   CHECK(edges_text(several) ==
-        ", edges of some clean. Edges of 2 objects stay as they are, Mug the first: " + bad.reason);
+        ", edges of some cleaned. Edges of 2 objects stay as they are, Mug the first: " + bad.reason);
 }
 
 TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only where that holds") {
@@ -507,15 +507,15 @@ TEST_CASE("hands: edges that the guard keeps are cleaned anyway by a button, sho
       Export{{ExportWhat::kObject, SceneFormat::kPly, folder / "anyway.ply", false, {}, true}});
   REQUIRE(hands.app.settle());
   CHECK(load_scene(folder / "anyway.ply").cloud.size() == expected.cloud.size());
-  CHECK(hands.said().find("edges clean anyway") != std::string::npos);
+  CHECK(hands.said().find("edges cleaned anyway") != std::string::npos);
   hands.studio().apply(Export{{ExportWhat::kRest, SceneFormat::kPly, folder / "rest.ply", false, {}, true}});
   REQUIRE(hands.app.settle());
-  CHECK(hands.said().find("edges clean anyway") != std::string::npos);
+  CHECK(hands.said().find("edges cleaned anyway") != std::string::npos);
   SaveTurntable turn{.path = folder / "turn", .frames = 2, .clean_edges = true};
   turn.width_px = turn.height_px = 64;
   hands.studio().apply(turn);
   REQUIRE(hands.app.settle());
-  CHECK(hands.said().find("edges clean anyway") != std::string::npos);
+  CHECK(hands.said().find("edges cleaned anyway") != std::string::npos);
   // Other labels are another question.
   hands.studio().apply(EditSelection{SelectionEdit::kShrink});
   REQUIRE(hands.app.settle());
