@@ -7,8 +7,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <climits>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "core/error.h"
@@ -58,15 +60,22 @@ int open_stream(const fs::path& path) {
 }  // namespace
 
 HeldFile::HeldFile(fs::path file, const fs::path& meant) : file_(std::move(file)) {
+  using Clock = std::chrono::steady_clock;
   constexpr int kTries = 100;  // each is lost to a process that ended in between
-  for (int i = 0; i < kTries; ++i) {
+  constexpr std::chrono::milliseconds kEnding{1000}, kLook{10};
+  const Clock::time_point patience_ends = Clock::now() + kEnding;
+  for (int i = 0; i < kTries;) {
     descriptor_ = open_part(file_, meant);
     const bool held_by_another = ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     if (!held_by_another && is_still_at(descriptor_, file_)) return;  // file systems without locks go on, too
     ::close(std::exchange(descriptor_, -1));
-    if (held_by_another)
+    if (held_by_another && Clock::now() > patience_ends)
       throw Error(meant.string(), "is being written by another program",
                   "Wait until that has ended, or choose another place");
+    if (held_by_another)
+      std::this_thread::sleep_for(kLook);
+    else
+      ++i;
   }
   throw Error(meant.string(), fmt::format("cannot be written: {} is in the way", file_.string()));
 }

@@ -15,7 +15,8 @@ namespace splatcut {
 class HeldFile {
  public:
   // Creates the file where it is missing; what it holds stays. Throws Error, naming `meant`, where another
-  // process holds it or it cannot be written.
+  // process holds it for a second, or it cannot be written: the lock of a program that was killed ends only
+  // once the system has taken its memory apart.
   HeldFile(std::filesystem::path file, const std::filesystem::path& meant);
   HeldFile(const HeldFile&) = delete;
   HeldFile& operator=(const HeldFile&) = delete;

@@ -8,10 +8,12 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -182,6 +184,17 @@ TEST_CASE("output: a file is held by one process, and what a killed one left is 
   write_text_file(place / "a.txt", "fourth");
   CHECK(place.text("a.txt") == "fourth");
   CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: what another gives up within a moment, as a killed program does, is waited for") {
+  const Workplace place;
+  std::optional<AtomicFile> held(std::in_place, place / "a.txt");
+  const std::jthread ends([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    held.reset();
+  });
+  write_text_file(place / "a.txt", "mine");
+  CHECK(place.text("a.txt") == "mine");
 }
 
 TEST_CASE("output: twenty writers of one file leave one whole file") {
