@@ -65,7 +65,9 @@ UnseenGround unseen_ground(const Drawer& scene, std::span<const std::uint8_t> la
     if (labels[g])
       if (const auto c = map.cell(scene.cloud().position[g]); c && is_set(hidden, *c))
         below.at(c->x, c->y) = kMaskObject;
-  const Mask unseen = flooded(below, hidden);
+  const Mask unseen = flooded(below, hidden),
+             by_ground =
+                 dilated(mask_of([&](const glm::ivec2&c) { return shows(c, Shown::kGround); }), kSpeckCells);
   int sides = 0, at_ground = 0;
   for (const glm::ivec2& c : cells_of(unseen)) {
     ground.area += map.cell_area();
@@ -74,7 +76,7 @@ UnseenGround unseen_ground(const Drawer& scene, std::span<const std::uint8_t> la
     for (int side = 0; side < 4; ++side) {
       if (is_set(unseen, c + beside[side])) continue;
       ++sides;
-      at_ground += shows(c + beside[side], Shown::kGround);
+      at_ground += is_set(by_ground, c + beside[side]);
       ground.outline_world.emplace_back(map.on_plane(glm::vec2(c + corners[side])),
                                         map.on_plane(glm::vec2(c + corners[(side + 1) % 4])));
     }

@@ -7,10 +7,10 @@
 // the pixel of its middle, there is no object, and either nothing or a surface within .05 radii of the plane:
 // what is empty hides no ground. A cell is never seen where no such view shows it, at least one has the
 // object there, and it hangs together with such cells below the object; what is no wider than four cells is
-// noise. Out: area and outline of these cells, if at least half of that outline runs along ground that a view
-// shows: else the plane is none that the object stands on, and nothing is known. Cost: a drawing of the scene
-// a view. Same input, same bits. It knows nothing of ground that is not flat, nor of what hides the ground
-// beside the object: that was there before.
+// noise. Out: area and outline of these cells, if at least half of that outline runs within two cells of
+// ground that a view shows: else the plane is none that the object stands on, and nothing is known. Cost: a
+// drawing of the scene a view. Same input, same bits. It knows nothing of ground that is not flat, nor of
+// what hides the ground beside the object: that was there before.
 #pragma once
 
 #include <glm/glm.hpp>
