@@ -11,7 +11,7 @@ namespace splatcut {
 
 namespace {
 
-// kEmpty: nothing at all; kOther: beside the picture, or behind something else.
+// kEmpty: nothing as high as the plane; kOther: beside the picture, or behind something else.
 enum class Shown { kGround, kEmpty, kObject, kOther };
 
 Shown shown_at(const SurfaceView& view, const SurfaceMap& map, const glm::vec3& world) {
@@ -24,8 +24,9 @@ Shown shown_at(const SurfaceView& view, const SurfaceMap& map, const glm::vec3& 
   const int x = static_cast<int>(px.x), y = static_cast<int>(px.y);
   if (view.inside.at(x, y)) return Shown::kObject;
   if (!(view.depth.at(x, y) > 0)) return Shown::kEmpty;
-  const bool on_plane = std::abs(map.height_radii(view.world(x, y))) <= SurfaceMap::kOnPlane;
-  return on_plane ? Shown::kGround : Shown::kOther;
+  const float height = map.height_radii(view.world(x, y));
+  if (height < -SurfaceMap::kOnPlane) return Shown::kEmpty;  // seen through
+  return height <= SurfaceMap::kOnPlane ? Shown::kGround : Shown::kOther;
 }
 
 // What the views from above show of a place on the plane: of any of them ground, else nothing, else the

@@ -4,8 +4,8 @@
 // In: scene, labels, cameras of the capture. Views and plane are those of fill.h: the views are cameras of
 // the capture where enough of those show the object, else an orbit around it. The plane is divided into cells
 // of 1/24 of the object's radius, four radii to each side. A view from above the plane shows a cell where, in
-// the pixel of its middle, there is no object, and either nothing or a surface within .05 radii of the plane:
-// what is empty hides no ground. A cell is never seen where no such view shows it, at least one has the
+// the pixel of its middle, there is no object, and nothing that is more than .05 radii above the plane: what
+// is seen through hides no ground. A cell is never seen where no such view shows it, at least one has the
 // object there, and it hangs together with such cells below the object; what is no wider than four cells is
 // noise. Out: area and outline of these cells, if at least half of that outline runs within two cells of
 // ground that a view shows: else the plane is none that the object stands on, and nothing is known. Cost: a

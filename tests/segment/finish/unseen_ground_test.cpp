@@ -104,17 +104,22 @@ TEST_CASE("ground that nobody saw: none where nothing flat touches the object") 
   CHECK(ground.outline_world.empty());
 }
 
-TEST_CASE("ground that nobody saw: none where rubble lies around the spot that the object stands on") {
-  Tin tin(45);
-  const float flat_to = 1.3f * kRadius;
-  for (std::size_t g = 0; g < tin.labels.size(); ++g) {
-    glm::vec3& at = tin.cloud.position[g];
-    if (!tin.labels[g] && std::hypot(at.x, at.z) > flat_to) at.y -= 0.1f + 0.1f * static_cast<float>(g % 3);
-  }
-  const UnseenGround ground = tin.ground();
-  CHECK(ground.why_not == "what it stands on is not flat around it");
-  CHECK(ground.area == 0);
-  CHECK(ground.outline_world.empty());
+TEST_CASE(
+    "ground that nobody saw: what a view sees through is not hidden, and none is known where all around is") {
+  const auto on_plinth = [](float share) {  // of the tin's radius
+    Tin tin(45);
+    for (std::size_t g = 0; g < tin.labels.size(); ++g) {
+      glm::vec3& at = tin.cloud.position[g];
+      if (!tin.labels[g] && std::hypot(at.x, at.z) > share * kRadius) at.y += 0.3f;
+    }
+    return tin.ground();
+  };
+  const UnseenGround wide = on_plinth(1.22f), narrow = on_plinth(1.12f);
+  REQUIRE(wide.why_not.empty());
+  CHECK(wide.area == doctest::Approx(M_PI * static_cast<double>(kRadius * kRadius)).epsilon(0.15));
+  CHECK(narrow.why_not == "what it stands on is not flat around it");
+  CHECK(narrow.area == 0);
+  CHECK(narrow.outline_world.empty());
 }
 
 TEST_CASE("ground that nobody saw: the same on one thread and on four") {
