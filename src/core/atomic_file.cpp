@@ -62,7 +62,7 @@ int open_stream(const fs::path& path) {
 HeldFile::HeldFile(fs::path file, const fs::path& meant) : file_(std::move(file)) {
   using Clock = std::chrono::steady_clock;
   constexpr int kTries = 100;  // each is lost to a process that ended in between
-  constexpr std::chrono::milliseconds kEnding{1000}, kLook{10};
+  constexpr std::chrono::milliseconds kEnding{1000}, kLook{10};  // how long a killed program may hold it
   const Clock::time_point patience_ends = Clock::now() + kEnding;
   for (int i = 0; i < kTries;) {
     descriptor_ = open_part(file_, meant);

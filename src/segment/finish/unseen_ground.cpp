@@ -11,7 +11,8 @@ namespace splatcut {
 
 namespace {
 
-// kEmpty: nothing as high as the plane; kOther: beside the picture, or behind something else.
+// What a view shows of a place on the plane; of several views the first in this order counts. kEmpty: nothing
+// is as high as the plane there. kOther: the place is beside the picture, or something else stands before it.
 enum class Shown { kGround, kEmpty, kObject, kOther };
 
 Shown shown_at(const SurfaceView& view, const SurfaceMap& map, const glm::vec3& world) {
@@ -29,8 +30,7 @@ Shown shown_at(const SurfaceView& view, const SurfaceMap& map, const glm::vec3& 
   return height <= SurfaceMap::kOnPlane ? Shown::kGround : Shown::kOther;
 }
 
-// What the views from above show of a place on the plane: of any of them ground, else nothing, else the
-// object.
+// The same of all views that stand above the plane.
 Shown shown_of(std::span<const SurfaceView> views, const SurfaceMap& map, const glm::vec3& world) {
   Shown best = Shown::kOther;
   for (const SurfaceView& view : views)
