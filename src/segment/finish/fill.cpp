@@ -74,6 +74,7 @@ void append(const std::vector<T>& more, std::vector<T>* to) {
 void fill_hole(const Mask& hole, const GaussianCloud& cloud, const SurfaceMap& map, const Ground& ground,
                SurfacePatch* patch, const Job& job) {
   constexpr int kMostPieces = 24;
+  constexpr float kMostRimError = 0.22f;
   const Mask surface = mask_of([&](auto c) { return is_set(ground.covered, c) || is_set(hole, c); });
   Filling filling(ground, hole);
   Copies copies;
@@ -89,6 +90,11 @@ void fill_hole(const Mask& hole, const GaussianCloud& cloud, const SurfaceMap& m
     append(more.added_dc, &copies.added_dc);
   }
   if (job.cancelled()) return;
+  patch->rim_error = rim_cells > 0 ? std::sqrt(squares / rim_cells) : 0;
+  if (patch->rim_error > kMostRimError) {
+    patch->why_not = "nothing beside the hole looks like its rim";
+    return;
+  }
   patch->changes.given_back = copies.of_cloud(cloud);
   if (!covers(patch->changes.given_back, map, hole, job)) {
     patch->changes.given_back = {};
@@ -96,7 +102,6 @@ void fill_hole(const Mask& hole, const GaussianCloud& cloud, const SurfaceMap& m
     return;
   }
   patch->area = static_cast<double>(count(hole)) * map.cell_area();
-  patch->rim_error = rim_cells > 0 ? std::sqrt(squares / rim_cells) : 0;
   for (const std::vector<std::uint32_t>* some : {&ground.layer, &ground.rubbish})
     for (const std::uint32_t g : *some)
       if (is_set(hole, *map.cell(cloud.position[g]))) patch->changes.ghosts.push_back(g);

@@ -4,8 +4,8 @@
 // invented, and the report says so. In the plane that the object stands on (support_plane.h), seen from far
 // above:
 //   layer   Gaussians of the rest that draw pixels of the surface: in a dozen views, half of what they draw
-//           lies within .05 of the object's radius of the plane. What no view shows below the object has no
-//           say.
+//           lies within .05 of the object's radius of the plane, and it is no farther off than .2 itself.
+//           What no view shows below the object has no say.
 //   hole    cells that the object covers from above and that are bare or shaded. Bare: the layer's alpha is
 //           below .7, and in 10 of 16 directions the surface lies around. Shaded: darker than the surface .6
 //           to 1.2 radii off, by its spread there and by .06. The shade that hangs together with these cells
@@ -18,9 +18,9 @@
 //           seen through, moved back. The difference along the rim, carried inwards by the
 //           Laplace equation (Perez, Gangnet, Blake, Poisson Image Editing, 2003), is added to their colours.
 // Copies that would reach beyond the surface are left out. The layer's own Gaussians in the hole leave. Where
-// copies cover less than .7 of the hole, nothing is changed. Cost: two drawings of the scene for each of
-// those views, three small ones, and the search, .6 s at most on the captures tried. Same input, same bits,
-// on any number of threads. Cancelled: unspecified.
+// copies cover less than .7 of the hole, or the rims differ by more than .22, nothing is changed. Cost: two
+// drawings of the scene for each of those views, three small ones, and the search, .6 s at most on the
+// captures tried. Same input, same bits, on any number of threads. Cancelled: unspecified.
 #pragma once
 
 #include <cstdint>

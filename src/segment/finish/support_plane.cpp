@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/counter_rng.h"
+#include "core/symmetric_eigen.h"
 
 namespace splatcut {
 
@@ -12,8 +13,10 @@ namespace {
 
 constexpr float kNearSizes = 1.6f, kAroundSizes = 2.5f;  // of the radius, from the object's centre
 constexpr float kTolerance = 0.02f;                      // of the radius
-constexpr float kMostBelow = 0.08f,
-                kMostAbove = 0.15f;  // of the radius: where the object's lowest part may lie
+// Of the radius, where the lowest part that is seen may lie. Views from above do not see where a ball
+// touches.
+constexpr float kMostBelow = 0.08f, kMostAbove = 0.4f;
+constexpr float kHalfWorthAbove = 0.2f;  // of the radius: a plane so far below is worth half
 constexpr std::size_t kMostPoints = 4000, kLeastPoints = 30;
 
 // Every so many-th, no more than wanted.
@@ -26,36 +29,44 @@ std::vector<glm::vec3> thinned(const std::vector<glm::vec3>& points, std::size_t
 
 class Search {
  public:
-  Search(std::vector<glm::vec3> on_object, std::vector<glm::vec3> rest, const ObjectExtent& object)
-      : on_object_(std::move(on_object)), rest_(std::move(rest)), object_(object) {
+  Search(std::vector<glm::vec3> on_object, std::vector<glm::vec3> rest, const ObjectExtent& object,
+         const glm::vec3& up_world)
+      : on_object_(std::move(on_object)), rest_(std::move(rest)), object_(object), up_world_(up_world) {
     for (const glm::vec3& p : rest_)
       if (away(p) < kNearSizes) near_.push_back(p);
   }
 
   std::optional<SupportPlane> best() const {
     constexpr int kTries = 600;
-    std::optional<SupportPlane> best;
+    std::optional<Below> best;
     float most = static_cast<float>(kLeastPoints);
-    if (near_.size() < kLeastPoints) return best;
+    if (near_.size() < kLeastPoints) return {};
     CounterRng rng(1, 0);
     for (int i = 0; i < kTries; ++i) {
       const glm::vec3 &a = near_[rng.below(near_.size())], b = near_[rng.below(near_.size())],
                       c = near_[rng.below(near_.size())];
-      const std::optional<SupportPlane> plane = touching(a, glm::cross(b - a, c - a));
+      const std::optional<Below> plane = touching(a, glm::cross(b - a, c - a));
       const float worth = plane ? worth_of(*plane) : 0;
       if (worth <= most) continue;
       most = worth;
       best = plane;
     }
-    for (int round = 0; round < 3 && best; ++round) best = fitted(*best);
-    return best;
+    if (!best) return {};
+    SupportPlane plane = best->plane;
+    for (int round = 0; round < 3; ++round) plane = fitted(plane);
+    return plane;
   }
 
  private:
+  struct Below {
+    SupportPlane plane;
+    float above = 0;  // of the radius: the object's lowest part above it
+  };
+
   float away(const glm::vec3& p) const { return glm::distance(p, object_.centre_world) / object_.radius; }
 
   // The plane, if the object lies on one side of it and touches it.
-  std::optional<SupportPlane> touching(const glm::vec3& through, glm::vec3 normal) const {
+  std::optional<Below> touching(const glm::vec3& through, glm::vec3 normal) const {
     const float length = glm::length(normal);
     if (!(length > 0)) return {};
     normal /= length;
@@ -66,23 +77,26 @@ class Search {
     for (const glm::vec3& p : on_object_) heights.push_back(plane.height(p));
     const auto lowest = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 30);
     std::ranges::nth_element(heights, lowest);
-    if (*lowest < -kMostBelow * object_.radius || *lowest > kMostAbove * object_.radius) return {};
-    return plane;
+    const float above = *lowest / object_.radius;
+    if (above < -kMostBelow || above > kMostAbove) return {};
+    return Below{plane, above};
   }
 
   bool lies_in(const glm::vec3& p, const SupportPlane& plane) const {
     return std::abs(plane.height(p)) < kTolerance * object_.radius;
   }
 
-  float worth_of(const SupportPlane& plane) const {
+  float worth_of(const Below& below) const {
     float worth = 0;
     for (const glm::vec3& p : rest_)
-      if (lies_in(p, plane)) worth += 1 / (1 + away(p) * away(p));
-    return worth;
+      if (lies_in(p, below.plane)) worth += 1 / (1 + away(p) * away(p));
+    const float above = below.above / kHalfWorthAbove;
+    const float level = glm::dot(below.plane.normal_world, up_world_);
+    return worth / (1 + above * above) * (2 + level) / 3;
   }
 
   // The plane of least squares through the Gaussians that lie in it.
-  std::optional<SupportPlane> fitted(const SupportPlane& plane) const {
+  SupportPlane fitted(const SupportPlane& plane) const {
     glm::dvec3 sum{0};
     double count = 0;
     for (const glm::vec3& p : rest_)
@@ -95,27 +109,28 @@ class Search {
     glm::dmat3 spread{0};
     for (const glm::vec3& p : rest_)
       if (lies_in(p, plane)) spread += glm::outerProduct(glm::dvec3(p) - mean, glm::dvec3(p) - mean);
-    // The direction of least spread: power iteration on what is left of the trace, from the plane's own.
-    const glm::dmat3 rest = glm::dmat3(spread[0][0] + spread[1][1] + spread[2][2]) - spread;
-    glm::dvec3 normal(plane.normal_world);
-    for (int i = 0; i < 50; ++i) normal = glm::normalize(rest * normal);
-    const std::optional<SupportPlane> better = touching(glm::vec3(mean), glm::vec3(normal));
-    return better ? better : plane;
+    const SymmetricEigen axes = symmetric_eigen(spread);
+    const int least =
+        static_cast<int>(std::ranges::min_element(&axes.values[0], &axes.values[0] + 3) - &axes.values[0]);
+    const std::optional<Below> better = touching(glm::vec3(mean), glm::vec3(axes.axes[least]));
+    return better ? better->plane : plane;
   }
 
   std::vector<glm::vec3> on_object_, rest_, near_;
   ObjectExtent object_;
+  glm::vec3 up_world_;
 };
 
 }  // namespace
 
 std::optional<SupportPlane> support_plane(const std::vector<glm::vec3>& on_object,
-                                          const std::vector<glm::vec3>& on_rest, const ObjectExtent& object) {
+                                          const std::vector<glm::vec3>& on_rest, const ObjectExtent& object,
+                                          const glm::vec3& up_world) {
   if (on_object.empty() || !(object.radius > 0)) return {};
   std::vector<glm::vec3> around;
   for (const glm::vec3& p : on_rest)
     if (glm::distance(p, object.centre_world) < kAroundSizes * object.radius) around.push_back(p);
-  return Search(thinned(on_object, kMostPoints / 4), thinned(around, kMostPoints), object).best();
+  return Search(thinned(on_object, kMostPoints / 4), thinned(around, kMostPoints), object, up_world).best();
 }
 
 }  // namespace splatcut

@@ -129,7 +129,8 @@ std::vector<SurfaceView> surface_views(const Drawer& scene, std::span<const std:
   return views;
 }
 
-std::optional<SupportPlane> plane_below(std::span<const SurfaceView> views, const ObjectExtent& object) {
+std::optional<SupportPlane> plane_below(std::span<const SurfaceView> views, const ObjectExtent& object,
+                                        const glm::vec3& up_world) {
   std::vector<glm::vec3> on_object, on_rest;
   constexpr int kBorderPx = 2;  // whose depth is between the two
   for (const SurfaceView& view : views) {
@@ -141,7 +142,7 @@ std::optional<SupportPlane> plane_below(std::span<const SurfaceView> views, cons
         if (!near_px.at(x, y)) on_rest.push_back(view.world(x, y));
       }
   }
-  return support_plane(on_object, on_rest, object);
+  return support_plane(on_object, on_rest, object, up_world);
 }
 
 }  // namespace
@@ -209,7 +210,7 @@ std::optional<SurfaceBelow> surface_below(const Drawer& scene, std::span<const s
                                           std::string* why_not, const Job& job) {
   const ObjectExtent object = object_extent(scene.cloud(), labels);
   std::vector<SurfaceView> views = surface_views(scene, labels, up_world, cameras, job);
-  const std::optional<SupportPlane> plane = plane_below(views, object);
+  const std::optional<SupportPlane> plane = plane_below(views, object, glm::normalize(up_world));
   if (plane) return SurfaceBelow{std::move(views), {*plane, object.radius}};
   *why_not = "nothing flat touches the object";
   return {};
@@ -226,15 +227,16 @@ Ground ground_of(const SurfaceMap& map, const Drawer& scene, std::span<const std
     if (gone[g] || !map.cell(cloud.position[g])) continue;
     const double all = drawn.at(g, kDrawn);
     const float height = map.height_radii(cloud.position[g]);
+    const bool near = std::abs(height) <= kNearPlane;
     if (labels[g])
       object.push_back(g);
-    else if (all >= kSeenPx && 2 * drawn.at(g, kOnSurface) > all)
-      ground.layer.push_back(g);
     else if (all >= kSeenPx && 2 * drawn.at(g, kAbove) > all)
       standing.push_back(g);
-    else if (std::abs(height) <= kNearPlane && all < kSeenPx)
+    else if (near && all >= kSeenPx && 2 * drawn.at(g, kOnSurface) > all)
+      ground.layer.push_back(g);
+    else if (near && all < kSeenPx)
       unseen.push_back(g);
-    else if (std::abs(height) <= kNearPlane && height <= kOn)
+    else if (near && height <= kOn)
       ground.backing.push_back(g);
   }
   const Image<float> above = map.draw(plain(cloud, object), job).alpha;

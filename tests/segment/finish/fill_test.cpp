@@ -15,6 +15,7 @@
 #include "segment/finish/seen_from.h"
 #include "segment/finish/support_plane.h"
 #include "segment/masks/mask_tools.h"
+#include "segment/superpoints/orbit.h"
 #include "thing_of_still_life.h"
 
 using namespace splatcut;
@@ -126,6 +127,26 @@ TEST_CASE("fill: what does not touch anything flat is left in words") {
   CHECK(patch.changes.ghosts.empty());
 }
 
+TEST_CASE("fill: where nothing beside the hole looks like its rim, nothing is made up") {
+  const Thing apple(WithHole::options(20000), "apple");
+  GaussianCloud cloud = apple.scene.cloud;
+  const ObjectExtent extent = object_extent(cloud, apple.test.truth_labels);
+  for (std::size_t g = 0; g < cloud.size(); ++g) {
+    if (apple.test.truth_labels[g]) continue;
+    const glm::vec3 away = cloud.position[g] - extent.centre_world;
+    const float grey = (cloud.f_dc[g].r + cloud.f_dc[g].g + cloud.f_dc[g].b) / 3;
+    cloud.f_dc[g] = glm::vec3(grey);  // as bright as before, on which the contact shadow depends
+    if (glm::length(away) > 2 * extent.radius) continue;
+    cloud.f_dc[g][away.x > 0 ? 0 : away.z > 0 ? 1 : 2] += 2.4f;
+    cloud.f_dc[g] -= 0.8f;
+  }
+  const SurfacePatch patch = fill_surface(cloud, apple.test.truth_labels, {}, {0, -1, 0}, {}, {});
+  CAPTURE(patch.rim_error);
+  CHECK(patch.why_not == "nothing beside the hole looks like its rim");
+  CHECK(patch.changes.given_back.empty());
+  CHECK(patch.changes.ghosts.empty());
+}
+
 TEST_CASE("fill, seen from: cancelled at any moment they end in a moment") {
   const Thing apple(WithHole::options(20000), "apple");
   for (const int ms : {0, 3, 10, 20, 30, 40, 60, 80, 100, 130}) {
@@ -157,9 +178,53 @@ TEST_CASE("support plane: a tilted one under a ball, among dust and a larger one
     if (i % 4 == 0)
       rest.push_back(glm::vec3(5, 6, 7) + 2.0f * glm::vec3(unit(random), unit(random), unit(random)));
   }
-  const auto plane = support_plane(ball, rest, {glm::vec3(5, 6, 7), 1});
+  const auto plane = support_plane(ball, rest, {glm::vec3(5, 6, 7), 1}, {0, 1, 0});
   REQUIRE(plane);
   CHECK(glm::dot(plane->normal_world, normal) > 0.9995f);
   CHECK(plane->height(glm::vec3(5, 6, 7)) == doctest::Approx(1).epsilon(0.02));
-  CHECK_FALSE(support_plane(ball, {}, {glm::vec3(5, 6, 7), 1}));
+  CHECK_FALSE(support_plane(ball, {}, {glm::vec3(5, 6, 7), 1}, {0, 1, 0}));
+}
+
+TEST_CASE("support plane: under a ball that is seen from above alone, where a wall begins farther off") {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  const glm::vec3 centre(1, 2, 3), up(0, 0, 1);
+  std::vector<glm::vec3> ball, rest;
+  constexpr float kLowest = -0.7f;  // what views from 45 degrees above see of it
+  while (ball.size() < 1000) {
+    const glm::vec3 direction = glm::normalize(glm::vec3(unit(random), unit(random), unit(random)));
+    if (direction.z > kLowest) ball.push_back(centre + direction);
+  }
+  while (rest.size() < 1500) {
+    const glm::vec3 p(2.4f * unit(random), 2.4f * unit(random), -1);
+    if (glm::length(glm::vec2(p)) > 1) rest.push_back(centre + p);  // the floor, but for what the ball hides
+  }
+  for (int i = 0; i < 1000; ++i)
+    rest.push_back(centre + glm::vec3(1.5f, 2 * unit(random), -1 + unit(random) + 1));
+  const auto plane = support_plane(ball, rest, {centre, 1}, up);
+  REQUIRE(plane);
+  CHECK(glm::dot(plane->normal_world, up) > 0.9995f);
+  CHECK(plane->height(centre) == doctest::Approx(1).epsilon(0.02));
+}
+
+TEST_CASE("support plane: what a thing stands on, not the wall that it touches as well") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  std::vector<glm::vec3> cube, rest;
+  for (int i = 0; i < 600; ++i) {
+    const glm::vec2 p(unit(random), unit(random));
+    for (int axis = 0; axis < 3; ++axis)
+      for (const float side : {-1.0f, 1.0f}) {
+        glm::vec3 on_face(p, side);
+        std::swap(on_face[2], on_face[axis]);
+        cube.push_back(on_face);
+      }
+    rest.emplace_back(1, 2.5f * p.x, 2.5f * p.y);
+    rest.emplace_back(2.5f * p.x, 2.5f * p.y, -1);
+  }
+  for (const glm::vec3& up : {glm::vec3(0, 0, 1), glm::vec3(-1, 0, 0)}) {
+    const auto plane = support_plane(cube, rest, {glm::vec3(0), 1.7f}, up);
+    REQUIRE(plane);
+    CHECK(glm::dot(plane->normal_world, up) > 0.9995f);
+  }
 }
