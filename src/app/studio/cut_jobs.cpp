@@ -310,7 +310,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   run.stages = run.result->stages.empty() ? now.stages : run.result->stages;
   run.first_mask_ms = now.first_mask_ms == 0 ? run.total_ms : now.first_mask_ms;
   const std::shared_ptr<const CutResult> result = run.result;
-  const std::string doubt = run.doubts.empty() ? std::string() : run.doubts.front();
+  const std::string doubt = doubt_to_say(order.object, run);
   const double seconds = run.total_ms / 1000;
   running_.reset();
   ++done_;
@@ -353,16 +353,32 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
                                      : ""));
 }
 
+// The first doubt that was not said after the cut before; that of a click each time. The panel lists them
+// all.
+std::string CutJobs::doubt_to_say(ObjectId object, const CutRun& run) {
+  std::vector<std::string>& said = doubts_said_[object];
+  const auto first = std::ranges::find_if(run.doubts, [&](const std::string& doubt) {
+    return run.result->spot_alone || std::ranges::find(said, doubt) == said.end();
+  });
+  std::string doubt = first == run.doubts.end() ? std::string() : *first;
+  said = run.doubts;
+  return doubt;
+}
+
 void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   CutRun* run = order.scene == ws_.scene ? known_run(order.object, order.key) : nullptr;
   if (!run) return;
   take_cards(run, std::move(cards));
   const ObjectItem* object = ws_.document().find(order.object);
-  if (!add_doubt_of_sides(run) || !object || object->cut_key != order.key || run->changed_nothing) return;
+  std::string& said = sides_said_[order.object];
+  if (!add_doubt_of_sides(run)) return said.clear();
+  const std::string& doubt = run->doubts.back();
+  if (doubt == said || !object || object->cut_key != order.key || run->changed_nothing) return;
   const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
-  if (*now == run->result->labels)  // else they are drawn again, see renew_views()
-    ws_.say(Message::Kind::kInfo, object->name + ": " + run->doubts.back() +
-                                      added_by_box(ws_.history, order.object, ws_.context()));
+  if (*now != run->result->labels) return;  // they are drawn again, see renew_views()
+  said = doubt;
+  ws_.say(Message::Kind::kInfo,
+          object->name + ": " + doubt + added_by_box(ws_.history, order.object, ws_.context()));
 }
 
 }  // namespace splatcut

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -68,6 +69,7 @@ class CutJobs {
   void finish(const Order& order, CutRun run, const Flags& labels);
   void show_views(const Order& order, std::vector<ViewCard> cards);
   void end(const std::string& given_up);
+  std::string doubt_to_say(ObjectId object, const CutRun& run);
   void request_likelihood();
   void recall();
   void renew_views();
@@ -79,6 +81,8 @@ class CutJobs {
   std::vector<Known> ahead_;        // cuts that were not asked for yet; without a result: one that failed
   std::uint64_t ahead_serial_ = 0;  // History::serial() for which no cut ahead is missing
   std::set<std::string> given_up_;  // keys of cuts that were cancelled or failed
+  std::map<ObjectId, std::vector<std::string>> doubts_said_;  // after the last cut
+  std::map<ObjectId, std::string> sides_said_;                // the same, of the pictures of its sides
   std::uint64_t next_card_serial_ = 1, started_ = 0, done_ = 0;
 };
 

@@ -263,6 +263,27 @@ TEST_CASE("clicks: what is shown as said already gets a word") {
   CHECK(words("That is not part of Object 1 as it is"));
 }
 
+TEST_CASE("clicks: a doubt that stays is said once, and stays in the panel") {
+  Artist artist(on_sample("apple", kOnApple));
+  Camera farther = artist.studio().viewport().pane_camera();
+  farther.camera_from_world_translation.z += 2 * artist.studio().camera().scene_size();
+  artist.go_to(farther);
+  artist.app.wait_for_message_to_go();
+  artist.click(artist.on_screen({farther.cx_px, farther.cy_px}));
+  REQUIRE(!artist.run().doubts.empty());
+  const std::string doubt = artist.run().doubts.back();
+  const auto said = [&] {
+    return std::ranges::count_if(artist.studio().messages(),
+                                 [&](const Message& m) { return m.text.find(doubt) != std::string::npos; });
+  };
+  REQUIRE(said() == 1);
+  const Labels before = artist.labels();
+  artist.click(artist.beside(before, 1));
+  REQUIRE(artist.labels() != before);
+  REQUIRE(artist.run().doubts.back() == doubt);
+  CHECK(said() == 1);
+}
+
 TEST_CASE("clicks: of what is still computed nothing is said to be so already") {
   Artist artist(on_sample("apple", kOnApple));
   artist.app.click(artist.screen_of(kOnApple));
