@@ -39,7 +39,7 @@ class Search {
   std::optional<SupportPlane> best() const {
     constexpr int kTries = 600;
     std::optional<Below> best;
-    float most = static_cast<float>(kLeastPoints);
+    float most = 0;
     if (near_.size() < kLeastPoints) return {};
     CounterRng rng(1, 0);
     for (int i = 0; i < kTries; ++i) {
@@ -90,9 +90,10 @@ class Search {
     float worth = 0;
     for (const glm::vec3& p : rest_)
       if (lies_in(p, below.plane)) worth += 1 / (1 + away(p) * away(p));
+    if (worth <= static_cast<float>(kLeastPoints)) return 0;
     const float above = below.above / kHalfWorthAbove;
     const float level = glm::dot(below.plane.normal_world, up_world_);
-    return worth / (1 + above * above) * (2 + level) / 3;
+    return worth / (1 + above * above * above * above) * (2 + level) / 3;
   }
 
   // The plane of least squares through the Gaussians that lie in it.
