@@ -16,7 +16,7 @@ constexpr float kTolerance = 0.02f;                      // of the radius
 // Of the radius, where the lowest part that is seen may lie. Views from above do not see where a ball
 // touches.
 constexpr float kMostBelow = 0.08f, kMostAbove = 0.4f;
-constexpr float kHalfWorthAbove = 0.2f;  // of the radius: a plane so far below is worth half
+constexpr float kHalfWorthAbove = 0.24f;  // of the radius: a plane so far below is worth half
 constexpr std::size_t kMostPoints = 4000, kLeastPoints = 30;
 
 // Every so many-th, no more than wanted.

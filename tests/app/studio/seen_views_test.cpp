@@ -42,6 +42,20 @@ TEST_CASE(
   CHECK(ink() < 5);
 }
 
+TEST_CASE("ground that nobody saw: below the fruits of the sample it is a disc around where they touch") {
+  const Scene scene = load_scene(kSample);
+  const std::vector<Camera> cameras = load_cameras(kSampleFolder / "cameras.json");
+  for (const std::uint8_t fruit : {kApple, kOrange}) {
+    CAPTURE(static_cast<int>(fruit));
+    const std::vector<std::uint8_t> labels = sample_truth(scene, fruit);
+    const UnseenGround ground = unseen_ground(scene.cloud, labels, {0, -1, 0}, cameras, {});
+    REQUIRE(ground.why_not.empty());
+    const auto radius = static_cast<double>(object_extent(scene.cloud, labels).radius);
+    CHECK(ground.area > 0.02 * M_PI * radius * radius);
+    CHECK(ground.area < 0.3 * M_PI * radius * radius);
+  }
+}
+
 TEST_CASE("hands: the object alone is red where no view saw it and blue where many did") {
   Hands hands = hands_on_sample();
   hands.app.key('M', {.shift = true});
