@@ -80,6 +80,8 @@ void CutJobs::reset() {
   ahead_.clear();
   ahead_serial_ = 0;
   given_up_.clear();
+  doubts_said_.clear();
+  sides_said_.clear();
 }
 
 void CutJobs::update() {

@@ -282,6 +282,14 @@ TEST_CASE("clicks: a doubt that stays is said once, and stays in the panel") {
   REQUIRE(artist.labels() != before);
   REQUIRE(artist.run().doubts.back() == doubt);
   CHECK(said() == 1);
+  artist.studio().apply(OpenScene{kSample});  // another object, of the same number
+  REQUIRE(artist.app.settle());
+  artist.go_to(farther);
+  artist.app.wait_for_message_to_go();
+  const auto before_it = said();
+  artist.click(artist.on_screen({farther.cx_px, farther.cy_px}));
+  REQUIRE(artist.run().doubts.back() == doubt);
+  CHECK(said() == before_it + 1);
 }
 
 TEST_CASE("clicks: of what is still computed nothing is said to be so already") {
