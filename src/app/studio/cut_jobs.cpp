@@ -355,8 +355,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
                                      : ""));
 }
 
-// The first doubt that was not said after the cut before; that of a click each time. The panel lists them
-// all.
+// The first doubt that was not said after the cut before. What is doubted of a click is said each time.
 std::string CutJobs::doubt_to_say(ObjectId object, const CutRun& run) {
   std::vector<std::string>& said = doubts_said_[object];
   const auto first = std::ranges::find_if(run.doubts, [&](const std::string& doubt) {

@@ -121,6 +121,11 @@ SurfacePatch fill_surface(const Drawer& scene, std::span<const std::uint8_t> lab
   const std::optional<SurfaceBelow> below =
       surface_below(scene, labels, up_world, cameras, &patch.why_not, job);
   if (!below) return patch;
+  constexpr float kLeastShare = 0.12f;  // less lies in any plane by chance
+  if (below->share < kLeastShare) {
+    patch.why_not = "nothing flat touches the object";
+    return patch;
+  }
   const SurfaceMap& map = below->map;
   const Ground ground = ground_of(map, scene, labels, is_gone, below->views, job);
   if (job.cancelled()) return patch;

@@ -18,7 +18,8 @@
 //           seen through, moved back. The difference along the rim, carried inwards by the
 //           Laplace equation (Perez, Gangnet, Blake, Poisson Image Editing, 2003), is added to their colours.
 // Copies that would reach beyond the surface are left out. The layer's own Gaussians in the hole leave. Where
-// copies cover less than .7 of the hole, or the rims differ by more than .22, nothing is changed. Cost: two
+// copies cover less than .7 of the hole, or the rims differ by more than .22, nothing is changed; nor where
+// less than .12 of what surrounds the object lies in the plane. Cost: two
 // drawings of the scene for each of those views, three small ones, and the search, .6 s at most on the
 // captures tried. Same input, same bits, on any number of threads. Cancelled: unspecified.
 #pragma once

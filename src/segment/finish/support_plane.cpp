@@ -32,8 +32,10 @@ class Search {
   Search(std::vector<glm::vec3> on_object, std::vector<glm::vec3> rest, const ObjectExtent& object,
          const glm::vec3& up_world)
       : on_object_(std::move(on_object)), rest_(std::move(rest)), object_(object), up_world_(up_world) {
-    for (const glm::vec3& p : rest_)
+    for (const glm::vec3& p : rest_) {
+      around_ += nearness(p);
       if (away(p) < kNearSizes) near_.push_back(p);
+    }
   }
 
   std::optional<SupportPlane> best() const {
@@ -54,6 +56,7 @@ class Search {
     if (!best) return {};
     SupportPlane plane = best->plane;
     for (int round = 0; round < 3; ++round) plane = fitted(plane);
+    plane.share = lying_in(plane) / around_;
     return plane;
   }
 
@@ -65,7 +68,9 @@ class Search {
 
   float away(const glm::vec3& p) const { return glm::distance(p, object_.centre_world) / object_.radius; }
 
-  // The plane, if the object lies on one side of it and touches it.
+  float nearness(const glm::vec3& p) const { return 1 / (1 + away(p) * away(p)); }
+
+  // The plane, if the object lies on one side of it and its lowest part is near it.
   std::optional<Below> touching(const glm::vec3& through, glm::vec3 normal) const {
     const float length = glm::length(normal);
     if (!(length > 0)) return {};
@@ -86,10 +91,15 @@ class Search {
     return std::abs(plane.height(p)) < kTolerance * object_.radius;
   }
 
-  float worth_of(const Below& below) const {
-    float worth = 0;
+  float lying_in(const SupportPlane& plane) const {
+    float sum = 0;
     for (const glm::vec3& p : rest_)
-      if (lies_in(p, below.plane)) worth += 1 / (1 + away(p) * away(p));
+      if (lies_in(p, plane)) sum += nearness(p);
+    return sum;
+  }
+
+  float worth_of(const Below& below) const {
+    const float worth = lying_in(below.plane);
     if (worth <= static_cast<float>(kLeastPoints)) return 0;
     const float above = below.above / kHalfWorthAbove;
     const float level = glm::dot(below.plane.normal_world, up_world_);
@@ -120,6 +130,7 @@ class Search {
   std::vector<glm::vec3> on_object_, rest_, near_;
   ObjectExtent object_;
   glm::vec3 up_world_;
+  float around_ = 0;  // sum of nearness of what surrounds the object
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ namespace splatcut {
 struct SupportPlane {
   glm::vec3 point_world{0};   // below the object's centre
   glm::vec3 normal_world{0};  // unit, towards the object
+  float share = 0;            // of what surrounds the object, points by their nearness, that lies in it
   float height(const glm::vec3& world) const { return glm::dot(world - point_world, normal_world); }
 };
 

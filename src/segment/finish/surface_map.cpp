@@ -211,7 +211,7 @@ std::optional<SurfaceBelow> surface_below(const Drawer& scene, std::span<const s
   const ObjectExtent object = object_extent(scene.cloud(), labels);
   std::vector<SurfaceView> views = surface_views(scene, labels, up_world, cameras, job);
   const std::optional<SupportPlane> plane = plane_below(views, object, glm::normalize(up_world));
-  if (plane) return SurfaceBelow{std::move(views), {*plane, object.radius}};
+  if (plane) return SurfaceBelow{std::move(views), {*plane, object.radius}, plane->share};
   *why_not = "nothing flat touches the object";
   return {};
 }

@@ -74,6 +74,7 @@ struct SurfaceView {
 struct SurfaceBelow {
   std::vector<SurfaceView> views;
   SurfaceMap map;
+  float share = 0;  // of what surrounds the object that lies in the plane
 };
 // At least one Gaussian is labelled. None: nothing flat touches the object, or it was cancelled; why_not then
 // says so in a sentence without a full stop.

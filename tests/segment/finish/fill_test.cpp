@@ -81,6 +81,12 @@ TEST_CASE("fill: the table under a fruit is as the scene made without it has it"
   }
 }
 
+TEST_CASE("fill: what a plant leaves in its pot, where nothing is flat, stays as it is") {
+  const WithHole plant("plant");
+  CHECK_FALSE(plant.patch.why_not.empty());
+  CHECK(plant.patch.changes.given_back.empty());
+}
+
 TEST_CASE("fill: copies are of the table, lie in its plane, and nothing of the object or of others leaves") {
   const WithHole apple("apple", 20000);
   const SurfacePatch& patch = apple.patch;
