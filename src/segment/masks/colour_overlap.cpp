@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "segment/masks/cv_image.h"
 
 namespace splatcut {
 
 namespace {
+
+constexpr std::size_t kBins = 512;
 
 std::size_t colour_bin(const cv::Vec3f& lab) {
   constexpr float kMostChroma = 40;
@@ -18,11 +21,25 @@ std::size_t colour_bin(const cv::Vec3f& lab) {
          eighth(lab[2], -kMostChroma, kMostChroma);
 }
 
+// Share of each colour in the mask.
+std::array<float, kBins> shares_of(const cv::Mat& lab, const Mask& mask) {
+  std::array<float, kBins> shares{};
+  float all = 0;
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x)
+      if (mask.at(x, y)) {
+        shares[colour_bin(lab.at<cv::Vec3f>(y, x))] += 1;
+        all += 1;
+      }
+  for (float& share : shares) share /= std::max(all, 1.0f);
+  return shares;
+}
+
 }  // namespace
 
 float overlap_of_colours(const Image<Rgb8>& picture, const Mask& mask, const BoxPx& around) {
   const cv::Mat lab = lab_of(as_const_mat(picture));
-  std::array<std::array<float, 512>, 2> pixels{};
+  std::array<std::array<float, kBins>, 2> pixels{};
   std::array<float, 2> all{};
   for (int y = 0; y < mask.height(); ++y)
     for (int x = 0; x < mask.width(); ++x) {
@@ -33,9 +50,20 @@ float overlap_of_colours(const Image<Rgb8>& picture, const Mask& mask, const Box
     }
   if (all[0] == 0 || all[1] == 0) return 1;
   float overlap = 0;
-  for (std::size_t bin = 0; bin < pixels[0].size(); ++bin)
+  for (std::size_t bin = 0; bin < kBins; ++bin)
     overlap += std::min(pixels[0][bin] / all[0], pixels[1][bin] / all[1]);
   return overlap;
+}
+
+float log_ratio_of_colours(const Image<Rgb8>& picture, const Mask& region, const Mask& a, const Mask& b) {
+  constexpr float kEver = 1e-3f;  // of the pixels: what a mask does not show now it may still have
+  const cv::Mat lab = lab_of(as_const_mat(picture));
+  const std::array<float, kBins> of_region = shares_of(lab, region), of_a = shares_of(lab, a),
+                                 of_b = shares_of(lab, b);
+  float mean = 0;
+  for (std::size_t bin = 0; bin < kBins; ++bin)
+    mean += of_region[bin] * std::log((of_a[bin] + kEver) / (of_b[bin] + kEver));
+  return mean;
 }
 
 }  // namespace splatcut

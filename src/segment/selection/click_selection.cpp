@@ -7,6 +7,7 @@
 
 #include "scene/raster/depth_jump.h"
 #include "segment/masks/mask_tools.h"
+#include "segment/selection/region_by_colour.h"
 
 namespace splatcut {
 
@@ -99,7 +100,8 @@ ClickSelection::ClickSelection(const PartHierarchy& parts, const SelectionModel&
                 .changes = {},
                 .first = nullptr},
       labels_(parts.leaf_of.size(), 0),
-      said_(parts.leaf_of.size(), 0) {}
+      said_(parts.leaf_of.size(), 0),
+      by_colour_(parts.leaf_of.size(), 0) {}
 
 std::vector<std::uint8_t> ClickSelection::certain_leaves(const LeafView& view,
                                                          std::span<const std::uint32_t> disc) const {
@@ -208,6 +210,7 @@ std::optional<Answers> ClickSelection::considered(const LeafView& view, const gl
 bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px) {
   const auto [at, leaf, displayed, radius_px] = asked(view, pixel, object);
   if (leaf == kNoPart) {
+    if (object) take_back_colour_at(view, pixel);
     confirm(view, pixel, object, least_radius_px);
     return true;
   }
@@ -216,9 +219,17 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool obj
   Answers found = answers(parts_, selected_, click, model_);
   if (found.candidates.empty()) return false;
   std::vector<std::uint8_t> certain(parts_.leaves, 0);
+  std::vector<std::uint32_t> like_px;
   if (any_) {
+    like_px = pixels_by_colour(click, found, certain_px);
     certain = certain_leaves(view, certain_px);
-    change_leaves(leaves_changed(found, found.candidates.front()), certain, click);
+    std::vector<std::uint8_t> meant = leaves_changed(found, found.candidates.front());
+    if (!like_px.empty()) {
+      const std::vector<std::uint8_t> like = certain_leaves(view, like_px);
+      for (std::uint32_t l = 0; l < parts_.leaves; ++l) meant[l] |= like[l] && found.free[l];
+    }
+    if (object) take_back_colour(meant);
+    change_leaves(meant, certain, click);
   } else {
     certain[leaf] = 1;
     change_leaves(first_leaves(view, found), certain, click);
@@ -227,8 +238,24 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool obj
   any_ = true;
   label();
   pin(view, certain_px, object);
+  if (!like_px.empty()) pin_by_colour(view, like_px);
   insist(view, row_by_row(view.camera, at), object);
   return true;
+}
+
+// What looks like the rest around a click on it; none where the likeliest part changes half of it.
+std::vector<std::uint32_t> ClickSelection::pixels_by_colour(const Click& click, const Answers& answers,
+                                                            std::span<const std::uint32_t> disc) const {
+  constexpr float kScrap = 0.5f;
+  const Mask region = region_by_colour(click, disc);
+  const Candidate& part = answers.candidates.front();
+  const float part_px =
+      part.index == Candidate::kDiscAlone ? 0 : answers.chains[part.chain].changed_px[part.index];
+  std::vector<std::uint32_t> pixels;
+  for (std::size_t i = 0; i < region.size(); ++i)
+    if (region.pixels()[i]) pixels.push_back(static_cast<std::uint32_t>(i));
+  if (part_px >= kScrap * static_cast<float>(pixels.size())) pixels.clear();
+  return pixels;
 }
 
 void ClickSelection::change_leaves(const std::vector<std::uint8_t>& meant,
@@ -279,20 +306,61 @@ std::vector<std::uint32_t> ClickSelection::disc(const Camera& camera, const glm:
   return disc_pixels(camera, at, std::max({model_.disc_share * radius_px, least_radius_px, 1.0f}));
 }
 
-// The Gaussians that show mostly in these pixels take the label and keep it; or those alone that have it, as
-// something of the other side may shine through from behind.
-void ClickSelection::pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object,
-                         Pin which) {
+std::vector<std::uint8_t> ClickSelection::mostly_in(const LeafView& view,
+                                                    std::span<const std::uint32_t> pixels) const {
   std::vector<float> inside(labels_.size(), 0), all(labels_.size(), 0);
   for (const std::uint32_t pixel : pixels)
     for (const GroupWeight& w : view.gaussians.at(pixel)) inside[w.group] += w.weight;
   for (const GroupWeight& w : view.gaussians.entry) all[w.group] += w.weight;
-  const std::int8_t sign = object ? 1 : -1;
-  for (std::size_t g = 0; g < labels_.size(); ++g) {
-    const bool mostly = inside[g] > 0 && inside[g] > model_.disc_majority * all[g];
-    if (mostly && (which == Pin::kAll || (labels_[g] != 0) == object)) said_[g] = sign;
-  }
+  std::vector<std::uint8_t> mostly(labels_.size());
+  for (std::size_t g = 0; g < mostly.size(); ++g)
+    mostly[g] = inside[g] > 0 && inside[g] > model_.disc_majority * all[g];
+  return mostly;
+}
+
+// The Gaussians that show mostly in these pixels take the label and keep it; or those alone that have it, as
+// something of the other side may shine through from behind.
+void ClickSelection::pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object,
+                         Pin which) {
+  const std::vector<std::uint8_t> mostly = mostly_in(view, pixels);
+  for (std::size_t g = 0; g < labels_.size(); ++g)
+    if (mostly[g] && (which == Pin::kAll || (labels_[g] != 0) == object)) decide(g, object);
   label();
+}
+
+// The Gaussians that show mostly in these pixels become rest until a click on the object takes them back.
+void ClickSelection::pin_by_colour(const LeafView& view, std::span<const std::uint32_t> pixels) {
+  constexpr float kFaces = 0.5f;  // what is seen edge-on may be the border of what lies there
+  const std::vector<std::uint8_t> mostly = mostly_in(view, pixels);
+  for (std::size_t g = 0; g < labels_.size(); ++g)
+    if (mostly[g] && said_[g] == 0 && (view.facing.empty() || view.facing[g] >= kFaces)) {
+      said_[g] = -1;
+      by_colour_[g] = 1;
+    }
+  spot_alone_ = false;
+  label();
+}
+
+// The leaf is on the right side, but of its Gaussians some are not.
+void ClickSelection::take_back_colour_at(const LeafView& view, const glm::vec2& pixel) {
+  const std::uint32_t leaf = leaf_near(view, pixel, [](std::uint32_t) { return true; });
+  if (leaf == kNoPart) return;
+  std::vector<std::uint8_t> leaves(parts_.leaves, 0);
+  leaves[leaf] = 1;
+  take_back_colour(leaves);
+  label();
+}
+
+// Of these leaves, what is rest by its colour alone follows its leaf again.
+void ClickSelection::take_back_colour(std::span<const std::uint8_t> leaves) {
+  for (std::size_t g = 0; g < labels_.size(); ++g)
+    if (by_colour_[g] && parts_.leaf_of[g] != kNoPart && leaves[parts_.leaf_of[g]])
+      by_colour_[g] = said_[g] = 0;
+}
+
+void ClickSelection::decide(std::size_t gaussian, bool object) {
+  said_[gaussian] = object ? 1 : -1;
+  by_colour_[gaussian] = 0;
 }
 
 // The clicked pixel and those around it show what was said, clearly enough for pictures of another size to
@@ -324,7 +392,7 @@ void ClickSelection::insist(const LeafView& view, std::size_t pixel, bool object
       for (const GroupWeight& w : in_turn) {
         if (share >= enough) break;
         if ((labels_[w.group] != 0) == object) continue;
-        said_[w.group] = object ? 1 : -1;
+        decide(w.group, object);
         labels_[w.group] = object;
         share += w.weight;
       }
@@ -333,7 +401,7 @@ void ClickSelection::insist(const LeafView& view, std::size_t pixel, bool object
       for (const GroupWeight& w : in_turn) {
         if (held >= enough) break;
         if ((labels_[w.group] != 0) != object) continue;
-        said_[w.group] = object ? 1 : -1;
+        decide(w.group, object);
         held += w.weight;
       }
     }

@@ -15,6 +15,10 @@
 // object and none on the rest: the likeliest if that is a small step from what is shown, else what the trees
 // agree on. If no candidate is likely, only the disc changes.
 //
+// Where the likeliest part changes less than half of what looks like the rest around a click on the rest
+// (region_by_colour.h), that becomes rest, too, until a click on the object takes its leaf back; but for
+// Gaussians that a click has decided, and those that are seen edge-on.
+//
 // A box says what is meant as a whole (box_meanings.h). The likeliest part of each tree votes for its leaves
 // (part_votes.h); leaves with more than half of the votes change side, unless a click has decided them. A box
 // decides no Gaussian by itself, so clicks can correct it anywhere.
@@ -98,6 +102,13 @@ class ClickSelection {
   std::vector<std::uint8_t> leaves_changed(const Answers& answers, const Candidate& candidate) const;
   void change_leaves(const std::vector<std::uint8_t>& meant, const std::vector<std::uint8_t>& certain,
                      const Click& click);
+  std::vector<std::uint32_t> pixels_by_colour(const Click& click, const Answers& answers,
+                                              std::span<const std::uint32_t> disc) const;
+  std::vector<std::uint8_t> mostly_in(const LeafView& view, std::span<const std::uint32_t> pixels) const;
+  void pin_by_colour(const LeafView& view, std::span<const std::uint32_t> pixels);
+  void take_back_colour(std::span<const std::uint8_t> leaves);
+  void take_back_colour_at(const LeafView& view, const glm::vec2& pixel);
+  void decide(std::size_t gaussian, bool object);
   enum class Pin { kAll, kSaidAlready };
   void pin(const LeafView& view, std::span<const std::uint32_t> pixels, bool object, Pin which = Pin::kAll);
   void insist(const LeafView& view, std::size_t pixel, bool object);
@@ -115,6 +126,7 @@ class ClickSelection {
   std::shared_ptr<const std::vector<Mask>> size_masks_ = std::make_shared<const std::vector<Mask>>();
   std::vector<std::uint8_t> labels_;
   std::vector<std::int8_t> said_;
+  std::vector<std::uint8_t> by_colour_;  // 1 where said_ is so by colour alone
   bool any_ = false;
   std::size_t sizes_ = 0, size_ = 0, likeliest_size_ = 0, choice_taken_ = 0;
   bool ambiguous_ = false, spot_alone_ = false;

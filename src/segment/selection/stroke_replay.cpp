@@ -60,9 +60,14 @@ std::shared_ptr<const ClickSelection> StrokeReplay::after(const Drawer& drawer, 
   while (!job.cancelled()) {
     LeafView* seen = view(drawer, said, width_px, job);
     if (!seen) return nullptr;
-    if (said.stroke.is_box() && !before.any() && seen->colour.empty()) {
+    const bool by_colour =
+        said.stroke.is_box() ? !before.any() : before.any() && said.stroke.label == SeedLabel::kRest;
+    if (by_colour && seen->colour.empty()) {
       draw_colour(drawer, seen, job, said.seen);
-      if (job.cancelled()) seen->colour = {};  // it may be incomplete
+      if (job.cancelled()) {
+        seen->colour = {};  // it may be incomplete
+        return nullptr;
+      }
     }
     auto next = std::make_shared<ClickSelection>(before);
     const float factor = static_cast<float>(width_px) / static_cast<float>(said.camera.width_px);

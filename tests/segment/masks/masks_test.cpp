@@ -80,6 +80,23 @@ TEST_CASE("overlap of colours: the lesser shares, by hand") {
   CHECK(overlap(blue, grey, 4) == 1);                     // nothing stands beside it
 }
 
+TEST_CASE("ratio of colours: by hand") {
+  const Rgb8 red{200, 30, 30}, blue{30, 30, 200};
+  Image<Rgb8> picture(4, 1, red);
+  picture.at(2, 0) = picture.at(3, 0) = blue;
+  const auto mask = [](std::initializer_list<int> columns) {
+    Mask of(4, 1);
+    for (const int x : columns) of.at(x, 0) = kMaskObject;
+    return of;
+  };
+  // Half of the one side is red, a whole of the other.
+  CHECK(log_ratio_of_colours(picture, mask({0}), mask({1, 2}), mask({0, 1})) ==
+        doctest::Approx(std::log(0.501 / 1.001)));
+  CHECK(log_ratio_of_colours(picture, mask({0}), mask({1}), mask({2})) == doctest::Approx(std::log(1001)));
+  CHECK(log_ratio_of_colours(picture, mask({0, 2}), mask({0, 1}), mask({2, 3})) == doctest::Approx(0));
+  CHECK(log_ratio_of_colours(picture, mask({}), mask({0}), mask({2})) == 0);
+}
+
 TEST_CASE("orbit: from straight above or below, and from within, the ring looks at the object") {
   for (const glm::vec3& from : {glm::vec3(0, -3, 0), glm::vec3(0, 3, 0), glm::vec3(0)}) {
     CAPTURE(from.y);

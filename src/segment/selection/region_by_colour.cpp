@@ -1,0 +1,64 @@
+#include "segment/selection/region_by_colour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/pixel_steps.h"
+#include "segment/masks/colour_overlap.h"
+#include "segment/masks/mask_tools.h"
+#include "segment/masks/refine_mask.h"
+
+namespace splatcut {
+
+namespace {
+
+// Pixels that are in the one and not in the other.
+Mask without(const Mask& all, const Mask& some) {
+  Mask left(all.width(), all.height());
+  for (std::size_t i = 0; i < left.size(); ++i)
+    left.pixels()[i] = all.pixels()[i] && !some.pixels()[i] ? kMaskObject : 0;
+  return left;
+}
+
+// What of the mask hangs together with the pixel, which itself is taken for a part of it.
+Mask connected_to(const glm::ivec2& at, const Mask& mask) {
+  Mask connected(mask.width(), mask.height());
+  std::vector<glm::ivec2> open{at};
+  connected.at(at.x, at.y) = kMaskObject;
+  while (!open.empty()) {
+    const glm::ivec2 p = open.back();
+    open.pop_back();
+    for (const glm::ivec2& step : kFourSteps) {
+      const glm::ivec2 q = p + step;
+      if (!mask.contains(q.x, q.y) || !mask.at(q.x, q.y) || connected.at(q.x, q.y)) continue;
+      connected.at(q.x, q.y) = kMaskObject;
+      open.push_back(q);
+    }
+  }
+  return connected;
+}
+
+}  // namespace
+
+Mask region_by_colour(const Click& click, std::span<const std::uint32_t> disc) {
+  constexpr float kAtBorderPx = 6, kBand = 3, kMostBandPx = 40, kMostDiscs = 20, kDiffers = 0.45f;
+  const Mask& displayed = click.displayed;
+  const Image<Rgb8>& colour = click.view.colour;
+  Mask nothing(displayed.width(), displayed.height());
+  if (click.object || colour.empty() || click.radius_px <= kAtBorderPx) return nothing;
+  Image<std::uint8_t> seeds(displayed.width(), displayed.height(), kNoSeed);
+  for (const std::uint32_t pixel : disc) seeds.pixels()[pixel] = kRestSeed;
+  RefineOptions refine;
+  refine.band_px = static_cast<int>(std::min(kBand * click.radius_px, kMostBandPx));
+  const Mask left = refine_mask(colour, click.view.depth, displayed, refine, seeds);
+  Mask region = connected_to(click.at, without(displayed, left));
+  const float differs = log_ratio_of_colours(
+      colour, region, without(dilated(displayed, refine.band_px), displayed), without(displayed, region));
+  const float discs =
+      static_cast<float>(count(region)) / (std::numbers::pi_v<float> * click.radius_px * click.radius_px);
+  return discs < kMostDiscs && differs > kDiffers * std::log(discs) ? region : nothing;
+}
+
+}  // namespace splatcut

@@ -1,0 +1,169 @@
+// What a click on the rest means by colour: a stone on grass, of which no part of the hierarchy ends where
+// the grass begins.
+#include <doctest/doctest.h>
+
+#include "core/counter_rng.h"
+#include "four_stripes.h"
+#include "segment/selection/region_by_colour.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+constexpr int kWidth = 80, kHeight = 60;
+constexpr int kStoneLeft = 10, kStoneRight = 50, kRimRight = 65, kTop = 8, kBottom = 52;
+
+enum Stuff { kStone, kRim, kGrass };
+
+Stuff stuff_at(int x, int y) {
+  const bool row = y >= kTop && y < kBottom;
+  if (row && x >= kStoneLeft && x < kStoneRight) return kStone;
+  return row && x >= kStoneRight && x < kRimRight ? kRim : kGrass;
+}
+
+// A Gaussian per pixel. Leaf 0 is the stone, leaf 1 the grass; the rim beside the stone belongs to one of
+// them.
+PartHierarchy stone_with_rim(std::uint32_t leaf_of_rim = 0) {
+  PartHierarchy parts;
+  parts.leaves = 2;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const Stuff stuff = stuff_at(x, y);
+      parts.leaf_of.push_back(stuff == kRim ? leaf_of_rim : stuff == kGrass);
+    }
+  PartTree tree;
+  tree.parent = {2, 2, kNoPart};
+  const std::array<std::uint32_t, 2> leaf{kNoPart, kNoPart};
+  tree.children = {leaf, leaf, {0, 1}};
+  tree.area = {24, 24, 48};
+  tree.cut = {0.001f, 1, 1};
+  tree.merge_cost = {0, 0, 1};
+  parts.trees = {tree};
+  parts.plain_trees = 1;
+  parts.leaf_area = {24, 24};
+  parts.leaf_centre_world = {{0, 0, 0}, {0, 0, 0}};
+  return parts;
+}
+
+constexpr Rgb8 kGrey{120, 120, 120}, kGreen{70, 130, 50};
+
+LeafView view_of(const PartHierarchy& parts, const Rgb8& rim) {
+  Camera camera = look_at({0, 0, -10}, {0, 0, 0}, {0, -1, 0}, 1, kWidth, kHeight);
+  camera.fx_px = camera.fy_px = 100;
+  Image<std::int32_t> hit(kWidth, kHeight);
+  for (std::size_t i = 0; i < hit.size(); ++i) hit.pixels()[i] = static_cast<std::int32_t>(i);
+  LeafView view = leaf_view_of_hits(parts, camera, hit);
+  view.colour = Image<Rgb8>(kWidth, kHeight);
+  CounterRng random(7, 0);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const Stuff stuff = stuff_at(x, y);
+      Rgb8 colour = stuff == kStone ? kGrey : stuff == kRim ? rim : kGreen;
+      for (std::uint8_t& channel : colour)
+        channel = static_cast<std::uint8_t>(static_cast<float>(channel) + random.between(-12, 12));
+      view.colour.at(x, y) = colour;
+    }
+  return view;
+}
+
+SelectionModel no_part_fits() {
+  SelectionModel model = borders_alone();
+  weight(&model.later, Term::kDisc) = -100;
+  return model;
+}
+
+// The stone and its rim by one click.
+ClickSelection taken(const PartHierarchy& parts, const LeafView& view) {
+  ClickSelection selection(parts, no_part_fits());
+  selection.apply(view, click({30, 30}, SeedLabel::kObject));
+  return selection;
+}
+
+// Gaussians of some stuff that are object.
+int object(const ClickSelection& selection, Stuff stuff) {
+  int count = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      count += stuff_at(x, y) == stuff && selection.labels()[static_cast<std::size_t>(y * kWidth + x)];
+  return count;
+}
+
+constexpr int kAllOfStone = (kStoneRight - kStoneLeft) * (kBottom - kTop);
+constexpr int kAllOfRim = (kRimRight - kStoneRight) * (kBottom - kTop);
+
+}  // namespace
+
+TEST_CASE("region by colour: a click on the rim of grass takes all of it, and nothing of the stone") {
+  const PartHierarchy parts = stone_with_rim();
+  const LeafView view = view_of(parts, kGreen);
+  ClickSelection selection = taken(parts, view);
+  REQUIRE(object(selection, kStone) == kAllOfStone);
+  REQUIRE(object(selection, kRim) == kAllOfRim);
+  REQUIRE(object(selection, kGrass) == 0);
+  CHECK(selection.apply(view, click({57, 30}, SeedLabel::kRest)));
+  CHECK(object(selection, kStone) > 0.97 * kAllOfStone);
+  CHECK(object(selection, kRim) < 0.05 * kAllOfRim);
+  CHECK_FALSE(selection.spot_alone());
+}
+
+TEST_CASE("region by colour: a click on the object takes no wall that looks like the stone") {
+  const PartHierarchy parts = stone_with_rim(1);
+  const LeafView view = view_of(parts, kGrey);
+  ClickSelection selection = taken(parts, view);
+  REQUIRE(object(selection, kRim) == 0);
+  CHECK(selection.apply(view, click({57, 30}, SeedLabel::kObject)));
+  CHECK(object(selection, kStone) == kAllOfStone);
+  CHECK(object(selection, kRim) > 0);
+  CHECK(object(selection, kRim) < 0.2 * kAllOfRim);
+}
+
+TEST_CASE("region by colour: what looks like the stone stays, but for the click's own disc") {
+  const PartHierarchy parts = stone_with_rim();
+  for (const bool coloured : {true, false}) {
+    CAPTURE(coloured);
+    LeafView view = view_of(parts, coloured ? kGrey : kGreen);
+    if (!coloured) view.colour = {};
+    ClickSelection selection = taken(parts, view);
+    selection.apply(view, click({57, 30}, SeedLabel::kRest));
+    CHECK(object(selection, kStone) == kAllOfStone);
+    CHECK(object(selection, kRim) > 0.8 * kAllOfRim);
+    CHECK(object(selection, kRim) < kAllOfRim);
+    CHECK(selection.spot_alone());
+  }
+}
+
+TEST_CASE("region by colour: a click at the border mends the border alone") {
+  const PartHierarchy parts = stone_with_rim();
+  const LeafView view = view_of(parts, kGreen);
+  ClickSelection selection = taken(parts, view);
+  selection.apply(view, click({62.5f, 30.5f}, SeedLabel::kRest));
+  CHECK(object(selection, kRim) > 0.9 * kAllOfRim);
+}
+
+TEST_CASE("region by colour: what is seen edge-on may be the border of the stone, and stays") {
+  const PartHierarchy parts = stone_with_rim();
+  LeafView view = view_of(parts, kGreen);
+  view.facing.assign(parts.leaf_of.size(), 1.0f);
+  for (int x = 0; x < kWidth; ++x) view.facing[static_cast<std::size_t>(12 * kWidth + x)] = 0.2f;
+  ClickSelection selection = taken(parts, view);
+  selection.apply(view, click({57, 30}, SeedLabel::kRest));
+  for (const int y : {11, 12, 13}) {
+    CAPTURE(y);
+    CHECK(selection.labels()[static_cast<std::size_t>(y * kWidth + 57)] == (y == 12));
+  }
+}
+
+TEST_CASE("region by colour: a click on the object takes back what colour took, not what a click decided") {
+  const PartHierarchy parts = stone_with_rim();
+  const LeafView view = view_of(parts, kGreen);
+  ClickSelection selection = taken(parts, view);
+  selection.apply(view, click({57, 30}, SeedLabel::kRest));
+  const auto at = [&](int x, int y) { return selection.labels()[static_cast<std::size_t>(y * kWidth + x)]; };
+  REQUIRE(at(57, 30) == 0);
+  REQUIRE(at(57, 14) == 0);
+  selection.apply(view, click({57, 14}, SeedLabel::kObject));
+  CHECK(at(57, 14) == 1);
+  CHECK(at(57, 20) == 1);
+  CHECK(at(57, 30) == 0);
+}
