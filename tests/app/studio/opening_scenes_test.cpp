@@ -1,0 +1,99 @@
+// Opening a scene: unsaved work is asked for before it goes, and a scene that cannot be opened ends nothing.
+#include <doctest/doctest.h>
+
+#include "opened_sample.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("opening asks before unsaved work goes, dropped files and recent ones alike") {
+  const ScratchFolder folder("open_asks");
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  opened(app);
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  CHECK(app.studio().unsaved());  // also before the edit is done
+  REQUIRE(app.settle());
+  const Document saved = app.studio().document();
+  const std::uint64_t scene = app.studio().scene()->serial;
+  REQUIRE(app.studio().unsaved());
+  app.open(kSample);
+  app.frames(3);
+  CHECK(app->interface().dialog_open());
+  app.key(key::kEscape);
+  REQUIRE(app.settle());
+  CHECK_FALSE(app->interface().dialog_open());
+  CHECK(same(app.studio().document(), saved));
+  CHECK(app.studio().scene()->serial == scene);
+  app.open(kSample);
+  app.frames(3);
+  app.press_item("###open_anyway", {"Open"});
+  REQUIRE(app.settle());
+  CHECK(app.studio().scene()->serial != scene);
+  CHECK(app.studio().document().objects.empty());
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  app.studio().apply(SaveWork{folder / "all.splatcut.json"});
+  REQUIRE(app.settle());
+  const std::uint64_t before = app.studio().scene()->serial;
+  app.open(kSample);  // nothing would be lost
+  REQUIRE(app.settle());
+  CHECK(app.studio().scene()->serial != before);
+}
+
+TEST_CASE("what was to be opened is opened once the work is saved, which goes beside its own scene") {
+  const ScratchFolder own("own_scene"), other("other_scene");
+  for (const ScratchFolder* folder : {&own, &other})
+    std::filesystem::copy_file(kSmallSample, folder->path() / kSmallSample.filename());
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  app.open(own.path() / kSmallSample.filename());
+  REQUIRE(app.settle());
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(app.settle());
+  const auto scene = [&] { return app.studio().scene()->scene->path.parent_path(); };
+  const auto ask = [&] {
+    app.interface_state().files.folder = other.path();  // where the other one was chosen
+    app.open(other.path() / kSmallSample.filename());
+    app.frames(3);
+    app.press_item("###open_anyway", {"Save..."});
+    app.frames(3);
+    REQUIRE(app.interface_state().files.saving);
+    CHECK(std::filesystem::equivalent(app.interface_state().files.folder, own.path()));
+  };
+  ask();
+  app.key(key::kEscape);  // neither saved nor opened
+  REQUIRE(app.settle());
+  CHECK(std::filesystem::equivalent(scene(), own.path()));
+  app.studio().apply(SaveWork{own / "by_itself.splatcut.json"});
+  REQUIRE(app.settle());
+  CHECK(std::filesystem::equivalent(scene(), own.path()));
+  app.studio().apply(EditSelection{SelectionEdit::kInvert});
+  REQUIRE(app.settle());
+  ask();
+  app.studio().apply(Undo{});  // back to what is saved: it was not this that should be saved before
+  REQUIRE(app.settle());
+  CHECK(std::filesystem::equivalent(scene(), own.path()));
+  app.key(key::kEscape);
+  app.studio().apply(Redo{});
+  REQUIRE(app.settle());
+  ask();
+  CHECK(app.interface_state().files.name == "by_itself.splatcut.json");
+  app.key(key::kEnter);
+  app.frames(3);
+  REQUIRE(app.settle());
+  CHECK(std::filesystem::equivalent(scene(), other.path()));
+  CHECK_FALSE(app.studio().unsaved());
+}
+
+TEST_CASE("a scene that cannot be opened leaves the cut and the preparing that it stopped to go on") {
+  const ScratchFolder folder("cannot_be_opened");
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  app.open(kSample);
+  while (!app.studio().scene()) app.frames(1);
+  app.studio().apply(OpenScene{folder / "nowhere.ply"});  // while it is prepared
+  REQUIRE(app.settle());
+  CHECK(app.studio().scene());
+  app.click(app.screen_of(kOnApple));
+  app.studio().apply(OpenScene{folder / "nowhere.ply"});  // while it is cut
+  REQUIRE(app.settle());
+  CHECK(app.studio().cuts().cutting() == 0);
+  CHECK(app.studio().gaussians_of(app.studio().document().active) > 0);
+}
