@@ -1,0 +1,89 @@
+// How the scene is shown: backgrounds, the object alone, side by side.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "app/document/document_edits.h"
+#include "hands.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("hands: backgrounds go round, and the checker is behind the object alone") {
+  Hands hands;
+  hands.app.key('I');
+  REQUIRE(hands.app.settle());
+  const auto corner = [&](int x, int y) {
+    return hands.studio().viewport().picture()->pictures.front().at(x, y);
+  };
+  std::vector<Rgba8> seen;
+  for (std::size_t i = 0; i < backdrops().size(); ++i) {
+    hands.app.key('J');
+    REQUIRE(hands.app.settle());
+    CHECK(hands.said() == std::string("Background: ") + backdrops()[(i + 1) % backdrops().size()].name);
+    seen.push_back(corner(3, 3));
+    if (hands.studio().view().checker)
+      CHECK(corner(3, 3) != corner(3 + 12, 3));
+    else
+      CHECK(corner(3, 3) == corner(3 + 12, 3));
+  }
+  CHECK(seen[1] == Rgba8{255, 255, 255, 255});
+  CHECK(seen[3] == Rgba8{255, 0, 255, 255});
+  CHECK(shows(backdrops()[0], hands.studio().document(), hands.studio().view()));
+}
+
+TEST_CASE("hands: a drag goes on in the pane where it was pressed") {
+  Hands hands;
+  hands.app.key('B');
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.studio().viewport().panes() == 2);
+  const UiRect view = hands.app->interface().viewport();
+  const glm::vec2 left = view.min + glm::vec2(120, 150), half(0.5f * view.size().x, 0);
+  const CameraPose before = hands.studio().camera().pose();
+  const auto turned = [&](const glm::vec2& from) {
+    hands.studio().camera().set_pose(before);
+    hands.app.drag({from, from + glm::vec2(10, 4), from + glm::vec2(20, 8)}, PointerButton::kMiddle);
+    return hands.studio().camera().pose().camera_from_world;  // each pane may turn about what it shows
+  };
+  CHECK(turned(left) == turned(left + half));
+  hands.app.key('6');
+  hands.app.move(left + half);
+  hands.app.press(PointerButton::kLeft);
+  hands.app.move(left + half + glm::vec2(12, 0));
+  for (const glm::vec2& p : hands.studio().overlay().points_px)
+    CHECK(glm::distance(p, glm::vec2(120, 150)) < 15);
+  hands.app.release(PointerButton::kLeft);
+}
+
+TEST_CASE("hands: side by side, what is drawn in the right pane takes what that pane shows") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  const std::size_t apple = hands.selected();
+  ViewState view = studio.view();
+  view.display = DisplayMode::kSideBySide;
+  view.tool = Tool::kRectangle;
+  studio.apply(SetView{view});
+  REQUIRE(hands.app.settle());
+  const UiRect area = hands.app->interface().viewport();
+  const glm::vec2 size = area.size();
+  const auto drag = [&](float from, float to) {
+    hands.app.drag({area.min + size * glm::vec2(from, 0.1f), area.min + size * glm::vec2(to, 0.8f)});
+    return hands.selected();
+  };
+  CHECK(drag(0.55f, 0.95f) == apple);  // the object stands there alone
+  CHECK(drag(0.05f, 0.45f) > 2 * apple);
+}
+
+TEST_CASE("hands: alone, an object that stays empty is no black picture") {
+  Hands hands;
+  Studio& studio = hands.studio();
+  studio.run(Action::kIsolate);
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.view().display == DisplayMode::kIsolate);
+  studio.apply(Recompute{});
+  hands.app.frames(1);
+  studio.apply(NewObject{});
+  studio.apply(Cancel{});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.view().display == DisplayMode::kWhole);
+}
