@@ -1,4 +1,5 @@
-// The export dialog: what is typed at once is the name, in a folder that can be written.
+// The export dialog: the name that is typed, in a folder that can be written, the format by it, and what is
+// told of what is kept.
 #include <doctest/doctest.h>
 
 #include <unistd.h>
@@ -116,4 +117,103 @@ TEST_CASE("export dialog: the next export of a scene is proposed to go where the
   hands.studio().apply(Export{{ExportWhat::kAllObjects, SceneFormat::kPly, folder / "both/all"}});
   REQUIRE(hands.app.settle());
   CHECK(proposed(hands).parent_path() == folder / "both");
+}
+
+TEST_CASE("dialogs: a second scene, and all of both is exported without an object") {
+  const ScratchFolder folder("whole");
+  HeadlessApp app(760, 520);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.key('O', {.shift = true, .ctrl = true});
+  app.frames(3);
+  FileBrowser& files = app.interface_state().files;
+  REQUIRE(files.open);
+  files.enter(kSmallSample.parent_path());
+  files.name = kSmallSample.filename().string();
+  app.key(key::kEnter);
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().scene()->files.size() == 2);
+  app.key('E', {.ctrl = true});
+  app.frames(3);
+  app.type_into("###export", {"##path"}, (folder / "both.ply").string());
+  app.key(key::kEnter);
+  REQUIRE(app.settle());
+  CHECK(load_scene(folder / "both.ply").cloud.size() == app.studio().scene()->cloud->size());
+}
+
+TEST_CASE("dialogs: an export is named as its format is, whatever was typed") {
+  const ScratchFolder folder("named");
+  HeadlessApp app(760, 520);
+  REQUIRE(cut_out_apple(app));
+  UiState& state = app.interface_state();
+  const auto export_as = [&](const std::string& name) {
+    app.key('E', {.ctrl = true});
+    app.frames(3);
+    app.type_into("###export", {"##path"}, (folder / name).string());
+    app.key(key::kEnter);
+    REQUIRE(app.settle());
+    CHECK_FALSE(app->interface().dialog_open());
+  };
+  export_as("without");
+  CHECK(state.exporting.format == SceneFormat::kPly);
+  CHECK(load_scene(folder / "without.ply").format == SceneFormat::kPly);
+  export_as("small.spz");
+  CHECK(load_scene(folder / "small.spz").format == SceneFormat::kSpz);
+  export_as("picture.png");
+  CHECK(load_scene(folder / "picture.png.spz").format == SceneFormat::kSpz);
+  const Export wrong{{ExportWhat::kObject, SceneFormat::kPly, folder / "wrong.spz", true}};
+  app.studio().apply(wrong);
+  REQUIRE(app.settle());
+  CHECK(app.studio().messages().back().text.find("does not end with .ply") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder / "wrong.spz"));
+}
+
+TEST_CASE("dialogs: Esc where a folder is chosen goes back to the export, which stays") {
+  HeadlessApp app(760, 520);
+  REQUIRE(cut_out_apple(app));
+  for (const bool turntable : {false, true}) {
+    CAPTURE(turntable);
+    UiState& state = app.interface_state();
+    (turntable ? state.turntable_open : state.export_open) = true;
+    app.frames(3);
+    app.press_item(turntable ? "###turntable" : "###export", {icon::kFolder});
+    REQUIRE(state.files.open);
+    app.key(key::kEscape);
+    app.frames(3);
+    CHECK_FALSE(state.files.open);
+    CHECK((turntable ? state.turntable_open : state.export_open));
+    app.key(key::kEscape);
+    app.frames(3);
+    CHECK_FALSE(app->interface().dialog_open());
+  }
+}
+
+TEST_CASE("dialogs: what an export keeps and loses is told as it is written, moved or not") {
+  const ScratchFolder folder("kept");
+  {
+    Scene plain = load_scene(kSmallSample);
+    save_scene(folder / "plain.ply", plain, {}, SceneFormat::kPly);
+    std::filesystem::copy_file(kSmallSample.parent_path() / "cameras.json", folder / "cameras.json");
+  }
+  HeadlessApp app(760, 520);
+  app.open(folder / "plain.ply");
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().scene()->scene->rows_can_be_copied);
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(app.settle());
+  UiState& state = app.interface_state();
+  app.key('E', {.ctrl = true});
+  app.frames(3);
+  CHECK(state.exporting.plan.kept.find("byte for byte") == std::string::npos);  // with clean edges
+  ViewState view = app.studio().view();
+  view.clean_edges = false;
+  app.studio().apply(SetView{view});
+  app.frames(3);
+  CHECK(state.exporting.plan.kept.find("byte for byte") != std::string::npos);
+  state.exporting.placement.turn_deg = 30;
+  app.frames(2);
+  CHECK(state.exporting.plan.kept.find("byte for byte") == std::string::npos);
+  state.exporting.placement.turn_deg = 0;
+  app.frames(2);
+  CHECK(state.exporting.plan.kept.find("byte for byte") != std::string::npos);
 }
