@@ -1,7 +1,10 @@
-// How the scene is shown: backgrounds, the object alone, side by side.
+// How the scene is shown: backgrounds, the object alone, side by side, floaters.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "app/document/document_edits.h"
 #include "hands.h"
@@ -86,4 +89,39 @@ TEST_CASE("hands: alone, an object that stays empty is no black picture") {
   studio.apply(Cancel{});
   REQUIRE(hands.app.settle());
   CHECK(studio.view().display == DisplayMode::kWhole);
+}
+
+TEST_CASE("hands: with everything undone the whole scene is shown, not an empty object alone") {
+  Hands hands;
+  hands.app.key('I');
+  REQUIRE(hands.studio().view().display == DisplayMode::kIsolate);
+  hands.studio().apply(JumpHistory{0});
+  hands.app.frames(2);
+  CHECK(hands.studio().view().display == DisplayMode::kWhole);
+}
+
+TEST_CASE("hands: floaters are shown as long as there are any") {
+  HeadlessApp app;
+  REQUIRE(cut_out_apple(app));
+  Studio& studio = app.studio();
+  studio.apply(EditSelection{SelectionEdit::kRemoveFloaters});
+  REQUIRE(app.settle());
+  studio.apply(ShowFloaters{true});
+  REQUIRE(app.settle());
+  CHECK_FALSE(studio.viewport().floaters_shown());
+  CHECK(studio.messages().back().text == "Nothing floats apart from the object");
+  // A few Gaussians of the lamp's shade, far from the apple.
+  const std::vector<std::uint8_t> lamp = sample_truth(*studio.scene()->scene, 5);
+  const std::size_t of_lamp = static_cast<std::size_t>(std::ranges::find(lamp, 1) - lamp.begin());
+  REQUIRE(of_lamp < lamp.size());
+  const glm::vec3 there = studio.scene()->cloud->position[of_lamp];
+  studio.apply(SelectVolume{{true, there, glm::vec3(0.01f)}, SetOperation::kAdd, false});
+  REQUIRE(app.settle());
+  studio.apply(ShowFloaters{true});
+  REQUIRE(app.settle());
+  CHECK(studio.viewport().floaters_shown());
+  CHECK(studio.viewport().floater_count() > 0);
+  studio.apply(EditSelection{SelectionEdit::kRemoveFloaters});
+  REQUIRE(app.settle());
+  CHECK_FALSE(studio.viewport().floaters_shown());
 }

@@ -77,3 +77,49 @@ TEST_CASE("edits after cuts: an object is deleted, its export holds it, and Esc 
   REQUIRE(studio.document().deleted);
   CHECK(count_flags(*studio.document().deleted) == apple);
 }
+
+TEST_CASE("hands: keys that need the object wait for its first cut, the last of a kind") {
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  const auto click = [&](const glm::vec2& at) {
+    studio.apply(AddStroke{studio.viewport().pane_camera(),
+                           {SeedLabel::kObject, 4, {hands.in_viewport(hands.app.screen_of(at))}}});
+  };
+  const CameraPose pose = studio.camera().pose();
+  click(kOnApple);
+  studio.run(Action::kHide);
+  studio.run(Action::kIsolate);
+  studio.run(Action::kFrameObject);
+  CHECK(studio.view().display == DisplayMode::kWhole);
+  REQUIRE(hands.app.settle());
+  CHECK(studio.view().display == DisplayMode::kIsolate);
+  CHECK_FALSE(studio.camera().pose() == pose);
+
+  studio.apply(SetView{});
+  studio.apply(GoToCamera{studio.scene()->views().reference});
+  studio.apply(NewObject{});
+  REQUIRE(hands.app.settle());
+  click(kOnMug);
+  studio.run(Action::kFrameObject);
+  studio.camera().orbit({20, 0});  // another view is wanted now
+  const CameraPose turned = studio.camera().pose();
+  REQUIRE(hands.app.settle());
+  CHECK(hands.selected() > 0);
+  CHECK(studio.camera().pose() == turned);
+
+  studio.apply(GoToCamera{studio.scene()->views().reference});
+  studio.apply(NewObject{});
+  REQUIRE(hands.app.settle());
+  click(kOnOrange);
+  studio.run(Action::kHide);
+  click(kOnOrange + glm::vec2(6, 0));  // another click drops it
+  REQUIRE(hands.app.settle());
+  CHECK(hands.selected() > 0);
+  CHECK(studio.view().display == DisplayMode::kWhole);
+  studio.apply(NewObject{});
+  click(kOnMug);
+  studio.run(Action::kHide);
+  studio.apply(Cancel{});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.view().display == DisplayMode::kWhole);
+}

@@ -1,6 +1,11 @@
-// Opening a scene: unsaved work is asked for before it goes, and a scene that cannot be opened ends nothing.
+// Opening a scene: unsaved work is asked for before it goes, the first click counts, and a scene that cannot
+// be opened ends nothing.
 #include <doctest/doctest.h>
 
+#include <cstdint>
+#include <filesystem>
+
+#include "hands.h"
 #include "opened_sample.h"
 
 using namespace splatcut;
@@ -96,4 +101,45 @@ TEST_CASE("a scene that cannot be opened leaves the cut and the preparing that i
   REQUIRE(app.settle());
   CHECK(app.studio().cuts().cutting() == 0);
   CHECK(app.studio().gaussians_of(app.studio().document().active) > 0);
+}
+
+TEST_CASE("hands: a new scene begins with the click tool, an ordinary brush and the whole scene") {
+  Hands hands;
+  ViewState view = hands.studio().view();
+  view.tool = Tool::kBrush;
+  view.operation = SetOperation::kRemove;
+  view.brush_px = kMostBrushPx;
+  hands.studio().apply(SetView{view});
+  hands.studio().apply(OpenScene{kSmallSample});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().view().tool == Tool::kClick);
+  CHECK(hands.studio().view().operation == SetOperation::kAdd);
+  CHECK(hands.studio().view().brush_px <= kMostKeptBrushPx);
+}
+
+TEST_CASE("hands: a click at the moment when a scene opens is cut") {
+  HeadlessApp app(kHandsWidth, kHandsHeight);
+  app.frames(1);
+  app.open(kSmallSample);
+  while (!app.studio().scene()) app.studio().update(1.0 / 60);
+  app.studio().apply(
+      AddStroke{app.studio().viewport().pane_camera(),
+                click(app.screen_of(kOnApple) - app->interface().viewport().min, SeedLabel::kObject)});
+  REQUIRE(app.settle());
+  CHECK(app.studio().gaussians_of(app.studio().document().active) > 20);
+}
+
+TEST_CASE("hands: Enter saves work where a scene would be opened over it, and discards nothing") {
+  Hands hands;
+  const std::uint64_t serial = hands.studio().scene()->serial;
+  hands.app.open(kSmallSample);
+  hands.app.frames(3);
+  REQUIRE(hands.app->interface().dialog_open());
+  hands.app.key(key::kEnter);
+  hands.app.frames(3);
+  CHECK(hands.app->interface().dialog_open());  // where to save
+  CHECK(hands.app.interface_state().files.saving);
+  hands.app.key(key::kEscape);
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().scene()->serial == serial);
 }

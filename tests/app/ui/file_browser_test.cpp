@@ -1,11 +1,14 @@
-// The built-in dialog for files: names and folders that are typed, what is saved and what is replaced.
+// The built-in dialog for files: names and paths that are typed, keys, double-clicks, what is saved and what
+// is replaced.
 #include <doctest/doctest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <string_view>
 
-#include "headless_app.h"
+#include "hands.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -156,4 +159,125 @@ TEST_CASE("dialogs: a double-click on a folder goes into it, and chooses nothing
   CHECK_FALSE(files.open);
   REQUIRE(app.settle());
   CHECK(app.studio().scene());
+}
+
+TEST_CASE("hands: a file is found by its first letters, by arrows, and opened by Enter") {
+  const ScratchFolder folder("browse");
+  std::filesystem::create_directories(folder / "garden");
+  for (const char* name : {"alpha.ply", "beta.ply", "bicycle.ply"}) std::ofstream(folder / name) << "x";
+  std::filesystem::copy_file(kSmallSample, folder / "garden" / "mug.compressed.ply");
+  HeadlessApp app(kHandsWidth, kHandsHeight);
+  FileBrowser& files = app.interface_state().files;
+  files.folder = folder.path();
+  app.key('O', {.ctrl = true});
+  app.frames(2);
+  REQUIRE(files.open);
+  REQUIRE(files.entries.size() == 4);
+  const auto type = [&](char letter) {
+    app->handle(TextTyped{static_cast<unsigned>(letter)});
+    app.frames(1);
+  };
+  type('b');
+  CHECK(files.name == "beta.ply");
+  type('i');
+  CHECK(files.name == "bicycle.ply");
+  app.key(key::kUp);
+  CHECK(files.name == "beta.ply");
+  app.key(key::kHome);
+  CHECK(files.cursor == 0);
+  app.key(key::kEnter);  // the folder
+  app.frames(2);
+  REQUIRE(files.entries.size() == 1);
+  app.key(key::kDown);
+  CHECK(files.name == "mug.compressed.ply");
+  app.key(key::kEnter);
+  CHECK_FALSE(files.open);
+  REQUIRE(app.settle());
+  CHECK(app.studio().scene() != nullptr);
+}
+
+TEST_CASE("hands: a path is typed as soon as the dialog is open, and Enter opens it") {
+  const ScratchFolder folder("typed_path");
+  std::filesystem::create_directories(folder / "garden");
+  std::filesystem::copy_file(kSmallSample, folder / "garden" / "mug.compressed.ply");
+  HeadlessApp app(kHandsWidth, kHandsHeight);
+  FileBrowser& files = app.interface_state().files;
+  const auto type = [&](const std::string& text) {
+    for (const char letter : text) {
+      app->handle(TextTyped{static_cast<unsigned>(letter)});
+      app.frames(1);
+    }
+  };
+  for (const bool whole : {true, false}) {
+    CAPTURE(whole);
+    files.folder = whole ? std::filesystem::temp_directory_path() : folder.path();
+    app.key('O', {.ctrl = true});
+    app.frames(3);
+    REQUIRE(files.open);
+    if (whole) {
+      type((folder / "garden").string());
+      app.key(key::kEnter);
+      app.frames(3);
+      REQUIRE(files.open);
+      CHECK(files.folder.filename() == "garden");
+      type("mu");  // the beginning of a name
+      CHECK(files.name == "mug.compressed.ply");
+    } else {
+      type("garden/mug.compressed.ply");  // from the folder that is shown
+    }
+    const std::uint64_t before = app.studio().scene() ? app.studio().scene()->serial : 0;
+    app.key(key::kEnter);
+    CHECK_FALSE(files.open);
+    REQUIRE(app.settle());
+    REQUIRE(app.studio().scene());
+    CHECK(app.studio().scene()->serial != before);
+  }
+}
+
+TEST_CASE("hands: a whole path is completed as a name is") {
+  const ScratchFolder folder("whole_path");
+  std::filesystem::create_directories(folder / "garden");
+  std::filesystem::copy_file(kSmallSample, folder / "garden" / "mug.compressed.ply");
+  HeadlessApp app(kHandsWidth, kHandsHeight);
+  FileBrowser& files = app.interface_state().files;
+  files.folder = std::filesystem::current_path();
+  app.key('O', {.ctrl = true});
+  app.frames(3);
+  for (const char letter : (folder / "gar").string()) {
+    app->handle(TextTyped{static_cast<unsigned>(letter)});
+    app.frames(1);
+  }
+  CHECK(std::filesystem::equivalent(files.folder, folder.path()));
+  REQUIRE(files.cursor >= 0);
+  CHECK(files.entries[static_cast<std::size_t>(files.cursor)].name == "garden");
+  for (const char letter : std::string("den/mu")) {
+    app->handle(TextTyped{static_cast<unsigned>(letter)});
+    app.frames(1);
+  }
+  CHECK(files.typed_folder == (folder / "garden" / "mu").string());
+  CHECK(files.name == "mug.compressed.ply");
+  app.key(key::kEnter);
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().scene());
+}
+
+TEST_CASE("hands: Tab goes from the path to the list of files, and Enter opens what it marks") {
+  const ScratchFolder folder("tab_to_list");
+  for (const char* name : {"alpha.compressed.ply", "beta.compressed.ply"})
+    std::filesystem::copy_file(kSmallSample, folder / name);
+  HeadlessApp app(kHandsWidth, kHandsHeight);
+  FileBrowser& files = app.interface_state().files;
+  files.folder = folder.path();
+  app.key('O', {.ctrl = true});
+  app.frames(3);
+  for (int i = 0; i < 2; ++i) {
+    app.key(key::kTab);
+    app.frames(20);
+  }
+  app.key(key::kEnter);
+  app.frames(3);
+  CHECK_FALSE(files.open);
+  REQUIRE(app.settle());
+  REQUIRE(app.studio().scene());
+  CHECK(app.studio().scene()->scene->path.filename() == "beta.compressed.ply");
 }
