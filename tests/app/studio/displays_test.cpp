@@ -1,4 +1,4 @@
-// How the scene is shown: backgrounds, the object alone, side by side, floaters.
+// How the scene is shown: backgrounds, the object alone, side by side, floaters, not beyond the far limit.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include "app/document/document_edits.h"
 #include "hands.h"
+#include "opened_sample.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -124,4 +125,37 @@ TEST_CASE("hands: floaters are shown as long as there are any") {
   studio.apply(EditSelection{SelectionEdit::kRemoveFloaters});
   REQUIRE(app.settle());
   CHECK_FALSE(studio.viewport().floaters_shown());
+}
+
+TEST_CASE("far limit: what lies beyond is neither drawn nor picked nor selected") {
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  opened(app);
+  const glm::vec2 wall(60, 60), apple = app.screen_of(kOnApple) - app->interface().viewport().min;
+  REQUIRE(app.studio().viewport().pick(wall));
+  REQUIRE(app.studio().viewport().pick(apple));
+  const Camera camera = app.studio().viewport().pane_camera();
+  const auto depth = [&](const glm::vec2& at) {
+    return camera.camera_from_world(app.studio().viewport().pick(at)->position_world).z;
+  };
+  const float near_z = depth(apple), far_z = depth(wall), limit = 0.5f * (near_z + far_z);
+  REQUIRE(near_z < far_z);
+  ViewState view = app.studio().view();
+  view.far_share = limit / app.studio().camera().scene_size();
+  app.studio().apply(SetView{view});
+  CHECK_FALSE(app.studio().viewport().pick(wall));  // one pixel drawn for the question
+  REQUIRE(app.settle());
+  CHECK_FALSE(app.studio().viewport().pick(wall));  // the picture on the screen
+  CHECK(app.studio().viewport().pick(apple));
+  const Frame& frame = *app.studio().viewport().picture()->frames.front();
+  const GaussianCloud& cloud = *app.studio().scene()->cloud;
+  float farthest = 0;
+  for (const std::int32_t g : frame.first_hit.pixels())
+    if (g >= 0)
+      farthest = std::max(farthest, camera.camera_from_world(cloud.position[static_cast<std::size_t>(g)]).z);
+  CHECK(farthest <= limit);
+  CHECK(farthest > near_z);
+  view.far_share = 0;
+  app.studio().apply(SetView{view});
+  REQUIRE(app.settle());
+  CHECK(app.studio().viewport().pick(wall));
 }

@@ -1,0 +1,60 @@
+// The file that was exported last: dragged out of the window, its path copied, not shown with another scene.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "app/window/file_drag.h"
+#include "hands.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("ui: what was exported last is dragged out of the window, or its path is copied by a click") {
+  const ScratchFolder folder("drag_out");
+  Hands hands(false);
+  UiState& state = hands.app.interface_state();
+  hands.studio().apply(Export{{ExportWhat::kScene, SceneFormat::kSplat, folder / "all.splat"}});
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  CHECK(hands.studio().exports().last() == folder / "all.splat");
+  const UiRect button = hands.app.button("all.splat");
+  REQUIRE(button.size().x > 0);
+  const glm::vec2 row = 0.5f * (button.min + button.max);
+  hands.app.move(row);
+  hands.app.press(PointerButton::kLeft);
+  hands.app.frames(2);
+  CHECK_FALSE(state.dragged_out);
+  hands.app.move(row + glm::vec2(12, 0));
+  hands.app.frames(1);
+  CHECK(state.dragged_out == folder / "all.splat");
+  state.dragged_out.reset();  // the window takes it
+  hands.app.move(row + glm::vec2(60, 5));
+  hands.app.frames(2);
+  CHECK_FALSE(state.dragged_out);  // once
+  hands.app.move(row + glm::vec2(300, 300));
+  hands.app.release(PointerButton::kLeft);
+  hands.app.frames(2);
+  hands.app.click(row);
+  hands.app.frames(1);
+  CHECK(std::string(ImGui::GetClipboardText()) == folder / "all.splat");
+}
+
+TEST_CASE("ui: what was exported of a scene is not shown with another one") {
+  const ScratchFolder folder("exported_before");
+  Hands hands(false);
+  hands.studio().apply(Export{{ExportWhat::kScene, SceneFormat::kSplat, folder / "all.splat"}});
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  REQUIRE(hands.app.button("all.splat").size().x > 0);
+  hands.studio().apply(OpenScene{kSample});
+  REQUIRE(hands.app.settle());
+  hands.app.frames(2);
+  REQUIRE(hands.studio().scene()->scene->path == kSample);
+  CHECK(hands.app.button("all.splat").size().x == 0);
+  CHECK(hands.studio().exports().last().empty());
+}
+
+TEST_CASE("ui: the address of a file that is dragged out is one that other programs read") {
+  CHECK(file_uri("/a b/ä%.ply") == "file:///a%20b/%C3%A4%25.ply");
+  CHECK(file_uri("/plain-1_2.~/x.ply") == "file:///plain-1_2.~/x.ply");
+}

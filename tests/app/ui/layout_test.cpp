@@ -1,0 +1,194 @@
+// Where the interface lies in windows of any size: nothing is cut off, and nothing runs into another.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "app/ui/panels.h"
+#include "app/ui/theme.h"
+#include "app/work/work_file.h"
+#include "headless_app.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+TEST_CASE("ui: the buttons of the bar lie beside each other in a window of any width") {
+  for (const int width : {640, 720, 799, 800, 879, 880, 1000, 1280}) {
+    CAPTURE(width);
+    HeadlessApp app(width, 480);
+    app.open(kSmallSample);
+    REQUIRE(app.settle());
+    std::vector<ShownItem> bar;
+    for (const ShownItem& item : app.interface_state().items)
+      if (item.max.y < app->interface().viewport().min.y) bar.push_back(item);
+    std::ranges::sort(bar, {}, [](const ShownItem& item) { return item.min.x; });
+    CHECK(bar.size() > 12);
+    CHECK(bar.back().max.x <= static_cast<float>(width));
+    for (std::size_t i = 1; i < bar.size(); ++i)
+      CHECK_MESSAGE(bar[i - 1].max.x <= bar[i].min.x, bar[i - 1].name << " runs into " << bar[i].name);
+  }
+}
+
+TEST_CASE("ui: what a small window has no room for in the bar opens behind its last arrow") {
+  HeadlessApp app(640, 480);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  const auto named = [&](const std::string& name) {
+    std::vector<ShownItem> items = app.interface_state().items;
+    std::erase_if(items, [&](const ShownItem& item) { return item.name != name; });
+    std::ranges::sort(items, {}, [](const ShownItem& item) { return item.min.x; });
+    return items;
+  };
+  REQUIRE(named(icon::kDown).size() >= 2);
+  REQUIRE(named("Clean").empty());
+  const ShownItem last = named(icon::kDown).back();
+  app.click(0.5f * (last.min + last.max));
+  app.frames(3);
+  CHECK(named("Clean").size() == 1);
+  CHECK(named(icon::kColumns).size() == 1);
+  CHECK(named(icon::kTint).size() == 1);
+}
+
+TEST_CASE("ui: in a window of 640 by 480 the panel takes a third and cuts no button off") {
+  constexpr float kWidth = 640, kHeight = 480;
+  HeadlessApp app(static_cast<int>(kWidth), static_cast<int>(kHeight));
+  app.interface_state().hint_wanted = false;
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.click(app.screen_of(kOnApple));
+  REQUIRE(app.settle());
+  const float side = app->interface().viewport().max.x;
+  CHECK(kWidth - side <= kWidth / 3 + 1);
+  for (const char* title : {"Repair by hand", "View", "Files"}) app.press_item("side/scroll", {title});
+  app.frames(2);
+  std::size_t seen = 0;
+  for (const ShownItem& item : app.interface_state().items) {
+    if (item.name == "picture") continue;
+    CAPTURE(item.name);
+    CHECK(item.max.x <= kWidth);
+    seen += item.min.x >= side;
+  }
+  CHECK(seen > 20);  // of all sections
+  app.press_item("side/scroll", {"Files"});
+  app.key(key::kF1);
+  app.frames(2);
+  const UiRect page = app.window("Keys and pointer");
+  CHECK(page.max.x <= kWidth);
+  CHECK(page.max.y <= kHeight);
+}
+
+TEST_CASE("ui: in a small window the hint can be closed, and thumbnails cover little of the picture") {
+  HeadlessApp app(640, 480);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.frames(2);
+  const UiRect view = app->interface().viewport(), cross = app.button(icon::kClose);
+  REQUIRE(cross.size().x > 0);
+  CHECK(cross.max.x <= view.max.x);
+  app.click(0.5f * (cross.min + cross.max));
+  app.frames(2);
+  CHECK(app.button(icon::kClose).size().x == 0);
+  CHECK(app.studio().document().objects.empty());
+  app.click(app.screen_of(kOnApple));
+  REQUIRE(app.settle());
+  const float covered = app->interface().covered_bottom(app.studio());
+  CHECK(covered > 0);
+  CHECK(covered < 0.18f * view.size().y);
+}
+
+TEST_CASE("ui: the page of keys shows all of them at once in a window of 1600 by 1000") {
+  HeadlessApp app(1600, 1000);
+  app.frames(1);
+  app.key(key::kF1);
+  app.frames(3);
+  app->interface().make_current();
+  std::size_t found = 0;
+  for (const ImGuiWindow* w : GImGui->Windows) {
+    if (!w->WasActive || std::string_view(w->Name).find("/keys") == std::string_view::npos) continue;
+    ++found;
+    CHECK(w->ScrollMax.y == 0);
+  }
+  CHECK(found == 1);
+}
+
+TEST_CASE(
+    "ui: the start page lies within the picture's place in a window of any size, with all its buttons") {
+  const ScratchFolder folder("start_page");
+  Document document;
+  add_object(&document, "mug");
+  write_work_file(folder / "autosave.splatcut.json", *open_scene(kSmallSample), document);
+  ApplicationOptions options = with_kept_scenes();
+  options.studio.state_folder = folder.path();
+  options.sample = kSample;
+  for (const auto& [width, height, scale] : {std::tuple(640, 480, 1.0f), std::tuple(800, 480, 1.0f),
+                                             std::tuple(1280, 960, 2.0f), std::tuple(1280, 720, 1.0f)}) {
+    CAPTURE(width);
+    HeadlessApp app(width, height, scale, options);
+    app.frames(4);
+    const UiRect area = app->interface().viewport(), page = app.window("start");
+    CHECK(page.min.x >= area.min.x);
+    CHECK(page.max.x <= area.max.x);
+    CHECK(page.min.y >= area.min.y);
+    CHECK(page.max.y <= area.max.y);
+    for (const char* name : {"Open a file", "Open the sample scene", "small_sample", icon::kTrash}) {
+      CAPTURE(name);
+      const UiRect button = app.button(name);
+      CHECK(button.size().x > 0);
+      CHECK(button.min.x >= page.min.x);
+      CHECK(button.max.x <= page.max.x);
+      CHECK(button.max.y <= page.max.y);
+    }
+  }
+}
+
+TEST_CASE("ui: no key of the F1 page runs into what it does, in any group") {
+  HeadlessApp app(1280, 720);
+  app.frames(1);
+  app.key(key::kF1);
+  app.frames(3);
+  app->interface().make_current();
+  for (const Binding& b : key_bindings())
+    CHECK_MESSAGE(ImGui::CalcTextSize(keys_of(b.action).c_str()).x + 8 <= keys_width(), b.what);
+}
+
+TEST_CASE("ui: a window of 640 by 480 shows every tool and every option of each, a smaller one scrolls") {
+  const auto window = [](const char* name) {
+    const ImGuiWindow* found = ImGui::FindWindowByName(name);
+    return found && found->WasActive ? found : nullptr;
+  };
+  HeadlessApp app(640, 480);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app->interface().make_current();
+  REQUIRE(window("tools"));
+  CHECK(window("tools")->ScrollMax.y == 0);
+  std::size_t rows = 0;
+  for (const Tool* tool : tools())
+    for (const bool through : {false, true}) {
+      ViewState view = app.studio().view();
+      view.tool = *tool;
+      view.see_through = through;
+      app.studio().apply(SetView{view});
+      app.frames(4);
+      app->interface().make_current();
+      CAPTURE(tool->name);
+      if (!window("options")) continue;
+      ++rows;
+      CHECK(window("options")->ScrollMax.x == 0);
+      CHECK(window("options")->ScrollMax.y == 0);
+    }
+  CHECK(rows > 10);
+  HeadlessApp small(640, 480, 1.5f);
+  small.open(kSmallSample);
+  REQUIRE(small.settle());
+  small->interface().make_current();
+  REQUIRE(window("tools")->ScrollMax.y > 0);
+  small.move({20, 200});
+  small.frames(1);
+  small->handle(WheelTurned{-5, {}});
+  small.frames(2);
+  CHECK(window("tools")->Scroll.y > 0);
+}
