@@ -1,5 +1,5 @@
-// Opening a scene: unsaved work is asked for before it goes, the first click counts, and a scene that cannot
-// be opened ends nothing.
+// Opening a scene: unsaved work is asked for before it goes, what is coming is said, the first click counts,
+// and a scene that cannot be opened ends nothing.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -142,4 +142,18 @@ TEST_CASE("hands: Enter saves work where a scene would be opened over it, and di
   hands.app.key(key::kEscape);
   REQUIRE(hands.app.settle());
   CHECK(hands.studio().scene()->serial == serial);
+}
+
+TEST_CASE("a view that has no picture yet says what is coming, and no more once it is there") {
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  CHECK(app.studio().coming().empty());
+  app.open(kSmallSample);
+  CHECK(app.studio().coming() == "Opening small_sample.compressed.ply");
+  app.frames(1);
+  CHECK(app.button("Open a file").size().x == 0);  // nothing else is to be chosen now
+  while (!app.studio().scene()) app.frames(1);
+  REQUIRE(!app.studio().viewport().picture());
+  CHECK(app.studio().coming() == "Drawing the first picture...");
+  REQUIRE(app.settle());
+  CHECK(app.studio().coming().empty());
 }
