@@ -207,7 +207,9 @@ std::optional<Answers> ClickSelection::considered(const LeafView& view, const gl
                  options);
 }
 
-bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px) {
+bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, const Stroke& stroke) {
+  const bool object = stroke.label == SeedLabel::kObject;
+  const float least_radius_px = stroke.radius_px;
   const auto [at, leaf, displayed, radius_px] = asked(view, pixel, object);
   if (leaf == kNoPart) {
     if (object) take_back_colour_at(view, pixel);
@@ -221,7 +223,7 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, bool obj
   std::vector<std::uint8_t> certain(parts_.leaves, 0);
   std::vector<std::uint32_t> like_px;
   if (any_) {
-    like_px = pixels_by_colour(click, found, certain_px);
+    if (stroke.is_click()) like_px = pixels_by_colour(click, found, certain_px);
     certain = certain_leaves(view, certain_px);
     std::vector<std::uint8_t> meant = leaves_changed(found, found.candidates.front());
     if (!like_px.empty()) {
@@ -330,10 +332,9 @@ void ClickSelection::pin(const LeafView& view, std::span<const std::uint32_t> pi
 
 // The Gaussians that show mostly in these pixels become rest until a click on the object takes them back.
 void ClickSelection::pin_by_colour(const LeafView& view, std::span<const std::uint32_t> pixels) {
-  constexpr float kFaces = 0.5f;  // what is seen edge-on may be the border of what lies there
   const std::vector<std::uint8_t> mostly = mostly_in(view, pixels);
   for (std::size_t g = 0; g < labels_.size(); ++g)
-    if (mostly[g] && said_[g] == 0 && (view.facing.empty() || view.facing[g] >= kFaces)) {
+    if (mostly[g] && said_[g] == 0) {
       said_[g] = -1;
       by_colour_[g] = 1;
     }
@@ -427,7 +428,7 @@ bool ClickSelection::apply(const LeafView& view, const Stroke& stroke) {
     for (const GroupWeight& w : view.gaussians.at(row_by_row(view.camera, nearest_pixel(view.camera, point))))
       share += labels_[w.group] ? w.weight : 0;
     if (!any_ || (share >= 0.5f) != object)
-      hit = take(view, point, object, stroke.radius_px) || hit;
+      hit = take(view, point, stroke) || hit;
     else {
       if (stroke.points_px.size() == 1) confirm(view, point, object, stroke.radius_px);
       hit = true;

@@ -17,7 +17,7 @@
 //
 // Where the likeliest part changes less than half of what looks like the rest around a click on the rest
 // (region_by_colour.h), that becomes rest, too, until a click on the object takes its leaf back; but for
-// Gaussians that a click has decided, and those that are seen edge-on.
+// Gaussians that a click has decided. A scribble says itself how much is meant.
 //
 // A box says what is meant as a whole (box_meanings.h). The likeliest part of each tree votes for its leaves
 // (part_votes.h); leaves with more than half of the votes change side, unless a click has decided them. A box
@@ -88,7 +88,7 @@ class ClickSelection {
  private:
   struct Asked;
   Asked asked(const LeafView& view, const glm::vec2& pixel, bool object) const;
-  bool take(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
+  bool take(const LeafView& view, const glm::vec2& pixel, const Stroke& stroke);
   bool take_box(const LeafView& view, const Stroke& box);
   void confirm(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
   std::vector<std::uint8_t> certain_leaves(const LeafView& view, std::span<const std::uint32_t> disc) const;

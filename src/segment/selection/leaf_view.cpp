@@ -67,24 +67,21 @@ void count_leaves(const PartHierarchy& parts, LeafView* of) {
     }
 }
 
-// alone_px: 2 pi opacity sqrt(det) of the covariance as seen along the line of sight, the sum of alpha over
-// an endless picture. facing: that sqrt(det) over its largest.
-void measure_gaussians(const GaussianCloud& cloud, LeafView* view) {
-  const Camera& camera = view->camera;
+// 2 pi opacity sqrt(det) of the covariance as seen along the line of sight, the sum of alpha over an endless
+// picture.
+std::vector<float> alone_px(const GaussianCloud& cloud, const Camera& camera) {
+  std::vector<float> px(cloud.size(), 0);
   const glm::vec3 eye = camera.centre_world();
-  view->alone_px.assign(cloud.size(), 0);
-  view->facing.assign(cloud.size(), 0);
   for_each_index(cloud.size(), [&](std::size_t g) {
     const float depth = camera.camera_from_world(cloud.position[g]).z;
     if (!(depth > cloud.near_plane)) return;
     const glm::vec3 along = glm::conjugate(cloud.rotation[g]) * glm::normalize(cloud.position[g] - eye);
     const glm::vec3 s = cloud.scale[g];
-    const glm::vec3 faces(s.y * s.z, s.x * s.z, s.x * s.y);
-    const float shadow = glm::length(faces * along);
-    view->facing[g] = shadow / std::max({faces.x, faces.y, faces.z, 1e-30f});
-    view->alone_px[g] = 2 * std::numbers::pi_v<float> * cloud.opacity[g] * shadow * camera.fx_px *
-                        camera.fy_px / (depth * depth);
+    const float shadow = glm::length(glm::vec3(s.y * s.z, s.x * s.z, s.x * s.y) * along);
+    px[g] = 2 * std::numbers::pi_v<float> * cloud.opacity[g] * shadow * camera.fx_px * camera.fy_px /
+            (depth * depth);
   });
+  return px;
 }
 
 }  // namespace
@@ -115,7 +112,7 @@ LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camer
   RasterOutput drawn = drawer.draw(camera, raster, job);
   LeafView view = leaf_view_of(parts, camera, std::move(drawn.gaussians), std::move(drawn.expected_depth));
   view.whole = seen == nullptr;
-  measure_gaussians(drawer.cloud(), &view);
+  view.alone_px = alone_px(drawer.cloud(), camera);
   return view;
 }
 

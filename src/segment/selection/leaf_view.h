@@ -30,12 +30,10 @@ struct PixelWeights {
 struct LeafView {
   Camera camera;
   PixelWeights gaussians, leaves;
-  Image<float> depth;           // expected depth as camera z, scene units; 0: nothing is there
-  Image<Rgb8> colour;           // its picture; empty: nobody needed it, see draw_colour()
-  bool whole = true;            // false: some Gaussians were left out
-  std::vector<float> alone_px;  // pixels that each Gaussian has if nothing occludes it; empty: not known
-  std::vector<float>
-      facing;  // of each Gaussian's largest face, the share that the camera sees; empty: not known
+  Image<float> depth;                // expected depth as camera z, scene units; 0: nothing is there
+  Image<Rgb8> colour;                // its picture; empty: nobody needed it, see draw_colour()
+  bool whole = true;                 // false: some Gaussians were left out
+  std::vector<float> alone_px;       // pixels that each Gaussian has if nothing occludes it; empty: not known
   std::vector<float> leaf_px;        // sum of each leaf's weights, pixels
   std::vector<float> leaf_frame_px;  // sum of each leaf's weights at the picture's frame, pixels
 };
