@@ -65,6 +65,13 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
+// A program that saves by itself in this folder, and offers what was left there.
+inline ApplicationOptions with_state(const ScratchFolder& folder) {
+  ApplicationOptions options = with_kept_scenes();
+  options.studio.state_folder = folder.path();
+  return options;
+}
+
 class HeadlessApp {
  public:
   explicit HeadlessApp(int width = 1040, int height = 600, float pixels_per_point = 1,
@@ -154,6 +161,10 @@ class HeadlessApp {
     GImGui->NavNextActivateId = item(window, names);
     GImGui->NavNextActivateFlags = ImGuiActivateFlags_PreferInput;
     frames(3);
+    type(text);
+  }
+  // Letters for what has the keyboard, a frame each.
+  void type(std::string_view text) {
     for (const char c : text) {
       app_.handle(TextTyped{static_cast<unsigned>(c)});
       frames(1);

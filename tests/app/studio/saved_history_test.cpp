@@ -37,8 +37,7 @@ History of_names(const std::vector<std::string>& names) {
 
 TEST_CASE("saved work: what was done before a crash can be undone after it, and what was undone redone") {
   const ScratchFolder folder("history_saved");
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
+  ApplicationOptions options = with_state(folder);
   std::vector<std::string> steps;
   std::vector<Document> documents;
   std::vector<std::vector<std::uint8_t>> labels;

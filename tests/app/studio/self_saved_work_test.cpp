@@ -24,13 +24,6 @@ bool is_written(const std::filesystem::path& file) {
   return std::filesystem::exists(file);
 }
 
-// Options of a program that keeps its work in the folder by itself.
-ApplicationOptions kept_in(const ScratchFolder& folder) {
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
-  return options;
-}
-
 }  // namespace
 
 TEST_CASE("work is saved by itself and offered after a crash") {
@@ -38,8 +31,7 @@ TEST_CASE("work is saved by itself and offered after a crash") {
   Document saved;
   CameraPose pose;
   {
-    ApplicationOptions options = with_kept_scenes();
-    options.studio.state_folder = folder.path();
+    ApplicationOptions options = with_state(folder);
     HeadlessApp app(kSmallWidth, kSmallHeight, 1, options);
     CHECK(app.studio().work().offers().empty());
     opened(app);
@@ -54,7 +46,7 @@ TEST_CASE("work is saved by itself and offered after a crash") {
     REQUIRE(app.settle());
   }  // no leave(): as if it had crashed
   REQUIRE(std::filesystem::exists(folder / "autosave.splatcut.json"));
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
   CHECK(!app.studio().work().offers().empty());
   CHECK(app.studio().work().offers().front().says.ends_with("  sample/sample.compressed.ply"));
   // Started with a scene and worked on: what is offered is still there.
@@ -91,7 +83,7 @@ TEST_CASE("work is saved by itself and offered after a crash") {
 
 TEST_CASE("a cut is saved by itself within a second of its answer, while pictures of it are made") {
   const ScratchFolder folder("soon");
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
   opened(app);
   app.click(app.screen_of(kOnApple));
   Studio& studio = app.studio();
@@ -113,7 +105,7 @@ TEST_CASE("a cut is saved by itself within a second of its answer, while picture
 
 TEST_CASE("steady work is saved by itself, though it never rests") {
   const ScratchFolder folder("steady");
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
   opened(app);
   const std::filesystem::path own = app.studio().work().own_autosave();
   for (int fifth = 0; fifth < 15; ++fifth) {  // of a second; a step in each
@@ -126,7 +118,7 @@ TEST_CASE("steady work is saved by itself, though it never rests") {
 
 TEST_CASE("work is saved by itself while a file is read, and where the program is left before it was") {
   const ScratchFolder folder("reading");
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
   opened(app);
   Studio& studio = app.studio();
   const std::filesystem::path own = studio.work().own_autosave();
@@ -150,8 +142,7 @@ TEST_CASE("work is saved by itself while a file is read, and where the program i
 
 TEST_CASE("work of a program that a signal ends is offered as it was, without a moment for saving it") {
   const ScratchFolder folder("state_signal");
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
+  ApplicationOptions options = with_state(folder);
   Document saved;
   CameraPose pose;
   {
@@ -201,7 +192,7 @@ TEST_CASE("work of a program that ends a little later is offered, too") {
   const int lock = ::open((folder / "autosave.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   REQUIRE(lock >= 0);
   REQUIRE(::flock(lock, LOCK_EX | LOCK_NB) == 0);  // as the other program holds it
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
   app.frames(60 * 3);
   CHECK(app.studio().work().offers().empty());
   ::close(lock);
@@ -222,7 +213,7 @@ TEST_CASE("of several works left by crashes, that of the open scene is offered f
   left("autosave.splatcut.json", kSmallSample, 5);
   left("autosave.2.splatcut.json", kSample, 3);
   left("autosave.3.splatcut.json", kSample, 4);
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
   const auto order = [&] {
     std::string numbers;
     for (const LeftWork& work : app.studio().work().offers())
@@ -251,7 +242,7 @@ TEST_CASE("work that was saved by itself stays offered where its scene cannot be
   add_object(&document, "mug");
   write_work_file(folder / "autosave.splatcut.json", *scene, document);
   std::filesystem::rename(moved, folder / "elsewhere");
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
   app.studio().apply(OpenScene{app.studio().work().offers().front().file});
   REQUIRE(app.settle());
   CHECK(app.studio().messages().back().text.find("moved.compressed.ply") != std::string::npos);
@@ -265,7 +256,7 @@ TEST_CASE("work that was saved by itself stays offered where its scene cannot be
 
 TEST_CASE("work that could not be saved by itself is saved once it can be, without another change") {
   const ScratchFolder folder("full");
-  HeadlessApp app(kSmallWidth, kSmallHeight, 1, kept_in(folder));
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
   opened(app);
   const std::filesystem::path own = app.studio().work().own_autosave();
   std::filesystem::create_directory(own);  // where the file should go

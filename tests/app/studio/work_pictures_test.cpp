@@ -15,8 +15,7 @@ using namespace splatcut::testing;
 
 TEST_CASE("work that is saved by itself has a small picture of the view, which goes with it") {
   const ScratchFolder folder("state_picture");
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
+  ApplicationOptions options = with_state(folder);
   const auto picture = folder / "autosave.png";
   Image<Rgb8> shown;
   {
@@ -66,8 +65,7 @@ TEST_CASE("a picture of left work that is damaged, huge, no picture or not there
   add_object(&document, "mug");
   const auto work = folder / "autosave.splatcut.json", picture = folder / "autosave.png";
   write_work_file(work, *scene, document);
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
+  ApplicationOptions options = with_state(folder);
   const Rgb8 magenta{255, 0, 255};
   const std::string whole = png_bytes(Image<Rgb8>(kWorkPictureWidthPx, 60, magenta));
   // What the list of the start page shows of the picture, in pixels.

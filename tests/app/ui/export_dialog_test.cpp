@@ -21,13 +21,6 @@ std::filesystem::path proposed(Hands& hands) {
   return hands.app.interface_state().exporting.path;
 }
 
-void type(Hands& hands, const std::string& text) {
-  for (const char c : text) {
-    hands.app->handle(TextTyped{static_cast<unsigned>(c)});
-    hands.app.frames(1);
-  }
-}
-
 // HOME, and whose rights files are opened with: for root every folder can be written.
 class AsSomebody {
  public:
@@ -54,24 +47,24 @@ class AsSomebody {
 TEST_CASE("export dialog: what is typed when it opens replaces the name, not folder and ending") {
   Hands hands;
   const std::filesystem::path before = proposed(hands);
-  type(hands, "pear");
+  hands.app.type("pear");
   const ExportChoice& choice = hands.app.interface_state().exporting;
   CHECK(choice.path == before.parent_path() / "pear.ply");
   hands.app.key(key::kEscape);
   hands.app.frames(2);
   CHECK_FALSE(hands.app->interface().dialog_open());
   CHECK(proposed(hands) == before);  // a name of its own each time
-  type(hands, "plum");
+  hands.app.type("plum");
   CHECK(choice.path == before.parent_path() / "plum.ply");
   hands.app.key(key::kEscape);
   hands.app.frames(2);
   REQUIRE(proposed(hands) == before);
-  type(hands, "/a/whole.ply");  // replaces folder and ending, too
+  hands.app.type("/a/whole.ply");  // replaces folder and ending, too
   CHECK(choice.path == "/a/whole.ply");
   hands.app.key(key::kEscape);
   hands.app.frames(2);
   REQUIRE(proposed(hands) == before);
-  type(hands, "pear.spz");  // an ending takes the place of that which is there
+  hands.app.type("pear.spz");  // an ending takes the place of that which is there
   CHECK(choice.path == before.parent_path() / "pear.spz");
   CHECK(choice.format == SceneFormat::kSpz);
   // Another path with a slash where the name began is left as it is.
@@ -80,7 +73,7 @@ TEST_CASE("export dialog: what is typed when it opens replaces the name, not fol
   REQUIRE(proposed(hands) == before);
   hands.app.key('A', {.ctrl = true});
   const std::string other = "/" + std::string(before.parent_path().string().size() - 1, 'x') + "/out.ply";
-  type(hands, other);
+  hands.app.type(other);
   CHECK(choice.path == other);
 }
 

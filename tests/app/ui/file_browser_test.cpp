@@ -32,22 +32,16 @@ TEST_CASE(
   HeadlessApp app(760, 420);
   open_with_unsaved_work(app);
   FileBrowser& files = app.interface_state().files;
-  const auto type = [&](std::string_view text) {
-    for (const char c : text) {
-      app->handle(TextTyped{static_cast<unsigned>(c)});
-      app.frames(1);
-    }
-  };
   const auto save_as = [&](std::string_view text) {
     files.folder = folder.path();
     app.key('S', {.ctrl = true});
     app.frames(3);
     REQUIRE(files.open);
-    type(text);
+    app.type(text);
   };
   save_as("b");
   CHECK(files.name == "b");
-  type("eta");
+  app.type("eta");
   CHECK(files.name == "beta");
   app.key(key::kEnter);
   app.frames(3);
@@ -173,13 +167,9 @@ TEST_CASE("hands: a file is found by its first letters, by arrows, and opened by
   app.frames(2);
   REQUIRE(files.open);
   REQUIRE(files.entries.size() == 4);
-  const auto type = [&](char letter) {
-    app->handle(TextTyped{static_cast<unsigned>(letter)});
-    app.frames(1);
-  };
-  type('b');
+  app.type("b");
   CHECK(files.name == "beta.ply");
-  type('i');
+  app.type("i");
   CHECK(files.name == "bicycle.ply");
   app.key(key::kUp);
   CHECK(files.name == "beta.ply");
@@ -202,12 +192,6 @@ TEST_CASE("hands: a path is typed as soon as the dialog is open, and Enter opens
   std::filesystem::copy_file(kSmallSample, folder / "garden" / "mug.compressed.ply");
   HeadlessApp app(kHandsWidth, kHandsHeight);
   FileBrowser& files = app.interface_state().files;
-  const auto type = [&](const std::string& text) {
-    for (const char letter : text) {
-      app->handle(TextTyped{static_cast<unsigned>(letter)});
-      app.frames(1);
-    }
-  };
   for (const bool whole : {true, false}) {
     CAPTURE(whole);
     files.folder = whole ? std::filesystem::temp_directory_path() : folder.path();
@@ -215,15 +199,15 @@ TEST_CASE("hands: a path is typed as soon as the dialog is open, and Enter opens
     app.frames(3);
     REQUIRE(files.open);
     if (whole) {
-      type((folder / "garden").string());
+      app.type((folder / "garden").string());
       app.key(key::kEnter);
       app.frames(3);
       REQUIRE(files.open);
       CHECK(files.folder.filename() == "garden");
-      type("mu");  // the beginning of a name
+      app.type("mu");  // the beginning of a name
       CHECK(files.name == "mug.compressed.ply");
     } else {
-      type("garden/mug.compressed.ply");  // from the folder that is shown
+      app.type("garden/mug.compressed.ply");  // from the folder that is shown
     }
     const std::uint64_t before = app.studio().scene() ? app.studio().scene()->serial : 0;
     app.key(key::kEnter);
@@ -243,17 +227,11 @@ TEST_CASE("hands: a whole path is completed as a name is") {
   files.folder = std::filesystem::current_path();
   app.key('O', {.ctrl = true});
   app.frames(3);
-  for (const char letter : (folder / "gar").string()) {
-    app->handle(TextTyped{static_cast<unsigned>(letter)});
-    app.frames(1);
-  }
+  app.type((folder / "gar").string());
   CHECK(std::filesystem::equivalent(files.folder, folder.path()));
   REQUIRE(files.cursor >= 0);
   CHECK(files.entries[static_cast<std::size_t>(files.cursor)].name == "garden");
-  for (const char letter : std::string("den/mu")) {
-    app->handle(TextTyped{static_cast<unsigned>(letter)});
-    app.frames(1);
-  }
+  app.type("den/mu");
   CHECK(files.typed_folder == (folder / "garden" / "mu").string());
   CHECK(files.name == "mug.compressed.ply");
   app.key(key::kEnter);

@@ -76,8 +76,7 @@ TEST_CASE("frames: left work with its pictures, on the start page and in the pan
   Image<Rgb8> picture(kWorkPictureWidthPx, 60, {20, 90, 200});
   for (int y = 40; y < 60; ++y) std::ranges::fill(picture.row(y), Rgb8{60, 160, 60});
   write_work_picture(folder / "autosave.3.splatcut.json", picture);  // the other has none
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
+  ApplicationOptions options = with_state(folder);
   HeadlessApp app(1040, 600, 1, options);
   app.frames(3);
   check_golden("left_work", app.picture());

@@ -120,8 +120,7 @@ TEST_CASE(
   Document document;
   add_object(&document, "mug");
   write_work_file(folder / "autosave.splatcut.json", *open_scene(kSmallSample), document);
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
+  ApplicationOptions options = with_state(folder);
   options.sample = kSample;
   for (const auto& [width, height, scale] : {std::tuple(640, 480, 1.0f), std::tuple(800, 480, 1.0f),
                                              std::tuple(1280, 960, 2.0f), std::tuple(1280, 720, 1.0f)}) {

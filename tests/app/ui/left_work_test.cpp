@@ -31,12 +31,6 @@ void leave_work(const ScratchFolder& folder, const std::string& capture, const s
   write_work_file(folder / file, *open_scene(scene), document);
 }
 
-ApplicationOptions with_state(const ScratchFolder& folder) {
-  ApplicationOptions options = with_kept_scenes();
-  options.studio.state_folder = folder.path();
-  return options;
-}
-
 }  // namespace
 
 TEST_CASE("left work: scenes whose files trainers name alike are told apart by their folders") {
