@@ -80,6 +80,16 @@ int width_to_see(const Mask& mask, int side_px, int most_width_px) {
   return std::min(most_width_px, static_cast<int>(std::ceil(mask.width() * std::exp2(steps / 2))));
 }
 
+Mask connected_to(const Mask& mask, const glm::ivec2& at) {
+  constexpr int kReached = 1;
+  static_assert(kReached != kMaskObject);
+  Mask connected(mask);
+  connected.at(at.x, at.y) = kMaskObject;
+  cv::floodFill(as_mat(connected), {at.x, at.y}, kReached, nullptr, {}, {}, 4);
+  for (std::uint8_t& pixel : connected.pixels()) pixel = pixel == kReached ? kMaskObject : 0;
+  return connected;
+}
+
 Image<float> distance_inside(const Mask& mask) {
   cv::Mat framed, distance;
   cv::copyMakeBorder(as_const_mat(mask), framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);

@@ -28,6 +28,9 @@ PixelRect grown(const PixelRect& rect, int margin_px, int width, int height);  /
 // its own where it is large enough, or empty.
 int width_to_see(const Mask& mask, int side_px, int most_width_px);
 
+// The 4-connected region that holds the pixel, which itself is taken for a part of the mask.
+Mask connected_to(const Mask& mask, const glm::ivec2& at);
+
 // Distance of each object pixel to the nearest other pixel or to the frame, px.
 Image<float> distance_inside(const Mask& mask);
 

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "core/pixel_steps.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/selection/click_reach.h"
 #include "segment/selection/first_meanings.h"
@@ -58,23 +57,11 @@ float jump(const PartTree& tree, std::uint32_t node) {
 // The pixel's distance to the border over the largest of its connected region, in (0, 1].
 float centrality(const Mask& region, const glm::ivec2& at) {
   const Image<float> distance = distance_inside(region);
+  const Mask connected = connected_to(region, at);
   const float own = std::max(distance.at(at.x, at.y), 1.0f);
   float most = own;
-  std::vector<std::uint8_t> visited(region.size(), 0);
-  std::vector<glm::ivec2> open{at};
-  visited[static_cast<std::size_t>(at.y) * region.width() + at.x] = 1;
-  while (!open.empty()) {
-    const glm::ivec2 p = open.back();
-    open.pop_back();
-    most = std::max(most, distance.at(p.x, p.y));
-    for (const glm::ivec2& step : kFourSteps) {
-      const glm::ivec2 q = p + step;
-      if (!region.contains(q.x, q.y) || !region.at(q.x, q.y)) continue;
-      std::uint8_t& been = visited[static_cast<std::size_t>(q.y) * region.width() + q.x];
-      if (!been) open.push_back(q);
-      been = 1;
-    }
-  }
+  for (std::size_t i = 0; i < connected.size(); ++i)
+    if (connected.pixels()[i]) most = std::max(most, distance.pixels()[i]);
   return own / most;
 }
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
-#include "core/pixel_steps.h"
 #include "segment/masks/colour_overlap.h"
 #include "segment/masks/mask_tools.h"
 #include "segment/masks/refine_mask.h"
@@ -22,24 +20,6 @@ Mask without(const Mask& all, const Mask& some) {
   return left;
 }
 
-// What of the mask hangs together with the pixel, which itself is taken for a part of it.
-Mask connected_to(const glm::ivec2& at, const Mask& mask) {
-  Mask connected(mask.width(), mask.height());
-  std::vector<glm::ivec2> open{at};
-  connected.at(at.x, at.y) = kMaskObject;
-  while (!open.empty()) {
-    const glm::ivec2 p = open.back();
-    open.pop_back();
-    for (const glm::ivec2& step : kFourSteps) {
-      const glm::ivec2 q = p + step;
-      if (!mask.contains(q.x, q.y) || !mask.at(q.x, q.y) || connected.at(q.x, q.y)) continue;
-      connected.at(q.x, q.y) = kMaskObject;
-      open.push_back(q);
-    }
-  }
-  return connected;
-}
-
 }  // namespace
 
 Mask region_by_colour(const Click& click, std::span<const std::uint32_t> disc) {
@@ -53,7 +33,7 @@ Mask region_by_colour(const Click& click, std::span<const std::uint32_t> disc) {
   RefineOptions refine;
   refine.band_px = static_cast<int>(std::min(kBand * click.radius_px, kMostBandPx));
   const Mask left = refine_mask(colour, click.view.depth, displayed, refine, seeds);
-  Mask region = connected_to(click.at, without(displayed, left));
+  Mask region = connected_to(without(displayed, left), click.at);
   const float differs = log_ratio_of_colours(
       colour, region, without(dilated(displayed, refine.band_px), displayed), without(displayed, region));
   const float discs =

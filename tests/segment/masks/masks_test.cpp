@@ -80,6 +80,19 @@ TEST_CASE("overlap of colours: the lesser shares, by hand") {
   CHECK(overlap(blue, grey, 4) == 1);                     // nothing stands beside it
 }
 
+TEST_CASE("connected region: across sides, not across corners, and the pixel itself") {
+  const std::array<std::string_view, 4> rows{"##..#", ".#..#", "..##.", "#.##."};
+  Mask mask(5, 4);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 5; ++x)
+      mask.at(x, y) = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] == '#' ? kMaskObject : 0;
+  CHECK(count(connected_to(mask, {0, 0})) == 3);
+  CHECK(count(connected_to(mask, {3, 3})) == 4);
+  CHECK(count(connected_to(mask, {0, 3})) == 1);
+  CHECK(count(connected_to(mask, {2, 1})) == 8);  // joins two of them
+  CHECK(connected_to(mask, {4, 0}).at(4, 1) == kMaskObject);
+}
+
 TEST_CASE("ratio of colours: by hand") {
   const Rgb8 red{200, 30, 30}, blue{30, 30, 200};
   Image<Rgb8> picture(4, 1, red);
