@@ -245,7 +245,7 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, const St
   return true;
 }
 
-// What looks like the rest around a click on it; none where the likeliest part changes half of it.
+// The region that a click on the rest finds by colour; none where the likeliest part changes half of it.
 std::vector<std::uint32_t> ClickSelection::pixels_by_colour(const Click& click, const Answers& answers,
                                                             std::span<const std::uint32_t> disc) const {
   constexpr float kScrap = 0.5f;
@@ -342,7 +342,7 @@ void ClickSelection::pin_by_colour(const LeafView& view, std::span<const std::ui
   label();
 }
 
-// The leaf is on the right side, but of its Gaussians some are not.
+// The leaf at the pixel is object, but some of its Gaussians are rest by their colour.
 void ClickSelection::take_back_colour_at(const LeafView& view, const glm::vec2& pixel) {
   const std::uint32_t leaf = leaf_near(view, pixel, [](std::uint32_t) { return true; });
   if (leaf == kNoPart) return;
@@ -352,7 +352,7 @@ void ClickSelection::take_back_colour_at(const LeafView& view, const glm::vec2& 
   label();
 }
 
-// Of these leaves, what is rest by its colour alone follows its leaf again.
+// Gaussians of these leaves that are rest by their colour alone get the label of their leaf again.
 void ClickSelection::take_back_colour(std::span<const std::uint8_t> leaves) {
   for (std::size_t g = 0; g < labels_.size(); ++g)
     if (by_colour_[g] && parts_.leaf_of[g] != kNoPart && leaves[parts_.leaf_of[g]])

@@ -15,9 +15,9 @@
 // object and none on the rest: the likeliest if that is a small step from what is shown, else what the trees
 // agree on. If no candidate is likely, only the disc changes.
 //
-// Where the likeliest part changes less than half of what looks like the rest around a click on the rest
-// (region_by_colour.h), that becomes rest, too, until a click on the object takes its leaf back; but for
-// Gaussians that a click has decided. A scribble says itself how much is meant.
+// A click on the rest may also find by colour what no part holds (region_by_colour.h). If the likeliest part
+// changes less than half of that region, the region becomes rest, too, except for Gaussians that a click has
+// decided. A click on the object takes it back, a leaf at a time. A scribble says itself how much is meant.
 //
 // A box says what is meant as a whole (box_meanings.h). The likeliest part of each tree votes for its leaves
 // (part_votes.h); leaves with more than half of the votes change side, unless a click has decided them. A box

@@ -6,13 +6,13 @@
 // hangs together with the click. Parts follow edges of colour in space, and where grass, shadow or padding
 // lies against the object there may be none along its border, while a picture shows it.
 //
-// The region is empty where that would be a guess: if the click is within 6 pixels of the border (it mends
-// the border itself); if it is twenty times as large as the disc that reaches to the border; if it looks no
-// more like the rest around the object than like what is left of the object. The more it exceeds the disc,
-// the more it must: the mean logarithm of how much likelier its colours are in the rest
-// (log_ratio_of_colours()) is to reach 0.45 ln(area / disc). These numbers were set by hand on the sessions
-// of docs/clicks.md. A click on the object has no such region: what is missing has its colours, but so may
-// have the wall behind it. Cost: some 50 ms at 320 px wide.
+// The region is empty where it would be a guess: if the click is within 6 pixels of the border, which it then
+// mends itself; if the region is twenty times as large as the disc that reaches to the border; or if its
+// colours do not speak for the rest. log_ratio_of_colours() says how much likelier they are around the object
+// than in what is left of the object. It has to reach 0.45 ln(area of the region / area of that disc): a
+// larger region needs clearer colours. These numbers were set by hand on the sessions of docs/clicks.md. A
+// click on the object has no such region: what is missing looks like the object, but so may the wall behind
+// it. Cost: some 50 ms at 320 px wide.
 #pragma once
 
 #include <cstdint>

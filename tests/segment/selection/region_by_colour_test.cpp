@@ -2,9 +2,13 @@
 // the grass begins.
 #include <doctest/doctest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "core/counter_rng.h"
 #include "four_stripes.h"
-#include "segment/selection/region_by_colour.h"
+#include "scene/cloud/gaussian_cloud.h"
+#include "segment/selection/stroke_replay.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -48,9 +52,15 @@ PartHierarchy stone_with_rim(std::uint32_t leaf_of_rim = 0) {
 
 constexpr Rgb8 kGrey{120, 120, 120}, kGreen{70, 130, 50};
 
-LeafView view_of(const PartHierarchy& parts, const Rgb8& rim) {
+// From 10 units before the plane of the stone, at 10 pixels a unit.
+Camera before_the_stone() {
   Camera camera = look_at({0, 0, -10}, {0, 0, 0}, {0, -1, 0}, 1, kWidth, kHeight);
   camera.fx_px = camera.fy_px = 100;
+  return camera;
+}
+
+LeafView view_of(const PartHierarchy& parts, const Rgb8& rim) {
+  const Camera camera = before_the_stone();
   Image<std::int32_t> hit(kWidth, kHeight);
   for (std::size_t i = 0; i < hit.size(); ++i) hit.pixels()[i] = static_cast<std::int32_t>(i);
   LeafView view = leaf_view_of_hits(parts, camera, hit);
@@ -65,6 +75,30 @@ LeafView view_of(const PartHierarchy& parts, const Rgb8& rim) {
       view.colour.at(x, y) = colour;
     }
   return view;
+}
+
+// The same as a scene: a flat Gaussian per pixel of that camera.
+GaussianCloud cloud_of(const Rgb8& rim) {
+  constexpr float kSh0 = 0.28209479f;
+  GaussianCloud cloud;
+  cloud.resize(static_cast<std::size_t>(kWidth * kHeight), 0);
+  CounterRng random(7, 0);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const auto g = static_cast<std::size_t>(y * kWidth + x);
+      const Stuff stuff = stuff_at(x, y);
+      const Rgb8 colour = stuff == kStone ? kGrey : stuff == kRim ? rim : kGreen;
+      cloud.position[g] = {(static_cast<float>(x - kWidth / 2) + 0.5f) / 10,
+                           (static_cast<float>(y - kHeight / 2) + 0.5f) / 10, 0};
+      cloud.scale[g] = {0.05f, 0.05f, 0.001f};
+      cloud.rotation[g] = {1, 0, 0, 0};
+      cloud.opacity[g] = 0.99f;
+      for (int channel = 0; channel < 3; ++channel) {
+        const float shade = static_cast<float>(colour[static_cast<std::size_t>(channel)]) / 255;
+        cloud.f_dc[g][channel] = (shade + random.between(-0.05f, 0.05f) - 0.5f) / kSh0;
+      }
+    }
+  return cloud;
 }
 
 SelectionModel no_part_fits() {
@@ -105,6 +139,33 @@ TEST_CASE("region by colour: a click on the rim of grass takes all of it, and no
   CHECK(object(selection, kStone) > 0.97 * kAllOfStone);
   CHECK(object(selection, kRim) < 0.05 * kAllOfRim);
   CHECK_FALSE(selection.spot_alone());
+}
+
+TEST_CASE("region by colour: replayed clicks draw the colour that they need") {
+  const PartHierarchy parts = stone_with_rim();
+  const GaussianCloud cloud = cloud_of(kGreen);
+  const ReplayOptions options{.model = no_part_fits()};
+  const std::vector<CameraStroke> strokes{{before_the_stone(), click({30, 30}, SeedLabel::kObject)},
+                                          {before_the_stone(), click({57, 30}, SeedLabel::kRest)}};
+  StrokeReplay replay(parts);
+  CHECK(object(replay.replay(cloud, std::span(strokes).first(1), options), kRim) > 0.95 * kAllOfRim);
+  const Labels all = replay.replay(cloud, strokes, options).labels();
+  CHECK(object(replay.replay(cloud, strokes, options), kStone) > 0.95 * kAllOfStone);
+  CHECK(object(replay.replay(cloud, strokes, options), kRim) < 0.1 * kAllOfRim);
+  // Cancelled at any moment nothing stays that was answered without its colour.
+  for (int moment = 0; moment < 60; ++moment) {
+    CAPTURE(moment);
+    StrokeReplay again(parts);
+    again.replay(cloud, std::span(strokes).first(1), options);
+    std::stop_source stop;
+    std::jthread after_a_while([&] {
+      std::this_thread::sleep_for(std::chrono::microseconds(50 * moment));
+      stop.request_stop();
+    });
+    again.replay(cloud, strokes, options, {.stop = stop.get_token(), .on_progress = {}});
+    after_a_while.join();
+    CHECK(again.replay(cloud, strokes, options).labels() == all);
+  }
 }
 
 TEST_CASE("region by colour: a click on the object takes no wall that looks like the stone") {
