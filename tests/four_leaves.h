@@ -28,6 +28,14 @@ inline PartHierarchy four_leaves() {
   return parts;
 }
 
+inline ListedWeights listed(const Image<std::vector<GroupWeight>>& lists) {
+  ListedWeights out;
+  out.of = Image<std::span<GroupWeight>>(lists.width(), lists.height());
+  out.memory.assign(lists.pixels().begin(), lists.pixels().end());
+  std::ranges::copy(out.memory, out.of.pixels().begin());
+  return out;
+}
+
 // What is at each pixel, and nothing behind it. hit: a Gaussian, or -1.
 inline LeafView leaf_view_of_hits(const PartHierarchy& parts, const Camera& camera,
                                   const Image<std::int32_t>& hit) {
@@ -40,7 +48,7 @@ inline LeafView leaf_view_of_hits(const PartHierarchy& parts, const Camera& came
     const std::uint32_t leaf = parts.leaf_of[gaussian];
     if (leaf != kNoPart) depth.pixels()[i] = camera.camera_from_world(parts.leaf_centre_world[leaf]).z;
   }
-  return leaf_view_of(parts, camera, std::move(lists), std::move(depth));
+  return leaf_view_of(parts, camera, listed(lists), std::move(depth));
 }
 
 }  // namespace splatcut::testing

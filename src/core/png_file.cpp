@@ -14,14 +14,21 @@ namespace splatcut {
 
 namespace {
 
-// libpng's simplified API does the whole job from memory, so a failure leaves nothing half written.
-void write_pixels(const std::filesystem::path& path, const void* pixels, int width, int height,
-                  png_uint_32 format) {
+// Little compression: on real pictures it takes a quarter of the time and 1.4 times the bytes.
+png_image described(int width, int height, png_uint_32 format) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   png.width = static_cast<png_uint_32>(width);
   png.height = static_cast<png_uint_32>(height);
   png.format = format;
+  png.flags = PNG_IMAGE_FLAG_FAST;
+  return png;
+}
+
+// libpng's simplified API does the whole job from memory, so a failure leaves nothing half written.
+void write_pixels(const std::filesystem::path& path, const void* pixels, int width, int height,
+                  png_uint_32 format) {
+  png_image png = described(width, height, format);
   AtomicFile file(path);
   if (!png_image_write_to_stdio(&png, file.stream(), 0, pixels, 0, nullptr))
     throw Error(path.string(), fmt::format("cannot be written as PNG ({})", png.message),
@@ -30,11 +37,7 @@ void write_pixels(const std::filesystem::path& path, const void* pixels, int wid
 }
 
 std::string bytes_of(const void* pixels, int width, int height, png_uint_32 format) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(width);
-  png.height = static_cast<png_uint_32>(height);
-  png.format = format;
+  png_image png = described(width, height, format);
   std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(png), '\0');
   png_alloc_size_t size = bytes.size();
   if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, nullptr))

@@ -40,14 +40,14 @@ struct Around {
 };
 
 Around around(const Image<std::uint8_t>& owners, int x, int y) {
-  const std::uint8_t centre = owners.at(x, y);
   const int x0 = std::max(0, x - 2), x1 = std::min(owners.width() - 1, x + 2);
   const int y0 = std::max(0, y - 2), y1 = std::min(owners.height() - 1, y + 2);
+  const std::uint8_t *above = owners.row(y0).data(), *own = owners.row(y).data(),
+                     *below = owners.row(y1).data();
+  const std::uint8_t centre = own[x];
   // Corners and edge middles decide for most pixels that nothing happens here.
-  const bool quiet = owners.at(x0, y0) == centre && owners.at(x1, y0) == centre &&
-                     owners.at(x0, y1) == centre && owners.at(x1, y1) == centre &&
-                     owners.at(x, y0) == centre && owners.at(x, y1) == centre && owners.at(x0, y) == centre &&
-                     owners.at(x1, y) == centre;
+  const bool quiet = above[x0] == centre && above[x] == centre && above[x1] == centre && own[x0] == centre &&
+                     own[x1] == centre && below[x0] == centre && below[x] == centre && below[x1] == centre;
   if (quiet) return {centre, centre ? 1.0f : 0.0f, true};
   int marked = 0, total = 0, same = 0;
   std::uint8_t other = centre;
@@ -91,11 +91,16 @@ Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style) {
   const Image<std::uint8_t> owners = owners_of(frame, style.owner);
   const Image<std::uint8_t> highlights = owners_of(frame, style.highlight);
   tbb::parallel_for(0, height, [&](int y) {
+    const auto colours = frame.colour.row(y);
+    const auto alphas = frame.alpha.row(y);
+    const auto hits = frame.first_hit.row(y);
+    const auto row = picture.row(y);
     for (int x = 0; x < width; ++x) {
+      const auto i = static_cast<std::size_t>(x);
       const glm::vec3 behind =
           style.checker_px > 0 ? checker_colour(x, y, style.checker_px) : style.background;
-      glm::vec3 c = frame.colour.at(x, y) + (1 - frame.alpha.at(x, y)) * behind;
-      const std::int32_t hit = frame.first_hit.at(x, y);
+      glm::vec3 c = colours[i] + (1 - alphas[i]) * behind;
+      const std::int32_t hit = hits[i];
       if (style.heat && hit >= 0)
         c = glm::mix(c, heat_colour((*style.heat)[static_cast<std::size_t>(hit)]), kHeatStrength);
       if (style.owner && (style.tint || style.outline)) {
@@ -109,7 +114,7 @@ Image<Rgba8> shaded(const Frame& frame, const FrameStyle& style) {
         const Around a = around(highlights, x, y);
         c = glm::mix(c, unit(style.highlight_colour), a.uniform ? 0.14f * a.inside : 0.9f * border(a.inside));
       }
-      picture.at(x, y) = rgba8(c);
+      row[i] = rgba8(c);
     }
   });
   return picture;

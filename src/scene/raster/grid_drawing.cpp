@@ -74,7 +74,10 @@ RasterOutput empty_output(const RasterOptions& options, const PixelRect& roi) {
   if (options.colour) out.colour = Image<glm::vec3>(width, height);
   if (!options.labels.empty()) out.label_share = Image<float>(width, height);
   if (!options.groups.empty()) out.group = Image<std::uint32_t>(width, height, kNoGroup);
-  if (options.list_gaussians) out.gaussians = Image<std::vector<GroupWeight>>(width, height);
+  if (options.list_gaussians) {
+    out.gaussians.of = Image<std::span<GroupWeight>>(width, height);
+    out.gaussians.memory.resize(tiles_of(roi).size());
+  }
   out.alpha = Image<float>(width, height);
   if (options.depth) {
     out.expected_depth = out.median_depth = Image<float>(width, height);

@@ -61,6 +61,16 @@ inline constexpr std::uint32_t kNoGroup = 0xffffffffu;
 // The heaviest, where all together cover at least half of the pixel; kNoGroup elsewhere.
 std::uint32_t group_of_pixel(std::span<const GroupWeight> heaviest_first);
 
+// One list a pixel. They lie in `memory`, those of a tile together; so this is moved, but never copied.
+struct ListedWeights {
+  Image<std::span<GroupWeight>> of;
+  std::vector<std::vector<GroupWeight>> memory;
+
+  ListedWeights() = default;
+  ListedWeights(ListedWeights&&) = default;
+  ListedWeights& operator=(ListedWeights&&) = default;
+};
+
 struct RasterOptions {
   bool colour = true;
   bool depth = false;  // expected depth, median depth and first-hit id
@@ -88,11 +98,11 @@ struct RasterOptions {
 };
 
 struct RasterOutput {
-  Image<glm::vec3> colour;                    // over the background, >= 0, not clamped above
-  Image<float> alpha;                         // 1 - T
-  Image<float> label_share;                   // sum of weight over Gaussians with a label other than 0
-  Image<std::uint32_t> group;                 // group_of_pixel()
-  Image<std::vector<GroupWeight>> gaussians;  // front to back; of over 48 the heaviest, in any order
+  Image<glm::vec3> colour;        // over the background, >= 0, not clamped above
+  Image<float> alpha;             // 1 - T
+  Image<float> label_share;       // sum of weight over Gaussians with a label other than 0
+  Image<std::uint32_t> group;     // group_of_pixel()
+  ListedWeights gaussians;        // front to back; of over 48 the heaviest, in any order
   Image<float> expected_depth;    // sum(weight z) / sum(weight), camera z in scene units; 0 where nothing is
   Image<float> median_depth;      // camera z of the Gaussian at which T falls below 0.5; 0 where none does
   Image<std::int32_t> first_hit;  // that Gaussian's index in the cloud, or -1

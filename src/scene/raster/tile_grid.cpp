@@ -173,10 +173,11 @@ TileGrid bin_splats(const GaussianCloud& cloud, const Camera& camera, const Rast
                     const Job& job) {
   const PixelRect roi = options.roi.value_or(PixelRect{0, 0, camera.width_px, camera.height_px});
   TileGrid grid;
-  grid.first_tile_x = roi.x0 / kTilePx;
-  grid.first_tile_y = roi.y0 / kTilePx;
-  grid.tiles_x = (roi.x1 + kTilePx - 1) / kTilePx - grid.first_tile_x;
-  grid.tiles_y = (roi.y1 + kTilePx - 1) / kTilePx - grid.first_tile_y;
+  const TilesOf tiles = tiles_of(roi);
+  grid.first_tile_x = tiles.first_x;
+  grid.first_tile_y = tiles.first_y;
+  grid.tiles_x = tiles.across;
+  grid.tiles_y = tiles.down;
   constexpr int kMostTiles = 1 << 16;  // each run counts in each tile
   grid.too_large = grid.tiles() > kMostTiles;
   if (grid.too_large) return grid;

@@ -12,6 +12,19 @@
 namespace splatcut {
 
 inline constexpr int kTilePx = 16;
+
+// The tiles of the whole picture that a region touches, row by row.
+struct TilesOf {
+  int first_x, first_y, across, down;
+  std::size_t size() const { return static_cast<std::size_t>(across) * static_cast<std::size_t>(down); }
+  std::size_t index(int x_px, int y_px) const {
+    return static_cast<std::size_t>((y_px / kTilePx - first_y) * across + x_px / kTilePx - first_x);
+  }
+};
+inline TilesOf tiles_of(const PixelRect& region) {
+  const int x = region.x0 / kTilePx, y = region.y0 / kTilePx;
+  return {x, y, (region.x1 + kTilePx - 1) / kTilePx - x, (region.y1 + kTilePx - 1) / kTilePx - y};
+}
 inline constexpr float kLog2AlphaMin = -7.994353436858858f;  // log2(1/255)
 // Slack on log2(alpha) where faint splats are left out early: only the test per pixel may decide at the
 // threshold.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -140,6 +141,11 @@ template <Paint kPaint, bool kDepth>
 inline void store_pixels(const TileBlend& what, int tile_x, int tile_y, const TilePixels& pixels,
                          PixelLists* lists, RasterOutput* to) {
   RasterOutput& out = *to;
+  std::vector<GroupWeight>* memory = nullptr;
+  if constexpr (kPaint == Paint::kGaussians) {
+    memory = &out.gaussians.memory[tiles_of(what.roi).index(tile_x, tile_y)];
+    memory->reserve(static_cast<std::size_t>(std::reduce(lists->count.begin(), lists->count.end())));
+  }
   for (int i = 0; i < kTilePixels; ++i) {
     const int block = i / kBlockPixels, p = i % kBlockPixels;
     const int x = tile_x + block % kBlocksAcross * kBlockPx + p % kBlockPx - what.roi.x0;
@@ -150,7 +156,8 @@ inline void store_pixels(const TileBlend& what, int tile_x, int tile_y, const Ti
     if constexpr (kPaint == Paint::kGroups) out.group.at(x, y) = group_of(lists->at(i));
     if constexpr (kPaint == Paint::kGaussians) {
       const std::span<const GroupWeight> list = lists->at(i);
-      out.gaussians.at(x, y).assign(list.begin(), list.end());
+      const auto at = memory->insert(memory->end(), list.begin(), list.end());  // reserved: nothing moves
+      out.gaussians.of.at(x, y) = {at, list.size()};
     }
     if constexpr (kPaint == Paint::kLabel) out.label_share.at(x, y) = pixels.red[i];
     if constexpr (kPaint == Paint::kColour)

@@ -60,12 +60,8 @@ Mask resized_mask(const Mask& mask, int width_px, int height_px) {
 }
 
 PixelRect bounds(const Mask& mask) {
-  PixelRect r{mask.width(), mask.height(), 0, 0};
-  for (int y = 0; y < mask.height(); ++y)
-    for (int x = 0; x < mask.width(); ++x)
-      if (mask.at(x, y))
-        r = {std::min(r.x0, x), std::min(r.y0, y), std::max(r.x1, x + 1), std::max(r.y1, y + 1)};
-  return r.empty() ? PixelRect{} : r;
+  const cv::Rect r = cv::boundingRect(as_const_mat(mask));
+  return {r.x, r.y, r.x + r.width, r.y + r.height};
 }
 
 PixelRect grown(const PixelRect& rect, int margin_px, int width, int height) {
@@ -91,11 +87,15 @@ Mask connected_to(const Mask& mask, const glm::ivec2& at) {
 }
 
 Image<float> distance_inside(const Mask& mask) {
-  cv::Mat framed, distance;
-  cv::copyMakeBorder(as_const_mat(mask), framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
-  cv::distanceTransform(framed, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   Image<float> out(mask.width(), mask.height());
-  distance(cv::Rect(1, 1, mask.width(), mask.height())).copyTo(as_mat(out));
+  const PixelRect box = bounds(mask);
+  if (box.empty()) return out;
+  const cv::Rect within(box.x0, box.y0, box.width(), box.height());
+  cv::Mat framed, distance;
+  cv::copyMakeBorder(as_const_mat(mask)(within), framed, 1, 1, 1, 1,
+                     cv::BORDER_CONSTANT | cv::BORDER_ISOLATED, 0);
+  cv::distanceTransform(framed, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  distance(cv::Rect(1, 1, box.width(), box.height())).copyTo(as_mat(out)(within));
   return out;
 }
 

@@ -56,13 +56,30 @@ float jump(const PartTree& tree, std::uint32_t node) {
 
 // The pixel's distance to the border over the largest of its connected region, in (0, 1].
 float centrality(const Mask& region, const glm::ivec2& at) {
-  const Image<float> distance = distance_inside(region);
-  const Mask connected = connected_to(region, at);
-  const float own = std::max(distance.at(at.x, at.y), 1.0f);
-  float most = own;
-  for (std::size_t i = 0; i < connected.size(); ++i)
-    if (connected.pixels()[i]) most = std::max(most, distance.pixels()[i]);
-  return own / most;
+  const Image<float> distance = distance_inside(connected_to(region, at));
+  return distance.at(at.x, at.y) / std::ranges::max(distance.pixels());
+}
+
+PixelRect around_both(const PixelRect& a, const PixelRect& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+// What a chain changes in the click's view.
+struct Levels {
+  Image<std::uint32_t> of_pixel;  // from which index on it changes
+  std::vector<PixelRect> box;     // per index, around all that has changed by then
+};
+
+std::vector<PixelRect> boxes_of(const Image<std::uint32_t>& level, std::size_t indices) {
+  std::vector<PixelRect> boxes(indices);
+  for (int y = 0; y < level.height(); ++y)
+    for (int x = 0; x < level.width(); ++x)
+      if (const std::uint32_t l = level.at(x, y); l != kNoLevel)
+        boxes[l] = around_both(boxes[l], {x, y, x + 1, y + 1});
+  for (std::size_t i = 1; i < indices; ++i) boxes[i] = around_both(boxes[i], boxes[i - 1]);
+  return boxes;
 }
 
 // One click: its inputs and what is computed of it.
@@ -114,7 +131,7 @@ class Asking {
   void add_disc();
   void add_apart_terms();
   void measure_off_centre(bool all);
-  const Image<std::uint32_t>& level_image(std::size_t chain);
+  const Levels& levels_in_view(std::size_t chain);
   void sort();
 
   const PartHierarchy& parts_;
@@ -123,9 +140,9 @@ class Asking {
   const SelectionModel& model_;
   const TermValues& weights_;
   const Camera& camera_;
-  float object_px_ = 0;                               // selected so far
-  std::vector<float> wrong_px_;                       // per leaf: its pixels if a candidate may change it
-  std::vector<Image<std::uint32_t>> level_of_pixel_;  // per chain: from which index on it changes
+  float object_px_ = 0;                 // selected so far
+  std::vector<float> wrong_px_;         // per leaf: its pixels if a candidate may change it
+  std::vector<Levels> levels_in_view_;  // per chain
   Answers out_;
 };
 
@@ -237,16 +254,17 @@ void Asking::measure_stability() {
   }
 }
 
-const Image<std::uint32_t>& Asking::level_image(std::size_t c) {
-  level_of_pixel_.resize(out_.chains.size());
-  Image<std::uint32_t>& image = level_of_pixel_[c];
-  if (!image.empty()) return image;
+const Levels& Asking::levels_in_view(std::size_t c) {
+  levels_in_view_.resize(out_.chains.size());
+  Levels& known = levels_in_view_[c];
+  if (!known.of_pixel.empty()) return known;
   const Chain& chain = out_.chains[c];
   std::vector<std::uint32_t> joins = chain.level;
   for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf)
     if (chain.of_tree && !(wrong_px_[leaf] > 0)) joins[leaf] = kNoLevel;
-  image = shown_from(click_.view, joins);
-  return image;
+  known.of_pixel = shown_from(click_.view, joins);
+  known.box = boxes_of(known.of_pixel, chain.nodes.size());
+  return known;
 }
 
 void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
@@ -383,8 +401,8 @@ void Asking::add_apart_terms() {
     const Chain& chain = out_.chains[candidate.chain];
     std::vector<float>& of_chain = shares[candidate.chain];
     if (of_chain.empty())
-      of_chain =
-          shares_out_of_reach(level_image(candidate.chain), chain.nodes.size(), click_.view.depth, click_.at);
+      of_chain = shares_out_of_reach(levels_in_view(candidate.chain).of_pixel, chain.nodes.size(),
+                                     click_.view.depth, click_.at);
     term(&candidate, Term::kApart) = of_chain[candidate.index];
   }
 }
@@ -409,12 +427,15 @@ void Asking::measure_off_centre(bool all) {
     ++looked_at;
     const bool of_tree = candidate.index != Candidate::kDiscAlone && out_.chains[candidate.chain].of_tree;
     if (of_tree) {
-      const Image<std::uint32_t>& level = level_image(candidate.chain);
-      Mask region(camera_.width_px, camera_.height_px);
-      for (std::size_t i = 0; i < region.size(); ++i)
-        region.pixels()[i] = level.pixels()[i] <= candidate.index ? kMaskObject : 0;
-      region.at(click_.at.x, click_.at.y) = kMaskObject;
-      const float off = at_least_0(std::log(kCentral / centrality(region, click_.at)));
+      const Levels& levels = levels_in_view(candidate.chain);
+      const PixelRect box = around_both(levels.box[candidate.index],
+                                        {click_.at.x, click_.at.y, click_.at.x + 1, click_.at.y + 1});
+      Mask region(box.width(), box.height());
+      for (int y = 0; y < box.height(); ++y)
+        for (int x = 0; x < box.width(); ++x)
+          region.at(x, y) = levels.of_pixel.at(box.x0 + x, box.y0 + y) <= candidate.index ? kMaskObject : 0;
+      const float central = centrality(region, click_.at - glm::ivec2(box.x0, box.y0));
+      const float off = at_least_0(std::log(kCentral / central));
       term(&candidate, Term::kOffCentre) = off;
       candidate.cost += dear * off;
     }

@@ -1,6 +1,7 @@
 #include "segment/selection/leaf_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -14,12 +15,14 @@ namespace {
 
 // Smaller weights are not listed: even twenty of them do not turn the label of a pixel.
 constexpr float kLeastGaussianWeight = 0.004f, kLeastLeafWeight = 0.02f;
+// With this share of a pixel one side has it: the other's is below a half, whatever is rounded.
+constexpr float kDecides = 0.501f;
 
-PixelWeights flat(const Image<std::vector<GroupWeight>>& lists) {
+PixelWeights flat(const Image<std::span<GroupWeight>>& lists) {
   PixelWeights out;
   out.first.reserve(lists.size() + 1);
   out.first.push_back(0);
-  for (const auto& list : lists.pixels())
+  for (const std::span<GroupWeight> list : lists.pixels())
     out.first.push_back(out.first.back() + static_cast<std::uint32_t>(list.size()));
   out.entry.resize(out.first.back());
   for_each_index(lists.size(), [&](std::size_t i) {
@@ -37,17 +40,18 @@ void add_to(std::vector<GroupWeight>* sums, std::uint32_t group, float weight) {
 }
 
 // Replaces each pixel's Gaussians by their leaves.
-void sum_by_leaf(const PartHierarchy& parts, Image<std::vector<GroupWeight>>* lists) {
+void sum_by_leaf(const PartHierarchy& parts, Image<std::span<GroupWeight>>* lists) {
   for_chunks(lists->size(), [&](std::size_t begin, std::size_t end) {
     std::vector<GroupWeight> sums;
     for (std::size_t i = begin; i < end; ++i) {
-      std::vector<GroupWeight>& list = lists->pixels()[i];
+      std::span<GroupWeight>& list = lists->pixels()[i];
       sums.clear();
       for (const GroupWeight& w : list)
         if (parts.leaf_of[w.group] != kNoPart) add_to(&sums, parts.leaf_of[w.group], w.weight);
       std::erase_if(sums, [](const GroupWeight& w) { return w.weight < kLeastLeafWeight; });
       std::ranges::stable_sort(sums, std::ranges::greater(), &GroupWeight::weight);
-      list.assign(sums.begin(), sums.end());  // no longer than it was
+      list = list.first(sums.size());  // no longer than it was
+      std::ranges::copy(sums, list.begin());
     }
   });
 }
@@ -86,17 +90,17 @@ std::vector<float> alone_px(const GaussianCloud& cloud, const Camera& camera) {
 
 }  // namespace
 
-LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera,
-                      Image<std::vector<GroupWeight>> gaussians, Image<float> depth) {
+LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera, ListedWeights gaussians,
+                      Image<float> depth) {
   LeafView view{.camera = camera,
-                .gaussians = flat(gaussians),
+                .gaussians = flat(gaussians.of),
                 .leaves = {},
                 .depth = std::move(depth),
                 .colour = {},
                 .leaf_px = {},
                 .leaf_frame_px = {}};
-  sum_by_leaf(parts, &gaussians);
-  view.leaves = flat(gaussians);
+  sum_by_leaf(parts, &gaussians.of);
+  view.leaves = flat(gaussians.of);
   count_leaves(parts, &view);
   return view;
 }
@@ -134,8 +138,14 @@ Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint3
   for_chunks(from.size(), [&](std::size_t begin, std::size_t end) {
     std::vector<std::pair<std::uint32_t, float>> joining;  // level, share
     for (std::size_t i = begin; i < end; ++i) {
+      const std::span<const GroupWeight> shares = view.leaves.at(i);
+      if (shares.empty()) continue;
+      if (shares.front().weight >= kDecides) {
+        from.pixels()[i] = level[shares.front().group];
+        continue;
+      }
       joining.clear();
-      for (const GroupWeight& w : view.leaves.at(i))
+      for (const GroupWeight& w : shares)
         if (level[w.group] != kNoLevel) joining.emplace_back(level[w.group], w.weight);
       std::ranges::sort(joining);
       float sum = 0;
@@ -162,9 +172,12 @@ bool look_alike(const LeafView& view, std::span<const std::uint8_t> a, std::span
 Mask shown(const PixelWeights& weights, const Camera& camera, std::span<const std::uint8_t> labels) {
   Mask mask(camera.width_px, camera.height_px);
   for_each_index(mask.size(), [&](std::size_t i) {
-    float object = 0;
-    for (const GroupWeight& w : weights.at(i)) object += labels[w.group] ? w.weight : 0;
-    mask.pixels()[i] = object >= 0.5f ? kMaskObject : 0;
+    std::array<float, 2> sum{};  // rest, object
+    for (const GroupWeight& w : weights.at(i)) {
+      sum[labels[w.group] != 0] += w.weight;
+      if (sum[0] >= kDecides || sum[1] >= kDecides) break;
+    }
+    mask.pixels()[i] = sum[1] >= 0.5f ? kMaskObject : 0;
   });
   return mask;
 }

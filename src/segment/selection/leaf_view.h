@@ -46,8 +46,8 @@ LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camer
 void draw_colour(const Drawer& drawer, LeafView* view, const Job& job = {}, const SeenGaussians& seen = {});
 
 // Makes a view from known lists. gaussians: per pixel the weights of its Gaussians.
-LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera,
-                      Image<std::vector<GroupWeight>> gaussians, Image<float> depth);
+LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera, ListedWeights gaussians,
+                      Image<float> depth);
 
 // Picture of the leaf that each pixel shows.
 LeafPicture picture_of(const LeafView& view);

@@ -417,7 +417,7 @@ TEST_CASE("rasterizer: what a pixel gets from each group and each Gaussian is wh
   const Image<std::uint32_t> group = rasterize(cloud, camera, options).group;
   options.groups = {};
   options.list_gaussians = true;
-  const Image<std::vector<GroupWeight>> lists = rasterize(cloud, camera, options).gaussians;
+  const ListedWeights lists = rasterize(cloud, camera, options).gaussians;
   std::vector<Image<float>> of_group, of_gaussian;
   for (std::uint32_t k = 0; k < kGroups; ++k)
     of_group.push_back(share_of([&](std::size_t g) { return group_of[g] == k; }));
@@ -434,9 +434,9 @@ TEST_CASE("rasterizer: what a pixel gets from each group and each Gaussian is wh
     std::vector<float> expected(cloud.size()), got(cloud.size());
     for (std::size_t g = 0; g < cloud.size(); ++g)
       if (const float w = of_gaussian[g].pixels()[pixel]; w >= kListed) expected[g] = w;
-    for (const GroupWeight& w : lists.pixels()[pixel]) got[w.group] = w.weight;
+    for (const GroupWeight& w : lists.of.pixels()[pixel]) got[w.group] = w.weight;
     CHECK(got == expected);
-    listed += lists.pixels()[pixel].size();
+    listed += lists.of.pixels()[pixel].size();
   }
   CHECK(shown > 100);
   CHECK(listed > 500);

@@ -236,7 +236,7 @@ TEST_CASE("selection: a clicked pixel is obeyed by what is small, not by the wal
       lists.at(x, y) = {{leaf, 1}};
       if (leaf > 1) lists.at(x, y) = {{kWall, 0.33f}, {kSplats[0], 0.31f}, {kSplats[1], 0.26f}, {leaf, 0.1f}};
     }
-  LeafView view = leaf_view_of(parts, camera, lists, Image<float>(40, 10, 10.0f));
+  LeafView view = leaf_view_of(parts, camera, listed(lists), Image<float>(40, 10, 10.0f));
   for (const bool sizes_known : {false, true}) {
     if (sizes_known) view.alone_px = {100, 100, 100, 100, 1e6f, 10, 10};
     ClickSelection selection(parts, borders_alone());

@@ -1,0 +1,83 @@
+// Pictures of labellings from a soft view, and distances in masks, against their definitions.
+#include "segment/selection/leaf_view.h"
+
+#include <doctest/doctest.h>
+
+#include "core/counter_rng.h"
+#include "four_leaves.h"
+#include "segment/masks/mask_tools.h"
+
+using namespace splatcut;
+using namespace splatcut::testing;
+
+namespace {
+
+constexpr int kWidth = 40, kHeight = 30;
+
+// Of each pixel the four leaves have shares that a random share of it makes up, often nearly all one leaf's.
+LeafView random_view(const PartHierarchy& parts) {
+  CounterRng rng(5, 1);
+  Image<std::vector<GroupWeight>> lists(kWidth, kHeight);
+  for (std::vector<GroupWeight>& list : lists.pixels()) {
+    float left = rng.below(4) == 0 ? rng.unit() : 1;
+    for (std::uint32_t leaf = 0; leaf < 4; ++leaf) {
+      list.push_back({(leaf + static_cast<std::uint32_t>(rng.below(4))) % 4, left * rng.unit()});
+      left -= list.back().weight;
+    }
+  }
+  Camera camera;
+  camera.width_px = kWidth;
+  camera.height_px = kHeight;
+  return leaf_view_of(parts, camera, listed(lists), Image<float>(kWidth, kHeight, 1.0f));
+}
+
+float share(std::span<const GroupWeight> list, const auto& counts) {
+  float sum = 0;
+  for (const GroupWeight& w : list) sum += counts(w.group) ? w.weight : 0;
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("leaf view: a pixel is object where half of it is, and from the level at which half of it is") {
+  const PartHierarchy parts = four_leaves();
+  const LeafView view = random_view(parts);
+  const std::vector<std::uint8_t> labels = {0, 1, 0, 1};
+  const std::vector<std::uint32_t> level = {3, 1, kNoLevel, 5};
+  for (const PixelWeights* weights : {&view.gaussians, &view.leaves}) {
+    const Mask mask = shown(*weights, view.camera, labels);
+    for (std::size_t i = 0; i < mask.size(); ++i)
+      REQUIRE((mask.pixels()[i] != 0) ==
+              (share(weights->at(i), [&](std::uint32_t g) { return labels[g] != 0; }) >= 0.5f));
+  }
+  const Image<std::uint32_t> from = shown_from(view, level);
+  std::array<int, 4> met{};
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::uint32_t first = kNoLevel;
+    for (const std::uint32_t l : {5u, 3u, 1u})
+      if (share(view.leaves.at(i), [&](std::uint32_t g) { return level[g] <= l; }) >= 0.5f) first = l;
+    REQUIRE(from.pixels()[i] == first);
+    ++met[first == kNoLevel ? 0 : first / 2 + 1];
+  }
+  CHECK(std::ranges::min(met) > 20);
+}
+
+TEST_CASE("masks: distances inside are to the nearest pixel outside, the picture's frame included") {
+  CounterRng rng(7, 1);
+  for (const int margin_px : {0, 6}) {
+    Mask mask(kWidth, kHeight);
+    for (int y = margin_px; y < kHeight - margin_px; ++y)
+      for (int x = margin_px; x < kWidth - margin_px; ++x) mask.at(x, y) = rng.below(40) ? kMaskObject : 0;
+    const Image<float> distance = distance_inside(mask);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        int nearest2 = std::numeric_limits<int>::max();
+        for (int v = -1; v <= kHeight; ++v)
+          for (int u = -1; u <= kWidth; ++u)
+            if (!mask.contains(u, v) || !mask.at(u, v))
+              nearest2 = std::min(nearest2, (u - x) * (u - x) + (v - y) * (v - y));
+        REQUIRE(distance.at(x, y) == doctest::Approx(std::sqrt(nearest2)));
+      }
+  }
+  CHECK(distance_inside(Mask(4, 3)) == Image<float>(4, 3, 0.0f));
+}
