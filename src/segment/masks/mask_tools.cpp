@@ -36,17 +36,18 @@ double iou(const Mask& a, const Mask& b) {
   return either ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
 }
 
+// Farther than the radius from the mask both are empty.
 Mask dilated(const Mask& mask, int radius_px) {
   Mask out(mask.width(), mask.height());
-  cv::Mat to = as_mat(out);
-  cv::dilate(as_const_mat(mask), to, disc(radius_px));
+  const cv::Rect near = as_rect(grown(bounds(mask), radius_px, mask.width(), mask.height()));
+  if (count(mask) > 0) cv::dilate(as_const_mat(mask)(near), as_mat(out)(near), disc(radius_px));
   return out;
 }
 
 Mask eroded(const Mask& mask, int radius_px) {
   Mask out(mask.width(), mask.height());
-  cv::Mat to = as_mat(out);
-  cv::erode(as_const_mat(mask), to, disc(radius_px));
+  const cv::Rect near = as_rect(grown(bounds(mask), radius_px, mask.width(), mask.height()));
+  if (count(mask) > 0) cv::erode(as_const_mat(mask)(near), as_mat(out)(near), disc(radius_px));
   return out;
 }
 
@@ -90,7 +91,7 @@ Image<float> distance_inside(const Mask& mask) {
   Image<float> out(mask.width(), mask.height());
   const PixelRect box = bounds(mask);
   if (box.empty()) return out;
-  const cv::Rect within(box.x0, box.y0, box.width(), box.height());
+  const cv::Rect within = as_rect(box);
   cv::Mat framed, distance;
   cv::copyMakeBorder(as_const_mat(mask)(within), framed, 1, 1, 1, 1,
                      cv::BORDER_CONSTANT | cv::BORDER_ISOLATED, 0);

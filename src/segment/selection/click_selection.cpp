@@ -249,14 +249,13 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, const St
 std::vector<std::uint32_t> ClickSelection::pixels_by_colour(const Click& click, const Answers& answers,
                                                             std::span<const std::uint32_t> disc) const {
   constexpr float kScrap = 0.5f;
-  const Mask region = region_by_colour(click, disc);
   const Candidate& part = answers.candidates.front();
   const float part_px =
       part.index == Candidate::kDiscAlone ? 0 : answers.chains[part.chain].changed_px[part.index];
+  const Mask region = region_by_colour(click, disc, part_px / kScrap);
   std::vector<std::uint32_t> pixels;
   for (std::size_t i = 0; i < region.size(); ++i)
     if (region.pixels()[i]) pixels.push_back(static_cast<std::uint32_t>(i));
-  if (part_px >= kScrap * static_cast<float>(pixels.size())) pixels.clear();
   return pixels;
 }
 

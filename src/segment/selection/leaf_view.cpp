@@ -49,7 +49,7 @@ void sum_by_leaf(const PartHierarchy& parts, Image<std::span<GroupWeight>>* list
       for (const GroupWeight& w : list)
         if (parts.leaf_of[w.group] != kNoPart) add_to(&sums, parts.leaf_of[w.group], w.weight);
       std::erase_if(sums, [](const GroupWeight& w) { return w.weight < kLeastLeafWeight; });
-      std::ranges::stable_sort(sums, std::ranges::greater(), &GroupWeight::weight);
+      std::ranges::sort(sums, std::ranges::greater(), &GroupWeight::weight);
       list = list.first(sums.size());  // no longer than it was
       std::ranges::copy(sums, list.begin());
     }
