@@ -1,11 +1,12 @@
-// node judge.mjs SPLATCUT FOLDER: what the program writes is read by the field's own programs, what they write by the
+// node judge.mjs SPLATCUT FOLDER [DEGREES, as 0,3]: what the program writes is read by the field's own programs, what they write by the
 // program; by value, spherical harmonics of degree 0 to 3. Prints the matrix; ends with 1 where anything differs.
 import {spawnSync} from 'node:child_process';
 import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {COUNT, columnsOfPly, differences, knownRows, plyOf, readingOfColumns, radOf, radRowsOf, turned, writeLcc, writeLcc2} from './gaussians.mjs';
 import * as readers from './readers.mjs';
 
-const [program, folder] = process.argv.slice(2);
+const [program, folder, asked = '0,1,2,3'] = process.argv.slice(2);
+const DEGREES = asked.split(',').map(Number);
 const BYTE = 0.505 / 255, SH_BYTE = 0.505 / 128;
 
 // What a format rounds by, as its layout has it; rgb and covariance follow from f_dc and from sizes and rotation.
@@ -69,7 +70,7 @@ function convert(from, to, options = []) {
   if (end.status !== 0) throw new Error(end.stderr || String(end.error));
 }
 
-for (let degree = 0; degree <= 3; ++degree) {
+for (const degree of DEGREES) {
   const columns = knownRows(degree), known = readingOfColumns(columns), ply = `${folder}/known_${degree}.ply`;
   writeFileSync(ply, plyOf(columns, ['up 0 0 1']));  // which all but .splat carry on, and no reader stumbles over
   for (const [ending, options, format, judges] of WRITTEN) {
@@ -93,7 +94,7 @@ for (let degree = 0; degree <= 3; ++degree) {
   }
 }
 // Nobody here writes .lcc: one of our own making, as the converter reads it and as we do.
-for (const degree of [0, 3]) {
+for (const degree of DEGREES.filter((d) => d % 3 === 0)) {
   mkdirSync(`${folder}/lcc_${degree}`);
   writeLcc(`${folder}/lcc_${degree}`, degree > 0);
   const path = `${folder}/lcc_${degree}/meta.lcc`;
@@ -103,7 +104,7 @@ for (const degree of [0, 3]) {
   });
 }
 // Nor .lcc2: pieces that the converter wrote, under a text of our own making, level by level.
-for (const degree of [0, 3])
+for (const degree of DEGREES.filter((d) => d % 3 === 0))
   for (const [ending, options] of [['sog', []], ['3.spz', ['--spz-version', '3']], ['4.spz', ['--spz-version', '4']]]) {
     const below = `${folder}/lcc2_${degree}_${ending}`, coarse = 20, kind = ending.slice(-3);
     mkdirSync(below);
@@ -120,7 +121,7 @@ for (const degree of [0, 3])
       });
   }
 // .rad of our own making, in every encoding that it has, and with the tree that Spark makes; as Spark reads it.
-for (const degree of [0, 1, 2, 3])
+for (const degree of DEGREES)
   for (const variant of [0, 1, 2, 3, 4, 'a tree']) {
     const path = `${folder}/made_${degree}_${variant}.rad`, rows = radRowsOf(knownRows(degree));
     writeFileSync(path, radOf(rows, Number.isInteger(variant) ? variant : 1));

@@ -28,7 +28,8 @@ Mask region_by_colour(const Click& click, std::span<const std::uint32_t> disc, f
   const Image<Rgb8>& colour = click.view.colour;
   Mask nothing(displayed.width(), displayed.height());
   const float disc_px = std::numbers::pi_v<float> * click.radius_px * click.radius_px;
-  if (click.object || colour.empty() || click.radius_px <= kAtBorderPx || more_than_px >= kMostDiscs * disc_px)
+  if (click.object || colour.empty() || click.radius_px <= kAtBorderPx ||
+      more_than_px >= kMostDiscs * disc_px)
     return nothing;
   Image<std::uint8_t> seeds(displayed.width(), displayed.height(), kNoSeed);
   for (const std::uint32_t pixel : disc) seeds.pixels()[pixel] = kRestSeed;
@@ -40,8 +41,7 @@ Mask region_by_colour(const Click& click, std::span<const std::uint32_t> disc, f
       colour, region, without(dilated(displayed, refine.band_px), displayed), without(displayed, region));
   const auto region_px = static_cast<float>(count(region));
   const float discs = region_px / disc_px;
-  const bool found =
-      region_px > more_than_px && discs < kMostDiscs && differs > kDiffers * std::log(discs);
+  const bool found = region_px > more_than_px && discs < kMostDiscs && differs > kDiffers * std::log(discs);
   return found ? region : nothing;
 }
 

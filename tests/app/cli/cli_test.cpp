@@ -549,7 +549,7 @@ TEST_CASE("Ctrl+C ends a run with 1 and leaves nothing half written") {
   REQUIRE(place.run("make-scene large -o large --gaussians 300000 --format ply").code == 0);
   place.write("large/suite.json",
               R"({"scenes": [{"name": "a", "scene": "large.ply", "cameras": "cameras.json",
-      "truth": {"labels": "large.labels.u8"}, "reference": {"camera": "view_00"}, "clicks": "robot", "test_views": ["view_06"]}]})");
+      "truth": {"labels": "large.labels.u8"}, "reference": {"camera": "view_00"}, "clicks": "robot", "test_views": [{"camera": "view_06"}]}]})");
   for (const std::string& arguments :
        {"cut large/large.ply --cameras large/cameras.json --camera 0 --click " + life.click,
         std::string("eval large/suite.json"), std::string("make-scene more --gaussians 3000000")})

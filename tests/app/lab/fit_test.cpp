@@ -5,6 +5,7 @@
 
 #include "app/measure/decisions.h"
 #include "core/counter_rng.h"
+#include "fit_suites.h"
 #include "program_runner.h"
 
 using namespace splatcut;
@@ -64,21 +65,10 @@ TEST_CASE("fit: a scene counts by being in, not by how many decisions it has") {
   for (std::size_t t = 0; t < kTerms; ++t) CHECK(again[t] == doctest::Approx(both[t]).epsilon(0.1));
 }
 
-TEST_CASE("fit by the program: a row a scene, as shipped, fitted with it and without it, the same twice") {
+TEST_CASE(
+    "fit by the program: a row a scene, as shipped, fitted with it and without it, and what it refuses") {
   const Workplace place;
-  REQUIRE(place.run("make-scene small -o made --gaussians 4000").code == 0);
-  REQUIRE(place.run("make-scene other -o other --gaussians 4000 --seed 2").code == 0);
-  for (const std::string folder : {"made", "other"}) {
-    json suite = json::parse(place.text(folder + "/suite.json"));
-    json some = json::array();
-    for (json entry : suite["scenes"]) {
-      if (entry["name"] != "apple" && entry["name"] != "mug") continue;
-      const json view = entry["test_views"][0];
-      entry["test_views"] = json::array({view});
-      some.push_back(entry);
-    }
-    place.write(folder + "/some.json", json{{"scenes", some}}.dump());
-  }
+  write_fit_suites(place);
   const std::string command = "fit made/some.json other/some.json --robot-clicks 2 --starts 1 -o ";
   const Result result = place.run_program(lab_program(), command + "out");
   REQUIRE_MESSAGE(result.code == 0, result.err);
@@ -90,21 +80,6 @@ TEST_CASE("fit by the program: a row a scene, as shipped, fitted with it and wit
     for (const char* key : {"shipped", "fitted_with", "fitted_without"})
       CHECK_MESSAGE(scene[key].size() == 2, key);
   CHECK(fit["scenes"][0]["weights_without"] == fit["scenes"][1]["weights_without"]);
-  REQUIRE(place.run_program(lab_program(), command + "again --threads 1").code == 0);
-  CHECK(place.text("again/fit.json") == place.text("out/fit.json"));
-  // Objects of two files can be left out together; first clicks from elsewhere count, too.
-  REQUIRE(place.run_program(lab_program(), command + "zoomed --zoom --together apple").code == 0);
-  const json zoomed = json::parse(place.text("zoomed/fit.json"));
-  CHECK(zoomed["scenes"][1]["capture"] == zoomed["scenes"][3]["capture"]);
-  CHECK(zoomed["scenes"][0]["capture"] != zoomed["scenes"][2]["capture"]);
-  for (const json& scene : zoomed["scenes"]) {
-    CHECK(scene["shipped"].size() == 2);
-    for (const char* key : {"of_distance", "shipped", "fitted_with", "fitted_without"})
-      CHECK_MESSAGE(scene["zoom"][key].size() == 4, key);
-  }
-  // The model it writes is one to start from.
-  const Result more = place.run_program(lab_program(), command + "more --of later --model out/model.json");
-  CHECK_MESSAGE(more.code == 0, more.err);
   const Result wrong = place.run_program(lab_program(), command + "wrong --without colour");
   CHECK(wrong.code == 1);
   CHECK(wrong.err.find("colour") != std::string::npos);

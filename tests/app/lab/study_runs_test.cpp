@@ -1,4 +1,5 @@
-// The study whole: every experiment, and what is shipped against all else that it tries. Slow.
+// The study whole: every experiment, and what is shipped against all else that it tries; the fit with all its
+// options. Slow.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -6,6 +7,7 @@
 #include "app/lab/eval_suite.h"
 #include "app/lab/study/study_plan.h"
 #include "app/lab/study/study_tables.h"
+#include "fit_suites.h"
 #include "program_runner.h"
 
 using namespace splatcut;
@@ -78,4 +80,28 @@ TEST_CASE(
   CHECK(page.find("The paper's tables") != std::string::npos);
   CHECK(place.run("study -o study --quick --cells 1 --draws 1 --gaussians 2500 --no-charts").code == 0);
   CHECK(json::parse(place.text("study/results.json"))["results"] == results);  // nothing was left to measure
+}
+
+TEST_CASE(
+    "fit by the program: the same on one thread, from elsewhere, with captures together, from a model of its "
+    "own") {
+  const Workplace place;
+  write_fit_suites(place);
+  const std::string command = "fit made/some.json other/some.json --robot-clicks 2 --starts 1 -o ";
+  for (const char* name : {"out", "again --threads 1"})
+    REQUIRE(place.run_program(lab_program(), command + name).code == 0);
+  CHECK(place.text("again/fit.json") == place.text("out/fit.json"));
+  // Objects of two files can be left out together; first clicks from elsewhere count, too.
+  REQUIRE(place.run_program(lab_program(), command + "zoomed --zoom --together apple").code == 0);
+  const json zoomed = json::parse(place.text("zoomed/fit.json"));
+  CHECK(zoomed["scenes"][1]["capture"] == zoomed["scenes"][3]["capture"]);
+  CHECK(zoomed["scenes"][0]["capture"] != zoomed["scenes"][2]["capture"]);
+  for (const json& scene : zoomed["scenes"]) {
+    CHECK(scene["shipped"].size() == 2);
+    for (const char* key : {"of_distance", "shipped", "fitted_with", "fitted_without"})
+      CHECK_MESSAGE(scene["zoom"][key].size() == 4, key);
+  }
+  // The model it writes is one to start from.
+  const Result more = place.run_program(lab_program(), command + "more --of later --model out/model.json");
+  CHECK_MESSAGE(more.code == 0, more.err);
 }
