@@ -111,7 +111,8 @@ std::string changes_text(const ExportChoice& choice, const EdgesKnown& edges) {
   const std::string of_edges = edges_change_text(choice, edges);
   if (!fills_hole(choice)) return of_edges;
   return of_edges + (of_edges.empty() ? "" : " ") +
-         "What lies in the hole and at its rim is replaced; what fills it is invented.";
+         "If the object touches a flat surface, that is continued into the hole: what lies there and at the "
+         "rim is replaced, and what fills it is invented.";
 }
 
 std::string loss_text(const ExportChoice& choice, const EdgesKnown& edges, const FormatPlan& plan) {

@@ -212,7 +212,7 @@ std::optional<SurfaceBelow> surface_below(const Drawer& scene, std::span<const s
   std::vector<SurfaceView> views = surface_views(scene, labels, up_world, cameras, job);
   const std::optional<SupportPlane> plane = plane_below(views, object, glm::normalize(up_world));
   if (plane) return SurfaceBelow{std::move(views), {*plane, object.radius}, plane->share};
-  *why_not = "nothing flat touches the object";
+  *why_not = "no flat surface was found that the object touches";
   return {};
 }
 

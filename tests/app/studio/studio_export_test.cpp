@@ -290,7 +290,8 @@ TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only
   choice.fill_hole = true;
   CHECK(amount_text(choice, 139338, rows, plan) == "About 139,338 Gaussians, about 4.3 MB");
   CHECK(changes_text(choice, rows) ==
-        "What lies in the hole and at its rim is replaced; what fills it is invented.");
+        "If the object touches a flat surface, that is continued into the hole: what lies there and at the "
+        "rim is replaced, and what fills it is invented.");
   CHECK(loss_text(choice, rows, plan).empty());
 }
 
