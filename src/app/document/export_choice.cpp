@@ -47,11 +47,14 @@ std::filesystem::path folder_to_write(const std::filesystem::path& wanted) {
   return wanted;
 }
 
+std::filesystem::path folder_of_next(const std::filesystem::path& scene, const std::filesystem::path& last) {
+  return folder_to_write(std::filesystem::absolute(last.empty() ? scene : last).parent_path());
+}
+
 std::string proposed_path(const ExportChoice& choice, const std::filesystem::path& scene,
                           const ObjectItem* object, const std::filesystem::path& last) {
-  const std::filesystem::path beside = std::filesystem::absolute(last.empty() ? scene : last).parent_path(),
-                              folder = choice.path.empty() ? folder_to_write(beside)
-                                                           : std::filesystem::path(choice.path).parent_path();
+  const std::filesystem::path folder =
+      choice.path.empty() ? folder_of_next(scene, last) : std::filesystem::path(choice.path).parent_path();
   std::string stem = scene_name(scene);
   stem = stem.substr(0, stem.find('.'));
   std::string name = choice.what == ExportWhat::kRest         ? "rest"

@@ -24,16 +24,20 @@ struct ExportChoice {
   ExportPlacement placement;  // kept for the next export of the scene
   std::uint32_t placed_file = 0;  // the scene's first, that it is for
   FormatPlan plan;
-  std::string plan_key;  // what it was made for
-  std::string trouble;   // why the last try failed
+  std::string plan_key;                // what it was made for
+  std::string trouble;                 // why the last try failed
+  std::optional<ExportRequest> tried;  // what that was; none: what the dialog says when it comes back
 };
 
 // That folder, or where it cannot be written the user's Documents or home; that folder where neither can.
 std::filesystem::path folder_to_write(const std::filesystem::path& wanted);
 
-// A free path for that: in the folder of the present path, else in that of the last export, else beside the
-// scene (see folder_to_write()). object: null if there is none. last: what was exported last of this scene;
-// empty: nothing.
+// Where the next file of a scene goes: beside what was written last of it, `last`, or if that is empty beside
+// the scene (see folder_to_write()).
+std::filesystem::path folder_of_next(const std::filesystem::path& scene, const std::filesystem::path& last);
+
+// A free path for that: in the folder of the present path, else in folder_of_next(). object: null if there is
+// none.
 std::string proposed_path(const ExportChoice& choice, const std::filesystem::path& scene,
                           const ObjectItem* object, const std::filesystem::path& last = {});
 

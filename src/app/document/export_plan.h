@@ -32,6 +32,7 @@ struct ExportRequest {
   ExportPlacement placement = {};
   bool clean_edges = false;  // objects are written with clean edges, kRest as forget.h has it
   bool fill_hole = false;    // kRest: as fill.h has it
+  bool operator==(const ExportRequest&) const = default;
 };
 
 struct ExportReport {

@@ -76,6 +76,7 @@ void Exports::perform(const SaveTurntable& c) {
                             options, job))
           return;
         ws_.tasks.post([this, c, edges = edges_text(report)] {
+          last_ = c.path;
           ws_.say(Message::Kind::kDone,
                   fmt::format("{} pictures saved to {}{}", c.frames, c.path.string(), edges));
         });

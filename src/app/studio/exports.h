@@ -20,7 +20,8 @@ class Exports {
 
   void reset() { last_.clear(); }  // another scene was opened
 
-  // Path of the scene, or folder of scenes, that was written last of the scene that is open; empty: none was.
+  // Path of the scene, folder of scenes, or turntable that was written last of the scene that is open; empty:
+  // none was.
   const std::filesystem::path& last() const { return last_; }
 
  private:

@@ -51,6 +51,23 @@ void propose_path(UiContext& ui) {
                               ui.studio.exports().last());
 }
 
+// What pressing Export asks for.
+ExportRequest request_of(const UiContext& ui) {
+  const ExportChoice& choice = ui.state.exporting;
+  return {choice.what,      choice.format,    target_of(choice),
+          choice.overwrite, choice.placement, ui.studio.view().clean_edges,
+          choice.fill_hole};
+}
+
+// Why the last try failed is told of what was tried alone.
+void forget_trouble_of_another_try(ExportChoice& choice, const ExportRequest& now) {
+  if (choice.trouble.empty()) return;
+  if (!choice.tried) choice.tried = now;
+  if (*choice.tried == now) return;
+  choice.trouble.clear();
+  choice.tried.reset();
+}
+
 void fact(const char* symbol, const ImVec4& colour, const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(symbol);
@@ -288,6 +305,7 @@ void export_dialog(UiContext& ui) {
       choice.for_want_of_object = true;
     }
     if (ui.state.exporting.path.empty()) propose_path(ui);
+    remember_clean_edges(ui);
   }
   constexpr float kWidth = 640, kHeight = 478, kPreview = 330;
   const bool previews = ImGui::GetIO().DisplaySize.x >= kWidth + kPreview;
@@ -301,7 +319,7 @@ void export_dialog(UiContext& ui) {
   export_choices(ui);
   placement_choices(ui);
   ExportChoice& choice = ui.state.exporting;
-  clean_edges_choice(ui);
+  clean_edges_choice(ui, choice.what == ExportWhat::kScene ? "The whole scene is written as it is" : "");
   if (choice.what == ExportWhat::kRest) {
     ImGui::SameLine();
     ImGui::Checkbox("Fill the hole", &choice.fill_hole);
@@ -320,8 +338,10 @@ void export_dialog(UiContext& ui) {
     if (!text.empty()) fact(icon::kInfo, p.accent, text);
   if (const std::string lost = loss_text(choice, edges, plan); !lost.empty())
     fact(plan.lost.empty() ? icon::kCheck : icon::kWarning, plan.lost.empty() ? p.good : p.warn, lost);
+  const ExportRequest request = request_of(ui);
+  forget_trouble_of_another_try(choice, request);
   if (!choice.trouble.empty()) fact(icon::kWarning, p.bad, choice.trouble);
-  const std::filesystem::path target = target_of(choice);
+  const std::filesystem::path& target = request.path;
   if (target != choice.path) fact(icon::kInfo, p.accent, "The file will be " + target.filename().string());
   std::error_code ignored;
   const bool exists = std::filesystem::exists(target, ignored);
@@ -342,10 +362,9 @@ void export_dialog(UiContext& ui) {
                                  : "";
   const bool pressed = button(ui, "Export", "Write the file  (Enter)", reason, reason.empty(), 110);
   const bool done = pressed || (reason.empty() && !typing && enter_pressed());
-  if (done)
-    ui.ask(Export{{choice.what, choice.format, target, choice.overwrite, choice.placement,
-                   ui.studio.view().clean_edges, choice.fill_hole}});
+  if (done) ui.ask(Export{request});
   if (done || cancelled) {
+    leave_clean_edges(ui, done);
     ui.state.export_open = false;
     choice.trouble.clear();
     ImGui::CloseCurrentPopup();

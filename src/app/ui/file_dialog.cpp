@@ -58,6 +58,12 @@ void use_choice(UiContext& ui, std::filesystem::path path, bool asked) {
     use(ui, path);
 }
 
+// What stands in the field that the button was pressed beside; empty: nothing, or there is none.
+std::string field_of_caller(const UiState& state, FilePurpose purpose) {
+  if (purpose == FilePurpose::kExport) return state.exporting.path;
+  return purpose == FilePurpose::kTurntable ? state.turntable.path : std::string();
+}
+
 // The dialog that asked for a path comes back without one.
 void back_to_caller(UiContext& ui) {
   if (ui.state.file_purpose == FilePurpose::kExport) ui.state.export_open = true;
@@ -183,12 +189,12 @@ void open_file_dialog(UiContext& ui, FilePurpose purpose) {
   if (purpose == FilePurpose::kSaveWork) files.name = stem + ".splatcut.json";
   if (purpose == FilePurpose::kSnapshot) files.name = stem + ".png";
   if (purpose == FilePurpose::kTurntable) files.name = stem + "_turntable";
-  if (purpose == FilePurpose::kExport)
-    files.name = std::filesystem::path(ui.state.exporting.path).filename().string();
   std::filesystem::path start = files.folder;
-  if (purpose == FilePurpose::kTurntable && !ui.state.turntable.path.empty()) {
-    files.name = std::filesystem::path(ui.state.turntable.path).filename().string();
-    start = std::filesystem::path(ui.state.turntable.path).parent_path();
+  if (const std::filesystem::path field = field_of_caller(ui.state, purpose); !field.empty()) {
+    files.name = field.filename().string();
+    std::error_code ignored;
+    const std::filesystem::path folder = std::filesystem::absolute(field).parent_path();
+    if (std::filesystem::is_directory(folder, ignored)) start = folder;
   }
   if (const auto& saved = ui.studio.work().work_path(); purpose == FilePurpose::kSaveWork && !saved.empty()) {
     files.name = saved.filename().string();

@@ -24,10 +24,10 @@ void propose(UiContext& ui) {
   if (choice.width_px <= 0) choice.width_px = view.width_px;
   if (choice.height_px <= 0) choice.height_px = view.height_px;
   if (!choice.path.empty()) return;
-  const std::filesystem::path scene = std::filesystem::absolute(ui.studio.scene()->scene->path);
+  const std::filesystem::path& scene = ui.studio.scene()->scene->path;
   const std::string name = scene.filename().string();
   const std::string ending = kEndings[static_cast<std::size_t>(choice.as)];
-  choice.path = free_path(folder_to_write(scene.parent_path()) /
+  choice.path = free_path(folder_of_next(scene, ui.studio.exports().last()) /
                               (name.substr(0, name.find('.')) + "_turntable" + ending),
                           ending)
                     .string();
@@ -108,10 +108,16 @@ std::string what_is_written(const TurntableChoice& choice) {
   if (choice.as == TurntableAs::kPictures)
     return fmt::format("frame_0000.png to frame_{:04}.png, the object alone, transparent around it.",
                        choice.frames - 1) +
-           camera + "Pictures of the same names there are replaced.";
+           camera;
   return (choice.as == TurntableAs::kWebp ? "The object alone, transparent around it, again and again."
                                           : "The object alone over the background.") +
-         camera + "A file of that name is replaced.";
+         camera;
+}
+
+// What it would write over; pictures have names of their own in their folder.
+std::filesystem::path first_written(const TurntableChoice& choice) {
+  const std::filesystem::path path = choice.path;
+  return choice.as == TurntableAs::kPictures ? path / "frame_0000.png" : path;
 }
 
 }  // namespace
@@ -120,8 +126,11 @@ void turntable_button(UiContext& ui, const char* label, float width) {
   const ObjectItem* active = ui.studio.document().active_object();
   const bool selected = active && ui.studio.gaussians_of(active->id) > 0;
   if (button(ui, label, "Turntable: the object turning once, as pictures, animated WebP, video",
-             selected ? "" : "There is no object to turn", false, width))
+             selected ? "" : "There is no object to turn", false, width)) {
+    ui.state.turntable.path.clear();
+    ui.state.turntable.overwrite = false;
     ui.state.turntable_open = true;
+  }
 }
 
 void turntable_dialog(UiContext& ui) {
@@ -130,8 +139,9 @@ void turntable_dialog(UiContext& ui) {
   if (ui.state.turntable_open && !ImGui::IsPopupOpen(id)) {
     if (!ui.studio.scene()) return;
     propose(ui);
+    remember_clean_edges(ui);
   }
-  if (!begin_dialog(id, ui.state.turntable_open, {560, 316})) return;
+  if (!begin_dialog(id, ui.state.turntable_open, {560, 346})) return;
   const bool typing = typing_beside("##folder");
   as_row(ui, choice);
   frames_row(ui, choice);
@@ -146,16 +156,26 @@ void turntable_dialog(UiContext& ui) {
   const bool guessed = views.up_is_guess && views.up_world == ui.studio.document().up_world;
   wrapped_muted(ui,
                 what_is_written(choice) + (guessed ? " Does it lean? Set what is up under View first." : ""));
+  std::error_code ignored;
+  const bool exists = std::filesystem::exists(first_written(choice), ignored);
+  if (exists)
+    ImGui::Checkbox(choice.as == TurntableAs::kPictures ? "Replace the pictures that are there"
+                                                        : "Replace the file that is there",
+                    &choice.overwrite);
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
   const bool cancelled = plain_button(ui, "Cancel", 110) || (!typing && escape_pressed());
   ImGui::SameLine(ImGui::GetWindowWidth() - 122);
-  const std::string reason = choice.path.empty() ? "Type where they should go" : "";
+  const std::string reason = choice.path.empty() ? "Type where they should go"
+                             : exists && !choice.overwrite
+                                 ? "The file exists: allow replacing it, or change the name"
+                                 : "";
   const bool pressed =
       button(ui, "Save", "Draw and write the pictures  (Enter)", reason, reason.empty(), 110);
   const bool done = pressed || (reason.empty() && !cancelled && !browse && !typing && enter_pressed());
   if (done)
     ui.ask(SaveTurntable{choice.path, choice.frames, choice.width_px, choice.height_px, choice.as,
                          choice.turn_s, ui.studio.view().clean_edges});
+  if (done || cancelled) leave_clean_edges(ui, done);
   if (done || cancelled || browse) {
     ui.state.turntable_open = false;
     ImGui::CloseCurrentPopup();

@@ -45,6 +45,7 @@ struct TurntableChoice {
   std::string path;
   TurntableAs as = TurntableAs::kPictures;
   float turn_s = 3;
+  bool overwrite = false;
 };
 
 // By-property selection of the repair panel.
@@ -143,6 +144,7 @@ struct UiState {
   std::optional<std::filesystem::path> replace_asked;  // a file of that name is there
   ExportChoice exporting;
   ExportPreview export_preview;
+  std::optional<bool> clean_edges_before;  // the view's switch before the dialog that is open
   bool turntable_open = false;
   TurntableChoice turntable;
   PropertyChoice property;

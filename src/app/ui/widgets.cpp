@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace splatcut {
 
@@ -128,14 +129,29 @@ void action_button(UiContext& ui, Action action, const char* label, bool on, flo
   ImGui::PopID();
 }
 
-void clean_edges_choice(UiContext& ui) {
+void clean_edges_choice(UiContext& ui, const std::string& reason) {
   ViewState view = ui.studio.view();
-  if (ImGui::Checkbox("Clean edges", &view.clean_edges)) ui.ask(SetView{view});
-  tooltip(
-      "Without what the scene around it had hidden, as the object looks alone; else its rows as they are");
-  if (!why_edges_stay(ui)) return;
+  ImGui::BeginDisabled(!reason.empty());
+  if (ImGui::Checkbox("Clean edges", &view.clean_edges) && reason.empty()) ui.ask(SetView{view});
+  ImGui::EndDisabled();
+  tooltip(reason.empty() ? "Without what the scene around it had hidden, as the object looks alone; else its "
+                           "rows as they are"
+                         : reason);
+  if (!reason.empty() || !why_edges_stay(ui)) return;
   same_line_if_fits("Clean anyway", 8);
   clean_anyway_button(ui);
+}
+
+void remember_clean_edges(UiContext& ui) {
+  if (!ui.state.clean_edges_before) ui.state.clean_edges_before = ui.studio.view().clean_edges;
+}
+
+void leave_clean_edges(UiContext& ui, bool kept) {
+  ViewState view = ui.studio.view();
+  const bool before = std::exchange(ui.state.clean_edges_before, {}).value_or(view.clean_edges);
+  if (kept || view.clean_edges == before) return;
+  view.clean_edges = before;
+  ui.ask(SetView{view});
 }
 
 std::optional<std::string> why_edges_stay(const UiContext& ui) {

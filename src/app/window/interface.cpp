@@ -251,6 +251,7 @@ void Interface::show(UiRequest request, const Studio& studio, UiRenderer* render
       return;
     case UiRequest::kExportFailed:
       state_.exporting.trouble = studio.messages().empty() ? "" : studio.messages().back().text;
+      state_.exporting.tried.reset();
       state_.export_open = true;
       return;
     case UiRequest::kHelp:

@@ -210,3 +210,103 @@ TEST_CASE("dialogs: what an export keeps and loses is told as it is written, mov
   app.frames(2);
   CHECK(state.exporting.plan.kept.find("byte for byte") != std::string::npos);
 }
+
+TEST_CASE("export dialog: why the last try failed is gone as soon as anything in the dialog changes") {
+  const ScratchFolder folder("stale_trouble");
+  Hands hands;
+  const ExportChoice& choice = hands.app.interface_state().exporting;
+  const auto fail = [&] {
+    proposed(hands);
+    hands.app.type_into("###export", {"##path"}, (folder / "none" / "object.ply").string());
+    hands.app.key(key::kEnter);
+    REQUIRE(hands.app.settle());
+    hands.app.frames(3);
+    REQUIRE(hands.app->interface().dialog_open());
+    REQUIRE(choice.trouble.find("cannot be written") != std::string::npos);
+    hands.app.frames(5);
+    REQUIRE_FALSE(choice.trouble.empty());  // it stays until then
+  };
+  const auto leave = [&] {
+    hands.app->interface().make_current();
+    ImGui::ClearActiveID();
+    hands.app.key(key::kEscape);
+    hands.app.frames(3);
+    REQUIRE_FALSE(hands.app->interface().dialog_open());
+  };
+  for (const char* pressed : {"Everything else", ".spz", "Its foot", "+Z", "Clean edges"}) {
+    CAPTURE(pressed);
+    fail();
+    hands.app.press_item("###export", {pressed});
+    CHECK(choice.trouble.empty());
+    leave();
+  }
+  fail();
+  hands.app.type_into("###export", {"##path"}, (folder / "good").string());
+  CHECK(choice.trouble.empty());
+}
+
+TEST_CASE("export dialog: cancelled, it leaves clean edges as they were; exported, as they are there") {
+  const ScratchFolder folder("switch_kept");
+  Hands hands;
+  const auto clean = [&] { return hands.studio().view().clean_edges; };
+  const auto open_and_untick = [&] {
+    proposed(hands);
+    hands.app.press_item("###export", {"Clean edges"});
+    REQUIRE_FALSE(clean());
+  };
+  REQUIRE(clean());
+  open_and_untick();
+  hands.app.press_item("###export", {"Cancel"});
+  CHECK(clean());
+  open_and_untick();
+  // Through the dialog of files and back it is the same export.
+  hands.app.press_item("###export", {icon::kFolder});
+  REQUIRE(hands.app.interface_state().files.open);
+  hands.app.key(key::kEscape);
+  hands.app.frames(3);
+  CHECK_FALSE(clean());
+  hands.app->interface().make_current();
+  ImGui::ClearActiveID();
+  hands.app.key(key::kEscape);
+  hands.app.frames(3);
+  REQUIRE_FALSE(hands.app->interface().dialog_open());
+  CHECK(clean());
+  open_and_untick();
+  hands.app.type_into("###export", {"##path"}, (folder / "apple.ply").string());
+  hands.app.key(key::kEnter);
+  REQUIRE(hands.app.settle());
+  CHECK(std::filesystem::exists(folder / "apple.ply"));
+  CHECK_FALSE(clean());
+}
+
+TEST_CASE("export dialog: clean edges cannot be switched where the whole scene is written") {
+  Hands hands(false);
+  proposed(hands);
+  REQUIRE(hands.app.interface_state().exporting.what == ExportWhat::kScene);
+  REQUIRE(hands.studio().view().clean_edges);
+  hands.app.press_item("###export", {"Clean edges"});
+  CHECK(hands.studio().view().clean_edges);
+}
+
+TEST_CASE("export dialog: its folder button opens the folder that stands in the field") {
+  const ScratchFolder folder("folder_of_field");
+  std::filesystem::create_directories(folder / "out");
+  Hands hands;
+  const auto opened_from = [&](const std::filesystem::path& typed) {
+    hands.app.interface_state().exporting.path = typed.string();
+    hands.app.frames(2);
+    hands.app.press_item("###export", {icon::kFolder});
+    REQUIRE(hands.app.interface_state().files.open);
+    const std::filesystem::path shown = hands.app.interface_state().files.folder;
+    hands.app.key(key::kEscape);
+    hands.app.frames(3);
+    return shown;
+  };
+  proposed(hands);
+  hands.app->interface().make_current();
+  ImGui::ClearActiveID();
+  hands.app.interface_state().exporting.name_first = false;
+  CHECK(opened_from(folder / "out" / "good.ply") == folder / "out");
+  CHECK(hands.app.interface_state().files.name == "good.ply");
+  CHECK(opened_from(folder / "none" / "good.ply") == folder / "out");  // the last one that was there
+}

@@ -3,6 +3,8 @@
 
 #include <webp/demux.h>
 
+#include <tuple>
+
 #include "app/picture/animated_webp.h"
 #include "core/error.h"
 #include "core/png_file.h"
@@ -113,4 +115,44 @@ TEST_CASE("dialogs: the turntable as a video is made by ffmpeg, and its failure 
   std::string text;
   std::getline(in, text);
   CHECK(text == "made");
+}
+
+TEST_CASE("dialogs: the turntable goes where the last export went, and asks before it replaces a file") {
+  const ScratchFolder folder("turntable_place");
+  HeadlessApp app(760, 420);
+  REQUIRE(cut_out_apple(app, kSmallSample));
+  UiState& state = app.interface_state();
+  app.studio().apply(Export{{ExportWhat::kObject, SceneFormat::kPly, folder / "apple.ply"}});
+  REQUIRE(app.settle());
+  const auto open = [&] {
+    const UiRect button = app.button(icon::kFilm);
+    app.click(0.5f * (button.min + button.max));
+    app.frames(3);
+    REQUIRE(state.turntable_open);
+  };
+  open();
+  CHECK(std::filesystem::path(state.turntable.path).parent_path() == folder.path());
+  for (const auto& [as, name, written] :
+       {std::tuple{TurntableAs::kWebp, "turn.webp", "turn.webp"},
+        std::tuple{TurntableAs::kPictures, "turn", "turn/frame_0000.png"}}) {
+    CAPTURE(name);
+    std::filesystem::create_directories((folder / written).parent_path());
+    std::ofstream(folder / written) << "mine";
+    state.turntable = {
+        .frames = 3, .width_px = 32, .height_px = 32, .path = (folder / name).string(), .as = as};
+    app.frames(2);
+    app.key(key::kEnter);
+    REQUIRE(app.settle());
+    CHECK(state.turntable_open);
+    CHECK(std::filesystem::file_size(folder / written) == 4);
+    app.press_item("###turntable", {as == TurntableAs::kWebp ? "Replace the file that is there"
+                                                             : "Replace the pictures that are there"});
+    app.key(key::kEnter);
+    REQUIRE(app.settle());
+    app.frames(2);
+    CHECK_FALSE(state.turntable_open);
+    CHECK(std::filesystem::file_size(folder / written) > 4);
+    open();
+    CHECK_FALSE(state.turntable.overwrite);  // asked anew
+  }
 }
