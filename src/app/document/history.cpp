@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <tuple>
 #include <unordered_set>
+#include <utility>
 
 namespace splatcut {
 
@@ -58,6 +60,7 @@ void History::reset(Document document, std::string title) {
   auto keys = keys_of(document, {});
   entries_.push_back({std::move(title), {}, std::move(document), std::move(keys), 0});
   cursor_ = 0;
+  left_.reset();
   serial_ = steps_serial_ = next_serial();
   merging_ = false;
 }
@@ -72,6 +75,7 @@ void History::reset(const SavedSteps& saved) {
     entries_.push_back({step.title, {}, step.document, std::move(keys), other_files ? kNotKept : 0});
   }
   cursor_ = saved.cursor;
+  left_.reset();
   merging_ = false;
   serial_ = steps_serial_ = next_serial();
   const std::vector<ObjectItem> known = now().objects;
@@ -98,6 +102,7 @@ bool History::push(std::string title, Document after, std::string merge_key) {
   // The same keys are the same objects, see keys_of().
   if (entry.keys == before.keys && same_but_strokes(entry.document, before.document)) return false;
   entries_.resize(cursor_ + 1);
+  left_.reset();
   if (merges(entry.merge_key)) {
     entries_.back() = std::move(entry);
   } else {
@@ -125,6 +130,7 @@ void History::push_other_files(std::string title, std::uint64_t number) {
 
 void History::forget_redo() {
   if (can_redo()) steps_serial_ = next_serial();
+  left_.reset();
   entries_.resize(cursor_ + 1);
 }
 
@@ -135,25 +141,25 @@ void History::forget_oldest() {
   }
 }
 
-void History::undo() {
-  assert(can_undo());
-  --cursor_;
+void History::go_to(std::size_t entry) {
+  assert(entry < entries_.size());
+  left_ = std::exchange(cursor_, entry);
   merging_ = false;
   serial_ = next_serial();
+}
+
+void History::undo() {
+  assert(can_undo());
+  go_to(cursor_ - 1);
 }
 
 void History::redo() {
   assert(can_redo());
-  ++cursor_;
-  merging_ = false;
-  serial_ = next_serial();
+  go_to(cursor_ + 1);
 }
 
 void History::jump(std::size_t entry) {
-  assert(entry < entries_.size());
-  cursor_ = entry;
-  merging_ = false;
-  serial_ = next_serial();
+  go_to(entry);
 }
 
 void History::set_cut(ObjectId object, const std::string& cut_key, const Flags& cut) {

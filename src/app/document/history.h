@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -76,6 +77,8 @@ class History {
   void undo();
   void redo();
   void jump(std::size_t entry);
+  // The state that undo(), redo() or jump() led away from last; none: what is there now was done.
+  const Document* left() const { return left_ ? &entries_[*left_].document : nullptr; }
 
   // Stores the labels of a cut in every state that has exactly its inputs, so that undo and redo find them.
   void set_cut(ObjectId object, const std::string& cut_key, const Flags& cut);
@@ -87,11 +90,13 @@ class History {
 
  private:
   void forget_oldest();
+  void go_to(std::size_t entry);
 
   std::vector<Entry> entries_;
   std::size_t cursor_ = 0;
   std::uint64_t serial_ = 0, steps_serial_ = 0;
   bool merging_ = false;
+  std::optional<std::size_t> left_;  // index of left()
 };
 
 // A step's title for the list, where several are called alike: with its object, where there are several, and

@@ -26,6 +26,17 @@ struct CutJobs::Order {
   std::uint64_t number = 0;  // the same key may be cut again
 };
 
+namespace {
+
+// Whether the last that was done is a stroke.
+bool is_of_stroke(const History& history) {
+  const std::string& title = history.entries()[history.cursor()].title;
+  return !history.left() && history.can_undo() &&
+         (title.starts_with("Click") || title.starts_with("Scribble"));
+}
+
+}  // namespace
+
 const CutRun* CutJobs::known_run(ObjectId object, const std::string& key) const {
   const auto found = std::ranges::find_if(
       known_, [&](const Known& known) { return known.object == object && known.run.key == key; });
@@ -305,6 +316,21 @@ void CutJobs::show_snapshot(const Order& order, CutRun so_far, double first_mask
   ++ws_.view_serial;
 }
 
+// What the cut is compared with. A cut may be made twice: after a stroke what counts is what was before it.
+// After undo it is what was left; where that was not computed, as in restored work, nothing.
+Flags CutJobs::labels_before(const Order& order, const Flags& shown) const {
+  const History& history = ws_.history;
+  const Document* left = history.left();
+  const Document* last = left                    ? left
+                         : is_of_stroke(history) ? &history.entries()[history.cursor() - 1].document
+                                                 : nullptr;
+  const ObjectItem* item = last ? last->find(order.object) : nullptr;
+  if (!last || (item && cut_key(*last, *item) == order.key)) return shown;  // the step was another object's
+  const bool known = item && !(left && is_stale(*left, *item));
+  return make_flags(known ? labels_of(*last, *item, ws_.gaussians())
+                          : std::vector<std::uint8_t>(ws_.gaussians(), 0));
+}
+
 void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   if (!runs(order)) return;
   const CutRun& now = running_->run;
@@ -320,23 +346,16 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
     const ObjectItem* item = ws_.document().find(order.object);
     return item ? ws_.labels.labels(ws_.document(), *item, ws_.gaussians()) : nullptr;
   };
-  Flags before = labels_now();
+  const Flags shown = labels_now();
+  const bool cut_already = shown && !is_stale(*ws_.document().find(order.object), order.key);
   ws_.history.set_cut(order.object, order.key, labels);
   keep({order.object, std::move(run)});
-  if (!before) return;  // the object is gone; undo may bring it back
+  if (!shown) return;  // the object is gone; undo may bring it back
   const std::string& name = ws_.document().find(order.object)->name;
   if (result->outcome == Outcome::kNothingFound)
     return ws_.say(Message::Kind::kRefused, name + ": " + result->reason);
-  const History::Entry& step = ws_.history.entries()[ws_.history.cursor()];
-  const bool stroked = step.title.starts_with("Click") || step.title.starts_with("Scribble");
-  if (stroked &&
-      ws_.history.can_undo()) {  // a cut may be made twice: what counts is what was before the stroke
-    const Document& last = ws_.history.entries()[ws_.history.cursor() - 1].document;
-    const ObjectItem* item = last.find(order.object);
-    if (!item || cut_key(last, *item) != order.key)  // else the stroke was another object's
-      before = make_flags(item ? labels_of(last, *item, ws_.gaussians())
-                               : std::vector<std::uint8_t>(ws_.gaussians(), 0));
-  }
+  const bool stroked = is_of_stroke(ws_.history);
+  const Flags before = cut_already && !stroked ? shown : labels_before(order, shown);
   const std::string changed = what_changed(*before, *labels_now(), seconds);
   if (stroked && *before == *labels_now() && count_flags(*before) > 0) {
     if (CutRun* kept = known_run(order.object, order.key)) kept->changed_nothing = true;

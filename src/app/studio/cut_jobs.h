@@ -66,6 +66,7 @@ class CutJobs {
   void work(const Order& order, const Job& job);
   void look_around(const Order& order, const CutResult& result, const Job& job);
   void show_snapshot(const Order& order, CutRun so_far, double first_mask_ms);
+  Flags labels_before(const Order& order, const Flags& shown) const;
   void finish(const Order& order, CutRun run, const Flags& labels);
   void show_views(const Order& order, std::vector<ViewCard> cards);
   void end(const std::string& given_up);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/document/words.h"
 #include "app/work/work_file.h"
 #include "app/work/work_history.h"
 #include "core/error.h"
@@ -252,4 +253,50 @@ TEST_CASE("saved work: steps that cannot be read are left out, and that is said"
   none.erase("history");  // as older programs wrote it
   std::ofstream(file) << none;
   CHECK(restored(read_work_file(file), *scene).warning.empty());
+}
+
+TEST_CASE(
+    "saved work: an undo right after it is restored says what the undo took away, not what a click did") {
+  const ScratchFolder folder("history_undo_said");
+  {
+    HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_kept_scenes());
+    opened(app);
+    for (const glm::vec2& at : {kOnApple, kOnOrange, kOnMug}) {
+      app.click(app.screen_of(at), PointerButton::kLeft, {.shift = true});
+      REQUIRE(app.settle());
+    }
+    app.studio().apply(SaveWork{folder / "work.splatcut.json"});
+    REQUIRE(app.settle());
+  }
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_kept_scenes());
+  app.open(folder / "work.splatcut.json");
+  REQUIRE(app.settle());
+  const auto undone = [&] {
+    const std::vector<std::uint8_t> before = active_labels(app);
+    app.studio().apply(Undo{});
+    REQUIRE(app.settle());
+    const std::vector<std::uint8_t> after = active_labels(app);
+    std::size_t added = 0, removed = 0;
+    for (std::size_t g = 0; g < after.size(); ++g) {
+      added += after[g] && !before[g];
+      removed += before[g] && !after[g];
+    }
+    REQUIRE(added + removed > 0);
+    return fmt::format(", {} added and {} removed", grouped(added), grouped(removed));
+  };
+  for (int i = 0; i < 2; ++i) {
+    const std::string expected = undone(), said = app.studio().messages().back().text;
+    CAPTURE(said);
+    CAPTURE(expected);
+    CHECK(said.find(expected) != std::string::npos);
+  }
+  // What is not known is no difference: two undone at once.
+  app.open(folder / "work.splatcut.json");
+  app.frames(3);
+  if (app->interface().dialog_open()) app.press_item("###open_anyway", {"Open"});
+  REQUIRE(app.settle());
+  app.studio().apply(Undo{});
+  app.studio().apply(Undo{});
+  REQUIRE(app.settle());
+  CHECK(app.studio().messages().back().text.find(" cut out in ") != std::string::npos);
 }
