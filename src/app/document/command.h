@@ -68,6 +68,14 @@ constexpr bool kMakesWork = !kAtOnce<C> && !kWritesFile<C> && !kNoWork<C> && !re
 };
 
 template <class C>
+std::string title_of(const C& command, const Document& document) {
+  if constexpr (requires { command.title(document); })
+    return command.title(document);
+  else
+    return command.title();
+}
+
+template <class C>
 std::string merge_key_of(const C& command) {
   if constexpr (requires { command.merge_key(); }) return command.merge_key();
   return {};  // the command is always a step of its own
@@ -112,6 +120,7 @@ struct SelectRegion {
   SetOperation operation = SetOperation::kAdd;
   // Path of a brush, pixels: of what is visible, it takes the surface under the path, see surface_region().
   std::vector<glm::vec2> path_px = {};
+  std::string shape = "shape";  // what drew the region, for the title: "brush", "lasso"
 };
 struct SelectVolume {
   Volume volume;
@@ -166,7 +175,7 @@ struct StepScale {
 };
 struct ChooseMeaning {
   int choice;  // number of the meaning that the active object's first click gets, 0 the likeliest
-  std::string title() const { return "Meaning " + std::to_string(choice + 1) + " of the click"; }
+  std::string title(const Document& document) const;  // says whether a click or a box is meant
   friend std::string edit(Document* document, const ChooseMeaning& command, const EditContext& context);
 };
 struct ClearStrokes {
@@ -356,6 +365,7 @@ struct AddScene {
 struct PlaceScene {
   std::uint32_t file;  // SceneSource::id of any file but the first
   ScenePlace place;
+  std::string done = {};  // what its step says of the file; empty: moved, turned or scaled, as it is
 };
 struct BringHere {  // stands the file on the surface in the middle of the picture, see surface_in_middle()
   std::uint32_t file;

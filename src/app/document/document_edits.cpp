@@ -31,6 +31,13 @@ ObjectItem& stroked(Document* document) {
   return object;
 }
 
+// What its meanings are of.
+const char* first_stroke_word(const ObjectItem& object) {
+  for (const StrokedView& view : object.views)
+    if (!view.strokes.empty()) return view.strokes.front().is_box() ? "box" : "click";
+  return "click";
+}
+
 // A new object shows on what it was begun on, and takes nothing that others have, unless it is begun on that:
 // then it is a part of it, or they share. A later stroke there takes it after all. hits: what a stroke on the
 // object was made on.
@@ -314,13 +321,18 @@ std::string edit(Document* document, const StepScale& command, const EditContext
   return fmt::format("A {} part", command.steps > 0 ? "larger" : "smaller");
 }
 
+std::string ChooseMeaning::title(const Document& document) const {
+  const ObjectItem* object = document.active_object();
+  return fmt::format("Meaning {} of the {}", choice + 1, object ? first_stroke_word(*object) : "click");
+}
+
 std::string edit(Document* document, const ChooseMeaning& command, const EditContext&) {
   if (!document->active_object()) throw Error("", "No object is chosen", "Click an object first");
   ObjectItem& object = unlocked(document, document->active);
   if (object.views.empty()) throw Error(object.name, "has no clicks", "Click on it first");
   object.choice = std::clamp(command.choice, 0, kMostMeanings - 1);
   object.part_step = 0;
-  return fmt::format("{}: meaning {} of the click", object.name, object.choice + 1);
+  return fmt::format("{}: meaning {} of the {}", object.name, object.choice + 1, first_stroke_word(object));
 }
 
 std::string edit(Document* document, const LeaveOutView& command, const EditContext&) {

@@ -40,6 +40,34 @@ std::size_t distinct_bytes(const std::vector<History::Entry>& entries) {
   return bytes;
 }
 
+// Whether a step changed the object, see ObjectKeys for its strokes. Arrays are compared by their places: a
+// step that leaves them shares them.
+bool is_changed(const History::Entry& before, const History::Entry& after, const ObjectItem& object) {
+  const ObjectItem* was = before.document.find(object.id);
+  if (!was) return true;
+  const auto keys_in = [](const History::Entry& entry, const ObjectItem* item) -> const ObjectKeys& {
+    return *entry.keys[static_cast<std::size_t>(item - entry.document.objects.data())];
+  };
+  const auto plain = [](const ObjectItem& o) {
+    return std::tie(o.name, o.colour, o.visible, o.locked, o.within, o.hand, o.of_others, o.leaves_also);
+  };
+  return plain(*was) != plain(object) || keys_in(before, was) != keys_in(after, &object);
+}
+
+// The object that a step is about: the active one if the step changed it, else another that it changed, or
+// that it took out; null: none.
+const ObjectItem* object_of_step(const History& history, std::size_t entry) {
+  if (entry == 0) return nullptr;
+  const History::Entry &before = history.entries()[entry - 1], &after = history.entries()[entry];
+  const ObjectItem* active = after.document.active_object();
+  if (active && is_changed(before, after, *active)) return active;
+  for (const ObjectItem& object : after.document.objects)
+    if (is_changed(before, after, object)) return &object;
+  for (const ObjectItem& object : before.document.objects)
+    if (!after.document.find(object.id)) return &object;
+  return nullptr;
+}
+
 // Shares those of the entry before that are the same, place by place.
 std::vector<std::shared_ptr<const ObjectKeys>> keys_of(const Document& document,
                                                        const History::Entry& before) {
@@ -193,12 +221,13 @@ void History::change_all(const std::function<void(Document*)>& change) {
 }
 
 std::string row_title(const History& history, std::size_t entry) {
-  const Document& document = history.entries()[entry].document;
-  const ObjectItem* object = entry > 0 ? document.active_object() : nullptr;
+  const ObjectItem* object = object_of_step(history, entry);
   if (!object) return history.entries()[entry].title;
   const ObjectItem* before = history.entries()[entry - 1].document.find(object->id);
   const std::size_t strokes = stroke_count(*object), strokes_before = before ? stroke_count(*before) : 0;
-  const std::string name = document.objects.size() > 1 ? object->name : "",
+  const bool several = std::ranges::any_of(
+      history.entries(), [](const History::Entry& e) { return e.document.objects.size() > 1; });
+  const std::string name = several ? object->name : "",
                     stroke =
                         strokes > 1 && strokes > strokes_before ? "stroke " + std::to_string(strokes) : "",
                     between = name.empty() || stroke.empty() ? "" : ", ";

@@ -146,7 +146,7 @@ void Edits::perform_plain(const Command& command) {
           } else {
             Document after = ws_.document();
             const std::string message = edit(&after, c, ws_.context());
-            push(c.title(), std::move(after), merge_key_of(c), message);
+            push(title_of(c, ws_.document()), std::move(after), merge_key_of(c), message);
           }
         }
       },
@@ -166,7 +166,7 @@ void Edits::perform(const SelectRegion& c) {
   const bool limited = through && ws_.view.depth_limit > 0;
   const float depth_limit = ws_.view.depth_limit * viewport_.camera().scene_size();
   const std::shared_ptr<const Frame> surface = viewport_.full_picture_of(c.camera, viewport_.pressed_pane());
-  push_later({std::string(title_of(c.operation)) + (through ? " (see-through)" : " (visible)"),
+  push_later({fmt::format("{} ({}, {})", title_of(c.operation), c.shape, through ? "see-through" : "visible"),
               {},
               [c, limits, through, limited, on_surface, depth_limit, surface, by = taken_by(),
                shown = viewport_.shown(viewport_.pressed_pane())](

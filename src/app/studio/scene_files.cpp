@@ -21,6 +21,14 @@ bool same_files(const std::vector<SceneSource>& a, const std::vector<SceneSource
   });
 }
 
+// As what a step of placing a file is named.
+std::string what_was_done(const ScenePlace& before, const ScenePlace& after) {
+  if (after == ScenePlace{}) return "put back as in its file";
+  if (after.scale != before.scale) return "scaled";  // on its foot, which moves its middle
+  if (after.turn_deg != before.turn_deg) return "turned";
+  return "moved";
+}
+
 // Takes saved work out of files that are opened with a scene. Returns a sentence for each.
 std::vector<std::string> refused_work(std::vector<std::filesystem::path>* added) {
   std::vector<std::string> refused;
@@ -157,10 +165,11 @@ void SceneFiles::perform(const PlaceScene& c) {
   SceneSource& file = added_file(&files, c.file);
   check(c.place, file.path);
   if (file.place == c.place && !file.onto) return;
+  const std::string done = c.done.empty() ? what_was_done(file.place, c.place) : c.done;
   file.place = c.place;
   file.onto.reset();
   const std::string name = scene_name(file.path);
-  change_files(std::move(files), "Placing " + name, {name + " placed"});
+  change_files(std::move(files), "Placing " + name, {name + " " + done});
 }
 
 void SceneFiles::perform(const BringHere& c) {
@@ -170,7 +179,12 @@ void SceneFiles::perform(const BringHere& c) {
   if (!at)
     throw Error("", "Nothing to stand on is in the middle of the picture",
                 "Turn the view so that the place is in its middle");
-  perform(PlaceScene{c.file, stood_on(file, file.place, *at, ws_.document().up_world)});
+  const glm::vec3& up_world = ws_.document().up_world;
+  constexpr float kSamePlace = 1e-3f;  // of the file's half height: nobody sees it
+  const float near = kSamePlace * half_extent(file, glm::normalize(up_world));
+  if (!file.onto && glm::distance(foot_world(file, up_world), *at) <= near)
+    return ws_.say(Message::Kind::kInfo, scene_name(file.path) + " stands there already");
+  perform(PlaceScene{c.file, stood_on(file, file.place, *at, up_world), "brought here"});
 }
 
 void SceneFiles::perform(const RemoveScene& c) {
@@ -323,7 +337,7 @@ std::vector<std::string> SceneFiles::redo_titles() const {
   if (redo_steps_ != ws_.history.steps_serial()) return titles;
   for (auto kept = undone_files_.rbegin(); kept != undone_files_.rend(); ++kept)
     for (std::size_t i = kept->history.cursor(); i < kept->history.entries().size(); ++i)
-      titles.push_back(kept->history.entries()[i].title);
+      titles.push_back(row_title(kept->history, i));
   return titles;
 }
 

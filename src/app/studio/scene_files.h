@@ -40,8 +40,8 @@ class SceneFiles {
   bool redo_files();
   bool stays(const History::Entry& step) const;  // true: it changed files and cannot be undone any more
   bool can_redo_files() const { return !ws_.history.can_redo() && !redo_titles().empty(); }
-  // Titles of the steps that lie behind the end of the history, the next to redo first: the changes of files
-  // that were undone, each with what was done after it.
+  // Titles, as row_title() has them, of the steps that lie behind the end of the history, the next to redo
+  // first: the changes of files that were undone, each with what was done after it.
   std::vector<std::string> redo_titles() const;
 
   // What is said while another scene is opened, until it is there; empty: none is.

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "app/tools/tool_hand.h"
+#include "core/lower_case.h"
 
 namespace splatcut {
 
@@ -52,7 +53,8 @@ void ToolHand::ask_stroke(Stroke stroke) {
 }
 
 void ToolHand::ask_region(Mask region, std::vector<glm::vec2> path_px) {
-  ask(SelectRegion{context.pane_camera, std::move(region), operation(), std::move(path_px)});
+  ask(SelectRegion{context.pane_camera, std::move(region), operation(), std::move(path_px),
+                   lower_case(tool_of(context.view.tool).name)});
 }
 
 IconMark icon_line(std::vector<glm::vec2> points, float wider) {

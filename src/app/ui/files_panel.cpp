@@ -65,12 +65,12 @@ void placing(UiContext& ui, const SceneSource& file) {
   if (button(ui, "Stand it upright",
              "Its own way up, as its file says, of its cameras or guessed, becomes the scene's",
              why_upright(file, place, up_world), false, -1))
-    ui.ask(PlaceScene{file.id, stood_upright(file, place, up_world)});
+    ui.ask(PlaceScene{file.id, stood_upright(file, place, up_world), "stood upright"});
   if (done) ui.ask(PlaceScene{file.id, place});
   ButtonRow row({"Fit", "Bring here", "As in file", "Take out"});
   if (button(ui, "Fit", "Scales it on its foot to half of the picture's height", {}, !trouble.empty(),
              row.next()))
-    ui.ask(PlaceScene{file.id, fitted(file, camera, up_world)});
+    ui.ask(PlaceScene{file.id, fitted(file, camera, up_world), "fitted"});
   if (button(ui, "Bring here", "Stands it on what lies in the middle of the picture", {}, false, row.next()))
     ui.ask(BringHere{file.id});
   if (button(ui, "As in file", "Back to its own coordinates",

@@ -49,11 +49,17 @@ TEST_CASE("history: rows of the list that are called alike say which object and 
   history.push("Click: rest", document = with_click(document, {12, 20}));
   document.find(document.active)->visible = false;
   history.push("Hide", document);
+  document.find(1)->colour = {1, 2, 3};
+  history.push("Colour", document);
+  history.push_other_files("a.ply moved", 1);
+  std::erase_if(document.objects, [](const ObjectItem& o) { return o.id == 1; });
+  history.push("Remove object", document);
   std::vector<std::string> rows;
   for (std::size_t i = 0; i < history.entries().size(); ++i) rows.push_back(row_title(history, i));
-  CHECK(rows == std::vector<std::string>{"Open", "Click: object", "Click: object  (stroke 2)",
-                                         "New object  (Mug)", "Click: object  (Mug)",
-                                         "Click: rest  (Mug, stroke 2)", "Hide  (Mug)"});
+  CHECK(rows == std::vector<std::string>{
+                    "Open", "Click: object  (Object 1)", "Click: object  (Object 1, stroke 2)",
+                    "New object  (Mug)", "Click: object  (Mug)", "Click: rest  (Mug, stroke 2)",
+                    "Hide  (Mug)", "Colour  (Object 1)", "a.ply moved", "Remove object  (Object 1)"});
 }
 
 TEST_CASE("history: a step that changes nothing is none, every other counts once") {

@@ -366,3 +366,26 @@ TEST_CASE("several scenes: the box of an added file holds all of it but strays")
   CHECK(glm::length(solid.extent() - all.extent()) < 0.05f * glm::length(all.extent()));
   CHECK(glm::length(last_file(hands).bounds.extent()) < 0.95f * glm::length(solid.extent()));
 }
+
+TEST_CASE(
+    "several scenes: a step of placing says what was done, and bringing a file where it stands is none") {
+  const ScratchFolder folder("several_named");
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  add(hands, small_scene(folder, "a.ply"));
+  const std::uint32_t id = last_file(hands).id;
+  const auto step_of = [&](const Command& command) {
+    studio.apply(command);
+    REQUIRE(hands.app.settle());
+    return studio.history().entries()[studio.history().cursor()].title;
+  };
+  CHECK(step_of(PlaceScene{id, {{1, 0, 0}}}) == "a.ply moved");
+  CHECK(step_of(PlaceScene{id, {{1, 0, 0}, {0, 30, 0}}}) == "a.ply turned");
+  CHECK(step_of(PlaceScene{id, {{1, 1, 0}, {0, 30, 0}, 2}}) == "a.ply scaled");
+  CHECK(step_of(PlaceScene{id, {}}) == "a.ply put back as in its file");
+  CHECK(step_of(BringHere{id}) == "a.ply brought here");
+  const std::size_t steps = hands.steps();
+  CHECK(step_of(BringHere{id}) == "a.ply brought here");
+  CHECK(hands.said() == "a.ply stands there already");
+  CHECK(hands.steps() == steps);
+}

@@ -1,6 +1,8 @@
 // Undoing, redoing and stopping changes of the scene's files, and opening another scene over work.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "several_scenes.h"
 
 using namespace splatcut;
@@ -207,17 +209,22 @@ TEST_CASE("files undone: steps behind the changes that were undone are listed, a
     for (const std::string& title : studio.files().redo_titles()) all.push_back(title);
     return all;
   };
+  const auto lists_the_same = [&] {  // rows behind the end name their objects, too
+    return std::ranges::equal(listed(), titles, [](const std::string& row, const std::string& title) {
+      return row.starts_with(title);
+    });
+  };
   const std::size_t a_added = clicked + 1, object_made = clicked + 2, placed = clicked + 3,
                     selected = clicked + 4, last = clicked + 5;
   REQUIRE(titles.size() == last + 1);
-  CHECK(listed() == titles);
+  CHECK(lists_the_same());
   for (const std::size_t entry : {clicked, object_made, std::size_t{0}, selected, a_added, placed, clicked,
                                   last, std::size_t{1}, std::size_t{0}, last}) {
     CAPTURE(entry);
     jump(entry);
     CHECK(studio.history().cursor() == entry);
     CHECK(hands.said() == "Now at: " + titles[entry]);
-    CHECK(listed() == titles);
+    CHECK(lists_the_same());
     CHECK(studio.scene()->files.size() == (entry >= a_added ? 2 : 1));
     CHECK(studio.scene()->files.back().place.move.x == (entry >= placed ? 3 : 0));
     CHECK(studio.document().objects.size() == (entry >= object_made ? 2 : entry >= clicked ? 1 : 0));

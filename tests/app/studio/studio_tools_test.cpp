@@ -90,3 +90,34 @@ TEST_CASE("hands: two points are measured in scene units") {
   CHECK(*hands.studio().overlay().length == doctest::Approx(truth).epsilon(1e-4));
   CHECK(hands.studio().document().objects.empty());
 }
+
+TEST_CASE("tools: the steps of brush, lasso and rectangle say which of them was used, those of a box that") {
+  Hands hands(false);
+  const auto step = [&] {
+    REQUIRE(hands.app.settle());
+    return hands.studio().history().entries()[hands.studio().history().cursor()].title;
+  };
+  const glm::vec2 at = hands.app.screen_of(kOnApple);
+  const std::pair<Action, const char*> tools[] = {{action_of(Tool::kBrush), "Add (brush, visible)"},
+                                                  {action_of(Tool::kLasso), "Add (lasso, visible)"},
+                                                  {action_of(Tool::kRectangle), "Add (rectangle, visible)"}};
+  for (const auto& [action, title] : tools) {
+    hands.studio().run(Action::kNewObject);
+    hands.studio().run(action);
+    hands.app.drag({at - glm::vec2(20), at + glm::vec2(20, -20), at + glm::vec2(20)});
+    CHECK(step() == title);
+  }
+  const Camera camera = hands.studio().viewport().pane_camera();
+  const glm::vec2 middle = hands.in_viewport(at);
+  hands.studio().apply(NewObject{});
+  hands.studio().apply(AddBox{camera, middle - 30.0f, middle + 30.0f});
+  REQUIRE(hands.app.settle());
+  hands.studio().apply(ChooseMeaning{1});
+  CHECK(step() == "Meaning 2 of the box");
+  hands.studio().apply(NewObject{});
+  hands.app.studio().run(action_of(Tool::kClick));
+  hands.app.click(at);
+  REQUIRE(hands.app.settle());
+  hands.studio().apply(ChooseMeaning{1});
+  CHECK(step() == "Meaning 2 of the click");
+}
