@@ -254,12 +254,22 @@ void pointer_help(UiContext& ui) {
       "(Navigate). The wheel zooms; right after a click, and with Shift at any time, it steps through larger "
       "and smaller parts of what was clicked first; while a flight key is held, it changes the speed. While "
       "other meanings of a click are shown, 1, 2 and 3 "
-      "choose one, and no tool, until Esc, 4 (box) or a tool's button. Every tool: Shift adds, Ctrl removes, "
-      "Alt "
-      "intersects. "
+      "choose one, and no tool, until Esc, 4 (box) or a tool's button. With tools that click, draw or "
+      "select, "
+      "Shift adds, Ctrl removes and Alt intersects. "
       "Alt+wheel changes the brush. Tab and Shift+Tab mark buttons and fields, Enter presses what is "
       "marked.");
   ImGui::PopTextWrapPos();
+}
+
+// Of the window in which nothing else takes these keys.
+void scroll_by_keys() {
+  const float page = 0.9f * ImGui::GetWindowHeight(), line = 3 * ImGui::GetTextLineHeightWithSpacing(),
+              all = ImGui::GetScrollMaxY();
+  const std::pair<int, float> steps[] = {{key::kDown, line},    {key::kUp, -line}, {key::kPageDown, page},
+                                         {key::kPageUp, -page}, {key::kEnd, all},  {key::kHome, -all}};
+  for (const auto& [code, step] : steps)
+    if (ImGui::IsKeyPressed(code)) ImGui::SetScrollY(std::clamp(ImGui::GetScrollY() + step, 0.0f, all));
 }
 
 // What to do with work that would be lost.
@@ -386,6 +396,7 @@ void help_page(UiContext& ui) {
                     {std::min(1400.0f, screen.x - 40), std::min(720.0f, screen.y - 40)}))
     return;
   ImGui::BeginChild("keys", {0, -40});
+  scroll_by_keys();
   const int columns = std::clamp(static_cast<int>(ImGui::GetContentRegionAvail().x / 310), 1, 4);
   ImGui::Columns(columns, "groups", false);
   for (const char* group : {"File", "Edit", "Selection"}) key_group(ui, group);

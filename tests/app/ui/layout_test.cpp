@@ -191,3 +191,31 @@ TEST_CASE("ui: a window of 640 by 480 shows every tool and every option of each,
   small.frames(2);
   CHECK(window("tools")->Scroll.y > 0);
 }
+
+TEST_CASE("ui: keys scroll the page of keys as soon as it is open") {
+  HeadlessApp app(800, 600);
+  app.frames(1);
+  app.key(key::kF1);
+  app.frames(3);
+  app->interface().make_current();
+  const auto page = [] {
+    for (ImGuiWindow* w : GImGui->Windows)
+      if (w->WasActive && std::string_view(w->Name).find("/keys") != std::string_view::npos) return w;
+    return static_cast<ImGuiWindow*>(nullptr);
+  };
+  REQUIRE(page());
+  REQUIRE(page()->ScrollMax.y > 0);
+  float before = 0;
+  const auto after = [&](int code) {
+    before = page()->Scroll.y;
+    app.key(code);
+    app.frames(3);
+    return page()->Scroll.y;
+  };
+  CHECK(after(key::kDown) > before);
+  CHECK(after(key::kPageDown) > before);
+  CHECK(after(key::kEnd) == page()->ScrollMax.y);
+  CHECK(after(key::kPageUp) < before);
+  CHECK(after(key::kUp) <= before);
+  CHECK(after(key::kHome) == 0);
+}
