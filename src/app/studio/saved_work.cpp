@@ -39,14 +39,19 @@ bool SavedWork::unsaved() const {
   return (!document.objects.empty() || document.deleted || several) && saved_serial_ != ws_.history.serial();
 }
 
-// What was restored is not offered again while it waits to be saved. What is known of a file stays: nobody
-// writes it any more.
+// Work that was undone to nothing is none. What was restored is not offered again while it waits to be saved.
+// What is known of a file stays: nobody writes it any more.
 void SavedWork::find_offers() {
   std::vector<LeftWork> found;
   for (const std::filesystem::path& file : autosaves_.left_behind()) {
     if (file == restored_) continue;
     const auto known = std::ranges::find(offers_, file, &LeftWork::file);
-    found.push_back(known == offers_.end() ? left_work(file) : *known);
+    LeftWork left = known == offers_.end() ? left_work(file) : *known;
+    if (left.nothing) {
+      autosaves_.remove(file);
+      continue;
+    }
+    found.push_back(std::move(left));
     if (found.back().serial == 0) found.back().serial = next_offer_serial_++;
   }
   offers_ = std::move(found);

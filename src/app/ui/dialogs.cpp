@@ -429,7 +429,8 @@ void open_anyway_dialog(UiContext& ui) {
   const std::string name = ui.state.open_asked ? scene_name(ui.state.open_asked->path) : "";
   const UnsavedAnswer answer = unsaved_dialog(
       ui, "Open without saving?###open_anyway", ui.state.open_asked.has_value(),
-      fmt::format("The objects and strokes were not saved since they changed; opening {} ends that work.",
+      fmt::format("The objects and strokes were not saved since they changed. That work ends once {} is "
+                  "open; if it cannot be read, the work stays.",
                   name),
       "Open");
   if (answer == UnsavedAnswer::kNone) return;

@@ -22,8 +22,11 @@ LeftWork left_work(const std::filesystem::path& work) {
   const bool today = then.tm_year == now.tm_year && then.tm_yday == now.tm_yday;
   const std::string when = today ? fmt::format("{:%H:%M}", then) : fmt::format("{:%Y-%m-%d}", then);
   try {
-    const std::filesystem::path scene = read_work_file(work).files.front().path;
-    return {work, scene, fmt::format("{}  {}", when, name_in_folder(scene)), read_work_picture(work)};
+    const WorkFile file = read_work_file(work);
+    const std::filesystem::path scene = file.files.front().path;
+    LeftWork left{work, scene, fmt::format("{}  {}", when, name_in_folder(scene)), read_work_picture(work)};
+    left.nothing = file.holds_nothing();
+    return left;
   } catch (const Error&) {
     return {work, {}, when};  // what is wrong with it is said when it is restored
   }

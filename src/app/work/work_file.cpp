@@ -122,6 +122,14 @@ WorkFile read_work_file(const std::filesystem::path& path) {
   }
 }
 
+bool WorkFile::holds_nothing() const {
+  const auto has_none = [&](const char* name) {
+    const auto found = content->find(name);
+    return found == content->end() || found->empty();  // null is empty, too
+  };
+  return files.size() == 1 && has_none("objects") && has_none("deleted");
+}
+
 RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
   if (file.files.size() != opened.files.size())
     throw Error(file.path.string(), "belongs to a scene of other files");

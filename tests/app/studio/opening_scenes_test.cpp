@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 
 #include "hands.h"
 #include "opened_sample.h"
@@ -156,4 +157,22 @@ TEST_CASE("a view that has no picture yet says what is coming, and no more once 
   CHECK(app.studio().coming() == "Drawing the first picture...");
   REQUIRE(app.settle());
   CHECK(app.studio().coming().empty());
+}
+
+TEST_CASE("opening what cannot be read ends no work, and the question before says so") {
+  const ScratchFolder folder("open_text");
+  std::ofstream(folder / "text.ply") << "no scene";
+  HeadlessApp app(kSmallWidth, kSmallHeight);
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  app.studio().apply(EditSelection{SelectionEdit::kAll});
+  REQUIRE(app.settle());
+  const Document work = app.studio().document();
+  app.open(folder / "text.ply");
+  app.frames(3);
+  app.press_item("###open_anyway", {"Open"});
+  REQUIRE(app.settle());
+  CHECK(app.studio().messages().back().text.find("text.ply: this is not a .ply file") != std::string::npos);
+  CHECK(same(app.studio().document(), work));
+  CHECK(app.studio().unsaved());
 }

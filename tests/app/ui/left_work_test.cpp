@@ -138,3 +138,17 @@ TEST_CASE("left work: a pointer that lies in the panel, under its rows, hides no
   REQUIRE(app.button("\nfox").size().x > 0);
   CHECK(app.button("\nfox").max.y <= app.button("Default").min.y);
 }
+
+TEST_CASE("left work: work that was undone to nothing is not offered") {
+  const ScratchFolder folder("left_nothing");
+  std::filesystem::copy_file(kSmallSample, folder / "scene.compressed.ply");
+  const auto scene = open_scene(folder / "scene.compressed.ply");
+  write_work_file(folder / "autosave.splatcut.json", *scene, Document());
+  Document deleted;
+  deleted.deleted = make_flags(std::vector<std::uint8_t>(scene->cloud->size(), 1));
+  write_work_file(folder / "autosave.2.splatcut.json", *scene, deleted);
+  HeadlessApp app(640, 480, 1, with_state(folder));
+  const std::vector<LeftWork>& offers = app.studio().work().offers();
+  REQUIRE(offers.size() == 1);
+  CHECK(offers.front().file == folder / "autosave.2.splatcut.json");
+}
