@@ -41,9 +41,9 @@ nlohmann::json parse_json(const std::filesystem::path& path, std::string_view te
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
     refuse_stand_in(path, text);
-    throw Error(path.string(), fmt::format("is not valid JSON at byte {}", error.byte));
+    throw Error(path.string(), fmt::format("this is not valid JSON at byte {}", error.byte));
   } catch (const nlohmann::json::exception& error) {
-    throw Error(path.string(), fmt::format("is not valid JSON ({})", fault_of(error)));
+    throw Error(path.string(), fmt::format("this is not valid JSON ({})", fault_of(error)));
   }
 }
 

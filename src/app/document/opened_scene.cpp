@@ -225,7 +225,9 @@ std::string described(const OpenedScene& opened) {
   if (scene.dropped) text += fmt::format(", {} unusable rows left out", grouped(scene.dropped));
   if (!opened.views().cameras.empty())
     text += fmt::format(", {} cameras (N, P)", opened.views().cameras.size());
-  return text + (opened.views().up_is_guess ? ". Which way is up is guessed: View has other ways" : "");
+  return text + (opened.views().up_is_guess
+                     ? ". Which way is up is guessed. Does it lean? Set what is up under View"
+                     : "");
 }
 
 std::string added_text(const OpenedScene& scene, const OpenedScene& before) {

@@ -27,6 +27,9 @@ std::string length_text(float length);
 // printf's format for the length where it can be typed, with three figures.
 std::string length_format(float length);
 
+// The same with a capital letter, where it stands by itself.
+std::string as_sentence(std::string text);
+
 std::string ms_text(double ms);  // "740 ms", "2.4 s"
 
 }  // namespace splatcut

@@ -145,7 +145,7 @@ std::string Clicks::why_not_step(int steps) const {
   const std::size_t size = size_wanted(), last = known->sizes - 1;
   if (last == 0) return "The click means one size alone";
   if (steps > 0 && size >= last)
-    return fmt::format("This is the largest of {} sizes: a box (4) may find more", known->sizes);
+    return fmt::format("This is the largest of {} sizes; a box (4) may find more", known->sizes);
   if (steps < 0 && size == 0) return fmt::format("This is the smallest of {} sizes", known->sizes);
   return {};
 }
@@ -153,7 +153,7 @@ std::string Clicks::why_not_step(int steps) const {
 void Clicks::perform(const StepScale& c) {
   ws_.require_scene();
   const std::string reason = why_not_step(c.steps);
-  if (!reason.empty()) throw Error(c.steps > 0 ? "larger part" : "smaller part", reason);
+  if (!reason.empty()) throw Error("", reason);
   Document after = ws_.document();
   const ClickMeanings* known = known_sizes();
   const auto limit = [&] {  // steps made before the sizes were known

@@ -189,7 +189,9 @@ void Studio::wheel(float steps, const Modifiers& modifiers) {
   ViewState view = ws_.view;
   view.fly_speed = std::clamp(view.fly_speed * std::pow(kSpeedStep, steps), kSlowest, kFastest);
   apply(SetView{view});
-  ws_.say(Message::Kind::kInfo, fmt::format("Flying at {:.2g} times the usual speed", view.fly_speed));
+  const std::string times = fmt::format("{:.2g}", view.fly_speed);
+  ws_.say(Message::Kind::kInfo, times == "1" ? std::string("Flying at the usual speed")
+                                             : "Flying at " + times + " times the usual speed");
 }
 
 }  // namespace splatcut

@@ -122,7 +122,7 @@ void warnings(UiContext& ui, const CutRun& run) {
   bool too_far = run.result->outcome == Outcome::kNothingFound;
   if (too_far) wrapped_warning(ui, run.result->reason);
   for (const std::string& doubt : run.doubts) {
-    wrapped_warning(ui, doubt);
+    wrapped_warning(ui, as_sentence(doubt));
     too_far |= doubt.ends_with("come nearer");
   }
   if (too_far) come_nearer_button(ui, -1);

@@ -39,9 +39,9 @@ void view_rows(UiContext& ui) {
   ViewState view = ui.studio.view();
   row("Flying speed");
   constexpr auto kProportional = ImGuiSliderFlags_Logarithmic | kTypedLength;
-  constexpr const char* kWidest = "1.25 times the usual";
+  constexpr const char* kWidest = "1.25 x usual speed";
   bool set = numbered_slider(ui, "##speed", &view.fly_speed, kLeastKeptSpeed, kMostKeptSpeed,
-                             "%.2g times the usual", kProportional, kWidest);
+                             "%.2g x usual speed", kProportional, kWidest);
   tooltip("Of the keys W, A, S, D, Q and E; the wheel changes it while one is held");
   row("Brush radius");
   set |= numbered_slider(ui, "##radius", &view.brush_px, kLeastBrushPx, kMostBrushPx, "%.0f pt",

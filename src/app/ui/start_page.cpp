@@ -116,7 +116,7 @@ void start_page(UiContext& ui, const UiRect& area) {
   ImGui::PushFont(ui.theme.title);
   ImGui::TextUnformatted("Open a scene");
   ImGui::PopFont();
-  wrapped_muted(ui, "A 3D Gaussian Splatting scene: " + spoken_extensions(read_formats(), "or") +
+  wrapped_muted(ui, "A 3D Gaussian Splatting scene: " + spoken_endings(read_formats(), "or") +
                         ". Or a .splatcut.json with saved work. Drop it on this window, or:");
   ImGui::Dummy({0, 4});
   action_button(ui, Action::kOpen, fmt::format("{} Open a file", icon::kOpen).c_str());

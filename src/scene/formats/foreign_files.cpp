@@ -22,6 +22,9 @@ constexpr const char* kTrain =
     "Train Gaussians from the photographs and give the .ply that the trainer writes";
 constexpr const char* kExport = "Export .ply or .spz from the program that made it";
 
+constexpr const char* kPicture = "this is a picture, not a scene of Gaussians";
+constexpr const char* kGiveScene = "Give the scene itself";
+
 using namespace std::string_view_literals;
 constexpr Foreign kForeign[] = {
     {".las", "LASF", kPoints, kTrain},
@@ -43,6 +46,9 @@ constexpr Foreign kForeign[] = {
      "Run ns-export gaussian-splat and give its .ply"},
     {".pt", "", "is a checkpoint of a training, not a scene",
      "Train with the option that writes a .ply (gsplat: --save_ply)"},
+    {".png", "\x89PNG\r\n\x1a\n"sv, kPicture, kGiveScene},
+    {".jpg", "\xff\xd8\xff\xe0\x00\x10JFIF"sv, kPicture, kGiveScene},
+    {".pdf", "%PDF-1.", "this is a .pdf, not a scene of Gaussians", kGiveScene},
     {".psht", "", "is a project of Postshot, not a scene", "Choose File > Export there, and .ply"},
     {".ssproj", "", "is a project of SuperSplat, not a scene", "Choose File > Export there, and .ply"},
 };

@@ -96,6 +96,14 @@ std::vector<std::string> extensions_of(std::span<const SceneFormat> formats) {
   return extensions;
 }
 
+std::string spoken_endings(std::span<const SceneFormat> formats, std::string_view conjunction) {
+  std::vector<std::string> endings;
+  for (const SceneFormat& format : formats)
+    for (const std::string_view ending : endings_of(format))
+      if (ending.starts_with('.')) endings.emplace_back(ending);
+  return spoken_list(endings, conjunction);
+}
+
 std::string spoken_extensions(std::span<const SceneFormat> formats, std::string_view conjunction) {
   std::vector<std::string> extensions;
   for (const SceneFormat& format : formats) extensions.emplace_back(format.extension);

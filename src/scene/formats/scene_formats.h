@@ -109,6 +109,9 @@ SceneFormat output_format_from_name(const std::filesystem::path& path);
 
 // Extensions of the formats as a file dialog filters by them: none that another one covers.
 std::vector<std::string> extensions_of(std::span<const SceneFormat> formats);
+// Endings of the formats as one tells them to a person: second ones, too, without names of whole files
+// (meta.json). ".glb, .gltf or .spz"
+std::string spoken_endings(std::span<const SceneFormat> formats, std::string_view conjunction);
 // ".ply, .splat or .spz"
 std::string spoken_extensions(std::span<const SceneFormat> formats, std::string_view conjunction);
 std::vector<std::string> names_of(std::span<const SceneFormat> formats);

@@ -134,7 +134,7 @@ PlyHeader parse_ply_header(const std::filesystem::path& path, std::span<const st
   const std::string_view text(reinterpret_cast<const char*>(file.data()),
                               std::min(file.size(), kMaxHeaderBytes));
   if (!text.starts_with("ply\n") && !text.starts_with("ply\r\n"))
-    throw Error(path.string(), "is not a .ply file: it does not begin with \"ply\"");
+    throw Error(path.string(), "this is not a .ply file, as it does not begin with \"ply\"");
   PlyHeader header;
   bool has_format = false;
   for (std::size_t begin = text.find('\n') + 1;;) {

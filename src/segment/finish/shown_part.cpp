@@ -56,7 +56,8 @@ ShownPart shown_part(const Drawer& scene, std::span<const std::uint8_t> labels,
                          [](std::uint8_t in) { return static_cast<std::uint8_t>(in == 0); });
   PlaneSums sums(cloud.size(), 1);
   for (std::size_t v = 0; v < cameras.size() && !job.cancelled(); ++v) {
-    job.progress("what the own views show", static_cast<double>(v) / static_cast<double>(cameras.size()));
+    job.progress("looking where the object shows",
+                 static_cast<double>(v) / static_cast<double>(cameras.size()));
     const PixelRect rect = labelled_rectangle(object, cameras[v], all_of_it);
     if (rect.empty()) continue;
     const int width = cameras[v].width_px, height = cameras[v].height_px;

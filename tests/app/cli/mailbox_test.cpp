@@ -61,7 +61,7 @@ QUICK_CASE("mailbox",
   client.say(": \"undo\"}\nnonsense\n[]\n{\"id\": [1], \"do\": \"quit\"}");
   CHECK(mailbox.next()->id == "two");
   const auto nonsense = mailbox.next();
-  CHECK(nonsense->error == "request: is not valid JSON at byte 2.");
+  CHECK(nonsense->error == "request: this is not valid JSON at byte 2.");
   CHECK(nonsense->id.is_null());
   CHECK(mailbox.next()->request == json::array());
   client.end();  // the last line has no end of its own

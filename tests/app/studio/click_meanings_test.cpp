@@ -37,9 +37,9 @@ TEST_CASE("clicks: the wheel takes sizes that differ, and says where there is no
       }
       MESSAGE(place.name, ": ", steps, " steps, then: ", artist.said());
       CHECK(steps < 60);
-      const bool told = artist.said().find(notch > 0 ? "This is the largest of"
-                                                     : "This is the smallest of") != std::string::npos ||
-                        artist.said().find("one size alone") != std::string::npos;
+      const bool told =
+          artist.said().starts_with(notch > 0 ? "This is the largest of" : "This is the smallest of") ||
+          artist.said().find("one size alone") != std::string::npos;
       CHECK(told);
     }
   }

@@ -18,6 +18,7 @@ TEST_CASE("hands: numbers are written one way, lengths with three figures") {
   CHECK(grouped(999) == "999");
   CHECK(grouped(92440) == "92,440");
   CHECK(grouped(1234567) == "1,234,567");
+  CHECK(as_sentence("one side is in doubt") == "One side is in doubt");
   CHECK(length_text(0) == "0");
   CHECK(length_text(0.0235f) == "0.0235");
   CHECK(length_text(12.4f) == "12.4");

@@ -2,11 +2,13 @@
 #include <doctest/doctest.h>
 
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 
 #include "app/tools/actions.h"
 #include "places.h"
+#include "scene/formats/scene_formats.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -45,4 +47,14 @@ TEST_CASE("manual: every tool, and no other") {
   std::set<std::string> expected;
   for (const Tool* tool : tools()) expected.insert(row_of(keys_of(action_of(*tool)), tool->name));
   CHECK(rows_below("## Tools") == expected);
+}
+
+TEST_CASE("manual: README names the endings that the start page names") {
+  std::ifstream in(project_folder() + "/README.md");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string endings = spoken_endings(read_formats(), "or");
+  CAPTURE(endings);
+  CHECK(endings.find(".gltf") != std::string::npos);
+  CHECK(endings.find("meta.json") == std::string::npos);
+  CHECK(text.find("opens a scene: " + endings + "\n") != std::string::npos);
 }

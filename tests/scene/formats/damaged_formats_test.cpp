@@ -217,6 +217,8 @@ QUICK_CASE("splat", "files of other kinds are refused with what to do") {
   check("scene.obj", "v 0 0 0", {"mesh", "Train"});
   check("a.splatv", std::string("\x4b\x67\x00\x00", 4), {"moving scene", ".ply"});
   check("moving.splat", std::string("\x4b\x67\x00\x00", 4) + std::string(60, 'a'), {"moving scene", ".ply"});
+  check("picture.splat", "\x89PNG\r\n\x1a\n and more", {"this is a picture, not a scene"});
+  check("photo.ply", std::string("\xff\xd8\xff\xe0\x00\x10JFIF", 10), {"this is a picture, not a scene"});
   for (const std::string& zip :
        {std::string("PK"), text_of_bytes(zip_of(std::vector<ZipEntry>{entry("a", "b")}))}) {
     check("step-30000.ckpt", zip, {"checkpoint", "ns-export"});
