@@ -245,7 +245,7 @@ TEST_CASE("export dialog: why the last try failed is gone as soon as anything in
   CHECK(choice.trouble.empty());
 }
 
-TEST_CASE("export dialog: cancelled, it leaves clean edges as they were; exported, as they are there") {
+TEST_CASE("export dialog: cancelled it leaves clean edges as they were, exported as they are there") {
   const ScratchFolder folder("switch_kept");
   Hands hands;
   const auto clean = [&] { return hands.studio().view().clean_edges; };
