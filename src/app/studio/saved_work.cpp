@@ -39,8 +39,8 @@ bool SavedWork::unsaved() const {
   return (!document.objects.empty() || document.deleted || several) && saved_serial_ != ws_.history.serial();
 }
 
-// Work that was undone to nothing is none. What was restored is not offered again while it waits to be saved.
-// What is known of a file stays: nobody writes it any more.
+// A file without work, nor any that could be redone, goes. What was restored is not offered again while it
+// waits to be saved. What is known of a file stays: nobody writes it any more.
 void SavedWork::find_offers() {
   std::vector<LeftWork> found;
   for (const std::filesystem::path& file : autosaves_.left_behind()) {

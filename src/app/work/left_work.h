@@ -16,7 +16,7 @@ struct LeftWork {
   std::string says;  // time and scene: "18:40  garden/point_cloud.ply", "2026-03-01  garden/point_cloud.ply"
   Image<Rgba8> picture{};    // what the view showed, small; empty: nobody knows
   std::uint64_t serial = 0;  // number of the picture
-  bool nothing = false;      // it holds no work: all of it was undone
+  bool nothing = false;      // it holds no work, nor any that was undone
 };
 
 // Reads that from the file. Errors: none; what cannot be read stays empty, and is said when it is restored.

@@ -127,7 +127,7 @@ bool WorkFile::holds_nothing() const {
     const auto found = content->find(name);
     return found == content->end() || found->empty();  // null is empty, too
   };
-  return files.size() == 1 && has_none("objects") && has_none("deleted");
+  return files.size() == 1 && has_none("objects") && has_none("deleted") && !content->contains("history");
 }
 
 RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {

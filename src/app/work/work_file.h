@@ -29,7 +29,7 @@ struct WorkFile {
   std::filesystem::path path;
   std::vector<SceneSource> files;  // files of its scene, one or more, with absolute paths
   std::shared_ptr<const nlohmann::json> content;
-  bool holds_nothing() const;  // the scene as it was opened, with nothing done to it
+  bool holds_nothing() const;  // the scene as it was opened, and no step that could be redone
 };
 
 struct RestoredWork {
