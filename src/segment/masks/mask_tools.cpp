@@ -19,6 +19,16 @@ cv::Mat disc(int radius_px) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius_px + 1, 2 * radius_px + 1});
 }
 
+// Nothing changes farther than the radius from the mask: only what lies nearer is looked at.
+Mask changed_within(const Mask& mask, int radius_px, cv::MorphTypes how) {
+  Mask out(mask.width(), mask.height());
+  const PixelRect object = bounds(mask);
+  if (object.empty()) return out;
+  const cv::Rect near = as_rect(grown(object, radius_px, mask.width(), mask.height()));
+  cv::morphologyEx(as_const_mat(mask)(near), as_mat(out)(near), how, disc(radius_px));
+  return out;
+}
+
 }  // namespace
 
 std::size_t count(const Mask& mask) {
@@ -36,19 +46,12 @@ double iou(const Mask& a, const Mask& b) {
   return either ? static_cast<double>(both) / static_cast<double>(either) : 1.0;
 }
 
-// Farther than the radius from the mask both are empty.
 Mask dilated(const Mask& mask, int radius_px) {
-  Mask out(mask.width(), mask.height());
-  const cv::Rect near = as_rect(grown(bounds(mask), radius_px, mask.width(), mask.height()));
-  if (count(mask) > 0) cv::dilate(as_const_mat(mask)(near), as_mat(out)(near), disc(radius_px));
-  return out;
+  return changed_within(mask, radius_px, cv::MORPH_DILATE);
 }
 
 Mask eroded(const Mask& mask, int radius_px) {
-  Mask out(mask.width(), mask.height());
-  const cv::Rect near = as_rect(grown(bounds(mask), radius_px, mask.width(), mask.height()));
-  if (count(mask) > 0) cv::erode(as_const_mat(mask)(near), as_mat(out)(near), disc(radius_px));
-  return out;
+  return changed_within(mask, radius_px, cv::MORPH_ERODE);
 }
 
 Mask resized_mask(const Mask& mask, int width_px, int height_px) {

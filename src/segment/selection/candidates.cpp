@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "segment/masks/mask_tools.h"
 #include "segment/selection/click_reach.h"
 #include "segment/selection/first_meanings.h"
+#include "segment/selection/levels_in_view.h"
 #include "segment/selection/part_terms.h"
 #include "segment/selection/part_votes.h"
 
@@ -52,34 +52,6 @@ float jump(const PartTree& tree, std::uint32_t node) {
   if (up == kNoPart) return 0;
   const float folds = std::max(tree.merge_cost[up], 1e-6f) / std::max(tree.merge_cost[node], 0.1f);
   return std::clamp(std::log(folds), 0.0f, 2.0f);
-}
-
-// The pixel's distance to the border over the largest of its connected region, in (0, 1].
-float centrality(const Mask& region, const glm::ivec2& at) {
-  const Image<float> distance = distance_inside(connected_to(region, at));
-  return distance.at(at.x, at.y) / std::ranges::max(distance.pixels());
-}
-
-PixelRect around_both(const PixelRect& a, const PixelRect& b) {
-  if (a.empty()) return b;
-  if (b.empty()) return a;
-  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
-}
-
-// What a chain changes in the click's view.
-struct Levels {
-  Image<std::uint32_t> of_pixel;  // from which index on it changes
-  std::vector<PixelRect> box;     // per index, around all that has changed by then
-};
-
-std::vector<PixelRect> boxes_of(const Image<std::uint32_t>& level, std::size_t indices) {
-  std::vector<PixelRect> boxes(indices);
-  for (int y = 0; y < level.height(); ++y)
-    for (int x = 0; x < level.width(); ++x)
-      if (const std::uint32_t l = level.at(x, y); l != kNoLevel)
-        boxes[l] = around_both(boxes[l], {x, y, x + 1, y + 1});
-  for (std::size_t i = 1; i < indices; ++i) boxes[i] = around_both(boxes[i], boxes[i - 1]);
-  return boxes;
 }
 
 // One click: its inputs and what is computed of it.
@@ -131,7 +103,7 @@ class Asking {
   void add_disc();
   void add_apart_terms();
   void measure_off_centre(bool all);
-  const Levels& levels_in_view(std::size_t chain);
+  const LevelsInView& levels_of(std::size_t chain);
   void sort();
 
   const PartHierarchy& parts_;
@@ -140,9 +112,9 @@ class Asking {
   const SelectionModel& model_;
   const TermValues& weights_;
   const Camera& camera_;
-  float object_px_ = 0;                 // selected so far
-  std::vector<float> wrong_px_;         // per leaf: its pixels if a candidate may change it
-  std::vector<Levels> levels_in_view_;  // per chain
+  float object_px_ = 0;               // selected so far
+  std::vector<float> wrong_px_;       // per leaf: its pixels if a candidate may change it
+  std::vector<LevelsInView> levels_;  // per chain
   Answers out_;
 };
 
@@ -254,17 +226,14 @@ void Asking::measure_stability() {
   }
 }
 
-const Levels& Asking::levels_in_view(std::size_t c) {
-  levels_in_view_.resize(out_.chains.size());
-  Levels& known = levels_in_view_[c];
-  if (!known.of_pixel.empty()) return known;
+const LevelsInView& Asking::levels_of(std::size_t c) {
+  levels_.resize(out_.chains.size());
+  if (!levels_[c].of_pixel.empty()) return levels_[c];
   const Chain& chain = out_.chains[c];
   std::vector<std::uint32_t> joins = chain.level;
   for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf)
     if (chain.of_tree && !(wrong_px_[leaf] > 0)) joins[leaf] = kNoLevel;
-  known.of_pixel = shown_from(click_.view, joins);
-  known.box = boxes_of(known.of_pixel, chain.nodes.size());
-  return known;
+  return levels_[c] = levels_in_view(click_.view, joins, chain.nodes.size());
 }
 
 void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
@@ -401,7 +370,7 @@ void Asking::add_apart_terms() {
     const Chain& chain = out_.chains[candidate.chain];
     std::vector<float>& of_chain = shares[candidate.chain];
     if (of_chain.empty())
-      of_chain = shares_out_of_reach(levels_in_view(candidate.chain).of_pixel, chain.nodes.size(),
+      of_chain = shares_out_of_reach(levels_of(candidate.chain).of_pixel, chain.nodes.size(),
                                      click_.view.depth, click_.at);
     term(&candidate, Term::kApart) = of_chain[candidate.index];
   }
@@ -427,14 +396,7 @@ void Asking::measure_off_centre(bool all) {
     ++looked_at;
     const bool of_tree = candidate.index != Candidate::kDiscAlone && out_.chains[candidate.chain].of_tree;
     if (of_tree) {
-      const Levels& levels = levels_in_view(candidate.chain);
-      const PixelRect box = around_both(levels.box[candidate.index],
-                                        {click_.at.x, click_.at.y, click_.at.x + 1, click_.at.y + 1});
-      Mask region(box.width(), box.height());
-      for (int y = 0; y < box.height(); ++y)
-        for (int x = 0; x < box.width(); ++x)
-          region.at(x, y) = levels.of_pixel.at(box.x0 + x, box.y0 + y) <= candidate.index ? kMaskObject : 0;
-      const float central = centrality(region, click_.at - glm::ivec2(box.x0, box.y0));
+      const float central = centrality(levels_of(candidate.chain), candidate.index, click_.at);
       const float off = at_least_0(std::log(kCentral / central));
       term(&candidate, Term::kOffCentre) = off;
       candidate.cost += dear * off;

@@ -22,7 +22,7 @@
 
 namespace splatcut {
 
-// disc: pixels of the view, row by row. more_than_px: a region of so many pixels is none. Empty mask of the
+// disc: pixels of the view, row by row. A region of more_than_px pixels or fewer is none. Empty mask of the
 // view's size: there is no such region.
 Mask region_by_colour(const Click& click, std::span<const std::uint32_t> disc, float more_than_px = 0);
 

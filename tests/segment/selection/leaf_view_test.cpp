@@ -6,6 +6,7 @@
 #include "core/counter_rng.h"
 #include "four_leaves.h"
 #include "segment/masks/mask_tools.h"
+#include "segment/selection/levels_in_view.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -80,4 +81,30 @@ TEST_CASE("masks: distances inside are to the nearest pixel outside, the picture
       }
   }
   CHECK(distance_inside(Mask(4, 3)) == Image<float>(4, 3, 0.0f));
+}
+
+// A block of 9 x 5 pixels and one that touches it at a corner alone; the first index changes its left third.
+TEST_CASE("levels in view: how central a pixel is in what has changed by an index") {
+  const PartHierarchy parts = four_leaves();
+  Camera camera;
+  camera.width_px = kWidth;
+  camera.height_px = kHeight;
+  Image<std::int32_t> hit(kWidth, kHeight, -1);
+  const auto block = [&](int x0, int y0, int x1, int y1, std::int32_t leaf) {
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) hit.at(x, y) = leaf;
+  };
+  block(10, 10, 13, 15, 0);
+  block(13, 10, 19, 15, 1);
+  block(19, 15, 39, 29, 1);
+  const LeafView view = leaf_view_of_hits(parts, camera, hit);
+  const LevelsInView levels = levels_in_view(view, std::vector<std::uint32_t>{0, 1, kNoLevel, kNoLevel}, 2);
+  CHECK(levels.box[0] == PixelRect{10, 10, 13, 15});
+  CHECK(levels.box[1] == PixelRect{10, 10, 39, 29});
+  // In the left third the largest distance is 2, in its middle column; in the whole block 3, in its middle.
+  CHECK(centrality(levels, 0, {11, 12}) == 1);
+  CHECK(centrality(levels, 0, {10, 12}) == 0.5f);
+  CHECK(centrality(levels, 1, {11, 12}) == doctest::Approx(2.0 / 3));
+  CHECK(centrality(levels, 1, {14, 12}) == 1);
+  CHECK(centrality(levels, 1, {0, 0}) == 1);  // alone
 }

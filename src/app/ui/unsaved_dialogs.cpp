@@ -1,0 +1,72 @@
+// Questions about work that was not saved.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <utility>
+
+#include "app/document/words.h"
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+namespace splatcut {
+
+namespace {
+
+// What to do with work that would be lost.
+enum class UnsavedAnswer { kNone, kStay, kGoOn, kSave };
+
+UnsavedAnswer unsaved_dialog(UiContext& ui, const char* id, bool wanted, const std::string& text,
+                             const char* go_on) {
+  if (!begin_dialog(id, wanted, {430, 150})) return UnsavedAnswer::kNone;
+  wrapped_muted(ui, text);
+  ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
+  const bool stays = plain_button(ui, "Stay", 100) || escape_pressed();
+  ImGui::SameLine();
+  const bool goes_on = plain_button(ui, go_on, 100);
+  ImGui::SameLine(ImGui::GetWindowWidth() - 112);
+  const bool saves = button(ui, "Save...", "Save the work first  (Enter)", {}, true, 100) ||
+                     (!goes_on && !stays && enter_pressed());
+  if (stays || goes_on || saves) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+  return stays     ? UnsavedAnswer::kStay
+         : goes_on ? UnsavedAnswer::kGoOn
+         : saves   ? UnsavedAnswer::kSave
+                   : UnsavedAnswer::kNone;
+}
+
+// next: opened once the work is saved; none: the program ends then.
+void save_first(UiContext& ui, const std::optional<OpenScene>& next) {
+  if (next) ui.state.files.folder.clear();  // it is the other scene's
+  open_file_dialog(ui, FilePurpose::kSaveWork);
+  ui.state.after_save = {next, ui.studio.work().saves(), ui.studio.history().cursor()};
+}
+
+}  // namespace
+
+void open_anyway_dialog(UiContext& ui) {
+  const std::string name = ui.state.open_asked ? scene_name(ui.state.open_asked->path) : "";
+  const UnsavedAnswer answer = unsaved_dialog(
+      ui, "Open without saving?###open_anyway", ui.state.open_asked.has_value(),
+      fmt::format("The objects and strokes were not saved since they changed. That work ends once {} is "
+                  "open; if it cannot be read, the work stays.",
+                  name),
+      "Open");
+  if (answer == UnsavedAnswer::kNone) return;
+  const std::optional<OpenScene> next = std::exchange(ui.state.open_asked, {});
+  if (answer == UnsavedAnswer::kGoOn) ui.state.open_now = next;
+  if (answer == UnsavedAnswer::kSave) save_first(ui, next);
+}
+
+void quit_dialog(UiContext& ui) {
+  const UnsavedAnswer answer = unsaved_dialog(
+      ui, "Leave without saving?###quit", ui.state.quit_asked,
+      "The objects and strokes were not saved since they changed. A copy is kept all the same and offered at "
+      "the next start.",
+      "Leave");
+  if (answer == UnsavedAnswer::kNone) return;
+  ui.state.quit_asked = false;
+  if (answer == UnsavedAnswer::kGoOn) ui.state.quit_wanted = true;
+  if (answer == UnsavedAnswer::kSave) save_first(ui, {});
+}
+
+}  // namespace splatcut
