@@ -13,12 +13,12 @@ using namespace splatcut::testing;
 
 namespace {
 
-constexpr int kWidth = 40, kHeight = 30;
+constexpr int kViewWidthPx = 40, kViewHeightPx = 30;
 
 // Of each pixel the four leaves have shares that a random share of it makes up, often nearly all one leaf's.
 LeafView random_view(const PartHierarchy& parts) {
   CounterRng rng(5, 1);
-  Image<std::vector<GroupWeight>> lists(kWidth, kHeight);
+  Image<std::vector<GroupWeight>> lists(kViewWidthPx, kViewHeightPx);
   for (std::vector<GroupWeight>& list : lists.pixels()) {
     float left = rng.below(4) == 0 ? rng.unit() : 1;
     for (std::uint32_t leaf = 0; leaf < 4; ++leaf) {
@@ -27,9 +27,9 @@ LeafView random_view(const PartHierarchy& parts) {
     }
   }
   Camera camera;
-  camera.width_px = kWidth;
-  camera.height_px = kHeight;
-  return leaf_view_of(parts, camera, listed(lists), Image<float>(kWidth, kHeight, 1.0f));
+  camera.width_px = kViewWidthPx;
+  camera.height_px = kViewHeightPx;
+  return leaf_view_of(parts, camera, listed(lists), Image<float>(kViewWidthPx, kViewHeightPx, 1.0f));
 }
 
 float share(std::span<const GroupWeight> list, const auto& counts) {
@@ -66,15 +66,16 @@ TEST_CASE("leaf view: a pixel is object where half of it is, and from the level 
 TEST_CASE("masks: distances inside are to the nearest pixel outside, the picture's frame included") {
   CounterRng rng(7, 1);
   for (const int margin_px : {0, 6}) {
-    Mask mask(kWidth, kHeight);
-    for (int y = margin_px; y < kHeight - margin_px; ++y)
-      for (int x = margin_px; x < kWidth - margin_px; ++x) mask.at(x, y) = rng.below(40) ? kMaskObject : 0;
+    Mask mask(kViewWidthPx, kViewHeightPx);
+    for (int y = margin_px; y < kViewHeightPx - margin_px; ++y)
+      for (int x = margin_px; x < kViewWidthPx - margin_px; ++x)
+        mask.at(x, y) = rng.below(40) ? kMaskObject : 0;
     const Image<float> distance = distance_inside(mask);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kViewHeightPx; ++y)
+      for (int x = 0; x < kViewWidthPx; ++x) {
         int nearest2 = std::numeric_limits<int>::max();
-        for (int v = -1; v <= kHeight; ++v)
-          for (int u = -1; u <= kWidth; ++u)
+        for (int v = -1; v <= kViewHeightPx; ++v)
+          for (int u = -1; u <= kViewWidthPx; ++u)
             if (!mask.contains(u, v) || !mask.at(u, v))
               nearest2 = std::min(nearest2, (u - x) * (u - x) + (v - y) * (v - y));
         REQUIRE(distance.at(x, y) == doctest::Approx(std::sqrt(nearest2)));
@@ -87,9 +88,9 @@ TEST_CASE("masks: distances inside are to the nearest pixel outside, the picture
 TEST_CASE("levels in view: how central a pixel is in what has changed by an index") {
   const PartHierarchy parts = four_leaves();
   Camera camera;
-  camera.width_px = kWidth;
-  camera.height_px = kHeight;
-  Image<std::int32_t> hit(kWidth, kHeight, -1);
+  camera.width_px = kViewWidthPx;
+  camera.height_px = kViewHeightPx;
+  Image<std::int32_t> hit(kViewWidthPx, kViewHeightPx, -1);
   const auto block = [&](int x0, int y0, int x1, int y1, std::int32_t leaf) {
     for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x) hit.at(x, y) = leaf;
