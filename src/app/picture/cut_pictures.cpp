@@ -95,7 +95,7 @@ double share_through_surface(const RasterOutput& drawn, const Mask& mask) {
     const glm::vec3 change =
         glm::abs(drawn.colour.at(inside.x, inside.y) - drawn.colour.at(outside.x, outside.y));
     through += std::max({change.r, change.g, change.b}) < kOneColour &&
-               depth_jump(depth, inside, outside) <= kJumpAtBorderOfPart;
+               !depth_jumps(depth, inside, outside, kJumpAtBorderOfPart);
   };
   for (int y = 0; y < small.height(); ++y)
     for (int x = 0; x < small.width(); ++x)

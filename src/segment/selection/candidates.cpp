@@ -371,7 +371,7 @@ void Asking::add_apart_terms() {
     std::vector<float>& of_chain = shares[candidate.chain];
     if (of_chain.empty())
       of_chain = shares_out_of_reach(levels_of(candidate.chain).of_pixel, chain.nodes.size(),
-                                     click_.view.depth, click_.at);
+                                     click_.view.steps, click_.at);
     term(&candidate, Term::kApart) = of_chain[candidate.index];
   }
 }

@@ -11,14 +11,17 @@
 
 namespace splatcut {
 
+// Per pixel a bit for each of kFourSteps (core/pixel_steps.h): set where the step stays in the picture and
+// the depth jumps by no more than kJumpInOneStep. depth: camera z, scene units; 0: nothing is there.
+Image<std::uint8_t> steps_without_jump(const Image<float>& depth);
+
 // Shares of changing pixels that the click does not reach, one per index.
 //
-// level: per pixel the index from which on it changes, below `indices`, or kNoLevel (leaf_view.h). depth:
-// camera z, scene units, of the same size; 0: nothing is there. at: the clicked pixel. A way starts in the
-// click's 3 x 3 pixels, takes steps of one pixel along rows and columns, stays within pixels that change up
-// to the index, and takes no step in which ln of the depth changes by more than kJumpInOneStep. Each share is
-// in [0, 1], and 0 if nothing changes. Cost: linear.
+// level: per pixel the index from which on it changes, below `indices`, or kNoLevel (leaf_view.h). steps:
+// those of the same picture that a way may take. at: the clicked pixel. A way starts in the click's 3 x 3
+// pixels and stays within pixels that change up to the index. Each share is in [0, 1], and 0 if nothing
+// changes. Cost: linear.
 std::vector<float> shares_out_of_reach(const Image<std::uint32_t>& level, std::size_t indices,
-                                       const Image<float>& depth, const glm::ivec2& at);
+                                       const Image<std::uint8_t>& steps, const glm::ivec2& at);
 
 }  // namespace splatcut

@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "core/png_file.h"
+#include "segment/selection/click_reach.h"
 
 namespace splatcut {
 
@@ -96,12 +97,14 @@ LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera, ListedWe
                 .gaussians = flat(gaussians.of),
                 .leaves = {},
                 .depth = std::move(depth),
+                .steps = {},
                 .colour = {},
                 .leaf_px = {},
                 .leaf_frame_px = {}};
   sum_by_leaf(parts, &gaussians.of);
   view.leaves = flat(gaussians.of);
   count_leaves(parts, &view);
+  view.steps = steps_without_jump(view.depth);
   return view;
 }
 

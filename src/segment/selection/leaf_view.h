@@ -31,6 +31,7 @@ struct LeafView {
   Camera camera;
   PixelWeights gaussians, leaves;
   Image<float> depth;                // expected depth as camera z, scene units; 0: nothing is there
+  Image<std::uint8_t> steps;         // between pixels, without a jump in depth: steps_without_jump()
   Image<Rgb8> colour;                // its picture; empty: nobody needed it, see draw_colour()
   bool whole = true;                 // false: some Gaussians were left out
   std::vector<float> alone_px;       // pixels that each Gaussian has if nothing occludes it; empty: not known

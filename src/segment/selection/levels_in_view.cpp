@@ -23,10 +23,14 @@ PixelRect around(const glm::ivec2& pixel) {
 LevelsInView levels_in_view(const LeafView& view, std::span<const std::uint32_t> joins, std::size_t indices) {
   LevelsInView levels{shown_from(view, joins), std::vector<PixelRect>(indices)};
   const Image<std::uint32_t>& of_pixel = levels.of_pixel;
-  for (int y = 0; y < of_pixel.height(); ++y)
-    for (int x = 0; x < of_pixel.width(); ++x)
-      if (const std::uint32_t index = of_pixel.at(x, y); index != kNoLevel)
-        levels.box[index] = around_both(levels.box[index], around({x, y}));
+  for (int y = 0; y < of_pixel.height(); ++y) {
+    const auto row = of_pixel.row(y);
+    for (auto run = row.begin(), end = run; run != row.end(); run = end) {  // of one index
+      end = std::find_if(run, row.end(), [&](std::uint32_t index) { return index != *run; });
+      const auto x0 = static_cast<int>(run - row.begin()), x1 = static_cast<int>(end - row.begin());
+      if (*run != kNoLevel) levels.box[*run] = around_both(levels.box[*run], {x0, y, x1, y + 1});
+    }
+  }
   for (std::size_t i = 1; i < indices; ++i) levels.box[i] = around_both(levels.box[i], levels.box[i - 1]);
   return levels;
 }

@@ -38,7 +38,7 @@ std::vector<Meeting> meetings(const LeafPicture& picture) {
     if (!leaf.contains(q.x, q.y) || leaf.at(p.x, p.y) == leaf.at(q.x, q.y)) return;
     const auto [a, b] = std::minmax(leaf.at(p.x, p.y), leaf.at(q.x, q.y));
     // One pixel further on both sides: the border itself blends.
-    pairs.push_back({a, b, 1, depth_jump(picture.depth, p - step, q + step) <= kJumpAtBorderOfPart});
+    pairs.push_back({a, b, 1, !depth_jumps(picture.depth, p - step, q + step, kJumpAtBorderOfPart)});
   };
   for (int y = 0; y < leaf.height(); ++y)
     for (int x = 0; x < leaf.width(); ++x) {

@@ -32,6 +32,11 @@ Image<float> flat(const Image<std::uint32_t>& level) {
 
 using Shares = std::vector<float>;
 
+Shares shares_by(const Image<float>& depth, const Image<std::uint32_t>& level, std::size_t indices,
+                 const glm::ivec2& at) {
+  return shares_out_of_reach(level, indices, steps_without_jump(depth), at);
+}
+
 // Pixels reached when everything up to the index changes at once.
 std::size_t reached_at(const Image<std::uint32_t>& level, const Image<float>& depth, const glm::ivec2& at,
                        std::uint32_t index) {
@@ -48,7 +53,7 @@ std::size_t reached_at(const Image<std::uint32_t>& level, const Image<float>& de
              {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
           const glm::ivec2 p(x, y), q = p + step;
           if (!in.at(x, y) || !changes(q.x, q.y) || in.at(q.x, q.y) ||
-              depth_jump(depth, p, q) > kJumpInOneStep)
+              depth_jumps(depth, p, q, kJumpInOneStep))
             continue;
           in.at(q.x, q.y) = 1;
           more = true;
@@ -59,27 +64,36 @@ std::size_t reached_at(const Image<std::uint32_t>& level, const Image<float>& de
 
 }  // namespace
 
+TEST_CASE("click reach: steps stay in the picture, and lead over no jump in depth either way") {
+  Image<float> depth(3, 2, 5.0f);
+  depth.at(2, 0) = 7;  // farther than what is beside and below it
+  depth.at(0, 1) = 0;  // nothing is there
+  constexpr std::uint8_t kRight = 1, kLeft = 2, kDown = 4, kUp = 8;  // bits in the order of kFourSteps
+  const std::vector<std::uint8_t> expected = {kRight, kLeft | kDown, 0, 0, kRight | kUp, kLeft};
+  CHECK(std::ranges::equal(steps_without_jump(depth).pixels(), expected));
+}
+
 TEST_CASE("click reach: a gap and a bridge that comes later") {
   const Image<std::uint32_t> level = levels({"0  0", "0  0", "0110"});
-  CHECK(shares_out_of_reach(level, 2, flat(level), {0, 0}) == Shares{0.5f, 0});
+  CHECK(shares_by(flat(level), level, 2, {0, 0}) == Shares{0.5f, 0});
   const Image<std::uint32_t> apart = levels({"0 10", "0 10", "0  0"});
-  CHECK(shares_out_of_reach(apart, 3, flat(apart), {0, 1}) == Shares{0.5f, 5.0f / 8, 5.0f / 8});
+  CHECK(shares_by(flat(apart), apart, 3, {0, 1}) == Shares{0.5f, 5.0f / 8, 5.0f / 8});
 }
 
 TEST_CASE("click reach: a jump in depth is a gap, a slope is none") {
   const Image<std::uint32_t> level = levels({"000000"});
   Image<float> depth = flat(level);
   for (int x = 3; x < 6; ++x) depth.at(x, 0) = 7;
-  CHECK(shares_out_of_reach(level, 1, depth, {0, 0}) == Shares{0.5f});
-  CHECK(shares_out_of_reach(level, 1, depth, {3, 0}) == Shares{0});  // beside the edge both sides are near
+  CHECK(shares_by(depth, level, 1, {0, 0}) == Shares{0.5f});
+  CHECK(shares_by(depth, level, 1, {3, 0}) == Shares{0});  // beside the edge both sides are near
   for (int x = 0; x < 6; ++x) depth.at(x, 0) = 5 * std::exp(0.15f * static_cast<float>(x));
-  CHECK(shares_out_of_reach(level, 1, depth, {0, 0}) == Shares{0});
+  CHECK(shares_by(depth, level, 1, {0, 0}) == Shares{0});
 }
 
 TEST_CASE("click reach: a click where nothing changes reaches nothing, and nothing has no share") {
   const Image<std::uint32_t> level = levels({"    1"});
-  CHECK(shares_out_of_reach(level, 2, flat(level), {0, 0}) == Shares{0, 1});
-  CHECK(shares_out_of_reach(level, 2, flat(level), {4, 0}) == Shares{0, 0});
+  CHECK(shares_by(flat(level), level, 2, {0, 0}) == Shares{0, 1});
+  CHECK(shares_by(flat(level), level, 2, {4, 0}) == Shares{0, 0});
 }
 
 TEST_CASE("click reach: random pictures as searched anew at every index") {
@@ -92,7 +106,7 @@ TEST_CASE("click reach: random pictures as searched anew at every index") {
       depth.pixels()[i] = random() % 5 ? 1.0f : 1.5f;
     }
     const glm::ivec2 at(random() % 9, random() % 8);
-    const Shares shares = shares_out_of_reach(level, 5, depth, at);
+    const Shares shares = shares_by(depth, level, 5, at);
     for (std::uint32_t i = 0; i < 5; ++i) {
       const auto all = std::ranges::count_if(level.pixels(), [&](std::uint32_t l) { return l <= i; });
       const double reached = static_cast<double>(reached_at(level, depth, at, i));

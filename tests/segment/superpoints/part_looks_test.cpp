@@ -55,7 +55,7 @@ PartLooks counted(const std::set<std::uint32_t>& held, const LeafPicture& pictur
         const glm::ivec2 p(x, y), q = p + step;
         if (q.x == width || q.y == height || holds(p.x, p.y) == holds(q.x, q.y)) continue;
         ++border;
-        plain += depth_jump(picture.depth, p - step, q + step) <= kJumpAtBorderOfPart;
+        plain += !depth_jumps(picture.depth, p - step, q + step, kJumpAtBorderOfPart);
       }
     }
   const double all = width * height, share = area / all, side = std::sqrt(all);
@@ -127,11 +127,13 @@ TEST_CASE("part looks: a jump of depth") {
   Image<float> depth(3, 1, 0.0f);
   depth.at(0, 0) = 2;
   depth.at(1, 0) = 4;
-  CHECK(depth_jump(depth, {0, 0}, {1, 0}) == doctest::Approx(std::log(2.0)));
-  CHECK(depth_jump(depth, {1, 0}, {0, 0}) == doctest::Approx(std::log(2.0)));
-  CHECK(std::isinf(depth_jump(depth, {2, 0}, {1, 0})));
-  CHECK(depth_jump(depth, {2, 0}, {9, 0}) == 0);  // outside, the frame's pixel counts
-  CHECK(depth_jump(depth, {-5, 0}, {0, 3}) == 0);
+  for (const float factor : {1.01f, 1.99f, 2.0f, 2.01f}) {
+    CHECK(depth_jumps(depth, {0, 0}, {1, 0}, factor) == (factor < 2));
+    CHECK(depth_jumps(depth, {1, 0}, {0, 0}, factor) == (factor < 2));
+  }
+  CHECK(depth_jumps(depth, {2, 0}, {1, 0}, 1e30f));         // nothing beside something
+  CHECK_FALSE(depth_jumps(depth, {2, 0}, {9, 0}, 1.001f));  // outside, the frame's pixel counts
+  CHECK_FALSE(depth_jumps(depth, {-5, 0}, {0, 3}, 1.001f));
 }
 
 TEST_CASE("part looks: a pixel is the leaf's that makes most of it, if anything does") {
