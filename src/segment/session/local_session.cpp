@@ -263,21 +263,6 @@ Mask LocalSession::first_mask(const CutRequest& request, const CutSettings& sett
   return first_mask_of({scene, *asked.reference, request, asked.first_settings, job});
 }
 
-LocalSession::Preview LocalSession::preview(const CutRequest& request, const CameraStroke& stroke,
-                                            const CutSettings& settings, const Job& job) {
-  if (settings.first_mask_from != FirstMaskFrom::kParts ||
-      scene_.prepared->parts.leaf_of.size() != scene_.cloud->size())
-    return {};
-  const Drawer drawer(*scene_.cloud, &views_);
-  const ReplayOptions options = replay_options(request, settings, scene_.prepared->model);
-  std::vector<CameraStroke> strokes = strokes_in_order(request);
-  Preview preview;
-  preview.before = strokes_.replay(drawer, strokes, options, job).labels();
-  strokes.push_back(stroke);
-  preview.after = strokes_.replay(drawer, strokes, options, job).labels();
-  return job.cancelled() ? Preview{} : preview;
-}
-
 std::vector<std::uint8_t> LocalSession::meant(const CutRequest& request, const CutSettings& settings,
                                               const Job& job) {
   return strokes_

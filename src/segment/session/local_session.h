@@ -54,14 +54,6 @@ class LocalSession {
   // limited_to_width(reference, work_width_px) or larger; empty where nothing marks the object.
   Mask first_mask(const CutRequest& request, const CutSettings& settings, const Job& job = {});
 
-  // Labels before and after one more stroke, by parts alone, with the code of cut()'s first mask. Costs some
-  // 10 ms where the view is known. Empty: cancelled, or the settings know no parts.
-  struct Preview {
-    std::vector<std::uint8_t> before, after;
-  };
-  Preview preview(const CutRequest& request, const CameraStroke& stroke, const CutSettings& settings,
-                  const Job& job = {});
-
   // w_g as the last cut of `request` weighed it, for display: soft or hard, with corrections and what the
   // parts say. Cancelled, or nothing marked: unspecified.
   std::vector<float> likelihood_of(const CutRequest& request, const CutSettings& settings,

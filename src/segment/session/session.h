@@ -74,7 +74,9 @@ class Session {
 
   // Labels before and after one more stroke, by parts alone, with the code of cut()'s first mask. Costs some
   // 10 ms where place and view are known. Empty: cancelled, the settings know no parts, or nothing is hit.
-  using Preview = LocalSession::Preview;
+  struct Preview {
+    std::vector<std::uint8_t> before, after;
+  };
   Preview preview(const CutRequest& request, const CameraStroke& stroke, const CutSettings& settings,
                   const Job& job = {});
 
