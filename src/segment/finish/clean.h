@@ -18,7 +18,7 @@
 // A second one: where all that makes the object less like its own pictures on black, by more than 1 dB, what
 // was cut off was seen. Nothing is cut off then; steps 2 and 3 stay.
 //
-// Constants were chosen on six captures with masks of photographs and held on others: docs/edges.md.
+// Constants were chosen on five captures with masks of photographs and held on others: docs/edges.md.
 // Same input, same bits, on any number of threads. Cost: one drawing of the scene a view, two of the part of
 // it that the views show (shown_part.h), seven of that with the rest, and ten of the object. Cancelled: the
 // result is unspecified.

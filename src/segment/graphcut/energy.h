@@ -68,7 +68,7 @@ struct NeighbourOptions {
   Pairwise pairwise = Pairwise::kOverlap;
   float gamma_position = 0.1f;  // 0 leaves the term out, as with all gammas
   float gamma_colour = 1;
-  float lambda = 2;  // [0, 500]; smoother than 1: better on photographs and straddling splats (docs/study.md)
+  float lambda = 2;  // [0, 500]; smoother than 1: better on photographs and straddling splats (docs/masks.md)
   float lambda_n = 1;  // paper: weight of colour in psi
   bool operator==(const NeighbourOptions&) const = default;
 };
