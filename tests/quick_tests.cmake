@@ -38,6 +38,7 @@ endforeach()
 if(SPLATCUT_SANITIZE)
   splatcut_test_program(quick_tests "window;cli;lab;still_life" ${quick_sources})
   target_compile_options(quick_tests PRIVATE -Wno-maybe-uninitialized)
+  set_target_properties(quick_tests PROPERTIES UNITY_BUILD_BATCH_SIZE 10)  # one unit would keep one core waiting
   foreach(label IN LISTS quick_labels)
     add_test(NAME "quick: ${label}" COMMAND quick_tests "--test-suite=quick: ${label}")
     set_tests_properties("quick: ${label}" PROPERTIES LABELS quick FAIL_REGULAR_EXPRESSION "test cases: +0 ")

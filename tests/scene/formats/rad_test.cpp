@@ -45,17 +45,17 @@ std::string deflated(const std::string& bytes) {
   return packed.substr(2, size - 6);
 }
 
-struct Property {
+struct RadProperty {
   const char *name, *encoding;
   std::string bytes;
   float least = 0, most = 1;
 };
 
-std::string chunk_of(std::size_t base, std::size_t count, const std::vector<Property>& properties,
+std::string chunk_of(std::size_t base, std::size_t count, const std::vector<RadProperty>& properties,
                      bool packed) {
   json list = json::array();
   std::string payload;
-  for (const Property& p : properties) {
+  for (const RadProperty& p : properties) {
     const std::string bytes = packed ? deflated(p.bytes) : p.bytes;
     list.push_back({{"offset", payload.size()},
                     {"bytes", bytes.size()},
@@ -93,8 +93,8 @@ std::string rad_of(std::size_t count, const std::vector<std::string>& chunks,
 }
 
 // Two Gaussians: at (1, 3, 5) and (2, 4, 6).
-std::vector<Property> two(const std::string& centre = floats({1, 2, 3, 4, 5, 6}),
-                          const char* encoding = "f32") {
+std::vector<RadProperty> two(const std::string& centre = floats({1, 2, 3, 4, 5, 6}),
+                             const char* encoding = "f32") {
   return {{"center", encoding, centre},
           {"alpha", "r8", octets({0, 255}), 0, 1},
           {"rgb", "r8_delta", octets({51, 204, 255, 1, 0, 51}), 0, 1},
@@ -155,11 +155,11 @@ TEST_CASE(
     "rad: other encodings, spherical harmonics coefficient by coefficient, by the least degree of the "
     "chunks") {
   const Folder folder;
-  std::vector<Property> one = {{"center", "f32", floats({1, 2, 3})},
-                               {"alpha", "f16", all_of<std::uint16_t>({0x3800})},
-                               {"rgb", "f32", floats({0.5f, 0.5f, 0.5f})},
-                               {"scales", "ln_f16", all_of<std::uint16_t>({0x0000, 0x3c00, 0xbc00})},
-                               {"orientation", "f32", floats({0, 0.6f, 0})}};
+  std::vector<RadProperty> one = {{"center", "f32", floats({1, 2, 3})},
+                                  {"alpha", "f16", all_of<std::uint16_t>({0x3800})},
+                                  {"rgb", "f32", floats({0.5f, 0.5f, 0.5f})},
+                                  {"scales", "ln_f16", all_of<std::uint16_t>({0x0000, 0x3c00, 0xbc00})},
+                                  {"orientation", "f32", floats({0, 0.6f, 0})}};
   std::string nine;
   for (int i = 0; i < 9; ++i) nine += octets({i * 10});
   one.push_back({"sh1", "s8", nine, -2, 2});
@@ -176,7 +176,7 @@ TEST_CASE(
       CHECK(scene.cloud.sh_rest_of(0)[3 * c + k] ==
             doctest::Approx(static_cast<double>(10 * (3 * k + c)) / 127 * 2));
   one.pop_back();
-  std::vector<Property> with = one;
+  std::vector<RadProperty> with = one;
   with.push_back({"sh1", "f32", floats({1, 2, 3, 4, 5, 6, 7, 8, 9})});
   write(folder / "a.rad", rad_of(2, {chunk_of(0, 1, with, true), chunk_of(1, 1, one, true)}));
   CHECK(load_scene(folder / "a.rad").cloud.sh_degree == 0);
@@ -188,13 +188,13 @@ TEST_CASE(
   // 0 has 1 and 2; 1 has 3, 4; 2 is a leaf. Each stands at x = its number.
   const auto tree = [](std::initializer_list<std::uint16_t> counts,
                        std::initializer_list<std::uint32_t> starts) {
-    std::vector<Property> all = {{"center", "f32", floats({0, 1, 2, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0})},
-                                 {"alpha", "r8", octets({255, 255, 100, 100, 100}), 0, 2},
-                                 {"rgb", "r8", std::string(15, '\x7f')},
-                                 {"scales", "ln_0r8", std::string(15, '\x7f'), -12, 9},
-                                 {"orientation", "oct88r8", std::string(15, '\x7f')},
-                                 {"child_count", "u16", all_of<std::uint16_t>(counts)},
-                                 {"child_start", "u32", all_of<std::uint32_t>(starts)}};
+    std::vector<RadProperty> all = {{"center", "f32", floats({0, 1, 2, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0})},
+                                    {"alpha", "r8", octets({255, 255, 100, 100, 100}), 0, 2},
+                                    {"rgb", "r8", std::string(15, '\x7f')},
+                                    {"scales", "ln_0r8", std::string(15, '\x7f'), -12, 9},
+                                    {"orientation", "oct88r8", std::string(15, '\x7f')},
+                                    {"child_count", "u16", all_of<std::uint16_t>(counts)},
+                                    {"child_start", "u32", all_of<std::uint32_t>(starts)}};
     return rad_of(5, {chunk_of(0, 5, all, true)});
   };
   const Folder folder;
@@ -235,17 +235,17 @@ QUICK_CASE("rad", "rad: damaged files are refused, each with what is wrong") {
   CHECK(mentions(refused(folder, rad_of(2, {chunk_of(0, 1u << 30, two(), true)})), {"does not hold"}));
   CHECK(mentions(refused(folder, rad_of(1u << 30, {chunk_of(0, 1u << 30, two(), true)})),
                  {"no scene packs so well"}));
-  std::vector<Property> nowhere = two();
+  std::vector<RadProperty> nowhere = two();
   nowhere.erase(nowhere.begin());
   CHECK(mentions(refused(folder, rad_of(2, {chunk_of(0, 2, nowhere, true)})), {"no property \"center\""}));
   CHECK(mentions(refused(folder, rad_of(2, {chunk_of(0, 2, two("", "f32"), false)})), {"0 of 24 bytes"}));
   CHECK(mentions(refused(folder, rad_of(2, {chunk_of(0, 2, two(floats({1}), "f32"), true)})), {"truncated"}));
   CHECK(mentions(refused(folder, rad_of(2, {chunk_of(0, 2, two(floats({1}), "s8"), true)})),
                  {"encoding", "s8", "center"}));
-  std::vector<Property> tree = two();
+  std::vector<RadProperty> tree = two();
   tree.push_back({"child_count", "f32", std::string(8, '\0')});
   CHECK(mentions(refused(folder, rad_of(2, {chunk_of(0, 2, tree, true)})), {"f32", "child_count"}));
-  std::vector<Property> shared = two();
+  std::vector<RadProperty> shared = two();
   shared.push_back({"sh_label", "u16", std::string(4, '\0')});
   CHECK(mentions(refused(folder, rad_of(2, {chunk_of(0, 2, shared, true)})), {"shared", "not read"}));
   std::string other = whole;
