@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/pixel_steps.h"
@@ -9,6 +11,23 @@
 #include "segment/selection/leaf_view.h"
 
 namespace splatcut {
+
+namespace {
+
+// Distance from a pixel to the nearest other one for which `there` holds, or to what is outside of the
+// picture.
+float distance_to(const Mask& picture, const glm::ivec2& pixel, const auto& there) {
+  int nearest2 = std::numeric_limits<int>::max();
+  for (int ring = 1; ring * ring < nearest2; ++ring)
+    for (int y = -ring; y <= ring; ++y)
+      for (int x = -ring; x <= ring; x += std::abs(y) == ring ? 1 : 2 * ring) {
+        const glm::ivec2 p = pixel + glm::ivec2(x, y);
+        if (!picture.contains(p.x, p.y) || there(p)) nearest2 = std::min(nearest2, x * x + y * y);
+      }
+  return std::sqrt(static_cast<float>(nearest2));
+}
+
+}  // namespace
 
 Image<std::uint8_t> steps_without_jump(const Image<float>& depth) {
   Image<std::uint8_t> steps(depth.width(), depth.height());
@@ -66,6 +85,23 @@ std::vector<float> shares_out_of_reach(const Image<std::uint32_t>& level, std::s
         all_so_far ? static_cast<float>(all_so_far - reached_so_far) / static_cast<float>(all_so_far) : 0.0f);
   }
   return shares;
+}
+
+float distance_to_border(const Mask& mask, const glm::ivec2& at, bool object) {
+  return distance_to(mask, at, [&](const glm::ivec2& p) { return (mask.at(p.x, p.y) != 0) != object; });
+}
+
+float distance_to_end(const Image<float>& depth, const Mask& displayed, const glm::ivec2& at, bool object) {
+  constexpr float kLeastShare = 0.3f, kEdgePx = 1.5f;  // an edge is as wide as its two pixels
+  const float to_border = distance_to_border(displayed, at, !object);
+  if (!object) return to_border;
+  const auto jump = [&](const glm::ivec2& p, const glm::ivec2& step) {
+    return depth_jumps(depth, p - step, p + step, kJumpAroundClick);
+  };
+  const float to_edge = kEdgePx + distance_to(displayed, at, [&](const glm::ivec2& p) {
+                          return jump(p, {1, 0}) || jump(p, {0, 1});
+                        });
+  return std::max(kLeastShare * to_border, std::min(to_border, to_edge));
 }
 
 }  // namespace splatcut

@@ -24,4 +24,14 @@ Image<std::uint8_t> steps_without_jump(const Image<float>& depth);
 std::vector<float> shares_out_of_reach(const Image<std::uint32_t>& level, std::size_t indices,
                                        const Image<std::uint8_t>& steps, const glm::ivec2& at);
 
+// Distance in pixels from one to the border of the region of object, or of rest, around it; the picture's
+// frame is a border, too. At least 1. Cost: the square of the distance.
+float distance_to_border(const Mask& mask, const glm::ivec2& at, bool object);
+
+// Distance from a clicked pixel to where the wrong region around it may end. What is wrongly object ends at
+// the displayed border. What is missing (object: the click is on the object) need not touch what is shown: it
+// may end at a depth edge before that. Depth is rough on captures, so an edge shortens the distance to a
+// share of it at most.
+float distance_to_end(const Image<float>& depth, const Mask& displayed, const glm::ivec2& at, bool object);
+
 }  // namespace splatcut

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "scene/raster/depth_jump.h"
 #include "segment/masks/mask_tools.h"
+#include "segment/selection/click_reach.h"
 #include "segment/selection/region_by_colour.h"
 
 namespace splatcut {
@@ -53,41 +53,6 @@ std::uint32_t leaf_near(const LeafView& view, const glm::vec2& pixel, const auto
         }
     }
   return best;
-}
-
-// Distance from a pixel to the nearest other one for which `there` holds, or to what is outside of the
-// picture.
-float distance_to(const Camera& camera, const glm::ivec2& pixel, const auto& there) {
-  int nearest2 = std::numeric_limits<int>::max();
-  for (int ring = 1; ring * ring < nearest2; ++ring)
-    for (int y = -ring; y <= ring; ++y)
-      for (int x = -ring; x <= ring; x += std::abs(y) == ring ? 1 : 2 * ring) {
-        const glm::ivec2 p = pixel + glm::ivec2(x, y);
-        const bool inside = p.x >= 0 && p.x < camera.width_px && p.y >= 0 && p.y < camera.height_px;
-        if (!inside || there(p)) nearest2 = std::min(nearest2, x * x + y * y);
-      }
-  return std::sqrt(static_cast<float>(nearest2));
-}
-
-// Distance from the pixel to the border of the region of object or of rest around it.
-float distance_to_border(const Camera& camera, const Mask& mask, const glm::ivec2& at, bool object) {
-  return distance_to(camera, at, [&](const glm::ivec2& p) { return (mask.at(p.x, p.y) != 0) != object; });
-}
-
-// Distance from the pixel to where the wrong region around it may end. What is wrongly object ends at the
-// displayed border. What is missing need not touch what is shown: it may end at a depth edge before that.
-// Depth is rough on captures, so an edge shortens the distance to a share of it at most.
-float distance_to_end(const LeafView& view, const Mask& displayed, const glm::ivec2& at, bool object) {
-  constexpr float kLeastShare = 0.3f, kEdgePx = 1.5f;  // an edge is as wide as its two pixels
-  const float to_border = distance_to_border(view.camera, displayed, at, !object);
-  if (!object) return to_border;
-  const auto jump = [&](const glm::ivec2& p, const glm::ivec2& step) {
-    return depth_jumps(view.depth, p - step, p + step, kJumpAroundClick);
-  };
-  const float to_edge = kEdgePx + distance_to(view.camera, at, [&](const glm::ivec2& p) {
-                          return jump(p, {1, 0}) || jump(p, {0, 1});
-                        });
-  return std::max(kLeastShare * to_border, std::min(to_border, to_edge));
 }
 
 }  // namespace
@@ -290,15 +255,14 @@ float ClickSelection::displayed_radius(const LeafView& view, const Mask& display
                                        bool object, std::uint32_t leaf) const {
   if (object && !view.whole && count(displayed) == 0)
     return std::max(std::sqrt(view.leaf_px[leaf] / std::numbers::pi_v<float>), 1.0f);
-  return distance_to_end(view, displayed, at, object);
+  return distance_to_end(view.depth, displayed, at, object);
 }
 
 // What is displayed as said already is held: a later click's parts do not take it back.
 void ClickSelection::confirm(const LeafView& view, const glm::vec2& pixel, bool object,
                              float least_radius_px) {
   const glm::ivec2 at = nearest_pixel(view.camera, pixel);
-  const float radius_px =
-      distance_to_border(view.camera, shown(view.gaussians, view.camera, labels_), at, object);
+  const float radius_px = distance_to_border(shown(view.gaussians, view.camera, labels_), at, object);
   pin(view, disc(view.camera, at, radius_px, least_radius_px), object, Pin::kSaidAlready);
   const std::uint32_t leaf =
       leaf_near(view, pixel, [&](std::uint32_t l) { return (selected_.object[l] != 0) == object; });

@@ -114,3 +114,33 @@ TEST_CASE("click reach: random pictures as searched anew at every index") {
     }
   }
 }
+
+TEST_CASE("click reach: the distance to a border is that of the nearest pixel of the other side or outside") {
+  std::mt19937 random(7);
+  for (int round = 0; round < 200; ++round) {
+    Mask mask(11, 7);
+    for (auto& pixel : mask.pixels()) pixel = random() % 20 ? 0 : kMaskObject;
+    const glm::ivec2 at(random() % 11, random() % 7);
+    int nearest2 = 1000;
+    for (int y = -1; y <= 7; ++y)
+      for (int x = -1; x <= 11; ++x)
+        if (glm::ivec2(x, y) != at && (!mask.contains(x, y) || mask.at(x, y)))
+          nearest2 = std::min(nearest2, (x - at.x) * (x - at.x) + (y - at.y) * (y - at.y));
+    CHECK(distance_to_border(mask, at, false) == std::sqrt(static_cast<float>(nearest2)));
+  }
+}
+
+TEST_CASE("click reach: what is missing may end at a depth edge, at a share of the way at most") {
+  const Mask nothing(41, 41);
+  Image<float> depth(41, 41, 5.0f);
+  const glm::ivec2 at(20, 20);
+  CHECK(distance_to_end(depth, nothing, at, true) == 21);
+  for (int y = 0; y < 41; ++y)
+    for (int x = 30; x < 41; ++x) depth.at(x, y) = 7;
+  CHECK(distance_to_end(depth, nothing, at, true) == 10.5f);  // 29 is the first pixel between the two
+  for (int y = 0; y < 41; ++y)
+    for (int x = 22; x < 41; ++x) depth.at(x, y) = 7;
+  CHECK(distance_to_end(depth, nothing, at, true) == doctest::Approx(0.3f * 21));
+  Mask all(41, 41, kMaskObject);
+  CHECK(distance_to_end(depth, all, at, false) == 21);
+}
