@@ -97,11 +97,13 @@ struct LocalSession::Asked {
 LocalSession::LocalSession(LocalScene scene)
     : scene_(std::move(scene)), views_(*scene_.cloud), strokes_(scene_.prepared->parts) {}
 
-const FlowGraph& LocalSession::graph(const CutSettings& settings, const Job& job) {
+bool LocalSession::graph_stands(const CutSettings& settings) const {
   const std::size_t most = scene_.cloud->size() > 0 ? scene_.cloud->size() - 1 : 0;
-  const auto wanted =
-      static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(settings.neighbours), most));
-  if (graph_ && graph_->listed == wanted) return *graph_;
+  return graph_ && graph_->listed == std::min(static_cast<std::size_t>(settings.neighbours), most);
+}
+
+const FlowGraph& LocalSession::graph(const CutSettings& settings, const Job& job) {
+  if (graph_stands(settings)) return *graph_;
   solver_.reset();
   job.progress("graph", 0);
   graph_ = knn_graph(*scene_.cloud, {settings.neighbours}, job);
@@ -161,6 +163,11 @@ LocalSession::Kept& LocalSession::from_reference(const Asked& asked, const Job& 
   job.progress("first mask", 0);
   Kept made{asked.first_key, asked.first_settings, {}, {}, {}};
   made.result.outcome = Outcome::kCancelled;
+  if (on_snapshot && asked.by_parts && !graph_stands(asked.first_settings)) {
+    CutResult so_far;
+    so_far.labels = meant(asked.request, asked.first_settings, job);
+    if (!job.cancelled()) on_snapshot(CutPhase::kParts, so_far);
+  }
   const CutScene scene = scene_for(asked.request, asked.first_settings, job);
   if (!job.cancelled())
     made.result =

@@ -82,6 +82,7 @@ class LocalSession {
   };
   struct Asked;
 
+  bool graph_stands(const CutSettings& settings) const;
   CutSolver& solver(const CutSettings& settings, const Job& job);
   CutScene scene_for(const CutRequest& request, const CutSettings& settings, const Job& job);
   Asked asked(const CutRequest& request, const CutSettings& settings) const;

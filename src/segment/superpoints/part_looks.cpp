@@ -114,30 +114,26 @@ std::vector<std::vector<PartLooks>> looks_in(const PartHierarchy& parts, const L
     looks[t].resize(tree.nodes());
     for (const Meeting& m : met) add_meeting(tree, m, &looks[t]);
     for (std::size_t node = 0; node < tree.nodes(); ++node) {  // children come before their parents
-      PartLooks& of = looks[t][node];
-      if (tree.parent[node] != kNoPart) looks[t][tree.parent[node]] += of;
+      const PartLooks& of = looks[t][node];
+      if (of.area > 0 && tree.parent[node] != kNoPart) looks[t][tree.parent[node]] += of;
     }
-    for (PartLooks& of : looks[t]) scale(static_cast<float>(leaf.size()), &of);
+    for (PartLooks& of : looks[t])
+      if (of.area > 0) scale(static_cast<float>(leaf.size()), &of);  // most are not in the picture
   });
   return looks;
 }
 
-void look_at_parts(const Drawer& drawer, std::span<const Camera> views, PartHierarchy* parts,
-                   const Job& job) {
-  static_assert(kNoPart == kNoGroup);
-  RasterOptions raster;
-  raster.colour = false;
-  raster.depth = true;
-  raster.groups = parts->leaf_of;
+void look_at_parts(std::span<const ObservedPicture> pictures, PartHierarchy* parts) {
   for (PartTree& tree : parts->trees) tree.looks.assign(tree.nodes(), {});
-  for (const Camera& camera : views) {
-    if (job.cancelled()) return;
-    RasterOutput drawn = drawer.draw(camera, raster, job);
-    const LeafPicture picture{std::move(drawn.group), std::move(drawn.expected_depth)};
+  for (const ObservedPicture& seen : pictures) {
+    LeafPicture picture{Image<std::uint32_t>(seen.depth.width(), seen.depth.height(), kNoPart), seen.depth};
+    for (std::size_t i = 0; i < picture.leaf.size(); ++i)
+      if (const std::int32_t gaussian = seen.gaussian.pixels()[i]; gaussian >= 0)
+        picture.leaf.pixels()[i] = parts->leaf_of[static_cast<std::size_t>(gaussian)];
     const auto looks = looks_in(*parts, picture);
     for_each_index(looks.size(), [&](std::size_t t) {
       for (std::size_t node = 0; node < looks[t].size(); ++node)
-        parts->trees[t].looks[node] += looks[t][node];
+        if (looks[t][node].area > 0) parts->trees[t].looks[node] += looks[t][node];
     });
   }
 }

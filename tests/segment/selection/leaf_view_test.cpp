@@ -40,6 +40,17 @@ float share(std::span<const GroupWeight> list, const auto& counts) {
 
 }  // namespace
 
+TEST_CASE("leaf view: a pixel of its picture is the leaf's that makes most of it, if anything does") {
+  const LeafView view = random_view(four_leaves());
+  const LeafPicture picture = picture_of(view);
+  for (std::size_t i = 0; i < picture.leaf.size(); ++i) {
+    const std::span<const GroupWeight> shares = view.leaves.at(i);
+    const std::uint32_t leaf = picture.leaf.pixels()[i];
+    REQUIRE((leaf != kNoPart) == (share(shares, [](std::uint32_t) { return true; }) >= 0.5f));
+    if (leaf != kNoPart) REQUIRE(std::ranges::max(shares, {}, &GroupWeight::weight).group == leaf);
+  }
+}
+
 TEST_CASE("leaf view: a pixel is object where half of it is, and from the level at which half of it is") {
   const PartHierarchy parts = four_leaves();
   const LeafView view = random_view(parts);

@@ -479,15 +479,31 @@ TEST_CASE("session: views to look from show the labels, and have no say") {
 TEST_CASE("session: snapshots tell how far the cut is") {
   const auto [request, settings] = click_on("apple");
   std::vector<CutPhase> phases;
+  std::vector<std::uint8_t> by_parts;
   std::size_t views = 0;
-  fresh_session().cut(request, settings, {}, [&](CutPhase phase, const CutResult& result) {
+  const auto note = [&](CutPhase phase, const CutResult& result) {
     phases.push_back(phase);
+    if (phase == CutPhase::kParts) by_parts = result.labels;
     CHECK(result.views.size() >= views);  // they are only added
     views = result.views.size();
-  });
-  REQUIRE(phases.size() > 3);
-  CHECK(phases.front() == CutPhase::kFirstMask);
+  };
+  Session session = fresh_session();
+  session.cut(request, settings, {}, note);
+  REQUIRE(phases.size() > 4);
+  CHECK(phases[0] == CutPhase::kParts);
+  CHECK(phases[1] == CutPhase::kFirstMask);
   CHECK(phases.back() == CutPhase::kSettled);
   CHECK(std::ranges::is_sorted(phases));
   CHECK(std::ranges::count(phases, CutPhase::kFirstMask) == 1);
+  CutSettings alone = settings;
+  alone.parts_only = true;
+  alone.join_enclosed = false;
+  CHECK(by_parts == fresh_session().cut(request, alone).labels);
+
+  phases.clear();
+  views = 0;
+  CutRequest more = request;
+  more.strokes.push_back(stroke_from_behind("apple", SeedLabel::kRest));
+  session.cut(more, settings, {}, note);
+  CHECK(phases.front() == CutPhase::kFirstMask);  // the graph stands
 }
