@@ -1,8 +1,11 @@
 #include "app/picture/styles.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "app/document/selection.h"
+#include "scene/cloud/joined_clouds.h"
 
 namespace splatcut {
 
@@ -32,6 +35,36 @@ Flags shown_of(const CleanObject& object, std::size_t gaussians) {
 Flags with_cut(const Document& document, ObjectItem object, const Flags& cut) {
   object.cut = cut;
   return make_flags(labels_of(document, object, cut->size()));
+}
+
+// What was cleaned before the labels changed, while it is cleaned anew: of what is still labelled the edges
+// stay clean, and what is new comes as it is. Null where that is not mostly the same object.
+std::shared_ptr<const CleanObject> carried_over(const std::shared_ptr<const CleanObject>& clean,
+                                                const Flags& was, const Flags& now,
+                                                const GaussianCloud& scene) {
+  if (!clean || !was || was->size() != now->size()) return nullptr;
+  if (was == now || *was == *now) return clean;
+  std::size_t both = 0;
+  std::vector<std::uint32_t> stays, added, row, order;
+  for (std::uint32_t g = 0; g < now->size(); ++g) {
+    both += (*was)[g] && (*now)[g];
+    if ((*now)[g] && !(*was)[g]) added.push_back(g);
+  }
+  if (2 * both < std::max(count_flags(*was), count_flags(*now))) return nullptr;
+  for (std::uint32_t i = 0; i < clean->gaussian.size(); ++i)
+    if ((*now)[clean->gaussian[i]]) {
+      stays.push_back(i);
+      row.push_back(clean->gaussian[i]);
+    }
+  row.insert(row.end(), added.begin(), added.end());
+  order.resize(row.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::sort(order, {}, [&](std::uint32_t i) { return row[i]; });
+  CleanObject out;
+  out.cloud = permuted(joined({permuted(clean->cloud, stays), permuted(scene, added)}), order);
+  for (const std::uint32_t i : order) out.gaussian.push_back(row[i]);
+  out.report.reason = "the labels changed";
+  return std::make_shared<const CleanObject>(std::move(out));
 }
 
 Flags kept_if_equal(const Flags& before, const Flags& fresh) {
@@ -98,9 +131,12 @@ Styles styled(const StyleOrder& order, const Styles& before, LabelCache* labels)
     out.style[1] = plain;
     out.style[1].heat = nullptr;
   }
-  const auto clean = shows_clean_edges(order.view) ? order.clean->known(active, document.up_world) : nullptr;
-  if (clean && clean->report.cleaned) {
-    const std::size_t pane = two ? 1 : 0;
+  if (!shows_clean_edges(order.view)) return out;
+  const std::size_t pane = two ? 1 : 0;
+  auto clean = order.clean->known(active, document.up_world);
+  if (clean && !clean->report.cleaned) return out;
+  if (!clean) clean = carried_over(before.clean[pane], before.active_labels, active, *order.cloud);
+  if (clean) {
     out.clean[pane] = clean;
     out.shown[pane] = kept_if_equal(before.shown[pane], shown_of(*clean, n));
   }

@@ -77,7 +77,7 @@ const std::vector<std::pair<glm::vec3, glm::vec3>>* unseen_outline(const Studio&
 
 const char* mode_label(const Studio& studio) {
   const CleanObject* clean = studio.viewport().clean(0).get();
-  return label_of(studio.view(), {.clean = clean != nullptr,
+  return label_of(studio.view(), {.clean = clean && clean->report.cleaned,
                                   .forced = clean && clean->report.forced,
                                   .heat = studio.viewport().style(0).heat != nullptr,
                                   .looking = studio.seen_views().looking(),
@@ -264,8 +264,9 @@ std::vector<UiRect> viewport_pane(UiContext& ui, const UiRect& area, float botto
     list.AddLine({area.min.x + pane_width, area.min.y}, {area.min.x + pane_width, area.max.y},
                  packed(ui.theme.colour.line), 2);
     const bool compares = studio.view().display == DisplayMode::kBeforeAfter;
-    const char* clean = studio.viewport().clean(1) ? "Object, edges cleaned" : "Object";
-    pane_label(ui, {area.min.x + pane_width + 12, top}, clean);
+    const auto& clean = studio.viewport().clean(1);
+    pane_label(ui, {area.min.x + pane_width + 12, top},
+               clean && clean->report.cleaned ? "Object, edges cleaned" : "Object");
     pane_label(ui, {area.min.x + 12, top}, compares ? "Object as it is  (B: back)" : "Scene");
   } else if (const char* label = mode_label(studio)) {
     pane_label(ui, {area.min.x + 12, top}, label);

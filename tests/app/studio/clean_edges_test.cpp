@@ -96,6 +96,42 @@ TEST_CASE("hands: edges are made clean beforehand while nothing else is to do, a
   CHECK(hands.studio().viewport().clean(0) == first);
 }
 
+TEST_CASE("hands: while a changed object is cleaned anew, what stays of it keeps its clean edges") {
+  Hands hands = hands_on_sample();
+  take_what_touches_it(hands);
+  hands.app.key('I');
+  REQUIRE(hands.app.settle());
+  const auto first = hands.studio().viewport().clean(0);
+  REQUIRE(first);
+  REQUIRE(first->report.left > 0);
+  const Flags before = hands.studio().viewport().active_labels();
+  hands.studio().apply(EditSelection{SelectionEdit::kGrow});
+  for (int i = 0; i < 3000 && hands.studio().viewport().active_labels() == before; ++i) hands.app.frames(1);
+  const Flags now = hands.studio().viewport().active_labels();
+  REQUIRE(count_flags(*now) > count_flags(*before));
+  const auto meanwhile = hands.studio().viewport().clean(0);
+  REQUIRE(meanwhile);
+  CHECK_FALSE(meanwhile->report.cleaned);
+  std::vector<std::uint32_t> expected = first->gaussian;
+  for (std::uint32_t g = 0; g < now->size(); ++g)
+    if ((*now)[g] && !(*before)[g]) expected.push_back(g);
+  std::ranges::sort(expected);
+  CHECK(meanwhile->gaussian == expected);
+  const GaussianCloud& scene = *hands.studio().scene()->cloud;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const auto old = std::ranges::lower_bound(first->gaussian, expected[i]);
+    const bool stays = old != first->gaussian.end() && *old == expected[i];
+    const GaussianCloud& from = stays ? first->cloud : scene;
+    const std::size_t row = stays ? static_cast<std::size_t>(old - first->gaussian.begin()) : expected[i];
+    REQUIRE(meanwhile->cloud.position[i] == from.position[row]);
+    REQUIRE(meanwhile->cloud.scale[i] == from.scale[row]);
+  }
+  REQUIRE(hands.app.settle());
+  const auto second = hands.studio().viewport().clean(0);
+  REQUIRE(second != meanwhile);
+  if (second) CHECK(second->report.cleaned);
+}
+
 TEST_CASE("hands: edges that the guard keeps are cleaned anyway by a button, shown and exported so") {
   const ScratchFolder folder("anyway");
   Hands hands = hands_on_sample();
