@@ -155,9 +155,9 @@ void placement_row(const char* text) {
 }
 
 // A number that can be typed or dragged.
-void placement_number(const char* id, float* value, float step, const char* format, float width) {
+bool placement_number(const char* id, float* value, float step, const char* format, float width) {
   ImGui::SetNextItemWidth(width);
-  ImGui::DragFloat(id, value, step, 0, 0, format);
+  return ImGui::DragFloat(id, value, step, 0, 0, format);
 }
 
 template <class Choice>
@@ -166,6 +166,21 @@ void placement_choice(UiContext& ui, Choice* now, std::span<const std::pair<Choi
   for (const auto& [choice, name] : choices) {
     if (&choice != &choices.front().first) ImGui::SameLine(0, 2);
     if (button(ui, name, tip, {}, *now == choice)) *now = choice;
+  }
+}
+
+// A placement moves in the axes of a .ply; shown and typed are those of the file, which the preview shows,
+// too.
+void move_numbers(UiContext& ui) {
+  constexpr const char *kIds[] = {"##x", "##y", "##z"}, *kFormats[] = {"x %.4g", "y %.4g", "z %.4g"};
+  ExportChoice& choice = ui.state.exporting;
+  const AxisSigns& axes = choice.format.axes;
+  glm::vec3 in_file = axes.position(choice.placement.move) + 0.0f;  // no -0
+  for (int i = 0; i < 3; ++i) {
+    ImGui::SameLine(0, i == 0 ? 14.0f : 2.0f);
+    if (placement_number(kIds[i], &in_file[i], 0.01f, kFormats[i], 100))
+      choice.placement.move = axes.position(in_file) + 0.0f;
+    tooltip("Added to every position of the file, after all else. Drag, or click and type.");
   }
 }
 
@@ -189,12 +204,7 @@ void placement_choices(UiContext& ui) {
   placement_row("Scale, move");
   placement_number("##scale", &p.scale, 0.01f, "%.4g times", 90);
   tooltip("Every length of the file times this. Drag, or click and type.");
-  constexpr const char *kIds[] = {"##x", "##y", "##z"}, *kFormats[] = {"x %.4g", "y %.4g", "z %.4g"};
-  for (int i = 0; i < 3; ++i) {
-    ImGui::SameLine(0, i == 0 ? 14.0f : 2.0f);
-    placement_number(kIds[i], &p.move[i], 0.01f, kFormats[i], 100);
-    tooltip("Added to every position, after all else. Drag, or click and type.");
-  }
+  move_numbers(ui);
   if (p == ExportPlacement{}) return;
   ImGui::SameLine(0, 6);
   if (button(ui, icon::kUndo, "Back to where it stands in the scene")) p = {};

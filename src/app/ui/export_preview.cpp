@@ -109,12 +109,14 @@ void drag_handles(UiContext& ui, bool hovered) {
   ExportPreview& preview = ui.state.export_preview;
   ExportPlacement& placement = ui.state.exporting.placement;
   constexpr float kReach = 70;
-  const PlacingHandles shown{.centre_world = pivot_of(placement, preview.frame),
-                             .arrow_axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                             .turn_axes = {preview.frame.up_file},
-                             .reach_px = kReach,
-                             .turned_deg = {placement.turn_deg},
-                             .scaled = placement.scale};
+  const AxisSigns& axes = ui.state.exporting.format.axes;  // arrows point where the file's numbers grow
+  const PlacingHandles shown{
+      .centre_world = pivot_of(placement, preview.frame),
+      .arrow_axes = {axes.position({1, 0, 0}), axes.position({0, 1, 0}), axes.position({0, 0, 1})},
+      .turn_axes = {preview.frame.up_file},
+      .reach_px = kReach,
+      .turned_deg = {placement.turn_deg},
+      .scaled = placement.scale};
   const GripsMoved hand = grips(&preview.grips, shown, preview.camera, hovered, ui.theme);
   if (hand.began) preview.before = placement;
   if (hand.change) placement = changed(preview.before, pivot_of(preview.before, preview.frame), *hand.change);

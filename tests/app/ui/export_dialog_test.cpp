@@ -4,9 +4,13 @@
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
+#include <string_view>
 
 #include "hands.h"
 
@@ -41,6 +45,26 @@ class AsSomebody {
   uid_t user_ = ::geteuid();
   std::string home_;
 };
+
+// The middle of what a file holds, as its text says the bounds: `words` come before three or six numbers.
+glm::vec3 said_middle(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const auto numbers = [&](const char* words, const char* shape, float* to) {
+    const std::size_t at = text.find(words);
+    REQUIRE(at != std::string::npos);
+    return std::sscanf(text.c_str() + at + std::string_view(words).size(), shape, to, to + 1, to + 2, to + 3,
+                       to + 4, to + 5);
+  };
+  float n[6] = {};
+  if (path.extension() == ".usda") {
+    REQUIRE(numbers("extent = ", "[(%f, %f, %f), (%f, %f, %f)", n) == 6);
+  } else {
+    REQUIRE(numbers("\"max\":", "[%f,%f,%f", n) == 3);
+    REQUIRE(numbers("\"min\":", "[%f,%f,%f", n + 3) == 3);
+  }
+  return {0.5f * (n[0] + n[3]), 0.5f * (n[1] + n[4]), 0.5f * (n[2] + n[5])};
+}
 
 }  // namespace
 
@@ -309,4 +333,56 @@ TEST_CASE("export dialog: its folder button opens the folder that stands in the 
   CHECK(opened_from(folder / "out" / "good.ply") == folder / "out");
   CHECK(hands.app.interface_state().files.name == "good.ply");
   CHECK(opened_from(folder / "none" / "good.ply") == folder / "out");  // the last one that was there
+}
+
+TEST_CASE("export dialog: its arrows and numbers are those that a reader of the file finds there") {
+  const ScratchFolder folder("export_axes");
+  HeadlessApp app(1100, 620);
+  app.interface_state().hint_wanted = false;
+  REQUIRE(cut_out_apple(app, kSmallSample));
+  UiState& state = app.interface_state();
+  for (const SceneFormat& format : {SceneFormat::kGlb, SceneFormat::kUsda}) {
+    const std::string named = format.name;
+    CAPTURE(named);
+    const auto open = [&](const std::string& file) {
+      app.key('E', {.ctrl = true});
+      app.frames(3);
+      app->interface().make_current();
+      ImGui::ClearActiveID();  // the name is being typed
+      state.exporting.format = format;
+      state.exporting.path = folder / (file + format.extension);
+      state.exporting.placement.up = ExportUp::kPlusY;
+      app.frames(2);
+    };
+    const auto middle_written = [&] {
+      const std::filesystem::path file = state.exporting.path;
+      app.key(key::kEnter);
+      REQUIRE(app.settle());
+      return said_middle(file);
+    };
+    open("plain");
+    const glm::vec3 plain = middle_written();
+    open("typed");
+    app.type_into("###export", {"##y"}, "2");
+    app.key(key::kEnter);
+    const glm::vec3 typed = middle_written();
+    CHECK(glm::distance(typed - plain, {0, 2, 0}) < 1e-3f);
+    open("dragged");
+    for (const std::size_t axis : {0u, 1u, 2u})
+      for (const PlacingHandle& handle : std::vector(state.export_preview.grips.shown)) {
+        if (handle.grip != PlacingGrip::kMoveAlong || handle.axis != axis) continue;
+        const glm::vec2 at = 0.5f * (handle.path_px[0] + handle.path_px[1]);
+        const glm::vec2 way = 0.4f * (handle.path_px[1] - handle.path_px[0]);
+        app.move(at);
+        app.frames(2);
+        app.drag({at, at + 0.5f * way, at + way});  // towards the tip
+        app.frames(2);
+        break;
+      }
+    const glm::vec3 moved = middle_written() - typed;
+    CHECK(moved.x > 0);
+    CHECK(moved.y > 0);
+    CHECK(moved.z > 0);
+    state.exporting.placement = {};
+  }
 }
