@@ -7,7 +7,7 @@
 namespace splatcut {
 
 void top_bar(UiContext& ui);
-void tool_options(UiContext& ui);
+void options_row(UiContext& ui);  // under the bar, what has no room there
 void turntable_button(UiContext& ui, const char* label, float width);
 void tool_column(UiContext& ui);
 void objects_panel(UiContext& ui);

@@ -11,6 +11,8 @@ namespace splatcut {
 
 namespace {
 
+constexpr float kGap = 16;  // between groups, points
+
 // Of the buttons at the right end, points; in a small window half of them lie behind one.
 constexpr float kDisplayWidth = 452, kShortWidth = 292;
 
@@ -20,12 +22,11 @@ float display_width() {
 }
 
 void gap() {
-  ImGui::SameLine(0, 16);
+  ImGui::SameLine(0, kGap);
 }
 
 // Before the next of the tool's options. In a row of their own those that have no room begin another one.
 void next_option(const UiContext& ui, float width) {
-  constexpr float kGap = 16;
   const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
   if (!ui.state.options_below || ImGui::GetItemRectMax().x + kGap + width <= end) ImGui::SameLine(0, kGap);
 }
@@ -115,7 +116,7 @@ void region_options(UiContext& ui) {
   constexpr float kWordsWidth = 480;  // of the choices in words
   if (tool_of(view.tool).brush > 0) next_option(ui, width_of({"+", "-", "&"}));
   const float room = options_end(ui) - ImGui::GetCursorPosX();
-  const bool narrow = room < kWordsWidth + (view.see_through ? kDepthWidth + 16 : 0);
+  const bool narrow = room < kWordsWidth;
   for (const Choice& c : kChoices) {
     if (c.operation != SetOperation::kAdd) ImGui::SameLine(0, 2);
     if (button(ui, narrow ? c.sign : c.label, c.tip, {}, view.operation == c.operation)) {
@@ -140,14 +141,17 @@ void region_options(UiContext& ui) {
   const bool through =
       button(ui, of_all, "Takes what is hidden behind the surface, too  (V)", {}, view.see_through);
   if ((visible && view.see_through) || (through && !view.see_through)) ui.ask(Action::kSeeThrough);
-  if (!view.see_through) return;
+  // The limit of depth comes and goes with the switch: where it has no room, in a row of its own.
+  ui.state.depth_below = view.see_through && !ui.state.options_below &&
+                         ImGui::GetItemRectMax().x + kGap + kDepthWidth > options_end(ui);
+  if (!view.see_through || ui.state.depth_below) return;
   next_option(ui, kDepthWidth);
   depth_limit(ui);
 }
 
-// With signs in place of words; hints go where there is no room for them.
+// With signs in place of words; hints and the limit of depth go where there is no room for them.
 float options_width(const UiContext& ui) {
-  constexpr float kBrush = 205, kRegion = 310, kDepth = kDepthWidth + 16, kColour = 245, kSpace = 170;
+  constexpr float kBrush = 205, kRegion = 310, kColour = 245, kSpace = 170;
   if (!ui.studio.scene()) return 0;
   const ViewState& view = ui.studio.view();
   const float brush = tool_of(view.tool).brush > 0 ? kBrush : 0;
@@ -159,11 +163,9 @@ float options_width(const UiContext& ui) {
     case Tool::Selects::kColours:
       return brush + kColour;
     default:
-      return brush + kRegion + (view.see_through ? kDepth : 0);
+      return brush + kRegion;
   }
 }
-
-}  // namespace
 
 void tool_options(UiContext& ui) {
   const Tool& tool = tool_of(ui.studio.view().tool);
@@ -171,6 +173,16 @@ void tool_options(UiContext& ui) {
   if (tool.selects != Tool::Selects::kNothing) return region_options(ui);
   if (tool.brush > 0) gap();
   if (*tool.hint) tool_hint(ui);
+}
+
+}  // namespace
+
+void options_row(UiContext& ui) {
+  if (!ui.state.depth_below) return tool_options(ui);
+  ImGui::AlignTextToFramePadding();
+  muted_text(ui, "See-through");
+  ImGui::SameLine();
+  depth_limit(ui);
 }
 
 namespace {
@@ -270,6 +282,7 @@ void top_bar(UiContext& ui) {
   gap();
   ui.state.options_below =
       options_width(ui) > ImGui::GetWindowWidth() - display_width() - ImGui::GetCursorPosX();
+  ui.state.depth_below = false;
   if (ui.studio.scene() && !ui.state.options_below) tool_options(ui);
   ImGui::SameLine(ImGui::GetWindowWidth() - display_width());
   display_buttons(ui);
@@ -277,18 +290,18 @@ void top_bar(UiContext& ui) {
 
 void tool_column(UiContext& ui) {
   // Small windows have small buttons without gaps between groups, but every tool.
-  constexpr float kLargest = 38, kSmallest = 22, kGap = 3;
+  constexpr float kLargest = 38, kSmallest = 22, kBetween = 3;
   const auto groups = static_cast<float>(std::ranges::count_if(tools(), &Tool::first_of_group));
   const float all = ImGui::GetContentRegionAvail().y;
   const auto room = [&](float separator) {
-    return (all - groups * separator) / static_cast<float>(tools().size()) - kGap;
+    return (all - groups * separator) / static_cast<float>(tools().size()) - kBetween;
   };
-  const float wide = 3 + 3 * ImGui::GetStyle().ItemSpacing.y, tight = 1 + kGap;
+  const float wide = 3 + 3 * ImGui::GetStyle().ItemSpacing.y, tight = 1 + kBetween;
   const bool gaps = room(wide) >= kSmallest;
   const float side = std::floor(std::clamp(room(gaps ? wide : tight), kSmallest, kLargest));
   for (const Tool* tool : tools()) {
     if (tool->first_of_group) {
-      if (!gaps) ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, kGap});
+      if (!gaps) ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, kBetween});
       if (gaps) ImGui::Dummy({0, 1});
       ImGui::Separator();
       if (gaps) ImGui::Dummy({0, 1});

@@ -132,9 +132,11 @@ struct UiState {
   bool history_row_seen = false;                  // it was in sight
   bool hint_wanted = true;                        // the first-run hint, until the first click
   bool options_below = false;                     // those of the tool have no room in the bar
-  float options_height = kOptionsHeight;          // of their rows under it, as they were last
-  bool double_clicked = false;  // the last press was the second of two, by the events' own times
-  bool steady = false;          // for pictures that must repeat: no times, no version, no blinking
+  bool depth_below = false;                       // the limit of depth alone has none
+  bool row_below() const { return options_below || depth_below; }
+  float options_height = kOptionsHeight;  // of their rows under it, as they were last
+  bool double_clicked = false;            // the last press was the second of two, by the events' own times
+  bool steady = false;                    // for pictures that must repeat: no times, no version, no blinking
   std::vector<std::filesystem::path> recent;
   std::filesystem::path sample;  // offered on the start page where it exists
   FileBrowser files;

@@ -167,7 +167,7 @@ std::optional<UiRect> advice_line(UiContext& ui, const ImVec2& at, float right) 
 
 // Of the picture, by the tool's options.
 float covered_top(const UiContext& ui) {
-  return ui.state.options_below ? ui.state.options_height : 0;
+  return ui.state.row_below() ? ui.state.options_height : 0;
 }
 
 // At the picture's lower edge, where a scene has its floor and no object; a small window has more room at the

@@ -162,13 +162,13 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
               [&] { covered_ = viewport_pane(ui, view, covered_bottom(studio), gpu_picture); });
   fixed_panel("bar", {{0, 0}, {size.x, kTopHeight}}, p, kFixed | ImGuiWindowFlags_NoScrollWithMouse, {9, 9},
               [&] { top_bar(ui); });
-  if (state_.options_below) {  // over the picture, under the bar
-    constexpr float kMostWidth = 600;
+  if (state_.row_below()) {  // over the picture, under the bar
+    const float most_width = state_.options_below ? 600 : 310;
     const UiRect row = {view.min,
-                        {std::min(view.max.x, view.min.x + kMostWidth), view.min.y + state_.options_height}};
+                        {std::min(view.max.x, view.min.x + most_width), view.min.y + state_.options_height}};
     covered_.push_back(row);
     fixed_panel("options", row, p, kOverPicture, {9, 8}, [&] {
-      tool_options(ui);
+      options_row(ui);
       state_.options_height =
           std::max(kOptionsHeight, ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + 8);
     });

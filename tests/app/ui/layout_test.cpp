@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -218,4 +219,45 @@ TEST_CASE("ui: keys scroll the page of keys as soon as it is open") {
   CHECK(after(key::kPageUp) < before);
   CHECK(after(key::kUp) <= before);
   CHECK(after(key::kHome) == 0);
+}
+
+TEST_CASE(
+    "ui: nothing of a tool's options moves as it is switched to see through, in a window of any width") {
+  for (const int width : {640, 880, 1000, 1200, 1400, 1600, 1800}) {
+    CAPTURE(width);
+    HeadlessApp app(width, 480);
+    app.interface_state().hint_wanted = false;
+    app.open(kSmallSample);
+    REQUIRE(app.settle());
+    for (const Tool* tool : tools()) {
+      if (tool->selects != Tool::Selects::kPixels) continue;
+      const std::string named = tool->name;
+      CAPTURE(named);
+      ViewState view = app.studio().view();
+      const auto items_with = [&](bool through) {
+        view.tool = *tool;
+        view.see_through = through;
+        view.depth_limit = 0;
+        app.studio().apply(SetView{view});
+        app.frames(4);
+        return app.interface_state().items;
+      };
+      const std::vector<ShownItem> before = items_with(false), after = items_with(true);
+      for (const ShownItem& item : before)
+        CHECK_MESSAGE(std::ranges::count(after, item) > 0, item.name << " moved");
+      // The limit of depth came where there is room for it.
+      app->interface().make_current();
+      const bool below = ImGui::FindWindowByName("options") && ImGui::FindWindowByName("options")->WasActive;
+      for (const char* window : {"bar", "options"})
+        if (below || window == std::string_view("bar")) {
+          app.type_into(window, {"##depth"}, "0.5");
+          app.key(key::kEnter);
+        }
+      CHECK(app.studio().view().depth_limit > 0);
+      if (below) {
+        CHECK(ImGui::FindWindowByName("options")->ScrollMax.x == 0);
+        CHECK(ImGui::FindWindowByName("options")->ScrollMax.y == 0);
+      }
+    }
+  }
 }
