@@ -75,10 +75,41 @@ bool tolerance_slider(UiContext& ui, float* share) {
   return changed;
 }
 
+namespace {
+
+// Where a tooltip of that size covers nothing that one moves on to: beside a column or a menu, under or over
+// a row.
+ImVec2 tooltip_place(const ImVec2& size) {
+  constexpr float kGap = 6;
+  const ImGuiWindow& window = *ImGui::GetCurrentWindow()->RootWindow;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize, from = ImGui::GetItemRectMin(),
+               to = ImGui::GetItemRectMax();
+  const ImRect around = window.Rect();
+  const bool menu =
+      (window.Flags & ImGuiWindowFlags_Popup) != 0 && (window.Flags & ImGuiWindowFlags_Modal) == 0;
+  const bool rows = around.GetHeight() > 2 * ImGui::GetFrameHeightWithSpacing();
+  ImVec2 at;
+  if (rows && (menu || around.GetHeight() > around.GetWidth())) {
+    const bool to_the_left = around.GetCenter().x > screen.x / 2;
+    at = {to_the_left ? around.Min.x - kGap - size.x : around.Max.x + kGap, from.y};
+  } else {
+    at = {from.x, to.y + kGap};
+    if (at.y + size.y > screen.y) at.y = from.y - kGap - size.y;
+  }
+  return {std::clamp(at.x, 0.0f, std::max(0.0f, screen.x - size.x)),
+          std::clamp(at.y, 0.0f, std::max(0.0f, screen.y - size.y))};
+}
+
+}  // namespace
+
 void tooltip(const std::string& text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  constexpr float kWidest = 320;
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding,
+               words = ImGui::CalcTextSize(text.c_str(), nullptr, false, kWidest - padding.x);
+  ImGui::SetNextWindowPos(tooltip_place({words.x + 2 * padding.x, words.y + 2 * padding.y}));
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(320);
+  ImGui::PushTextWrapPos(kWidest);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();

@@ -261,3 +261,49 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("ui: a tooltip covers no other button of its bar, and lies within the window") {
+  for (const glm::ivec2& size : {glm::ivec2(640, 480), {1000, 700}, {1400, 860}}) {
+    CAPTURE(size.x);
+    HeadlessApp app(size.x, size.y);
+    app.interface_state().hint_wanted = false;
+    app.open(kSmallSample);
+    REQUIRE(app.settle());
+    app.key('6');
+    app.press_item("side/scroll", {"Repair by hand"});
+    app.frames(2);
+    const UiRect view = app->interface().viewport();
+    // The window part that an item stands in: 0 the bar, 1 the right panel, 2 below the picture, 3 over it.
+    const auto part_of = [&](const glm::vec2& at) {
+      return at.y < view.min.y ? 0 : at.x > view.max.x ? 1 : at.y > view.max.y ? 2 : 3;
+    };
+    const auto tip_at = [&](const glm::vec2& at) {
+      app.move(at);
+      app.frames(3);
+      app->interface().make_current();
+      const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
+      return tip && tip->WasActive ? std::optional(tip->Rect()) : std::nullopt;
+    };
+    std::size_t tips = 0;
+    for (const ShownItem& item : std::vector(app.interface_state().items)) {
+      const int part = part_of(item.min);
+      if (item.name == "picture" || part > 1 || item.max.y > view.max.y) continue;
+      const std::optional<ImRect> tip = tip_at(0.5f * (item.min + item.max));
+      if (!tip) continue;
+      ++tips;
+      CAPTURE(item.name);
+      CHECK(tip->Min.x >= 0);
+      CHECK(tip->Min.y >= 0);
+      CHECK(tip->Max.x <= static_cast<float>(size.x));
+      CHECK(tip->Max.y <= static_cast<float>(size.y));
+      for (const ShownItem& other : app.interface_state().items)
+        if (other.name != "picture" && part_of(other.min) == part)
+          CHECK_MESSAGE(!tip->Overlaps({{other.min.x, other.min.y}, {other.max.x, other.max.y}}),
+                        "covers " << other.name);
+    }
+    CHECK(tips > 15);
+    const std::optional<ImRect> tool = tip_at({0.5f * view.min.x, view.min.y + 40});
+    REQUIRE(tool);
+    CHECK(tool->Min.x >= view.min.x);
+  }
+}
