@@ -1,4 +1,4 @@
-// How the cutout is made: method, smoothness, stages with their times.
+// How the cutout is made: method, smoothness, stages with their times; what runs, and what is in doubt.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -108,9 +108,11 @@ void stage_list(UiContext& ui, const CutRun& run) {
   }
 }
 
-// How long each stage took: for those who wonder.
-void times(UiContext& ui, const CutRun& run) {
-  if (run.stages.empty() || !ImGui::TreeNodeEx("Times", ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
+// How long each stage took: for those who wonder. The row stays where nothing is known, for those below it.
+void times(UiContext& ui, const CutRun* known) {
+  if (!ImGui::TreeNodeEx("Times", ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
+  if (!known || known->stages.empty()) return muted_text(ui, "Nothing was computed for this.");
+  const CutRun& run = *known;
   stage_list(ui, run);
   if (!run.running && run.total_ms > 0 && !ui.state.steady)
     muted_text(ui,
@@ -145,24 +147,32 @@ void cutout_panel(UiContext& ui) {
   if (!object) return wrapped_muted(ui, "Click an object in the picture.");
   size_slider(ui, *object);
   smoothness_slider(ui, *object);
-  const CutRun* run = ui.studio.cuts().run(object->id);
-  if (!run || (run->stages.empty() && !run->running)) {
-    const std::string reason = why_no_cutout(ui.studio, *object);
-    if (!reason.empty()) wrapped_muted(ui, reason);
+  if (const std::string reason = why_no_cutout(ui.studio, *object); !reason.empty())
+    return wrapped_muted(ui, reason);
+  times(ui, ui.studio.cuts().run(object->id));
+}
+
+bool has_cut_notes(const Studio& studio) {
+  const CutRun* run = studio.cuts().run(studio.document().active);
+  if (!run) return false;
+  return run->running ||
+         (run->result && (run->result->outcome == Outcome::kNothingFound || !run->doubts.empty()));
+}
+
+void cut_notes(UiContext& ui) {
+  const CutRun* run = ui.studio.cuts().run(ui.studio.document().active);
+  if (!run) return;
+  if (!run->running) {
+    if (run->result) warnings(ui, *run);
     return;
   }
-  if (run->running) {
-    const auto progress = ui.studio.progress();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::ProgressBar(static_cast<float>(progress.fraction), {-72, 0}, "");
-    ImGui::GetWindowDrawList()->AddText({at.x + 8, at.y + 5}, packed(ui.theme.colour.text),
-                                        progress.stage.c_str());
-    ImGui::SameLine();
-    action_button(ui, Action::kCancel, "Cancel", false, -1);
-  }
-  const CutResult* result = run->running ? nullptr : run->result.get();
-  if (result) warnings(ui, *run);
-  times(ui, *run);
+  const auto progress = ui.studio.progress();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::ProgressBar(static_cast<float>(progress.fraction), {-72, 0}, "");
+  ImGui::GetWindowDrawList()->AddText({at.x + 8, at.y + 5}, packed(ui.theme.colour.text),
+                                      progress.stage.c_str());
+  ImGui::SameLine();
+  action_button(ui, Action::kCancel, "Cancel", false, -1);
 }
 
 }  // namespace splatcut

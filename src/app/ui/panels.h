@@ -12,6 +12,8 @@ void turntable_button(UiContext& ui, const char* label, float width);
 void tool_column(UiContext& ui);
 void objects_panel(UiContext& ui);
 void cutout_panel(UiContext& ui);
+bool has_cut_notes(const Studio& studio);
+void cut_notes(UiContext& ui);  // what runs for the active object, or is in doubt of it
 void repair_panel(UiContext& ui);
 void scene_panel(UiContext& ui);
 void files_panel(UiContext& ui);  // what the scene is made of

@@ -68,6 +68,16 @@ void steady_rows(float* height, bool held, float below_end, const Content& conte
   ImGui::SetCursorScreenPos({from.x, from.y + *height});
 }
 
+// What comes and goes by itself stands at the panel's lower end, where it moves no row.
+// height: in the last frame, points.
+void notes_below(UiContext& ui, float* height) {
+  ImGui::Separator();
+  ImGui::BeginChild("notes");
+  cut_notes(ui);
+  *height = ImGui::GetCursorPosY();
+  ImGui::EndChild();
+}
+
 // A pointer that merely lies somewhere while keys are pressed aims at nothing.
 bool pointer_aims(bool aimed) {
   const ImGuiIO& io = ImGui::GetIO();
@@ -177,7 +187,8 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
               [&] { tool_column(ui); });
   fixed_panel("side", {{size.x - side_width(size), kTopHeight}, {size.x, size.y - kStatus}}, p, kFixed,
               {12, 8}, [&] {
-                ImGui::BeginChild("scroll", {0, 0});
+                const bool notes = has_cut_notes(studio);
+                begin_side_rows(notes ? notes_height_ : 0);
                 pointer_aims_ = pointer_aims(pointer_aims_);
                 steady_rows(&objects_height_, pointer_aims_, side_end_, [&] { objects_panel(ui); });
                 steady_rows(&cutout_height_, pointer_aims_, side_end_, [&] { cutout_panel(ui); });
@@ -186,7 +197,10 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
                 files_panel(ui);
                 history_panel(ui);
                 side_end_ = ImGui::GetCursorScreenPos().y;
+                side_scrolls_ = ImGui::GetScrollMaxY() > 0;
                 ImGui::EndChild();
+                ImGui::PopClipRect();
+                if (notes) notes_below(ui, &notes_height_);
               });
   if (cards > 0) {  // no wider than it must be: it lies on the picture
     constexpr glm::vec2 kStripPadding(8, 7);
@@ -223,6 +237,19 @@ void Interface::build(const Studio& studio, double seconds, UiRenderer* renderer
                                             packed(p.text), 7, 0, 2);
   ImGui::PopFont();
   ImGui::Render();
+}
+
+// Their width is the same with a bar to scroll by and without: it lies in the panel's margin.
+void Interface::begin_side_rows(float notes_height) const {
+  constexpr float kMostNotes = 0.35f;  // of the panel; more of them scroll
+  const ImVec2 panel = ImGui::GetWindowPos(), size = ImGui::GetWindowSize(),
+               room = ImGui::GetContentRegionAvail();
+  const float notes = std::min(notes_height, kMostNotes * room.y) + 2 * ImGui::GetStyle().ItemSpacing.y;
+  ImGui::PushClipRect(panel, {panel.x + size.x, panel.y + size.y}, false);
+  if (!side_scrolls_) ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab, {0, 0, 0, 0});
+  ImGui::BeginChild("scroll", {room.x + ImGui::GetStyle().ScrollbarSize, notes_height > 0 ? -notes : 0},
+                    false, ImGuiWindowFlags_AlwaysVerticalScrollbar);
+  if (!side_scrolls_) ImGui::PopStyleColor();
 }
 
 void Interface::show(UiRequest request, const Studio& studio, UiRenderer* renderer) {

@@ -43,12 +43,16 @@ class Interface {
   const Theme& theme() const { return theme_; }
 
  private:
+  void begin_side_rows(float notes_height) const;
+
   ImGuiContext* context_;
   Theme theme_;
   UiState state_;
   glm::vec2 size_points_{1280, 720};
   float objects_height_ = 0, cutout_height_ = 0;  // of these sections in the side panel, points
+  float notes_height_ = 28;                       // of the notes below them, points
   float side_end_ = 0;                            // of the side panel's rows in the last frame
+  bool side_scrolls_ = false;                     // they have no room
   bool pointer_aims_ = false;                     // it was moved after the last key
   std::vector<UiRect> covered_;  // parts of the picture that take clicks themselves, as of the last frame
 };

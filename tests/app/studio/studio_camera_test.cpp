@@ -50,13 +50,13 @@ TEST_CASE("hands: where a click was from too far away, one comes nearer to what 
   REQUIRE(hands.app.settle());
   REQUIRE(hands.said().ends_with("come nearer"));
   const float far = glm::distance(hands.studio().camera().pose().position_world, apple);
-  hands.app.press_item("side/scroll", {"Come nearer"});
+  hands.app.press_item("side/notes", {"Come nearer"});
   REQUIRE(hands.app.settle());
   const float near = glm::distance(hands.studio().camera().pose().position_world, apple);
   CHECK(near < 0.4f * far);
   CHECK(glm::distance(hands.seen_at(apple), hands.app->interface().viewport().min +
                                                 0.5f * hands.app->interface().viewport().size()) < 30);
-  hands.app.press_item("side/scroll", {"Come nearer"});  // still there: nothing was clicked from here
+  hands.app.press_item("side/notes", {"Come nearer"});  // still there: nothing was clicked from here
   REQUIRE(hands.app.settle());
   hands.app.click(hands.seen_at(apple));
   REQUIRE(hands.app.settle());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/ui/theme.h"
 #include "headless_app.h"
@@ -35,7 +36,96 @@ TEST_CASE("ui: buttons of the right panel stay in their places while the pointer
   CHECK(app.studio().history().entries().back().title.find("row") != std::string::npos);
   app.move(0.5f * (app->interface().viewport().min + app->interface().viewport().max));
   app.frames(2);
-  CHECK(app.button("Grow").min.y != grow.min.y);  // the progress has gone
+  CHECK(app.button("Grow").min == grow.min);  // the progress was not above it
+}
+
+TEST_CASE("ui: no row of the right panel moves as doubts, progress and times come and go") {
+  for (const bool small : {false, true}) {
+    CAPTURE(small);
+    HeadlessApp app(small ? 800 : 1000, small ? 600 : 860);
+    app.interface_state().hint_wanted = false;
+    REQUIRE(cut_out_apple(app));
+    if (!small) app.press_item("side/scroll", {"Repair by hand"});
+    const UiRect view = app->interface().viewport();
+    const auto apple = app.studio().viewport().pick(app.screen_of(kOnApple) - view.min);
+    REQUIRE(apple);
+    const glm::vec2 away = view.min + glm::vec2(40, 200);  // nothing of the panel is aimed at
+    app.move(away);
+    REQUIRE(app.settle());
+    const auto doubted = [&] {
+      const CutRun* run = app.studio().cuts().run(app.studio().document().active);
+      return run && !run->doubts.empty();
+    };
+    const auto rows = [&] {
+      app.frames(3);
+      std::vector<ShownItem> items = app.interface_state().items;
+      std::erase_if(items, [](const ShownItem& i) { return i.name != icon::kRefresh && i.name != "Grow"; });
+      return items;
+    };
+    REQUIRE_FALSE(doubted());
+    const std::vector<ShownItem> certain = rows();
+    REQUIRE(certain.size() == (small ? 1 : 2));
+    app.studio().camera().zoom(-45, apple->position_world);
+    REQUIRE(app.settle());
+    app.key('N', {.ctrl = true});
+    const Camera far = app.studio().viewport().pane_camera();
+    app.click(view.min + far.pixel_from_camera(far.camera_from_world(apple->position_world)));
+    app.move(away);
+    const std::vector<ShownItem> running = rows();  // a row lower: there are two objects
+    REQUIRE(app.studio().cutting());
+    REQUIRE(app.settle());
+    REQUIRE(doubted());
+    CHECK(rows() == running);
+    app.studio().apply(ActivateObject{app.studio().document().objects.front().id});
+    REQUIRE_FALSE(doubted());
+    CHECK(rows() == running);
+    for (const bool again : {false, true}) {
+      app.studio().apply(again ? Command(Redo{}) : Command(Undo{}));
+      REQUIRE(app.settle());
+      CHECK((rows() == running || rows() == certain));
+    }
+  }
+}
+
+TEST_CASE(
+    "ui: in a window of 800 by 600 the slider of smoothness is in sight, or a bar says that one scrolls") {
+  HeadlessApp app(800, 600);
+  app.interface_state().hint_wanted = false;
+  app.open(kSmallSample);
+  REQUIRE(app.settle());
+  const auto panel = [&]() -> const ImGuiWindow& {
+    app->interface().make_current();
+    const auto found = std::ranges::find_if(GImGui->Windows, [](const ImGuiWindow* w) {
+      return w->WasActive && std::string_view(w->Name).find("side/scroll") != std::string_view::npos;
+    });
+    REQUIRE(found != GImGui->Windows.end());
+    return **found;
+  };
+  const auto apple = app.studio().viewport().pick(app.screen_of(kOnApple) - app->interface().viewport().min);
+  REQUIRE(apple);
+  app.studio().camera().zoom(-45, apple->position_world);
+  REQUIRE(app.settle());
+  for (int objects = 1; objects <= 8; ++objects) {
+    CAPTURE(objects);
+    app.key('N', {.ctrl = true});
+    if (objects == 1 || objects == 8) {
+      const Camera far = app.studio().viewport().pane_camera();
+      app.click(app->interface().viewport().min +
+                far.pixel_from_camera(far.camera_from_world(apple->position_world)));
+    }
+    REQUIRE(app.settle());
+    app.frames(3);
+    const CutRun* run = app.studio().cuts().run(app.studio().document().active);
+    if (run) {
+      REQUIRE_FALSE(run->doubts.empty());
+      CHECK(app.button("Come nearer").max.y <= 600 - 30);
+    }
+    const ImGuiWindow& rows = panel();
+    const UiRect refresh = app.button(icon::kRefresh);
+    REQUIRE(refresh.size().x > 0);
+    CHECK((refresh.max.y <= rows.InnerClipRect.Max.y || rows.ScrollbarY));
+    CHECK(rows.Size.y > 300);
+  }
 }
 
 TEST_CASE("ui: the right panel makes room for what keys bring, wherever the pointer was left") {
