@@ -59,11 +59,12 @@ TEST_CASE("ui: in a window of 640 by 480 the panel takes a third and cuts no but
   app.interface_state().hint_wanted = false;
   app.open(kSmallSample);
   REQUIRE(app.settle());
+  for (const char* title : {"Files", "View", "Repair by hand"})  // each while it is in sight
+    app.press_item("side/scroll", {title});
   app.click(app.screen_of(kOnApple));
   REQUIRE(app.settle());
   const float side = app->interface().viewport().max.x;
   CHECK(kWidth - side <= kWidth / 3 + 1);
-  for (const char* title : {"Repair by hand", "View", "Files"}) app.press_item("side/scroll", {title});
   app.frames(2);
   std::size_t seen = 0;
   for (const ShownItem& item : app.interface_state().items) {
