@@ -30,20 +30,32 @@ Selection where(std::size_t gaussians, const Keep& keep) {
   return out;
 }
 
-// True if what counts of the Gaussian lies inside.
+// True if more than half of the eight points at so many standard deviations along all axes lie inside.
 template <class Inside>
-bool is_taken(const GaussianCloud& cloud, std::size_t g, TakenBy by, const Inside& inside) {
-  const glm::vec3& centre = cloud.position[g];
-  if (by == TakenBy::kCentre) return inside(centre);
+bool most_inside(const GaussianCloud& cloud, std::size_t g, float deviations, const Inside& inside) {
   const glm::mat3 axes = glm::mat3_cast(cloud.rotation[g]);
-  const glm::vec3 x = cloud.scale[g].x * axes[0], y = cloud.scale[g].y * axes[1],
-                  z = cloud.scale[g].z * axes[2];
+  const glm::vec3 s = deviations * cloud.scale[g], &centre = cloud.position[g];
+  const glm::vec3 x = s.x * axes[0], y = s.y * axes[1], z = s.z * axes[2];
   int in = 0;
   for (const float i : {-1.0f, 1.0f})
     for (const float j : {-1.0f, 1.0f})
       for (const float k : {-1.0f, 1.0f}) in += inside(centre + i * x + j * y + k * z);
   constexpr int kHalf = 4;
   return in > kHalf;
+}
+
+// A shape drawn around what one sees of a speck holds its core; the faint rim around that lies outside.
+template <class Inside>
+bool core_inside(const GaussianCloud& cloud, std::size_t g, const Inside& inside) {
+  constexpr float kCore = 0.6f;  // deviations: the points hold about a third of what a picture shows of it
+  return inside(cloud.position[g]) && most_inside(cloud, g, kCore, inside);
+}
+
+// True if what counts of the Gaussian lies inside.
+template <class Inside>
+bool is_taken(const GaussianCloud& cloud, std::size_t g, TakenBy by, const Inside& inside) {
+  if (by == TakenBy::kCentre) return inside(cloud.position[g]);
+  return most_inside(cloud, g, 1, inside) || core_inside(cloud, g, inside);
 }
 
 bool shows_in(const Mask& region, const Camera& camera, const glm::vec3& point_world) {
@@ -150,9 +162,11 @@ Selection select_visible(const GaussianCloud& cloud, const Camera& camera, const
   rasterize(cloud, camera, options, job);
   constexpr double kLeastPixels = 0.02;  // a Gaussian with less counts as invisible
   const auto least = static_cast<std::int64_t>(kLeastPixels * MaskedSums::kUnitsPerPixel);
+  const auto shown_there = [&](const glm::vec3& p) { return shows_in(region, camera, p); };
   return where(cloud.size(), [&](std::size_t g) {
-    if (by == TakenBy::kCentre) return sums.total[g] >= least && shows_in(region, camera, cloud.position[g]);
-    return sums.inside[g] >= least && 2 * sums.inside[g] > sums.total[g];
+    if (by == TakenBy::kCentre) return sums.total[g] >= least && shown_there(cloud.position[g]);
+    return sums.inside[g] >= least &&
+           (2 * sums.inside[g] > sums.total[g] || core_inside(cloud, g, shown_there));
   });
 }
 

@@ -1,8 +1,8 @@
 // Selections of Gaussians by a region of the picture, a volume, a colour or a property. A selection has one
 // byte per Gaussian, 1 = selected.
 //
-// select_visible() takes what the picture shows: Gaussians with more than half of their visible weight (alpha
-// T, see scene/raster/rasterizer.h) in the region. select_through() takes what lies in the region at any
+// select_visible() takes what the picture shows, by the visible weight (alpha T, see
+// scene/raster/rasterizer.h) that lies in the region. select_through() takes what lies in the region at any
 // depth, down to a depth limit behind the visible surface. Both, and volumes, go by the footprint of a
 // Gaussian or by its centre, see TakenBy.
 #pragma once
@@ -29,8 +29,9 @@ Mask polygon_region(std::span<const glm::vec2> corners_px, int width, int height
 Mask rectangle_region(const glm::vec2& a_px, const glm::vec2& b_px, int width, int height);
 Mask brush_region(std::span<const glm::vec2> path_px, float radius_px, int width, int height);
 
-// What of a Gaussian must lie in a region or volume. kFootprint: more than half of it, that is of its visible
-// weight, or of the eight points at one standard deviation along all its axes. kCentre: its centre.
+// What of a Gaussian must lie in a region or volume. kCentre: its centre. kFootprint: more than half of it,
+// that is of its visible weight, or of the eight points at one standard deviation along all its axes; or its
+// core, which is its centre and more than half of the points at 0.6 of one.
 enum class TakenBy { kFootprint, kCentre };
 
 // The part of a brush's region that lies on the surface under its path: what can be reached from a pixel of

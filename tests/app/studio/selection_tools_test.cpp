@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "app/document/selection.h"
 #include "hands.h"
@@ -123,6 +125,34 @@ TEST_CASE("selection: footprint and centre mean the same in a region, behind it 
     CHECK(select_visible(cloud, camera, region, {}, by) == expected);
     CHECK(select_through(cloud, camera, region, {}, {.by = by}) == expected);
     CHECK(select_volume(cloud, box, {}, by) == expected);
+    CHECK(select_volume(cloud, ball, {}, by) == expected);
+  }
+}
+
+TEST_CASE("selection: a shape drawn around what one sees of a speck takes it, and no large blur around it") {
+  const Camera camera = axis_camera();  // 0.1 units to the pixel, 10 units away
+  GaussianCloud cloud;
+  cloud.resize(3, 0);
+  const glm::vec3 centres[] = {{0, 0, 10}, {0, 0, 10.1f}, {1.1f, 0, 10.1f}};
+  const float sigmas[] = {0.5f, 3, 3};  // the speck; blurs whose centres lie inside and outside
+  for (std::size_t g = 0; g < 3; ++g) {
+    cloud.position[g] = centres[g];
+    cloud.scale[g] = glm::vec3(sigmas[g]);
+    cloud.opacity[g] = g == 0 ? 0.9f : 0.3f;
+  }
+  // A ring about the core of the speck: as bright as half of its middle at 1.18 standard deviations.
+  std::vector<glm::vec2> ring;
+  for (int i = 0; i < 40; ++i) {
+    const float angle = 2 * glm::pi<float>() * static_cast<float>(i) / 40;
+    ring.push_back(glm::vec2(16.5f) + 5.4f * glm::vec2(std::cos(angle), std::sin(angle)));
+  }
+  const Mask region = polygon_region(ring, 33, 33);
+  const Volume ball{true, {0, 0, 10}, glm::vec3(0.54f)};
+  for (const TakenBy by : {TakenBy::kFootprint, TakenBy::kCentre}) {
+    CAPTURE(static_cast<int>(by));
+    const Selection expected{1, by == TakenBy::kCentre, 0};
+    CHECK(select_visible(cloud, camera, region, {}, by) == expected);
+    CHECK(select_through(cloud, camera, region, {}, {.by = by}) == expected);
     CHECK(select_volume(cloud, ball, {}, by) == expected);
   }
 }
