@@ -25,6 +25,13 @@ Box seen_box(const SceneSource& file) {
   return glm::length(file.solid.extent()) > 0 ? file.solid : file.bounds;
 }
 
+// A thing to be put into the scene, not one to stand beside it.
+bool is_small(const SceneSource& file, const SceneSource& first) {
+  constexpr float kSmall = 0.4f;
+  return file.place.scale * glm::length(seen_box(file).extent()) <
+         kSmall * first.place.scale * glm::length(seen_box(first).extent());
+}
+
 }  // namespace
 
 float half_extent(const SceneSource& file, const glm::vec3& direction_world) {
@@ -38,8 +45,13 @@ glm::vec3 foot_world(const SceneSource& file, const glm::vec3& up_world) {
   return moved(seen_box(file).centre(), similarity_of(file)) - half_extent(file, up) * up;
 }
 
-StandsOn beside(const SceneSource& file, const glm::vec3& row_world, const glm::vec3& up_world) {
-  return {foot_world(file, up_world) + half_extent(file, row_world) * row_world, up_world, row_world, true};
+StandsOn beside(std::span<const SceneSource> files, const glm::vec3& row_world, const glm::vec3& up_world) {
+  const glm::vec3 foot = foot_world(files.front(), up_world);
+  float end = half_extent(files.front(), row_world);  // from that foot
+  for (const SceneSource& file : files.subspan(1))
+    end =
+        std::max(end, glm::dot(foot_world(file, up_world) - foot, row_world) + half_extent(file, row_world));
+  return {foot + end * row_world, up_world, row_world, true};
 }
 
 void stand(std::vector<SceneSource>* files) {
@@ -48,7 +60,9 @@ void stand(std::vector<SceneSource>* files) {
   float along = 0;
   for (SceneSource& file : *files) {
     if (!file.onto) continue;
-    const auto& [point_world, up_world, row_world, begins_there] = *file.onto;
+    if (const auto& point = file.onto->small_on_world; point && is_small(file, files->front()))
+      file.onto = StandsOn{*point, file.onto->up_world};
+    const auto& [point_world, up_world, row_world, begins_there, small_on_world] = *file.onto;
     file.place = stood_on(file, stood_upright(file, file.place, up_world), point_world, up_world);
     if (row_world == glm::vec3(0)) continue;
     const float half = half_extent(file, row_world);
@@ -137,7 +151,7 @@ ScenePlace fitted(const SceneSource& file, const Camera& camera, const glm::vec3
 }
 
 std::string misfit(const SceneSource& file, const Camera& camera, const glm::vec3& up_world) {
-  constexpr float kTooLarge = 3, kTooSmall = 0.1f;
+  constexpr float kTooLarge = 2, kTooSmall = 0.125f;  // four times what Fit makes it, and a quarter
   const std::string name = file.path.filename().string();
   const Similarity to = similarity_of(file);
   const glm::vec3 eye =
@@ -147,7 +161,7 @@ std::string misfit(const SceneSource& file, const Camera& camera, const glm::vec
     return fmt::format("You look from inside {}: Fit, under Files, makes it small enough to see", name);
   const float share = share_of_picture(file, camera, up_world);
   if (share > kTooLarge)
-    return fmt::format("{} is {:.0f} times as large as what you look at: Fit, under Files, makes it smaller",
+    return fmt::format("{} is {:.2g} times as large as what you look at: Fit, under Files, makes it smaller",
                        name, share);
   if (share < kTooSmall)
     return fmt::format("{} fills {:.2g} % of the picture's height: Fit, under Files, makes it larger", name,

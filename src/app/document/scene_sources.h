@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct StandsOn {
   glm::vec3 point_world, up_world;
   glm::vec3 row_world{0};     // direction of the row, unit length; 0: none
   bool begins_there = false;  // the row begins at the point; else the point is in its middle
+  // Where a file stands, without the row, that is small against the first of the scene; none: in the row.
+  std::optional<glm::vec3> small_on_world = {};
 };
 
 // Views of a file's scene, in the file's own coordinates.
@@ -92,8 +95,8 @@ glm::vec3 foot_world(const SceneSource& file, const glm::vec3& up_world);
 float half_extent(const SceneSource& file, const glm::vec3& direction_world);
 // Sets the places of files with `onto` by it; those with a row are one row.
 void stand(std::vector<SceneSource>* files);
-// Where a row beside the first file of a scene begins, on the height of its foot.
-StandsOn beside(const SceneSource& file, const glm::vec3& row_world, const glm::vec3& up_world);
+// Where a row beside the files of a scene begins, on the height of the first one's foot.
+StandsOn beside(std::span<const SceneSource> files, const glm::vec3& row_world, const glm::vec3& up_world);
 // The place, moved so that the file's foot comes to the point.
 ScenePlace stood_on(SceneSource file, const ScenePlace& place, const glm::vec3& point_world,
                     const glm::vec3& up_world);

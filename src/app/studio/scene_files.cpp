@@ -94,9 +94,10 @@ StandsOn SceneFiles::row_of_added() const {
   const glm::vec3 right = glm::transpose(camera.camera_from_world_rotation)[0];
   const glm::vec3 level = right - glm::dot(right, up) * up;
   const glm::vec3 row = glm::length(level) > 0.1f ? glm::normalize(level) : glm::vec3(0);
-  const SceneSource& first = ws_.scene->files.front();
+  const std::vector<SceneSource>& files = ws_.scene->files;
+  const SceneSource& first = files.front();
   const bool alone = first.views->cameras.empty() && !contains(first.bounds, camera.centre_world());
-  return alone && row != glm::vec3(0) ? beside(first, row, up)
+  return alone && row != glm::vec3(0) ? beside(files, row, up)
                                       : StandsOn{viewport_.looked_at_world(), up, row};
 }
 
@@ -153,11 +154,15 @@ void SceneFiles::perform(const AddScene& c) {
     throw Error(c.path.filename().string(), "is saved work, not a scene", "Open it, or add the scene itself");
   std::vector<SceneSource> files = wanted_files();
   files.push_back({.id = next_file_id_++, .path = c.path, .spz_axes = c.spz_axes});
+  Said said;
   if (c.onto_world) {
-    files.back().onto = StandsOn{*c.onto_world, ws_.document().up_world};
+    StandsOn row = row_of_added();
+    row.small_on_world = said.put_on_world = *c.onto_world;
+    files.back().onto = row.begins_there ? row : StandsOn{*c.onto_world, row.up_world};
     put_before_view_ = files.back().id;
+    if (row.begins_there) said.seen_from = viewport_.camera().goal();
   }
-  change_files(std::move(files), "Adding " + scene_name(c.path), {});
+  change_files(std::move(files), "Adding " + scene_name(c.path), std::move(said));
 }
 
 void SceneFiles::perform(const PlaceScene& c) {
@@ -258,12 +263,16 @@ void SceneFiles::files_changed(const std::shared_ptr<OpenedScene>& scene, Histor
   ws_.history = std::move(history);
   ws_.history.push_other_files(said.done.substr(0, said.done.find(';')), next_step_++);
   calls_.opened(true);
-  if (said.seen_from == viewport_.camera().goal()) viewport_.show_all_of_scene();
+  const SceneSource* put = scene->file(std::exchange(put_before_view_, 0));
+  const glm::vec3& up_world = ws_.document().up_world;
+  const bool in_view =
+      put && said.put_on_world &&
+      glm::distance(foot_world(*put, up_world), *said.put_on_world) < 1e-3f * viewport_.camera().scene_size();
+  if (said.seen_from == viewport_.camera().goal() && !in_view) viewport_.show_all_of_scene();
   ws_.say(Message::Kind::kDone, said.done);
   for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
-  if (const SceneSource* put = scene->file(std::exchange(put_before_view_, 0)))
-    if (const std::string says = misfit(*put, viewport_.pane_camera(), ws_.document().up_world);
-        !says.empty())
+  if (put)
+    if (const std::string says = misfit(*put, viewport_.pane_camera(), up_world); !says.empty())
       ws_.say(Message::Kind::kInfo, says);
   say_refused(said.refused);
   start_preparing();

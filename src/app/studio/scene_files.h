@@ -76,6 +76,7 @@ class SceneFiles {
     std::vector<std::string> refused;  // a sentence for each file that could not be opened
     // View that is then to show the whole scene, unless the user has left it; none: it stays.
     std::optional<CameraPose> seen_from = {};
+    std::optional<glm::vec3> put_on_world = {};  // where an added file may have come to stand in that view
   };
   void change_files(std::vector<SceneSource> files, const std::string& doing, Said said);
   void say_refused(const std::vector<std::string>& refused);

@@ -151,6 +151,50 @@ TEST_CASE("several scenes: beside a thing that stands alone others stand on its 
   CHECK(moved_studio.camera().goal() == pose);
 }
 
+TEST_CASE(
+    "several scenes: one that is added to a thing that stands alone stands beside it, a small one on it") {
+  const ScratchFolder folder("several_later");
+  const auto ball = [&](const char* name, float radius) {
+    Scene scene;
+    scene.cloud = random_cloud(kAdded, 7, 1);
+    for (glm::vec3& p : scene.cloud.position) p = radius * glm::normalize(p);
+    scene.file_rows = scene.cloud.size();
+    scene.up = glm::vec3(0, -1, 0);
+    save_scene(folder / name, scene, {}, SceneFormat::kPly);
+    return folder / name;
+  };
+  Hands hands(false);
+  Studio& studio = hands.studio();
+  studio.apply(OpenScene{ball("a.ply", 1)});
+  REQUIRE(hands.app.settle());
+  const glm::vec3 up = studio.document().up_world;
+  const Camera camera = studio.viewport().pane_camera();
+  const glm::vec3 row = glm::row(camera.camera_from_world_rotation, 0);
+  const auto end_along_row = [&](const SceneSource& file, float side) {
+    return glm::dot(foot_world(file, up), row) + side * half_extent(file, row);
+  };
+  const auto added = [&](const std::filesystem::path& path) {
+    studio.apply(AddScene{path, {}, studio.viewport().looked_at_world()});
+    REQUIRE(hands.app.settle());
+    return last_file(hands);
+  };
+  float last = end_along_row(studio.scene()->files.front(), 1);
+  for (const char* name : {"b.ply", "c.ply"}) {
+    const SceneSource file = added(ball(name, 0.8f));
+    CHECK(end_along_row(file, -1) > last);
+    last = end_along_row(file, 1);
+    const Camera shown = studio.viewport().pane_camera();
+    const glm::vec2 at = shown.pixel_from_camera(shown.camera_from_world(foot_world(file, up)));
+    CHECK(at.x > 0);
+    CHECK(at.x < static_cast<float>(shown.width_px));
+  }
+  const CameraPose pose = studio.camera().goal();
+  const glm::vec3 seen = studio.viewport().looked_at_world();
+  const SceneSource hat = added(ball("hat.ply", 0.3f));
+  CHECK(glm::distance(foot_world(hat, up), seen) < 1e-3f);
+  CHECK(studio.camera().goal() == pose);
+}
+
 TEST_CASE("several scenes: F frames what is placed, and the object that was clicked since") {
   const ScratchFolder folder("several_framed");
   Hands hands(false);
@@ -251,11 +295,25 @@ TEST_CASE("several scenes: the button that stands a file upright is greyed where
   CHECK(studio.history().entries().size() == steps + 1);
   press();
   CHECK(studio.history().entries().size() == steps + 1);
-  // A scale is not cut off, and no number moves where the file becomes far too large.
+  // A scale is not cut off. Its field is what the pointer is on beside "Scale", as far as it reaches.
   app->interface().make_current();
-  const float begin = app.window("side/scroll").min.x + 64, end = app.button("Stand it upright").min.x - 4;
-  if (end > begin)  // else the button has a row of its own
-    CHECK(end - begin >= ImGui::CalcTextSize("0.2759 times").x + 2 * ImGui::GetStyle().FramePadding.x);
+  const UiRect upright = app.button("Stand it upright");
+  const float begin = app.window("side/scroll").min.x + 64,
+              above = upright.min.x > begin ? 0 : upright.size().y + ImGui::GetStyle().ItemSpacing.y;
+  const auto pointed_at = [&](float x) {
+    app.move({begin + x, 0.5f * (upright.min.y + upright.max.y) - above});
+    app.frames(2);
+    app->interface().make_current();
+    return GImGui->HoveredId;
+  };
+  const ImGuiID field = pointed_at(1);
+  REQUIRE(field != 0);
+  float width = 1;
+  while (width < 400 && pointed_at(width) == field) ++width;
+  const float needed = ImGui::CalcTextSize("0.2759 times").x + 2 * ImGui::GetStyle().FramePadding.x;
+  CHECK(width >= needed);
+  CHECK(width < needed + 60);  // it was the field, not a row
+  // No number moves where the file becomes far too large.
   const glm::vec2 before = app.button("Fit").min;
   REQUIRE(before.x > 0);
   studio.apply(PlaceScene{id, {{}, {}, 300}});
