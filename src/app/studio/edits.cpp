@@ -265,7 +265,7 @@ void Edits::perform(const SelectRange& c) {
 void Edits::undo() {
   History& history = ws_.history;
   if (!history.can_undo()) throw Error("", "There is nothing to undo");
-  const std::string title = history.entries()[history.cursor()].title;
+  const std::string title = row_title(history, history.cursor());
   history.undo();
   ws_.say(Message::Kind::kInfo, "Undone: " + title);
 }
@@ -274,7 +274,7 @@ void Edits::redo() {
   History& history = ws_.history;
   if (!history.can_redo()) throw Error("", "There is nothing to redo");
   history.redo();
-  ws_.say(Message::Kind::kInfo, "Redone: " + history.entries()[history.cursor()].title);
+  ws_.say(Message::Kind::kInfo, "Redone: " + row_title(history, history.cursor()));
 }
 
 }  // namespace splatcut

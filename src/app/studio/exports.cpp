@@ -11,6 +11,11 @@
 
 namespace splatcut {
 
+// Another scene may have been opened while it was written.
+void Exports::written(const std::filesystem::path& path, const OpenedScene& of) {
+  if (ws_.scene && ws_.scene->files.front().id == of.files.front().id) last_ = path;
+}
+
 void Exports::perform(const Export& c) {
   ws_.require_scene();
   if (is_work_file(c.request.path)) {
@@ -25,8 +30,8 @@ void Exports::perform(const Export& c) {
         job.progress("exporting", 0);
         const ExportReport report = run_export(*scene->scene, document, object, request, clean.get(), job);
         if (job.cancelled()) return;
-        ws_.tasks.post([this, text = text_of(report, request.path), path = request.path] {
-          last_ = path;
+        ws_.tasks.post([this, text = text_of(report, request.path), path = request.path, scene] {
+          written(path, *scene);
           ws_.say(Message::Kind::kDone, text);
         });
       });
@@ -75,8 +80,8 @@ void Exports::perform(const SaveTurntable& c) {
         if (!save_turntable(clean ? clean->cloud : *scene->cloud, cameras, clean ? nullptr : own, limits,
                             options, job))
           return;
-        ws_.tasks.post([this, c, edges = edges_text(report)] {
-          last_ = c.path;
+        ws_.tasks.post([this, c, edges = edges_text(report), scene] {
+          written(c.path, *scene);
           ws_.say(Message::Kind::kDone,
                   fmt::format("{} pictures saved to {}{}", c.frames, c.path.string(), edges));
         });

@@ -25,6 +25,8 @@ class Exports {
   const std::filesystem::path& last() const { return last_; }
 
  private:
+  void written(const std::filesystem::path& path, const OpenedScene& of);
+
   Workspace& ws_;
   const Viewport& viewport_;
   std::filesystem::path last_;

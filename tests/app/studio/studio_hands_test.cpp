@@ -202,3 +202,23 @@ TEST_CASE("hands: Enter by the way is told what it is for, and all that Ctrl+A t
   CHECK(hands.said() == "All " + gaussians_text(hands.studio().scene()->cloud->size()) +
                             " are selected. Ctrl+Z takes it back");
 }
+
+TEST_CASE("hands: what is undone and redone is named with its object where there are several") {
+  Hands hands;
+  const std::string first = hands.studio().document().active_object()->name;
+  hands.app.key('N', {.ctrl = true});
+  hands.app.click(hands.app.screen_of(kOnOrange));
+  REQUIRE(hands.app.settle());
+  const std::string second = hands.studio().document().active_object()->name;
+  REQUIRE(second != first);
+  hands.studio().apply(ActivateObject{hands.studio().document().objects.front().id});
+  const auto said_of = [&](const Command& command) {
+    hands.studio().apply(command);
+    REQUIRE(hands.app.settle());
+    return hands.said();
+  };
+  const std::string undone = said_of(Undo{});
+  CHECK_MESSAGE(undone.find(second) != std::string::npos, undone);
+  const std::string redone = said_of(Redo{});
+  CHECK_MESSAGE(redone.find(second) != std::string::npos, redone);
+}

@@ -1,6 +1,7 @@
 // The file that was exported last: dragged out of the window, its path copied, not shown with another scene.
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "app/window/file_drag.h"
@@ -52,6 +53,21 @@ TEST_CASE("ui: what was exported of a scene is not shown with another one") {
   REQUIRE(hands.studio().scene()->scene->path == kSample);
   CHECK(hands.app.button("all.splat").size().x == 0);
   CHECK(hands.studio().exports().last().empty());
+}
+
+TEST_CASE("ui: an export that ends after another scene was opened is none of that scene") {
+  const ScratchFolder folder("exported_late");
+  Hands hands(false);
+  hands.studio().apply(OpenScene{kSample});
+  hands.studio().apply(Export{{ExportWhat::kScene, SceneFormat::kSplat, folder / "all.splat"}});
+  REQUIRE(hands.studio().scene()->scene->path == kSmallSample);  // which is exported, behind the other
+  REQUIRE(hands.app.settle());
+  REQUIRE(hands.studio().scene()->scene->path == kSample);
+  REQUIRE(std::filesystem::exists(folder / "all.splat"));
+  CHECK(hands.studio().exports().last().empty());
+  hands.studio().apply(Export{{ExportWhat::kScene, SceneFormat::kSplat, folder / "of_this.splat"}});
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().exports().last() == folder / "of_this.splat");
 }
 
 TEST_CASE("ui: the address of a file that is dragged out is one that other programs read") {
