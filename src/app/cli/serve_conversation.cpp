@@ -319,6 +319,9 @@ nlohmann::json Conversation::save(const nlohmann::json& request, const Job& job)
     placement.scale = placement_of(args.cutout, open.drawer(), open.chosen.camera, job).scale;
   }
   const bool rest = request.value("what", "object") == "rest";
+  if (!rest && args.cutout.fill == "surface")
+    throw Error("export", "\"fill\" fills the hole in the rest, and the object is written",
+                "Leave it out, or give \"what\": \"rest\"");
   const std::vector<std::uint8_t>& labels = object().labels;
   std::vector<std::uint8_t> keep = labels;
   if (rest)

@@ -295,6 +295,22 @@ TEST_CASE("serve: 200 lines that are no requests have a reply each, and the prog
   CHECK(last["ok"] == true);
 }
 
+TEST_CASE("serve: a hole is filled in the rest alone, and asked for the object that is refused in words") {
+  const Said said = talk({
+      opened(),                                                                            // 0
+      click_on("apple"),                                                                   // 1
+      request("export", {{"path", "hole.ply"}, {"fill", "surface"}}),                      // 2
+      request("export", {{"path", "hole.ply"}, {"what", "object"}, {"fill", "surface"}}),  // 3
+      request("export", {{"path", "hole.ply"}, {"fill", "none"}, {"edges", "keep"}}),      // 4
+      request("quit"),                                                                     // 5
+  });
+  for (const int refused : {2, 3}) {
+    CHECK(said.replies.at(refused)["ok"] == false);
+    CHECK(said.replies.at(refused)["error"].get<std::string>().find("\"fill\"") != std::string::npos);
+  }
+  CHECK(said.replies.at(4)["ok"] == true);
+}
+
 TEST_CASE("serve: a request is cancelled, and the next one is answered as if it had not been") {
   const Workplace& place = still_life().place;
   json open = opened(), cut = click_on("plant"), cancel = request("cancel", {{"request", 2}});
