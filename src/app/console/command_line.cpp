@@ -65,6 +65,13 @@ class OrderedHelp : public CLI::Formatter {
   }
 };
 
+// The library refuses some values, and commands others as bad input, once they know what these are for: all
+// end the program alike.
+bool refuses_value(const CLI::ParseError& error) {
+  return dynamic_cast<const CLI::ValidationError*>(&error) ||
+         dynamic_cast<const CLI::ConversionError*>(&error);
+}
+
 int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
   CLI::App program{line.description};
   program.name(line.program);
@@ -92,7 +99,8 @@ int parse_and_run(const CommandLine& line, std::vector<std::string> words) {
     if (std::fflush(stdout) != 0) throw Error("standard output", std::strerror(errno));
     return 0;
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : kWrongUsage;
+    if (program.exit(error) == 0) return 0;
+    return refuses_value(error) ? kCouldNot : kWrongUsage;
   }
 }
 

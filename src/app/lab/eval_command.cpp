@@ -262,24 +262,25 @@ nlohmann::json clicks_json(const EvalArguments& args) {
 // One way in, and what it needs.
 void check_ways_in(const EvalArguments& args) {
   const int ways = !args.suite.empty() + !args.nvos.empty() + !args.spin_nerf.empty();
-  if (ways != 1) throw CLI::ValidationError("give one of suite, --nvos and --spin-nerf");
+  if (ways != 1) throw CLI::ArgumentMismatch("give one of suite, --nvos and --spin-nerf");
   if (args.suite.empty() == args.scenes.empty())
-    throw CLI::ValidationError("--scenes goes with --nvos and --spin-nerf, and they with it");
+    throw CLI::ArgumentMismatch("--scenes goes with --nvos and --spin-nerf, and they with it");
   if (!args.nvos.empty() && args.mask.first_mask == "truth")
-    throw CLI::ValidationError("--first-mask truth: NVOS has no true mask of the reference view");
+    throw CLI::ArgumentMismatch("--first-mask truth: NVOS has no true mask of the reference view");
   if (args.clicks_given && (!args.nvos.empty() || first_mask_is_truth(args)))
-    throw CLI::ValidationError(
+    throw CLI::ArgumentMismatch(
         "--clicks: all scribbles of NVOS count, and a given mask leaves no click to make");
   if (args.masks == "others" && (args.clicks_given || args.draws > 0 || args.suite.empty() ||
                                  !args.mask.first_mask.empty() || args.mask.parts_only))
-    throw CLI::ValidationError("--masks others: takes a suite, and nothing but its masks says what is meant");
+    throw CLI::ArgumentMismatch(
+        "--masks others: takes a suite, and nothing but its masks says what is meant");
 }
 
 // The robot's cut is the window's, which knows presets and nothing else.
 void check_any_view(const EvalArguments& args) {
   if (!args.any_view) {
     if (args.robot_asked)
-      throw CLI::ValidationError(
+      throw CLI::ArgumentMismatch(
           "--robot-clicks, --starts, --from-box, --zoom, --choices, --sheets and --perturb go with "
           "--any-view");
     return;
@@ -288,9 +289,9 @@ void check_any_view(const EvalArguments& args) {
   const bool masks_set = !mask.first_mask.empty() || !mask.propagate.empty() || !mask.refine.empty() ||
                          mask.views >= 0 || mask.parts_only || !args.masks.empty();
   if (masks_set || !args.set.empty())
-    throw CLI::ValidationError(
+    throw CLI::ArgumentMismatch(
         "--any-view runs a preset as the window does: no --set and no choice of masks");
-  if (!args.spin_nerf.empty()) throw CLI::ValidationError("--any-view clicks, SPIn-NeRF gives masks");
+  if (!args.spin_nerf.empty()) throw CLI::ArgumentMismatch("--any-view clicks, SPIn-NeRF gives masks");
 }
 
 void run_eval(const EvalArguments& args, const CommonOptions& common) {
