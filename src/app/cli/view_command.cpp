@@ -10,6 +10,7 @@
 #include "app/window/window.h"
 #include "app/work/work_file.h"
 #include "core/error.h"
+#include "scene/formats/scene_formats.h"
 
 namespace splatcut {
 
@@ -36,6 +37,13 @@ void run_view(ViewArguments args) {
   if (is_missing(args.window.open) &&
       (is_work_file(args.window.open) || std::ranges::all_of(args.window.added, is_missing)))
     throw Error(args.window.open.string(), "there is no such file or folder");
+  const auto is_spz = [](const std::filesystem::path& path) {
+    const SceneFormat* format = find_format(path);
+    return format && *format == SceneFormat::kSpz;
+  };
+  if (args.how.axes() && !is_spz(args.window.open) && std::ranges::none_of(args.window.added, is_spz))
+    throw Error(args.window.open.string(), "is no .spz, whose axes alone can be chosen",
+                "Leave --spz-axes out");
   args.window.renderer = args.renderer == "gl"    ? RendererChoice::kGl
                          : args.renderer == "cpu" ? RendererChoice::kCpu
                                                   : RendererChoice::kAuto;

@@ -61,7 +61,7 @@ void SceneFiles::perform(const OpenScene& c) {
   changing_to_.clear();
   std::vector<SceneSource> files = {{.path = c.path, .spz_axes = c.spz_axes, .lod = c.lod}};
   const TaskThread::Order order(TaskKind::kLoad, [this] { opening_.clear(); });
-  ws_.tasks.submit(order, [this, path = c.path, files, added = c.added, serial,
+  ws_.tasks.submit(order, [this, path = c.path, files, added = c.added, axes = c.spz_axes, serial,
                            id = next_file_id_](const Job& job) mutable {
     std::optional<WorkFile> file;
     if (is_work_file(path)) file = read_work_file(path);
@@ -77,13 +77,13 @@ void SceneFiles::perform(const OpenScene& c) {
     std::optional<RestoredWork> work;
     if (file) work = restored(*file, *scene);
     ws_.tasks.post(
-        [this, scene, work, id, added, refused, work_path = file ? path : std::filesystem::path()] {
+        [this, scene, work, id, added, axes, refused, work_path = file ? path : std::filesystem::path()] {
           next_file_id_ = std::max(next_file_id_, id);
           if (!is_last(*scene)) return;
           opened(scene, work, work_path);
           for (const std::string& remark : scene->remarks) ws_.say(Message::Kind::kInfo, remark);
           if (work && !work->warning.empty()) ws_.say(Message::Kind::kInfo, work->warning);
-          add_all(added, refused);
+          add_all(added, axes, refused);
         });
   });
 }
@@ -102,13 +102,14 @@ StandsOn SceneFiles::row_of_added() const {
 }
 
 // Those that were asked for with the scene, in one change of its files.
-void SceneFiles::add_all(const std::vector<std::filesystem::path>& added, std::vector<std::string> refused) {
+void SceneFiles::add_all(const std::vector<std::filesystem::path>& added, std::optional<SpzAxes> axes,
+                         std::vector<std::string> refused) {
   if (added.empty()) return say_refused(refused);
   std::vector<SceneSource> files = wanted_files();
   const StandsOn row = row_of_added();
   std::string names;
   for (const std::filesystem::path& path : added) {
-    files.push_back({.id = next_file_id_++, .path = path, .onto = row});
+    files.push_back({.id = next_file_id_++, .path = path, .spz_axes = axes, .onto = row});
     put_before_view_ = files.back().id;
     names += (names.empty() ? "" : ", ") + scene_name(path);
   }

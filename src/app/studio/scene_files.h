@@ -63,7 +63,8 @@ class SceneFiles {
               const std::filesystem::path& work_path);
   void start_preparing();
   void stop_for_loading();
-  void add_all(const std::vector<std::filesystem::path>& added, std::vector<std::string> refused);
+  void add_all(const std::vector<std::filesystem::path>& added, std::optional<SpzAxes> axes,
+               std::vector<std::string> refused);
   // Where files that are opened with the scene stand: a thing that stands alone has them beside it.
   StandsOn row_of_added() const;
   void take(const std::shared_ptr<const OpenedScene>& scene);

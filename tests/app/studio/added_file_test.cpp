@@ -195,6 +195,22 @@ TEST_CASE(
   CHECK(studio.camera().goal() == pose);
 }
 
+TEST_CASE("several scenes: axes that are asked for with several files are those of every .spz of them") {
+  const ScratchFolder folder("several_axes");
+  Scene scene;
+  scene.cloud = random_cloud(kAdded, 7, 1);
+  scene.file_rows = scene.cloud.size();
+  save_scene(folder / "a.ply", scene, {}, SceneFormat::kPly);
+  save_scene(folder / "b.spz", scene, {}, SceneFormat::kSpz);
+  Hands hands(false);
+  for (const SpzAxes axes : {SpzAxes::kPly, SpzAxes::kRub}) {
+    hands.studio().apply(OpenScene{folder / "a.ply", axes, {folder / "b.spz"}});
+    REQUIRE(hands.app.settle());
+    REQUIRE(hands.studio().scene()->files.size() == 2);
+    CHECK(last_file(hands).spz_axes == axes);
+  }
+}
+
 TEST_CASE("several scenes: F frames what is placed, and the object that was clicked since") {
   const ScratchFolder folder("several_framed");
   Hands hands(false);
