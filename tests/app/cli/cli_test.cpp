@@ -75,10 +75,10 @@ TEST_CASE("a value that its option does not take ends every command with 1, and 
 TEST_CASE("view --spz-axes: scenes of which none is a .spz are refused before a window opens") {
   Workplace& place = still_life().place;
   if (place.run("view --help").out.find("--spz-axes") == std::string::npos) return;  // built without a window
-  for (const char* scenes : {"a.ply", "a.ply b.splat", "a.splatcut.json"}) {
-    place.write("a.ply", "ply\n");
-    place.write("b.splat", "");
-    place.write("a.splatcut.json", "{}");
+  for (const char* scenes : {"axes.ply", "axes.ply axes.splat", "axes.splatcut.json"}) {
+    place.write("axes.ply", "ply\n");
+    place.write("axes.splat", "");
+    place.write("axes.splatcut.json", "{}");
     const Result refused = place.run(std::string("view ") + scenes + " --spz-axes ply");
     CHECK(refused.code == 1);
     CHECK_MESSAGE(refused.err.find("is no .spz") != std::string::npos, refused.err);
