@@ -162,11 +162,9 @@ Selection select_visible(const GaussianCloud& cloud, const Camera& camera, const
   rasterize(cloud, camera, options, job);
   constexpr double kLeastPixels = 0.02;  // a Gaussian with less counts as invisible
   const auto least = static_cast<std::int64_t>(kLeastPixels * MaskedSums::kUnitsPerPixel);
-  const auto shown_there = [&](const glm::vec3& p) { return shows_in(region, camera, p); };
   return where(cloud.size(), [&](std::size_t g) {
-    if (by == TakenBy::kCentre) return sums.total[g] >= least && shown_there(cloud.position[g]);
-    return sums.inside[g] >= least &&
-           (2 * sums.inside[g] > sums.total[g] || core_inside(cloud, g, shown_there));
+    if (by == TakenBy::kCentre) return sums.total[g] >= least && shows_in(region, camera, cloud.position[g]);
+    return sums.inside[g] >= least && 2 * sums.inside[g] > sums.total[g];
   });
 }
 

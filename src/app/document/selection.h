@@ -29,9 +29,10 @@ Mask polygon_region(std::span<const glm::vec2> corners_px, int width, int height
 Mask rectangle_region(const glm::vec2& a_px, const glm::vec2& b_px, int width, int height);
 Mask brush_region(std::span<const glm::vec2> path_px, float radius_px, int width, int height);
 
-// What of a Gaussian must lie in a region or volume. kCentre: its centre. kFootprint: more than half of it,
-// that is of its visible weight, or of the eight points at one standard deviation along all its axes; or its
-// core, which is its centre and more than half of the points at 0.6 of one.
+// What of a Gaussian must lie in a region or volume. kCentre: its centre. kFootprint: more than half of its
+// visible weight; where visibility does not count, more than half of the eight points at one standard
+// deviation along all its axes, or its core, which is its centre and more than half of the points at 0.6 of
+// one.
 enum class TakenBy { kFootprint, kCentre };
 
 // The part of a brush's region that lies on the surface under its path: what can be reached from a pixel of

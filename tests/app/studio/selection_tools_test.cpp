@@ -140,14 +140,14 @@ TEST_CASE("selection: a shape drawn around what one sees of a speck takes it, an
     cloud.scale[g] = glm::vec3(sigmas[g]);
     cloud.opacity[g] = g == 0 ? 0.9f : 0.3f;
   }
-  // A ring about the core of the speck: as bright as half of its middle at 1.18 standard deviations.
+  // A ring around the core of the speck, which is half as bright as its middle at 1.18 standard deviations.
   std::vector<glm::vec2> ring;
   for (int i = 0; i < 40; ++i) {
     const float angle = 2 * glm::pi<float>() * static_cast<float>(i) / 40;
-    ring.push_back(glm::vec2(16.5f) + 5.4f * glm::vec2(std::cos(angle), std::sin(angle)));
+    ring.push_back(glm::vec2(16.5f) + 6.2f * glm::vec2(std::cos(angle), std::sin(angle)));
   }
   const Mask region = polygon_region(ring, 33, 33);
-  const Volume ball{true, {0, 0, 10}, glm::vec3(0.54f)};
+  const Volume ball{true, {0, 0, 10}, glm::vec3(0.62f)};
   for (const TakenBy by : {TakenBy::kFootprint, TakenBy::kCentre}) {
     CAPTURE(static_cast<int>(by));
     const Selection expected{1, by == TakenBy::kCentre, 0};
