@@ -34,12 +34,13 @@ void check_sizes([[maybe_unused]] const GaussianCloud& cloud, [[maybe_unused]] c
   [[maybe_unused]] const auto fits = [&](std::size_t size) { return size == 0 || size == cloud.size(); };
   assert(fits(options.colour_override.size()) && fits(options.labels.size()) && fits(options.shown.size()));
   assert(!options.blocks || options.blocks->gaussians() == cloud.size());
-  assert(options.colour + !options.labels.empty() + options.list_gaussians <= 1);
+  assert(options.colour + !options.labels.empty() + !options.groups.empty() + options.list_gaussians <= 1);
   assert(!options.plane_sums ||
          (options.sum_planes.size() == options.plane_sums->planes() &&
           options.sum_planes.size() <= PlaneSums::kMost &&
           options.plane_sums->sum.size() == cloud.size() * options.plane_sums->planes() && !options.sums &&
-          !options.colour && !options.depth && options.labels.empty() && !options.list_gaussians));
+          !options.colour && !options.depth && options.labels.empty() && options.groups.empty() &&
+          !options.list_gaussians));
   assert(!options.sums ||
          (options.sum_mask && options.sums->total.size() == cloud.size() &&
           options.sum_mask->width() == camera.width_px && options.sum_mask->height() == camera.height_px));
@@ -72,6 +73,7 @@ RasterOutput empty_output(const RasterOptions& options, const PixelRect& roi) {
   RasterOutput out;
   if (options.colour) out.colour = Image<glm::vec3>(width, height);
   if (!options.labels.empty()) out.label_share = Image<float>(width, height);
+  if (!options.groups.empty()) out.group = Image<std::uint32_t>(width, height, kNoGroup);
   if (options.list_gaussians) {
     out.gaussians.of = Image<std::span<GroupWeight>>(width, height);
     out.gaussians.memory.resize(tiles_of(roi).size());

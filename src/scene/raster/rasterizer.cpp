@@ -35,6 +35,13 @@ void draw_region(const GaussianCloud& cloud, const Camera& camera, const RasterO
 
 }  // namespace
 
+std::uint32_t group_of_pixel(std::span<const GroupWeight> heaviest_first) {
+  constexpr float kCovered = 0.5f;
+  float all = 0;
+  for (const GroupWeight& w : heaviest_first) all += w.weight;
+  return all >= kCovered ? heaviest_first.front().group : kNoGroup;
+}
+
 RasterOutput rasterize(const GaussianCloud& cloud, const Camera& camera, const RasterOptions& options,
                        const Job& job) {
   const PixelRect roi = drawn_region(cloud, camera, options);

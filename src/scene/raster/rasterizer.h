@@ -51,11 +51,15 @@ struct PlaneSums {
   std::size_t planes_;
 };
 
-// What a pixel gets from one Gaussian, or from some that are told as one: sum of alpha T over them.
+// What a pixel gets from one group of Gaussians, or from one Gaussian: sum of alpha T over them.
 struct GroupWeight {
   std::uint32_t group = 0;
   float weight = 0;
 };
+inline constexpr std::uint32_t kNoGroup = 0xffffffffu;
+
+// The heaviest, where all together cover at least half of the pixel; kNoGroup elsewhere.
+std::uint32_t group_of_pixel(std::span<const GroupWeight> heaviest_first);
 
 // One list a pixel. They lie in `memory`, those of a tile together; so this is moved, but never copied.
 struct ListedWeights {
@@ -77,14 +81,15 @@ struct RasterOptions {
   std::optional<PixelRect> roi;  // draw these pixels only; outputs have the size of the rectangle
   std::span<const glm::vec3> colour_override;  // size of the cloud: replaces SH colour, >= 0
   std::span<const std::uint8_t> labels;        // size of the cloud, with colour = false: gives label_share
+  std::span<const std::uint32_t> groups;       // size of the cloud, with colour = false: gives group
   bool list_gaussians = false;                 // with colour = false: gives gaussians
-  float least_listed_weight = 0.02f;           // of a pixel, for those: less does not count
+  float least_listed_weight = 0.02f;           // of a pixel, for those two: less does not count
   std::span<const std::uint8_t> shown;         // size of the cloud: 0 leaves the Gaussian out
   const CloudBlocks* blocks = nullptr;         // of the cloud: runs that the view does not show cost nothing
   const Mask* sum_mask = nullptr;              // with `sums`: size of the camera's picture, non-zero = object
   MaskedSums* sums = nullptr;                  // added to; arrays of the cloud's size
   bool sum_whole_pixels = false;               // a pixel counts 1, not by its weight, where alpha >= 1/255
-  std::span<const Image<float>> sum_planes;    // with `plane_sums`, without colour, depth, labels and
+  std::span<const Image<float>> sum_planes;    // with `plane_sums`, without colour, depth, labels, groups and
                                                // sums: of the size drawn, values in [-1, 1]
   PlaneSums* plane_sums = nullptr;             // added to
   std::size_t most_pairs =
@@ -96,6 +101,7 @@ struct RasterOutput {
   Image<glm::vec3> colour;        // over the background, >= 0, not clamped above
   Image<float> alpha;             // 1 - T
   Image<float> label_share;       // sum of weight over Gaussians with a label other than 0
+  Image<std::uint32_t> group;     // group_of_pixel()
   ListedWeights gaussians;        // front to back; of over 48 the heaviest, in any order
   Image<float> expected_depth;    // sum(weight z) / sum(weight), camera z in scene units; 0 where nothing is
   Image<float> median_depth;      // camera z of the Gaussian at which T falls below 0.5; 0 where none does

@@ -25,6 +25,7 @@ namespace HWY_NAMESPACE {
 struct Workspace {
   SortSpace sort_space;
   Chunk chunk;
+  TileGroups groups;
   PixelLists listed;
   TilePixels pixels;
   BlockLists lists;
@@ -102,6 +103,8 @@ bool blend_block(float x0, float y0, int block, const std::int32_t* list, int co
       const V after = hn::Sub(before, weight);
       transmittance[v] = after;
       clearest = hn::Max(clearest, after);
+      if constexpr (kPaint == Paint::kGroups)
+        if (chunk->group[i] >= 0) work->groups.add(begin + v * kWidth, chunk->group[i], weight);
       if constexpr (kPaint == Paint::kGaussians)
         work->listed.add(begin + v * kWidth, gaussian, weight, least_listed);
       if constexpr (kPaint == Paint::kLabel) red[v] = fma(weight, hn::Set(kF, chunk->label[i]), red[v]);
@@ -180,6 +183,10 @@ void blend_chunk(int tile_x, int tile_y, ListReader* known, bool keep_lists, con
   }
 }
 
+void find_groups(std::span<const std::uint32_t> group_of, TileGroups* groups, Chunk* chunk) {
+  for (int i = 0; i < chunk->size; ++i) chunk->group[i] = groups->place_of(group_of[chunk->gaussian[i]]);
+}
+
 void store_sums(const Chunk& chunk, const std::uint32_t* order, PairSums* sums) {
   const auto sum = [](const std::int32_t* lanes) {
     return static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(kI, hn::Load(kI, lanes))));
@@ -211,7 +218,8 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   const std::size_t first = grid.first_entry[static_cast<std::size_t>(tile)];
   const TileEntry* entries = grid.entries.data() + first;
   start_pixels(what, tile_x, tile_y, &work.pixels);
-  if constexpr (kPaint == Paint::kGaussians) work.listed.count.fill(0);
+  if constexpr (kPaint == Paint::kGroups) work.groups.clear();
+  if constexpr (kPaint == Paint::kGroups || kPaint == Paint::kGaussians) work.listed.count.fill(0);
   const std::span<const std::uint32_t> order = drawn_order(grid, tile, what.shown, &work.sort_space);
   TileLists* lists =
       what.lists && what.shown.empty() ? &(*what.lists)[static_cast<std::size_t>(tile)] : nullptr;
@@ -228,6 +236,7 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   while (done < order.size() && work.pixels.alive != 0) {
     const std::size_t size = std::min<std::size_t>(kChunk, order.size() - done);
     gather(what, entries, order.subspan(done, size), !known, &work.chunk);
+    if constexpr (kPaint == Paint::kGroups) find_groups(what.options.groups, &work.groups, &work.chunk);
     blend_chunk<kPaint, kDepth, kSums>(tile_x, tile_y, known ? &*known : nullptr, keep_lists, what.options,
                                        &work);
     if constexpr (kSums == Sums::kMask) store_sums(work.chunk, order.data() + done, what.pair_sums + first);
@@ -236,6 +245,7 @@ void draw_tile(const TileBlend& what, int tile, RasterOutput* out) {
   }
   if constexpr (kSums == Sums::kMask)
     for (; done < order.size(); ++done) what.pair_sums[first + order[done]] = {0, 0};
+  if constexpr (kPaint == Paint::kGroups) work.groups.list(what.options.least_listed_weight, &work.listed);
   store_pixels<kPaint, kDepth>(what, tile_x, tile_y, work.pixels, &work.listed, out);
   if (keep_lists) *lists = {work.found.splat, work.found.count, true};
 }
@@ -249,8 +259,9 @@ DrawTile draw_tile_with(bool depth, bool sums) {
 }
 
 void blend_tiles(const TileBlend& what, const Job& job, RasterOutput* out) {
-  const DrawTile masked = (what.options.colour           ? draw_tile_with<Paint::kColour>
-                           : what.options.list_gaussians ? draw_tile_with<Paint::kGaussians>
+  const DrawTile masked = (what.options.colour            ? draw_tile_with<Paint::kColour>
+                           : !what.options.groups.empty() ? draw_tile_with<Paint::kGroups>
+                           : what.options.list_gaussians  ? draw_tile_with<Paint::kGaussians>
                            : !what.options.labels.empty()
                                ? draw_tile_with<Paint::kLabel>
                                : draw_tile_with<Paint::kNone>)(what.options.depth, what.pair_sums != nullptr);

@@ -21,7 +21,7 @@ namespace splatcut {
 namespace HWY_NAMESPACE {
 
 // What is summed up per pixel beside the transmittance.
-enum class Paint { kNone, kLabel, kColour, kGaussians };
+enum class Paint { kNone, kLabel, kColour, kGroups, kGaussians };
 
 // What is summed up per splat.
 enum class Sums { kNone, kMask, kPlanes };
@@ -64,9 +64,43 @@ struct PixelLists {
         add(pixel + l, {group, lane[static_cast<std::size_t>(l)]});
   }
 
-  std::span<const GroupWeight> at(int pixel) const {
+  std::span<GroupWeight> at(int pixel) {
     return std::span(of[static_cast<std::size_t>(pixel)])
         .first(static_cast<std::size_t>(count[static_cast<std::size_t>(pixel)]));
+  }
+};
+
+// What the pixels of a tile have got from each group so far.
+struct TileGroups {
+  struct Weights {
+    alignas(64) std::array<float, kTilePixels> of;
+  };
+  std::vector<std::uint32_t> met;   // groups of the tile's splats
+  std::vector<Weights> weight;      // of those; what is beyond them is memory kept
+  std::vector<std::int32_t> place;  // in `met`, by group; -1: not met
+
+  void clear() {
+    for (const std::uint32_t group : met) place[group] = -1;
+    met.clear();
+  }
+  std::int32_t place_of(std::uint32_t group) {
+    if (group == kNoGroup) return -1;
+    if (group >= place.size()) place.resize(group + std::size_t{1}, -1);
+    if (place[group] >= 0) return place[group];
+    place[group] = static_cast<std::int32_t>(met.size());
+    met.push_back(group);
+    if (met.size() > weight.size()) weight.emplace_back();
+    weight[met.size() - 1].of.fill(0);
+    return place[group];
+  }
+  void add(int pixel, std::int32_t at, V more) {
+    float* sum = &weight[static_cast<std::size_t>(at)].of[static_cast<std::size_t>(pixel)];
+    hn::Store(hn::Add(hn::Load(kF, sum), more), kF, sum);
+  }
+  void list(float least, PixelLists* lists) const {
+    for (std::size_t k = 0; k < met.size(); ++k)
+      for (int pixel = 0; pixel < kTilePixels; pixel += kWidth)
+        lists->add(pixel, met[k], hn::Load(kF, &weight[k].of[static_cast<std::size_t>(pixel)]), least);
   }
 };
 
@@ -95,6 +129,14 @@ inline void start_pixels(const TileBlend& what, int tile_x, int tile_y, TilePixe
   }
 }
 
+// Ties by number.
+inline std::uint32_t group_of(std::span<GroupWeight> list) {
+  std::ranges::sort(list, [](const GroupWeight& a, const GroupWeight& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.group < b.group;
+  });
+  return group_of_pixel(list);
+}
+
 template <Paint kPaint, bool kDepth>
 inline void store_pixels(const TileBlend& what, int tile_x, int tile_y, const TilePixels& pixels,
                          PixelLists* lists, RasterOutput* to) {
@@ -111,6 +153,7 @@ inline void store_pixels(const TileBlend& what, int tile_x, int tile_y, const Ti
     if (!out.alpha.contains(x, y)) continue;
     const float transmittance = pixels.transmittance[i];
     out.alpha.at(x, y) = 1 - transmittance;
+    if constexpr (kPaint == Paint::kGroups) out.group.at(x, y) = group_of(lists->at(i));
     if constexpr (kPaint == Paint::kGaussians) {
       const std::span<const GroupWeight> list = lists->at(i);
       const auto at = memory->insert(memory->end(), list.begin(), list.end());  // reserved: nothing moves

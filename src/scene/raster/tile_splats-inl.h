@@ -35,7 +35,8 @@ struct Chunk {
   // The ellipse alpha >= 1/255: at height dy it reaches from tilt dy - w to tilt dy + w,
   // w = sqrt(width2 - slope dy^2), and farthest at dy = +-tip.
   alignas(64) std::array<float, kCapacity> x, y, tilt, width2, slope, tip;
-  std::array<float, kCapacity> label;  // 0 or 1
+  std::array<float, kCapacity> label;         // 0 or 1
+  std::array<std::int32_t, kCapacity> group;  // its place in TileGroups, or -1
   // Sums of the tile so far, lane by lane, 2^-16 pixel.
   alignas(64) std::array<std::int32_t, kCapacity * kWidth> total, inside;
   alignas(64) std::array<std::array<std::int32_t, kCapacity * kWidth>, PlaneSums::kMost> plane;

@@ -57,14 +57,6 @@ void sum_by_leaf(const PartHierarchy& parts, Image<std::span<GroupWeight>>* list
   });
 }
 
-// The heaviest, where all together cover at least half of the pixel; kNoPart elsewhere.
-std::uint32_t leaf_of_pixel(std::span<const GroupWeight> heaviest_first) {
-  constexpr float kCovered = 0.5f;
-  float all = 0;
-  for (const GroupWeight& w : heaviest_first) all += w.weight;
-  return all >= kCovered ? heaviest_first.front().group : kNoPart;
-}
-
 void count_leaves(const PartHierarchy& parts, LeafView* of) {
   LeafView& view = *of;
   view.leaf_px.assign(parts.leaves, 0);
@@ -140,7 +132,7 @@ void draw_colour(const Drawer& drawer, LeafView* view, const Job& job, const See
 LeafPicture picture_of(const LeafView& view) {
   LeafPicture picture{Image<std::uint32_t>(view.camera.width_px, view.camera.height_px, kNoPart), view.depth};
   for (std::size_t i = 0; i < picture.leaf.size(); ++i)
-    picture.leaf.pixels()[i] = leaf_of_pixel(view.leaves.at(i));
+    picture.leaf.pixels()[i] = group_of_pixel(view.leaves.at(i));
   return picture;
 }
 

@@ -119,14 +119,16 @@ PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, const SurfaceFeat
 PartHierarchy build_part_hierarchy(const GaussianCloud& cloud, std::span<const Camera> observing,
                                    const PartOptions& options, const Job& job) {
   job.progress("parts", 0);
-  const Observation seen = observe(cloud, observing, job);
-  job.progress("parts", 0.2);
-  const SurfaceFeatures features = surface_features(cloud, seen, options.surface, job);
-  if (job.cancelled()) return {};
+  // Each view is drawn twice, and projected once while all of them fit.
+  constexpr std::size_t kMostBytes = std::size_t{512} << 20, kBytesAGaussian = 100;
+  KeptViews kept(cloud, kMostBytes);
+  const bool fit = cloud.size() * observing.size() * kBytesAGaussian <= kMostBytes;
+  const Drawer drawer(cloud, fit ? &kept : nullptr);
+  const SurfaceFeatures features = surface_features(drawer, observing, options.surface, job);
   job.progress("parts", 0.3);
   PartHierarchy parts = build_part_hierarchy(cloud, features, options, job);
   job.progress("parts", 0.8);
-  if (!job.cancelled()) look_at_parts(seen.pictures, &parts);
+  look_at_parts(drawer, observing, &parts, job);
   job.progress("parts", 1);
   return parts;
 }

@@ -123,13 +123,18 @@ std::vector<std::vector<PartLooks>> looks_in(const PartHierarchy& parts, const L
   return looks;
 }
 
-void look_at_parts(std::span<const ObservedPicture> pictures, PartHierarchy* parts) {
+void look_at_parts(const Drawer& drawer, std::span<const Camera> views, PartHierarchy* parts,
+                   const Job& job) {
+  static_assert(kNoPart == kNoGroup);
+  RasterOptions raster;
+  raster.colour = false;
+  raster.depth = true;
+  raster.groups = parts->leaf_of;
   for (PartTree& tree : parts->trees) tree.looks.assign(tree.nodes(), {});
-  for (const ObservedPicture& seen : pictures) {
-    LeafPicture picture{Image<std::uint32_t>(seen.depth.width(), seen.depth.height(), kNoPart), seen.depth};
-    for (std::size_t i = 0; i < picture.leaf.size(); ++i)
-      if (const std::int32_t gaussian = seen.gaussian.pixels()[i]; gaussian >= 0)
-        picture.leaf.pixels()[i] = parts->leaf_of[static_cast<std::size_t>(gaussian)];
+  for (const Camera& camera : views) {
+    if (job.cancelled()) return;
+    RasterOutput drawn = drawer.draw(camera, raster, job);
+    const LeafPicture picture{std::move(drawn.group), std::move(drawn.expected_depth)};
     const auto looks = looks_in(*parts, picture);
     for_each_index(looks.size(), [&](std::size_t t) {
       for (std::size_t node = 0; node < looks[t].size(); ++node)

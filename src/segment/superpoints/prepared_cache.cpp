@@ -22,7 +22,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::uint32_t kFormatVersion = 7;
+constexpr std::uint32_t kFormatVersion = 6;
 constexpr std::uint64_t kMagic =
     0x50455250544c5053;  // "SPLTPREP", read backwards on a machine of the other byte order
 constexpr const char* kEnding = ".prepared";

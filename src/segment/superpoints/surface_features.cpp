@@ -12,11 +12,39 @@ namespace splatcut {
 
 namespace {
 
+struct Observation {
+  std::vector<float> seen_px;            // A_g over all views
+  std::vector<glm::vec3> towards_views;  // sum of A_g times the direction to the view's centre
+};
+
+Observation observe(const Drawer& drawer, std::span<const Camera> views, const Job& job) {
+  const GaussianCloud& cloud = drawer.cloud();
+  Observation o{std::vector<float>(cloud.size(), 0), std::vector<glm::vec3>(cloud.size(), glm::vec3(0))};
+  for (const Camera& view : views) {
+    if (job.cancelled()) break;
+    const Mask everything(view.width_px, view.height_px, kMaskObject);
+    MaskedSums sums(cloud.size());
+    RasterOptions raster;
+    raster.colour = false;
+    raster.sum_mask = &everything;
+    raster.sums = &sums;
+    drawer.draw(view, raster, job);
+    const glm::vec3 centre = view.centre_world();
+    for_each_index(cloud.size(), [&](std::size_t g) {
+      if (sums.total[g] == 0) return;
+      const float seen = static_cast<float>(static_cast<double>(sums.total[g]) / MaskedSums::kUnitsPerPixel);
+      o.seen_px[g] += seen;
+      o.towards_views[g] += seen * glm::normalize(centre - cloud.position[g]);
+    });
+  }
+  return o;
+}
+
 float largest_sigma(const glm::vec3& scale) {
   return std::max({scale.x, scale.y, scale.z});
 }
 
-std::vector<std::uint32_t> core_of(const GaussianCloud& cloud, const Observation& seen,
+std::vector<std::uint32_t> core_of(const GaussianCloud& cloud, const Observation& seen, bool observed,
                                    const SurfaceOptions& options) {
   std::vector<float> size(cloud.size());
   for_each_index(cloud.size(), [&](std::size_t g) { size[g] = largest_sigma(cloud.scale[g]); });
@@ -25,7 +53,7 @@ std::vector<std::uint32_t> core_of(const GaussianCloud& cloud, const Observation
   std::vector<std::uint32_t> core;
   for (std::uint32_t g = 0; g < cloud.size(); ++g)
     if (cloud.opacity[g] > options.least_opacity && size[g] <= too_large &&
-        (seen.pictures.empty() || seen.seen_px[g] > options.least_seen_px))
+        (!observed || seen.seen_px[g] > options.least_seen_px))
       core.push_back(g);
   return core;
 }
@@ -63,10 +91,12 @@ void smooth_normals(const SurfaceFeatures& f, int rounds, std::vector<glm::vec3>
 
 }  // namespace
 
-SurfaceFeatures surface_features(const GaussianCloud& cloud, const Observation& seen,
+SurfaceFeatures surface_features(const Drawer& drawer, std::span<const Camera> observing,
                                  const SurfaceOptions& options, const Job& job) {
+  const GaussianCloud& cloud = drawer.cloud();
+  const Observation seen = observe(drawer, observing, job);
   SurfaceFeatures f;
-  f.core = core_of(cloud, seen, options);
+  f.core = core_of(cloud, seen, !observing.empty(), options);
   const std::size_t n = f.core.size();
   f.position_world.resize(n);
   f.normal_world.resize(n);

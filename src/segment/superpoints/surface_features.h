@@ -1,7 +1,7 @@
 // What the surface looks like at each Gaussian: smoothed normal and colour, and which Gaussians are surface.
 //
 // Core Gaussians make the surface: opaque enough, not among the largest, and seen by some observing view
-// (where there are views). Everything else is attached to the parts afterwards.
+// (where views are given). Everything else is attached to the parts afterwards.
 //   normal: the shortest axis of Sigma, towards the views that see it, averaged over the neighbours
 //   colour: 0.5 + C0 f_dc, averaged over the neighbours of like colour
 // Cost: one k-NN search and a few passes over its edges. Same input, same bits, on any number of threads.
@@ -9,10 +9,12 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "core/job.h"
-#include "segment/superpoints/observation.h"
+#include "scene/camera/camera.h"
+#include "scene/raster/projected_view.h"
 #include "segment/superpoints/part_model.h"
 
 namespace splatcut {
@@ -28,7 +30,7 @@ struct SurfaceFeatures {
   std::vector<float> spacing;  // side of the piece of surface that one Gaussian stands for, scene units
 };
 
-SurfaceFeatures surface_features(const GaussianCloud& cloud, const Observation& seen,
+SurfaceFeatures surface_features(const Drawer& drawer, std::span<const Camera> observing,
                                  const SurfaceOptions& options, const Job& job = {});
 
 }  // namespace splatcut

@@ -394,10 +394,14 @@ TEST_CASE("sums over planes: those of the slow rasteriser, and of a mask where a
   CHECK(seen > 10);
 }
 
-TEST_CASE("rasterizer: what a pixel gets from each Gaussian is what it gets from each alone") {
+TEST_CASE("rasterizer: what a pixel gets from each group and each Gaussian is what it gets from each alone") {
+  constexpr std::uint32_t kGroups = 7;
   constexpr float kListed = 0.01f;
   const GaussianCloud cloud = random_cloud(120, 5, 1, 0.2f);
   const Camera camera = front_camera();
+  std::vector<std::uint32_t> group_of(cloud.size());
+  for (std::size_t g = 0; g < group_of.size(); ++g)
+    group_of[g] = g % 10 == 0 ? kNoGroup : static_cast<std::uint32_t>(g % kGroups);
   RasterOptions options;
   options.colour = false;
   options.least_listed_weight = kListed;
@@ -409,13 +413,24 @@ TEST_CASE("rasterizer: what a pixel gets from each Gaussian is what it gets from
     alone.labels = labels;
     return rasterize(cloud, camera, alone).label_share;
   };
+  options.groups = group_of;
+  const Image<std::uint32_t> group = rasterize(cloud, camera, options).group;
+  options.groups = {};
   options.list_gaussians = true;
   const ListedWeights lists = rasterize(cloud, camera, options).gaussians;
-  std::vector<Image<float>> of_gaussian;
+  std::vector<Image<float>> of_group, of_gaussian;
+  for (std::uint32_t k = 0; k < kGroups; ++k)
+    of_group.push_back(share_of([&](std::size_t g) { return group_of[g] == k; }));
   for (std::size_t i = 0; i < cloud.size(); ++i)
     of_gaussian.push_back(share_of([&](std::size_t g) { return g == i; }));
-  std::size_t listed = 0;
-  for (std::size_t pixel = 0; pixel < lists.of.size(); ++pixel) {
+  std::size_t shown = 0, listed = 0;
+  for (std::size_t pixel = 0; pixel < group.size(); ++pixel) {
+    std::vector<GroupWeight> weights;
+    for (std::uint32_t k = 0; k < kGroups; ++k)
+      if (const float w = of_group[k].pixels()[pixel]; w >= kListed) weights.push_back({k, w});
+    std::ranges::stable_sort(weights, std::ranges::greater(), &GroupWeight::weight);
+    CHECK(group.pixels()[pixel] == group_of_pixel(weights));
+    shown += group.pixels()[pixel] != kNoGroup;
     std::vector<float> expected(cloud.size()), got(cloud.size());
     for (std::size_t g = 0; g < cloud.size(); ++g)
       if (const float w = of_gaussian[g].pixels()[pixel]; w >= kListed) expected[g] = w;
@@ -423,5 +438,6 @@ TEST_CASE("rasterizer: what a pixel gets from each Gaussian is what it gets from
     CHECK(got == expected);
     listed += lists.of.pixels()[pixel].size();
   }
+  CHECK(shown > 100);
   CHECK(listed > 500);
 }

@@ -7,10 +7,9 @@
 #include <set>
 
 #include "four_leaves.h"
-#include "reference_rasterizer.h"
 #include "scene/raster/depth_jump.h"
+#include "scene/raster/rasterizer.h"
 #include "segment/superpoints/part_hierarchy.h"
-#include "synthetic_cloud.h"
 
 namespace splatcut {
 
@@ -137,36 +136,11 @@ TEST_CASE("part looks: a jump of depth") {
   CHECK_FALSE(depth_jumps(depth, {-5, 0}, {0, 3}, 1.001f));
 }
 
-TEST_CASE("part looks: pictures of two views, by the Gaussian at which half of a pixel is covered") {
-  std::mt19937 random(8);
-  PartHierarchy parts;
-  parts.leaves = 6;
-  parts.trees = {random_tree(parts.leaves, random)};
-  const GaussianCloud cloud = testing::random_cloud(150, 5, 0, 0.2f);
-  for (std::size_t g = 0; g < cloud.size(); ++g)
-    parts.leaf_of.push_back(g % 10 == 0 ? kNoPart : static_cast<std::uint32_t>(g % parts.leaves));
-  std::vector<Camera> views(2, testing::front_camera());
-  views[1].fx_px *= 1.3f;
-  std::vector<PartLooks> expected(parts.trees[0].nodes());
-  RasterOptions options;
-  options.colour = false;
-  options.depth = true;
-  for (const Camera& view : views) {
-    const RasterOutput drawn = testing::rasterize_reference(cloud, view, options);
-    LeafPicture picture{Image<std::uint32_t>(view.width_px, view.height_px, kNoPart), drawn.expected_depth};
-    for (std::size_t i = 0; i < picture.leaf.size(); ++i)
-      if (drawn.first_hit.pixels()[i] >= 0)
-        picture.leaf.pixels()[i] = parts.leaf_of[static_cast<std::size_t>(drawn.first_hit.pixels()[i])];
-    const auto looks = looks_in(parts, picture);
-    for (std::size_t node = 0; node < expected.size(); ++node) expected[node] += looks[0][node];
-  }
-  look_at_parts(observe(cloud, views).pictures, &parts);
-  float area = 0;
-  for (std::size_t node = 0; node < expected.size(); ++node) {
-    CHECK(alike(parts.trees[0].looks[node], expected[node]));
-    area += expected[node].area;
-  }
-  CHECK(area > 0.2f);
+TEST_CASE("part looks: a pixel is the leaf's that makes most of it, if anything does") {
+  using List = std::vector<GroupWeight>;
+  CHECK(group_of_pixel(List{{7, 0.4f}, {3, 0.2f}}) == 7);
+  CHECK(group_of_pixel(List{{7, 0.3f}, {3, 0.1f}}) == kNoPart);
+  CHECK(group_of_pixel(List{}) == kNoPart);
 }
 
 }  // namespace splatcut
