@@ -12,7 +12,7 @@ namespace {
 
 using Leaves = std::vector<std::uint8_t>;
 
-bool some(const Leaves& leaves) {
+bool any(const Leaves& leaves) {
   return std::ranges::count(leaves, 1) > 0;
 }
 
@@ -20,7 +20,7 @@ bool some(const Leaves& leaves) {
 Leaves what_fills(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
                   std::span<const PartMeaning> found, const TermValues& weights) {
   Leaves agreed = agreed_in_box(parts, view, box, vote_shares(parts, found), weights);
-  return some(agreed) ? agreed : leaves_of(parts, found.front().tree, found.front().node);
+  return any(agreed) ? agreed : leaves_of(parts, found.front().tree, found.front().node);
 }
 
 // What fills the box, what colour says of it beside that, or before it where that stands out clearly more,
@@ -32,7 +32,7 @@ std::vector<Leaves> distinct_meanings(const PartHierarchy& parts, const LeafView
   std::vector<Leaves> meant;
   const auto add = [&](const Leaves& leaves) {
     const auto alike = [&](const Leaves& other) { return look_alike(view, other, leaves); };
-    if (some(leaves) && std::ranges::none_of(meant, alike)) meant.push_back(leaves);
+    if (any(leaves) && std::ranges::none_of(meant, alike)) meant.push_back(leaves);
   };
   const Leaves by_colour = leaves_by_colour(parts, view, stroke);
   const bool colour_first = stands_out_more(parts, view, box, by_colour, fills, model.box);
@@ -47,33 +47,6 @@ std::vector<Leaves> distinct_meanings(const PartHierarchy& parts, const LeafView
 
 }  // namespace
 
-// Where a box came first and clicks on the rest alone after it: what is selected beside the box's likeliest
-// meaning that holds none of them. None where it is less likely than the box's first by kAlike, or would
-// leave less than kMost of the leaves: then what the click takes away says more.
-std::vector<std::uint8_t> ClickSelection::outside_other_meaning(std::uint32_t clicked) const {
-  constexpr float kAlike = 0.1f, kMost = 0.75f;
-  if (!box_meanings_ || std::ranges::any_of(selected_.changes, &Change::object)) return {};
-  std::vector<PartMeaning> others;
-  for (const PartMeaning& meaning : *box_meanings_) {
-    const auto held = [&](std::uint32_t node) {
-      const PartTree& tree = parts_.trees[meaning.tree];
-      while (node < meaning.node) node = tree.parent[node];  // parents come after their children
-      return node == meaning.node;
-    };
-    if (!held(clicked) && std::ranges::none_of(selected_.clicked[0], held) &&
-        std::ranges::all_of(selected_.clicked[1], held))
-      others.push_back(meaning);
-  }
-  if (others.empty() || others.front().cost > box_meanings_->front().cost + kAlike) return {};
-  const Leaves agreed = majority(vote_shares(parts_, others));
-  const Leaves other = some(agreed) ? agreed : leaves_of(parts_, others.front().tree, others.front().node);
-  Leaves outside(parts_.leaves);
-  for (std::uint32_t l = 0; l < parts_.leaves; ++l) outside[l] = selected_.object[l] && !other[l];
-  const auto all = static_cast<float>(std::ranges::count(selected_.object, 1));
-  const auto leaves = static_cast<float>(std::ranges::count(outside, 1));
-  return leaves > 0 && leaves <= (1 - kMost) * all ? outside : Leaves();
-}
-
 bool ClickSelection::take_box(const LeafView& view, const Stroke& stroke) {
   const bool object = stroke.label == SeedLabel::kObject;
   const BoxPx box = box_in_picture(stroke, view.camera.width_px, view.camera.height_px);
@@ -87,7 +60,6 @@ bool ClickSelection::take_box(const LeafView& view, const Stroke& stroke) {
     offers_ = std::make_shared<const Offers>(std::move(offers));
     choice_taken_ = std::min(static_cast<std::size_t>(std::max(choice_, 0)), meant.size() - 1);
     leaves = note_sizes(view, part_sizes(parts_, meant[choice_taken_], found, view.leaf_px));
-    box_meanings_ = std::make_shared<const std::vector<PartMeaning>>(found);
   }
   Change change{.leaves = {}, .object = object};
   for (std::uint32_t l = 0; l < parts_.leaves; ++l) {

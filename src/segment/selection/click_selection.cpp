@@ -192,13 +192,9 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, const St
   std::vector<std::uint8_t> certain(parts_.leaves, 0);
   std::vector<std::uint32_t> like_px;
   if (any_) {
-    std::vector<std::uint8_t> meant;
-    if (!object) meant = outside_other_meaning(leaf);
-    if (meant.empty()) {
-      if (stroke.is_click()) like_px = pixels_by_colour(click, found, certain_px);
-      meant = leaves_changed(found, found.candidates.front());
-    }
+    if (stroke.is_click()) like_px = pixels_by_colour(click, found, certain_px);
     certain = certain_leaves(view, certain_px);
+    std::vector<std::uint8_t> meant = leaves_changed(found, found.candidates.front());
     if (!like_px.empty()) {
       const std::vector<std::uint8_t> like = certain_leaves(view, like_px);
       for (std::uint32_t l = 0; l < parts_.leaves; ++l) meant[l] |= like[l] && found.free[l];

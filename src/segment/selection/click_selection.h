@@ -90,7 +90,6 @@ class ClickSelection {
   Asked asked(const LeafView& view, const glm::vec2& pixel, bool object) const;
   bool take(const LeafView& view, const glm::vec2& pixel, const Stroke& stroke);
   bool take_box(const LeafView& view, const Stroke& box);
-  std::vector<std::uint8_t> outside_other_meaning(std::uint32_t clicked) const;
   void confirm(const LeafView& view, const glm::vec2& pixel, bool object, float least_radius_px);
   std::vector<std::uint8_t> certain_leaves(const LeafView& view, std::span<const std::uint32_t> disc) const;
   float displayed_radius(const LeafView& view, const Mask& displayed, const glm::ivec2& at, bool object,
@@ -124,8 +123,6 @@ class ClickSelection {
     std::vector<Mask> masks;  // mask of each meaning in the first click's view
   };
   std::shared_ptr<const Offers> offers_;
-  std::shared_ptr<const std::vector<PartMeaning>>
-      box_meanings_;  // of a box that came first, the likeliest first
   std::shared_ptr<const std::vector<Mask>> size_masks_ = std::make_shared<const std::vector<Mask>>();
   std::vector<std::uint8_t> labels_;
   std::vector<std::int8_t> said_;

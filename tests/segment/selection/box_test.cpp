@@ -78,53 +78,6 @@ TEST_CASE("box: its terms, worked out by hand") {
   CHECK(box_meanings(parts, stripes(parts), {{5, 5}, {5, 9}}, fills_alone).empty());
 }
 
-// Eight stripes in a chain of parts, each of which holds one stripe more than the last.
-PartHierarchy eight_in_a_chain() {
-  PartHierarchy parts;
-  parts.leaves = 8;
-  parts.leaf_of = {0, 1, 2, 3, 4, 5, 6, 7};
-  PartTree tree;
-  tree.parent.assign(15, kNoPart);
-  tree.children.assign(15, {kNoPart, kNoPart});
-  for (std::uint32_t node = 8; node < 15; ++node) {
-    tree.children[node] = {node == 8 ? 0 : node - 1, node - 7};
-    for (const std::uint32_t child : tree.children[node]) tree.parent[child] = node;
-  }
-  tree.area.assign(15, 1);
-  tree.cut.assign(15, 1);
-  tree.merge_cost.assign(15, 1);
-  parts.trees = {tree};
-  parts.plain_trees = 1;
-  parts.leaf_area.assign(8, 1);
-  for (int l = 0; l < 8; ++l) parts.leaf_centre_world.emplace_back(static_cast<float>(l) - 3.5f, 0.0f, 0.0f);
-  return parts;
-}
-
-TEST_CASE("box: a click on the rest takes its nearly as likely meaning that does not hold it") {
-  const PartHierarchy parts = eight_in_a_chain();
-  Camera camera = look_at({0, 0, -10}, {0, 0, 0}, {0, -1, 0}, 1, 80, 10);
-  camera.fx_px = camera.fy_px = 100;
-  Image<std::int32_t> hit(80, 10);
-  for (int y = 0; y < 10; ++y)
-    for (int x = 0; x < 80; ++x) hit.at(x, y) = x / 10;
-  const LeafView view = leaf_view_of_hits(parts, camera, hit);
-  const auto labels = [&](float fills, float clicked_px) {
-    SelectionModel model = borders_alone();
-    model.box = {};
-    weight(&model.box, Term::kFills) = fills;
-    ClickSelection selection(parts, model);
-    selection.apply(view, columns(0, 80));
-    REQUIRE(selection.labels() == Labels(8, 1));
-    selection.apply(view, rest(clicked_px));
-    return selection.labels();
-  };
-  const Labels without_one = {1, 1, 1, 1, 1, 1, 0, 1}, six = {1, 1, 1, 1, 1, 1, 0, 0};
-  const float quarter = std::log(8.0f / 6);  // the share of the box that six stripes leave
-  CHECK(labels(0.09f / quarter, 65) == six);
-  CHECK(labels(0.11f / quarter, 65) == without_one);           // less likely by more
-  CHECK(labels(0.01f, 55) == Labels{1, 1, 1, 1, 1, 0, 1, 1});  // five of eight are not most of it
-}
-
 // Three trees: two hold leaves 0 and 1 as one part, one holds 0 and 2.
 TEST_CASE("box: trees vote, by how likely their parts are") {
   PartHierarchy parts = four_leaves();
