@@ -161,7 +161,7 @@ std::string misfit(const SceneSource& file, const Camera& camera, const glm::vec
     return fmt::format("You look from inside {}: Fit, under Files, makes it small enough to see", name);
   const float share = share_of_picture(file, camera, up_world);
   if (share > kTooLarge)
-    return fmt::format("{} is {:.2g} times as large as what you look at: Fit, under Files, makes it smaller",
+    return fmt::format("{} is {:.1f} times as large as what you look at: Fit, under Files, makes it smaller",
                        name, share);
   if (share < kTooSmall)
     return fmt::format("{} fills {:.2g} % of the picture's height: Fit, under Files, makes it larger", name,

@@ -63,7 +63,6 @@ std::shared_ptr<const CleanObject> carried_over(const std::shared_ptr<const Clea
   CleanObject out;
   out.cloud = permuted(joined({permuted(clean->cloud, stays), permuted(scene, added)}), order);
   for (const std::uint32_t i : order) out.gaussian.push_back(row[i]);
-  out.report.reason = "the labels changed";
   return std::make_shared<const CleanObject>(std::move(out));
 }
 

@@ -55,7 +55,7 @@ void keep_object(CutResult* result);
 
 // How far a cut has come.
 enum class CutPhase {
-  kParts,      // labels that strokes mean by parts alone: where the graph, which all else needs, is built now
+  kParts,      // labels by parts alone; told only where the graph must be built before anything else
   kFirstMask,  // the reference's mask is known; labels where parts were asked
   kViews,      // labels from the views so far
   kSettled,    // labels from all views; they may yet lose what does not agree, and be trimmed
