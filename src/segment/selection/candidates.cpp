@@ -76,6 +76,7 @@ class Asking {
       add_back_terms();
       add_apart_terms();
       add_repick();
+      add_other_meaning_of_box();
       add_disc();
     }
     sort();
@@ -98,7 +99,8 @@ class Asking {
   }
   void add_back_terms();
   void add_repick();
-  Chain given_up(const std::vector<std::uint8_t>& meant) const;
+  void add_other_meaning_of_box();
+  Chain changed_to(const std::vector<std::uint8_t>& meant) const;
   void add_first_meaning(Chain chain, const TermValues& terms);
   void add_disc();
   void add_apart_terms();
@@ -328,7 +330,7 @@ void Asking::add_repick() {
   const AgreedMeaning agreed = agreed_meaning(parts_, left, click_.view.leaf_px);
   TermValues terms{};
   weight(&terms, Term::kDoubtful) = agreed.doubt;
-  Chain likeliest = given_up(leaves_of(parts_, left.front().tree, left.front().node));
+  Chain likeliest = changed_to(leaves_of(parts_, left.front().tree, left.front().node));
   const float px = likeliest.changed_px.front();
   if (selected_.clicked[1].size() == 1 && px >= kLeastChangePx && folds(px) <= kFoldSlack) {
     weight(&terms, Term::kRepick) = 1;
@@ -336,18 +338,31 @@ void Asking::add_repick() {
     return;
   }
   weight(&terms, Term::kAgreed) = 1;
-  add_first_meaning(given_up(agreed.leaves), terms);
+  add_first_meaning(changed_to(agreed.leaves), terms);
 }
 
-// The leaves that leave the object if these alone were meant. Leaves that a disc has decided stay.
-Chain Asking::given_up(const std::vector<std::uint8_t>& meant) const {
+void Asking::add_other_meaning_of_box() {
+  if (!selected_.boxed) return;
+  const std::vector<PartMeaning> left = box_meanings_left(parts_, selected_, click_.leaf, click_.object);
+  if (left.empty()) return;
+  const AgreedMeaning agreed = agreed_meaning(parts_, left, click_.view.leaf_px);
+  TermValues terms{};
+  weight(&terms, Term::kAgreed) = 1;
+  weight(&terms, Term::kDoubtful) = agreed.doubt;
+  weight(&terms, Term::kDearer) = left.front().cost - selected_.boxed->front().cost;
+  add_first_meaning(changed_to(agreed.leaves), terms);
+}
+
+// The leaves that take the click's side if `meant` is the object. Leaves that a disc has decided stay.
+Chain Asking::changed_to(const std::vector<std::uint8_t>& meant) const {
   Chain chain;
   chain.of_tree = false;
   chain.nodes = {click_.leaf};
   chain.level.assign(parts_.leaves, kNoLevel);
+  const std::int8_t against = click_.object ? -1 : 1;
   float px = 0;
   for (std::uint32_t leaf = 0; leaf < parts_.leaves; ++leaf)
-    if (selected_.object[leaf] && !meant[leaf] && selected_.said[leaf] <= 0) {
+    if (wrong_side(leaf) && (meant[leaf] != 0) == click_.object && selected_.said[leaf] != against) {
       chain.level[leaf] = 0;
       px += click_.view.leaf_px[leaf];
     }

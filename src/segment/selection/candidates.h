@@ -2,11 +2,11 @@
 //
 // In: hierarchy, the selection so far, a click in a soft view. Out: candidates, likeliest first, each with
 // its terms (part_model.h names them) and their weighted sum. Candidates are the ancestors of the clicked
-// leaf in every tree. For corrections, the disc alone is one more candidate, and for clicks on the rest so is
-// another meaning of the first click that no click speaks against. Pixels are the view's. "All views" are the
-// observing views (part_looks.h), for a first click together with its own, so that a part looks the same from
-// wherever the user stands. f is ln(pixels that would change / area of the disc that reaches to where the
-// wrong region may end). Terms of a candidate:
+// leaf in every tree. For corrections, the disc alone is one more candidate. So is another meaning of what
+// was said first that no click speaks against: of a click for clicks on the rest, of a box for all. Pixels
+// are the view's. "All views" are the observing views (part_looks.h), for a first click together with its
+// own, so that a part looks the same from wherever the user stands. f is ln(pixels that would change / area
+// of the disc that reaches to where the wrong region may end). Terms of a candidate:
 //
 // - kCut: ln(L / sqrt(area)), with L the length of the node's border in the scene, weighted by likeness; at
 //   least -16, for a first click at least -12: a node that touches nothing gets that.
@@ -43,10 +43,11 @@
 // - kRepick (clicks on the rest): 1 if the first click gets the likeliest other meaning that is left
 //   (first_meanings.h). This is a candidate if the first click is the only one on the object and f is at most
 //   1. Of the other terms it has kDoubtful and kScrap.
-// - kAgreed (clicks on the rest): 1 if the first click gets the meaning that the trees agree on among those
-//   that are left. This is a candidate where kRepick is none. Of the other terms it has kDoubtful, kScrap,
-//   kFold, kGiant, kBorder and kTakes.
+// - kAgreed: 1 if what was said first gets the meaning that the trees agree on among those that are left.
+//   This is a candidate for clicks on the rest where kRepick is none, and for all clicks after a box. Of the
+//   other terms it has kDoubtful, kDearer, kScrap, kFold, kGiant, kBorder and kTakes.
 // - kDoubtful (of these two): AgreedMeaning::doubt of the meanings that are left.
+// - kDearer (after a box): what the likeliest meaning of the box that is left costs more than the likeliest.
 // Cost: some 10 ms. The result depends on the arguments alone.
 #pragma once
 
@@ -56,6 +57,7 @@
 #include <vector>
 
 #include "segment/selection/leaf_view.h"
+#include "segment/selection/part_votes.h"
 #include "segment/superpoints/part_hierarchy.h"
 #include "segment/superpoints/part_model.h"
 
@@ -111,7 +113,10 @@ struct SelectedParts {
   std::vector<std::int8_t> said;     // sign per leaf that a disc has decided: +1 object, -1 rest; 0: none
   std::vector<std::uint32_t> clicked[2];  // leaves clicked: [0] on the rest, [1] on the object
   std::vector<Change> changes;            // change of each correction
-  std::shared_ptr<const Answers> first;   // candidates of the first click; null before it
+  // What was said first could mean: candidates of a click, or meanings of a box, likeliest first. The other
+  // is null, both are before the first stroke.
+  std::shared_ptr<const Answers> first;
+  std::shared_ptr<const std::vector<PartMeaning>> boxed;
 };
 
 struct Click {

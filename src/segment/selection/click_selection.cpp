@@ -67,7 +67,8 @@ ClickSelection::ClickSelection(const PartHierarchy& parts, const SelectionModel&
                 .said = std::vector<std::int8_t>(parts.leaves, 0),
                 .clicked = {},
                 .changes = {},
-                .first = nullptr},
+                .first = nullptr,
+                .boxed = nullptr},
       labels_(parts.leaf_of.size(), 0),
       said_(parts.leaf_of.size(), 0),
       by_colour_(parts.leaf_of.size(), 0) {}

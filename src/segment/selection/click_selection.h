@@ -13,7 +13,8 @@
 //
 // A click on the rest may also say that the first click meant another part, one that holds every click on the
 // object and none on the rest: the likeliest if that is a small step from what is shown, else what the trees
-// agree on. If no candidate is likely, only the disc changes.
+// agree on. A click of either sign may say so of a box that came first. If no candidate is likely, only the
+// disc changes.
 //
 // A click on the rest may also find by colour what no part holds (region_by_colour.h). If the likeliest part
 // changes less than half of that region, the region becomes rest, too, except for Gaussians that a click has

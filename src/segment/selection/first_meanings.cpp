@@ -16,6 +16,22 @@ std::vector<PartMeaning> first_meanings_left(const SelectedParts& selected, std:
   return left;
 }
 
+std::vector<PartMeaning> box_meanings_left(const PartHierarchy& parts, const SelectedParts& selected,
+                                           std::uint32_t leaf, bool object) {
+  std::vector<PartMeaning> left;
+  for (const PartMeaning& meaning : *selected.boxed) {
+    const PartTree& tree = parts.trees[meaning.tree];
+    const auto inside = [&](std::uint32_t node) {
+      while (node < meaning.node) node = tree.parent[node];  // parents come after their children
+      return node == meaning.node;
+    };
+    if (inside(leaf) == object && std::ranges::all_of(selected.clicked[1], inside) &&
+        std::ranges::none_of(selected.clicked[0], inside))
+      left.push_back(meaning);
+  }
+  return left;
+}
+
 AgreedMeaning agreed_meaning(const PartHierarchy& parts, std::span<const PartMeaning> meanings,
                              std::span<const float> leaf_px) {
   const std::vector<float> shares = vote_shares(parts, meanings);

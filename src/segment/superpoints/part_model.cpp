@@ -111,12 +111,13 @@ SelectionModel::SelectionModel()
                      {Term::kCropped, 4.2f},
                      {Term::kSmall, 1.1f},
                      {Term::kLarge, 3.3f}})),
-      later(weights(
-          {{Term::kCut, 0.1f},        {Term::kJump, -0.1f},  {Term::kRare, 3},       {Term::kFrame, 1.9f},
-           {Term::kShadeBlind, 0.5f}, {Term::kOffCentre, 2}, {Term::kScrap, 0.5f},   {Term::kApart, 1},
-           {Term::kFold, 1},          {Term::kGiant, 3.25f}, {Term::kBorder, 3.25f}, {Term::kHidden, 2},
-           {Term::kTakes, 1.5f},      {Term::kOpposed, 5},   {Term::kBack, 1},       {Term::kAgain, -3},
-           {Term::kDisc, 1},          {Term::kRepick, -2},   {Term::kAgreed, -2},    {Term::kDoubtful, 16}})),
+      later(weights({{Term::kCut, 0.1f},    {Term::kJump, -0.1f},      {Term::kRare, 3},
+                     {Term::kFrame, 1.9f},  {Term::kShadeBlind, 0.5f}, {Term::kOffCentre, 2},
+                     {Term::kScrap, 0.5f},  {Term::kApart, 1},         {Term::kFold, 1},
+                     {Term::kGiant, 3.25f}, {Term::kBorder, 3.25f},    {Term::kHidden, 2},
+                     {Term::kTakes, 1.5f},  {Term::kOpposed, 5},       {Term::kBack, 1},
+                     {Term::kAgain, -3},    {Term::kDisc, 1},          {Term::kRepick, -2},
+                     {Term::kAgreed, -2},   {Term::kDoubtful, 16},     {Term::kDearer, 1}})),
       box(weights({{Term::kCut, 0.1f},
                    {Term::kFrame, 0.2f},
                    {Term::kNoEdge, 1.5f},
@@ -129,9 +130,10 @@ SelectionModel::SelectionModel()
 
 std::span<const std::string> term_names() {
   static const std::array<std::string, kTerms> names = {
-      "cut",   "jump",  "rare",  "frame",  "shade_blind", "off_centre", "no_edge", "cropped", "small",
-      "large", "scrap", "apart", "fold",   "giant",       "border",     "hidden",  "takes",   "opposed",
-      "back",  "again", "disc",  "repick", "agreed",      "doubtful",   "short",   "spill",   "fills"};
+      "cut",     "jump",   "rare",     "frame",   "shade_blind", "off_centre", "no_edge",
+      "cropped", "small",  "large",    "scrap",   "apart",       "fold",       "giant",
+      "border",  "hidden", "takes",    "opposed", "back",        "again",      "disc",
+      "repick",  "agreed", "doubtful", "dearer",  "short",       "spill",      "fills"};
   return names;
 }
 

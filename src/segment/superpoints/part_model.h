@@ -88,11 +88,12 @@ enum class Term {
   kRepick,
   kAgreed,
   kDoubtful,
+  kDearer,
   kShort,  // this and the next two: of boxes alone
   kSpill,
   kFills
 };
-inline constexpr std::size_t kTerms = 27;
+inline constexpr std::size_t kTerms = 28;
 using TermValues = std::array<float, kTerms>;  // by Term
 inline float& weight(TermValues* of, Term term) {
   return (*of)[static_cast<std::size_t>(term)];
@@ -127,6 +128,9 @@ struct MaskToPartsOptions {
 
 struct PartModel {
   // Whoever changes a value raises the version and says here what was searched on what.
+  // Version 17: a correction of a box may say that the box meant another part, with a weight set by hand, and
+  // colour must stand out more than before to come first in a box, as searched on 260 boxes (docs/clicks.md).
+  //
   // Version 16: a correction after one of the same sign mostly means what holds both; the weight of
   // Term::kAgain is set by hand (docs/clicks.md, "Once more").
   //
@@ -146,7 +150,7 @@ struct PartModel {
   // Version 9: what a first click means is fitted by `splatcut-lab fit` on the scenes of docs/clicks.md,
   // which shows the fit without each of the captures; what corrections mean is set by hand on the same
   // scenes, last the cost of a click on the rest that takes nearly all of the object (Term::kTakes).
-  static constexpr int kVersion = 16;
+  static constexpr int kVersion = 17;
   PartOptions parts;
   SelectionModel selection;
   MaskToPartsOptions of_mask;

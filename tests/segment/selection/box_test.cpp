@@ -188,6 +188,51 @@ TEST_CASE(
   CHECK(meant(view_of({kRed, kRed, kRed, kBlue}), columns(0, 20)) == Labels{1, 1, 0, 0});
 }
 
+// Single stripes are the likeliest of clicks by far. What a box holds, and what a click wants, no pair does.
+TEST_CASE("box: a click may say that it meant another part, if that is hardly dearer") {
+  PartHierarchy parts = four_leaves();
+  parts.trees.front().cut = {0.001f, 0.001f, 0.001f, 0.001f, 1, 1, 4};
+  const LeafView view = stripes(parts);
+  SelectionModel model = boxes_and_borders();
+  weight(&model.box, Term::kCut) = 0;
+  const auto after = [&](const Strokes& strokes) {
+    ClickSelection selection(parts, model);
+    for (const Stroke& stroke : strokes) selection.apply(view, stroke);
+    return selection.labels();
+  };
+  const auto dearer_by = [&](const BoxPx& box, std::uint32_t node) {
+    const std::vector<PartMeaning> found = box_meanings(parts, view, box, model.box);
+    return of_node(found, node).cost - found.front().cost;
+  };
+  const Strokes larger = {columns(0, 25), object(25)};  // the pair that holds it spills more than all four
+  const Strokes smaller = {columns(0, 40), rest(25)};   // the other pair fills more than a stripe
+  REQUIRE(after({larger.front()}) == Labels{1, 1, 0, 0});
+  REQUIRE(after({smaller.front()}) == Labels{1, 1, 1, 1});
+  CHECK(after(larger) == Labels{1, 1, 1, 0});
+  CHECK(after(smaller) == Labels{1, 1, 0, 1});
+  weight(&model.later, Term::kAgreed) = -50;
+  // A stripe alone costs ln 0.001 = -6.9, which is 43.1 more.
+  weight(&model.later, Term::kDearer) = 42 / dearer_by({{0, 0}, {25, 10}}, 6);
+  CHECK(after(larger) == Labels{1, 1, 1, 1});
+  weight(&model.later, Term::kDearer) = 44 / dearer_by({{0, 0}, {25, 10}}, 6);
+  CHECK(after(larger) == Labels{1, 1, 1, 0});
+  weight(&model.later, Term::kDearer) = 42 / dearer_by({{0, 0}, {40, 10}}, 4);
+  CHECK(after(smaller) == Labels{1, 1, 0, 0});
+  weight(&model.later, Term::kDearer) = 44 / dearer_by({{0, 0}, {40, 10}}, 4);
+  CHECK(after(smaller) == Labels{1, 1, 0, 1});
+}
+
+TEST_CASE("box: what was clicked is not given up for another of its meanings") {
+  PartHierarchy parts = four_leaves();
+  parts.trees.front().cut = {0.001f, 0.001f, 0.001f, 0.001f, 1, 1, 4};
+  const LeafView view = stripes(parts);
+  SelectionModel model = boxes_and_borders();
+  weight(&model.later, Term::kAgreed) = -50;
+  ClickSelection selection(parts, model);
+  for (const Stroke& stroke : Strokes{columns(0, 25), rest(35), object(25)}) selection.apply(view, stroke);
+  CHECK(selection.labels() == Labels{1, 1, 1, 0});  // what holds the third stripe and more holds the fourth
+}
+
 TEST_CASE("box: to pixels alone it says that what is outside is the rest, and its middle the object") {
   const Image<std::uint8_t> seeds = draw_seeds({box_around({2, 1}, {12, 9}, kObject)}, 16, 10);
   for (int y = 0; y < 10; ++y)
