@@ -37,7 +37,7 @@ std::vector<std::uint8_t> leaves_by_colour(const PartHierarchy& parts, const Lea
 bool stands_out_more(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
                      std::span<const std::uint8_t> by_colour, std::span<const std::uint8_t> others,
                      const TermValues& weights) {
-  constexpr float kOverlap = 4, kLeast = 0.6f;
+  constexpr float kOverlap = 4, kLeast = 0.55f;
   if (view.colour.empty() || std::ranges::count(by_colour, 1) == 0) return false;
   const glm::vec2 margin_px = 0.25f * box.size_px();
   const BoxPx around{box.low_px - margin_px, box.high_px + margin_px};

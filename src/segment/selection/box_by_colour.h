@@ -4,7 +4,7 @@
 // is the object, and GrabCut tells the two apart by colour between them; leaves follow by parts_of_mask().
 // That finds what differs in colour from all around it and falls apart into parts that nothing joins, and
 // loses much of what shares its colours with its surroundings. So it counts as the better answer than another
-// set of leaves only where the sum of fit and 4 overlap is less by more than 0.6. fit: kShort, kSpill and
+// set of leaves only where the sum of fit and 4 overlap is less by more than 0.55. fit: kShort, kSpill and
 // kFills with their weights (box_meanings.h). overlap: overlap_of_colours() of the set's picture in
 // the box grown by a quarter. Both numbers were searched on the boxes of docs/clicks.md, where it says what
 // leaving out a capture costs. Cost: some 0.4 s at 320 px wide, the most of it GrabCut's five rounds.

@@ -59,7 +59,8 @@ bool ClickSelection::take_box(const LeafView& view, const Stroke& stroke) {
     for (const Leaves& some : meant) offers.masks.push_back(shown(view.leaves, view.camera, some));
     offers_ = std::make_shared<const Offers>(std::move(offers));
     choice_taken_ = std::min(static_cast<std::size_t>(std::max(choice_, 0)), meant.size() - 1);
-    selected_.boxed = std::make_shared<const std::vector<PartMeaning>>(found);
+    selected_.meanings = std::make_shared<const std::vector<PartMeaning>>(found);
+    selected_.boxed = true;
     leaves = note_sizes(view, part_sizes(parts_, meant[choice_taken_], found, view.leaf_px));
   }
   Change change{.leaves = {}, .object = object};

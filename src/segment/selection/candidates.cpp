@@ -75,8 +75,7 @@ class Asking {
     if (!click_.first) {
       add_back_terms();
       add_apart_terms();
-      add_repick();
-      add_other_meaning_of_box();
+      add_other_meaning();
       add_disc();
     }
     sort();
@@ -98,8 +97,7 @@ class Asking {
     return std::log(std::max(px, 1.0f) / (kPi * click_.radius_px * click_.radius_px));
   }
   void add_back_terms();
-  void add_repick();
-  void add_other_meaning_of_box();
+  void add_other_meaning();
   Chain changed_to(const std::vector<std::uint8_t>& meant) const;
   void add_first_meaning(Chain chain, const TermValues& terms);
   void add_disc();
@@ -261,7 +259,7 @@ void Asking::add_size_terms(const Chain& chain, Candidate* candidate) const {
 
 bool Asking::holds_correction_before(const Chain& chain, std::size_t index) const {
   constexpr std::size_t kFirstCorrections = 5;  // those after them mend details
-  if (!selected_.first || selected_.changes.empty() || selected_.changes.size() >= kFirstCorrections)
+  if (selected_.boxed || selected_.changes.empty() || selected_.changes.size() >= kFirstCorrections)
     return false;
   const Change& before = selected_.changes.back();
   return before.object == click_.object && before.clicked != kNoPart && chain.level[before.clicked] <= index;
@@ -320,36 +318,28 @@ void Asking::add_back_terms() {
   }
 }
 
-// A click on the rest may also say that the first click meant another part, without this leaf. What the
-// selection gives up by that is one more candidate: for the likeliest such part if the change is small, else
-// for what the trees agree on.
-void Asking::add_repick() {
-  if (click_.object || !selected_.first) return;
-  const std::vector<PartMeaning> left = first_meanings_left(selected_, click_.leaf);
+// A correction may also say that what was said first meant another part. What the selection gives up or gains
+// by that is one more candidate: what the trees agree on. After a click, a click on the rest takes the
+// likeliest such part in its place if the change is small.
+void Asking::add_other_meaning() {
+  if (!selected_.meanings) return;
+  const std::vector<PartMeaning> left = meanings_left(parts_, selected_, click_.leaf, click_.object);
   if (left.empty()) return;
   const AgreedMeaning agreed = agreed_meaning(parts_, left, click_.view.leaf_px);
   TermValues terms{};
   weight(&terms, Term::kDoubtful) = agreed.doubt;
-  Chain likeliest = changed_to(leaves_of(parts_, left.front().tree, left.front().node));
-  const float px = likeliest.changed_px.front();
-  if (selected_.clicked[1].size() == 1 && px >= kLeastChangePx && folds(px) <= kFoldSlack) {
-    weight(&terms, Term::kRepick) = 1;
-    add_first_meaning(std::move(likeliest), terms);
-    return;
+  if (selected_.boxed || click_.object) {
+    weight(&terms, Term::kDearer) = left.front().cost - selected_.meanings->front().cost;
+  } else {
+    Chain likeliest = changed_to(leaves_of(parts_, left.front().tree, left.front().node));
+    const float px = likeliest.changed_px.front();
+    if (selected_.clicked[1].size() == 1 && px >= kLeastChangePx && folds(px) <= kFoldSlack) {
+      weight(&terms, Term::kRepick) = 1;
+      add_first_meaning(std::move(likeliest), terms);
+      return;
+    }
   }
   weight(&terms, Term::kAgreed) = 1;
-  add_first_meaning(changed_to(agreed.leaves), terms);
-}
-
-void Asking::add_other_meaning_of_box() {
-  if (!selected_.boxed) return;
-  const std::vector<PartMeaning> left = box_meanings_left(parts_, selected_, click_.leaf, click_.object);
-  if (left.empty()) return;
-  const AgreedMeaning agreed = agreed_meaning(parts_, left, click_.view.leaf_px);
-  TermValues terms{};
-  weight(&terms, Term::kAgreed) = 1;
-  weight(&terms, Term::kDoubtful) = agreed.doubt;
-  weight(&terms, Term::kDearer) = left.front().cost - selected_.boxed->front().cost;
   add_first_meaning(changed_to(agreed.leaves), terms);
 }
 

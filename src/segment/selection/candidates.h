@@ -3,10 +3,10 @@
 // In: hierarchy, the selection so far, a click in a soft view. Out: candidates, likeliest first, each with
 // its terms (part_model.h names them) and their weighted sum. Candidates are the ancestors of the clicked
 // leaf in every tree. For corrections, the disc alone is one more candidate. So is another meaning of what
-// was said first that no click speaks against: of a click for clicks on the rest, of a box for all. Pixels
-// are the view's. "All views" are the observing views (part_looks.h), for a first click together with its
-// own, so that a part looks the same from wherever the user stands. f is ln(pixels that would change / area
-// of the disc that reaches to where the wrong region may end). Terms of a candidate:
+// was said first, click or box, that no click speaks against. Pixels are the view's. "All views" are the
+// observing views (part_looks.h), for a first click together with its own, so that a part looks the same from
+// wherever the user stands. f is ln(pixels that would change / area of the disc that reaches to where the
+// wrong region may end). Terms of a candidate:
 //
 // - kCut: ln(L / sqrt(area)), with L the length of the node's border in the scene, weighted by likeness; at
 //   least -16, for a first click at least -12: a node that touches nothing gets that.
@@ -44,10 +44,11 @@
 //   (first_meanings.h). This is a candidate if the first click is the only one on the object and f is at most
 //   1. Of the other terms it has kDoubtful and kScrap.
 // - kAgreed: 1 if what was said first gets the meaning that the trees agree on among those that are left.
-//   This is a candidate for clicks on the rest where kRepick is none, and for all clicks after a box. Of the
-//   other terms it has kDoubtful, kDearer, kScrap, kFold, kGiant, kBorder and kTakes.
+//   This is a candidate where kRepick is none. Of the other terms it has kDoubtful, kDearer, kScrap, kFold,
+//   kGiant, kBorder and kTakes.
 // - kDoubtful (of these two): AgreedMeaning::doubt of the meanings that are left.
-// - kDearer (after a box): what the likeliest meaning of the box that is left costs more than the likeliest.
+// - kDearer (of kAgreed, for clicks on the object, and on the rest after a box): what the likeliest meaning
+//   that is left costs more than the likeliest of all.
 // Cost: some 10 ms. The result depends on the arguments alone.
 #pragma once
 
@@ -113,10 +114,9 @@ struct SelectedParts {
   std::vector<std::int8_t> said;     // sign per leaf that a disc has decided: +1 object, -1 rest; 0: none
   std::vector<std::uint32_t> clicked[2];  // leaves clicked: [0] on the rest, [1] on the object
   std::vector<Change> changes;            // change of each correction
-  // What was said first could mean: candidates of a click, or meanings of a box, likeliest first. The other
-  // is null, both are before the first stroke.
-  std::shared_ptr<const Answers> first;
-  std::shared_ptr<const std::vector<PartMeaning>> boxed;
+  std::shared_ptr<const std::vector<PartMeaning>>
+      meanings;        // what was said first can mean, likeliest first; null before it
+  bool boxed = false;  // true: a box was first
 };
 
 struct Click {

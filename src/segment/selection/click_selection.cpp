@@ -67,8 +67,7 @@ ClickSelection::ClickSelection(const PartHierarchy& parts, const SelectionModel&
                 .said = std::vector<std::int8_t>(parts.leaves, 0),
                 .clicked = {},
                 .changes = {},
-                .first = nullptr,
-                .boxed = nullptr},
+                .meanings = nullptr},
       labels_(parts.leaf_of.size(), 0),
       said_(parts.leaf_of.size(), 0),
       by_colour_(parts.leaf_of.size(), 0) {}
@@ -126,9 +125,13 @@ std::vector<std::uint8_t> ClickSelection::first_leaves(const LeafView& view, con
     return c.cost < chosen.cost + model_.doubt && (folds > kAlike || folds < 1 / kAlike);
   });
   std::vector<PartMeaning> all;
-  for (const std::vector<Candidate>* some : {&found.candidates, &found.unlikely})
-    for (const Candidate& c : *some)
+  const auto add = [&](std::span<const Candidate> some) {
+    for (const Candidate& c : some)
       all.push_back({static_cast<std::uint32_t>(c.chain), found.chains[c.chain].nodes[c.index], {}, c.cost});
+  };
+  add(found.candidates);
+  selected_.meanings = std::make_shared<const std::vector<PartMeaning>>(all);
+  add(found.unlikely);
   return note_sizes(view, part_sizes(parts_, leaves_changed(found, chosen), all, view.leaf_px));
 }
 
@@ -206,7 +209,6 @@ bool ClickSelection::take(const LeafView& view, const glm::vec2& pixel, const St
     certain[leaf] = 1;
     change_leaves(first_leaves(view, found), certain, click);
   }
-  if (!any_) selected_.first = std::make_shared<const Answers>(std::move(found));
   any_ = true;
   label();
   pin(view, certain_px, object);

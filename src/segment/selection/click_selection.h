@@ -11,10 +11,9 @@
 // the least cost, see candidates.h. A leaf follows a correction only if, in at least nearer_majority of the
 // trees, it meets no click of the other sign below its common ancestor with this click.
 //
-// A click on the rest may also say that the first click meant another part, one that holds every click on the
-// object and none on the rest: the likeliest if that is a small step from what is shown, else what the trees
-// agree on. A click of either sign may say so of a box that came first. If no candidate is likely, only the
-// disc changes.
+// A correction may also say that what was said first, click or box, meant another part, one that holds every
+// click on the object and none on the rest: what the trees agree on, or after a click the likeliest if that
+// is a small step from what is shown. If no candidate is likely, only the disc changes.
 //
 // A click on the rest may also find by colour what no part holds (region_by_colour.h). If the likeliest part
 // changes less than half of that region, the region becomes rest, too, except for Gaussians that a click has

@@ -4,22 +4,10 @@
 
 namespace splatcut {
 
-std::vector<PartMeaning> first_meanings_left(const SelectedParts& selected, std::uint32_t leaf) {
+std::vector<PartMeaning> meanings_left(const PartHierarchy& parts, const SelectedParts& selected,
+                                       std::uint32_t leaf, bool object) {
   std::vector<PartMeaning> left;
-  for (const Candidate& c : selected.first->candidates) {
-    const Chain& chain = selected.first->chains[c.chain];
-    const auto inside = [&](std::uint32_t other) { return chain.level[other] <= c.index; };
-    if (!inside(leaf) && std::ranges::all_of(selected.clicked[1], inside) &&
-        std::ranges::none_of(selected.clicked[0], inside))
-      left.push_back({static_cast<std::uint32_t>(c.chain), chain.nodes[c.index], c.terms, c.cost});
-  }
-  return left;
-}
-
-std::vector<PartMeaning> box_meanings_left(const PartHierarchy& parts, const SelectedParts& selected,
-                                           std::uint32_t leaf, bool object) {
-  std::vector<PartMeaning> left;
-  for (const PartMeaning& meaning : *selected.boxed) {
+  for (const PartMeaning& meaning : *selected.meanings) {
     const PartTree& tree = parts.trees[meaning.tree];
     const auto inside = [&](std::uint32_t node) {
       while (node < meaning.node) node = tree.parent[node];  // parents come after their children

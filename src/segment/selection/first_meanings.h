@@ -13,14 +13,10 @@
 
 namespace splatcut {
 
-// The first click's candidates that hold every leaf clicked on the object, none clicked on the rest, and not
-// `leaf`, the likeliest first. Precondition: there was a first click.
-std::vector<PartMeaning> first_meanings_left(const SelectedParts& selected, std::uint32_t leaf);
-
-// Meanings of the box that hold every leaf clicked on the object and none clicked on the rest, and `leaf` as
-// `object` says, the likeliest first. Precondition: a box was first.
-std::vector<PartMeaning> box_meanings_left(const PartHierarchy& parts, const SelectedParts& selected,
-                                           std::uint32_t leaf, bool object);
+// Meanings of what was said first that hold every leaf clicked on the object and none clicked on the rest,
+// and `leaf` as `object` says, the likeliest first. Precondition: something was said.
+std::vector<PartMeaning> meanings_left(const PartHierarchy& parts, const SelectedParts& selected,
+                                       std::uint32_t leaf, bool object);
 
 struct AgreedMeaning {
   std::vector<std::uint8_t> leaves;  // flags per leaf: 1 if more than half of the votes are for it

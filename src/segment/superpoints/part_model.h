@@ -128,8 +128,9 @@ struct MaskToPartsOptions {
 
 struct PartModel {
   // Whoever changes a value raises the version and says here what was searched on what.
-  // Version 17: a correction of a box may say that the box meant another part, with a weight set by hand, and
-  // colour must stand out more than before to come first in a box, as searched on 260 boxes (docs/clicks.md).
+  // Version 17: clicks on the object, and all after a box, may say that what was said first meant another
+  // part, with a weight set by hand; colour must stand out more than before to come first in a box, as
+  // searched on 260 boxes (docs/clicks.md).
   //
   // Version 16: a correction after one of the same sign mostly means what holds both; the weight of
   // Term::kAgain is set by hand (docs/clicks.md, "Once more").

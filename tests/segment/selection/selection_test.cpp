@@ -131,6 +131,29 @@ TEST_CASE("selection: a rest click takes back what the trees agree that the firs
   CHECK(after(1e6f, {object(5), object(25), rest(15)}) == Labels{1, 0, 1, 0});
 }
 
+TEST_CASE("selection: a second click on the object may say that the first meant what holds both") {
+  PartHierarchy parts = four_leaves();
+  parts.trees.front().cut = {0.001f, 0.001f, 0.001f, 0.001f, 1, 1, 4};
+  SelectionModel model = borders_alone();
+  weight(&model.first, Term::kCut) = 0.5f;  // the least likely meaning is still one
+  const LeafView view = stripes(parts);
+  const auto after = [&](const Strokes& strokes) {
+    ClickSelection selection(parts, model);
+    for (const Stroke& stroke : strokes) selection.apply(view, stroke);
+    return selection.labels();
+  };
+  const Strokes both = {object(5), object(25)};
+  CHECK(after({object(5)}) == Labels{1, 0, 0, 0});
+  CHECK(after(both) == Labels{1, 0, 1, 0});
+  weight(&model.later, Term::kAgreed) = -50;
+  CHECK(after(both) == Labels{1, 1, 1, 1});
+  // All four cost (ln 2 - ln 0.001) / 2 = 3.80 more than one; the second stripe alone ln 0.001 = -6.9.
+  weight(&model.later, Term::kDearer) = 42 / 3.8f;
+  CHECK(after(both) == Labels{1, 1, 1, 1});
+  weight(&model.later, Term::kDearer) = 44 / 3.8f;
+  CHECK(after(both) == Labels{1, 0, 1, 0});
+}
+
 // Single stripes are the likeliest by far, and all four are taken at first.
 TEST_CASE("selection: a correction after one of the same sign means what holds both") {
   PartHierarchy parts = four_leaves();
