@@ -159,20 +159,6 @@ TEST_CASE("a relative cache folder is ignored") {
   CHECK_FALSE(life.place.exists("relative"));
 }
 
-TEST_CASE("options may stand before any command, and a scene after it does not make it another") {
-  const Workplace place;
-  place.write("scene.ply", "");
-  const std::string help = place.run("--help").out;
-  for (const std::string command : {"info", "render", "cut", "convert", "compare", "view"}) {
-    CAPTURE(command);
-    CHECK(help.find("\n  " + command + " ") != std::string::npos);
-    const std::string its_own = place.run(command + " --help").out;
-    CHECK(its_own.find("Usage: splatcut " + command) != std::string::npos);
-    CHECK(place.run("--quiet " + command + " --help scene.ply").out == its_own);
-  }
-  CHECK(place.run_program(lab_program(), "cut").code == 2);
-}
-
 TEST_CASE("cut writes every file of a cutout, by click, by seeds and by mask, and a complete report") {
   StillLife& life = still_life();
   Workplace& place = life.place;
@@ -362,82 +348,6 @@ TEST_CASE("--set sets what a switch sets, and refuses what it does not know with
   refused("energy.hard=yes", "0 or 1");
   refused("neighbours=0", "a whole number from 1 to 254");
   CHECK_FALSE(place.exists("refused"));
-}
-
-TEST_CASE("convert goes through every format and back, and says what is lost") {
-  StillLife& life = still_life();
-  Workplace& place = life.place;
-  REQUIRE(place.run("make-scene lit -o lit --gaussians 5000 --sh-degree 3").code == 0);
-  std::string from = "lit/lit.ply";
-  for (const std::string name : {"a.ply", "a.glb", "a.spz", "a.compressed.ply", "a.sog", "a.splat"}) {
-    CAPTURE(name);
-    const Result result = place.run("convert " + from + " -o " + name);
-    REQUIRE_MESSAGE(result.code == 0, result.err);
-    CHECK((result.out.find("Lost:") != std::string::npos) == (name != "a.ply" && name != "a.glb"));
-    const json info = json::parse(place.run("info " + name + " --json").out);
-    CHECK(info["gaussians"] == 5000);
-    CHECK(info["sh_degree"] == (name == "a.splat" ? 0 : 3));
-    REQUIRE(place.run("convert " + name + " -o back_" + name + ".ply").code == 0);
-    CHECK(json::parse(place.run("info back_" + name + ".ply --json").out)["gaussians"] == 5000);
-    from = name;
-  }
-  CHECK(place.text("a.ply") == place.text("lit/lit.ply"));
-
-  // Version 4; axes against what the file says, which only the user may ask for.
-  REQUIRE(place.run("convert a.ply -o four.spz --spz-version 4").code == 0);
-  CHECK(place.text("four.spz").starts_with("NGSP"));
-  const auto highest = [&](const std::string& options) {
-    return json::parse(place.run("info four.spz --json " + options).out)["bounds_98"]["max"][1].get<float>();
-  };
-  const float lowest =
-      json::parse(place.run("info four.spz --json --spz-axes rub").out)["bounds_98"]["min"][1].get<float>();
-  CHECK(highest("") == highest("--spz-axes rub"));
-  CHECK(highest("--spz-axes ply") == doctest::Approx(-lowest).epsilon(1e-3));
-  CHECK(place.run("info four.spz --spz-axes up").code == 1);
-  CHECK(place.run("convert a.ply -o five.spz --spz-version 5").code == 1);
-  for (const char* other :
-       {"convert a.ply -o b.splat --spz-version 4", "merge a.ply a.spz -o b.ply --spz-version 3",
-        "info a.ply --spz-axes rub", "merge a.ply a.splat -o b.ply --spz-axes ply"}) {
-    const Result refused = place.run(other);
-    CHECK_MESSAGE(refused.code == 1, other);
-    CHECK_MESSAGE(refused.err.find("is no .spz") != std::string::npos, refused.err);
-  }
-  CHECK(place.run("merge a.ply a.spz -o b.ply --spz-axes ply").code == 0);
-  CHECK(place.leftovers().empty());
-}
-
-TEST_CASE("a folder without a command is a scene to view, unless a command has its name") {
-  const Workplace place;
-  place.make_folder("garden");
-  place.make_folder("info");
-  CHECK(place.run("garden --check").err.find("subcommand") == std::string::npos);
-  place.write("cam.json", "{}");
-  for (const std::string words : {"--width 800 --height 600", "--width 800 garden", "--width 800 cam.json",
-                                  "cam.json", "--renderer cpu nowhere"}) {
-    CAPTURE(words);
-    CHECK(place.run(words + " --check").err.find("subcommand") == std::string::npos);
-  }
-  CHECK(place.run("--width 800 nowhere").err.find("nowhere: there is no such file") != std::string::npos);
-  CHECK(place.run("--width 800 gone.splatcut.json cam.json")
-            .err.find("gone.splatcut.json: there is no such file") != std::string::npos);
-  CHECK(place.run("--help").code == 0);
-  CHECK(place.run("nowhere --check").err.find("subcommand") != std::string::npos);
-  CHECK(place.run("info --check").code == 2);  // is no option of `info`
-}
-
-TEST_CASE("convert refuses an ending that it reads but does not write, and lists what it writes") {
-  const StillLife& life = still_life();
-  const Workplace& place = life.place;
-  for (const std::string name : {"a.ksplat", "a.gltf", "meta.json", "lod-meta.json", "a.obj", "a"}) {
-    CAPTURE(name);
-    const Result result = place.run("convert " + life.scene + " -o " + name);
-    CHECK(result.code == 1);
-    CHECK(result.err.find("Choose .ply, .compressed.ply, .splat, .spz, .sog, .glb or .usda.") !=
-          std::string::npos);
-    const bool read = name != "a.obj" && name != "a";
-    CHECK((result.err.find("only read, not written") != std::string::npos) == read);
-    CHECK_FALSE(place.exists(name));
-  }
 }
 
 TEST_CASE("render --lowpass draws thin splats thinner, and by default as in training") {
