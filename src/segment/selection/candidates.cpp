@@ -318,9 +318,9 @@ void Asking::add_back_terms() {
   }
 }
 
-// A correction may also say that what was said first meant another part. What the selection gives up or gains
-// by that is one more candidate: what the trees agree on. After a click, a click on the rest takes the
-// likeliest such part in its place if the change is small.
+// A correction may also say that what was said first meant another part. The part that the trees agree on is
+// one more candidate, or the likeliest part, if a click on the rest corrects a click and changes little by
+// it.
 void Asking::add_other_meaning() {
   if (!selected_.meanings) return;
   const std::vector<PartMeaning> left = meanings_left(parts_, selected_, click_.leaf, click_.object);
