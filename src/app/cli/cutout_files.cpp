@@ -119,12 +119,12 @@ RestChanges changes_of(const CutoutFolder& to, std::span<EdgesReport> objects) {
 }
 
 nlohmann::json seen_json(const SeenFrom& seen) {
-  nlohmann::json json = {{"never_from", seen.never()}, {"unseen_share", seen.unseen_share()}};
+  nlohmann::json result = {{"never_from", seen.never()}, {"unseen_share", seen.unseen_share()}};
   if (!seen.views.empty())
-    json.update({{"views", seen.views.size()}, {"unseen", std::ranges::count(seen.by_views, 0)}});
+    result.update({{"views", seen.views.size()}, {"unseen", std::ranges::count(seen.by_views, 0)}});
   for (std::size_t s = seen.has_front ? 0 : kLevelSides; s < kSideNames.size(); ++s)
-    json["sides"][kSideNames.at(s)] = seen.side_share.at(s);
-  return json;
+    result["sides"][kSideNames.at(s)] = seen.side_share.at(s);
+  return result;
 }
 
 }  // namespace

@@ -65,11 +65,11 @@ void scroll_by_keys() {
 }  // namespace
 
 float keys_width() {
-  constexpr float kGap = 10;
+  constexpr float kColumnGap = 10;
   float width = 0;
   for (const Binding& b : key_bindings())
     width = std::max(width, ImGui::CalcTextSize(keys_of(b.action).c_str()).x);
-  return width + kGap;
+  return width + kColumnGap;
 }
 
 void help_page(UiContext& ui) {

@@ -52,14 +52,14 @@ bool slider_without_text(const char* id, float* value, float least, float most, 
 
 bool numbered_slider(UiContext& ui, const char* id, float* value, float least, float most, const char* format,
                      ImGuiSliderFlags flags, const char* widest) {
-  constexpr float kGap = 8;
+  constexpr float kNumberGap = 8;
   const float room = ImGui::CalcTextSize(widest).x, width = ImGui::CalcItemWidth();
   ImGui::BeginGroup();  // one item, with one tooltip
-  ImGui::SetNextItemWidth(width - room - kGap);
+  ImGui::SetNextItemWidth(width - room - kNumberGap);
   const bool changed = slider_without_text(id, value, least, most, format, flags);
   char number[64];
   ImFormatString(number, sizeof(number), format, *value);
-  ImGui::SameLine(0, kGap);
+  ImGui::SameLine(0, kNumberGap);
   muted_text(ui, number);
   ImGui::SameLine(0, std::max(0.0f, room - ImGui::CalcTextSize(number).x));
   ImGui::Dummy({0, 0});
@@ -80,7 +80,7 @@ namespace {
 // Where a tooltip of that size covers nothing that one moves on to: beside a column or a menu, under or over
 // a row.
 ImVec2 tooltip_place(const ImVec2& size) {
-  constexpr float kGap = 6;
+  constexpr float kTooltipGap = 6;
   const ImGuiWindow& window = *ImGui::GetCurrentWindow()->RootWindow;
   const ImVec2 screen = ImGui::GetIO().DisplaySize, from = ImGui::GetItemRectMin(),
                to = ImGui::GetItemRectMax();
@@ -91,10 +91,10 @@ ImVec2 tooltip_place(const ImVec2& size) {
   ImVec2 at;
   if (rows && (menu || around.GetHeight() > around.GetWidth())) {
     const bool to_the_left = around.GetCenter().x > screen.x / 2;
-    at = {to_the_left ? around.Min.x - kGap - size.x : around.Max.x + kGap, from.y};
+    at = {to_the_left ? around.Min.x - kTooltipGap - size.x : around.Max.x + kTooltipGap, from.y};
   } else {
-    at = {from.x, to.y + kGap};
-    if (at.y + size.y > screen.y) at.y = from.y - kGap - size.y;
+    at = {from.x, to.y + kTooltipGap};
+    if (at.y + size.y > screen.y) at.y = from.y - kTooltipGap - size.y;
   }
   return {std::clamp(at.x, 0.0f, std::max(0.0f, screen.x - size.x)),
           std::clamp(at.y, 0.0f, std::max(0.0f, screen.y - size.y))};

@@ -118,9 +118,9 @@ std::string write_usda(AtomicFile& out, const Scene& scene, std::span<const std:
   const auto [least, most] = extent_of(cloud, gaussians);
   UsdaText text(out);
   text.add("#usda 1.0\n(\n    defaultPrim = \"Gaussians\"\n    metersPerUnit = 1\n    upAxis = ");
-  const std::optional<glm::dvec3> up =
-      options.up ? std::optional(up_to_say(*options.up, kUsdAxes)) : std::nullopt;
-  text.add(up == glm::dvec3(0, 0, 1) ? "\"Z\"" : "\"Y\"");
+  constexpr glm::dvec3 kY(0, 1, 0), kZ(0, 0, 1);
+  const glm::dvec3 up = options.up ? up_to_say(*options.up, kUsdAxes) : kY;
+  text.add(up == kZ ? "\"Z\"" : "\"Y\"");
   text.add("\n)\n\ndef ParticleField3DGaussianSplat \"Gaussians\"\n{\n    float3[] extent = [");
   text.add(least);
   text.add(", ");
@@ -145,8 +145,7 @@ std::string write_usda(AtomicFile& out, const Scene& scene, std::span<const std:
   text.add("    uniform token sortingModeHint = \"zDepth\"\n}\n");
   text.flush();
   Losses losses = usda_losses(scene);
-  if (up && *up != glm::dvec3(0, 0, 1) && *up != glm::dvec3(0, 1, 0))
-    losses.add("up is said to be +y, as the format knows +y and +z alone");
+  if (up != kY && up != kZ) losses.add("up is said to be +y, as the format knows +y and +z alone");
   return losses.sentence();
 }
 

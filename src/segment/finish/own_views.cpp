@@ -38,13 +38,13 @@ float share_in_picture(std::span<const glm::vec3> positions, const Camera& camer
 std::vector<Camera> capture_cameras(std::span<const glm::vec3> positions, const ObjectExtent& object,
                                     std::span<const Camera> given, float near_plane, std::size_t wanted) {
   constexpr float kLeastShare = 0.7f;
-  struct Candidate {
+  struct CaptureView {
     const Camera* camera;
     float share;
     glm::vec3 direction;  // from the object, unit
     float nearest;        // cosine to the nearest that is chosen
   };
-  std::vector<Candidate> candidates;
+  std::vector<CaptureView> candidates;
   for (const Camera& camera : given) {
     const float share = share_in_picture(positions, camera, near_plane);
     const glm::vec3 away = camera.centre_world() - object.centre_world;
@@ -53,11 +53,11 @@ std::vector<Camera> capture_cameras(std::span<const glm::vec3> positions, const 
   }
   std::vector<Camera> chosen;
   while (chosen.size() < wanted && chosen.size() < candidates.size()) {
-    const auto next = chosen.empty() ? std::ranges::max_element(candidates, {}, &Candidate::share)
-                                     : std::ranges::min_element(candidates, {}, &Candidate::nearest);
+    const auto next = chosen.empty() ? std::ranges::max_element(candidates, {}, &CaptureView::share)
+                                     : std::ranges::min_element(candidates, {}, &CaptureView::nearest);
     chosen.push_back(*next->camera);
     const glm::vec3 direction = next->direction;
-    for (Candidate& c : candidates) c.nearest = std::max(c.nearest, glm::dot(c.direction, direction));
+    for (CaptureView& c : candidates) c.nearest = std::max(c.nearest, glm::dot(c.direction, direction));
     next->nearest = 2;
   }
   return chosen;

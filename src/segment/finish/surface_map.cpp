@@ -115,7 +115,7 @@ std::vector<SurfaceView> surface_views(const Drawer& scene, std::span<const std:
                                        const glm::vec3& up_world, std::span<const Camera> cameras,
                                        const Job& job) {
   constexpr OwnViewOptions kOptions{.object_px = 100, .distance_sizes = 4};
-  constexpr float kLabelled = 0.4f;
+  constexpr float kObjectShare = 0.4f;
   std::vector<SurfaceView> views;
   for (const Camera& camera : own_cameras(scene.cloud(), labels, up_world, cameras, kOptions)) {
     RasterOptions raster;
@@ -124,7 +124,7 @@ std::vector<SurfaceView> surface_views(const Drawer& scene, std::span<const std:
     raster.labels = labels;
     RasterOutput drawn = scene.draw(camera, raster, job);
     if (job.cancelled()) break;
-    views.push_back({camera, std::move(drawn.median_depth), thresholded(drawn.label_share, kLabelled)});
+    views.push_back({camera, std::move(drawn.median_depth), thresholded(drawn.label_share, kObjectShare)});
   }
   return views;
 }
@@ -132,9 +132,10 @@ std::vector<SurfaceView> surface_views(const Drawer& scene, std::span<const std:
 std::optional<SupportPlane> plane_below(std::span<const SurfaceView> views, const ObjectExtent& object,
                                         const glm::vec3& up_world) {
   std::vector<glm::vec3> on_object, on_rest;
-  constexpr int kBorderPx = 2;  // whose depth is between the two
+  constexpr int kDepthBorderPx = 2;  // whose depth is between the two
   for (const SurfaceView& view : views) {
-    const Mask object_px = eroded(view.inside, kBorderPx), near_px = dilated(view.inside, kBorderPx);
+    const Mask object_px = eroded(view.inside, kDepthBorderPx),
+               near_px = dilated(view.inside, kDepthBorderPx);
     for (int y = 0; y < view.depth.height(); y += 2)
       for (int x = 0; x < view.depth.width(); x += 2) {
         if (!(view.depth.at(x, y) > 0)) continue;

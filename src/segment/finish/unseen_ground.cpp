@@ -11,9 +11,10 @@ namespace splatcut {
 
 namespace {
 
-// What a view shows of a place on the plane; of several views the first in this order counts. kEmpty: nothing
-// is as high as the plane there. kOther: the place is beside the picture, or something else stands before it.
-enum class Shown { kGround, kEmpty, kObject, kOther };
+// What a view shows of a place on the plane; of several views the first in this order counts. kNothing:
+// nothing is as high as the plane there. kOther: the place is beside the picture, or something else stands
+// before it.
+enum class Shown { kGround, kNothing, kObject, kOther };
 
 Shown shown_at(const SurfaceView& view, const SurfaceMap& map, const glm::vec3& world) {
   const glm::vec3 at = view.camera.camera_from_world(world);
@@ -24,9 +25,9 @@ Shown shown_at(const SurfaceView& view, const SurfaceMap& map, const glm::vec3& 
     return Shown::kOther;
   const int x = static_cast<int>(px.x), y = static_cast<int>(px.y);
   if (view.inside.at(x, y)) return Shown::kObject;
-  if (!(view.depth.at(x, y) > 0)) return Shown::kEmpty;
+  if (!(view.depth.at(x, y) > 0)) return Shown::kNothing;
   const float height = map.height_radii(view.world(x, y));
-  if (height < -SurfaceMap::kOnPlane) return Shown::kEmpty;  // seen through
+  if (height < -SurfaceMap::kOnPlane) return Shown::kNothing;  // seen through
   return height <= SurfaceMap::kOnPlane ? Shown::kGround : Shown::kOther;
 }
 

@@ -162,8 +162,8 @@ TEST_CASE("first view: the sample without its cameras shows what stands on the t
   options.colour = false;
   options.depth = true;
   const RasterOutput picture = rasterize(scene.cloud, view, options);
-  for (const char object : {1, 2, 3}) {  // mug, apple, orange
-    CAPTURE(static_cast<int>(object));
+  for (const int object : {1, 2, 3}) {  // mug, apple, orange
+    CAPTURE(object);
     std::size_t all = 0, framed = 0, seen = 0;
     for (std::size_t g = 0; g < scene.cloud.size(); ++g) {
       if (labels.at(scene.cloud.file_row[g]) != object) continue;

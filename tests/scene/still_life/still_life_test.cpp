@@ -272,12 +272,12 @@ TEST_CASE("still life: what no camera sees is missing on demand, such as the tab
     if (whole.label[g] == label_of(whole, "books")) books += whole.cloud.position[g], ++count;
   books /= count;
   const auto below = [&](const LabelledScene& scene) {
-    std::size_t below = 0;
+    std::size_t low = 0;
     for (std::size_t g = 0; g < scene.label.size(); ++g) {
       const glm::vec3& p = scene.cloud.position[g];
-      below += scene.label[g] == 0 && p.y < 0.03f && std::hypot(p.x - books.x, p.z - books.z) < 0.1f;
+      low += scene.label[g] == 0 && p.y < 0.03f && std::hypot(p.x - books.x, p.z - books.z) < 0.1f;
     }
-    return below;
+    return low;
   };
   CHECK(below(whole) > 5);
   CHECK(2 * below(seen) < below(whole));
