@@ -98,8 +98,8 @@ std::vector<Meaning> worth(const PartsScene& scene, const ClickSelection& after_
 std::vector<Meaning> worth_of_boxed(const PartsScene& scene, const LeafView& view, const Stroke& stroke,
                                     const SelectionModel& model) {
   const PartHierarchy& parts = scene.parts;
-  const std::vector<PartMeaning> found = box_meanings(
-      parts, view, box_in_picture(stroke, view.camera.width_px, view.camera.height_px), model.box);
+  const BoxPx box = box_in_picture(stroke, view.camera.width_px, view.camera.height_px);
+  const std::vector<PartMeaning> found = BoxMeanings(parts, view, box, model.box).all();
   std::vector<Meaning> meanings;
   for (const PartMeaning& m : found) meanings.push_back({m.terms, 0});
   for (std::size_t v = 0; v < scene.truths.size(); ++v) {

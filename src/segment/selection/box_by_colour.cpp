@@ -4,7 +4,6 @@
 
 #include "segment/masks/colour_overlap.h"
 #include "segment/masks/refine_mask.h"
-#include "segment/selection/box_meanings.h"
 #include "segment/superpoints/part_view.h"
 
 namespace splatcut {
@@ -34,15 +33,14 @@ std::vector<std::uint8_t> leaves_by_colour(const PartHierarchy& parts, const Lea
   return parts_of_mask(parts, view_parts(parts, picture_of(view).leaf), mask, options);
 }
 
-bool stands_out_more(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
-                     std::span<const std::uint8_t> by_colour, std::span<const std::uint8_t> others,
-                     const TermValues& weights) {
+bool stands_out_more(const BoxMeanings& meanings, const LeafView& view, const BoxPx& box,
+                     std::span<const std::uint8_t> by_colour, std::span<const std::uint8_t> others) {
   constexpr float kOverlap = 4, kLeast = 0.55f;
   if (view.colour.empty() || std::ranges::count(by_colour, 1) == 0) return false;
   const glm::vec2 margin_px = 0.25f * box.size_px();
   const BoxPx around{box.low_px - margin_px, box.high_px + margin_px};
   const auto cost = [&](std::span<const std::uint8_t> leaves) {
-    return cost_in_box(parts, view, box, leaves, weights) +
+    return meanings.cost(leaves) +
            kOverlap * overlap_of_colours(view.colour, shown(view.leaves, view.camera, leaves), around);
   };
   return cost(others) - cost(by_colour) > kLeast;

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "segment/selection/leaf_view.h"
+#include "segment/selection/box_meanings.h"
 
 namespace splatcut {
 
@@ -22,9 +22,9 @@ namespace splatcut {
 std::vector<std::uint8_t> leaves_by_colour(const PartHierarchy& parts, const LeafView& view,
                                            const Stroke& box, const MaskToPartsOptions& options = {});
 
-// Whether the leaves found by colour are a better answer to the box than the others.
-bool stands_out_more(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
-                     std::span<const std::uint8_t> by_colour, std::span<const std::uint8_t> others,
-                     const TermValues& weights);
+// Whether the leaves found by colour are a better answer to the box than the others. meanings: of this box in
+// this view.
+bool stands_out_more(const BoxMeanings& meanings, const LeafView& view, const BoxPx& box,
+                     std::span<const std::uint8_t> by_colour, std::span<const std::uint8_t> others);
 
 }  // namespace splatcut

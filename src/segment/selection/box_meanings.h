@@ -15,6 +15,7 @@
 // Cost: some 10 ms. The result depends on the arguments alone.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,19 +25,45 @@
 
 namespace splatcut {
 
-// The meanings, likeliest first; empty if nothing shows in the box. box: in the view's pixels.
-std::vector<PartMeaning> box_meanings(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
-                                      const TermValues& weights);
+// Of a leaf or a part: its pixels outside of the box, and inside by column and by row of it.
+struct PxInBox {
+  static constexpr int kBins = 20;  // of the box's extent
+  using Profile = std::array<float, kBins>;
+  float outside = 0;
+  Profile across{}, down{};
 
-// What the trees agree on: flags per leaf, 1 for those with more than half of the votes, or with a lower
-// share, down to a quarter, where what that adds fills the box better (kShort, kSpill and kFills of all these
-// leaves together) by more than a minority costs. None where no leaf has more than half. shares: of the
-// votes, per leaf (part_votes.h), or empty.
-std::vector<std::uint8_t> agreed_in_box(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
-                                        std::span<const float> shares, const TermValues& weights);
+  float inside() const;
+  PxInBox& operator+=(const PxInBox& other);
+};
 
-// Cost of a set of leaves by its kShort, kSpill and kFills; infinite if none of it shows in the box.
-float cost_in_box(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
-                  std::span<const std::uint8_t> set, const TermValues& weights);
+// The parts, view and weights must live as long as it does. box: in the view's pixels.
+class BoxMeanings {
+ public:
+  BoxMeanings(const PartHierarchy& parts, const LeafView& view, const BoxPx& box, const TermValues& weights);
+
+  // The meanings, likeliest first; empty if nothing shows in the box.
+  std::vector<PartMeaning> all() const;
+
+  // What the trees agree on: flags per leaf, 1 for those with more than half of the votes, or with a lower
+  // share, down to a quarter, where what that adds fills the box better (kShort, kSpill and kFills of all
+  // these leaves together) by more than a minority costs. None where no leaf has more than half. shares: of
+  // the votes, per leaf (part_votes.h), or empty.
+  std::vector<std::uint8_t> agreed(std::span<const float> shares) const;
+
+  // Cost of a set of leaves by its kShort, kSpill and kFills; infinite if none of it shows in the box.
+  float cost(std::span<const std::uint8_t> set) const;
+
+ private:
+  void set_terms(const PxInBox& of, float inside_px, TermValues* terms) const;
+  float cost(const PxInBox& of) const;
+  std::vector<PartMeaning> in_tree(std::uint32_t t, const std::vector<PartLooks>& here) const;
+
+  const PartHierarchy& parts_;
+  const LeafView& view_;
+  const TermValues& weights_;
+  float area_px_;  // of the box
+  std::vector<PxInBox> leaves_;
+  float all_px_ = 0;  // of everything in the box
+};
 
 }  // namespace splatcut

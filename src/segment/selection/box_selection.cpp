@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "segment/selection/box_by_colour.h"
-#include "segment/selection/box_meanings.h"
 #include "segment/selection/click_selection.h"
 
 namespace splatcut {
@@ -17,29 +16,28 @@ bool any(const Leaves& leaves) {
 }
 
 // What the trees agree on, else the likeliest single part.
-Leaves what_fills(const PartHierarchy& parts, const LeafView& view, const BoxPx& box,
-                  std::span<const PartMeaning> found, const TermValues& weights) {
-  Leaves agreed = agreed_in_box(parts, view, box, vote_shares(parts, found), weights);
+Leaves what_fills(const PartHierarchy& parts, const BoxMeanings& meanings,
+                  std::span<const PartMeaning> found) {
+  Leaves agreed = meanings.agreed(vote_shares(parts, found));
   return any(agreed) ? agreed : leaves_of(parts, found.front().tree, found.front().node);
 }
 
 // What fills the box, what colour says of it beside that, or before it where that stands out clearly more,
 // then the likeliest single parts: each looks clearly different from all before.
 std::vector<Leaves> distinct_meanings(const PartHierarchy& parts, const LeafView& view, const Stroke& stroke,
-                                      const Leaves& fills, std::span<const PartMeaning> found,
-                                      const SelectionModel& model) {
-  const BoxPx box = box_in_picture(stroke, view.camera.width_px, view.camera.height_px);
+                                      const BoxPx& box, const BoxMeanings& meanings, const Leaves& fills,
+                                      std::span<const PartMeaning> found, float offered) {
   std::vector<Leaves> meant;
   const auto add = [&](const Leaves& leaves) {
     const auto alike = [&](const Leaves& other) { return look_alike(view, other, leaves); };
     if (any(leaves) && std::ranges::none_of(meant, alike)) meant.push_back(leaves);
   };
   const Leaves by_colour = leaves_by_colour(parts, view, stroke);
-  const bool colour_first = stands_out_more(parts, view, box, by_colour, fills, model.box);
+  const bool colour_first = stands_out_more(meanings, view, box, by_colour, fills);
   add(colour_first ? by_colour : fills);
   add(colour_first ? fills : by_colour);
   for (const PartMeaning& meaning : found) {
-    if (std::ssize(meant) == kMostMeanings || meaning.cost > found.front().cost + model.offered) break;
+    if (std::ssize(meant) == kMostMeanings || meaning.cost > found.front().cost + offered) break;
     add(leaves_of(parts, meaning.tree, meaning.node));
   }
   return meant;
@@ -50,11 +48,13 @@ std::vector<Leaves> distinct_meanings(const PartHierarchy& parts, const LeafView
 bool ClickSelection::take_box(const LeafView& view, const Stroke& stroke) {
   const bool object = stroke.label == SeedLabel::kObject;
   const BoxPx box = box_in_picture(stroke, view.camera.width_px, view.camera.height_px);
-  const std::vector<PartMeaning> found = box_meanings(parts_, view, box, model_.box);
+  const BoxMeanings meanings(parts_, view, box, model_.box);
+  const std::vector<PartMeaning> found = meanings.all();
   if (found.empty()) return false;
-  Leaves leaves = what_fills(parts_, view, box, found, model_.box);
+  Leaves leaves = what_fills(parts_, meanings, found);
   if (!any_) {
-    const std::vector<Leaves> meant = distinct_meanings(parts_, view, stroke, leaves, found, model_);
+    const std::vector<Leaves> meant =
+        distinct_meanings(parts_, view, stroke, box, meanings, leaves, found, model_.offered);
     Offers offers;
     for (const Leaves& some : meant) offers.masks.push_back(shown(view.leaves, view.camera, some));
     offers_ = std::make_shared<const Offers>(std::move(offers));

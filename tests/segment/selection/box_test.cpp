@@ -58,7 +58,8 @@ TEST_CASE("box: its terms, worked out by hand") {
   const PartHierarchy parts = four_leaves();
   TermValues fills_alone{};
   weight(&fills_alone, Term::kFills) = 2;
-  const auto found = box_meanings(parts, stripes(parts), {{0, 0}, {20, 10}}, fills_alone);
+  const LeafView view = stripes(parts);
+  const auto found = BoxMeanings(parts, view, {{0, 0}, {20, 10}}, fills_alone).all();
   // Leaves 2 and 3 and their pair do not show in the box.
   CHECK(found.size() == 4);
   // Twenty bins across are a column of ten pixels each. The first hundredth of leaf 0 is a tenth of a bin:
@@ -75,7 +76,7 @@ TEST_CASE("box: its terms, worked out by hand") {
   const PartMeaning& all = of_node(found, 6);
   CHECK(weight(all.terms, Term::kSpill) == doctest::Approx(1));  // as much outside as inside
   CHECK(std::ranges::is_sorted(found, {}, &PartMeaning::cost));
-  CHECK(box_meanings(parts, stripes(parts), {{5, 5}, {5, 9}}, fills_alone).empty());
+  CHECK(BoxMeanings(parts, view, {{5, 5}, {5, 9}}, fills_alone).all().empty());
 }
 
 // Three trees: two hold leaves 0 and 1 as one part, one holds 0 and 2.
@@ -108,7 +109,7 @@ TEST_CASE("box: what a minority of the trees holds belongs to it where the box w
   const TermValues weights = SelectionModel().box;
   const std::vector<float> shares = {0.6f, 0.6f, 0.4f, 0.1f};
   const auto agreed = [&](float to_px) {
-    return agreed_in_box(parts, view, {{0, 0}, {to_px, 10}}, shares, weights);
+    return BoxMeanings(parts, view, {{0, 0}, {to_px, 10}}, weights).agreed(shares);
   };
   CHECK(agreed(20) == Labels{1, 1, 0, 0});
   CHECK(agreed(22) == Labels{1, 1, 0, 0});  // drawn loosely
@@ -116,7 +117,7 @@ TEST_CASE("box: what a minority of the trees holds belongs to it where the box w
   CHECK(agreed(30) == Labels{1, 1, 1, 0});
   const std::vector<float> torn = {0.4f, 0.3f, 0.3f, 0};  // there is no majority to add to
   for (const std::vector<float>& none : {torn, {}})
-    CHECK(agreed_in_box(parts, view, {{0, 0}, {30, 10}}, none, weights) == Labels{0, 0, 0, 0});
+    CHECK(BoxMeanings(parts, view, {{0, 0}, {30, 10}}, weights).agreed(none) == Labels{0, 0, 0, 0});
 }
 
 TEST_CASE("box: clicks correct it, and it leaves what clicks have decided") {
@@ -201,7 +202,7 @@ TEST_CASE("box: a click may say that it meant another part, if that is hardly de
     return selection.labels();
   };
   const auto dearer_by = [&](const BoxPx& box, std::uint32_t node) {
-    const std::vector<PartMeaning> found = box_meanings(parts, view, box, model.box);
+    const std::vector<PartMeaning> found = BoxMeanings(parts, view, box, model.box).all();
     return of_node(found, node).cost - found.front().cost;
   };
   const Strokes larger = {columns(0, 25), object(25)};  // the pair that holds it spills more than all four
