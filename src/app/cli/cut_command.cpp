@@ -46,8 +46,8 @@ void warn_of_doubts(const std::vector<CutObject>& objects, bool quiet) {
   for (const CutObject& object : objects) {
     const std::string whose = object.name.empty() ? "" : object.name + ": ";
     for (const std::string& sentence : doubts(object.result)) warn(whose + sentence, quiet);
-    if (object.name.empty() && object.result.ambiguous && !quiet)
-      to_stderr("--scale takes a smaller or a larger one\n");
+    if (object.name.empty() && unsure(object.result) && !quiet)
+      to_stderr("--choice takes another meaning, --scale a smaller or a larger part\n");
   }
 }
 

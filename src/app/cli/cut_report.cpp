@@ -43,7 +43,10 @@ json cut_json(const CutResult& result, const std::vector<StageTime>& times, bool
                 {"arcs", result.cut.arcs},
                 {"energy", result.cut.energy},
                 {"flow", result.cut.flow}}},
+              {"certainty", result.certainty},
               {"doubts", doubts(result)}};
+  if (!result.meanings.empty())
+    out.update({{"choice", result.choice + 1}, {"choices", result.meanings.size()}});
   if (!with_times) return out;
   out["enough"]["gaussians"] = result.cut.touched;  // fewer where the session cut there before
   out["stages"] = stages;
@@ -60,8 +63,7 @@ json entry_json(const CutObject& object, const EdgesReport& edges, std::size_t i
                 {"camera", object.camera.name},
                 {"gaussians", gaussians_of(object)},
                 {"left_to_later", object.found - gaussians_of(object)},
-                {"edges", edges.json(times)},
-                {"ambiguous", object.result.ambiguous}});
+                {"edges", edges.json(times)}});
   return entry;
 }
 

@@ -32,6 +32,7 @@ nlohmann::json settings_json(const CutArguments& args, const ObjectInput& input,
       {"coarse", settings.cut.coarse},
       {"first_mask", args.masks.first_mask.empty() ? "as the preset" : args.masks.first_mask},
       {"scale", args.scale},
+      {"choice", args.choice.value_or(1)},
       {"parts_only", settings.parts_only},
       {"values", values_json(settings)}};
   if (!input.mask.empty()) said["mask"] = input.mask.string();
@@ -55,6 +56,7 @@ std::vector<CutObject> objects_of(const CutArguments& args, const ObjectInput& i
   if (objects.empty()) objects.push_back({{}, std::move(request), chosen->camera, {}});
   for (CutObject& object : objects) {
     object.request.part_step = args.scale;
+    if (args.choice) object.request.choice = *args.choice - 1;
     check_inside(object.request);
   }
   return objects;
@@ -81,6 +83,18 @@ std::vector<EdgesReport> write_cutouts(const CutoutFolder& to, const std::vector
   return edges;
 }
 
+// Says where there are fewer meanings than the one that was chosen.
+void warn_of_choices(const std::vector<CutObject>& objects, const CutRunOptions& options) {
+  for (const CutObject& object : objects)
+    if (const CutResult& result = object.result;
+        result.choice < static_cast<std::size_t>(object.request.choice))
+      options.warn(fmt::format(
+          "{}what was said first can mean {} only: this is {}, not {}",
+          object.name.empty() ? "" : object.name + ": ",
+          result.meanings.size() == 1 ? "one thing" : fmt::format("{} things", result.meanings.size()),
+          result.choice + 1, object.request.choice + 1));
+}
+
 }  // namespace
 
 void CutArguments::add_to(CLI::App& command) {
@@ -99,6 +113,14 @@ void CutArguments::add_to(CLI::App& command) {
       .add_option("--scale", scale,
                   "Next larger (+1, +2, ...) or smaller (-1, ...) part for the first click or box")
       ->check(CLI::Range(-100, 100))
+      ->excludes("--mask")
+      ->excludes("--masks")
+      ->excludes("--text");
+  command
+      .add_option("--choice", choice,
+                  "Another meaning of the first click or box: 1 the likeliest (default), 2 or 3 the next")
+      ->check(CLI::Range(1, static_cast<int>(kMostMeanings)))
+      ->excludes("--seeds")  // says it itself
       ->excludes("--mask")
       ->excludes("--masks")
       ->excludes("--text");
@@ -157,6 +179,7 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   const std::vector<std::uint8_t> owner = cut_objects(&objects, &session, settings, job);
   end_progress();
   stop_if_cancelled(job, "splatcut cut");
+  warn_of_choices(objects, options);
   RunReport report{scene,        said, objects, {}, 0, shared->load_ms(), shared->load_ms() + ms_since(start),
                    options.times};
   CutoutFolder to{folder,       scene,       session.blocks(),          chosen.up_world,

@@ -33,6 +33,7 @@ struct CutArguments {
   CameraOptions camera;
   MaskOptions masks;
   int scale = 0;
+  std::optional<int> choice;  // 1: the likeliest meaning
   std::optional<float> smoothness;
   bool coarse = false;
 

@@ -242,7 +242,9 @@ nlohmann::json Conversation::object_json() const {
   const CutResult& result = object();
   nlohmann::json reply = {{"gaussians", std::ranges::count(result.labels, 1)}, {"doubts", doubts(result)}};
   if (!result.meanings.empty())
-    reply.update({{"choice", result.choice + 1}, {"choices", result.meanings.size()}});
+    reply.update({{"choice", result.choice + 1},
+                  {"choices", result.meanings.size()},
+                  {"certainty", result.certainty}});
   if (result.sizes > 0) reply.update({{"size", result.size + 1}, {"sizes", result.sizes}});
   return reply;
 }

@@ -366,7 +366,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   const std::string box =
       *before == *labels_now() ? "" : added_by_box(ws_.history, order.object, ws_.context());
   const std::string shared = box + shared_with(ws_, order.object);
-  const bool offers_sizes = result->ambiguous && ws_.tools.scale_armed();
+  const bool offers_sizes = unsure(*result) && ws_.tools.scale_armed();
   ws_.say(doubt.empty() ? Message::Kind::kDone : Message::Kind::kInfo,
           fmt::format("{}: {}{}{}", name, changed, shared,
                       !doubt.empty() ? ". But " + doubt

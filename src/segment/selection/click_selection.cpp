@@ -118,12 +118,6 @@ std::vector<std::uint8_t> ClickSelection::first_leaves(const LeafView& view, con
   note_offers(view, found);
   choice_taken_ = std::min(static_cast<std::size_t>(std::max(choice_, 0)), offers_->meant.size() - 1);
   const Candidate& chosen = offers_->meant[choice_taken_];
-  constexpr float kAlike = 1.5f;
-  const float chosen_px = found.chains[chosen.chain].changed_px[chosen.index];
-  ambiguous_ = std::ranges::any_of(found.candidates, [&](const Candidate& c) {
-    const float folds = found.chains[c.chain].changed_px[c.index] / chosen_px;
-    return c.cost < chosen.cost + model_.doubt && (folds > kAlike || folds < 1 / kAlike);
-  });
   std::vector<PartMeaning> all;
   const auto add = [&](std::span<const Candidate> some) {
     for (const Candidate& c : some)
@@ -145,7 +139,10 @@ std::vector<std::uint8_t> ClickSelection::note_sizes(const LeafView& view, const
   std::vector<Mask> masks;
   for (std::size_t i = 0; i < sizes_; ++i) masks.push_back(shown(view.leaves, view.camera, sizes.leaves(i)));
   size_masks_ = std::make_shared<const std::vector<Mask>>(std::move(masks));
-  return sizes.leaves(size_);
+  std::vector<std::uint8_t> taken = sizes.leaves(size_);
+  const bool chosen = choice_taken_ > 0 || size_ != likeliest_size_;
+  certainty_ = chosen ? 1 : likeness(parts_, *selected_.meanings, taken, view.leaf_px);
+  return taken;
 }
 
 std::vector<std::uint8_t> ClickSelection::leaves_changed(const Answers& found,

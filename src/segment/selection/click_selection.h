@@ -73,8 +73,9 @@ class ClickSelection {
   std::span<const Mask> size_masks() const {
     return *size_masks_;
   }  // of each size, in the first stroke's view
-  // True if a clearly larger or smaller part was nearly as likely.
-  bool ambiguous() const { return ambiguous_; }
+  // How alike all is that the first stroke can mean and what was taken of it: likeness() in its view. 1 where
+  // another meaning or size was chosen, and before it.
+  float certainty() const { return certainty_; }
 
   // Masks of the first click's meanings in its view, the likeliest first: those that are not far less likely
   // than the best and look clearly different, at most kMostMeanings. Empty before the first click. For a box,
@@ -129,7 +130,8 @@ class ClickSelection {
   std::vector<std::uint8_t> by_colour_;  // 1 where said_ is so by colour alone
   bool any_ = false;
   std::size_t sizes_ = 0, size_ = 0, likeliest_size_ = 0, choice_taken_ = 0;
-  bool ambiguous_ = false, spot_alone_ = false;
+  bool spot_alone_ = false;
+  float certainty_ = 1;
 };
 
 }  // namespace splatcut

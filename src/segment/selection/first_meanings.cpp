@@ -1,8 +1,23 @@
 #include "segment/selection/first_meanings.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace splatcut {
+
+float likeness(const PartHierarchy& parts, std::span<const PartMeaning> meanings,
+               std::span<const std::uint8_t> set, std::span<const float> leaf_px) {
+  constexpr float kMostDearer = 6;
+  float sum = 0, all = 0;
+  for (const PartMeaning& meaning : meanings) {
+    const float dearer = meaning.cost - meanings.front().cost;
+    if (dearer > kMostDearer) break;
+    const float likely = std::exp(-dearer);
+    sum += likely * iou(leaf_px, set, leaves_of(parts, meaning.tree, meaning.node));
+    all += likely;
+  }
+  return sum / all;
+}
 
 std::vector<PartMeaning> meanings_left(const PartHierarchy& parts, const SelectedParts& selected,
                                        std::uint32_t leaf, bool object) {

@@ -162,14 +162,17 @@ Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint3
   return from;
 }
 
-bool look_alike(const LeafView& view, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
-  constexpr float kClearly = 0.8f;  // IoU below which a person sees two things
-  float both = 0, either = 0;       // pixels
-  for (std::size_t l = 0; l < view.leaf_px.size(); ++l) {
-    both += a[l] && b[l] ? view.leaf_px[l] : 0;
-    either += a[l] || b[l] ? view.leaf_px[l] : 0;
+float iou(std::span<const float> leaf_px, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+  float both = 0, either = 0;  // pixels
+  for (std::size_t l = 0; l < leaf_px.size(); ++l) {
+    both += a[l] && b[l] ? leaf_px[l] : 0;
+    either += a[l] || b[l] ? leaf_px[l] : 0;
   }
-  return both >= kClearly * either;
+  return either > 0 ? both / either : 1;
+}
+
+bool look_alike(const LeafView& view, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+  return iou(view.leaf_px, a, b) >= kLookAlike;
 }
 
 Mask shown(const PixelWeights& weights, const Camera& camera, std::span<const std::uint8_t> labels) {

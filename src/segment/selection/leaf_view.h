@@ -59,8 +59,12 @@ inline constexpr std::uint32_t kNoLevel = 0xffffffffu;  // level of what never j
 // pixel shows the set; kNoLevel: it never does. level: per leaf the level at which it joins, or kNoLevel.
 Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint32_t> level);
 
-// True if a person would take two sets of leaves for the same thing: the IoU of their pixels is at least 0.8.
-// a, b: flags per leaf.
+// IoU of two sets of leaves; 1 where neither has a pixel. leaf_px: pixels per leaf. a, b: flags per leaf.
+float iou(std::span<const float> leaf_px, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
+
+inline constexpr float kLookAlike = 0.8f;  // IoU below which a person sees two things
+
+// True if a person would take two sets of leaves for the same thing. a, b: flags per leaf.
 bool look_alike(const LeafView& view, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 
 // Mask of a labelling. labels: one per group of the weights (Gaussian or leaf), 1 = object.

@@ -37,7 +37,7 @@ struct CutResult {
   std::vector<Mask> meanings;     // of the first click in its view, the likeliest first; see ClickSelection
   std::size_t choice = 0;         // the one taken
   bool spot_alone = false;        // the last stroke changed the spot around it alone: no part fits it
-  bool ambiguous = false;         // another size was nearly as likely
+  double certainty = 1;           // of what was said first, [0, 1]; see ClickSelection
   std::vector<ViewReport> views;  // the reference, the others, then stroked views that correct
   std::string why_enough;         // why there are no more views
   CutFigures cut;                 // of the last cut

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "segment/masks/mask_tools.h"
+#include "segment/selection/leaf_view.h"
 
 namespace splatcut {
 
@@ -45,16 +46,19 @@ void add_doubts_of_first(std::span<const ViewReport> views, std::vector<std::str
 
 }  // namespace
 
+bool unsure(const CutResult& result) {
+  return result.certainty < kLookAlike;
+}
+
 std::vector<std::string> doubts(const CutResult& result, double view_agreement) {
   std::vector<std::string> sentences = doubts_of(result, view_agreement);
-  if (result.meanings.size() > 1)
-    sentences.insert(sentences.begin(),
-                     fmt::format("what was said first could mean one of {} things: this is {}",
-                                 result.meanings.size(), result.choice + 1));
-  if (result.ambiguous)
-    sentences.insert(sentences.begin(),
-                     fmt::format("the first click could mean a part of another size: this is size {} of {}",
-                                 result.size + 1, result.sizes));
+  if (!unsure(result)) return sentences;
+  sentences.insert(sentences.begin(),
+                   result.meanings.size() > 1
+                       ? fmt::format("what was said first could mean one of {} things: this is {}",
+                                     result.meanings.size(), result.choice + 1)
+                       : fmt::format("what was said first could mean another size: this is {} of {}",
+                                     result.size + 1, result.sizes));
   return sentences;
 }
 

@@ -10,11 +10,14 @@
 
 namespace splatcut {
 
-// A sentence each, none where nothing is in doubt: the first click means something else, or another size,
-// nearly as likely; the last click found no part to change and changed the spot around it alone; the object
-// is small in the first view and in those clicked later, or runs out of the first; masks were left out
-// because they disagree with the others; so many masks that count disagree with the cutout that no majority
-// was left.
+// True if what was said first may well mean something else: what was taken looks less alike to all that it
+// can mean than kLookAlike, in the mean by likelihood. docs/study.md has how often it fails then.
+bool unsure(const CutResult& result);
+
+// A sentence each, none where nothing is in doubt: unsure(); the last click found no part to change and
+// changed the spot around it alone; the object is small in the first view and in those clicked later, or runs
+// out of the first; masks were left out because they disagree with the others; so many masks that count
+// disagree with the cutout that no majority was left.
 std::vector<std::string> doubts(const CutResult& result,
                                 double view_agreement = CutSettings{}.view_agreement);
 

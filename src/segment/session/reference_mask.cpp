@@ -46,7 +46,7 @@ void select_by_strokes(const CutTask& task, const Camera& camera, Image<float>* 
   result->meanings.assign(picked.meanings().begin(), picked.meanings().end());
   result->choice = picked.choice();
   result->spot_alone = picked.spot_alone();
-  result->ambiguous = picked.ambiguous();
+  result->certainty = picked.certainty();
   result->said = picked.said();
   join_enclosed_by(task, parts_in(task, camera, median_depth), &result->labels);
   obey_strokes(result);

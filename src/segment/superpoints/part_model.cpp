@@ -87,7 +87,6 @@ std::vector<PartWeight> make_table() {
       WEIGHT(selection.least_visible, selection.least_visible, false),
       WEIGHT(selection.nearer_majority, selection.nearer_majority, false),
       WEIGHT(selection.offered, selection.offered, false),
-      WEIGHT(selection.doubt, selection.doubt, false),
       WEIGHT(of_mask.tolerance, of_mask.tolerance, false),
       WEIGHT(of_mask.least_visible, of_mask.least_visible, false),
   };

@@ -114,7 +114,6 @@ struct SelectionModel {
   float least_visible = 0.3f;    // share of a leaf that the view must show for the disc to decide it
   float nearer_majority = 0.5f;  // of trees, for a leaf to follow a correction
   float offered = 4;             // ln 55: what is at least a 55th as likely as the likeliest is offered
-  float doubt = 0.7f;            // ln 2: a part of another size that is half as likely makes it ambiguous
 
   SelectionModel();
   bool operator==(const SelectionModel&) const = default;

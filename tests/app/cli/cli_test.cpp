@@ -150,6 +150,39 @@ TEST_CASE("a box on the command line is the box of a file of seeds, and cuts wha
   CHECK(place.text("corrected/labels.u8") != place.text("by_box/labels.u8"));
 }
 
+TEST_CASE("cut --choice takes the meaning that the key of seeds takes, and says where there are fewer") {
+  StillLife& life = still_life();
+  const Workplace& place = life.place;
+  const std::string sample = project_folder() + "/assets/sample/";
+  const auto cut = [&](const std::string& said, const std::string& to) {
+    const Result result =
+        place.run("cut " + sample + "sample.compressed.ply --cameras " + sample +
+                  "cameras.json --camera 0 --parts-only --edges keep --write labels " + said + " -o " + to);
+    CHECK(result.code == 0);
+    return json::parse(place.text(to + "/report.json"));
+  };
+  place.write("second.json", R"({"clicks": [{"label": "object", "x": 330, "y": 300}], "choice": 2})");
+  const json first = cut("--click 330,300", "first"), second = cut("--click 330,300 --choice 2", "second");
+  REQUIRE(first["choices"] > 1);
+  CHECK(first["choice"] == 1);
+  CHECK(second["choice"] == 2);
+  CHECK(second["choices"] == first["choices"]);
+  CHECK(place.text("first/labels.u8") != place.text("second/labels.u8"));
+  cut("--seeds second.json", "by_file");
+  CHECK(place.text("by_file/labels.u8") == place.text("second/labels.u8"));
+  // What may well be another thing is a doubt, until one is chosen.
+  CHECK(first["certainty"] < 0.8);
+  CHECK(first["doubts"].size() == 1);
+  CHECK(second["certainty"] == 1);
+  CHECK(second["doubts"].empty());
+
+  const Result none = place.run(life.cut("--click " + life.click + " --choice 3 --write labels -o third"));
+  CHECK(none.code == 0);
+  const json third = json::parse(place.text("third/report.json"));
+  REQUIRE(third["choices"] < 3);
+  CHECK(none.err.find("only: this is") != std::string::npos);
+}
+
 TEST_CASE("a relative cache folder is ignored") {
   StillLife& life = still_life();
   CHECK(life.place

@@ -22,6 +22,7 @@ TEST_CASE("a value that its option does not take ends every command with 1, and 
                                                         {click, "--views -1"},
                                                         {click, "--views 401"},
                                                         {click, "--scale -101"},
+                                                        {click, "--choice 4"},
                                                         {click, "--smoothness foo"},
                                                         {click, "--write foo"},
                                                         {click, "--edges foo"},
@@ -65,7 +66,8 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   CHECK(place.run("cut --help").code == 0);
   for (const char* usage :
        {"fly", "cut", "info", "render a.ply", "cut a.ply -o b --no-such-option", "info a.ply --threads",
-        "cut a.ply -o b --mask a.png --scale 1", "cut a.ply -o b --mask a.png --first-mask parts"})
+        "cut a.ply -o b --mask a.png --scale 1", "cut a.ply -o b --seeds a.json --choice 2",
+        "cut a.ply -o b --mask a.png --first-mask parts"})
     CHECK_MESSAGE(place.run(usage).code == 2, usage);
   // NaN is no number, 255 no share of 1; what is out of range is said as it was given.
   const std::string view = "render " + life.scene + " --size 8x8 -o a.png ";
@@ -128,7 +130,7 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused(life.cut("-o cut --click 1,1 --smoothness -1"), {"smoothness", "-1", "from 0 to 500"});
   place.write("w.splatcut.json", "{}");
   for (const char* beside : {"made/small.ply", "--click 1,1", "--preset paper", "--set trim=0", "--coarse",
-                             "--masks masks", "--camera 0", "--scale 1", "--smoothness 2"})
+                             "--masks masks", "--camera 0", "--scale 1", "--choice 2", "--smoothness 2"})
     refused(std::string("cut --work w.splatcut.json -o cut ") + beside,
             {"--work", "cannot go with",
              std::string_view(beside).starts_with("--")

@@ -290,12 +290,15 @@ TEST_CASE("doubts: another size, masks left out, and a cutout that most masks sp
     view.confidence = 0.95;
   }
   CHECK(doubts(report).empty());
-  report.ambiguous = true;
+  report.certainty = 0.79;
   report.sizes = 5;
   report.size = 1;
   CHECK(doubts(report) ==
-        std::vector<std::string>{"the first click could mean a part of another size: this is size 2 of 5"});
-  report.ambiguous = false;
+        std::vector<std::string>{"what was said first could mean another size: this is 2 of 5"});
+  report.meanings.resize(3);
+  CHECK(doubts(report) ==
+        std::vector<std::string>{"what was said first could mean one of 3 things: this is 1"});
+  report.certainty = 0.81;
   report.views[1].used = false;
   report.views[1].reason = "the object is hidden here";
   CHECK(doubts(report).empty());

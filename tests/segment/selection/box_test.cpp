@@ -141,8 +141,7 @@ TEST_CASE("box: where nothing is, it is refused") {
 
 TEST_CASE("box: what else it can mean looks clearly different, and is taken when chosen") {
   const PartHierarchy parts = four_leaves();
-  SelectionModel model = boxes_and_borders();
-  model.doubt = 100;
+  const SelectionModel model = boxes_and_borders();
   const LeafView view = stripes(parts);
   std::vector<Labels> meant;
   for (int choice = 0; choice < kMostMeanings; ++choice) {

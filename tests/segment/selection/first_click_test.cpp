@@ -51,6 +51,28 @@ TEST_CASE("selection: what is likely enough and shows something else is offered,
   CHECK(sure.meanings().size() == 1);
 }
 
+TEST_CASE("selection: how alike all is that a click can mean, until another meaning or size is chosen") {
+  SelectionModel unsure = borders_alone();
+  weight(&unsure.first, Term::kCut) = 0.09f;
+  const PartHierarchy parts = four_leaves();
+  const LeafView view = stripes(parts);
+  const auto certainty = [&](int step, int choice) {
+    ClickSelection selection(parts, unsure, step, choice);
+    CHECK(selection.certainty() == 1);
+    selection.apply(view, object(5));
+    return selection.certainty();
+  };
+  // The pair is taken: half of all four, twice the leaf. Their costs are as above.
+  const double pair = 0.09 * std::log(0.001 / std::sqrt(2.0)), four = 0.09 * std::log(1 / 2.0), leaf = 0;
+  const double others = std::exp(pair - four) + std::exp(pair - leaf);
+  CHECK(certainty(0, 0) == doctest::Approx((1 + 0.5 * others) / (1 + others)));
+  CHECK(certainty(1, 0) == 1);
+  CHECK(certainty(0, 1) == 1);
+  ClickSelection sure(parts, borders_alone());
+  sure.apply(view, object(5));
+  CHECK(sure.certainty() > 0.99);
+}
+
 TEST_CASE("selection: a first click's terms of all views, worked out by hand") {
   // The click's view is four stripes of 100 pixels at one depth, each touching the frame. Elsewhere the left
   // pair covers .04 of a picture, free of the frame, with a border of 1.2 sides before something farther.

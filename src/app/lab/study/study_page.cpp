@@ -105,7 +105,7 @@ std::string study_csv(const StudyResults& results) {
                                    "views_left_out",
                                    "gaussians",
                                    "looked_at_mpx",
-                                   "ambiguous",
+                                   "certainty",
                                    "warned",
                                    "found"};
   std::string csv;

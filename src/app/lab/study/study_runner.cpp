@@ -288,7 +288,7 @@ nlohmann::json StudyRunner::run(const StudyCell& cell, const Job& job) {
   result["views_left_out"] = std::ranges::count_if(report.views, [](const ViewReport& v) { return !v.used; });
   result["gaussians"] = report.cut.touched;
   result["looked_at_mpx"] = looked_at_megapixels(report);
-  result["ambiguous"] = report.ambiguous;
+  result["certainty"] = report.certainty;
   result["warned"] = warning_of(report);
   result["found"] = report.outcome == Outcome::kDone;
   result["stages"] = nlohmann::json::object();
