@@ -73,7 +73,7 @@ class ClickSelection {
   std::span<const Mask> size_masks() const {
     return *size_masks_;
   }  // of each size, in the first stroke's view
-  // How alike all is that the first stroke can mean and what was taken of it: likeness() in its view. 1 where
+  // How well the trees agree on what was taken of the first stroke: certainty_of() in its view. 1 where
   // another meaning or size was chosen, and before it.
   float certainty() const { return certainty_; }
 

@@ -1,22 +1,18 @@
 #include "segment/selection/first_meanings.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace splatcut {
 
-float likeness(const PartHierarchy& parts, std::span<const PartMeaning> meanings,
-               std::span<const std::uint8_t> set, std::span<const float> leaf_px) {
-  constexpr float kMostDearer = 6;
-  float sum = 0, all = 0;
-  for (const PartMeaning& meaning : meanings) {
-    const float dearer = meaning.cost - meanings.front().cost;
-    if (dearer > kMostDearer) break;
-    const float likely = std::exp(-dearer);
-    sum += likely * iou(leaf_px, set, leaves_of(parts, meaning.tree, meaning.node));
-    all += likely;
+float certainty_of(const PartHierarchy& parts, std::span<const PartMeaning> meanings,
+                   std::span<const std::uint8_t> set, std::span<const float> leaf_px) {
+  float sum = 0, votes = 0;
+  for (const PartMeaning& voter : voters(parts, meanings)) {
+    const float vote = vote_of(voter, meanings);
+    sum += vote * iou(leaf_px, set, leaves_of(parts, voter.tree, voter.node));
+    votes += vote;
   }
-  return sum / all;
+  return sum / votes;
 }
 
 std::vector<PartMeaning> meanings_left(const PartHierarchy& parts, const SelectedParts& selected,

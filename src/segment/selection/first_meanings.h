@@ -1,8 +1,7 @@
 // What the first click or box can mean, and can still mean after corrections.
 //
-// In: the selection so far, with what was said first. Out: how alike its meanings are; those that no click
-// speaks against, and what the trees agree on among them. Cost: linear in the nodes of all trees; of
-// likeness(), for each meaning that counts.
+// In: the selection so far, with what was said first. Out: whether the trees agree on it; its meanings that
+// no click speaks against, and what the trees agree on among them. Cost: linear in the nodes of all trees.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +13,11 @@
 
 namespace splatcut {
 
-// Mean IoU of a set of leaves with all meanings, weighted by how likely each is, [0, 1]. It is low where the
-// set may well be another thing than was meant. meanings: the cheapest first, at least one; those less than
-// e^-6 as likely as the first are left out. set: flags per leaf. leaf_px: pixels per leaf.
-float likeness(const PartHierarchy& parts, std::span<const PartMeaning> meanings,
-               std::span<const std::uint8_t> set, std::span<const float> leaf_px);
+// Mean IoU of a set of leaves with the cheapest meaning of each tree, weighted as their votes are
+// (part_votes.h), [0, 1]. Where it is low, the set may well be another thing than was meant. meanings: the
+// cheapest first, at least one. set: flags per leaf. leaf_px: pixels per leaf.
+float certainty_of(const PartHierarchy& parts, std::span<const PartMeaning> meanings,
+                   std::span<const std::uint8_t> set, std::span<const float> leaf_px);
 
 // Meanings of what was said first that hold every leaf clicked on the object and none clicked on the rest,
 // and `leaf` as `object` says, the likeliest first. Precondition: something was said.

@@ -172,7 +172,8 @@ float iou(std::span<const float> leaf_px, std::span<const std::uint8_t> a, std::
 }
 
 bool look_alike(const LeafView& view, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
-  return iou(view.leaf_px, a, b) >= kLookAlike;
+  constexpr float kClearly = 0.8f;  // IoU below which a person sees two things
+  return iou(view.leaf_px, a, b) >= kClearly;
 }
 
 Mask shown(const PixelWeights& weights, const Camera& camera, std::span<const std::uint8_t> labels) {

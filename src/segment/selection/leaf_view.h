@@ -62,9 +62,7 @@ Image<std::uint32_t> shown_from(const LeafView& view, std::span<const std::uint3
 // IoU of two sets of leaves; 1 where neither has a pixel. leaf_px: pixels per leaf. a, b: flags per leaf.
 float iou(std::span<const float> leaf_px, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 
-inline constexpr float kLookAlike = 0.8f;  // IoU below which a person sees two things
-
-// True if a person would take two sets of leaves for the same thing. a, b: flags per leaf.
+// True if a person would take two sets of leaves for the same thing: their IoU is at least 0.8.
 bool look_alike(const LeafView& view, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 
 // Mask of a labelling. labels: one per group of the weights (Gaussian or leaf), 1 = object.

@@ -1,7 +1,6 @@
 #include "segment/selection/part_votes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "segment/selection/part_terms.h"
@@ -16,18 +15,21 @@ std::vector<std::uint8_t> leaves_of(const PartHierarchy& parts, std::uint32_t tr
   return leaves;
 }
 
-std::vector<float> vote_shares(const PartHierarchy& parts, std::span<const PartMeaning> meanings) {
-  std::vector<PartMeaning> voters;
+std::vector<PartMeaning> voters(const PartHierarchy& parts, std::span<const PartMeaning> meanings) {
+  std::vector<PartMeaning> best_of_each;
   for (std::uint32_t t = 0; t < parts.trees.size(); ++t) {
     const auto best = std::ranges::find(meanings, t, &PartMeaning::tree);
-    if (best != meanings.end()) voters.push_back(*best);
+    if (best != meanings.end()) best_of_each.push_back(*best);
   }
-  if (voters.empty()) return {};
-  const float least = std::ranges::min(voters, {}, &PartMeaning::cost).cost;
+  return best_of_each;
+}
+
+std::vector<float> vote_shares(const PartHierarchy& parts, std::span<const PartMeaning> meanings) {
+  if (meanings.empty()) return {};
   std::vector<float> shares(parts.leaves, 0);
   float votes = 0;
-  for (const PartMeaning& voter : voters) {
-    const float vote = std::exp(least - voter.cost);
+  for (const PartMeaning& voter : voters(parts, meanings)) {
+    const float vote = vote_of(voter, meanings);
     const std::vector<std::uint8_t> leaves = leaves_of(parts, voter.tree, voter.node);
     for (std::uint32_t l = 0; l < parts.leaves; ++l) shares[l] += leaves[l] ? vote : 0;
     votes += vote;

@@ -6,6 +6,7 @@
 // alone. Cost: linear in the nodes.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +25,15 @@ struct PartMeaning {
 
 // Flags per leaf: 1 if the node holds it.
 std::vector<std::uint8_t> leaves_of(const PartHierarchy& parts, std::uint32_t tree, std::uint32_t node);
+
+// The cheapest part of each tree that has one, in the order of the trees. meanings: parts, the cheapest
+// first.
+std::vector<PartMeaning> voters(const PartHierarchy& parts, std::span<const PartMeaning> meanings);
+
+// The weight of a voter among these meanings, (0, 1].
+inline float vote_of(const PartMeaning& voter, std::span<const PartMeaning> meanings) {
+  return std::exp(meanings.front().cost - voter.cost);
+}
 
 // Share of the votes for each leaf, [0, 1]; empty if no tree votes. meanings: parts, the cheapest first.
 std::vector<float> vote_shares(const PartHierarchy& parts, std::span<const PartMeaning> meanings);

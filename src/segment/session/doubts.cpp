@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "segment/masks/mask_tools.h"
-#include "segment/selection/leaf_view.h"
 
 namespace splatcut {
 
@@ -47,7 +46,8 @@ void add_doubts_of_first(std::span<const ViewReport> views, std::vector<std::str
 }  // namespace
 
 bool unsure(const CutResult& result) {
-  return result.certainty < kLookAlike;
+  constexpr double kSure = 0.9;
+  return result.certainty < kSure;
 }
 
 std::vector<std::string> doubts(const CutResult& result, double view_agreement) {
