@@ -49,14 +49,16 @@ std::vector<Flags> CleanObjects::decisions() const {
 }
 
 Flags CleanObjects::first(const Flags& labels) const {
-  constexpr std::size_t kMostAsked = 16;
+  constexpr std::size_t kMostAsked = 2 * kMostObjects;  // the export dialog asks for each in every frame
   for (const auto& [asked, own] : asked_)
-    if (asked == labels) return own;
+    if (!asked.owner_before(labels) && !labels.owner_before(asked))
+      if (Flags known = own.lock()) return known;
   Flags found = labels;
   const auto compare = [&](const Flags& other) {
     if (found == labels && *other == *labels) found = other;
   };
-  for (const auto& asked : asked_) compare(asked.second);
+  std::erase_if(asked_, [](const auto& asked) { return asked.first.expired() || asked.second.expired(); });
+  for (const auto& asked : asked_) compare(asked.second.lock());
   for (const Kept& kept : kept_) compare(kept.labels);
   for (const Flags& own : anyway_) compare(own);
   asked_.emplace_back(labels, found);

@@ -62,7 +62,8 @@ class CleanObjects {
   mutable std::mutex mutex_;
   std::deque<Kept> kept_;      // cached objects, the newest last
   std::vector<Flags> anyway_;  // first() of labels that are cleaned anyway, the newest last
-  mutable std::deque<std::pair<Flags, Flags>> asked_;  // arrays asked for last, and first() of each
+  using Known = std::weak_ptr<Flags::element_type>;
+  mutable std::deque<std::pair<Known, Known>> asked_;  // arrays asked for last, and first() of each
 };
 
 }  // namespace splatcut

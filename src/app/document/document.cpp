@@ -136,16 +136,19 @@ std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& 
   return labels;
 }
 
+bool is_part_of(const Document& document, const ObjectItem& part, ObjectId whole) {
+  for (const ObjectItem* inner = &part; inner; inner = document.find(inner->within))
+    if (inner->within == whole) return true;
+  return false;
+}
+
 Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians,
                     ObjectId only) {
-  const auto is_in = [&](const ObjectItem* part, ObjectId whole) {
-    for (; part; part = document.find(part->within))
-      if (part->within == whole) return true;
-    return false;
-  };
   std::vector<std::uint8_t> had(gaussians, 0);
   for (const ObjectItem& other : document.objects) {
-    if (other.id == object.id || is_in(&object, other.id) || is_in(&other, object.id)) continue;
+    if (other.id == object.id || is_part_of(document, object, other.id) ||
+        is_part_of(document, other, object.id))
+      continue;
     if (only != 0 && other.id != only) continue;
     const std::vector<std::uint8_t> labels = labels_of(document, other, gaussians);
     for (std::size_t g = 0; g < gaussians; ++g) had[g] |= labels[g];

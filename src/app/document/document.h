@@ -95,6 +95,9 @@ bool is_stale(const ObjectItem& object, const std::string& key);
 std::vector<std::uint8_t> labels_of(const Document& document, const ObjectItem& object,
                                     std::size_t gaussians);
 
+// True if an object is a part of `whole`, or a part of such a part.
+bool is_part_of(const Document& document, const ObjectItem& part, ObjectId whole);
+
 // All that other objects have, but for parts of this one and wholes that it is a part of; null: nothing.
 // only: the one that counts, 0: all.
 Flags had_by_others(const Document& document, const ObjectItem& object, std::size_t gaussians,

@@ -214,10 +214,11 @@ void History::carry(const std::function<Document(const Document&)>& carried) {
   serial_ = next_serial();
 }
 
-void History::change_all(const std::function<void(Document*)>& change) {
+void History::change_all(const std::function<void(Document*)>& change, bool is_work) {
+  const ObjectId active = now().active;
   for (Entry& entry : entries_) change(&entry.document);
-  merging_ = false;
-  serial_ = next_serial();
+  merging_ = merging_ && now().active == active;
+  if (is_work) serial_ = next_serial();
 }
 
 std::string row_title(const History& history, std::size_t entry) {

@@ -85,8 +85,8 @@ class History {
 
   // Replaces every state by what `carried` makes of it, as the scene has other Gaussians now.
   void carry(const std::function<Document(const Document&)>& carried);
-  // Changes every state. `change` must not touch anything that cuts depend on.
-  void change_all(const std::function<void(Document*)>& change);
+  // Changes every state. `change` must not touch anything that cuts depend on. is_work: it is to be saved.
+  void change_all(const std::function<void(Document*)>& change, bool is_work = true);
 
  private:
   void forget_oldest();

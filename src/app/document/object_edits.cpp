@@ -140,7 +140,9 @@ std::string edit(Document* document, const SeparateObject& command, const EditCo
   const Selection own = labels(*document, object, context);
   std::size_t taken = 0;
   for (ObjectItem& other : document->objects) {
-    if (other.id == command.object || other.locked || other.id == object.within) continue;
+    if (other.id == command.object || other.locked || is_part_of(*document, object, other.id) ||
+        is_part_of(*document, other, command.object))
+      continue;
     const Selection before = labels(*document, other, context);
     const Selection after = combined(before, own, SetOperation::kRemove);
     taken += count_flags(before) - count_flags(after);

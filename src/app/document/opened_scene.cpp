@@ -143,7 +143,8 @@ std::vector<Camera> cameras_near(const std::filesystem::path& scene, const glm::
   std::filesystem::path folder = std::filesystem::absolute(scene).parent_path();
   for (int level = 0; level < 3; ++level) {
     for (const char* name : {"cameras.json", "transforms.json", "sparse/0"}) {
-      if (!std::filesystem::exists(folder / name)) continue;
+      std::error_code hidden;  // another user's folder, a link to itself
+      if (!std::filesystem::exists(folder / name, hidden)) continue;
       try {
         std::vector<Camera> cameras = load_cameras(folder / name, nullptr, origin);
         if (why_none) why_none->clear();

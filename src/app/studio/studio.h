@@ -92,6 +92,7 @@ class Studio {
   bool waiting() const { return edits_.waiting(); }  // true: commands wait for an edit, or for cuts
   bool loading() const { return tasks_.busy(TaskKind::kLoad); }
   std::string coming() const;  // what the empty view is going to show; empty: it shows its picture
+  bool exporting() const { return tasks_.busy(TaskKind::kExport); }
   bool cutting() const { return tasks_.busy(TaskKind::kCut); }
   std::size_t neighbourhoods() const;  // number of places prepared for clicks; to be called while idle()
   TaskThread::Progress progress() const;

@@ -24,7 +24,8 @@ void click_ground(ToolHand& hand) {
   if (hand.state.right()) return points.clear();
   add_point(hand);
   if (points.size() < 3) return;
-  glm::vec3 up = glm::cross(points[1] - points[0], points[2] - points[0]);
+  // Of unit sides: how small the scene's numbers are does not matter.
+  glm::vec3 up = glm::cross(glm::normalize(points[1] - points[0]), glm::normalize(points[2] - points[0]));
   // The ground is seen from above.
   if (glm::dot(up, hand.context.pane_camera.centre_world() - points[0]) < 0) up = -up;
   points.clear();

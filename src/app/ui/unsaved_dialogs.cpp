@@ -15,17 +15,21 @@ namespace {
 // What to do with work that would be lost.
 enum class UnsavedAnswer { kNone, kStay, kGoOn, kSave };
 
+// saves_work: there is work that can be saved first.
 UnsavedAnswer unsaved_dialog(UiContext& ui, const char* id, bool wanted, const std::string& text,
-                             const char* go_on) {
+                             const char* go_on, bool saves_work) {
   if (!begin_dialog(id, wanted, {430, 150})) return UnsavedAnswer::kNone;
   wrapped_muted(ui, text);
   ImGui::SetCursorPosY(ImGui::GetWindowHeight() - 42);
   const bool stays = plain_button(ui, "Stay", 100) || escape_pressed();
   ImGui::SameLine();
   const bool goes_on = plain_button(ui, go_on, 100);
-  ImGui::SameLine(ImGui::GetWindowWidth() - 112);
-  const bool saves = button(ui, "Save...", "Save the work first  (Enter)", {}, true, 100) ||
-                     (!goes_on && !stays && enter_pressed());
+  bool saves = false;
+  if (saves_work) {
+    ImGui::SameLine(ImGui::GetWindowWidth() - 112);
+    saves = button(ui, "Save...", "Save the work first  (Enter)", {}, true, 100) ||
+            (!goes_on && !stays && enter_pressed());
+  }
   if (stays || goes_on || saves) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
   return stays     ? UnsavedAnswer::kStay
@@ -50,7 +54,7 @@ void open_anyway_dialog(UiContext& ui) {
       fmt::format("The objects and strokes were not saved since they changed. That work ends once {} is "
                   "open; if it cannot be read, the work stays.",
                   name),
-      "Open");
+      "Open", true);
   if (answer == UnsavedAnswer::kNone) return;
   const std::optional<OpenScene> next = std::exchange(ui.state.open_asked, {});
   if (answer == UnsavedAnswer::kGoOn) ui.state.open_now = next;
@@ -58,11 +62,17 @@ void open_anyway_dialog(UiContext& ui) {
 }
 
 void quit_dialog(UiContext& ui) {
-  const UnsavedAnswer answer = unsaved_dialog(
-      ui, "Leave without saving?###quit", ui.state.quit_asked,
-      "The objects and strokes were not saved since they changed. A copy is kept all the same and offered at "
-      "the next start.",
-      "Leave");
+  const bool unsaved = ui.studio.unsaved();
+  const std::string work =
+      unsaved ? "The objects and strokes were not saved since they changed. A copy is kept all the same and "
+                "offered at the next start. "
+              : "";
+  const std::string exported =
+      ui.studio.exporting() ? "An export is still being written: it is stopped, and files of before stay."
+      : unsaved             ? ""
+                            : "The export is written.";
+  const UnsavedAnswer answer = unsaved_dialog(ui, unsaved ? "Leave without saving?###quit" : "Leave?###quit",
+                                              ui.state.quit_asked, work + exported, "Leave", unsaved);
   if (answer == UnsavedAnswer::kNone) return;
   ui.state.quit_asked = false;
   if (answer == UnsavedAnswer::kGoOn) ui.state.quit_wanted = true;

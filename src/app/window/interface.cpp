@@ -294,7 +294,7 @@ void Interface::show(UiRequest request, const Studio& studio, UiRenderer* render
       state_.history_wanted = !state_.history_open;
       return;
     case UiRequest::kQuit:
-      if (studio.unsaved())
+      if (studio.unsaved() || studio.exporting())
         state_.quit_asked = true;
       else
         state_.quit_wanted = true;

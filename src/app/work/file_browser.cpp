@@ -52,7 +52,8 @@ void FileBrowser::enter(const std::filesystem::path& where) {
     trouble = trouble_code.message();
     return;
   }
-  for (const fs::directory_entry& entry : all) {
+  for (; all != fs::directory_iterator(); all.increment(trouble_code)) {
+    const fs::directory_entry& entry = *all;
     const std::string file = entry.path().filename().string();
     if (file.starts_with('.')) continue;
     std::error_code ignored;
@@ -62,6 +63,7 @@ void FileBrowser::enter(const std::filesystem::path& where) {
                         });
     if (is_folder || wanted) entries.push_back({file, is_folder, is_folder ? 0 : entry.file_size(ignored)});
   }
+  if (trouble_code) trouble = trouble_code.message();
   std::ranges::sort(entries, [](const BrowserEntry& a, const BrowserEntry& b) {
     return a.folder != b.folder ? a.folder : a.name < b.name;
   });

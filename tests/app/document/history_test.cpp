@@ -100,6 +100,40 @@ TEST_CASE("history: steps with one key become one until something else is done")
   CHECK(history.entries().size() == 4);
 }
 
+TEST_CASE("history: another background ends no drag and is no work to save, another object ends the drag") {
+  History history;
+  history.push("click", with_click(history.now(), {3, 4}));
+  Document after = history.now();
+  add_object(&after);
+  history.push("sphere", after, "sphere");
+  const std::uint64_t saved = history.serial();
+  history.change_all([](Document* state) { state->background = {1, 0, 0}; }, false);
+  CHECK(history.merges("sphere"));
+  CHECK(history.serial() == saved);
+  history.change_all([](Document* state) { state->active = 1; });
+  CHECK_FALSE(history.merges("sphere"));
+  CHECK(history.serial() != saved);
+}
+
+TEST_CASE("objects: what is separated keeps its own parts and all wholes that it is a part of") {
+  const GaussianCloud cloud = random_cloud(4, 1, 0);
+  const EditContext context{cloud};
+  Document document;
+  for (const std::vector<std::uint8_t>& labels :
+       {std::vector<std::uint8_t>{1, 1, 1, 0}, {1, 1, 0, 0}, {1, 0, 0, 0}, {1, 1, 1, 1}})
+    set_labels(&document, &add_object(&document), labels);
+  document.objects[1].within = document.objects[0].id;
+  document.objects[2].within = document.objects[1].id;
+  for (const std::size_t separated : {0u, 1u, 2u}) {
+    CAPTURE(separated);
+    Document then = document;
+    edit(&then, SeparateObject{document.objects[separated].id}, context);
+    for (std::size_t i = 0; i < 3; ++i)
+      CHECK(labels_of(then, then.objects[i], 4) == labels_of(document, document.objects[i], 4));
+    CHECK(count_flags(labels_of(then, then.objects[3], 4)) == separated + 1);
+  }
+}
+
 TEST_CASE("objects: a part of an object that does not exist is refused") {
   const GaussianCloud cloud = random_cloud(kFewGaussians, 1, 0);
   const EditContext context{cloud};

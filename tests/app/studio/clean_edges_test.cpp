@@ -275,6 +275,16 @@ TEST_CASE("clean objects: so many decisions are kept, and equal labels are one")
   CHECK(clean.is_cleaned_anyway(numbered(2)));
 }
 
+TEST_CASE("clean objects: labels that were only asked about are not kept") {
+  Hands hands(false);
+  CleanObjects clean(std::shared_ptr<const OpenedScene>(std::shared_ptr<void>(), hands.studio().scene()));
+  Flags labels = make_flags(std::vector<std::uint8_t>(hands.studio().scene()->cloud->size(), 0));
+  const std::weak_ptr<Flags::element_type> seen = labels;
+  CHECK_FALSE(clean.is_cleaned_anyway(labels));
+  labels.reset();
+  CHECK(seen.expired());
+}
+
 TEST_CASE("hands: how many Gaussians clean edges leave out of an export is known before") {
   const ScratchFolder folder("left_out");
   Hands hands = hands_on_sample();

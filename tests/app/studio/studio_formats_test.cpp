@@ -145,9 +145,14 @@ TEST_CASE("formats: a file of cameras that holds none is said, and hinders nothi
   }));
   std::filesystem::copy_file(kSampleFolder / "cameras.json", folder / "cameras.json",
                              std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::create_directory_symlink("sparse", folder / "sparse");  // leads to itself
   hands.app.open(folder / "s.compressed.ply");
   REQUIRE(hands.app.settle());
   CHECK_FALSE(hands.studio().scene()->views().cameras.empty());
+  std::filesystem::remove(folder / "cameras.json");
+  hands.app.open(folder / "s.compressed.ply");
+  REQUIRE(hands.app.settle());
+  CHECK(hands.studio().scene()->views().cameras.empty());
 }
 
 TEST_CASE("formats: a scene on a map is worked on near 0, 0, 0, with its cameras, and exported on the map") {

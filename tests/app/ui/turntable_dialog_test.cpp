@@ -156,3 +156,26 @@ TEST_CASE("dialogs: the turntable goes where the last export went, and asks befo
     CHECK_FALSE(state.turntable.overwrite);  // asked anew
   }
 }
+
+TEST_CASE("dialogs: leaving while an export is written asks, and Stay lets it be written") {
+  const ScratchFolder folder("leave_while_written");
+  HeadlessApp app(760, 420);
+  REQUIRE(cut_out_apple(app));
+  app.studio().apply(SaveWork{folder / "apple.splatcut.json"});
+  REQUIRE(app.settle());
+  REQUIRE_FALSE(app.studio().unsaved());
+  app.studio().apply(SaveTurntable{folder / "turn", 60, 320, 240});
+  REQUIRE(app.studio().exporting());
+  app.studio().run(Action::kQuit);
+  app.frames(2);
+  CHECK_FALSE(app->wants_to_close());
+  REQUIRE(app->interface().dialog_open());
+  app.key(key::kEscape);
+  REQUIRE(app.settle());
+  CHECK_FALSE(app->wants_to_close());
+  const auto files = std::filesystem::directory_iterator(folder / "turn");
+  CHECK(std::distance(begin(files), end(files)) == 60);
+  app.studio().run(Action::kQuit);
+  app.frames(2);
+  CHECK(app->wants_to_close());
+}
