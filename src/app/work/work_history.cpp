@@ -20,14 +20,15 @@ namespace {
 
 constexpr std::size_t kMostArrayBytes = std::size_t{64} << 20, kMostNumbers = 4'000'000;
 
-// The labels that a cut computes again are not kept.
-Document without_cuts(Document document) {
-  for (ObjectItem& o : document.objects)
-    if (!o.cut_kept) {
+// The labels that a cut computes again are not kept; what is locked is not cut again.
+Document without_cuts(const Document& document) {
+  Document without = document;
+  for (ObjectItem& o : without.objects)
+    if (!o.cut_kept && !(o.locked && is_stale(document, o))) {
       o.cut = nullptr;
       o.cut_key.clear();
     }
-  return document;
+  return without;
 }
 
 // Each array once, by number; whether there is room is said before it is needed.

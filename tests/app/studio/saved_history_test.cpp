@@ -95,6 +95,27 @@ TEST_CASE("saved work: what was done before a crash can be undone after it, and 
   }
 }
 
+TEST_CASE("saved work: what is locked keeps its labels under an undo by another method, restored, too") {
+  const ScratchFolder folder("locked_saved");
+  const auto file = folder / "locked.splatcut.json";
+  Hands hands;
+  Studio& studio = hands.studio();
+  const ObjectId apple = studio.document().active;
+  studio.apply(LockObject{apple, true});
+  const std::vector<std::uint8_t> before = active_labels(hands.app);
+  REQUIRE(count_flags(before) > 0);
+  studio.apply(SetPreset{"paper"});
+  studio.apply(RenameObject{apple, "apple"});
+  studio.apply(SaveWork{file});
+  REQUIRE(hands.app.settle());
+  studio.apply(OpenScene{file});
+  REQUIRE(hands.app.settle());
+  studio.apply(Undo{});
+  REQUIRE(hands.app.settle());
+  CHECK(studio.document().preset == "paper");
+  CHECK(active_labels(hands.app) == before);
+}
+
 TEST_CASE("saved work: steps before and after changes of the scene's files, two hundred at most") {
   History history = of_names({"a", "b", "c"});
   SavedSteps saved = saved_steps(history);
