@@ -141,7 +141,7 @@ std::vector<std::uint8_t> ClickSelection::note_sizes(const LeafView& view, const
   size_masks_ = std::make_shared<const std::vector<Mask>>(std::move(masks));
   std::vector<std::uint8_t> taken = sizes.leaves(size_);
   const bool chosen = choice_taken_ > 0 || size_ != likeliest_size_;
-  certainty_ = chosen ? 1 : certainty_of(parts_, *selected_.meanings, taken, view.leaf_px);
+  certainty_ = chosen ? 1 : certainty_of(parts_, *selected_.meanings, taken, view.leaf_px, selected_.boxed);
   return taken;
 }
 

@@ -73,8 +73,8 @@ class ClickSelection {
   std::span<const Mask> size_masks() const {
     return *size_masks_;
   }  // of each size, in the first stroke's view
-  // How well the trees agree on what was taken of the first stroke: certainty_of() in its view. 1 where
-  // another meaning or size was chosen, and before it.
+  // How alike what was taken of the first stroke and all that it can mean are: certainty_of() in its view. 1
+  // where another meaning or size was chosen, and before it.
   float certainty() const { return certainty_; }
 
   // Masks of the first click's meanings in its view, the likeliest first: those that are not far less likely

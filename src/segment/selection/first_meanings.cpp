@@ -5,14 +5,18 @@
 namespace splatcut {
 
 float certainty_of(const PartHierarchy& parts, std::span<const PartMeaning> meanings,
-                   std::span<const std::uint8_t> set, std::span<const float> leaf_px) {
-  float sum = 0, votes = 0;
-  for (const PartMeaning& voter : voters(parts, meanings)) {
-    const float vote = vote_of(voter, meanings);
-    sum += vote * iou(leaf_px, set, leaves_of(parts, voter.tree, voter.node));
-    votes += vote;
-  }
-  return sum / votes;
+                   std::span<const std::uint8_t> set, std::span<const float> leaf_px, bool boxed) {
+  constexpr float kUnlikely = 0.0025f;
+  float sum = 0, all = 0;
+  const auto count = [&](const PartMeaning& meaning) {
+    const float likely = vote_of(meaning, meanings);
+    if (likely < kUnlikely) return;
+    sum += likely * iou(leaf_px, set, leaves_of(parts, meaning.tree, meaning.node));
+    all += likely;
+  };
+  std::ranges::for_each(boxed ? voters(parts, meanings) : std::vector(meanings.begin(), meanings.end()),
+                        count);
+  return sum / all;
 }
 
 std::vector<PartMeaning> meanings_left(const PartHierarchy& parts, const SelectedParts& selected,

@@ -1,6 +1,6 @@
 // What the first click or box can mean, and can still mean after corrections.
 //
-// In: the selection so far, with what was said first. Out: whether the trees agree on it; its meanings that
+// In: the selection so far, with what was said first. Out: how alike its meanings are; those that
 // no click speaks against, and what the trees agree on among them. Cost: linear in the nodes of all trees.
 #pragma once
 
@@ -13,11 +13,12 @@
 
 namespace splatcut {
 
-// Mean IoU of a set of leaves with the cheapest meaning of each tree, weighted as their votes are
-// (part_votes.h), [0, 1]. Where it is low, the set may well be another thing than was meant. meanings: the
-// cheapest first, at least one. set: flags per leaf. leaf_px: pixels per leaf.
+// Mean IoU of a set of leaves with the meanings, weighted by their likelihood, [0, 1]. Where it is low, the
+// set may well be another thing than was meant. boxed: the cheapest of each tree alone, as the costs of a box
+// say too little of the others. Meanings less than e^-6 as likely as the first count for nothing. meanings:
+// the cheapest first, at least one. set: flags per leaf. leaf_px: pixels per leaf.
 float certainty_of(const PartHierarchy& parts, std::span<const PartMeaning> meanings,
-                   std::span<const std::uint8_t> set, std::span<const float> leaf_px);
+                   std::span<const std::uint8_t> set, std::span<const float> leaf_px, bool boxed);
 
 // Meanings of what was said first that hold every leaf clicked on the object and none clicked on the rest,
 // and `leaf` as `object` says, the likeliest first. Precondition: something was said.

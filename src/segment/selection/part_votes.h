@@ -30,7 +30,7 @@ std::vector<std::uint8_t> leaves_of(const PartHierarchy& parts, std::uint32_t tr
 // first.
 std::vector<PartMeaning> voters(const PartHierarchy& parts, std::span<const PartMeaning> meanings);
 
-// The weight of a voter among these meanings, (0, 1].
+// How likely one of the meanings is against the first of them, (0, 1].
 inline float vote_of(const PartMeaning& voter, std::span<const PartMeaning> meanings) {
   return std::exp(meanings.front().cost - voter.cost);
 }

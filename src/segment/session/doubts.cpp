@@ -46,7 +46,7 @@ void add_doubts_of_first(std::span<const ViewReport> views, std::vector<std::str
 }  // namespace
 
 bool unsure(const CutResult& result) {
-  constexpr double kSure = 0.9;
+  constexpr double kSure = 0.85;
   return result.certainty < kSure;
 }
 

@@ -10,8 +10,8 @@
 
 namespace splatcut {
 
-// True if what was said first may well mean something else: its certainty is below 0.9. docs/study.md has how
-// often such answers fail.
+// True if what was said first may well mean something else: its certainty is below 0.85. docs/study.md has
+// how often such answers fail.
 bool unsure(const CutResult& result);
 
 // A sentence each, none where nothing is in doubt: unsure(); the last click found no part to change and

@@ -290,7 +290,7 @@ TEST_CASE("doubts: another size, masks left out, and a cutout that most masks sp
     view.confidence = 0.95;
   }
   CHECK(doubts(report).empty());
-  report.certainty = 0.89;
+  report.certainty = 0.84;
   report.sizes = 5;
   report.size = 1;
   CHECK(doubts(report) ==
@@ -298,7 +298,7 @@ TEST_CASE("doubts: another size, masks left out, and a cutout that most masks sp
   report.meanings.resize(3);
   CHECK(doubts(report) ==
         std::vector<std::string>{"what was said first could mean one of 3 things: this is 1"});
-  report.certainty = 0.91;
+  report.certainty = 0.86;
   report.views[1].used = false;
   report.views[1].reason = "the object is hidden here";
   CHECK(doubts(report).empty());

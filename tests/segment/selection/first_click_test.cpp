@@ -7,6 +7,7 @@
 
 #include "four_stripes.h"
 #include "segment/masks/mask_tools.h"
+#include "segment/selection/first_meanings.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -51,23 +52,35 @@ TEST_CASE("selection: what is likely enough and shows something else is offered,
   CHECK(sure.meanings().size() == 1);
 }
 
-TEST_CASE("selection: how well trees agree on a first click, until another meaning or size is chosen") {
+TEST_CASE("selection: how alike all is that a click can mean, until another meaning or size is chosen") {
+  SelectionModel unsure = borders_alone();
+  weight(&unsure.first, Term::kCut) = 0.09f;
   PartHierarchy parts = four_leaves();
   const LeafView view = stripes(parts);
   const auto certainty = [&](int step, int choice) {
-    ClickSelection selection(parts, borders_alone(), step, choice);
+    ClickSelection selection(parts, unsure, step, choice);
     CHECK(selection.certainty() == 1);
     selection.apply(view, object(5));
     return selection.certainty();
   };
-  CHECK(certainty(0, 0) == 1);
-  // Another tree says the leaf, at a cost of ln .001 where the first says the pair at ln(.001 / sqrt 2).
-  parts.trees.push_back(parts.trees.front());
-  parts.trees.back().cut = {0.001f, 1, 1, 1, 1, 1, 1};
-  const double vote = std::sqrt(0.5);
-  CHECK(certainty(0, 0) == doctest::Approx((1 + 0.5 * vote) / (1 + vote)));
+  // The pair is taken: half of all four, twice the leaf. Their costs are as above.
+  const double pair = 0.09 * std::log(0.001 / std::sqrt(2.0)), four = 0.09 * std::log(1 / 2.0), leaf = 0;
+  const double others = std::exp(pair - four) + std::exp(pair - leaf);
+  CHECK(certainty(0, 0) == doctest::Approx((1 + 0.5 * others) / (1 + others)));
   CHECK(certainty(1, 0) == 1);
   CHECK(certainty(0, 1) == 1);
+  ClickSelection sure(parts, borders_alone());
+  sure.apply(view, object(5));
+  CHECK(sure.certainty() > 0.99);
+  // Of a box each tree's best part counts: the pair of the first, the leaf of another.
+  parts.trees.push_back(parts.trees.front());
+  const std::vector<PartMeaning> meanings = {{0, 4, {}, 0}, {0, 6, {}, 0}, {1, 0, {}, 1}};
+  const std::vector<float> leaf_px(4, 10);
+  const double vote = std::exp(-1.0);
+  CHECK(certainty_of(parts, meanings, Labels{1, 1, 0, 0}, leaf_px, true) ==
+        doctest::Approx((1 + 0.5 * vote) / (1 + vote)));
+  CHECK(certainty_of(parts, meanings, Labels{1, 1, 0, 0}, leaf_px, false) ==
+        doctest::Approx((1 + 0.5 + 0.5 * vote) / (2 + vote)));
 }
 
 TEST_CASE("selection: a first click's terms of all views, worked out by hand") {
