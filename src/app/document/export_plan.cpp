@@ -200,7 +200,7 @@ std::string text_of(const ExportReport& report, const std::filesystem::path& pat
   if (report.not_given_back > 0)
     text += fmt::format(". {} pieces cut off the object are not in the rest, which is too large to copy",
                         report.not_given_back);
-  if (!report.hole_kept.empty()) text += ". The hole stays: " + report.hole_kept;
+  if (!report.hole_kept.empty()) text += ". No hole is filled: " + report.hole_kept;
   if (!report.loss.empty()) text += ". Lost: " + report.loss;
   return text;
 }

@@ -162,6 +162,15 @@ void History::forget_redo() {
   entries_.resize(cursor_ + 1);
 }
 
+void History::take_back() {
+  assert(can_undo() && !can_redo());
+  entries_.pop_back();
+  --cursor_;
+  left_.reset();
+  merging_ = false;
+  serial_ = steps_serial_ = next_serial();
+}
+
 void History::forget_oldest() {
   while (cursor_ > 1 && distinct_bytes(entries_) > kMostBytes) {
     entries_.erase(entries_.begin());

@@ -74,6 +74,7 @@ class History {
   // Adds a step that leaves the document as it is, see Entry::other_files. Forgets what could be redone.
   void push_other_files(std::string title, std::uint64_t number);
   void forget_redo();
+  void take_back();  // forgets the last step; it is the present one
   void undo();
   void redo();
   void jump(std::size_t entry);

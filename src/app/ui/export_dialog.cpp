@@ -256,12 +256,12 @@ void export_dialog(UiContext& ui) {
   export_choices(ui);
   placement_choices(ui);
   ExportChoice& choice = ui.state.exporting;
-  clean_edges_choice(ui, choice.what == ExportWhat::kScene ? "The whole scene is written as it is" : "");
   if (choice.what == ExportWhat::kRest) {
-    ImGui::SameLine();
     ImGui::Checkbox("Fill the hole", &choice.fill_hole);
     tooltip("Continues a flat surface where the object stood, by copies of it. What is copied is invented");
+    ImGui::SameLine();
   }
+  clean_edges_choice(ui, choice.what == ExportWhat::kScene ? "The whole scene is written as it is" : "");
   const std::size_t gaussians = gaussians_to_export(ui.studio, choice.what);
   const EdgesKnown edges = edges_known(ui.studio, choice.what);
   const FormatPlan& plan = export_plan(ui, left_to_write(choice, gaussians, edges));

@@ -113,7 +113,8 @@ std::optional<UiRect> offer_line(UiContext& ui, const ImVec2& at, float right) {
   if (!bar) return {};
   constexpr float kPad = kOfferPad, kButton = kOfferButton;
   const ClickMeanings* offer = ui.studio.clicks().offer();
-  const int taken = ui.studio.document().active_object()->choice;
+  const ObjectItem& object = *ui.studio.document().active_object();
+  const int taken = object.part_step == 0 ? object.choice : -1;  // another size is none of them
   const ImVec2 words = ImGui::CalcTextSize(bar->words), size = vec(bar->rect.size());
   ImDrawList& list = *ImGui::GetWindowDrawList();
   floating_box(ui, at, vec(bar->rect.max));

@@ -227,7 +227,7 @@ TEST_CASE("hands: the rest is exported without ghosts, or with all its rows") {
       fill_surface(*scene.cloud, labels, {}, hands.studio().document().up_world, scene.views().cameras, {});
   CHECK(exported_as("filled.ply", false, true) ==
         all - patch.changes.ghosts.size() + patch.changes.given_back.size());
-  CHECK((hands.said().find("The hole stays: " + patch.why_not) != std::string::npos) ==
+  CHECK((hands.said().find("No hole is filled: " + patch.why_not) != std::string::npos) ==
         !patch.why_not.empty());
   REQUIRE(patch.why_not.empty());
   CHECK(hands.said().find(grouped(patch.changes.given_back.size()) + " of them invented to fill the hole") !=

@@ -164,14 +164,17 @@ TEST_CASE("hands: a click soon after the display changed is judged in the pictur
   CHECK(hands.said().find("nothing in that place") == std::string::npos);
 }
 
-TEST_CASE("hands: a click that changes nothing is a warning, with what to do") {
+TEST_CASE("hands: a click that changes nothing is a warning, with what to do, and no step to undo") {
   Hands hands;
-  const std::size_t before = hands.selected();
+  const std::size_t before = hands.selected(), steps = hands.studio().history().entries().size();
   hands.app.click(hands.app.screen_of(kOnApple));
   REQUIRE(hands.selected() == before);
   const Message& last = hands.studio().messages().back();
   CHECK(last.kind == Message::Kind::kRefused);
   CHECK(last.text.find("changed nothing") != std::string::npos);
+  CHECK(hands.studio().history().entries().size() == steps);
+  hands.studio().apply(Undo{});
+  CHECK(hands.selected() == 0);
 }
 
 TEST_CASE(
