@@ -49,6 +49,11 @@ class Edits {
   void push_later(const Step& step);  // runs the step on the worker, then makes its result the document
   // Combines the active object with a selection, as a step on the worker.
   void select_later(Selection region, SetOperation operation, std::string title);
+  // An edit is under way from now on whose step is yet to be found out on Workspace::tasks. Returns its
+  // number.
+  std::uint64_t begin();
+  // Ends it: runs `last`, which may go on with push_later(). Nothing if the edit was cancelled.
+  void end(std::uint64_t number, const std::function<void()>& last = {});
 
   void perform(const SelectRegion& c);
   void perform(const SelectVolume& c);

@@ -213,9 +213,8 @@ bool Studio::cancel_task() {
   }
   bool cancelled =
       cuts_.cancel_likelihood() || edits_.cancel() || clean_edges_.cancel() || seen_views_.cancel();
-  for (const TaskKind kind : {TaskKind::kSelect, TaskKind::kExport}) {
-    if (cancelled || !tasks_.busy(kind)) continue;
-    tasks_.cancel(kind);
+  if (!cancelled && tasks_.busy(TaskKind::kExport)) {
+    tasks_.cancel(TaskKind::kExport);
     cancelled = true;
   }
   if (!cancelled && tasks_.busy(TaskKind::kLoad)) {
