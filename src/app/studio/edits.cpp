@@ -49,8 +49,8 @@ bool Edits::cancel() {
   return true;
 }
 
-void Edits::reset() {
-  waiting_.clear();
+void Edits::reset(bool same) {
+  std::erase_if(waiting_, [&](const Waiting& w) { return !same || w.on_cancel == OnCancel::kDropped; });
   cancel();
   volume_key_.clear();
   volume_seen_.reset();

@@ -33,7 +33,8 @@ class Edits {
   bool waits_for_cuts() const { return for_cuts_ != nullptr; }
   // Cancels that edit and the waiting commands that do not stay. Returns false if no edit is under way.
   bool cancel();
-  void reset();  // cancels and forgets everything of the last scene
+  // Cancels and forgets everything of the last scene; same: of its last files, and what stays waits on.
+  void reset(bool same);
 
   // Makes `after` the document and shows the message.
   void push(std::string title, Document after, std::string merge_key, const std::string& message);

@@ -86,7 +86,7 @@ void Studio::run_all(const std::vector<Command>& commands) {
 
 void Studio::scene_opened(bool same) {
   cuts_.reset();
-  edits_.reset();
+  edits_.reset(same);
   clicks_.reset();
   held_pointer_.clear();
   held_actions_ = {};
