@@ -37,8 +37,12 @@ void Studio::apply(const Command& command) {
       [&](const auto& c) {
         using C = std::decay_t<decltype(c)>;
         if (!kAtOnce<C> && edits_.waiting())
-          return edits_.in_turn([this, command] { apply(command); },
-                                kWritesFile<C> ? Edits::OnCancel::kStays : Edits::OnCancel::kDropped);
+          return edits_.in_turn(
+              [this, command] {
+                follow_document();
+                apply(command);
+              },
+              kWritesFile<C> ? Edits::OnCancel::kStays : Edits::OnCancel::kDropped);
         if constexpr (kAfterCuts<C>)
           if (cuts_.next() != 0) return edits_.after_cuts(c.title(), [this, command] { dispatch(command); });
         dispatch(command);
