@@ -45,6 +45,7 @@ struct CutRun {
   std::vector<StageTime> stages;            // times of the stages so far
   std::vector<ViewCard> views;
   bool views_of_before = false;  // true: `views` are those of the object's last cut, until new ones are drawn
+  bool views_drawn = false;      // true: `views` are the pictures of this cut's result, all of them
   Flags preview;                 // labels so far; null once the cut is done
   double first_mask_ms = 0, total_ms = 0;
   std::shared_ptr<const ClickMeanings> meanings;  // meanings of the first click; null: not known yet

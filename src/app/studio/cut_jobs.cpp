@@ -334,6 +334,7 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   if (!runs(order)) return;
   const CutRun& now = running_->run;
   run.views = now.views;
+  run.views_drawn = false;
   run.stages = run.result->stages.empty() ? now.stages : run.result->stages;
   run.first_mask_ms = now.first_mask_ms == 0 ? run.total_ms : now.first_mask_ms;
   const std::shared_ptr<const CutResult> result = run.result;

@@ -42,15 +42,15 @@ void Edits::update() {
 bool Edits::cancel() {
   if (!under_way_) return false;
   for_cuts_ = nullptr;
-  ws_.quick.cancel(TaskKind::kSelect);
+  for (TaskThread* tasks : {&ws_.quick, &ws_.tasks}) tasks->cancel(TaskKind::kSelect);
   ++number_;
   std::erase_if(waiting_, [](const Waiting& w) { return w.on_cancel == OnCancel::kDropped; });
   finish();
   return true;
 }
 
-void Edits::reset() {
-  waiting_.clear();
+void Edits::reset(bool same) {
+  std::erase_if(waiting_, [&](const Waiting& w) { return !same || w.on_cancel == OnCancel::kDropped; });
   cancel();
   volume_key_.clear();
   volume_seen_.reset();
@@ -64,9 +64,19 @@ void Edits::push(std::string title, Document after, std::string merge_key, const
   ws_.say(Message::Kind::kDone, message);
 }
 
-void Edits::push_later(const Step& step) {
+std::uint64_t Edits::begin() {
   under_way_ = true;
-  ++number_;
+  return ++number_;
+}
+
+void Edits::end(std::uint64_t number, const std::function<void()>& last) {
+  if (number != number_) return;
+  if (last) last();
+  if (number == number_) finish();
+}
+
+void Edits::push_later(const Step& step) {
+  begin();
   start(step);
 }
 
@@ -75,9 +85,7 @@ void Edits::start(const Step& step) {
   Document before = step.replaces && history.merges(step.merge_key)
                         ? history.entries()[history.cursor() - 1].document
                         : history.now();
-  const auto failed = [this, number = number_] {
-    if (number == number_) finish();
-  };
+  const auto failed = [this, number = number_] { end(number); };
   ws_.quick.submit({TaskKind::kSelect, failed}, [this, step, document = std::move(before), failed,
                                                  serial = history.serial(), number = number_,
                                                  scene = ws_.scene, graph = ws_.graph](const Job& job) {

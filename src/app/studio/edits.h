@@ -33,7 +33,8 @@ class Edits {
   bool waits_for_cuts() const { return for_cuts_ != nullptr; }
   // Cancels that edit and the waiting commands that do not stay. Returns false if no edit is under way.
   bool cancel();
-  void reset();  // cancels and forgets everything of the last scene
+  // Cancels and forgets everything of the last scene; same: of its last files, and what stays waits on.
+  void reset(bool same);
 
   // Makes `after` the document and shows the message.
   void push(std::string title, Document after, std::string merge_key, const std::string& message);
@@ -49,6 +50,11 @@ class Edits {
   void push_later(const Step& step);  // runs the step on the worker, then makes its result the document
   // Combines the active object with a selection, as a step on the worker.
   void select_later(Selection region, SetOperation operation, std::string title);
+  // An edit is under way from now on whose step is yet to be found out on Workspace::tasks. Returns its
+  // number.
+  std::uint64_t begin();
+  // Ends it: runs `last`, which may go on with push_later(). Nothing if the edit was cancelled.
+  void end(std::uint64_t number, const std::function<void()>& last = {});
 
   void perform(const SelectRegion& c);
   void perform(const SelectVolume& c);

@@ -37,18 +37,21 @@ void Exports::perform(const Export& c) {
       });
 }
 
+// The panes may not show the present document yet.
 void Exports::perform(const SaveSnapshot& c) {
   ws_.require_scene();
   refuse_name_of_png(c.path);
   refuse_written_inputs(c.path, ws_.scene->scene->files);
   ws_.tasks.submit(
-      TaskKind::kExport, [this, c, camera = viewport_.pane_camera(), visible = viewport_.shown(0),
-                          clean = viewport_.clean(0), limits = viewport_.draw_limits(),
-                          background = ws_.document().background, scene = ws_.scene](const Job& job) {
+      TaskKind::kExport, [this, c, camera = viewport_.pane_camera(), order = viewport_.style_order(),
+                          before = viewport_.styles(), limits = viewport_.draw_limits()](const Job& job) {
         job.progress("drawing", 0);
+        LabelCache labels;
+        const Styles styles = styled(order, before, &labels);
+        const auto& clean = styles.clean[0];
         const Image<Rgba8> picture =
-            capture(clean ? clean->cloud : *scene->cloud, camera, clean ? nullptr : visible, limits,
-                    background, c.transparent, job);
+            capture(clean ? clean->cloud : *order.cloud, camera, clean ? nullptr : styles.shown[0], limits,
+                    order.document.background, c.transparent, job);
         if (job.cancelled()) return;
         write_png(c.path, picture);
         ws_.tasks.post([this, c] { ws_.say(Message::Kind::kDone, "Picture saved to " + c.path.string()); });

@@ -35,6 +35,7 @@ void CutJobs::recall() {
           run.meanings = meanings_of(request, *result);
           run.doubts = doubts_of(*result);
           run.views = picture_cards(*session, request, settings, *result, colour, job);
+          run.views_drawn = true;
           add_doubt_of_sides(&run);
         }
         if (!job.cancelled()) ws_.tasks.post([know, run] { know(run); });
@@ -43,20 +44,22 @@ void CutJobs::recall() {
 
 void CutJobs::take_cards(CutRun* run, std::vector<ViewCard> cards) {
   run->views = in_places_of(run->views, std::move(cards));
+  run->views_drawn = true;
   for (ViewCard& card : run->views) card.serial = next_card_serial_++;
 }
 
-// Draws the views of the active object again where a hand changed what the cut gave, and says anew which
-// sides are in doubt. What the cut itself doubts is said of its own labels alone.
+// Draws the views of the active object again where a hand changed what the cut gave, or where another cut
+// stopped their drawing, and says anew which sides are in doubt. What the cut itself doubts is said of its
+// own labels alone.
 void CutJobs::renew_views() {
   const ObjectItem* object = ws_.document().active_object();
   if (!object || ws_.tasks.busy(TaskKind::kCut)) return;
   CutRun* run = known_run(object->id, object->cut_key);
   if (!run || !run->result || run->result->views.empty()) return;
   const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
-  if (now == run->views_labels) return;
+  if (run->views_drawn && now == run->views_labels) return;
   const bool as_cut = *now == run->result->labels;
-  if (run->views_labels ? *run->views_labels == *now : as_cut) {
+  if (run->views_drawn && (run->views_labels ? *run->views_labels == *now : as_cut)) {
     run->views_labels = now;  // compared once
     return;
   }

@@ -9,21 +9,22 @@ void Clicks::combine_with(const CameraStroke& stroke, SetOperation operation, co
   const ObjectItem* object = ws_.document().active_object();
   if (!object || ws_.gaussians_of(object->id) == 0)
     throw Error("", "There is no object yet", "Click one first");
-  ws_.tasks.submit(TaskKind::kSelect, [this, stroke, operation, title, id = object->id, session = ws_.session,
-                                       scene = ws_.scene,
-                                       settings = cut_settings(ws_.document(), *object)](const Job& job) {
-    const Session::Preview preview = session->preview({}, stroke, settings, {job.stop, {}});
-    if (job.cancelled()) return;
-    ws_.tasks.post([this, id, scene, operation, title, meant = preview.after] {
-      if (scene != ws_.scene || ws_.document().active != id) return;
-      if (meant.empty())
-        ws_.say(Message::Kind::kRefused,
-                "With this quality there are no parts that a click could take. Use a region, or "
-                "choose another quality.");
-      else
-        edits_.in_turn([this, meant, operation, title] { edits_.select_later(meant, operation, title); });
-    });
-  });
+  const std::uint64_t edit = edits_.begin();
+  ws_.tasks.submit({TaskKind::kSelect, [this, edit] { edits_.end(edit); }},
+                   [this, edit, stroke, operation, title, session = ws_.session,
+                    settings = cut_settings(ws_.document(), *object)](const Job& job) {
+                     const Session::Preview preview = session->preview({}, stroke, settings, {job.stop, {}});
+                     if (job.cancelled()) return;
+                     ws_.tasks.post([this, edit, operation, title, meant = preview.after] {
+                       edits_.end(edit, [&] {
+                         if (!meant.empty()) return edits_.select_later(meant, operation, title);
+                         ws_.say(
+                             Message::Kind::kRefused,
+                             "With this quality there are no parts that a click could take. Use a region, or "
+                             "choose another quality.");
+                       });
+                     });
+                   });
 }
 
 void Clicks::perform(const IntersectStroke& c) {

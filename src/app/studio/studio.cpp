@@ -37,8 +37,12 @@ void Studio::apply(const Command& command) {
       [&](const auto& c) {
         using C = std::decay_t<decltype(c)>;
         if (!kAtOnce<C> && edits_.waiting())
-          return edits_.in_turn([this, command] { apply(command); },
-                                kWritesFile<C> ? Edits::OnCancel::kStays : Edits::OnCancel::kDropped);
+          return edits_.in_turn(
+              [this, command] {
+                follow_document();
+                apply(command);
+              },
+              kWritesFile<C> ? Edits::OnCancel::kStays : Edits::OnCancel::kDropped);
         if constexpr (kAfterCuts<C>)
           if (cuts_.next() != 0) return edits_.after_cuts(c.title(), [this, command] { dispatch(command); });
         dispatch(command);
@@ -86,7 +90,7 @@ void Studio::run_all(const std::vector<Command>& commands) {
 
 void Studio::scene_opened(bool same) {
   cuts_.reset();
-  edits_.reset();
+  edits_.reset(same);
   clicks_.reset();
   held_pointer_.clear();
   held_actions_ = {};
@@ -213,9 +217,8 @@ bool Studio::cancel_task() {
   }
   bool cancelled =
       cuts_.cancel_likelihood() || edits_.cancel() || clean_edges_.cancel() || seen_views_.cancel();
-  for (const TaskKind kind : {TaskKind::kSelect, TaskKind::kExport}) {
-    if (cancelled || !tasks_.busy(kind)) continue;
-    tasks_.cancel(kind);
+  if (!cancelled && tasks_.busy(TaskKind::kExport)) {
+    tasks_.cancel(TaskKind::kExport);
     cancelled = true;
   }
   if (!cancelled && tasks_.busy(TaskKind::kLoad)) {

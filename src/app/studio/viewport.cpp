@@ -177,13 +177,7 @@ bool Viewport::style_current() const {
   return !styles_on_the_way_ && styled_document_ == ws_.history.serial() && styled_view_ == ws_.view_serial;
 }
 
-// The next order waits for the one before: were it to replace it, a document that changes with every frame
-// would never be shown.
-void Viewport::request_styles() {
-  if (!ws_.scene || style_current() || styles_on_the_way_) return;
-  styled_document_ = ws_.history.serial();
-  styled_view_ = ws_.view_serial;
-  styles_on_the_way_ = true;
+StyleOrder Viewport::style_order() const {
   StyleOrder order{ws_.scene->cloud, ws_.graph,    ws_.document(), {},
                    nullptr,          ws_.clean,    ws_.view,       pixels_per_point_,
                    floaters_shown_,  range_shown_, pane_camera(),  ws_.seen};
@@ -192,8 +186,18 @@ void Viewport::request_styles() {
       if (run->preview) order.previews[object.id] = run->preview;
       if (object.id == order.document.active) order.likelihood = run->likelihood;
     }
+  return order;
+}
+
+// The next order waits for the one before: were it to replace it, a document that changes with every frame
+// would never be shown.
+void Viewport::request_styles() {
+  if (!ws_.scene || style_current() || styles_on_the_way_) return;
+  styled_document_ = ws_.history.serial();
+  styled_view_ = ws_.view_serial;
+  styles_on_the_way_ = true;
   const auto failed = [this] { styles_on_the_way_ = false; };
-  ws_.quick.submit({TaskKind::kStyle, failed}, [this, order = std::move(order), before = styles_,
+  ws_.quick.submit({TaskKind::kStyle, failed}, [this, order = style_order(), before = styles_,
                                                 labels = style_labels_, scene = ws_.scene](const Job&) {
     ws_.quick.post([this, scene, sought = order.floaters, styles = styled(order, before, labels.get())] {
       if (scene != ws_.scene) return;

@@ -68,6 +68,9 @@ class Viewport {
   }
   // Number that changes with shown() and style().
   std::uint64_t style_serial() const { return style_serial_; }
+  // What the styles of the present document and view are made from, and the last that were made.
+  StyleOrder style_order() const;
+  const Styles& styles() const { return styles_; }
   bool style_current() const;  // true: the styles belong to the present document and view
   // True: the panes hold what the view's display asks for, alone or whole; the picture may follow later.
   bool display_current() const {

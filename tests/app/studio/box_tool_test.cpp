@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "hands.h"
+#include "scene/formats/scene_file.h"
 
 using namespace splatcut;
 using namespace splatcut::testing;
@@ -184,4 +185,39 @@ TEST_CASE("hands: boxes that remove, one right after the other, all remove") {
   }
   REQUIRE(hands.app.settle());
   CHECK(studio.history().entries().size() == steps + 3);
+}
+
+TEST_CASE("hands: what is asked for after a box that removes comes after it, and Esc takes the box back") {
+  const ScratchFolder folder("box_removes");
+  Hands hands = hands_on_sample(false);
+  Studio& studio = hands.studio();
+  studio.apply(EditSelection{SelectionEdit::kAll});
+  const std::size_t all = hands.selected(), before = studio.history().cursor();
+  const glm::vec2 at = hands.in_viewport(hands.app.screen_of(kOnOrange));
+  const AddBox removes{studio.viewport().pane_camera(), at - 34.0f, at + 34.0f, {}, SetOperation::kRemove};
+  studio.apply(removes);
+  studio.apply(Undo{});
+  CHECK(hands.steps() == before);
+  CHECK(studio.history().entries().size() == before + 2);
+  CHECK(hands.selected() == all);
+  studio.apply(Redo{});
+  const std::size_t left = hands.selected();
+  CHECK(left < all);
+  studio.apply(Undo{});
+
+  studio.apply(removes);
+  studio.apply(Export{{ExportWhat::kObject, SceneFormat::kPly, folder / "left.ply"}});
+  studio.apply(NewObject{});
+  REQUIRE(hands.app.settle());
+  CHECK(load_scene(folder / "left.ply").cloud.size() == left);
+  CHECK(studio.gaussians_of(studio.document().objects.front().id) == left);
+  CHECK(studio.document().objects.size() == 2);
+  studio.apply(JumpHistory{before});
+
+  studio.apply(removes);
+  CHECK(studio.unsaved());
+  studio.apply(Cancel{});
+  CHECK_FALSE(studio.waiting());
+  CHECK(hands.steps() == before);
+  CHECK(hands.selected() == all);
 }

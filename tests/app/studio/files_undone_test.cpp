@@ -284,3 +284,21 @@ TEST_CASE("files undone: nothing is made that another scene on its way would rep
   CHECK(hands.selected() > 0);
   CHECK(studio.scene()->files.size() == 1);
 }
+
+TEST_CASE("files undone: what is saved behind an undo that waits is written, of the files that are back") {
+  const ScratchFolder folder("files_saved_behind");
+  Hands hands;
+  Studio& studio = hands.studio();
+  const std::size_t before = studio.scene()->cloud->size();
+  add(hands, small_scene(folder));
+  studio.apply(EditSelection{SelectionEdit::kGrow});
+  studio.apply(Undo{});
+  studio.apply(Undo{});  // the file
+  studio.apply(SaveWork{folder / "work.splatcut.json"});
+  studio.apply(Export{{ExportWhat::kScene, SceneFormat::kPly, folder / "scene.ply"}});
+  REQUIRE(hands.app.settle());
+  REQUIRE(studio.scene()->files.size() == 1);
+  CHECK(std::filesystem::exists(folder / "work.splatcut.json"));
+  REQUIRE(std::filesystem::exists(folder / "scene.ply"));
+  CHECK(load_scene(folder / "scene.ply").cloud.size() == before);
+}

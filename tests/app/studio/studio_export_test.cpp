@@ -400,3 +400,33 @@ TEST_CASE(
     CHECK(of_this.ghosts == changes.ghosts);
   }
 }
+
+TEST_CASE("hands: a picture asked for before a cut or an edit ends shows what comes of it") {
+  const ScratchFolder folder("picture_soon");
+  for (const bool alone : {true, false}) {
+    CAPTURE(alone);
+    Hands hands = hands_on_sample();
+    Studio& studio = hands.studio();
+    ViewState view = studio.view();
+    view.clean_edges = false;  // they come later
+    if (alone) view.display = DisplayMode::kIsolate;
+    studio.apply(SetView{view});
+    const auto picture = [&](const std::string& name) {
+      studio.apply(SaveSnapshot{folder / name, false});
+      REQUIRE(hands.app.settle());
+      return bytes_of_file(folder / name);
+    };
+    REQUIRE(hands.app.settle());
+    const auto soon_and_later = [&](const Command& command) {
+      const std::string before = picture("before.png");
+      studio.apply(command);
+      const std::string soon = picture("soon.png"), later = picture("later.png");
+      const bool same = soon == later;
+      CHECK(same);
+      return before != later;
+    };
+    const bool corrected = soon_and_later(StepScale{1});
+    CHECK(corrected == alone);  // the picture has no outlines
+    CHECK(soon_and_later(DeleteSelected{}));
+  }
+}

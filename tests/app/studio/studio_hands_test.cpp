@@ -77,6 +77,37 @@ TEST_CASE("hands: thumbnails follow the history") {
   CHECK(serials().empty());
 }
 
+TEST_CASE("hands: thumbnails that a second click kept from being drawn are drawn after its undo") {
+  Hands patient = hands_on_sample(), hasty = hands_on_sample(false);
+  const auto views = [](Hands& hands) {
+    return hands.studio().cuts().run(hands.studio().document().active)->views;
+  };
+  const auto same = [](const ViewCard& a, const ViewCard& b) {
+    return a.used == b.used && a.only_to_look == b.only_to_look && a.doubt == b.doubt &&
+           std::ranges::equal(a.picture->pixels(), b.picture->pixels());
+  };
+  Studio& studio = hasty.studio();
+  const auto click_on = [&](const glm::vec2& thing) {
+    studio.apply(AddStroke{studio.viewport().pane_camera(),
+                           click(hasty.in_viewport(hasty.app.screen_of(thing)), SeedLabel::kObject)});
+  };
+  for (const bool once_more : {false, true}) {  // then the result is known, and its pictures are those before
+    CAPTURE(once_more);
+    const std::uint64_t done = studio.cuts().done();
+    if (once_more)
+      studio.apply(Recompute{});
+    else
+      click_on(kOnApple);
+    while (studio.cuts().done() == done) studio.update(1.0 / 60);
+    click_on(kOnOrange);
+    studio.update(1.0 / 60);
+    REQUIRE(studio.cutting());
+    studio.apply(Undo{});
+    REQUIRE(hasty.app.settle());
+    CHECK(std::ranges::equal(views(hasty), views(patient), same));
+  }
+}
+
 TEST_CASE("hands: undone or cancelled while it is cut, the cut before is on show again") {
   for (const bool cancelled : {false, true}) {
     CAPTURE(cancelled);
