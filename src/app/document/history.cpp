@@ -162,15 +162,6 @@ void History::forget_redo() {
   entries_.resize(cursor_ + 1);
 }
 
-void History::take_back() {
-  assert(can_undo() && !can_redo());
-  entries_.pop_back();
-  --cursor_;
-  left_.reset();
-  merging_ = false;
-  serial_ = steps_serial_ = next_serial();
-}
-
 void History::forget_oldest() {
   while (cursor_ > 1 && distinct_bytes(entries_) > kMostBytes) {
     entries_.erase(entries_.begin());
@@ -223,11 +214,11 @@ void History::carry(const std::function<Document(const Document&)>& carried) {
   serial_ = next_serial();
 }
 
-void History::change_all(const std::function<void(Document*)>& change, bool is_work) {
+void History::change_all(const std::function<void(Document*)>& change) {
   const ObjectId active = now().active;
   for (Entry& entry : entries_) change(&entry.document);
   merging_ = merging_ && now().active == active;
-  if (is_work) serial_ = next_serial();
+  serial_ = next_serial();
 }
 
 std::string row_title(const History& history, std::size_t entry) {

@@ -74,7 +74,6 @@ class History {
   // Adds a step that leaves the document as it is, see Entry::other_files. Forgets what could be redone.
   void push_other_files(std::string title, std::uint64_t number);
   void forget_redo();
-  void take_back();  // forgets the last step; it is the present one
   void undo();
   void redo();
   void jump(std::size_t entry);
@@ -86,8 +85,8 @@ class History {
 
   // Replaces every state by what `carried` makes of it, as the scene has other Gaussians now.
   void carry(const std::function<Document(const Document&)>& carried);
-  // Changes every state. `change` must not touch anything that cuts depend on. is_work: it is to be saved.
-  void change_all(const std::function<void(Document*)>& change, bool is_work = true);
+  // Changes every state. `change` must not touch anything that cuts depend on.
+  void change_all(const std::function<void(Document*)>& change);
 
  private:
   void forget_oldest();

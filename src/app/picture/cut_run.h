@@ -49,6 +49,7 @@ struct CutRun {
   Flags preview;                 // labels so far; null once the cut is done
   double first_mask_ms = 0, total_ms = 0;
   std::shared_ptr<const ClickMeanings> meanings;  // meanings of the first click; null: not known yet
+  bool changed_nothing = false;  // true: the last stroke left the labels as they were, which was said
   // Doubts about the result, one sentence each; once pictures of its sides are there, one on those.
   std::vector<std::string> doubts;
   Flags views_labels;  // labels that `views` and `doubts` are about; null: those of the result

@@ -194,6 +194,7 @@ bool CutJobs::take_known(const Order& order) {
   CutRun run = ahead != ahead_.end() ? ahead->run : before->run;
   run.stages.clear();  // what was there cost nothing
   run.first_mask_ms = run.total_ms = 0;
+  run.changed_nothing = false;
   run.views_labels.reset();
   run.doubts = doubts_of(*run.result);  // without that on its sides, which comes with their pictures
   const std::shared_ptr<const CutResult> result = run.result;
@@ -351,14 +352,14 @@ void CutJobs::finish(const Order& order, CutRun run, const Flags& labels) {
   ws_.history.set_cut(order.object, order.key, labels);
   keep({order.object, std::move(run)});
   if (!shown) return;  // the object is gone; undo may bring it back
-  const std::string name = ws_.document().find(order.object)->name;  // its step may be taken back
+  const std::string& name = ws_.document().find(order.object)->name;
   if (result->outcome == Outcome::kNothingFound)
     return ws_.say(Message::Kind::kRefused, name + ": " + result->reason);
   const bool stroked = is_of_stroke(ws_.history);
   const Flags before = cut_already && !stroked ? shown : labels_before(order, shown);
   const std::string changed = what_changed(*before, *labels_now(), seconds);
   if (stroked && *before == *labels_now() && count_flags(*before) > 0) {
-    ws_.history.take_back();
+    if (CutRun* kept = known_run(order.object, order.key)) kept->changed_nothing = true;
     return ws_.say(
         Message::Kind::kRefused,
         fmt::format("{}: {}. Click nearer to what is wrong, come nearer, or draw over it", name, changed));
@@ -393,7 +394,7 @@ void CutJobs::show_views(const Order& order, std::vector<ViewCard> cards) {
   std::string& said = sides_said_[order.object];
   if (!add_doubt_of_sides(run)) return said.clear();
   const std::string& doubt = run->doubts.back();
-  if (doubt == said || !object || object->cut_key != order.key) return;
+  if (doubt == said || !object || object->cut_key != order.key || run->changed_nothing) return;
   const Flags now = ws_.labels.labels(ws_.document(), *object, ws_.gaussians());
   if (*now != run->result->labels) return;  // they are drawn again, see renew_views()
   said = doubt;

@@ -131,13 +131,12 @@ template <class C>
 void Edits::change_all(const C& c) {
   Document now = ws_.document();
   const std::string message = edit(&now, c, ws_.context());
-  const auto change = [&](Document* state) {
+  ws_.history.change_all([&](Document* state) {
     try {
       edit(state, c, ws_.context());
     } catch (const Error&) {  // an older or newer state has nothing to change
     }
-  };
-  ws_.history.change_all(change, false);
+  });
   ws_.say(Message::Kind::kInfo, message);
 }
 

@@ -15,13 +15,15 @@ void Clicks::combine_with(const CameraStroke& stroke, SetOperation operation, co
                     settings = cut_settings(ws_.document(), *object)](const Job& job) {
                      const Session::Preview preview = session->preview({}, stroke, settings, {job.stop, {}});
                      if (job.cancelled()) return;
-                     ws_.tasks.post([this, edit, operation, title, meant = preview.after] {
+                     ws_.tasks.post([this, edit, operation, title, settings, meant = preview.after] {
                        edits_.end(edit, [&] {
                          if (!meant.empty()) return edits_.select_later(meant, operation, title);
-                         ws_.say(
-                             Message::Kind::kRefused,
-                             "With this quality there are no parts that a click could take. Use a region, or "
-                             "choose another quality.");
+                         const bool by_parts = settings.first_mask_from == FirstMaskFrom::kParts;
+                         ws_.say(Message::Kind::kRefused,
+                                 by_parts
+                                     ? "There is nothing in that place"
+                                     : "With this method there are no parts that a click could take. Use "
+                                       "a region, or choose another method.");
                        });
                      });
                    });
