@@ -97,8 +97,8 @@ BatchResults::BatchResults(const std::filesystem::path& folder, const std::strin
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure) throw Error(folder.string(), "cannot be created (" + failure.message() + ")");
-  // Beside the name that an AtomicFile takes meanwhile.
-  lock_.emplace(folder / ("batch" + ending + ".splatcut.part"), folder);
+  // Beside the names that an AtomicFile and the folder of a job take meanwhile.
+  lock_.emplace(folder / ("results.lock" + ending + ".splatcut.part"), folder);
 }
 
 BatchResults::~BatchResults() {

@@ -91,7 +91,7 @@ void warn_of_choices(const std::vector<CutObject>& objects, const CutRunOptions&
       options.warn(fmt::format(
           "{}what was said first can mean {} only: this is {}, not {}",
           object.name.empty() ? "" : object.name + ": ",
-          result.meanings.size() == 1 ? "one thing" : fmt::format("{} things", result.meanings.size()),
+          result.meanings.size() <= 1 ? "one thing" : fmt::format("{} things", result.meanings.size()),
           result.choice + 1, object.request.choice + 1));
 }
 

@@ -120,7 +120,10 @@ ChosenCamera choose_camera(const CameraOptions& options, const Scene& scene) {
           &chosen.warning);
   }
   if (!options.up.empty()) {
-    chosen.up_world = parse_vec3(options.up, "--camera-up");
+    const glm::dvec3 up = parse_vec3(options.up, "--camera-up");
+    if (!(glm::length(up) > 0) || !std::isfinite(glm::length(up)))
+      throw Error("--camera-up " + options.up, "is no direction", "Write one as x,y,z, as in 0,-1,0");
+    chosen.up_world = glm::normalize(up);
   } else if (chosen.given.empty()) {
     chosen.up_is_guess = !scene.up;
     chosen.up_world = scene.up ? *scene.up : guessed_up(cloud);

@@ -72,16 +72,15 @@ std::vector<Camera> each_entry(const fs::path& path, const json& list, const cha
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string entry = fmt::format("{} {}", kind, i);
     try {
-      cameras.push_back(read(list[i]));
-      check_lens(path, entry, cameras.back());
-      continue;
+      Camera camera = read(list[i]);
+      check_lens(path, entry, camera);
+      cameras.push_back(std::move(camera));
     } catch (const json::exception& error) {
       remarks->leave_out(Error(path.string(), fmt::format("{}: {}", entry, fault_of(error))));
     } catch (const std::domain_error& error) {
       remarks->leave_out(Error(path.string(), fmt::format("{}: {}", entry, error.what())));
     } catch (const Error& error) {
       remarks->leave_out(error);
-      cameras.pop_back();
     }
   }
   if (cameras.empty()) remarks->refuse(path);

@@ -271,6 +271,7 @@ void read_binary(const MappedFile& file, const PlyHeader& header, const PlyEleme
                                           [](const PlyProperty& p) { return p.type == PlyType::kFloat32; });
   const std::byte* data = element_bytes(file.path(), file.bytes(), vertex).data();
   const bool linear = has_linear_colours(file, header, vertex);
+  if (linear) scene.rows_can_be_changed = false;  // what is added would be sRGB
   if (floats)
     read_rows<true>(file, vertex, data, linear, scene, job);
   else

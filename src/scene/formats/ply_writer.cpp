@@ -27,7 +27,12 @@ constexpr std::string_view kIdProperty = "property uchar object_id\n";
 // asked for, and with another up if one is known; all other lines stay as they are.
 std::string changed_header(std::string_view header, std::size_t count, bool with_ids,
                            const std::optional<glm::vec3>& up) {
-  std::string out, line_of_up = up_comment(up);
+  // Readers take the end of the first line for that of all.
+  const std::string_view line_end = header.substr(0, header.find('\n')).ends_with('\r') ? "\r\n" : "\n";
+  const auto ended = [&](std::string_view line) {
+    return line.empty() ? std::string() : std::string(line.substr(0, line.size() - 1)).append(line_end);
+  };
+  std::string out, line_of_up = ended(up_comment(up));
   bool in_vertex = false;
   for (std::size_t begin = 0; begin < header.size();) {
     const std::size_t end = header.find('\n', begin) + 1;
@@ -37,11 +42,11 @@ std::string changed_header(std::string_view header, std::size_t count, bool with
     begin = end;
     if (up && is_up_comment(line)) continue;
     if (!words.empty() && words[0] == "element") out += std::exchange(line_of_up, {});
-    if (leaves && with_ids) out += kIdProperty;
+    if (leaves && with_ids) out += ended(kIdProperty);
     if (leaves) in_vertex = false;
     if (words.size() == 3 && words[0] == "element" && words[1] == "vertex") {
       in_vertex = true;
-      out += fmt::format("element vertex {}{}", count, line.ends_with("\r\n") ? "\r\n" : "\n");
+      out += fmt::format("element vertex {}{}", count, line_end);
     } else {
       out += line;
     }

@@ -65,6 +65,16 @@ std::vector<json> results_in(const std::string& file) {
 
 }  // namespace
 
+TEST_CASE("batch: a job may have the batch's name") {
+  const Workplace& place = still_life().place;
+  json job = job_on("apple", {{"write", {"labels"}}, {"parts-only", true}});
+  job["name"] = "batch";
+  place.write("named.jsonl", lines_of({job}));
+  const Result result = place.run("batch named.jsonl -o named");
+  CHECK_MESSAGE(result.code == 0, result.err);
+  CHECK(place.exists("named/batch/labels.u8"));
+}
+
 TEST_CASE("batch: a job's files are those of the cut with the same options, and it is done once") {
   const Workplace& place = still_life().place;
   const std::string apple = still_life().click_on("apple");

@@ -13,6 +13,7 @@ TEST_CASE("a value that its option does not take ends every command with 1, and 
                     click = cut + "--click 1,1 ";
   const std::pair<std::string, const char*> values[] = {{render, "--size foo"},
                                                         {render, "--camera-fov 999"},
+                                                        {render, "--camera-up 0,0,0"},
                                                         {render, "--what foo"},
                                                         {render, "--background red"},
                                                         {render, "--lowpass -1"},

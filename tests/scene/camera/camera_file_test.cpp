@@ -268,6 +268,17 @@ TEST_CASE("transforms.json: lenses far from a pinhole, numbers as text, null, si
             std::string(20, '\0'));
   frames(R"("fl_x": 500, "fl_y": 510, )");
   check_camera(load_cameras(folder / "t.json")[0]);
+  // A picture that cannot be read takes its own camera away, and no other.
+  write(folder / "images/b.jpg", "");
+  const auto frame = [&](const char* name) {
+    return fmt::format(R"({{"file_path": "images/{}", {}}})", name, matrix);
+  };
+  for (const std::string& order : {frame("b") + ", " + frame("a"), frame("a") + ", " + frame("b")}) {
+    write(folder / "t.json", R"({"fl_x": 500, "fl_y": 510, "frames": [)" + order + "]}");
+    const std::vector<Camera> cameras = load_cameras(folder / "t.json");
+    REQUIRE(cameras.size() == 1);
+    check_camera(cameras[0]);
+  }
 }
 
 TEST_CASE("lens distortion is left out with a warning that says how much it is") {

@@ -153,6 +153,20 @@ TEST_CASE(
   CHECK(other.up == scene.up);
 }
 
+TEST_CASE("up: the header of a copied .ply has one kind of line ends") {
+  const Folder folder;
+  std::string text = numbered_ply(splat_names(0), 30);
+  const std::size_t body = text.find("end_header\n") + 11;
+  for (std::size_t at = 0, left = body; (at = text.find('\n', at)) < left; at += 2, ++left)
+    text.insert(at, "\r");
+  write(folder / "a.ply", text);
+  const Scene scene = load_scene(folder / "a.ply");
+  REQUIRE(scene.rows_can_be_copied);
+  save_scene(folder / "b.ply", scene, {}, SceneFormat::kPly, {.up = glm::vec3(0, 2, 0)});
+  CHECK(text_of(folder / "b.ply") ==
+        with_between(text, "comment made by hand\r\n", "element", "comment up 0 1 0\r\n"));
+}
+
 TEST_CASE("up: what is no direction is passed over with a sentence, in every format") {
   const Folder folder;
   const Scene scene = small_scene();

@@ -126,6 +126,7 @@ TEST_CASE("ply: linear colours become sRGB, and are refused where they depend on
   write(folder / "a.ply", with_space(small_ply(), '\1'));
   const Scene scene = load_scene(folder / "a.ply");  // 0.5 is 0.735357 in sRGB
   CHECK(0.5f + 0.28209479f * scene.cloud.f_dc[0].x == doctest::Approx(0.735357).epsilon(1e-5));
+  CHECK_FALSE(scene.rows_can_be_changed);  // sRGB beside them would be read as linear
   write(folder / "b.ply", with_space(small_ply(), '\0'));
   CHECK(load_scene(folder / "b.ply").cloud.f_dc[0] == glm::vec3(0));
   std::vector<std::string> rest;
