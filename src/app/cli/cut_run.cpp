@@ -32,7 +32,6 @@ nlohmann::json settings_json(const CutArguments& args, const ObjectInput& input,
       {"coarse", settings.cut.coarse},
       {"first_mask", args.masks.first_mask.empty() ? "as the preset" : args.masks.first_mask},
       {"scale", args.scale},
-      {"choice", args.choice.value_or(1)},
       {"parts_only", settings.parts_only},
       {"values", values_json(settings)}};
   if (!input.mask.empty()) said["mask"] = input.mask.string();

@@ -24,9 +24,8 @@ const RequestField kReplaces{"overwrite", kSwitch, false, "A file of that name i
 const RequestField kLabel{
     "label", kText, false, "Whether it marks the object (default) or the rest", {"object", "rest"}};
 constexpr const char* kObjectReply =
-    "gaussians of the object; size, sizes, choice, choices and certainty of the first click; doubts, a "
-    "sentence "
-    "each";
+    "gaussians of the object; size, sizes, choice, choices and certainty of the first click; doubts, "
+    "sentences";
 
 const std::vector<RequestKind>& kinds() {
   static const std::vector<RequestKind> table = {
