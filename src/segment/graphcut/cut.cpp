@@ -7,7 +7,8 @@ namespace splatcut {
 
 namespace {
 
-// More than all arcs of a node and its own weight can carry.
+// More than all arcs of a node and its own weight carry, but where neighbours weigh some hundred times what
+// they usually do.
 constexpr std::int64_t kFixedTerminal = 1 << 28;
 
 }  // namespace

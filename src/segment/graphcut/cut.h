@@ -42,7 +42,8 @@ class CutSolver {
   void set_options(const CutOptions& options);
 
   // views, pixels_per_view: what the likelihood was summed over. Cancelled: the labels are unspecified.
-  // fixed: empty, or per Gaussian +1 object, -1 not, 0 open: those are on their side whatever the views say.
+  // fixed: empty, or per Gaussian +1 object, -1 not, 0 open: those are on their side whatever the views say,
+  // unless neighbours weigh more than 256 units of energy there.
   CutReport solve(const Likelihood& likelihood, int views, double pixels_per_view, const Job& job = {},
                   std::span<const std::int8_t> fixed = {});
 

@@ -27,6 +27,7 @@ Likelihood likelihood(const MaskedSums& sums) {
 }
 
 Likelihood with_prior(Likelihood seen, std::span<const std::uint8_t> prior, float prior_px) {
+  if (!(prior_px > 0)) return seen;
   for_each_index(prior.size(), [&](std::size_t g) {
     const float all = seen.seen_px[g] + prior_px;
     seen.w[g] = (seen.w[g] * seen.seen_px[g] + (prior[g] ? prior_px : 0)) / all;

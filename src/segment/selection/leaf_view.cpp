@@ -108,6 +108,14 @@ LeafView leaf_view_of(const PartHierarchy& parts, const Camera& camera, ListedWe
   return view;
 }
 
+std::size_t LeafView::bytes() const {
+  std::size_t bytes = 0;
+  const auto add = [&](const auto&... array) { bytes += (... + std::span(array).size_bytes()); };
+  add(gaussians.first, gaussians.entry, leaves.first, leaves.entry, depth.pixels(), steps.pixels(),
+      colour.pixels(), alone_px, leaf_px, leaf_frame_px);
+  return bytes;
+}
+
 LeafView leaf_view(const Drawer& drawer, const PartHierarchy& parts, const Camera& camera, const Job& job,
                    const SeenGaussians& seen) {
   RasterOptions raster;

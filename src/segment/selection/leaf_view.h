@@ -37,6 +37,8 @@ struct LeafView {
   std::vector<float> alone_px;       // pixels that each Gaussian has if nothing occludes it; empty: not known
   std::vector<float> leaf_px;        // sum of each leaf's weights, pixels
   std::vector<float> leaf_frame_px;  // sum of each leaf's weights at the picture's frame, pixels
+
+  std::size_t bytes() const;
 };
 
 // Draws a view. seen: flags of the Gaussians to draw; null: all. If cancelled, the result must not be used.

@@ -8,8 +8,7 @@ namespace splatcut {
 
 namespace {
 
-constexpr std::size_t kMostViews = 12;  // kept, some 10 MB each at 320 pixels and 4 bytes a Gaussian
-constexpr std::size_t kMostKept = 6;    // selections, for undo: 2 bytes a Gaussian each
+constexpr std::size_t kMostKept = 6;  // selections, for undo: 2 bytes a Gaussian each
 
 bool same_stroke(const CameraStroke& a, const CameraStroke& b) {
   return same_camera(a.camera, b.camera) && same_set(a.seen, b.seen) && a.stroke.kind == b.stroke.kind &&
@@ -27,6 +26,12 @@ std::vector<CameraStroke> in_replay_order(std::span<const CameraStroke> strokes)
   return order;
 }
 
+std::size_t StrokeReplay::view_bytes() const {
+  std::size_t bytes = 0;
+  for (const KnownView& known : views_) bytes += known.view.bytes();
+  return bytes;
+}
+
 LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int width_px, const Job& job) {
   const Camera camera = limited_to_width(said.camera, width_px);
   const auto known = std::ranges::find_if(views_, [&](const KnownView& v) {
@@ -39,7 +44,7 @@ LeafView* StrokeReplay::view(const Drawer& drawer, const CameraStroke& said, int
   LeafView made = leaf_view(drawer, parts_, camera, job, said.seen);
   if (job.cancelled()) return nullptr;  // it may be incomplete
   views_.push_front({std::move(made), said.seen});
-  if (views_.size() > kMostViews) views_.pop_back();
+  while (views_.size() > 1 && view_bytes() > most_bytes_) views_.pop_back();
   return &views_.front().view;
 }
 

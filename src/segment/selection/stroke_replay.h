@@ -37,13 +37,18 @@ std::vector<CameraStroke> in_replay_order(std::span<const CameraStroke> strokes)
 
 class StrokeReplay {
  public:
-  // parts must outlive this.
-  explicit StrokeReplay(const PartHierarchy& parts) : parts_(parts) {}
+  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;  // some 25 views at 320 pixels
+
+  // parts must outlive this. most_bytes: of the views that are kept; the last used one always is.
+  explicit StrokeReplay(const PartHierarchy& parts, std::size_t most_bytes = kMostBytes)
+      : parts_(parts), most_bytes_(most_bytes) {}
 
   // Returns the selection after all strokes, which is valid until the next call. If cancelled, it must not be
   // used.
   const ClickSelection& replay(const Drawer& drawer, std::span<const CameraStroke> strokes,
                                const ReplayOptions& options, const Job& job = {});
+
+  std::size_t view_bytes() const;  // of the views that are kept
 
  private:
   struct KnownView {
@@ -57,6 +62,7 @@ class StrokeReplay {
                                               const CameraStroke& said, const Job& job);
 
   const PartHierarchy& parts_;
+  std::size_t most_bytes_;
   std::list<KnownView> views_;  // views that are kept, the last used first
   ReplayOptions options_;
   std::vector<CameraStroke> done_;  // strokes in the order in which they were applied

@@ -33,6 +33,8 @@ struct KeptNeighbourhood {
   KeptNeighbourhood(Neighbourhood made, const SessionScene& scene)
       : near(std::move(made)), session({near.cloud, near.prepared, scene.up_world, scene.photographs}) {}
 
+  std::size_t bytes() const { return near.bytes() + session.view_bytes(); }
+
   Neighbourhood near;
   LocalSession session;
   SeenSets seen;

@@ -72,6 +72,9 @@ class LocalSession {
     if (!job.cancelled()) ready.make_ready();
   }
 
+  // Of the views of strokes that are kept, which grow with the pictures.
+  std::size_t view_bytes() const { return strokes_.view_bytes(); }
+
  private:
   struct Kept {  // a cut from the reference
     std::string key;

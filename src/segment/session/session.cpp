@@ -67,9 +67,9 @@ Session::Local* Session::local(const Place& place, const CutSettings& settings, 
   if (job.cancelled()) return nullptr;
   locals_.emplace_front(std::move(made), scene_);
   StageClock(&prepared_).book(locals_.front().near.prepared->stages);
-  std::size_t bytes = locals_.front().near.bytes();
+  std::size_t bytes = locals_.front().bytes();
   for (auto l = std::next(locals_.begin()); l != locals_.end();) {
-    bytes += l->near.bytes();
+    bytes += l->bytes();
     l = bytes > scene_.most_bytes ? locals_.erase(l) : std::next(l);
   }
   return &locals_.front();

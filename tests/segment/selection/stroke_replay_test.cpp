@@ -180,4 +180,13 @@ TEST_CASE("selection: replayed strokes give what strokes one by one give, on any
     StrokeReplay alone(t.prepared.parts);
     CHECK(alone.replay(t.cloud, strokes, {}).labels() == all);
   });
+  // Views beyond the limit go, but for the last one, and nothing depends on them.
+  constexpr std::size_t kNothing = 1;
+  std::vector<CameraStroke> from_two = {strokes[1], strokes[2]};
+  from_two[1].camera = limited_to_width(mug.camera, 200);
+  StrokeReplay small(t.prepared.parts, kNothing), large(t.prepared.parts);
+  const Labels seen_twice = large.replay(t.cloud, from_two, {}).labels();
+  CHECK(small.replay(t.cloud, from_two, {}).labels() == seen_twice);
+  CHECK(small.view_bytes() > 0);
+  CHECK(small.view_bytes() < 0.6 * static_cast<double>(large.view_bytes()));
 }
