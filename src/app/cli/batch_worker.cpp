@@ -68,12 +68,12 @@ nlohmann::json do_job(const BatchJob& job, BatchWorker* worker) {
   OutputFolder out(folder, worker->overwrite || !before.is_null());
   if (!worker->scene || worker->scene->key() != args.scene_key()) {
     worker->scene.reset();  // first: two scenes may not find room
-    worker->scene.emplace(args, prepared_cache(worker->common), worker->common.quiet, worker->job);
+    worker->scene.emplace(args, prepared_cache(worker->common), true, worker->job);
     if (worker->job.cancelled()) worker->scene.reset();
     stop_if_cancelled(worker->job, "splatcut batch");
   }
   refuse_written_inputs(folder, worker->scene->scene().files);
-  nlohmann::json warnings = nlohmann::json::array();
+  nlohmann::json warnings = args.how.remarks(worker->scene->scene());
   const FinishedCut run =
       run_cut_in(&*worker->scene, args, input, out,
                  {.quiet = true,

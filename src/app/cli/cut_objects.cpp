@@ -23,14 +23,6 @@ std::string name_of(const json& entry, const std::string& where) {
   throw Error(where, "has no name", "Give \"name\": its files are called after it");
 }
 
-std::optional<std::string> camera_of(const json& entry, const std::string& where) {
-  if (!entry.contains("camera")) return std::nullopt;
-  const json& camera = entry.at("camera");
-  if (camera.is_string()) return camera.get<std::string>();
-  if (camera.is_number_unsigned()) return std::to_string(camera.get<unsigned long>());
-  throw Error(where, "\"camera\" is neither a name nor a number");
-}
-
 // Names that become the same file, or that of the rest or of all objects together.
 void check_names(const std::vector<NamedSeeds>& objects, const std::string& where) {
   std::vector<std::string> taken = {"rest", "objects"};
@@ -42,17 +34,6 @@ void check_names(const std::vector<NamedSeeds>& objects, const std::string& wher
                   "Give it another name");
     taken.push_back(file_name_of(object.name));
   }
-}
-
-// The camera that the object's strokes are seen from.
-Camera camera_for(const NamedSeeds& object, const ChosenCamera& chosen, const CameraOptions& options) {
-  if (!object.camera) return chosen.camera;
-  if (chosen.given.empty())
-    throw Error(fmt::format("object \"{}\"", object.name),
-                fmt::format("its camera \"{}\" is not known", *object.camera),
-                "Give the capture's cameras with --cameras");
-  const Camera camera = find_camera(chosen.given, *object.camera, options.cameras.string());
-  return options.size.empty() ? camera : resized(camera, chosen.camera.width_px, chosen.camera.height_px);
 }
 
 Error not_found(const CutObject& object) {
@@ -96,16 +77,37 @@ void check_inside(const Strokes& strokes, const Camera& camera) {
 
 }  // namespace
 
+std::optional<std::string> camera_from_json(const json& seeds, const std::string& where) {
+  if (!seeds.is_object() || !seeds.contains("camera")) return std::nullopt;
+  const json& camera = seeds.at("camera");
+  if (camera.is_string()) return camera.get<std::string>();
+  if (camera.is_number_unsigned()) return std::to_string(camera.get<unsigned long>());
+  throw Error(where, "\"camera\" is neither a name nor a number");
+}
+
+Camera camera_of_seeds(const std::string& camera, const std::string& whose, const ChosenCamera& chosen,
+                       const CameraOptions& options) {
+  if (chosen.given.empty())
+    throw Error(whose, fmt::format("its camera \"{}\" is not known", camera),
+                "Give the capture's cameras with --cameras");
+  const Camera found = find_camera(chosen.given, camera, options.cameras.string());
+  return options.size.empty() ? found : resized(found, chosen.camera.width_px, chosen.camera.height_px);
+}
+
 std::vector<NamedSeeds> named_seeds_from_json(const json& seeds, const std::string& where) {
   if (!seeds.is_object() || !seeds.contains("objects")) return {};
   const json& list = seeds.at("objects");
   if (!list.is_array() || list.empty() || list.size() > kMostObjects)
     throw Error(where, fmt::format("\"objects\" is not a list of 1 to {} objects", kMostObjects));
+  if (seeds.contains("choice"))
+    throw Error(where, "\"choice\" stands beside \"objects\"", "Put it into one of the objects");
+  const std::optional<std::string> of_all = camera_from_json(seeds, where);
   std::vector<NamedSeeds> objects;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string entry = fmt::format("{}: object {}", where, i);
     if (!list[i].is_object()) throw Error(entry, "is not an object with \"name\" and \"clicks\"");
-    objects.push_back({name_of(list[i], entry), camera_of(list[i], entry), strokes_from_json(list[i], entry),
+    const std::optional<std::string> own = camera_from_json(list[i], entry);
+    objects.push_back({name_of(list[i], entry), own ? own : of_all, strokes_from_json(list[i], entry),
                        choice_from_json(list[i], entry)});
     if (objects.back().strokes.empty()) throw Error(entry, "holds neither clicks nor scribbles");
   }
@@ -117,7 +119,10 @@ std::vector<CutObject> objects_of(const std::vector<NamedSeeds>& seeds, const Ch
                                   const CameraOptions& camera) {
   std::vector<CutObject> objects;
   for (const NamedSeeds& object : seeds) {
-    const Camera seen_from = camera_for(object, chosen, camera);
+    const Camera seen_from =
+        object.camera
+            ? camera_of_seeds(*object.camera, fmt::format("object \"{}\"", object.name), chosen, camera)
+            : chosen.camera;
     CutRequest request;
     request.strokes = {{seen_from, object.strokes}};
     request.choice = object.choice;

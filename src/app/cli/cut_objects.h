@@ -26,9 +26,17 @@ struct NamedSeeds {
 };
 
 // {"objects": [{"name", "camera", "clicks", "scribbles", "choice"}, ...]}, strokes_from_json() of each;
-// "object" is read as "name", too (make-scene writes it). Empty where there are no "objects". Throws Error
+// "object" is read as "name", too (make-scene writes it). A "camera" beside "objects" is that of each without
+// one. Empty where there are no "objects". Throws Error
 // naming the entry.
 std::vector<NamedSeeds> named_seeds_from_json(const nlohmann::json& seeds, const std::string& where);
+
+// "camera" of seeds, a name or a number; none where they have none. Throws Error for anything else.
+std::optional<std::string> camera_from_json(const nlohmann::json& seeds, const std::string& where);
+// That camera of --cameras, with a picture as large as the reference's where --size is given. whose: what
+// the seeds are, for an Error.
+Camera camera_of_seeds(const std::string& camera, const std::string& whose, const ChosenCamera& chosen,
+                       const CameraOptions& options);
 
 struct CutObject {
   std::string name;  // empty: the only object of a cut, which was given no name

@@ -82,6 +82,13 @@ ObjectFiles files_of(const CutObject& object) {
   return object.name.empty() ? files_of_only_object() : files_of_object(file_name_of(object.name));
 }
 
+LostByFile lost_by_file(const RunReport& report) {
+  LostByFile lost = report.rest.lost;
+  for (std::size_t o = 0; o < report.objects.size(); ++o)
+    if (!report.edges[o].lost.empty()) lost[files_of(report.objects[o]).scene] = report.edges[o].lost;
+  return lost;
+}
+
 json report_json(const RunReport& report) {
   const Scene& scene = report.scene;
   json out = {{"version", version()},
@@ -92,6 +99,7 @@ json report_json(const RunReport& report) {
                 {"dropped", scene.dropped},
                 {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}}}}};
   if (report.times) out.update({{"total_ms", report.total_ms}, {"peak_rss_mb", peak_rss_mb()}});
+  if (const LostByFile lost = lost_by_file(report); !lost.empty()) out["lost"] = lost;
   if (report.of_one()) {
     const CutObject& object = report.objects.front();
     out.update(cut_json(object.result, stages_of_one(report), report.times));
@@ -99,7 +107,7 @@ json report_json(const RunReport& report) {
                 {"edges", report.edges.front().json(report.times)}});
     return out;
   }
-  out.update({{"objects", json::array()}, {"rest", {{"gaussians", report.rest}}}});
+  out.update({{"objects", json::array()}, {"rest", {{"gaussians", report.rest.gaussians}}}});
   if (report.times) out["stages"] = {{{"name", "load"}, {"ms", report.load_ms}}};
   for (std::size_t o = 0; o < report.objects.size(); ++o)
     out["objects"].push_back(entry_json(report.objects[o], report.edges[o], o + 1, report.times));

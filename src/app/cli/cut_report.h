@@ -16,14 +16,16 @@ struct RunReport {
   const nlohmann::json& settings;
   const std::vector<CutObject>& objects;  // one without a name, or several with names
   std::vector<EdgesReport> edges = {};    // of each object
-  std::size_t rest = 0;                   // Gaussians
-  double load_ms = 0, total_ms = 0;       // the time that writing takes does not count
-  bool times = true;                      // time, memory and what else depends on earlier cuts is told
+  RestReport rest = {};
+  double load_ms = 0, total_ms = 0;  // the time that writing takes does not count
+  bool times = true;                 // time, memory and what else depends on earlier cuts is told
 
   bool of_one() const { return objects.size() == 1 && objects.front().name.empty(); }
 };
 
 ObjectFiles files_of(const CutObject& object);
+
+LostByFile lost_by_file(const RunReport& report);  // of all files written
 
 nlohmann::json report_json(const RunReport& report);
 std::string summary(const RunReport& report);  // lines on the objects

@@ -40,6 +40,18 @@ nlohmann::json settings_json(const CutArguments& args, const ObjectInput& input,
   return said;
 }
 
+// What would be without effect.
+void refuse_unused(const CutArguments& args, const ObjectInput& input, const CutSettings& settings) {
+  const bool masked = !input.mask.empty() || !input.masks_folder.empty() || input.segmenter;
+  if (settings.parts_only && masked)
+    throw Error("parts_only", "the parts cannot be the answer where masks are given",
+                "Leave one of them out");
+  if (settings.first_mask_from != FirstMaskFrom::kParts && (args.scale != 0 || args.choice))
+    throw Error(args.choice ? "--choice" : "--scale",
+                "chooses among parts, and the first mask comes from pixels",
+                "Leave it out, or take the first mask from parts (--first-mask parts)");
+}
+
 // The request of the options, or that of each object of --seeds.
 std::vector<CutObject> objects_of(const CutArguments& args, const ObjectInput& input, const Scene& scene,
                                   const CutRunOptions& options, const Job& job, ChosenCamera* chosen) {
@@ -103,7 +115,6 @@ void CutArguments::add_to(CLI::App& command) {
   object.add_to(command);
   cutout.add_to(command);
   masks.add_to(command, false);
-  command.get_option("--parts-only")->excludes("--masks");
   for (const char* given : {"--mask", "--masks", "--text"})
     command.get_option("--first-mask")->excludes(given);
   command.add_option("--smoothness", smoothness,
@@ -125,6 +136,9 @@ void CutArguments::add_to(CLI::App& command) {
       ->excludes("--text");
   add_setting_options(command, &preset, &set);
   command.add_flag("--coarse", coarse, "Threshold the likelihood instead of the cut");
+  for (const char* without_effect :
+       {"--mask", "--masks", "--text", "--views", "--propagate", "--refine", "--smoothness", "--coarse"})
+    command.get_option("--parts-only")->excludes(without_effect);
 }
 
 CutSettings CutArguments::settings() const {
@@ -168,6 +182,7 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   if (!chosen.warning.empty()) options.warn(chosen.warning);
   const CutSettings settings = args.settings();
   args.cutout.check();
+  refuse_unused(args, input, settings);
   if (input.segmenter) end_progress();  // the program prints to the same place
   std::vector<CutObject> objects = objects_of(args, input, scene, options, job, &chosen);
   const nlohmann::json said = settings_json(args, input, chosen, settings);
@@ -179,18 +194,20 @@ FinishedCut run_cut_in(SharedScene* shared, const CutArguments& args, const Obje
   end_progress();
   stop_if_cancelled(job, "splatcut cut");
   warn_of_choices(objects, options);
-  RunReport report{scene,        said, objects, {}, 0, shared->load_ms(), shared->load_ms() + ms_since(start),
-                   options.times};
+  RunReport report{
+      scene, said, objects, {}, {}, shared->load_ms(), shared->load_ms() + ms_since(start), options.times};
   CutoutFolder to{folder,       scene,       session.blocks(),          chosen.up_world,
                   chosen.given, args.cutout, args.cutout.writes("rest")};
   if (placement != ExportPlacement{})
     to.to = {similarity_of(placement, scene.cloud, owner, chosen.up_world),
              placement.origin == ExportOrigin::kScene};
   to.up = up_to_write(chosen, placement);
+  to.owner = owner;
   report.edges = write_cutouts(to, objects, job);
   for (const EdgesReport& edges : report.edges) report.total_ms += edges.ms + edges.seen_ms;
   report.rest = write_rest(to, owner, report.edges, chosen.camera);
-  if (report.rest == 0) options.warn("the cut takes the whole scene: the rest holds no Gaussians");
+  if (report.rest.gaussians == 0) options.warn("the cut takes the whole scene: the rest holds no Gaussians");
+  for (const auto& [file, lost] : lost_by_file(report)) options.warn(fmt::format("{}: {}", file, lost));
   if (args.cutout.writes("objects"))
     write_text_file(folder.file("objects.json"), json_text(object_names(objects), 2) + "\n");
   FinishedCut run{report_json(report), summary(report), std::move(objects)};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/console/labels_file.h"
 #include "app/document/export_plan.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -63,19 +64,6 @@ Image<Rgb8> contact_sheet(const Drawer& scene, const std::vector<ViewReport>& vi
   return sheet;
 }
 
-// The header of a numpy array of bytes, version 1.0 of the format: magic, version, length, a dictionary of
-// Python, and blanks up to a line's end, 64 bytes or a multiple of them in all.
-std::string npy_header(std::size_t count) {
-  constexpr std::size_t kAlignment = 64;
-  const std::string magic("\x93NUMPY\x01\0", 8);
-  std::string text = "{'descr': '|u1', 'fortran_order': False, 'shape': (" + std::to_string(count) + ",), }";
-  const std::size_t length = magic.size() + 2 + text.size() + 1;
-  text.append((kAlignment - length % kAlignment) % kAlignment, ' ');
-  text += '\n';
-  const auto low = static_cast<char>(text.size() & 0xff), high = static_cast<char>(text.size() >> 8);
-  return magic + low + high + text;
-}
-
 // Beside the object's .ply: in the same place.
 void write_hull(const CutoutFolder& to, const std::string& file, const GaussianCloud& cloud,
                 std::span<const std::uint8_t> keep) {
@@ -116,6 +104,15 @@ RestChanges changes_of(const CutoutFolder& to, std::span<EdgesReport> objects) {
   }
   add(filled, &all);
   return all;
+}
+
+// What leaves the rest beside the object and its ghosts, and no longer tells of the surface below it.
+std::vector<std::uint32_t> gone_with(const CutoutFolder& to, const std::vector<std::uint8_t>& labels,
+                                     const std::optional<RestChanges>& rest) {
+  std::vector<std::uint32_t> gone = rest ? rest->ghosts : std::vector<std::uint32_t>();
+  for (std::uint32_t g = 0; g < to.owner.size(); ++g)
+    if (to.owner[g] && !labels[g]) gone.push_back(g);
+  return gone;
 }
 
 nlohmann::json seen_json(const SeenFrom& seen) {
@@ -245,19 +242,6 @@ Image<Rgb8> tinted_picture(const Drawer& scene, const Camera& camera,
   return tinted_by_mask(scene, camera, thresholded(render_labels(scene, camera, labels), 0.5f));
 }
 
-std::string labels_in_file_order(const Scene& scene, const std::vector<std::uint8_t>& labels) {
-  std::string bytes(scene.file_rows, '\0');
-  for (std::size_t g = 0; g < labels.size(); ++g)
-    bytes[scene.cloud.file_row[g]] = static_cast<char>(labels[g]);
-  return bytes;
-}
-
-void write_labels(const std::filesystem::path& path, const Scene& scene,
-                  const std::vector<std::uint8_t>& labels) {
-  const std::string bytes = labels_in_file_order(scene, labels);
-  write_text_file(path, path.extension() == ".npy" ? npy_header(bytes.size()) + bytes : bytes);
-}
-
 EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
                          const std::vector<std::uint8_t>& labels, const ObjectView* shown, const Job& job) {
   const bool scene = to.options.writes("object"), hull = to.options.writes("hull"),
@@ -267,8 +251,9 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
   std::optional<CleanObject> clean;
   if (to.options.clean() && (scene || hull || pictures || to.rest)) {
     const auto start = std::chrono::steady_clock::now();
-    clean = clean_object({to.drawer(), labels, to.up_world, to.cameras, to.rest, to.options.clean_anyway()},
-                         {}, job);
+    clean = clean_object(
+        {to.drawer(), labels, to.up_world, to.cameras, to.rest, to.options.clean_anyway(), to.owner}, {},
+        job);
     report.ms = ms_since(start);
     report.clean = clean->report;
     if (to.rest) report.rest = std::move(clean->rest);
@@ -276,14 +261,15 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
   }
   if (to.rest && to.options.fill == "surface")
     report.fill =
-        fill_surface(to.drawer(), labels, report.rest ? report.rest->ghosts : std::vector<std::uint32_t>(),
-                     to.up_world, to.cameras, job);
+        fill_surface(to.drawer(), labels, gone_with(to, labels, report.rest), to.up_world, to.cameras, job);
   if (job.cancelled()) return report;
-  if (scene)
-    report.gaussians =
+  if (scene) {
+    SaveReport saved =
         save_gaussians(to.folder.file(files.scene), to.scene, labels, clean ? &clean->cloud : nullptr,
-                       SceneFormat::kPly, to.to, {.up = to.up})
-            .gaussians;
+                       SceneFormat::kPly, to.to, {.up = to.up});
+    report.gaussians = saved.gaussians;
+    report.lost = std::move(saved.loss);
+  }
   if (hull)
     write_hull(to, files.hull, clean ? clean->cloud : to.scene.cloud,
                clean ? std::span<const std::uint8_t>() : labels);
@@ -300,17 +286,21 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
   return report;
 }
 
-std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner,
-                       std::span<EdgesReport> objects, const Camera& camera) {
+RestReport write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner,
+                      std::span<EdgesReport> objects, const Camera& camera) {
   std::vector<std::uint8_t> rest(owner.size());
   std::ranges::transform(owner, rest.begin(),
                          [](std::uint8_t o) { return static_cast<std::uint8_t>(o == 0); });
-  std::size_t gaussians = static_cast<std::size_t>(std::ranges::count(rest, 1));
+  RestReport report{static_cast<std::size_t>(std::ranges::count(rest, 1)), {}};
+  const auto note = [&](const std::string& file, const SaveReport& saved) {
+    if (!saved.loss.empty()) report.lost[file] = saved.loss;
+  };
   if (to.options.writes("rest")) {
     const RestChanges changes = changes_of(to, objects);
-    gaussians = save_rest(to.folder.file("rest.ply"), to.scene, rest, changes, SceneFormat::kPly, to.to,
-                          {.may_be_empty = true, .up = to.up})
-                    .gaussians;
+    const SaveReport saved = save_rest(to.folder.file("rest.ply"), to.scene, rest, changes, SceneFormat::kPly,
+                                       to.to, {.may_be_empty = true, .up = to.up});
+    report.gaussians = saved.gaussians;
+    note("rest.ply", saved);
     if (to.options.writes("pictures")) {
       std::vector<std::uint8_t> shown = rest;
       for (const std::uint32_t g : changes.ghosts) shown[g] = 0;
@@ -322,10 +312,10 @@ std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& 
   }
   if (to.options.writes("labels")) write_labels(to.folder.file("labels.u8"), to.scene, owner);
   if (to.options.writes("objects"))
-    save_gaussians(to.folder.file("objects.ply"), to.scene, owner, nullptr, SceneFormat::kPly, to.to,
-                   {.up = to.up, .object_ids = owner});
+    note("objects.ply", save_gaussians(to.folder.file("objects.ply"), to.scene, owner, nullptr,
+                                       SceneFormat::kPly, to.to, {.up = to.up, .object_ids = owner}));
   if (to.options.writes("npy")) write_labels(to.folder.file("labels.npy"), to.scene, owner);
-  return gaussians;
+  return report;
 }
 
 }  // namespace splatcut

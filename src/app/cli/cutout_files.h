@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
@@ -49,6 +50,7 @@ struct EdgesReport {
   std::optional<SeenFrom> seen;        // of an object that has Gaussians; by views where that is asked for
   std::optional<UnseenGround> ground;  // where a picture of what was seen is written
   std::size_t not_given_back = 0;      // see spare_copy()
+  std::string lost;                    // what its .ply lacks of the scene's, as SaveReport says it
   double ms = 0, seen_ms = 0;          // of the cleaning; of what was seen
 
   std::string sentence() const;                  // what the guard said and what became of it; empty: nothing
@@ -63,7 +65,9 @@ struct CutoutFolder {
   glm::vec3 up_world;         // of the scene, as are the cameras of its capture
   std::span<const Camera> cameras;
   const CutoutOptions& options;
-  bool rest = false;                 // whether write_rest() follows and writes it
+  bool rest = false;  // whether write_rest() follows and writes it
+  std::span<const std::uint8_t> owner =
+      {};                            // per Gaussian, not 0: it leaves the rest; empty: the object does
   std::optional<MovedTo> to = {};    // where all written Gaussians are moved to
   std::optional<glm::vec3> up = {};  // what the files say of up, before they are moved; none: nothing
 
@@ -72,6 +76,14 @@ struct CutoutFolder {
 
 nlohmann::json fill_json(const SurfacePatch& patch);
 nlohmann::json clean_json(const std::optional<CleanReport>& clean);  // {"edges": "clean" or "keep", ...}
+
+// What .ply files lack of the scene's, by their names; those that lack nothing are not there.
+using LostByFile = std::map<std::string, std::string>;
+
+struct RestReport {
+  std::size_t gaussians = 0;  // of the rest
+  LostByFile lost;
+};
 
 // Names of an object's files; an empty one is not written.
 struct ObjectFiles {
@@ -92,12 +104,6 @@ Image<Rgba8> cutout_picture(const Drawer& scene, const Camera& camera, std::span
 Image<Rgb8> tinted_picture(const Drawer& scene, const Camera& camera,
                            const std::vector<std::uint8_t>& labels);
 
-// A byte for each row of the file that the scene was read from, 0 for rows that the scene lacks. A path that
-// ends with .npy holds them as numpy does, else the bytes alone.
-std::string labels_in_file_order(const Scene& scene, const std::vector<std::uint8_t>& labels);
-void write_labels(const std::filesystem::path& path, const Scene& scene,
-                  const std::vector<std::uint8_t>& labels);
-
 // labels: per Gaussian, 1 = object. shown: null where no picture is written. The scene's file holds the
 // object with clean edges where these are asked for and can be had, else its rows as they are. Throws Error
 // as save_scene() does. Cancelled: files are missing.
@@ -107,8 +113,8 @@ EdgesReport write_object(const CutoutFolder& to, const ObjectFiles& files,
 // Of these, what the options name: rest.ply (without Gaussians where all are an object's), rest.png from
 // `camera`, labels.u8 and labels.npy (`owner` in file order), objects.ply (all objects, rows as they are,
 // each with its owner as object_id). objects: what was done to them changes the rest; what is not given back
-// leaves them. Returns the number of Gaussians of the rest.
-std::size_t write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner,
-                       std::span<EdgesReport> objects, const Camera& camera);
+// leaves them.
+RestReport write_rest(const CutoutFolder& to, const std::vector<std::uint8_t>& owner,
+                      std::span<EdgesReport> objects, const Camera& camera);
 
 }  // namespace splatcut

@@ -27,6 +27,7 @@ void read_seeds(const std::filesystem::path& file, ObjectInput* input) {
   if (!input->objects.empty()) return;
   if (input->strokes.empty()) throw Error(where, "holds neither clicks nor boxes nor scribbles");
   input->choice = choice_from_json(seeds, where);
+  input->camera = camera_from_json(seeds, where);
 }
 
 // A pixel that is said to be both; empty for none.
@@ -104,6 +105,7 @@ CutRequest request_of(const ObjectInput& input, const CameraOptions& camera, con
                       const Job& job, ChosenCamera* chosen, RequestRemarks* remarks) {
   CutRequest request;
   request.choice = input.choice;
+  if (input.camera) chosen->camera = camera_of_seeds(*input.camera, "--seeds", *chosen, camera);
   if (!input.strokes.empty()) request.strokes = {{chosen->camera, input.strokes}};
   if (std::string both = contradiction(input.strokes); !both.empty())
     remarks->warnings.push_back(std::move(both));

@@ -22,8 +22,9 @@ namespace splatcut {
 // The request of the command line, parsed and checked as far as possible without the scene.
 struct ObjectInput {
   Strokes strokes;
-  int choice = 0;                   // of the first click's meanings
-  std::vector<NamedSeeds> objects;  // several, each with strokes of its own
+  int choice = 0;                     // of the first click's meanings
+  std::optional<std::string> camera;  // of --seeds: the reference
+  std::vector<NamedSeeds> objects;    // several, each with strokes of its own
   std::filesystem::path mask, masks_folder;
   std::optional<Segmenter> segmenter;
 };

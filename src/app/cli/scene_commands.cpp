@@ -10,6 +10,7 @@
 #include "app/console/camera_options.h"
 #include "app/console/console.h"
 #include "app/console/kept_inputs.h"
+#include "app/console/labels_file.h"
 #include "app/console/output_folder.h"
 #include "app/console/scene_options.h"
 #include "core/error.h"
@@ -66,17 +67,6 @@ void run_info(const SceneArguments& args, const CommonOptions& common) {
   }
   for (const auto& [key, value] : info.items())
     fmt::print("{:<12} {}\n", key, value.is_string() ? value.get<std::string>() : json_text(value));
-}
-
-// Labels in file order, as `cut` writes them, for the Gaussians of the cloud.
-std::vector<std::uint8_t> load_labels(const std::filesystem::path& path, const Scene& scene) {
-  const std::string bytes = text_of_file(path);
-  if (bytes.size() != scene.file_rows)
-    throw Error(path.string(),
-                fmt::format("holds {} labels, the scene {} rows", bytes.size(), scene.file_rows));
-  std::vector<std::uint8_t> labels(scene.cloud.size());
-  for (std::size_t g = 0; g < labels.size(); ++g) labels[g] = bytes[scene.cloud.file_row[g]] != 0;
-  return labels;
 }
 
 // strip: the rows of the picture from y0 on.
@@ -178,6 +168,14 @@ void draw_all_cameras(const SceneArguments& args, const GaussianCloud& cloud, co
   folder.commit();
 }
 
+// What would be without effect.
+void refuse_undrawn(const SceneArguments& args, bool with_background) {
+  if (!args.labels.empty() && args.what != "labels")
+    throw Error("--labels", "is drawn by --what labels alone", "Add that, or leave --labels out");
+  if (with_background && (args.what == "depth" || args.what == "alpha"))
+    throw Error("--background", fmt::format("is not seen in --what {}", args.what), "Leave one of them out");
+}
+
 void run_render(const SceneArguments& args, const CommonOptions& common) {
   if (!args.all_cameras) {
     refuse_name_of_png(args.output);
@@ -271,7 +269,10 @@ void add_render_command(CLI::App& program, const CommonOptions& common) {
       ->excludes("--camera-pos");
   command.add_option("-o,--output", args->output, "PNG to write; with --all-cameras a folder")->required();
   command.add_flag("--overwrite", args->overwrite, "Replace an existing file");
-  command.callback([args, &common] { run_render(*args, common); });
+  command.callback([args, &common, &command] {
+    refuse_undrawn(*args, command.count("--background") > 0);
+    run_render(*args, common);
+  });
 }
 
 void add_convert_command(CLI::App& program, const CommonOptions& common) {

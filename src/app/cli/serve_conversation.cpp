@@ -10,6 +10,7 @@
 #include "app/cli/batch_jobs.h"
 #include "app/cli/cut_placing.h"
 #include "app/console/kept_inputs.h"
+#include "app/console/labels_file.h"
 #include "app/console/seeds_file.h"
 #include "app/console/setting_options.h"
 #include "app/console/version.h"
@@ -133,10 +134,9 @@ nlohmann::json Conversation::open(const nlohmann::json& request, const Job& job)
   opened_ = std::make_unique<Opened>(
       Opened{std::move(said), std::move(args), std::move(scene), std::move(chosen), settings});
   const Scene& loaded = opened_->scene.scene();
-  nlohmann::json reply = camera_json(), remarks = nlohmann::json::array(), cameras = nlohmann::json::array();
-  for (const std::string& remark :
-       {loaded.left_out, loaded.oddity, loaded.axes_note, opened_->chosen.warning})
-    if (!remark.empty()) remarks.push_back(remark);
+  nlohmann::json reply = camera_json(), remarks = opened_->args.how.remarks(loaded),
+                 cameras = nlohmann::json::array();
+  if (!opened_->chosen.warning.empty()) remarks.push_back(opened_->chosen.warning);
   for (const Camera& camera : opened_->chosen.given) cameras.push_back(camera.name);
   reply.update({{"gaussians", loaded.cloud.size()},
                 {"rows", loaded.file_rows},

@@ -47,6 +47,7 @@ nlohmann::json objects_json(const std::vector<WrittenObject>& objects, const Cut
     if (options.writes("object")) list.back()["file"] = o.files.scene;
     if (options.writes("labels")) list.back()["labels"] = o.files.labels;
     if (options.writes("hull")) list.back()["hull"] = o.files.hull;
+    if (!o.edges.lost.empty()) list.back()["lost"] = o.edges.lost;
   }
   return list;
 }
@@ -117,6 +118,8 @@ void run_work_cut(const WorkCutOptions& options) {
   to.up = document.up_world;
   const std::vector<WrittenObject> objects = write_objects(document, to, job);
   if (objects.empty()) throw Error(options.work.string(), "holds no object with any Gaussians");
+  for (const WrittenObject& o : objects)
+    if (!o.edges.lost.empty()) warn(fmt::format("{}: {}", o.files.scene, o.edges.lost), options.quiet);
   const nlohmann::json report = {{"work", options.work.string()},
                                  {"scene", scene->scene->path.string()},
                                  {"preset", document.preset},

@@ -11,14 +11,6 @@
 
 namespace splatcut {
 
-namespace {
-
-void say(std::string_view called, const std::string& sentence, bool quiet) {
-  if (!sentence.empty()) warn(called.empty() ? sentence : fmt::format("{}: {}", called, sentence), quiet);
-}
-
-}  // namespace
-
 void SceneOptions::add_to(CLI::App& command) {
   command
       .add_option("--lod", lod,
@@ -41,19 +33,22 @@ Scene SceneOptions::load(const std::filesystem::path& scene, const std::filesyst
   if (!cameras.empty()) options.cameras = load_cameras(cameras);
   Scene loaded = load_scene(scene, options, job);
   if (called.empty()) check_axes({&loaded, 1});
-  if (!options.spz_axes && !loaded.axes_note.empty()) {
-    end_progress();
-    say(called, loaded.axes_note + ". --spz-axes takes others", quiet);
-  }
-  say(called, loaded.left_out, quiet);
+  for (const std::string& remark : remarks(loaded))
+    warn(called.empty() ? remark : fmt::format("{}: {}", called, remark), quiet);
+  return loaded;
+}
+
+std::vector<std::string> SceneOptions::remarks(const Scene& loaded) const {
+  std::vector<std::string> remarks;
+  if (!axes() && !loaded.axes_note.empty()) remarks.push_back(loaded.axes_note + ". --spz-axes takes others");
+  if (!loaded.left_out.empty()) remarks.push_back(loaded.left_out);
   if (loaded.dropped > 0)
-    say(called,
+    remarks.push_back(
         fmt::format("{} of its {} Gaussians are left out: not a number, without a rotation, or of a place or "
                     "size beyond 1e15",
-                    loaded.dropped, loaded.file_rows),
-        quiet);
-  say(called, loaded.oddity, quiet);
-  return loaded;
+                    loaded.dropped, loaded.file_rows));
+  if (!loaded.oddity.empty()) remarks.push_back(loaded.oddity);
+  return remarks;
 }
 
 void SceneOptions::check_axes(std::span<const Scene> scenes) const {

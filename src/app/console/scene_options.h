@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/formats/scene_file.h"
 
@@ -28,6 +29,9 @@ struct SceneOptions {
   Scene load(const std::filesystem::path& scene, const std::filesystem::path& cameras, bool quiet,
              const Job& job, std::string_view called = {},
              const std::optional<glm::dvec3>& origin = {}) const;
+
+  // Those sentences, without a full stop.
+  std::vector<std::string> remarks(const Scene& loaded) const;
 
   // Throws Error where axes of a .spz are given and none of the scenes is one. load() does it of one scene.
   void check_axes(std::span<const Scene> scenes) const;

@@ -104,7 +104,9 @@ Stroke parse_click(const std::string& text) {
 
 Stroke parse_box(const std::string& text) {
   const Marked<4> box = parse_marked<4>("--box", text, "a box", "x0,y0,x1,y1");
-  return box_around({box.number[0], box.number[1]}, {box.number[2], box.number[3]}, box.label);
+  Stroke stroke = box_around({box.number[0], box.number[1]}, {box.number[2], box.number[3]}, box.label);
+  check_stroke(stroke, "--box " + text);
+  return stroke;
 }
 
 }  // namespace splatcut

@@ -114,7 +114,8 @@ CleanObject cleaned(const CleanInput& input, std::span<const Camera> cameras, co
     cut_off = finish(views, false, &kept, &object, job);
   }
   if (input.rest)
-    object.rest = forget(input.scene.cloud(), input.labels, object.gaussian, views, cut_off, job);
+    object.rest =
+        forget(input.scene.cloud(), input.labels, object.gaussian, views, cut_off, input.leaving, job);
   report.cleaned = !job.cancelled();
   drop_gone(kept, &object);
   return object;
@@ -142,6 +143,10 @@ CleanObject clean_object(const CleanInput& input, const OwnViewOptions& options,
   CleanInput within = input;  // rows of `part`, until the end
   within.scene = part.cloud;
   within.labels = part.labels;
+  std::vector<std::uint8_t> leaving;
+  if (!input.leaving.empty())
+    for (const std::uint32_t row : part.row) leaving.push_back(input.leaving[row]);
+  within.leaving = leaving;
   CleanObject object = cleaned(within, cameras, job);
   for (std::uint32_t& g : object.gaussian) g = part.row[g];
   for (std::uint32_t& g : object.rest.ghosts) g = part.row[g];

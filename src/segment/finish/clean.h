@@ -43,6 +43,7 @@ struct CleanInput {
   std::span<const Camera> cameras;  // of the capture, may be empty
   bool rest = false;                // whether CleanObject::rest is wanted
   bool anyway = false;              // it is cleaned even where the guard says no, if any view shows it
+  std::span<const std::uint8_t> leaving = {};  // see forget.h
 };
 
 struct CleanReport {

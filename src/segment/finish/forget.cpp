@@ -68,14 +68,15 @@ void add_view(const Drawer& scene, const OwnView& view, Seen* seen, const Job& j
   });
 }
 
-// The sure Gaussians, which say whose a place is.
+// The sure Gaussians, which say whose a place is. Those of other objects that leave stand for the object.
 class Neighbours {
  public:
-  Neighbours(const GaussianCloud& cloud, std::span<const std::uint8_t> labels, const Seen& seen) {
+  Neighbours(const GaussianCloud& cloud, std::span<const std::uint8_t> labels,
+             const std::vector<std::uint8_t>& rest, const Seen& seen) {
     for (std::size_t g = 0; g < cloud.size(); ++g) {
       if (!seen.sure(g) || (labels[g] != 0) != seen.in_masks(g)) continue;
       position_.push_back(cloud.position[g]);
-      labelled_.push_back(labels[g] != 0);
+      labelled_.push_back(rest[g] == 0);
     }
   }
 
@@ -94,7 +95,7 @@ class Neighbours {
   std::vector<std::uint8_t> labelled_;
 };
 
-std::vector<std::uint32_t> in_the_midst(const GaussianCloud& cloud, std::span<const std::uint8_t> labels,
+std::vector<std::uint32_t> in_the_midst(const GaussianCloud& cloud, const std::vector<std::uint8_t>& rest,
                                         std::span<const std::uint32_t> object, const Seen& seen,
                                         const Neighbours& sure, const Job& job) {
   if (object.empty()) return {};
@@ -107,7 +108,7 @@ std::vector<std::uint32_t> in_the_midst(const GaussianCloud& cloud, std::span<co
   std::vector<glm::vec3> places;
   for (std::uint32_t g = 0; g < cloud.size(); ++g) {
     const glm::vec3& p = cloud.position[g];
-    if (labels[g] || glm::any(glm::lessThan(p, low)) || glm::any(glm::greaterThan(p, high))) continue;
+    if (!rest[g] || glm::any(glm::lessThan(p, low)) || glm::any(glm::greaterThan(p, high))) continue;
     if (seen.shown(g) && !seen.in_masks(g)) continue;
     candidates.push_back(g);
     places.push_back(p);
@@ -209,11 +210,11 @@ GaussianCloud given_back(const GaussianCloud& cloud, std::span<const std::uint32
 
 RestChanges forget(const GaussianCloud& cloud, std::span<const std::uint8_t> labels,
                    std::span<const std::uint32_t> object, std::span<const OwnView> views,
-                   std::span<const CutOff> cut_off, const Job& job) {
+                   std::span<const CutOff> cut_off, std::span<const std::uint8_t> leaving, const Job& job) {
   KeptViews last(cloud, 0);
   const Drawer drawer(cloud, &last);
   std::vector<std::uint8_t> rest(labels.size());
-  std::ranges::transform(labels, rest.begin(), [](std::uint8_t l) { return l == 0 ? 1 : 0; });
+  for (std::size_t g = 0; g < rest.size(); ++g) rest[g] = !labels[g] && (leaving.empty() || !leaving[g]);
   Seen seen(cloud.size());
   std::vector<Ring> rings;
   for (std::size_t v = 0; v < views.size() && !job.cancelled(); ++v) {
@@ -222,8 +223,8 @@ RestChanges forget(const GaussianCloud& cloud, std::span<const std::uint8_t> lab
     add_view(drawer, views[v], &seen, job);
   }
   if (job.cancelled()) return {};
-  const Neighbours sure(cloud, labels, seen);
-  RestChanges changes{in_the_midst(cloud, labels, object, seen, sure, job),
+  const Neighbours sure(cloud, labels, rest, seen);
+  RestChanges changes{in_the_midst(cloud, rest, object, seen, sure, job),
                       given_back(cloud, object, cut_off, sure, job)};
   keep_what_surrounds(rings, rest, &changes.ghosts, job);
   return changes;

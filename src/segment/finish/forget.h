@@ -30,10 +30,11 @@ struct RestChanges {
   GaussianCloud given_back;           // file_row: of the Gaussian that each was or was a part of
 };
 
-// object: index in the cloud of each Gaussian that CutOff::of counts. Cancelled: unspecified.
+// object: index in the cloud of each Gaussian that CutOff::of counts. leaving: per Gaussian, not 0 for those
+// of all objects that leave the scene together; empty: this one leaves alone. Cancelled: unspecified.
 RestChanges forget(const GaussianCloud& cloud, std::span<const std::uint8_t> labels,
                    std::span<const std::uint32_t> object, std::span<const OwnView> views,
-                   std::span<const CutOff> cut_off, const Job& job);
+                   std::span<const CutOff> cut_off, std::span<const std::uint8_t> leaving, const Job& job);
 
 // What `more` changes beside.
 void add(const RestChanges& more, RestChanges* changes);

@@ -11,10 +11,16 @@ namespace splatcut {
 
 ObjectExtent object_extent(const GaussianCloud& cloud, std::span<const std::uint8_t> labels) {
   std::vector<glm::vec3> positions;
-  for (std::size_t g = 0; g < cloud.size(); ++g)
-    if (labels[g]) positions.push_back(cloud.position[g]);
+  float largest = 0;
+  for (std::size_t g = 0; g < cloud.size(); ++g) {
+    if (!labels[g]) continue;
+    positions.push_back(cloud.position[g]);
+    largest = std::max({largest, cloud.scale[g].x, cloud.scale[g].y, cloud.scale[g].z});
+  }
   const Box box = robust_bounds(positions, 0.96);
-  return {box.centre(), 0.5f * glm::length(box.extent())};
+  const float radius = 0.5f * glm::length(box.extent());
+  constexpr float kReach = 3;  // standard deviations
+  return {box.centre(), radius > 0 ? radius : kReach * largest};
 }
 
 namespace {

@@ -19,7 +19,8 @@ struct ObjectExtent {
   float radius = 0;  // scene units; holds nearly all of the object
 };
 
-// Centre and radius of the labelled Gaussians, tails of 2 % left out.
+// Centre and radius of the labelled Gaussians' positions, tails of 2 % left out; where these are one point,
+// the radius is three times the largest standard deviation.
 ObjectExtent object_extent(const GaussianCloud& cloud, std::span<const std::uint8_t> labels);
 
 inline constexpr int kViewsAround = 12;

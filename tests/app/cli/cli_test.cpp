@@ -133,7 +133,7 @@ TEST_CASE("a box on the command line is the box of a file of seeds, and cuts wha
   refused("1,2,3,4:sky", "object or rest");
   refused("5,5,7,90", "less than 6 pixels");
   refused("-50,-50,-5,-5", "less than 6 pixels");
-  refused("nan,5,90,90", "less than 6 pixels");
+  refused("nan,5,90,90", "outside of any picture");
   const Result help = place.run("cut --help");
   CHECK(help.out.find("--box") != std::string::npos);
   int x = 0, y = 0;
@@ -283,11 +283,16 @@ TEST_CASE("Gaussians that cannot be used are left out with a sentence") {
   text += "end_header\n";
   for (const char* x : {"0", "nan", "1"}) text += std::string(x) + " 0 0 1 1 1 3 -3 -3 -3 1 0 0 0\n";
   place.write("three.ply", text);
+  const char* const said = "1 of its 3 Gaussians are left out";
   for (const char* command : {"convert three.ply -o two.splat", "render three.ply -o two.png --size 32x24"}) {
     const Result result = place.run(command);
     CHECK(result.code == 0);
-    CHECK_MESSAGE(result.err.find("1 of its 3 Gaussians are left out") != std::string::npos, result.err);
+    CHECK_MESSAGE(result.err.find(said) != std::string::npos, result.err);
   }
+  place.write("ask.sh",
+              R"(echo '{"id": 1, "do": "open", "scene": "three.ply"}' | )" + splatcut_program() + " serve");
+  const Result served = place.run_program("/bin/bash", "ask.sh");
+  CHECK_MESSAGE(served.out.find(said) != std::string::npos, served.out);
 }
 
 TEST_CASE("the bytes of a cutout do not depend on --threads") {

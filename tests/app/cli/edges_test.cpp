@@ -55,6 +55,40 @@ TEST_CASE("cut makes edges clean, says what it did, and does not change labels")
   CHECK(place.text("edges_clean/object.ply") != place.text("edges_as_they_are/object.ply"));
 }
 
+TEST_CASE("cut: of columns that only the scene has, clean edges leave none, and every way says so") {
+  const StillLife& life = still_life();
+  const Workplace& place = life.place;
+  const std::string scene = place.text("made/small.ply"), rows = rows_of(scene),
+                    header = scene.substr(0, scene.size() - rows.size());
+  const std::size_t row_bytes = rows.size() / 20000;
+  std::string own = header;
+  own.insert(own.find("end_header"), "property float trust\n");
+  for (std::size_t at = 0; at < rows.size(); at += row_bytes)
+    own += rows.substr(at, row_bytes) + std::string(4, '\1');
+  place.write("own.ply", own);
+  const std::string click = "--camera 0 --click " + life.click_on("mug");
+  const char* const lost = "the property \"trust\" is left out";
+  const Result cleaned = place.run("cut own.ply " + life.cameras + " " + click + " -o own_clean");
+  REQUIRE(cleaned.code == 0);
+  const json report = json::parse(place.text("own_clean/report.json"));
+  REQUIRE(report["edges"]["edges"] == "clean");
+  CHECK(report["lost"] == json{{"object.ply", lost}});
+  CHECK_MESSAGE(cleaned.err.find("object.ply: " + std::string(lost)) != std::string::npos, cleaned.err);
+  const Result kept = place.run("cut own.ply " + life.cameras + " " + click + " --edges keep -o own_kept");
+  REQUIRE(kept.code == 0);
+  CHECK_FALSE(json::parse(place.text("own_kept/report.json")).contains("lost"));
+  CHECK(kept.err.find("trust") == std::string::npos);
+  place.write("own.jsonl", json{{"name", "mug"},
+                                {"scene", "own.ply"},
+                                {"cameras", "made/cameras.json"},
+                                {"camera", 0},
+                                {"click", life.click_on("mug")}}
+                               .dump());
+  REQUIRE(place.run("batch own.jsonl -o own_batch").code == 0);
+  const json result = json::parse(place.text("own_batch/mug/result.json"));
+  CHECK(result["warnings"] == json::array({"object.ply: " + std::string(lost)}));
+}
+
 TEST_CASE(
     "cut: ghosts leave the rest with the object, other rows stay byte for byte, what is given back follows") {
   const StillLife& life = still_life();

@@ -68,7 +68,9 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   for (const char* usage :
        {"fly", "cut", "info", "render a.ply", "cut a.ply -o b --no-such-option", "info a.ply --threads",
         "cut a.ply -o b --mask a.png --scale 1", "cut a.ply -o b --seeds a.json --choice 2",
-        "cut a.ply -o b --mask a.png --first-mask parts"})
+        "cut a.ply -o b --mask a.png --first-mask parts", "cut a.ply -o b --click 1,1 --parts-only --views 3",
+        "cut a.ply -o b --click 1,1 --parts-only --smoothness 2",
+        "cut a.ply -o b --click 1,1 --parts-only --coarse"})
     CHECK_MESSAGE(place.run(usage).code == 2, usage);
   // NaN is no number, 255 no share of 1; what is out of range is said as it was given.
   const std::string view = "render " + life.scene + " --size 8x8 -o a.png ";
@@ -122,6 +124,14 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused(life.cut("-o cut --click 1,2:sky"), {"sky", "object or rest"});
   refused(life.cut("-o cut --click 5000,2"), {"5000", "outside"});
   refused(life.cut("-o cut --seeds bad.json"), {"bad.json", "JSON"});
+  refused(life.cut("-o cut --box 1,1,inf,9"), {"--box 1,1,inf,9", "outside of any picture"});
+  refused(life.cut("-o cut --click 1,1 --preset paper --scale 1"),
+          {"--scale", "first mask comes from pixels"});
+  refused(life.cut("-o cut --click 1,1 --preset paper --choice 2"),
+          {"--choice", "first mask comes from pixels"});
+  refused(life.cut("-o cut --masks made --set parts_only=1"), {"parts_only", "masks are given"});
+  refused(view + "--labels made/small.labels.u8", {"--labels", "--what labels alone"});
+  refused(view + "--what depth --background 1,1,1", {"--background", "--what depth"});
   refused(life.cut("-o cut --mask none.png"), {"none.png"});
   const char* const presets = "default, paper or paper-code";
   refused("cut " + life.scene + " -o cut --click 1,1 --preset slow", {"slow", presets});

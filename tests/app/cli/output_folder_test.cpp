@@ -1,6 +1,7 @@
 // A folder that is written is replaced as a whole, and what is not the program's stays in it.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "app/console/output_folder.h"
 #include "output_helpers.h"
@@ -44,6 +45,30 @@ TEST_CASE("output: a folder is replaced as a whole, what is not the program's st
   REQUIRE(::stat((place / "out/photos").c_str(), &after) == 0);
   CHECK(before.st_ino == after.st_ino);
   CHECK(place.leftovers().empty());
+}
+
+TEST_CASE("output: a file of a folder that is replaced keeps its permissions and owner") {
+  const Workplace place;
+  constexpr unsigned kSomebody = 1234;
+  constexpr fs::perms kOwn = fs::perms::owner_read | fs::perms::owner_write;
+  place.make_folder("out/sub");
+  for (const char* name : {"a.txt", "sub/b.txt"}) {
+    place.write(std::string("out/") + name, "old");
+    fs::permissions(place / "out" / name, kOwn);
+    if (::geteuid() == 0) REQUIRE(::chown((place / "out" / name).c_str(), kSomebody, kSomebody) == 0);
+  }
+  OutputFolder folder(place / "out", true);
+  fs::create_directories(folder.file("sub"));
+  for (const char* name : {"a.txt", "sub/b.txt", "c.txt"}) write_text_file(folder.file(name), "new");
+  folder.commit();
+  for (const char* name : {"a.txt", "sub/b.txt"}) {
+    CHECK(place.text(std::string("out/") + name) == "new");
+    CHECK(fs::status(place / "out" / name).permissions() == kOwn);
+    struct stat status {};
+    REQUIRE(::stat((place / "out" / name).c_str(), &status) == 0);
+    if (::geteuid() == 0) CHECK(status.st_uid == kSomebody);
+  }
+  CHECK(fs::status(place / "out/c.txt").permissions() != kOwn);
 }
 
 TEST_CASE("output: a subfolder is filled in its place, what is not the program's stays in it") {

@@ -128,6 +128,50 @@ TEST_CASE("a choice in the seeds takes another meaning of the first click") {
   CHECK(others > 0);
 }
 
+TEST_CASE("a hole is not filled with a copy of what leaves with its object") {
+  const Workplace& place = still_life().place;
+  const auto fill_of_mug = [&](const json& others) {
+    json objects = others;
+    objects.push_back({{"name", "mug"}, {"clicks", one_click("mug")}});
+    place.write("leaving.json", json{{"objects", objects}}.dump());
+    const Result result = place.run(
+        still_life().cut("--seeds leaving.json --edges keep --fill surface --json --overwrite -o leaving"));
+    REQUIRE_MESSAGE(result.code == 0, result.err);
+    return json::parse(result.out)["objects"].back()["edges"]["fill"];
+  };
+  CHECK(fill_of_mug(json::array())["filled"] == true);
+  const json table = {{"name", "table"}, {"clicks", json::array({json{{"x", 30}, {"y", 500}}})}};
+  const json without = fill_of_mug(json::array({table}));
+  CHECK_MESSAGE(without["filled"] == false, without.dump());
+}
+
+TEST_CASE("seeds may name their camera, of one object or of all") {
+  const Workplace& place = still_life().place;
+  const auto labels = [&](const std::string& how, const std::string& file) {
+    const Result result = place.run("cut " + still_life().scene + " " + still_life().cameras + " " + how +
+                                    " --parts-only --write labels --json --overwrite -o named");
+    REQUIRE_MESSAGE(result.code == 0, result.err);
+    return std::pair(place.text("named/" + file), json::parse(result.out));
+  };
+  const std::string at = still_life().click_on("mug");
+  const auto [asked, said] = labels("--camera view_01 --click " + at, "labels.u8");
+  json one = {{"camera", "view_01"}, {"clicks", one_click("mug")}};
+  place.write("one.json", one.dump());
+  const auto [named, report] = labels("--camera 0 --seeds one.json", "labels.u8");
+  CHECK(named == asked);
+  CHECK(report["settings"]["reference"] == "view_01");
+  one["name"] = "it";
+  one.erase("camera");
+  json all = {{"camera", 1}, {"objects", json::array({one})}};
+  place.write("all.json", all.dump());
+  const auto [of_all, objects] = labels("--camera 0 --seeds all.json", "it.labels.u8");
+  CHECK(of_all == asked);
+  CHECK(objects["objects"][0]["camera"] == "view_01");
+  all["choice"] = 2;
+  place.write("all.json", all.dump());
+  refused(still_life().cut("--seeds all.json"), {}, {"all.json", "\"choice\" stands beside \"objects\""});
+}
+
 TEST_CASE("seeds come through a pipe, too, of one object or several") {
   const Workplace& place = still_life().place;
   const json one = {{"clicks", one_click("apple")}, {"choice", 1}};

@@ -77,7 +77,7 @@ TEST_CASE("forget: of what was cut off, the rest gets back what lies among its o
     if (labels[g]) gaussian.push_back(g);
   const std::vector<CutOff> cut_off = {{3, {middle, glm::vec3(0.01f), {1, 0, 0, 0}, 0.5f}},
                                        {5, {beside, glm::vec3(0.02f), {1, 0, 0, 0}, 0.25f}}};
-  const RestChanges changes = forget(cloud, labels, gaussian, views, cut_off, {});
+  const RestChanges changes = forget(cloud, labels, gaussian, views, cut_off, {}, {});
   REQUIRE(changes.given_back.size() == 1);
   CHECK(changes.given_back.position[0] == beside);
   CHECK(changes.given_back.scale[0] == glm::vec3(0.02f));

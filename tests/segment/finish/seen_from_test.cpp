@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "thing_of_still_life.h"
 
@@ -108,4 +109,22 @@ TEST_CASE("seen from: of a capture from one side, the others were not seen, and 
   const Rgb8 in_front = middle_of(0), behind = middle_of(2);
   CHECK(in_front[2] > in_front[0]);  // blue
   CHECK(behind[0] > 3 * behind[2]);  // red
+}
+
+TEST_CASE("seen from: Gaussians in one place are an object as large as they are") {
+  GaussianCloud cloud;
+  cloud.resize(3, 0);
+  for (std::size_t g = 0; g < 3; ++g) {
+    cloud.position[g] = {1, 2, 3};
+    cloud.scale[g] = glm::vec3(0.1f * static_cast<float>(g + 1), 0.05f, 0.05f);
+    cloud.rotation[g] = {1, 0, 0, 0};
+    cloud.opacity[g] = 0.9f;
+  }
+  const std::vector<std::uint8_t> two = {1, 1, 0};
+  const ObjectExtent extent = object_extent(cloud, two);
+  CHECK(extent.centre_world == cloud.position[0]);
+  CHECK(extent.radius == doctest::Approx(3 * 0.2));
+  const SeenFrom seen = seen_from(cloud, two, {0, -1, 0}, {1, 2, 0}, {}, {});
+  CHECK(seen.by_views.size() == 2);
+  for (const float share : seen.side_share) CHECK(std::isfinite(share));
 }
