@@ -112,10 +112,15 @@ fs::path behind_links(fs::path path) {
 
 void make_like(const fs::path& model, const fs::path& path) {
   struct stat status {};
-  constexpr mode_t kPermissions = 07777;
+  constexpr mode_t kPermissions = 07777, kOfGroup = 070;
   if (::stat(model.c_str(), &status) != 0) return;
-  [[maybe_unused]] const int owner = ::chown(path.c_str(), status.st_uid, status.st_gid);  // root alone may
-  ::chmod(path.c_str(), status.st_mode & kPermissions);
+  mode_t mode = status.st_mode & kPermissions;
+  if (::chown(path.c_str(), status.st_uid, status.st_gid) != 0 &&           // root alone may
+      ::chown(path.c_str(), static_cast<uid_t>(-1), status.st_gid) != 0) {  // who belongs to the group may
+    struct stat now {};
+    if (::stat(path.c_str(), &now) == 0 && now.st_gid != status.st_gid) mode &= ~kOfGroup;  // another group
+  }
+  ::chmod(path.c_str(), mode);
 }
 
 void wait_for_disk(const fs::path& path, const fs::path& meant) {

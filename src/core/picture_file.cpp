@@ -5,6 +5,7 @@
 #include <webp/decode.h>
 
 #include <algorithm>
+#include <array>
 #include <csetjmp>
 #include <cstdio>
 #include <string>
@@ -41,6 +42,25 @@ void check_sides(const std::filesystem::path& path, std::uint64_t width, std::ui
     throw Error(path.string(), fmt::format("is damaged: {} x {} pixels in {} bytes", width, height, bytes));
 }
 
+// The PNG without what says how its numbers become light: libpng would convert 16 bits by it. What is no
+// sequence of whole chunks is left as it is, for the library to refuse.
+std::string without_light(std::string_view png) {
+  constexpr std::size_t kMark = 8, kLength = 4, kName = 4, kChecksum = 4;
+  constexpr std::array<std::string_view, 4> kOfLight = {"gAMA", "cHRM", "sRGB", "iCCP"};
+  std::string kept(png.substr(0, kMark));
+  std::size_t at = kMark;
+  while (at + kLength + kName <= png.size()) {
+    std::uint64_t length = 0;
+    for (std::size_t i = 0; i < kLength; ++i) length = length << 8 | static_cast<std::uint8_t>(png[at + i]);
+    const std::uint64_t whole = kLength + kName + length + kChecksum;
+    if (whole > png.size() - at) break;
+    if (std::ranges::find(kOfLight, png.substr(at + kLength, kName)) == kOfLight.end())
+      kept += png.substr(at, whole);
+    at += whole;
+  }
+  return kept += png.substr(at);
+}
+
 // One reading of a PNG in a format of libpng's. colours: of the palette, where indices are read.
 void read_png_as(const std::filesystem::path& path, std::string_view bytes, png_uint_32 format, void* pixels,
                  void* colours = nullptr) {
@@ -69,7 +89,7 @@ Picture read_any_png(const std::filesystem::path& path, std::string_view bytes) 
   } else if ((format & PNG_FORMAT_FLAG_LINEAR) &&
              !(format & (PNG_FORMAT_FLAG_COLOR | PNG_FORMAT_FLAG_ALPHA))) {
     picture.grey16 = Image<std::uint16_t>(width, height);
-    read_png_as(path, bytes, PNG_FORMAT_LINEAR_Y, picture.grey16.data());
+    read_png_as(path, without_light(bytes), PNG_FORMAT_LINEAR_Y, picture.grey16.data());
   }
   return picture;
 }

@@ -48,10 +48,12 @@ void DepthSorter::run(const std::stop_token& stop) {
       if (!wake_.wait(lock, stop, [&] { return wanted_.has_value(); })) return;
       request = std::exchange(wanted_, std::nullopt);
     }
-    DepthOrder order = depth_order(std::move(request->cloud), request->camera);
-    {
+    try {
+      DepthOrder order = depth_order(std::move(request->cloud), request->camera);
       const std::lock_guard lock(mutex_);
       done_ = std::move(order);
+    } catch (const std::bad_alloc&) {  // the order before it stays, the next request tries again
+      continue;
     }
     if (on_done_) on_done_();
   }

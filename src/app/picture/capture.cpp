@@ -42,12 +42,17 @@ class PictureFolder {
   fs::path path_;
 };
 
+std::string frame_name(std::size_t number) {
+  return fmt::format("frame_{:04}.png", number);
+}
+
 bool write_pictures(const TurntableOptions& options, std::size_t frames, const Draw& draw, const Job& job) {
   OutputFolder folder(options.path, true);
-  for (std::size_t i = 0; i < frames && !job.cancelled(); ++i)
-    write_png(folder.file(fmt::format("frame_{:04}.png", i)), draw(i));
+  for (std::size_t i = 0; i < frames && !job.cancelled(); ++i) write_png(folder.file(frame_name(i)), draw(i));
   if (job.cancelled()) return false;
   folder.commit();
+  std::error_code ignored;  // of an older, longer turn
+  for (std::size_t i = frames; fs::remove(options.path / frame_name(i), ignored); ++i) continue;
   return true;
 }
 
@@ -70,8 +75,7 @@ void check_ffmpeg(const ProgramEnd& end) {
 
 bool write_video(const TurntableOptions& options, std::size_t frames, const Draw& draw, const Job& job) {
   const PictureFolder folder;
-  for (std::size_t i = 0; i < frames && !job.cancelled(); ++i)
-    write_png(folder / fmt::format("frame_{:04}.png", i), draw(i));
+  for (std::size_t i = 0; i < frames && !job.cancelled(); ++i) write_png(folder / frame_name(i), draw(i));
   if (job.cancelled()) return false;
   const fs::path video = folder / "turntable.mp4";
   const ProgramEnd end =

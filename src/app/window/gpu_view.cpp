@@ -5,12 +5,15 @@ namespace splatcut {
 namespace {
 
 SplatStyle style_of(const FrameStyle& style, std::size_t g) {
+  if (style.highlight && (*style.highlight)[g]) {
+    const Rgb8& c = style.highlight_colour;
+    return {c[0], c[1], c[2], 255};
+  }
   if (style.heat) {
     const glm::vec3 c = heat_colour((*style.heat)[g]) * 255.0f;
     return {static_cast<std::uint8_t>(c.r), static_cast<std::uint8_t>(c.g), static_cast<std::uint8_t>(c.b),
             255};
   }
-  if (style.highlight && (*style.highlight)[g]) return {255, 255, 255, 255};
   const std::uint8_t owner = style.owner ? (*style.owner)[g] : 0;
   if (owner == 0) return {0, 0, 0, 255};
   const Rgb8& c = style.owner_colour[owner];

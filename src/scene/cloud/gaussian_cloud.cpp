@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 
+#include "core/ranks.h"
+
 namespace splatcut {
 
 namespace {
@@ -73,6 +75,14 @@ Box robust_bounds(std::span<const glm::vec3> positions, double inside) {
     box.max[axis] = *high;
   }
   return box;
+}
+
+float middle_size(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
+  std::vector<float> sizes;
+  sizes.reserve(gaussians.size());
+  for (const std::uint32_t g : gaussians)
+    sizes.push_back(std::max({cloud.scale[g].x, cloud.scale[g].y, cloud.scale[g].z}));
+  return median(std::move(sizes));
 }
 
 Box framed_bounds(const GaussianCloud& cloud) {

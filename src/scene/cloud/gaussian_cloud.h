@@ -51,6 +51,9 @@ struct Box {
 };
 Box robust_bounds(std::span<const glm::vec3> positions, double inside = 0.98);
 
+// The median of these Gaussians' largest standard deviations, scene units.
+float middle_size(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians);
+
 // What the first view shows: nine tenths of the positions in each axis; where all are one point, its
 // Gaussians.
 Box framed_bounds(const GaussianCloud& cloud);

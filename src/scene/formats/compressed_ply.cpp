@@ -157,9 +157,10 @@ int bind_sh(const MappedFile& file, const PlyElement& sh, std::size_t rows, Pack
   return degree;
 }
 
+constexpr Reach kLogScales{-20, 20};  // as SuperSplat: a scale of 0 must not spoil the whole chunk
+
 glm::vec3 log_scale_of(const GaussianCloud& cloud, std::uint32_t g) {
-  constexpr float kLimit = 20.0f;  // as SuperSplat: a scale of 0 must not spoil the whole chunk
-  return glm::clamp(glm::log(cloud.scale[g]), -kLimit, kLimit);
+  return glm::clamp(glm::log(cloud.scale[g]), kLogScales.least, kLogScales.most);
 }
 
 Chunk chunk_of(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
@@ -228,14 +229,13 @@ void read_compressed_ply(const MappedFile& file, const LoadOptions&, Scene& scen
 // As those do that share a chunk with a stray. Empty where none moves by many times its size.
 std::string moved_far(const GaussianCloud& cloud, std::span<const std::uint32_t> order,
                       std::span<const Chunk> chunks) {
-  constexpr glm::vec3 kHalfStep(0.5f / 2047, 0.5f / 1023, 0.5f / 2047);
   constexpr float kMany = 10;
   std::size_t count = 0;
   float farthest = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Bounds& bounds = chunks[i / kChunkRows].position;
-    const glm::vec3 half = kHalfStep * (bounds.max - bounds.min), size = cloud.scale[order[i]];
-    const float moves = std::max({half.x, half.y, half.z});
+    const glm::vec3 &at = cloud.position[order[i]], size = cloud.scale[order[i]];
+    const float moves = glm::distance(at, bounds.at(unpack_11_10_11(pack_11_10_11(bounds.fraction_of(at)))));
     if (moves <= kMany * std::max({size.x, size.y, size.z})) continue;
     ++count;
     farthest = std::max(farthest, moves);
@@ -252,6 +252,7 @@ Losses compressed_ply_losses(const Scene& scene, std::span<const std::uint32_t> 
   losses.add(
       "positions are rounded to 11 bits within groups of 256 Gaussians, whose order changes, all other "
       "values to 8 to 11 bits");
+  losses.add(clamped_log_scales(scene.cloud, gaussians, kLogScales));
   losses.add(clamped_sh(scene.cloud, gaussians, kShBytes));
   losses.add(origin_left_out(scene));
   losses.add(properties_left_out(scene));

@@ -53,7 +53,7 @@ template <class Source>
 void decode_rows(const Source& source, std::size_t rows, int degree, Scene& scene, const Job& job) {
   constexpr std::size_t kGrain = 4096;
   using Range = tbb::blocked_range<std::size_t>;
-  check_memory(scene.path, rows, degree);
+  if (scene.cloud.empty()) check_memory(scene.path, rows, degree);  // else it is decoded again in its place
   job.progress("reading positions", 0.0);
   std::vector<glm::vec3> positions(rows);
   tbb::parallel_for(Range(0, rows, kGrain), [&](const Range& range) {

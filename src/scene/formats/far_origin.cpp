@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "core/ranks.h"
 #include "core/spoken_list.h"
+#include "scene/formats/losses.h"
 
 namespace splatcut {
 
@@ -22,14 +22,6 @@ float float_step(const glm::vec3& size) {
   return std::max({size.x, size.y, size.z}) * std::numeric_limits<float>::epsilon();
 }
 
-float middle_size(const GaussianCloud& cloud) {
-  std::vector<float> sizes(cloud.size());
-  std::ranges::transform(cloud.scale, sizes.begin(), [](const glm::vec3& s) {
-    return std::max({s.x, s.y, s.z});
-  });
-  return median(sizes);
-}
-
 }  // namespace
 
 glm::dvec3 far_origin(const GaussianCloud& cloud) {
@@ -38,7 +30,7 @@ glm::dvec3 far_origin(const GaussianCloud& cloud) {
   const float step = float_step(farthest(box));
   constexpr float kPrecise = 0.01f;  // of a Gaussian's size
   const bool helps = step > 2 * float_step(0.5f * box.extent());
-  if (!helps || step <= kPrecise * middle_size(cloud)) return glm::dvec3(0);
+  if (!helps || step <= kPrecise * middle_size(cloud, all_gaussians(cloud))) return glm::dvec3(0);
   return glm::round(0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max))) + 0.0;  // no -0
 }
 
@@ -55,7 +47,7 @@ std::string spoken(const glm::dvec3& origin) {
 std::string rounded_positions(const GaussianCloud& cloud) {
   if (cloud.empty()) return {};
   const glm::vec3 far = farthest(robust_bounds(cloud.position));
-  const float step = float_step(far), size = middle_size(cloud);
+  const float step = float_step(far), size = middle_size(cloud, all_gaussians(cloud));
   constexpr float kVisible = 0.1f;  // of a Gaussian's size
   if (step <= kVisible * size) return {};
   return fmt::format(

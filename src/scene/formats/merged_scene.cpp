@@ -14,12 +14,18 @@ namespace splatcut {
 
 namespace {
 
+// Nor what finds no room beside its parts.
 void refuse_too_many(const std::vector<Scene>& scenes) {
   std::uint64_t rows = 0;
-  for (const Scene& scene : scenes) rows += scene.file_rows;
+  int degree = 0;
+  for (const Scene& scene : scenes) {
+    rows += scene.file_rows;
+    degree = std::max(degree, scene.cloud.sh_degree);
+  }
   if (rows > std::numeric_limits<std::uint32_t>::max())
     throw Error(scenes.front().path.string(),
                 fmt::format("with the others {} Gaussians, more than can be handled", rows));
+  if (scenes.size() > 1) check_memory(scenes.front().path, rows, degree);
 }
 
 // A file of several scenes has one mark: it says so of all, or of none.

@@ -9,10 +9,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstring>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/decode.h"
 #include "scene/formats/far_origin.h"
@@ -37,7 +39,7 @@ constexpr std::size_t kMaxFields = kRest + 45;
 constexpr std::array<const char*, 3> kColourNames{"red", "green", "blue"};
 constexpr const char* kFilterName = "filter_3D";
 constexpr std::size_t kRestOfDegree4 = 72;
-constexpr std::array<const char*, 3> kNormalNames{"nx", "ny", "nz"};  // written by all, read by nobody
+constexpr std::array<const char*, 3> kNormalNames{"nx", "ny", "nz"};  // written by all, mostly as 0
 
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();  // an offset
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
@@ -215,6 +217,19 @@ std::vector<std::string> other_properties(const PlyElement& vertex) {
   return others;
 }
 
+// A few trainers write some, which are lost where other columns are.
+bool has_normals(const PlyElement& vertex, const std::byte* data) {
+  std::vector<const PlyProperty*> normals;
+  for (const char* name : kNormalNames)
+    if (const PlyProperty* normal = vertex.find(name)) normals.push_back(normal);
+  std::atomic<bool> found = false;
+  for_each_index(normals.empty() ? 0 : vertex.count, [&](std::size_t row) {
+    for (const PlyProperty* n : normals)
+      if (!found && load_as_float(data + row * vertex.row_bytes + n->offset, n->type) != 0) found = true;
+  });
+  return found;
+}
+
 template <bool kFloats>
 void read_rows(const MappedFile& file, const PlyElement& vertex, const std::byte* data, bool linear_colours,
                Scene& scene, const Job& job) {
@@ -317,6 +332,8 @@ void read_ply(const MappedFile& file, const LoadOptions& options, Scene& scene, 
     read_doubles(file, header, vertex, options, scene, job);
   else
     read_vertices(file, header, vertex, scene, job);
+  if (!header.ascii && has_normals(vertex, element_bytes(file.path(), file.bytes(), vertex).data()))
+    scene.other_properties.insert(scene.other_properties.end(), kNormalNames.begin(), kNormalNames.end());
   take_up(up_from_header(header), {}, &scene);
 }
 

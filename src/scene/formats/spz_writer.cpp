@@ -12,7 +12,6 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "core/ranks.h"
 #include "scene/cloud/quantise.h"
 #include "scene/formats/said_up.h"
 #include "scene/formats/spz_layout.h"
@@ -26,25 +25,28 @@ constexpr int kUsualFractionalBits = 12;
 
 using Buffer = std::vector<std::uint8_t>;
 
-// As many bits, up to the usual 12, as let the farthest coordinate fit into 24; more for a scene that the
-// usual steps would be too coarse for. Throws Error where none do.
+// As many bits, up to the usual 12, as let the farthest coordinate fit into 24; more, where they fit, for a
+// scene or Gaussians that the usual steps would be too coarse for. Throws Error where none do.
 std::uint8_t fractional_bits_for(const GaussianCloud& cloud, std::span<const std::uint32_t> gaussians) {
   float farthest = 0;
   for (const std::uint32_t g : gaussians)
     for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(cloud.position[g][axis]));
   int bits = kUsualFractionalBits;
   while (bits > 0 && std::ldexp(farthest, bits) > kFixedLimit) --bits;
-  constexpr float kCoarse = 1 << kUsualFractionalBits;
+  constexpr float kCoarse = 1 << kUsualFractionalBits, kStepsOfSize = 20;
   constexpr int kMostFractionalBits = 24;
-  while (farthest > 0 && bits < kMostFractionalBits && std::ldexp(farthest, bits) < kCoarse) ++bits;
+  const float size = middle_size(cloud, gaussians);
+  const auto too_coarse = [&] {
+    return std::ldexp(farthest, bits) < kCoarse || std::ldexp(size, bits) < kStepsOfSize;
+  };
+  while (farthest > 0 && bits < kMostFractionalBits && too_coarse() &&
+         std::ldexp(farthest, bits + 1) <= kFixedLimit)
+    ++bits;
   constexpr float kFewestSteps = 256;
   if (std::ldexp(farthest, bits) > kFixedLimit || (farthest > 0 && std::ldexp(farthest, bits) < kFewestSteps))
     throw Error("spz", fmt::format("coordinates up to {:g} cannot be written in 24 bits", farthest),
                 "Choose another format, or scale the scene");
-  std::vector<float> sizes;
-  for (const std::uint32_t g : gaussians)
-    sizes.push_back(std::max({cloud.scale[g].x, cloud.scale[g].y, cloud.scale[g].z}));
-  const float size = median(std::move(sizes)), step = std::ldexp(1.0f, -bits);
+  const float step = std::ldexp(1.0f, -bits);
   if (farthest > 0 && step > size)
     throw Error("spz",
                 fmt::format("24 bits for coordinates up to {:g} are steps of {:g}, larger than half of the "

@@ -2,6 +2,7 @@
 #include "app/console/mask_file.h"
 
 #include <doctest/doctest.h>
+#include <zlib.h>
 
 #include <fstream>
 #include <string>
@@ -32,6 +33,20 @@ std::string from_hex(std::string_view hex) {
 const char* const kPalettePng =
     "89504e470d0a1a0a0000000d494844520000000400000002080300000048768d5100000009504c5445000000800000002800"
     "c08e53b20000001049444154789c636060646200024646000023000665c11eb40000000049454e44ae426082";
+// A chunk behind the header of a PNG, which says that its numbers are those of a screen.
+std::string with_gamma(std::string png) {
+  const auto big_endian = [](std::uint32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
+    return bytes;
+  };
+  constexpr std::size_t kHeaderEnd = 8 + 4 + 4 + 13 + 4;
+  const std::string chunk = "gAMA" + big_endian(45455);
+  const auto sum = static_cast<std::uint32_t>(
+      crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), static_cast<uInt>(chunk.size())));
+  return png.insert(kHeaderEnd, big_endian(4) + chunk + big_endian(sum));
+}
+
 // 16 x 8 pixels, grey, the right half white.
 const char* const kJpeg =
     "ffd8ffe000104a46494600010100000100010000ffdb004300080606070605080707070909080a0c140d0c0b0b0c1912130f"
@@ -163,6 +178,8 @@ TEST_CASE("mask file: PNG of a palette by its indices, of 16 bits by its numbers
            {{0, 1, 700, 0}, ".##."}, {{0, 30000, 40000, 65535}, "..##"}, {{0, 1, 1, 0}, ".##."}}) {
     write_png(place / "wide.png", image_of(4, numbers));
     CHECK(drawn(read_mask(place / "wide.png").mask) == expected);
+    place.write("gamma.png", with_gamma(place.text("wide.png")));
+    CHECK(drawn(read_mask(place / "gamma.png").mask) == expected);
   }
   for (const std::size_t size : {20, 150}) {
     place.write("cut.jpg", from_hex(kJpeg).substr(0, size));

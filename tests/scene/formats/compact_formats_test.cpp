@@ -210,3 +210,53 @@ TEST_CASE("compressed ply: strays are kept apart, and what they move is said") {
   CHECK(moved < 256);  // one chunk, where each stray has made its own coarse
   CHECK(mentions(said, {fmt::format("{} Gaussians move by more than 10 times their size", moved).c_str()}));
 }
+
+TEST_CASE("compressed ply: sizes beyond the format's are said") {
+  const Folder folder;
+  Scene scene;
+  scene.cloud = varied_cloud(200, 0);
+  for (std::size_t g = 0; g < 20; ++g) scene.cloud.scale[g] = glm::vec3(1e-9f);
+  const SaveReport report = save_scene(folder / "a.compressed.ply", scene, {}, SceneFormat::kCompressedPly);
+  CHECK(mentions(report.loss, {"the sizes of 10.0 % of the Gaussians lie beyond the format's range"}));
+}
+
+TEST_CASE("spz: positions are as fine as the Gaussians ask for, where 24 bits hold them") {
+  const Folder folder;
+  for (const float size : {0.01f, 3e-4f, 1e-5f}) {
+    CAPTURE(size);
+    Scene scene;
+    scene.cloud = varied_cloud(300, 0);
+    float farthest = 0;
+    for (std::size_t g = 0; g < scene.cloud.size(); ++g) {
+      scene.cloud.scale[g] = glm::vec3(size);
+      const glm::vec3 at = glm::abs(scene.cloud.position[g]);
+      farthest = std::max({farthest, at.x, at.y, at.z});
+    }
+    REQUIRE(farthest > 1);
+    save_scene(folder / "a.spz", scene, {}, SceneFormat::kSpz);
+    LoadOptions axes;
+    axes.spz_axes = SpzAxes::kRub;
+    const Scene got = load_scene(folder / "a.spz", axes);
+    const float step = std::max(size / 20, farthest * std::ldexp(1.0f, -22));
+    for (const glm::vec3& p : scene.cloud.position)
+      CHECK(std::ranges::any_of(got.cloud.position,
+                                [&](const glm::vec3& q) { return glm::distance(p, q) <= step; }));
+  }
+}
+
+TEST_CASE("ply: normals that say something are said to be lost, zeros are not") {
+  const Folder folder;
+  const std::vector<std::string> names = splat_names(0);
+  std::string zeros = numbered_ply(names, 5);
+  const std::size_t rows = zeros.size() - 5 * names.size() * sizeof(float);
+  const auto put = [&](std::size_t row, std::size_t field, float value) {
+    zeros.replace(rows + (row * names.size() + field) * sizeof(float), sizeof(float), bytes_of(value));
+  };
+  for (std::size_t row = 0; row < 5; ++row)
+    for (const std::size_t normal : {3, 4, 5}) put(row, normal, 0);
+  write(folder / "zeros.ply", zeros);
+  put(4, 5, 1);
+  write(folder / "one.ply", zeros);
+  CHECK(load_scene(folder / "zeros.ply").other_properties.empty());
+  CHECK(load_scene(folder / "one.ply").other_properties == std::vector<std::string>{"nx", "ny", "nz"});
+}
