@@ -166,9 +166,14 @@ using Loader = std::function<std::unique_ptr<LoadedCase>(const PrepareOptions&, 
 
 std::vector<Loader> loaders(const EvalArguments& args) {
   std::vector<Loader> all;
+  std::vector<std::string> names;
+  const auto asked = [&](const std::string& name) {
+    names.push_back(name);
+    return args.only.empty() || std::ranges::find(args.only, name) != args.only.end();
+  };
   if (!args.suite.empty())
     for (const nlohmann::json& entry : read_suite(args.suite))
-      if (args.only.empty() || std::ranges::find(args.only, entry.value("name", "")) != args.only.end())
+      if (asked(entry.value("name", "")))
         all.push_back(
             [entry, folder = args.suite.parent_path()](const PrepareOptions& prepare, const Job& job) {
               return load_case(entry, folder, prepare, job);
@@ -177,8 +182,10 @@ std::vector<Loader> loaders(const EvalArguments& args) {
   if (!args.nvos.empty()) tasks = nvos_tasks(args.nvos, args.scenes);
   if (!args.spin_nerf.empty()) tasks = spin_nerf_tasks(args.spin_nerf, args.scenes);
   for (const BenchmarkTask& task : tasks)
-    all.push_back(
-        [task](const PrepareOptions& prepare, const Job& job) { return load_task(task, prepare, job); });
+    if (asked(task.name))
+      all.push_back(
+          [task](const PrepareOptions& prepare, const Job& job) { return load_task(task, prepare, job); });
+  refuse_unknown("--only", args.only, names);
   return all;
 }
 
@@ -376,9 +383,9 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_option("--robot-clicks", args->robot.clicks, "Its clicks a session")->check(CLI::Range(1, 50));
   command.add_option("--starts", args->robot.starts, "Its first so many starts; 0: all")
       ->check(CLI::Range(0, 1000));
-  add_box_option(command, &args->robot.box_margin);
   command.add_flag("--zoom", args->robot.zoom,
                    "Its first click again with the camera at .4, .6, 1, 2 and 4 times the distance");
+  add_box_option(command, &args->robot.box_margin)->excludes("--zoom");
   command.add_flag(
       "--choices", args->robot.choices,
       "It takes what is offered for its first click where that is better; a choice costs a click");
@@ -392,7 +399,7 @@ void add_eval_command(CLI::App& program, const CommonOptions& common) {
   command.add_flag(
       "--sheets", args->sheets,
       "A picture a session, sheet_SCENE_START.png: the clicked view before and after each click");
-  command.add_option("--only", args->only, "Scenes of the suite, by name");
+  command.add_option("--only", args->only, "Scenes, by name");
   args->mask.add_to(command, true);
   command
       .add_option(

@@ -145,6 +145,13 @@ std::vector<nlohmann::json> read_suite(const std::filesystem::path& path) {
   return entries;
 }
 
+void refuse_unknown(const std::string& option, const std::vector<std::string>& asked,
+                    const std::vector<std::string>& scenes) {
+  for (const std::string& name : asked)
+    if (std::ranges::find(scenes, name) == scenes.end())
+      throw Error(option + " " + name, "no scene has that name");
+}
+
 std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder,
                                       const PrepareOptions& prepare, const Job& job) {
   auto loaded = std::make_unique<LoadedCase>();

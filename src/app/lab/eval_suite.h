@@ -34,6 +34,10 @@ struct LoadedCase {
 // The entries of the suite, checked for their form. Throws Error naming file and entry.
 std::vector<nlohmann::json> read_suite(const std::filesystem::path& path);
 
+// Throws Error for a name that option asks for and no scene of a suite has.
+void refuse_unknown(const std::string& option, const std::vector<std::string>& asked,
+                    const std::vector<std::string>& scenes);
+
 // Scene, cameras and truth of one entry. prepare: of its sessions.
 std::unique_ptr<LoadedCase> load_case(const nlohmann::json& entry, const std::filesystem::path& folder,
                                       const PrepareOptions& prepare, const Job& job);

@@ -70,6 +70,11 @@ Bank load_bank(const FitArguments& args, const PrepareOptions& prepare, const Jo
   PartsSceneOptions options = args.scenes;
   if (args.zoom) options.zooms.insert(options.zooms.end(), kOtherDistances.begin(), kOtherDistances.end());
   std::map<std::filesystem::path, std::size_t> captures;
+  std::vector<std::string> names;
+  for (const std::filesystem::path& suite : args.suites)
+    for (const nlohmann::json& entry : read_suite(suite)) names.push_back(entry.value("name", ""));
+  refuse_unknown("--only", args.only, names);
+  refuse_unknown("--together", args.together, names);
   for (const std::filesystem::path& suite : args.suites)
     for (const nlohmann::json& entry : read_suite(suite)) {
       if (!args.only.empty() && std::ranges::find(args.only, entry.value("name", "")) == args.only.end())
@@ -181,9 +186,14 @@ FitTable fit_table(const Bank& bank, const FitArguments& args, const SelectionMo
   const std::vector<Decision> decisions =
       all_decisions(bank, shipped, args.of == "later" ? args.clicks : 1, job);
   stop_if_fit_cancelled(job);
+  const auto is_of = [&](const Decision& d) { return d.of == which; };
+  if (std::ranges::none_of(decisions, is_of))
+    throw Error("splatcut-lab fit", "the sessions hold no decision of that kind",
+                "Take more scenes, more clicks or another --of");
   const auto fitted = [&](const std::vector<bool>& in_scene) {
     SelectionModel model = shipped;
-    model.*terms = fitted_terms(decisions, which, in_scene, args.fit);
+    if (std::ranges::any_of(decisions, [&](const Decision& d) { return is_of(d) && in_scene[d.scene]; }))
+      model.*terms = fitted_terms(decisions, which, in_scene, args.fit);
     return model;
   };
   FitTable table{.shipped = shipped,

@@ -25,7 +25,7 @@ PartModel load_part_model(const std::filesystem::path& path) {
   const nlohmann::json file = json_of_file(path);
   if (!file.is_object() || !file.contains(kVersionKey) ||
       !file.value("weights", nlohmann::json()).is_object())
-    throw Error(path.string(), "is no model of parts", "splatcut-lab eval writes the one it used");
+    throw Error(path.string(), "is no model of parts", "splatcut-lab fit writes one");
   if (file.at(kVersionKey) != PartModel::kVersion)
     throw Error(path.string(), fmt::format("is of another version than {}", PartModel::kVersion),
                 "Its weights mean something else; fit it again");

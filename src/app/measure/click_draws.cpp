@@ -6,11 +6,12 @@ namespace splatcut {
 
 namespace {
 
-// The views whose true mask is known, each as the one that is clicked.
+// The views whose true mask is known and shows the object, each as the one that is clicked.
 std::vector<EvaluationCase> clicked_views(const EvaluationCase& scene) {
   if (scene.reference_truth) return {scene};
   std::vector<EvaluationCase> views;
   for (std::size_t v = 0; v < scene.test_views.size() && v < scene.truth_masks.size(); ++v) {
+    if (!counts(scene.truth_masks[v])) continue;
     views.push_back(scene);
     views.back().reference = scene.test_views[v];
     views.back().reference_truth = scene.truth_masks[v];

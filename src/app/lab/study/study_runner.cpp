@@ -194,6 +194,7 @@ void StudyRunner::watch_hand(const StudyCell& cell, const Setup& setup, Session*
   if (cell.hidden > 0 || !cell.still_life.empty())
     start = std::ranges::find_if(
         starts, [&](const AnyViewStart& s) { return same_camera(s.camera, test.reference); });
+  if (start == starts.end()) return;  // the object does not show there
   const auto object = clicked_point(*test.cloud, {start->camera, start->first});
   if (!object || !as_made(cell, test, views, *object, {start->camera, start->first}, 1)) return;
   const auto answer = [&](std::span<const ViewClick> told, int, const Job& within) {

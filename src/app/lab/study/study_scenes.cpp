@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <span>
 
 #include "app/console/output_folder.h"
 #include "app/lab/eval_suite.h"
 #include "app/measure/still_life_files.h"
+#include "core/atomic_file.h"
+#include "core/byte_hash.h"
 #include "core/error.h"
 
 namespace splatcut {
@@ -15,11 +19,15 @@ namespace {
 
 constexpr const char* kPlainScene = "plain";
 
-// The same options give the same bytes: a folder of that name holds that still life.
+// The same program gives the same bytes for the same options: a folder that it made is taken as it is.
 std::filesystem::path made_still_life(const StudyScenesOptions& options, const HardStillLife& hard,
                                       const Job& job) {
   const std::filesystem::path place = options.folder / fmt::format("{}, {}", hard.name, options.gaussians);
-  if (std::filesystem::exists(place / "suite.json")) return place;
+  const std::string program = fmt::format("{:016x}", hash_of_program());
+  if (std::ifstream made_by(place / "program.txt"); made_by) {
+    std::string word;
+    if (made_by >> word && word == program) return place;
+  }
   std::filesystem::create_directories(place.parent_path());
   StillLifeOptions made_of = hard.options;
   made_of.gaussians = options.gaussians;
@@ -28,6 +36,7 @@ std::filesystem::path made_still_life(const StudyScenesOptions& options, const H
   if (job.cancelled())
     throw Error("splatcut-lab study", "cancelled; what is finished is kept, the same command goes on");
   write_still_life(folder, made, "scene", "ply");
+  write_text_file(folder.file("program.txt"), program + "\n");
   folder.commit();
   return place;
 }
@@ -53,6 +62,16 @@ void keep_some_views(bool quick, nlohmann::json* entry) {
   (*entry)["test_views"] = some;
 }
 
+// Of all that the scene's measurements depend on, but for the program.
+std::string scene_key(const std::string& name, const nlohmann::json& entry,
+                      const std::filesystem::path& folder) {
+  Hasher hash;
+  const std::string text = entry.dump();
+  hash.add(std::as_bytes(std::span(text)));
+  hash.number(hash_of_file(folder / entry.at("scene").get<std::string>()));
+  return fmt::format("{} {:016x}", name, hash.value());
+}
+
 void add_scenes(const std::filesystem::path& suite, const HardStillLife* hard, bool main, bool quick,
                 std::vector<StudyScene>* scenes) {
   std::size_t taken = 0;
@@ -61,8 +80,10 @@ void add_scenes(const std::filesystem::path& suite, const HardStillLife* hard, b
     if (hard && !is_made_for(*hard, name)) continue;
     if (quick && taken++ == 2) break;
     if (hard) keep_some_views(quick, &entry);
-    scenes->push_back({entry, suite.parent_path(), hard ? hard->name + ", " + name : name,
-                       hard ? suite.parent_path().filename().string() + ", " + name : name,
+    std::string called = hard ? hard->name + ", " + name : name;
+    if (std::ranges::find(*scenes, called, &StudyScene::name) != scenes->end())
+      called = suite.parent_path().filename().string() + ", " + name;
+    scenes->push_back({entry, suite.parent_path(), called, scene_key(called, entry, suite.parent_path()),
                        main ? "" : hard->name});
   }
 }
