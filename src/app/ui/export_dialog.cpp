@@ -11,6 +11,7 @@
 #include "app/document/words.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
+#include "segment/finish/shown_part.h"
 
 namespace splatcut {
 
@@ -216,14 +217,28 @@ bool cleans_objects(const UiContext& ui) {
   return ui.studio.view().clean_edges && (what == ExportWhat::kObject || what == ExportWhat::kAllObjects);
 }
 
-// Made once for each choice: it looks at all Gaussians.
+// Made once for each choice: it looks at all Gaussians. Of an object with clean edges it takes any that make
+// as many as stay, as what it says of them are shares.
 const FormatPlan& export_plan(UiContext& ui, std::size_t gaussians) {
   ExportChoice& choice = ui.state.exporting;
   const bool moved = choice.placement != ExportPlacement{} || cleans_objects(ui);
+  const Document& document = ui.studio.document();
+  const OpenedScene& scene = *ui.studio.scene();
   std::string key =
-      fmt::format("{} {} {} {}", ui.studio.scene()->serial, gaussians, choice.format.name, moved);
+      fmt::format("{} {} {} {} {} {} {}", scene.serial, ui.studio.history().serial(), document.active,
+                  static_cast<int>(choice.what), gaussians, choice.format.name, moved);
   if (choice.plan_key != key) {
-    choice.plan = choice.format.plan(*ui.studio.scene()->scene, gaussians, moved);
+    std::vector<std::uint32_t> rows;
+    const auto add = [&](const std::vector<std::uint8_t>& labels) {
+      const std::vector<std::uint32_t> some = labelled_rows(labels);
+      rows.insert(rows.end(), some.begin(), some.end());
+    };
+    if (choice.what == ExportWhat::kAllObjects)
+      visit_objects(document, scene.cloud->size(), [&](const ObjectToSave& o) { add(o.labels); });
+    else
+      add(exported(document, document.active, choice.what, scene.cloud->size()));
+    rows.resize(std::min(rows.size(), gaussians));
+    choice.plan = choice.format.plan(*scene.scene, rows, moved);
     choice.plan_key = std::move(key);
   }
   return choice.plan;

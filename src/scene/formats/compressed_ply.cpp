@@ -286,11 +286,11 @@ std::string write_compressed_ply(AtomicFile& out, const Scene& scene,
   return losses.sentence();
 }
 
-FormatPlan plan_compressed_ply(const Scene& scene, std::size_t gaussians, bool) {
+FormatPlan plan_compressed_ply(const Scene& scene, std::span<const std::uint32_t> gaussians, bool) {
   FormatPlan plan;
-  plan.bytes = gaussians * (16 + scene.cloud.sh_stride()) + (gaussians / 256 + 1) * 72 + 900;
+  plan.bytes = gaussians.size() * (16 + scene.cloud.sh_stride()) + (gaussians.size() / 256 + 1) * 72 + 900;
   plan.kept = "Position, rotation, scale, colour and opacity in 16 bytes a Gaussian.";
-  plan.lost = compressed_ply_losses(scene, all_gaussians(scene.cloud)).in_full();
+  plan.lost = compressed_ply_losses(scene, gaussians).in_full();
   return plan;
 }
 

@@ -42,6 +42,6 @@ namespace splatcut {
 
 std::string write_glb(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
                       const SaveOptions& options);
-FormatPlan plan_glb(const Scene& scene, std::size_t gaussians, bool moved);
+FormatPlan plan_glb(const Scene& scene, std::span<const std::uint32_t> gaussians, bool moved);
 
 }  // namespace splatcut

@@ -144,9 +144,9 @@ std::string write_glb(AtomicFile& out, const Scene& scene, std::span<const std::
   return glb_losses(scene).sentence();
 }
 
-FormatPlan plan_glb(const Scene& scene, std::size_t gaussians, bool) {
+FormatPlan plan_glb(const Scene& scene, std::span<const std::uint32_t> gaussians, bool) {
   FormatPlan plan;
-  plan.bytes = glb_bytes(scene.cloud, gaussians);
+  plan.bytes = glb_bytes(scene.cloud, gaussians.size());
   plan.kept =
       "What the scene says of Gaussians in 32 bits, for programs that read glTF with KHR_gaussian_splatting.";
   plan.lost = glb_losses(scene).in_full();

@@ -79,9 +79,9 @@ struct SceneFormat {
   std::string (*write)(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
                        const SaveOptions& options) = nullptr;
 
-  // Of so many of the scene's Gaussians. moved: none is where its row says, so that no row is copied. Null
-  // where write is.
-  FormatPlan (*plan)(const Scene& scene, std::size_t gaussians, bool moved) = nullptr;
+  // Of these Gaussians, indices into scene.cloud. moved: none is where its row says, so that no row is
+  // copied. Null where write is.
+  FormatPlan (*plan)(const Scene& scene, std::span<const std::uint32_t> gaussians, bool moved) = nullptr;
 
   friend bool operator==(const SceneFormat& a, const SceneFormat& b) {
     return std::string_view(a.name) == b.name;

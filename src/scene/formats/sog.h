@@ -36,6 +36,6 @@ inline float from_log(float v) {
 
 std::string write_sog(AtomicFile& out, const Scene& scene, std::span<const std::uint32_t> gaussians,
                       const SaveOptions& options);
-FormatPlan plan_sog(const Scene& scene, std::size_t gaussians, bool moved);
+FormatPlan plan_sog(const Scene& scene, std::span<const std::uint32_t> gaussians, bool moved);
 
 }  // namespace splatcut

@@ -211,14 +211,14 @@ std::string write_sog(AtomicFile& out, const Scene& scene, std::span<const std::
   return sog_losses(scene, gaussians.size()).sentence();
 }
 
-FormatPlan plan_sog(const Scene& scene, std::size_t gaussians, bool) {
+FormatPlan plan_sog(const Scene& scene, std::span<const std::uint32_t> gaussians, bool) {
   constexpr std::size_t kBytesPerGaussian = 14, kCodebooks = 16000;  // as real scenes come out
-  const std::size_t sets = std::min(gaussians, kMostPalette);
+  const std::size_t sets = std::min(gaussians.size(), kMostPalette);
   FormatPlan plan;
-  plan.bytes = gaussians * kBytesPerGaussian + kCodebooks + sets * scene.cloud.sh_stride() * 3 / 4;
+  plan.bytes = gaussians.size() * kBytesPerGaussian + kCodebooks + sets * scene.cloud.sh_stride() * 3 / 4;
   plan.about = true;
   plan.kept = "What the scene says of Gaussians, quantised and packed for the web.";
-  plan.lost = sog_losses(scene, gaussians).in_full();
+  plan.lost = sog_losses(scene, gaussians.size()).in_full();
   return plan;
 }
 

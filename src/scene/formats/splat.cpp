@@ -96,11 +96,11 @@ std::string write_splat(AtomicFile& out, const Scene& scene, std::span<const std
   return splat_losses(scene, gaussians, options.up.has_value()).sentence();
 }
 
-FormatPlan plan_splat(const Scene& scene, std::size_t gaussians, bool) {
+FormatPlan plan_splat(const Scene& scene, std::span<const std::uint32_t> gaussians, bool) {
   FormatPlan plan;
-  plan.bytes = gaussians * kRowBytes;
+  plan.bytes = gaussians.size() * kRowBytes;
   plan.kept = "Position and scale in full; colour, opacity and rotation in 8 bits.";
-  plan.lost = splat_losses(scene, all_gaussians(scene.cloud), true).in_full();
+  plan.lost = splat_losses(scene, gaussians, true).in_full();
   return plan;
 }
 

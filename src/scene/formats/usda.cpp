@@ -149,10 +149,10 @@ std::string write_usda(AtomicFile& out, const Scene& scene, std::span<const std:
   return losses.sentence();
 }
 
-FormatPlan plan_usda(const Scene& scene, std::size_t gaussians, bool) {
+FormatPlan plan_usda(const Scene& scene, std::span<const std::uint32_t> gaussians, bool) {
   constexpr std::uint64_t kFloats = 3 + 4 + 3 + 1 + 3, kDigits = 12;  // of a float, with what stands between
   FormatPlan plan;
-  plan.bytes = 900 + gaussians * (kFloats + scene.cloud.sh_stride()) * kDigits;
+  plan.bytes = 900 + gaussians.size() * (kFloats + scene.cloud.sh_stride()) * kDigits;
   plan.about = true;
   plan.kept =
       "What the scene says of Gaussians in 32 bits, as text, for programs that read OpenUSD's particle "

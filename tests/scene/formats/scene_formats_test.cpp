@@ -4,6 +4,7 @@
 #include <set>
 
 #include "places.h"
+#include "scene/formats/losses.h"
 #include "scene_file_helpers.h"
 
 using namespace splatcut;
@@ -67,7 +68,8 @@ TEST_CASE("losses: the share of Gaussians beyond the range of bytes is said, rou
   const auto lost = [&](const char* name) {
     const SceneFormat format = output_format_from_name(name);
     const std::string sentence = save_scene(folder / name, scene, {}, format).loss;
-    std::string planned = format.plan(scene, 1000, false).lost;  // the same words, as a sentence of its own
+    std::string planned = format.plan(scene, all_gaussians(scene.cloud), false)
+                              .lost;  // the same words, as a sentence of its own
     if (!planned.empty()) {
       planned.pop_back();
       planned[0] = static_cast<char>(std::tolower(planned[0]));
@@ -92,6 +94,8 @@ TEST_CASE("losses: the share of Gaussians beyond the range of bytes is said, rou
   keep[400] = keep[401] = 1;  // of those written only
   CHECK(save_scene(folder / "b.splat", scene, keep, SceneFormat::kSplat).loss.find("clamped") ==
         std::string::npos);
+  const std::vector<std::uint32_t> two = {400, 401};
+  CHECK(SceneFormat::kSplat.plan(scene, two, false).lost.find("clamped") == std::string::npos);
 }
 
 TEST_CASE("plans: nothing is said to be kept in full beside what is lost") {
@@ -100,7 +104,7 @@ TEST_CASE("plans: nothing is said to be kept in full beside what is lost") {
   scene.other_properties = {"mask"};
   scene.cloud.antialiased = true;
   for (const SceneFormat& format : written_formats()) {
-    const FormatPlan plan = format.plan(scene, 10, false);
+    const FormatPlan plan = format.plan(scene, all_gaussians(scene.cloud), false);
     CAPTURE(format.name);
     CHECK_FALSE(plan.lost.empty());
     CHECK(plan.kept.find("Everything") == std::string::npos);
