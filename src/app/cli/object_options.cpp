@@ -88,6 +88,11 @@ ObjectInput ObjectOptions::read(const CameraOptions& camera) const {
   if (!input.objects.empty() && !input.strokes.empty())
     throw Error(clicks.empty() ? "--box" : "--click", "belongs to no object, as --seeds holds several",
                 "Add it to one of them in the file");
+  if (input.camera && !(camera.position + camera.target).empty())
+    throw Error("--seeds", "names a camera, and --camera-pos another view", "Leave one of them out");
+  if (input.camera && clicks.size() + boxes.size() > 0)
+    throw Error(clicks.empty() ? "--box" : "--click",
+                "belongs to the view of --camera, and --seeds names another", "Add it to the file");
   if (!masks_folder.empty() && camera.cameras.empty())
     throw Error("--masks", "needs the cameras of the masks", "Give them with --cameras");
   if (!masks_folder.empty() && !(camera.position + camera.target).empty())

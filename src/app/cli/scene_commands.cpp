@@ -171,9 +171,9 @@ void draw_all_cameras(const SceneArguments& args, const GaussianCloud& cloud, co
 // What would be without effect.
 void refuse_undrawn(const SceneArguments& args, bool with_background) {
   if (!args.labels.empty() && args.what != "labels")
-    throw Error("--labels", "is drawn by --what labels alone", "Add that, or leave --labels out");
+    throw CLI::ArgumentMismatch("--labels goes with --what labels");
   if (with_background && (args.what == "depth" || args.what == "alpha"))
-    throw Error("--background", fmt::format("is not seen in --what {}", args.what), "Leave one of them out");
+    throw CLI::ArgumentMismatch("--background is not seen in --what " + args.what);
 }
 
 void run_render(const SceneArguments& args, const CommonOptions& common) {

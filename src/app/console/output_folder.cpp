@@ -113,14 +113,15 @@ void wait_for_files(const fs::path& folder, const fs::path& meant) {
   wait_for_disk(folder, meant);
 }
 
-// Of the files that these replace.
+// Of what these replace.
 void take_permissions(const fs::path& fresh, const fs::path& target) {
   std::error_code failure;
-  for (const fs::path& name : names_in(fresh))
-    if (are_folders(fresh / name, target / name))
-      take_permissions(fresh / name, target / name);
-    else if (fs::is_regular_file(fs::symlink_status(target / name, failure)))
+  for (const fs::path& name : names_in(fresh)) {
+    const bool folders = are_folders(fresh / name, target / name);
+    if (folders) take_permissions(fresh / name, target / name);
+    if (folders || fs::is_regular_file(fs::symlink_status(target / name, failure)))
       make_like(target / name, fresh / name);
+  }
 }
 
 void move_each(const fs::path& from, const fs::path& to) {
@@ -216,8 +217,8 @@ void OutputFolder::commit() {
   refuse_existing(target_, overwrite_);
   if (inode_of(target_) == 0) return move(fresh_, target_);
   refuse_other_kinds(fresh_, target_, path_);
-  take_permissions(fresh_, target_);
   wait_for_files(fresh_, path_);
+  take_permissions(fresh_, target_);
   if (!exchangeable_) return move_each(fresh_, target_);
   make_like(target_, fresh_);
   link_other_files(target_, fresh_);

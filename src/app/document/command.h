@@ -67,13 +67,6 @@ constexpr bool kMakesWork = !kAtOnce<C> && !kWritesFile<C> && !kNoWork<C> && !re
   requires C::no_loss;
 };
 
-// True if the command marks what the picture shows in a place of it.
-template <class C>
-constexpr bool kMarksPicture = requires(const C& c) {
-  c.camera;
-  c.seen;
-};
-
 template <class C>
 std::string title_of(const C& command, const Document& document) {
   if constexpr (requires { command.title(document); })

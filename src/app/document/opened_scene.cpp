@@ -62,14 +62,6 @@ void choose_level(SceneSource* file, std::vector<std::string>* remarks) {
   remarks->push_back(remark_on_level(file->levels, *file->lod, available));
 }
 
-// Of one that stands in several files, all count: its index says nothing of the Gaussians.
-std::uint64_t hash_of(const Scene& scene) {
-  if (scene.files.size() <= 1) return hash_of_file(scene.path);
-  Hasher hash;
-  for (const std::filesystem::path& file : scene.files) hash.number(hash_of_file(file));
-  return hash.value();
-}
-
 Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::vector<std::string>* remarks) {
   std::string no_cameras;
   std::vector<Camera> cameras = cameras_near(file->path, {}, &no_cameras);
@@ -82,7 +74,7 @@ Scene load(SceneSource* file, const OpenedScene* before, const Job& job, std::ve
     file->cameras_are_others = true;
   }
   const SceneSource* known = before ? before->file(file->id) : nullptr;
-  const std::uint64_t hash = hash_of(scene);
+  const std::uint64_t hash = hash_of_file(scene.path);
   if (known && known->hash != hash)
     throw Error(scene.path.string(), "was changed by another program since it was opened", "Open it again");
   const bool asked = file->spz_axes.has_value();

@@ -61,7 +61,7 @@ struct SceneSource {
   std::optional<StandsOn> onto = {};  // loading sets the place by it
 
   // Loading sets the rest.
-  std::uint64_t hash = 0;  // of its bytes; in a work file the hash that the file must have
+  std::uint64_t hash = 0;  // hash_of_file(); in a work file the hash that the file must have
   std::size_t file_rows = 0, gaussians = 0;
   SceneLevels levels;  // none of a file that has one
   std::shared_ptr<const FileViews> views;

@@ -51,8 +51,6 @@ bool write_pictures(const TurntableOptions& options, std::size_t frames, const D
   for (std::size_t i = 0; i < frames && !job.cancelled(); ++i) write_png(folder.file(frame_name(i)), draw(i));
   if (job.cancelled()) return false;
   folder.commit();
-  std::error_code ignored;  // of an older, longer turn
-  for (std::size_t i = frames; fs::remove(options.path / frame_name(i), ignored); ++i) continue;
   return true;
 }
 

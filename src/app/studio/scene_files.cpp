@@ -310,12 +310,6 @@ void SceneFiles::go_back_to(Kept kept) {
   start_preparing();
 }
 
-bool SceneFiles::moving() const {
-  return changing() && std::ranges::all_of(changing_to_, [&](const SceneSource& file) {
-           return ws_.scene && ws_.scene->file(file.id);
-         });
-}
-
 bool SceneFiles::stop_changing() {
   if (!changing()) return false;
   cancel_loading();

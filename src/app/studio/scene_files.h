@@ -32,9 +32,7 @@ class SceneFiles {
   void update();          // resumes preparing if a scene could not be opened; called once a frame
   void cancel_loading();  // stops opening and changing files; the scene stays as it is
   bool changing() const { return !changing_to_.empty(); }  // true: a change of files is under way
-  // True: files that are there already come to other places; the picture shows them there, labels do not.
-  bool moving() const;
-  bool stop_changing();  // cancels it; returns false if there is none
+  bool stop_changing();                                    // cancels it; returns false if there is none
   // undo_files() and redo_files() undo or redo a change of files, if that is the next step to undo or redo.
   // They return false if it is not. Only the last changes can be undone: the files stay as they are now where
   // the scene before the change is no longer kept, which is said.

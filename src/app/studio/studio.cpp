@@ -36,11 +36,6 @@ void Studio::apply(const Command& command) {
   std::visit(
       [&](const auto& c) {
         using C = std::decay_t<decltype(c)>;
-        if constexpr (kMarksPicture<C>)
-          if (c.seen && files_.moving())
-            return ws_.say(Message::Kind::kRefused,
-                           "The files are on their way. Wait until they stand there");
-        if (!kAtOnce<C> && hold_until_moved(command, kMarksPicture<C>)) return;
         if (!kAtOnce<C> && edits_.waiting())
           return edits_.in_turn(
               [this, command] {
@@ -53,14 +48,6 @@ void Studio::apply(const Command& command) {
         dispatch(command);
       },
       command);
-}
-
-// And what follows them.
-bool Studio::hold_until_moved(const Command& command, bool marks_picture) {
-  if (!files_.moving() || (on_moved_.empty() && !marks_picture)) return false;
-  on_moved_.push_back(command);
-  ws_.say(Message::Kind::kInfo, "As soon as the files stand there");
-  return true;
 }
 
 void Studio::dispatch(const Command& command) {
@@ -109,7 +96,6 @@ void Studio::scene_opened(bool same) {
   held_actions_ = {};
   abandon_shape();
   hide_cursor();
-  if (!same) on_moved_.clear();
   if (same) {
     ++ws_.view_serial;
     return viewport_.change_scene();
@@ -153,7 +139,6 @@ bool Studio::update(double seconds) {
   writes_.deliver();
   if (viewport_.display_current())
     for (const auto& event : std::exchange(held_pointer_, {})) event();
-  if (!on_moved_.empty() && !files_.moving()) run_all(std::exchange(on_moved_, {}));
   follow_document();
   cuts_.update();
   edits_.update();
@@ -182,7 +167,7 @@ std::size_t Studio::neighbourhoods() const {
 }
 
 bool Studio::idle() const {
-  return on_moved_.empty() && tasks_.idle() && quick_.idle() && writes_.idle() && viewport_.idle();
+  return tasks_.idle() && quick_.idle() && writes_.idle() && viewport_.idle();
 }
 
 ToolOverlay Studio::overlay() const {
@@ -237,7 +222,6 @@ bool Studio::cancel_task() {
     cancelled = true;
   }
   if (!cancelled && tasks_.busy(TaskKind::kLoad)) {
-    on_moved_.clear();
     files_.cancel_loading();
     cancelled = true;
   }

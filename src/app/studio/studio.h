@@ -117,7 +117,6 @@ class Studio {
   void perform(const NextBackdrop&);
   void perform(const SetBackdrop& c);
   void dispatch(const Command& command);
-  bool hold_until_moved(const Command& command, bool marks_picture);
   bool cancel_task();
   void scene_opened(bool same);
   void follow_document();
@@ -160,7 +159,6 @@ class Studio {
   FreeSides free_sides_;
   std::set<int> held_keys_;
   std::vector<std::function<void()>> held_pointer_;
-  std::vector<Command> on_moved_;  // marks in a picture of files where they are about to be
   // Asked for while the object's first cut runs, and done when it is there; cut: its key; seen_from: the view
   // when a frame was asked for, which is not wanted any more once the user has moved that.
   struct Held {

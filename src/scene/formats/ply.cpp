@@ -205,29 +205,25 @@ const PlyElement& vertex_of(const std::filesystem::path& path, const PlyHeader& 
   throw Error(path.string(), "the header has no element \"vertex\"");
 }
 
-std::vector<std::string> other_properties(const PlyElement& vertex) {
+bool is_zero(const PlyElement& vertex, const PlyProperty& p, const std::byte* data) {
+  std::atomic<bool> zero = true;
+  for_each_index(vertex.count, [&](std::size_t row) {
+    if (zero && load_as_float(data + row * vertex.row_bytes + p.offset, p.type) != 0) zero = false;
+  });
+  return zero;
+}
+
+// Normals count where they say something: a few trainers write such.
+std::vector<std::string> other_properties(const PlyElement& vertex, const std::byte* data) {
   std::vector<std::string> others;
   for (const PlyProperty& p : vertex.properties) {
     const auto is = [&](const char* name) { return p.name == name; };
-    const bool known = std::ranges::any_of(kNames, is) || is(kFilterName) ||
-                       std::ranges::any_of(kNormalNames, is) || p.name.starts_with("f_rest_") ||
+    const bool known = std::ranges::any_of(kNames, is) || is(kFilterName) || p.name.starts_with("f_rest_") ||
                        (has_colours_only(vertex) && std::ranges::any_of(kColourNames, is));
-    if (!known) others.push_back(p.name);
+    if (!known && !(std::ranges::any_of(kNormalNames, is) && is_zero(vertex, p, data)))
+      others.push_back(p.name);
   }
   return others;
-}
-
-// A few trainers write some, which are lost where other columns are.
-bool has_normals(const PlyElement& vertex, const std::byte* data) {
-  std::vector<const PlyProperty*> normals;
-  for (const char* name : kNormalNames)
-    if (const PlyProperty* normal = vertex.find(name)) normals.push_back(normal);
-  std::atomic<bool> found = false;
-  for_each_index(normals.empty() ? 0 : vertex.count, [&](std::size_t row) {
-    for (const PlyProperty* n : normals)
-      if (!found && load_as_float(data + row * vertex.row_bytes + n->offset, n->type) != 0) found = true;
-  });
-  return found;
 }
 
 template <bool kFloats>
@@ -239,6 +235,7 @@ void read_rows(const MappedFile& file, const PlyElement& vertex, const std::byte
   rows.data = data;
   if (vertex.count > std::numeric_limits<std::uint32_t>::max())
     throw Error(file.path().string(), fmt::format("{} Gaussians are more than can be handled", vertex.count));
+  scene.other_properties = other_properties(vertex, data);
   decode_rows(rows, vertex.count, degree_from_rest(file.path(), rows.fields - kRest), scene, job);
 }
 
@@ -324,7 +321,6 @@ void read_ply(const MappedFile& file, const LoadOptions& options, Scene& scene, 
   refuse_other_ply(file.path(), vertex);
   scene.rows_can_be_copied = !header.ascii;
   scene.rows_can_be_changed = !header.ascii && can_change_rows(vertex);
-  scene.other_properties = other_properties(vertex);
   scene.cloud.antialiased = header.antialiased();
   if (rest_of(vertex) == kRestOfDegree4)
     scene.left_out = "Spherical harmonics of degree 4 are left out, those up to degree 3 are read";
@@ -332,8 +328,6 @@ void read_ply(const MappedFile& file, const LoadOptions& options, Scene& scene, 
     read_doubles(file, header, vertex, options, scene, job);
   else
     read_vertices(file, header, vertex, scene, job);
-  if (!header.ascii && has_normals(vertex, element_bytes(file.path(), file.bytes(), vertex).data()))
-    scene.other_properties.insert(scene.other_properties.end(), kNormalNames.begin(), kNormalNames.end());
   take_up(up_from_header(header), {}, &scene);
 }
 

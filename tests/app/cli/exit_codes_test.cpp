@@ -72,6 +72,8 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
         "cut a.ply -o b --click 1,1 --parts-only --smoothness 2",
         "cut a.ply -o b --click 1,1 --parts-only --coarse"})
     CHECK_MESSAGE(place.run(usage).code == 2, usage);
+  for (const char* unseen : {"--labels made/small.labels.u8", "--what depth --background 1,1,1"})
+    CHECK_MESSAGE(place.run("render " + life.scene + " -o a.png " + unseen).code == 2, unseen);
   // NaN is no number, 255 no share of 1; what is out of range is said as it was given.
   const std::string view = "render " + life.scene + " --size 8x8 -o a.png ";
   for (const char* option : {"--camera-fov nan", "--lowpass nan", "--lowpass inf", "--background 255,255,255",
@@ -130,8 +132,6 @@ TEST_CASE("wrong usage exits with 2, a thing that cannot be done with 1 and a se
   refused(life.cut("-o cut --click 1,1 --preset paper --choice 2"),
           {"--choice", "first mask comes from pixels"});
   refused(life.cut("-o cut --masks made --set parts_only=1"), {"parts_only", "masks are given"});
-  refused(view + "--labels made/small.labels.u8", {"--labels", "--what labels alone"});
-  refused(view + "--what depth --background 1,1,1", {"--background", "--what depth"});
   refused(life.cut("-o cut --mask none.png"), {"none.png"});
   const char* const presets = "default, paper or paper-code";
   refused("cut " + life.scene + " -o cut --click 1,1 --preset slow", {"slow", presets});

@@ -160,6 +160,10 @@ TEST_CASE("seeds may name their camera, of one object or of all") {
   const auto [named, report] = labels("--camera 0 --seeds one.json", "labels.u8");
   CHECK(named == asked);
   CHECK(report["settings"]["reference"] == "view_01");
+  refused(still_life().cut("--seeds one.json --click 9,9"), {}, {"--click", "--seeds names another"});
+  refused("cut " + still_life().scene + " " + still_life().cameras +
+              " --seeds one.json --camera-pos 0,-1,-3 --camera-target 0,0,0",
+          {}, {"--seeds", "--camera-pos another view"});
   one["name"] = "it";
   one.erase("camera");
   json all = {{"camera", 1}, {"objects", json::array({one})}};

@@ -99,36 +99,6 @@ TEST_CASE(
   CHECK(last_file(hands).place == stands);
 }
 
-TEST_CASE("several scenes: a click where a file is about to stand is for the file") {
-  const ScratchFolder folder("several_clicked");
-  Hands hands(false);
-  Studio& studio = hands.studio();
-  add(hands, small_scene(folder));
-  const SceneSource file = last_file(hands);
-  const float size = studio.camera().scene_size();
-  const ScenePlace aside{{5 * size, 0, 0}};
-  SceneSource there = file;
-  there.place = aside;
-  const glm::vec3 middle = moved(file.solid.centre(), similarity_of(there)), up = studio.document().up_world;
-  studio.apply(GoToCamera{look_at(middle + size * glm::vec3(0, -0.4f, -1), middle, up, 0.9f, 640, 480)});
-  REQUIRE(hands.app.settle());
-  studio.apply(PlaceScene{file.id, aside});
-  hands.app.frames(1);
-  REQUIRE(studio.files().moving());
-  const Camera camera = studio.viewport().pane_camera();
-  studio.apply(AddStroke{
-      camera, click(camera.pixel_from_camera(camera.camera_from_world(middle)), SeedLabel::kObject)});
-  studio.apply(SetBackground{glm::vec3(1, 0, 1)});  // in its turn
-  REQUIRE(hands.app.settle());
-  REQUIRE(studio.document().active != 0);
-  const std::vector<std::uint8_t> labels = studio.labels(studio.document().active),
-                                  own = gaussians_of(*studio.scene(), file.id);
-  CHECK(std::ranges::count(labels, 1) > 0);
-  for (std::size_t g = 0; g < own.size(); ++g)
-    if (labels[g] && !own[g]) FAIL("Gaussian ", g, " is not of the file");
-  CHECK(studio.document().background == glm::vec3(1, 0, 1));
-}
-
 TEST_CASE("several scenes: F frames what is placed, and the object that was clicked since") {
   const ScratchFolder folder("several_framed");
   Hands hands(false);
