@@ -30,7 +30,8 @@ bool changes_edges(const EdgesKnown& edges) {
 std::string edges_change_text(const ExportChoice& choice, const EdgesKnown& edges) {
   if (!changes_edges(edges)) return {};
   if (choice.what == ExportWhat::kRest)
-    return "Clean edges leave out remains of the object, and give back pieces cut off it.";
+    return "With clean edges, what is left of the object leaves, too; what was cut off it and is not its own "
+           "stays.";
   if (edges.unknown > 0) return "Clean edges leave out what the scene hides.";
   if (edges.left_out == 0) return "Clean edges change some Gaussians, and leave out none.";
   return fmt::format("Clean edges leave out {} that the scene hides.", gaussians_text(edges.left_out));

@@ -240,10 +240,11 @@ std::string added_text(const OpenedScene& scene, const OpenedScene& before) {
     names += (count++ == 0 ? "" : ", ") + scene_name(file.path);
     moved |= file.place != ScenePlace{};
   }
-  return fmt::format("{} added; place {} under Files{}", names, count == 1 ? "it" : "them",
-                     !moved       ? ""
-                     : count == 1 ? ", also as in its own file"
-                                  : ", also as in their own files");
+  const bool one = count == 1;
+  return fmt::format("{} added. Files moves, turns and scales {}{}", names, one ? "it" : "them",
+                     !moved ? ""
+                     : one  ? ", or puts it where its file says"
+                            : ", or puts them where their files say");
 }
 
 Session session_on(const OpenedScene& scene, const PreparedCache& cache) {

@@ -66,7 +66,10 @@ void SavedWork::sort_offers() {
 
 void SavedWork::opened(const std::optional<RestoredWork>& work, const std::filesystem::path& file) {
   const bool own = is_work_file(file) && file.parent_path() != ws_.options.state_folder;
-  work_path_ = own ? file : std::filesystem::path();
+  std::error_code failure;
+  work_path_ = own                                                ? file
+               : work && is_regular_file(work->saved_as, failure) ? work->saved_as
+                                                                  : std::filesystem::path();
   if (work && std::ranges::find(offers_, file, &LeftWork::file) != offers_.end()) restored_ = file;
   autosaved_serial_ = saved_serial_ = ws_.history.serial();
   autosaved_pose_ = viewport_.camera().kept_pose();
@@ -119,19 +122,19 @@ Image<Rgb8> SavedWork::small_picture() const {
 }
 
 TaskThread::Work SavedWork::autosaving() {
-  return
-      [this, path = autosaves_.own(), restored = restored_, document = ws_.document(), view = autosaved_pose_,
-       scene = ws_.scene, steps = saved_steps(ws_.history), picture = small_picture()](const Job&) {
-        const auto start = std::chrono::steady_clock::now();
-        write_work_file(path, *scene, document, view, steps);
-        write_work_picture(path, picture);
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        ws_.writes.post([this, restored, seconds = took.count()] {
-          written_in_s_ = seconds;
-          rested_s_ = 0;
-          forget_restored(restored);
-        });
-      };
+  return [this, path = autosaves_.own(), restored = restored_, document = ws_.document(),
+          view = autosaved_pose_, scene = ws_.scene, steps = saved_steps(ws_.history),
+          picture = small_picture(), saved_as = work_path_](const Job&) {
+    const auto start = std::chrono::steady_clock::now();
+    write_work_file(path, *scene, document, view, steps, saved_as);
+    write_work_picture(path, picture);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    ws_.writes.post([this, restored, seconds = took.count()] {
+      written_in_s_ = seconds;
+      rested_s_ = 0;
+      forget_restored(restored);
+    });
+  };
 }
 
 // It is in a file of this program now; what was left behind before it is offered next.

@@ -190,7 +190,7 @@ void placement_choices(UiContext& ui) {
   constexpr std::pair<ExportOrigin, const char*> kOrigins[] = {{ExportOrigin::kScene, "As in the scene"},
                                                                {ExportOrigin::kCentre, "Its middle"},
                                                                {ExportOrigin::kFoot, "Its foot"}};
-  constexpr std::pair<ExportUp, const char*> kUps[] = {{ExportUp::kScene, "As in the scene"},
+  constexpr std::pair<ExportUp, const char*> kUps[] = {{ExportUp::kScene, "As in the scene##up"},
                                                        {ExportUp::kPlusY, "+Y"},
                                                        {ExportUp::kMinusY, "-Y"},
                                                        {ExportUp::kPlusZ, "+Z"}};

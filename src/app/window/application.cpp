@@ -118,6 +118,7 @@ void Application::take_now(const PointerButtonChanged& event) {
   if (event.down) walk_.leave();
   if (event.down) pressed_since_frame_[index] = true;
   if (!event.down) {
+    dropped_since_frame_ |= !dragging_picture_;  // what is dragged ends where the pointer is now
     if (dragging_picture_) studio_.pointer_released(in_viewport_px(pointer_), event.button, event.modifiers);
     dragging_picture_ =
         std::ranges::any_of(button_down_, [](bool down) { return down; }) && dragging_picture_;
@@ -195,7 +196,8 @@ bool Application::is_only_text(const KeyChanged& event) const {
 void Application::take(const HeldEvent& event) {
   const auto* key = std::get_if<KeyChanged>(&event);
   if (held_back_.empty() && key && is_only_text(*key)) return set_modifiers(key->modifiers);
-  const bool waits = !held_back_.empty() || (key && !key->down && key_pressed_since_frame_);
+  const bool waits =
+      !held_back_.empty() || dropped_since_frame_ || (key && !key->down && key_pressed_since_frame_);
   if (waits)
     held_back_.push_back(event);
   else
@@ -203,7 +205,7 @@ void Application::take(const HeldEvent& event) {
 }
 
 void Application::take_held_back() {
-  key_pressed_since_frame_ = false;
+  key_pressed_since_frame_ = dropped_since_frame_ = false;
   for (const HeldEvent& event : std::exchange(held_back_, {})) take(event);
 }
 

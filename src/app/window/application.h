@@ -92,6 +92,7 @@ class Application {
   bool dragging_picture_ = false;
   bool pressed_since_frame_[3] = {};
   bool key_pressed_since_frame_ = false;
+  bool dropped_since_frame_ = false;  // a button was released over the interface, which has not seen it yet
   std::deque<HeldEvent> held_back_;
   bool button_down_[3] = {};
   double clock_s_ = 0;

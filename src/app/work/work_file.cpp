@@ -155,6 +155,7 @@ RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
                       "is computed by \"{}\"",
                       unknown_preset, out.document.preset),
           &out);
+    out.saved_as = work.value("saved_as", "");
     if (work.contains("view")) out.view = pose_from(work.at("view"));
     if (work.contains("history")) read_history(work["history"], scene, &out);
     return out;
@@ -166,7 +167,8 @@ RestoredWork restored(const WorkFile& file, const OpenedScene& opened) {
 }
 
 void write_work_file(const std::filesystem::path& path, const OpenedScene& opened, const Document& document,
-                     const std::optional<CameraPose>& view, const SavedSteps& history) {
+                     const std::optional<CameraPose>& view, const SavedSteps& history,
+                     const std::filesystem::path& saved_as) {
   const Scene& scene = *opened.scene;
   const std::span<const SceneSource> files = opened.files;
   json work = document_json(document, [&scene](const Flags& flags) { return runs_json(flags, scene); });
@@ -174,6 +176,8 @@ void write_work_file(const std::filesystem::path& path, const OpenedScene& opene
   work["scene"] = source_json(files.front(), path);
   for (const SceneSource& file : files.subspan(1)) work["added"].push_back(source_json(file, path));
   if (view) work["view"] = pose_json(*view);
+  if (is_utf8(saved_as.string()) && !saved_as.empty())
+    work["saved_as"] = std::filesystem::absolute(saved_as).string();
   if (history.steps.size() > 1) work["history"] = history_json(history, scene);
   write_text_file(path, json_text(work) + "\n");
 }

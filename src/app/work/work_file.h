@@ -37,6 +37,7 @@ struct RestoredWork {
   std::optional<CameraPose> view;  // pose of the user's camera; none: the file holds none
   std::string warning;             // what could not be read, or is not known; empty: nothing
   SavedSteps history;              // steps around the document; none: the file holds none
+  std::filesystem::path saved_as;  // of an autosave: the user's own file, where there was one
 };
 
 bool is_work_file(const std::filesystem::path& path);  // true if the name ends like one
@@ -50,6 +51,7 @@ WorkFile read_work_file(const std::filesystem::path& path);
 RestoredWork restored(const WorkFile& file, const OpenedScene& scene);
 
 void write_work_file(const std::filesystem::path& path, const OpenedScene& scene, const Document& document,
-                     const std::optional<CameraPose>& view = {}, const SavedSteps& history = {});
+                     const std::optional<CameraPose>& view = {}, const SavedSteps& history = {},
+                     const std::filesystem::path& saved_as = {});
 
 }  // namespace splatcut

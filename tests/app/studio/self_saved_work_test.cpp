@@ -303,3 +303,33 @@ TEST_CASE("two programs save by themselves beside each other, neither offers wha
   one.remove(first_left);
   CHECK(one.left_behind().empty());
 }
+
+TEST_CASE("work that was saved, changed and restored is saved to its file again") {
+  const ScratchFolder folder("state_saved_as");
+  const auto own = folder / "mine.splatcut.json";
+  {
+    HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
+    opened(app);
+    app.click(app.screen_of(kOnApple));
+    REQUIRE(app.settle());
+    app.studio().apply(SaveWork{own});
+    REQUIRE(app.settle());
+    app.studio().apply(RenameObject{app.studio().document().active, "red"});
+    app.frames(60 * 3);
+    REQUIRE(app.settle());
+  }  // no leave(): as if it had crashed
+  HeadlessApp app(kSmallWidth, kSmallHeight, 1, with_state(folder));
+  REQUIRE(app.studio().work().offers().size() == 1);
+  app.studio().apply(OpenScene{app.studio().work().offers().front().file});
+  REQUIRE(app.settle());
+  CHECK(app.studio().document().objects.front().name == "red");
+  CHECK(app.studio().unsaved());
+  CHECK(app.studio().work().work_path() == own);
+  app.key('S', {.ctrl = true});
+  app.frames(3);
+  app.key(key::kEnter);
+  REQUIRE(app.settle());
+  CHECK_FALSE(app.studio().unsaved());
+  CHECK(read_work_file(own).content->at("objects")[0].at("name") == "red");
+  CHECK_FALSE(read_work_file(own).content->contains("saved_as"));
+}

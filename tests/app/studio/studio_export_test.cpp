@@ -282,7 +282,8 @@ TEST_CASE("exports: the dialog promises a number, and that nothing is lost, only
   for (const EdgesKnown& edges : {not_yet, cleaned}) {
     CHECK(amount_text(choice, 139338, edges, plan) == "About 139,338 Gaussians, about 4.3 MB");
     CHECK(changes_text(choice, edges) ==
-          "Clean edges leave out remains of the object, and give back pieces cut off it.");
+          "With clean edges, what is left of the object leaves, too; what was cut off it and is not its own "
+          "stays.");
     CHECK(loss_text(choice, edges, plan).empty());
   }
   CHECK(amount_text(choice, 139338, stays, plan) == "139,338 Gaussians, 4.3 MB");

@@ -383,6 +383,28 @@ TEST_CASE("export dialog: its arrows and numbers are those that a reader of the 
     CHECK(moved.x > 0);
     CHECK(moved.y > 0);
     CHECK(moved.z > 0);
+    // Where the pointer is by the time that the interface hears of the release plays no part.
+    open("dropped");
+    std::vector<glm::vec3> dropped;
+    for (const bool goes_on : {false, true}) {
+      state.exporting.placement = {};
+      app.frames(3);
+      const PlacingHandle handle = state.export_preview.grips.shown.front();
+      const glm::vec2 at = 0.5f * (handle.path_px[0] + handle.path_px[1]);
+      const glm::vec2 to = at + 0.4f * (handle.path_px[1] - handle.path_px[0]);
+      app.move(at);
+      app.frames(2);
+      app.press(PointerButton::kLeft);
+      app.frames(2);
+      app.move(to);
+      app.frames(2);
+      app.release(PointerButton::kLeft);
+      if (goes_on) app.move(at - (to - at));
+      app.frames(3);
+      dropped.push_back(state.exporting.placement.move);
+    }
+    CHECK(dropped[0] != glm::vec3(0));
+    CHECK(dropped[0] == dropped[1]);
     state.exporting.placement = {};
   }
 }

@@ -266,6 +266,23 @@ TEST_CASE("keyboard: Tab comes by all that can be pressed, Shift+Tab the other w
   CHECK(back == round.items);
 }
 
+TEST_CASE("keyboard: in the export dialog, Tab comes by every button") {
+  Hands hands;
+  hands.app.key('E', {.ctrl = true});
+  hands.app.frames(3);
+  REQUIRE(hands.app.interface_state().export_open);
+  const Round round = round_by_tab(hands, {});
+  for (const std::string name : {"Everything else", ".spz", "Its foot", "+Y", "+Z", "Cancel", "Export"}) {
+    CAPTURE(name);
+    const auto& items = hands.app.interface_state().items;
+    const auto comes_by = [&](const ShownItem& item) {  // the tool bar has an Export, too
+      return item.name == name && std::ranges::count(round.corners, Corner(item.min.x, item.min.y)) == 1;
+    };
+    CHECK(std::ranges::count_if(items, comes_by) == 1);
+  }
+  CHECK(std::set(round.items.begin(), round.items.end()).size() == round.items.size());
+}
+
 TEST_CASE(
     "keyboard: Enter and Space press what Tab has marked; Esc, the mouse and arrows take the mark away") {
   Hands hands;
