@@ -27,8 +27,7 @@ struct NamedSeeds {
 
 // {"objects": [{"name", "camera", "clicks", "scribbles", "choice"}, ...]}, strokes_from_json() of each;
 // "object" is read as "name", too (make-scene writes it). A "camera" beside "objects" is that of each without
-// one. Empty where there are no "objects". Throws Error
-// naming the entry.
+// one. Empty where there are no "objects". Throws Error naming the entry.
 std::vector<NamedSeeds> named_seeds_from_json(const nlohmann::json& seeds, const std::string& where);
 
 // "camera" of seeds, a name or a number; none where they have none. Throws Error for anything else.

@@ -66,10 +66,9 @@ void SavedWork::sort_offers() {
 
 void SavedWork::opened(const std::optional<RestoredWork>& work, const std::filesystem::path& file) {
   const bool own = is_work_file(file) && file.parent_path() != ws_.options.state_folder;
+  work_path_ = own ? file : std::filesystem::path();
   std::error_code failure;
-  work_path_ = own                                                ? file
-               : work && is_regular_file(work->saved_as, failure) ? work->saved_as
-                                                                  : std::filesystem::path();
+  if (work && !own && is_regular_file(work->saved_as, failure)) work_path_ = work->saved_as;
   if (work && std::ranges::find(offers_, file, &LeftWork::file) != offers_.end()) restored_ = file;
   autosaved_serial_ = saved_serial_ = ws_.history.serial();
   autosaved_pose_ = viewport_.camera().kept_pose();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <numeric>
 
 #include "scene/formats/far_origin.h"
@@ -12,8 +13,9 @@ namespace splatcut {
 
 namespace {
 
+// The logarithm of 0 is within: what is flat is written so thin that it stays flat.
 bool beyond(float value, const Reach& range) {
-  return value < range.least || value > range.most;
+  return (value < range.least && std::isfinite(value)) || value > range.most;
 }
 bool beyond(const glm::vec3& v, const Reach& range) {
   return beyond(v.x, range) || beyond(v.y, range) || beyond(v.z, range);

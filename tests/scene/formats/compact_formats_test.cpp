@@ -218,6 +218,10 @@ TEST_CASE("compressed ply: sizes beyond the format's are said") {
   for (std::size_t g = 0; g < 20; ++g) scene.cloud.scale[g] = glm::vec3(1e-9f);
   const SaveReport report = save_scene(folder / "a.compressed.ply", scene, {}, SceneFormat::kCompressedPly);
   CHECK(mentions(report.loss, {"the sizes of 10.0 % of the Gaussians lie beyond the format's range"}));
+  for (glm::vec3& scale : scene.cloud.scale)
+    scale = {0.01f, 0.02f, 0};  // flat, as 2D Gaussian Splatting has them
+  CHECK(save_scene(folder / "a.compressed.ply", scene, {}, SceneFormat::kCompressedPly).loss.find("sizes") ==
+        std::string::npos);
 }
 
 TEST_CASE("spz: positions are as fine as the Gaussians ask for, where 24 bits hold them") {

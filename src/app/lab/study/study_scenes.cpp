@@ -62,7 +62,7 @@ void keep_some_views(bool quick, nlohmann::json* entry) {
   (*entry)["test_views"] = some;
 }
 
-// Of all that the scene's measurements depend on, but for the program.
+// Of the entry and the bytes of the scene. Cameras and masks that are changed in their files are not seen.
 std::string scene_key(const std::string& name, const nlohmann::json& entry,
                       const std::filesystem::path& folder) {
   Hasher hash;

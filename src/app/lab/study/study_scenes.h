@@ -23,7 +23,7 @@ struct StudyScene {
   nlohmann::json entry;
   std::filesystem::path folder;
   std::string name;        // for tables; of the still life and its object
-  std::string key;         // tells it from others, and from itself before it was changed
+  std::string key;         // tells it from others, and from itself with another entry or scene file
   std::string still_life;  // empty: a main scene
 };
 
